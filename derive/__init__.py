@@ -1,0 +1,25 @@
+"""The mathematics of wear under cyclic contact, derived and checked by machine.
+
+>>> import derive
+>>> derive.equation("21").status.value
+'derived'
+
+SymPy is imported when something is first asked for, not with the package.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .catalogue import equation, verify
+
+__all__ = ["equation", "verify"]
+
+
+def __getattr__(name: str) -> Any:
+    if name in __all__:
+        from . import catalogue
+
+        return getattr(catalogue, name)
+    raise AttributeError(f"module 'derive' has no attribute {name!r}")

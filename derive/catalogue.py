@@ -1,0 +1,156 @@
+"""The catalogue: every equation of the note and every result beyond it, by id.
+
+Key results
+    equations    all of them, the note's first, in its order
+    equation     one, by its id
+    verify       every check on which some or all of them rest
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache
+
+from .check import Check
+from .equations import Equation, Status
+from .note import condensed, governing, problems, stabilised
+from .note.governing import Model
+from .results import (
+    comparison,
+    compliant,
+    cutoff,
+    cutoff_two_solids,
+    dimensionless,
+    expansion,
+    first_integral,
+    monotonicity,
+    pressure_root,
+    regimes,
+    sensitivities,
+    static_compliant,
+    static_scaled,
+    static_solution,
+    steady_state,
+    two_solids,
+    validity,
+)
+from .statement import Statement, check
+
+_BEYOND = (
+    problems,
+    pressure_root,
+    steady_state,
+    validity,
+    two_solids,
+    regimes,
+    cutoff,
+    cutoff_two_solids,
+    comparison,
+    first_integral,
+    static_solution,
+    static_scaled,
+    static_compliant,
+    expansion,
+    compliant,
+    sensitivities,
+    monotonicity,
+    dimensionless,
+)
+
+
+class UnknownEquationError(KeyError):
+    """There is no equation of that id; the message says which are near."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What came of the checks of one equation."""
+
+    id: str
+    status: Status
+    checks: tuple[Check, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every check passed."""
+        return all(outcome.passed for outcome in self.checks)
+
+
+@cache
+def equations() -> tuple[Equation, ...]:
+    """Return the note's equations in their order, then the results beyond it."""
+    model = Model()
+    note = (
+        *governing.equations(model),
+        *condensed.equations(model),
+        *stabilised.equations(),
+    )
+    beyond = (e for module in _BEYOND for e in module.equations())
+    return (*sorted(note, key=_place), *beyond)
+
+
+def _place(found: Equation) -> tuple[int, str]:
+    number = re.match(r"\d+", found.id)
+    return (int(number.group()) if number else 10**6, found.id)
+
+
+@cache
+def _by_id() -> dict[str, Equation]:
+    return {found.id: found for found in equations()}
+
+
+def equation(identifier: str) -> Equation:
+    """Return one equation; UnknownEquationError, with a suggestion, if there is none.
+
+    >>> equation("7c").relation
+    Eq(U_c(t), p(t)/k)
+    """
+    known = _by_id()
+    if identifier not in known:
+        near = difflib.get_close_matches(identifier, known, n=3, cutoff=0.5)
+        hint = f"; did you mean {' or '.join(near)}?" if near else "; see `derive list`"
+        raise UnknownEquationError(f"{identifier}: there is no such equation{hint}")
+    return known[identifier]
+
+
+def verify(
+    identifiers: Iterable[str] = (), progress: Callable[[int, int, str], None] | None = None
+) -> tuple[Verdict, ...]:
+    """Re-run every check on which the named equations rest (all of them if none is named).
+
+    A statement on which several equations rest is checked once.  ``progress`` is told how many
+    of how many equations are done, and which is next.
+    """
+    chosen = [equation(identifier) for identifier in identifiers] or list(equations())
+    numbers: dict[Hashable, int] = {}
+    done: dict[int, tuple[Check, ...]] = {}
+    verdicts = []
+    for number, found in enumerate(chosen):
+        if progress is not None:
+            progress(number, len(chosen), found.id)
+        outcomes: list[Check] = []
+        for step, place in _numbered(found.steps, numbers):
+            if place not in done:
+                done[place] = check(step)
+            outcomes += done[place]
+        shown = Check("typeset", found.typeset_agrees, "the display form equals the claim")
+        verdicts.append(Verdict(found.id, found.status, (*outcomes, shown)))
+    return tuple(verdicts)
+
+
+def _numbered(
+    steps: tuple[Statement, ...], numbers: dict[Hashable, int]
+) -> Iterator[tuple[Statement, int]]:
+    """Give every step a number; steps that say the same for the same reasons share one."""
+    known: dict[int, int] = {}
+    for step in steps:  # parents come first
+        parents = tuple(known[id(parent)] for parent in step.parents)
+        content = (step.claim, step.rule, step.conditions, parents)
+        known[id(step)] = numbers.setdefault(content, len(numbers))
+        yield step, known[id(step)]

@@ -1,0 +1,43 @@
+"""The command `derive`: parses the line and runs one command of `derive.commands`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+from derive import command_line, terminal
+from derive.commands import code, generate, latex, list_, show, steps, verify
+from derive.faults import UsageError
+
+COMMANDS = (
+    list_.COMMAND,
+    show.COMMAND,
+    steps.COMMAND,
+    verify.COMMAND,
+    latex.COMMAND,
+    code.COMMAND,
+    generate.COMMAND,
+)
+
+EXAMPLES = """\
+examples:
+  derive show 21
+  derive verify
+  derive COMMAND --help
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run `derive` with these arguments (default: those of the process); return the status."""
+    return command_line.main(parser(), arguments, {UsageError: terminal.USAGE})
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the whole command line."""
+    description = "The equations of wear under cyclic contact, derived and checked by machine."
+    return command_line.parser("derive", description, EXAMPLES, COMMANDS)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

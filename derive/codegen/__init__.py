@@ -1,0 +1,1 @@
+"""Code generation: from derived problems to source text."""

@@ -1,0 +1,150 @@
+"""Emitting: expressions as source text, one printer for every language.
+
+Overview
+    A target is a table: how the language writes functions, powers, numbers and names.  Only
+    what the table has can be printed; anything else is an error, never a guess.  Sums put
+    what is added before what is subtracted, products divide once.  Half-integer powers are
+    products with a square root.
+Key results
+    Target    the table of one language
+    emit      an expression in a target's language
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z")
+_ADD, _MUL, _POW, _ATOM = range(4)
+
+
+class EmitError(ValueError):
+    """An expression holds something that the target cannot write."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """How a language writes expressions.
+
+    ``functions`` maps SymPy functions onto names; ``power`` writes base and integer exponent;
+    ``number`` writes a floating-point literal from a decimal string; ``rename`` says how a
+    symbol is reached (``c.h_0`` for a constant).
+    """
+
+    name: str
+    functions: Mapping[type[sp.Basic], str]
+    power: Callable[[str, int], str]
+    number: Callable[[str], str]
+    pi: str
+    rename: Callable[[str], str] = field(default=lambda name: name)
+
+
+def emit(expr: sp.Expr, target: Target) -> str:
+    """Return ``expr`` in the language of ``target``; EmitError if it has no words for it."""
+    text, _ = _emit(expr, target)
+    return text
+
+
+def _emit(expr: sp.Expr, target: Target) -> tuple[str, int]:
+    if isinstance(expr, sp.Symbol):
+        if not _IDENTIFIER.match(expr.name):
+            raise EmitError(f"{expr.name!r} is no identifier")
+        return target.rename(expr.name), _ATOM
+    if expr.is_Integer:
+        return target.number(str(expr)), _ATOM if expr >= 0 else _ADD
+    if expr.is_Rational:
+        return f"{target.number(str(expr.p))} / {target.number(str(expr.q))}", _MUL
+    if expr.is_Float:
+        return target.number(repr(float(expr))), _ATOM if expr >= 0 else _ADD
+    if expr is sp.pi:
+        return target.pi, _ATOM
+    if expr.is_Add:
+        return _fraction(expr, target) or (_sum(expr, target), _ADD)
+    if expr.is_Mul:
+        return _product(expr, target)
+    if expr.is_Pow:
+        return _power(expr, target)
+    if type(expr) in target.functions:
+        inner = [emit(argument, target) for argument in _ordered(expr)]
+        return f"{target.functions[type(expr)]}({', '.join(inner)})", _ATOM
+    raise EmitError(f"{target.name} has no word for {type(expr).__name__} in {expr}")
+
+
+def _ordered(expr: sp.Expr) -> tuple[sp.Basic, ...]:
+    """Return the arguments of a function, those of a minimum or maximum with numbers last."""
+    if not isinstance(expr, (sp.Min, sp.Max)):
+        return tuple(expr.args)
+    if len(expr.args) != 2:
+        raise EmitError(f"{expr} has more than two arguments")
+    return tuple(sorted(expr.args, key=lambda a: (a.is_number, sp.default_sort_key(a))))
+
+
+def _fraction(expr: sp.Add, target: Target) -> tuple[str, int] | None:
+    """Return ``x + 9/2`` as ``(2 * x + 9) / 2``, None for a sum without such a number.
+
+    In Python 9 / 2 is a float, which does not add to a number of 60 digits; this way only those
+    numbers are divided that the caller chose.
+    """
+    below = next((a.q for a in expr.args if a.is_Rational and not a.is_Integer), 1)
+    if below == 1:
+        return None
+    above = sp.Add(*(below * argument for argument in expr.args))
+    return f"({emit(above, target)}) / {target.number(str(below))}", _MUL
+
+
+def _sum(expr: sp.Add, target: Target) -> str:
+    terms = sorted(expr.args, key=lambda term: (term.could_extract_minus_sign(), _rank(term)))
+    text = emit(terms[0], target)
+    for term in terms[1:]:
+        negative = term.could_extract_minus_sign()
+        body = _wrapped(-term if negative else term, target, _MUL)
+        text += f" - {body}" if negative else f" + {body}"
+    return text
+
+
+def _rank(term: sp.Expr) -> tuple[int, str]:
+    """Data before state, single symbols before products."""
+    return len(term.args), str(term)
+
+
+def _product(expr: sp.Mul, target: Target) -> tuple[str, int]:
+    if expr.could_extract_minus_sign():
+        return f"-{_wrapped(-expr, target, _MUL)}", _ADD
+    numerator, denominator = sp.fraction(expr)
+    factors = [factor for factor in sp.Mul.make_args(numerator) if factor != 1]
+    factors.sort(key=lambda factor: _distance(factor, target))
+    text = " * ".join(_wrapped(factor, target, _MUL) for factor in factors) or target.number("1")
+    if denominator != 1:
+        text += f" / {_wrapped(denominator, target, _POW)}"
+    return text, _MUL
+
+
+def _distance(factor: sp.Expr, target: Target) -> int:
+    """Numbers stand first, then what is reached through a prefix (constants), then the state."""
+    if factor.is_number:
+        return 0
+    return 1 if any(target.rename(s.name) != s.name for s in factor.free_symbols) else 2
+
+
+def _power(expr: sp.Pow, target: Target) -> tuple[str, int]:
+    base, exponent = expr.args
+    if exponent == sp.Rational(1, 2):
+        return f"{target.functions[sp.sqrt]}({emit(base, target)})", _ATOM
+    if exponent.is_Integer and exponent > 0:
+        # a language may write a power as a product, which binds no closer than one
+        return target.power(_wrapped(base, target, _ATOM), int(exponent)), _MUL
+    if exponent.is_Rational and exponent.q == 2 and exponent > 0:
+        rest = sp.Pow(base, exponent - sp.Rational(1, 2))
+        return f"{_wrapped(rest, target, _MUL)} * {emit(sp.sqrt(base), target)}", _MUL
+    if exponent.is_Rational and exponent < 0:
+        return f"{target.number('1')} / {_wrapped(1 / expr, target, _POW)}", _MUL
+    raise EmitError(f"{target.name} has no word for the power {expr}")
+
+
+def _wrapped(expr: sp.Expr, target: Target, least: int) -> str:
+    text, precedence = _emit(expr, target)
+    return text if precedence >= least else f"({text})"

@@ -1,0 +1,67 @@
+"""Wear laws for a finite element code: what a time increment adds to the state.
+
+Overview
+    A finite element code finds the contact pressure itself; of the model it needs Archard's law
+    and the change of roughness, (5).  Their rates do not depend on the state, so that rate times
+    increment is exact while pressure and slip rate are constant.
+Key results
+    Increment    parameters, and the growth of each state variable
+    increment    that of a variant
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ..program import Assignment
+from ..symbols import rate, symbols
+from ..variant import Variant
+
+pressure, slip_rate, time_increment = sp.symbols(
+    "pressure slip_rate time_increment", nonnegative=True
+)
+"""What the finite element code knows, in MPa, mm/s and s."""
+
+_p, _V, _u_a, _u_c, _sigma_a, _sigma_c = symbols("p V u_a u_c sigma_a sigma_c")
+
+
+@dataclass(frozen=True)
+class Increment:
+    """``growth`` pairs each state variable with what the increment adds to it, in order."""
+
+    parameters: tuple[sp.Symbol, ...]
+    growth: tuple[Assignment, ...]
+
+
+def increment(variant: Variant) -> Increment:
+    """Return what a time increment adds to the state of a variant, from (5).
+
+    >>> from derive.variant import VARIANTS
+    >>> for name, value in increment(VARIANTS[0]).growth:
+    ...     print(name, value)
+    u_c K_c*pressure*slip_rate*time_increment/(3*H_c)
+    sigma_c f_c*growth_u_c
+    """
+    u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = variant.model.wear_laws
+    laws = [(_u_c, u_c_rate), (_sigma_c, sigma_c_rate)]
+    if variant.pin.wears:
+        laws.append((_u_a, u_a_rate))
+        laws += [(_sigma_a, sigma_a_rate)] * variant.pin.rough
+    known = {_p: pressure, _V: slip_rate}
+    wear = {rate("u_c"): growth_of("u_c"), rate("u_a"): growth_of("u_a")}
+    growth = []
+    for field, law in laws:
+        name = field.func.__name__
+        value = law.claim.rhs
+        grown = value.xreplace(wear) if name.startswith("sigma") else value * time_increment
+        growth.append((sp.Symbol(name, real=True), grown.xreplace(known)))
+    used = set().union(*(value.free_symbols for _, value in growth))
+    data = symbols("K_c H_c f_c K_a H_a f_a")
+    return Increment(tuple(symbol for symbol in data if symbol in used), tuple(growth))
+
+
+def growth_of(name: str) -> sp.Symbol:
+    """Return the symbol of what a state variable gains."""
+    return sp.Symbol(f"growth_{name}", real=True)

@@ -1,0 +1,79 @@
+"""Words of the generated sources: what a variant is, and what each name stands for.
+
+Key results
+    title_of      a variant in a sentence
+    meaning_of    a parameter, constant or field, with its unit
+    remark_on     an intermediate of a function, with the equation it comes from
+"""
+
+from __future__ import annotations
+
+from ..symbols import QUANTITIES
+from ..variant import Variant
+
+_PINS = {
+    "bearing": "smooth pin that does not wear",
+    "rough": "rough pin that does not wear",
+    "worn": "smooth pin that wears",
+    "worn_rough": "rough pin that wears",
+}
+
+_CONSTANTS = {
+    "largest_rate": "wear rate at the largest pressure, mm/s",
+    "wear_per_pressure": "wear rate per contact pressure, mm/(s MPa)",
+    "gain": "closure per wear of the bearing at a fixed pin",
+    "slope_a": "roughness of the pin per wear of the bearing",
+    "compliance": "deflection of the support per pressure, mm/MPa",
+}
+
+_INTERMEDIATES = {
+    "sigma_a": "roughness of the pin, (5)",
+    "sigma_c": "roughness of the bearing, (5)",
+    "sigma": "equivalent roughness, (3)",
+    "h": "closure, (1)",
+    "ratio": "h/sigma",
+    "odds": "p/(p_max - p)",
+    "share": "p/p_max",
+    "spread": "p (p_max - p)/p_max^2",
+    "residual_p": "slope of the residual with p",
+}
+
+
+def title_of(variant: Variant) -> str:
+    """Return what a variant models, as a sentence.
+
+    >>> from derive.variant import VARIANTS
+    >>> title_of(VARIANTS[0])
+    'Tanh contact law, rigid support, smooth pin that does not wear.'
+    """
+    support = "compliant support" if variant.compliant else "rigid support"
+    sign = ", wear of the pin opens the gap" if variant.opening else ""
+    cutoff = ", contact for h <= 3 sigma only" if variant.cutoff else ""
+    name = variant.law.name
+    return (
+        f"{name[0].upper()}{name[1:]} contact law, {support}, {_PINS[variant.pin.value]}"
+        f"{sign}{cutoff}."
+    )
+
+
+def meaning_of(name: str) -> str:
+    """Return the meaning and the unit of a parameter, a constant or a field.
+
+    >>> meaning_of("h_0"), meaning_of("gain")
+    ('initial closure, mm', 'closure per wear of the bearing at a fixed pin')
+    """
+    if name not in QUANTITIES:
+        return _CONSTANTS[name]
+    unit = QUANTITIES[name].unit
+    return f"{QUANTITIES[name].meaning}, {'dimensionless' if unit == '1' else unit}"
+
+
+def remark_on(name: str) -> str:
+    """Return what an intermediate is, and from which equation it comes.
+
+    >>> remark_on("sigma"), remark_on("ratio_u")
+    ('equivalent roughness, (3)', 'd ratio/d u_c')
+    """
+    if name not in _INTERMEDIATES and name.endswith("_u"):
+        return f"d {name.removesuffix('_u')}/d u_c"
+    return _INTERMEDIATES[name]

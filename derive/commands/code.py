@@ -1,0 +1,90 @@
+"""`derive code`: the generated right-hand side of a variant, for a program of one's own."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+
+from derive import completion, terminal
+from derive.command_line import Command
+from derive.commands import arguments
+from derive.faults import UsageError
+
+TARGETS = ("numpy", "c", "fortran", "javascript")
+
+EXAMPLE = """\
+  derive code rigid_bearing                          section 4 of the note, in NumPy
+  derive code rigid_worn_rough --target c            section 3, in C
+  derive code exponential/rigid_bearing              another contact law
+  derive code --list                                 the variants
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the variant and the language."""
+    variant = parser.add_argument(
+        "variant",
+        metavar="VARIANT",
+        nargs="?",
+        help="a variant (--list names them), or LAW/VARIANT (default law: tanh)",
+    )
+    completion.suggest(variant, variant_names)
+    parser.add_argument(
+        "--target", choices=TARGETS, default="numpy", help="language (default: %(default)s)"
+    )
+    parser.add_argument("--list", action="store_true", help="list the variants and stop")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write to a file")
+
+
+def variant_names() -> tuple[str, ...]:
+    """Return the names of the variants, with their law."""
+    from derive.variant import VARIANTS
+
+    return tuple(f"{variant.law.name}/{variant.module}" for variant in VARIANTS)
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Print or write the source."""
+    from derive.codegen.targets import source
+    from derive.program import program
+    from derive.variant import VARIANTS
+
+    names = variant_names()
+    if options.list:
+        if options.json:
+            terminal.print_json(list(names))
+        else:
+            print("\n".join(names))
+        return terminal.DONE
+    if options.variant is None:
+        raise UsageError("name a variant; `derive code --list` shows them")
+    wanted = options.variant if "/" in options.variant else f"tanh/{options.variant}"
+    if wanted not in names:
+        near = difflib.get_close_matches(wanted, names, n=1, cutoff=0.0)
+        raise UsageError(f"{options.variant}: no such variant; did you mean {near[0]}?")
+    variant = VARIANTS[names.index(wanted)]
+    text = source(variant, options.target)
+    if options.json:
+        made = program(variant)
+        counts = {function.name: function.operations for function in made.functions}
+        terminal.print_json(
+            {
+                "variant": wanted,
+                "target": options.target,
+                "equations": list(variant.equations),
+                "operations": counts,
+                "source": text,
+            }
+        )
+    else:
+        arguments.print_or_write(text, options.output)
+    return terminal.DONE
+
+
+COMMAND = Command(
+    "code",
+    "source code of a variant of the model, for a solver of your own",
+    EXAMPLE,
+    add_arguments,
+    execute,
+)

@@ -1,0 +1,44 @@
+"""`derive generate`: write the generated modules of wear."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from derive import terminal
+from derive.command_line import Command
+
+EXAMPLE = """\
+  derive generate            bring wear/generated up to date
+  derive generate --check    write nothing; status 1 if it is out of date
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare --check."""
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing; status 1 when out of date"
+    )
+
+
+def folder() -> Path:
+    """Return the folder of generated modules, beside this package."""
+    return Path(__file__).resolve().parents[2] / "wear" / "generated"
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Write, or tell what would be written."""
+    from derive import generate
+
+    changed = generate.outdated(folder()) if options.check else generate.write(folder())
+    if options.json:
+        terminal.print_json({"changed": list(changed), "written": not options.check})
+    else:
+        verb = "out of date" if options.check else "written"
+        print("\n".join(f"{verb}: {name}" for name in changed) or "up to date")
+    return terminal.FAILED if options.check and changed else terminal.DONE
+
+
+COMMAND = Command(
+    "generate", "write the generated modules of wear", EXAMPLE, add_arguments, execute
+)

@@ -1,0 +1,45 @@
+"""`derive list`: every equation with its status."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+
+from derive import terminal
+from derive.command_line import Command
+
+EXAMPLE = """\
+  derive list            ids, sections, titles and what the machine says of each
+  derive list --json     the same for another program
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare nothing: the list takes no arguments."""
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Print the catalogue."""
+    from derive import catalogue
+
+    rows = [
+        {"id": e.id, "section": e.section, "title": e.title, "status": e.status.value}
+        for e in catalogue.equations()
+    ]
+    if options.json:
+        terminal.print_json(rows)
+        return terminal.DONE
+    widths = [max(len(row[key]) for row in rows) for key in ("id", "status", "section")]
+    for row in rows:
+        cells = (row[key] for key in ("id", "status", "section"))
+        padded = "  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True))
+        print(f"{padded}  {row['title']}")
+    found = Counter(row["status"] for row in rows)
+    parts = ", ".join(f"{number} {status}" for status, number in found.most_common())
+    print(f"\n{terminal.count(len(rows), 'equation')}: {parts}")
+    return terminal.DONE
+
+
+COMMAND = Command(
+    "list", "every equation: id, status, section, title", EXAMPLE, add_arguments, execute
+)

@@ -1,0 +1,95 @@
+"""`derive show`: one equation, in a form of choice."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from derive import terminal
+from derive.command_line import Command
+from derive.commands import arguments
+
+if TYPE_CHECKING:
+    from derive.equations import Equation
+
+FORMS = ("text", "latex", "srepr", "mathml", "json")
+
+EXAMPLE = """\
+  derive show 21                 for the terminal
+  derive show 21 --as latex      for a report
+  derive show 21 --as srepr      the SymPy relation, for another program
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the id and the form."""
+    parser.add_argument("id", metavar="ID", help="an equation, as `derive list` names it")
+    parser.add_argument(
+        "--as", dest="form", choices=FORMS, default="text", help="form (default: %(default)s)"
+    )
+
+
+def document(found: Equation) -> dict[str, Any]:
+    """Return all there is to say of an equation, for JSON."""
+    import sympy as sp
+
+    return {
+        "id": found.id,
+        "section": found.section,
+        "title": found.title,
+        "status": found.status.value,
+        "latex": found.latex,
+        "printed_latex": found.printed_latex or None,
+        "srepr": sp.srepr(found.relation),
+        "conditions": [condition.text for condition in found.conditions],
+        "remark": found.remark or None,
+    }
+
+
+def _text(found: Equation) -> str:
+    import sympy as sp
+
+    lines = [f"({found.id})  {found.title}  [{found.status.value}]", ""]
+    for claim in found.claims:
+        lines += [sp.pretty(claim, use_unicode=True, wrap_line=False), ""]
+    lines += [f"if {condition.text}" for condition in found.conditions]
+    if found.printed and not found.agrees:
+        lines += ["", "as printed in the note (does not hold):", ""]
+        lines += [sp.pretty(claim, use_unicode=True, wrap_line=False) for claim in found.printed]
+    if found.remark:
+        lines += ["", found.remark]
+    return "\n".join(lines).rstrip()
+
+
+def _mathml(found: Equation) -> str:
+    from derive.typeset.mathml import mathml
+
+    return mathml(found.latex)
+
+
+def _srepr(found: Equation) -> str:
+    import sympy as sp
+
+    return str(sp.srepr(found.relation))
+
+
+_WRITERS: dict[str, Callable[[Equation], str]] = {
+    "text": _text,
+    "latex": lambda found: found.latex,
+    "srepr": _srepr,
+    "mathml": _mathml,
+}
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Print the equation."""
+    (found,) = arguments.equations([options.id])
+    if options.json or options.form == "json":
+        terminal.print_json(document(found))
+    else:
+        print(_WRITERS[options.form](found))
+    return terminal.DONE
+
+
+COMMAND = Command("show", "one equation, with its conditions", EXAMPLE, add_arguments, execute)

@@ -1,0 +1,88 @@
+"""`derive steps`: how an equation follows from the governing ones."""
+
+from __future__ import annotations
+
+import argparse
+import textwrap
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from derive import terminal
+from derive.command_line import Command
+from derive.commands import arguments
+
+if TYPE_CHECKING:
+    from derive.statement import Statement
+
+_INDENT = " " * 5
+
+EXAMPLE = """\
+  derive steps 10           every step from the hypotheses to (10)
+  derive steps 21 --json    with rule, parents, assumptions and status of each
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the id."""
+    parser.add_argument("id", metavar="ID", help="an equation, as `derive list` names it")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Check and print the chain of steps."""
+    (found,) = arguments.equations([options.id])
+    numbers = {id(step): number for number, step in enumerate(found.steps, start=1)}
+    rows = [_row(step, numbers) for step in found.steps]
+    if options.json:
+        terminal.print_json({"id": found.id, "status": found.status.value, "steps": rows})
+    else:
+        print("\n\n".join(_text(row, step) for row, step in zip(rows, found.steps, strict=True)))
+    return terminal.FAILED if any(row["status"] == "fails" for row in rows) else terminal.DONE
+
+
+def _row(step: Statement, numbers: Mapping[int, int]) -> dict[str, Any]:
+    import sympy as sp
+
+    from derive.rules import describe
+    from derive.statement import check
+    from derive.typeset.display import latex
+
+    outcomes = check(step)
+    return {
+        "step": numbers[id(step)],
+        "name": step.name or None,
+        "claim": sp.sstr(step.claim),
+        "latex": latex(step.claim),
+        "rule": describe(step.rule),
+        "parents": [numbers[id(parent)] for parent in step.parents],
+        "assumptions": [condition.text for condition in step.conditions],
+        "status": _status(step, all(outcome.passed for outcome in outcomes)),
+        "remark": step.remark or None,
+        "checks": [{"kind": c.kind, "passed": c.passed, "detail": c.detail} for c in outcomes],
+    }
+
+
+def _status(step: Statement, passed: bool) -> str:
+    if not passed:
+        return "fails"
+    if not step.parents and type(step.rule).__name__ == "Given":
+        return "given"
+    return "numeric" if getattr(step.rule, "numeric", False) else "proved"
+
+
+def _text(row: Mapping[str, Any], step: Statement) -> str:
+    """Return what was done and to what, above the claim as it is read on paper."""
+    import sympy as sp
+
+    origin = f" from {', '.join(map(str, row['parents']))}" if row["parents"] else ""
+    status = "" if row["status"] == "given" else f": {row['status']}"
+    lines = ["", *sp.pretty(step.claim, use_unicode=True, wrap_line=False).splitlines(), ""]
+    lines += [f"if {condition}" for condition in row["assumptions"]]
+    if row["remark"]:
+        lines.append(row["remark"])
+    shown = textwrap.indent("\n".join(lines).rstrip(), _INDENT)
+    return f"{row['step']:3}. {row['rule']}{origin}{status}\n{shown}"
+
+
+COMMAND = Command(
+    "steps", "the steps from the governing equations to one", EXAMPLE, add_arguments, execute
+)

@@ -1,0 +1,62 @@
+"""`derive verify`: run every check again."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from derive import terminal
+from derive.command_line import Command
+from derive.commands import arguments
+
+EXAMPLE = """\
+  derive verify             every check of every equation; status 1 if one does not hold
+  derive verify 8 10 21     those on which these equations rest
+"""
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Run the checks and say what came of them."""
+    from derive import catalogue
+
+    arguments.equations(options.ids)
+    verdicts = catalogue.verify(options.ids, _progress if sys.stderr.isatty() else None)
+    if sys.stderr.isatty():
+        print("\r\033[K", end="", file=sys.stderr)
+    failed = [verdict for verdict in verdicts if not verdict.passed]
+    if options.json:
+        terminal.print_json(
+            [
+                {
+                    "id": verdict.id,
+                    "status": verdict.status.value,
+                    "checks": [
+                        {"kind": c.kind, "passed": c.passed, "detail": c.detail}
+                        for c in verdict.checks
+                    ],
+                }
+                for verdict in verdicts
+            ]
+        )
+    else:
+        width = max(len(verdict.id) for verdict in verdicts)
+        for verdict in verdicts:
+            bad = [c for c in verdict.checks if not c.passed]
+            said = "; ".join(f"{c.kind} fails: {c.detail}" for c in bad)
+            held = terminal.count(len(verdict.checks), "check")
+            good = f"{held} {'holds' if len(verdict.checks) == 1 else 'hold'}"
+            print(f"{verdict.id.ljust(width)}  {verdict.status.value.ljust(18)}  {said or good}")
+        total = sum(len(verdict.checks) for verdict in verdicts)
+        counted = terminal.count(len(verdicts), "equation"), terminal.count(total, "check")
+        outcome = f"{len(failed)} of the equations fail" if failed else "all hold"
+        print(f"{', '.join(counted)}: {outcome}")
+    return terminal.FAILED if failed else terminal.DONE
+
+
+def _progress(done: int, total: int, identifier: str) -> None:
+    print(f"\r\033[K{done}/{total} {identifier}", end="", file=sys.stderr, flush=True)
+
+
+COMMAND = Command(
+    "verify", "check every step of equations again", EXAMPLE, arguments.add_ids, execute
+)

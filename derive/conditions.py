@@ -1,0 +1,59 @@
+"""Conditions: what a statement needs, as data.
+
+A condition gives LaTeX for the reader, restricts the samples of the tests and, where a relation
+says it, is a guard that can be asked with numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One hypothesis: in words, and as a SymPy relation where there is one.
+
+    ``typeset`` is its LaTeX where there is only words and they hold a formula.
+    """
+
+    text: str
+    relation: sp.Basic = sp.true
+    typeset: str = ""
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Return the quantities that the condition is about."""
+        return frozenset(str(getattr(s, "func", s)) if s.args else str(s) for s in self._unknowns)
+
+    @property
+    def _unknowns(self) -> set[sp.Basic]:
+        fields = self.relation.atoms(AppliedUndef)
+        plain = self.relation.xreplace({field: sp.Dummy() for field in fields}).free_symbols
+        return fields | {symbol for symbol in plain if not isinstance(symbol, sp.Dummy)}
+
+    def guard(self, values: Mapping[str, float]) -> bool | None:
+        """Return whether the condition holds for numbers, by name of the quantity.
+
+        None where only words say it, or where a number is missing.
+
+        >>> from derive.results.steady_state import ROUGHENING
+        >>> ROUGHENING.guard({"f_c": 0.25}), ROUGHENING.guard({"f_c": -0.05}), ROUGHENING.guard({})
+        (True, False, None)
+        """
+        if self.relation is sp.true or not self.names <= set(values):
+            return None
+        numbers = {u: sp.Float(values[str(u.func) if u.args else str(u)]) for u in self._unknowns}
+        return bool(self.relation.xreplace(numbers))
+
+    @property
+    def latex(self) -> str:
+        """Return the condition in LaTeX; in words where no relation says it."""
+        from .typeset.display import latex
+
+        if self.relation is not sp.true:
+            return latex(self.relation)
+        return self.typeset or rf"\text{{{self.text}}}"

@@ -1,0 +1,152 @@
+"""Equations: the statements a reader knows by number, with their printed and typeset forms.
+
+Key results
+    Equation    id, section, title, statements, printed form, display form
+    Status      definition, derived, derived-numerically, corrected, refuted
+    verify      every check an equation rests on
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from .check import Check
+from .conditions import Condition
+from .rules import Given
+from .statement import Statement, chain, check
+from .symbols import t
+from .typeset.display import evaluated, latex
+from .typeset.present import presentable
+from .zero import same
+
+
+class Status(StrEnum):
+    """What the machine says of an equation as printed."""
+
+    DEFINITION = "definition"
+    DERIVED = "derived"
+    NUMERIC = "derived-numerically"
+    CORRECTED = "corrected"
+    REFUTED = "refuted"
+
+
+@dataclass(frozen=True)
+class Equation:
+    """An equation of the note, or a result beyond it.
+
+    A system is a tuple of statements.  ``printed`` is the note's form, transcribed apart from
+    the derivation and only compared with it; ``display`` is the derived form laid out by an
+    author (built with ``as_written``), where it differs from the printed one.  Where the
+    printed form is false, ``refutation`` is the statement that contradicts it.  ``where`` are
+    the abbreviations that the display form uses, each a relation with the new name on its left.
+    """
+
+    id: str
+    section: str
+    title: str
+    statements: tuple[Statement, ...]
+    printed: tuple[sp.Basic, ...] = ()
+    display: tuple[sp.Basic, ...] = ()
+    refutation: Statement | None = None
+    remark: str = ""
+    where: tuple[sp.Eq, ...] = ()
+
+    @property
+    def relation(self) -> sp.Basic:
+        """Return the relation; a system is the conjunction of its relations."""
+        return system(self.claims)
+
+    @property
+    def claims(self) -> tuple[sp.Basic, ...]:
+        """Return the claims of the statements."""
+        return tuple(statement.claim for statement in self.statements)
+
+    @property
+    def shown(self) -> tuple[sp.Basic, ...]:
+        """Return what is typeset: the display form, the printed form if it holds, the claims."""
+        if self.display:
+            return self.display
+        if self.printed and self.agrees:
+            return self.printed
+        return tuple(presentable(claim) for claim in self.claims)
+
+    @property
+    def latex(self) -> str:
+        """Return the equation in LaTeX, laid out as an author would write it."""
+        return latex((*self.shown, *self.where))
+
+    @property
+    def printed_latex(self) -> str:
+        """Return the note's own form in LaTeX; empty for results that it does not have."""
+        return latex(self.printed) if self.printed else ""
+
+    @property
+    def steps(self) -> tuple[Statement, ...]:
+        """Return the chain of statements from the governing equations to this one."""
+        extra = () if self.refutation is None else (self.refutation,)
+        return chain(*self.statements, *extra)
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """Return the hypotheses under which the equation holds."""
+        return tuple(dict.fromkeys(c for s in self.statements for c in s.conditions))
+
+    @property
+    def agrees(self) -> bool:
+        """Return whether the printed form, if there is one, is what was derived."""
+        return not self.printed or _agree(self.printed, self.claims)
+
+    @property
+    def typeset_agrees(self) -> bool:
+        """Return whether what is typeset is what was derived."""
+        return _agree(tuple(self._in_full(part) for part in self.shown), self.claims)
+
+    def _in_full(self, written: sp.Basic) -> sp.Basic:
+        """Return a relation of the display form without its abbreviations."""
+        for short in reversed(self.where):
+            written = _replaced(written, evaluated(short))
+        return written
+
+    @property
+    def status(self) -> Status:
+        """Return what the machine says of the equation as printed."""
+        if self.refutation is not None:
+            return Status.REFUTED
+        if not self.agrees:
+            return Status.CORRECTED
+        if all(isinstance(s.rule, Given) for s in self.statements):
+            return Status.DEFINITION
+        if any(getattr(s.rule, "numeric", False) for s in self.steps):
+            return Status.NUMERIC
+        return Status.DERIVED
+
+
+def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:
+    return len(written) == len(claims) and all(
+        same(evaluated(left), right) for left, right in zip(written, claims, strict=True)
+    )
+
+
+def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
+    """Return an expression with one abbreviation written out, a function at its arguments too."""
+    name = short.lhs
+    if isinstance(name, AppliedUndef) and name.args != (t,):
+        function = sp.Lambda(name.args, short.rhs)
+        return evaluated(expr).subs(name.func, function).doit()
+    return evaluated(expr).subs(name, short.rhs)
+
+
+def system(claims: tuple[sp.Basic, ...]) -> sp.Basic:
+    """Return one relation, or the conjunction of several as they stand."""
+    return claims[0] if len(claims) == 1 else sp.And(*claims, evaluate=False)
+
+
+def verify(equation: Equation) -> tuple[Check, ...]:
+    """Re-run every check on which an equation rests, and compare what is typeset."""
+    outcomes = [outcome for step in equation.steps for outcome in check(step)]
+    typeset = Check("typeset", equation.typeset_agrees, "the display form equals the claim")
+    return (*outcomes, typeset)

@@ -1,0 +1,121 @@
+"""Files that are there whole or not at all.
+
+A file is written beside its place under a temporary name and then renamed, so that neither a full
+disk, nor an exception, nor an interrupt leaves half of it behind or destroys the one before.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+
+@contextmanager
+def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Give a path to write to; it takes the place of `path` when the block ends without an error.
+
+    The given path has the suffix of `path`, so that writers which go by it behave. A device or
+    pipe (`/dev/stdout`) is not replaced but written to.
+
+    Raises
+    ------
+    OSError
+        with `path` as its `filename`, whatever name was written to.
+    """
+    target = Path(path)
+    try:
+        if target.is_dir():
+            raise IsADirectoryError(21, "is a directory; name a file in it", str(target))
+        if target.exists() and not target.is_file():
+            with tempfile.TemporaryDirectory() as folder:
+                draft = Path(folder, "draft" + target.suffix)
+                yield draft
+                target.write_bytes(draft.read_bytes())
+            return
+        target = target.resolve()  # a link stays a link
+        draft = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
+        try:
+            yield draft
+            _flush_to_disk(draft)
+            if target.exists():
+                shutil.copymode(target, draft)
+            draft.replace(target)
+        finally:
+            draft.unlink(missing_ok=True)
+    except OSError as fault:
+        raise _named(fault, Path(path)) from fault
+
+
+def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> None:
+    """Write a whole file, text as UTF-8 with the line ends that it has.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_atomically(Path(folder, "wear.csv"), "cycle,u_c_mm\\n")
+    ...     [file.name for file in Path(folder).iterdir()]
+    ['wear.csv']
+    """
+    with replacing(path) as draft:
+        draft.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+@contextmanager
+def replacing_in(folder: str | os.PathLike[str]) -> Iterator[Path]:
+    """Give an empty directory; what is in it moves to `folder` when the block ends without error.
+
+    `folder` is made if need be. Files of the same names are replaced, one by one, others stay.
+    """
+    target = Path(folder)
+    try:
+        made = not target.exists()
+        target.mkdir(parents=True, exist_ok=True)
+        try:
+            # inside the target: surely on the same file system, where a rename is atomic
+            with tempfile.TemporaryDirectory(prefix=".draft-", dir=target) as name:
+                draft = Path(name)
+                yield draft
+                for file in sorted(entry for entry in draft.rglob("*") if entry.is_file()):
+                    place = target / file.relative_to(draft)
+                    place.parent.mkdir(parents=True, exist_ok=True)
+                    file.replace(place)
+        except BaseException:
+            if made:
+                shutil.rmtree(target, ignore_errors=True)
+            raise
+    except OSError as fault:
+        raise _named(fault, target) from fault
+
+
+def obstacle(path: str | os.PathLike[str]) -> str | None:
+    """Return why a file cannot be written there, None if nothing is known to forbid it.
+
+    To be asked before a long computation, not instead of handling what then goes wrong.
+
+    >>> obstacle("no such folder/wear.csv")
+    'no such folder: no such folder; make it first'
+    """
+    target = Path(path)
+    if target.is_dir():
+        return f"{target}: is a folder; name a file in it"
+    if not target.parent.exists():
+        return f"{target.parent}: no such folder; make it first"
+    if not target.parent.is_dir():
+        return f"{target.parent}: is not a folder"
+    if not os.access(target if target.exists() else target.parent, os.W_OK):
+        return f"{target}: may not be written"
+    return None
+
+
+def _flush_to_disk(file: Path) -> None:
+    with file.open("rb") as handle:
+        os.fsync(handle.fileno())
+
+
+def _named(fault: OSError, path: Path) -> OSError:
+    """Return the same fault, told about the path that the user gave."""
+    return OSError(fault.errno or 5, fault.strerror or str(fault) or "cannot be written", str(path))

@@ -1,0 +1,63 @@
+"""Writing the generated modules of wear, and telling whether they are up to date.
+
+Key results
+    sources     every generated file, as text
+    write       write what differs
+    outdated    the files that differ from what would be written
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+
+from .codegen import reaction
+from .codegen.numpy_module import module_text
+from .files import write_atomically
+from .laws import LAWS
+from .results import asymptotics, static_scaled
+from .variant import VARIANTS
+
+_PACKAGE = '"""Generated code{of}, one module a variant; not to be edited."""\n'
+
+
+@cache
+def sources() -> Mapping[str, str]:
+    """Return the text of every generated file by its path within ``wear/generated``."""
+    files = {"__init__.py": _PACKAGE.format(of="")}
+    for law in LAWS:
+        files[f"{law}/__init__.py"] = _PACKAGE.format(of=f" of the {law} contact law")
+    for variant in VARIANTS:
+        files[f"{variant.law.name}/{variant.module}.py"] = module_text(variant)
+    files["asymptotics.py"] = asymptotics.module()
+    files["reaction.py"] = reaction.module()
+    files["static_solution.py"] = static_scaled.module()
+    return MappingProxyType(files)
+
+
+def outdated(folder: Path) -> tuple[str, ...]:
+    """Return the files under ``folder`` that are missing, differ, or should not be there."""
+    wanted = sources()
+    differing = [
+        name
+        for name, text in wanted.items()
+        if not (folder / name).is_file() or (folder / name).read_text(encoding="utf-8") != text
+    ]
+    present = (p.relative_to(folder).as_posix() for p in folder.rglob("*.py"))
+    return (*differing, *(name for name in present if name not in wanted))
+
+
+def write(folder: Path) -> tuple[str, ...]:
+    """Bring ``folder`` up to date; return what was written or removed."""
+    changed = outdated(folder)
+    wanted = sources()
+    for name in changed:
+        path = folder / name
+        if name in wanted:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_atomically(path, wanted[name])
+        else:
+            path.unlink()
+    return changed

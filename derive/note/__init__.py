@@ -1,0 +1,1 @@
+"""The note, in its own order, a file a section."""

@@ -1,0 +1,280 @@
+"""The claims that mathematics alone decides, each by a computation that can come out otherwise.
+
+Overview
+    A check re-derives what its claim is about and reads the verdict off the result: an equation
+    whose steps all hold, under which conditions, a derivative of one sign, a counterexample.
+Key results
+    SYMBOLIC    the checks by claim id
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from types import MappingProxyType
+
+import sympy as sp
+
+from .. import catalogue
+from ..equations import Status
+from ..laws import TANH, r
+from ..results import validity
+from ..symbols import symbols
+from ..theorem import sign
+from ..zero import is_zero
+from .claims import Finding, Verdict
+from .governing import ROUGH_BEARING, Model
+from .problems import given_motion, undetermined
+from .stabilised import Stabilised
+
+h, h_0, U_a, U_c, u_a, u_c, p, p_max = symbols("h h_0 U_a U_c u_a u_c p p_max")
+f_c, sigma_c0, K_c, k, u_cum = symbols("f_c sigma_c0 K_c k u_cum")
+
+
+@cache
+def _holds(*ids: str) -> tuple[bool, str, bool]:
+    """Return whether equations hold, a sentence on it, and whether they need conditions."""
+    verdicts = catalogue.verify(ids)
+    good = all(v.passed and v.status in (Status.DERIVED, Status.DEFINITION) for v in verdicts)
+    count = sum(len(v.checks) for v in verdicts)
+    found = (c for i in ids for c in catalogue.equation(i).conditions if c != ROUGH_BEARING)
+    conditions = dict.fromkeys(c.text for c in found)  # a rough bearing is what the model is about
+    shown = ", ".join(f"({i}) {v.status}" for i, v in zip(ids, verdicts, strict=True))
+    needed = f"; needs: {', '.join(conditions)}" if conditions else ""
+    return (
+        good,
+        f"{shown}; {count} checks{' hold' if good else ', some fail'}{needed}",
+        bool(needed),
+    )
+
+
+def _equations(*ids: str) -> Callable[[], Finding]:
+    """Return the check of a claim that equations of the catalogue state."""
+
+    def check() -> Finding:
+        good, evidence, conditional = _holds(*ids)
+        if not good:
+            return Finding(Verdict.REFUTED, evidence)
+        return Finding(Verdict.CONDITIONAL if conditional else Verdict.CONFIRMED, evidence)
+
+    return check
+
+
+def closure_sign() -> Finding:
+    """C1: what wear of the pin does to the gap."""
+    model = Model()
+    slope = sp.diff(model.closure.claim.rhs, u_a)
+    grows = sign(model.wear_laws[0].claim.rhs)
+    verdict = Verdict.INCONSISTENT if slope * grows < 0 else Verdict.CONFIRMED
+    return Finding(verdict, f"dh/du_a = {slope} while (5) gives du_a/dt > 0: wear closes the gap")
+
+
+def regularity() -> Finding:
+    """C4: the pressure at the edge of contact."""
+    jump = float(TANH.ratio(TANH.cutoff))
+    drops = Model().pressure.claim != Model().pressure_with_cutoff.claim
+    verdict = Verdict.INCONSISTENT if jump > 0 and drops else Verdict.CONFIRMED
+    evidence = f"at h = 3 sigma the pressure jumps by {jump:.7f} p_max; (7e) has no cutoff"
+    return Finding(verdict, evidence)
+
+
+def below_maximum() -> Finding:
+    """C5: 0 < p < p_max."""
+    within = sign(TANH.phi) == 1 and sign(1 - TANH.phi) == 1
+    edges = [sp.limit(TANH.phi, r, end) for end in (-sp.oo, sp.oo)]
+    verdict = Verdict.CONFIRMED if within else Verdict.REFUTED
+    return Finding(verdict, f"0 < p/p_max < 1 for every h; limits {edges[0]} and {edges[1]}")
+
+
+def increasing() -> Finding:
+    """C6: both wear rates are positive while there is pressure."""
+    rates = [Model().wear_laws[i].claim.rhs for i in (0, 2)]
+    starts = [Model().start[i].claim.rhs for i in (1, 2)]
+    good = all(sign(value) == 1 for value in rates) and starts == [0, 0]
+    evidence = "both rates of (5) are positive for p > 0, and both depths start at 0"
+    return Finding(Verdict.CONFIRMED if good else Verdict.REFUTED, evidence)
+
+
+def positive_roughness() -> Finding:
+    """C7: where the roughness of the bearing vanishes."""
+    decline = sp.Symbol("f", positive=True)
+    value = Model().roughness_of_bearing.claim.rhs.subs(f_c, -decline)
+    (zero,) = sp.solve(value, u_c)
+    good = not zero.is_positive
+    evidence = f"for f_c = -f the roughness of (5), (6) vanishes at u_c = {zero}"
+    return Finding(Verdict.CONFIRMED if good else Verdict.INCONSISTENT, evidence)
+
+
+def initial_state() -> Finding:
+    """C8: h(0) = h_0 against (1) and (2)."""
+    model = Model()
+    start = dict.fromkeys((u_a, u_c), 0)
+    gap = model.closure.claim.rhs.subs(start) - h_0
+    gap = gap.subs(U_c, model.support.solve_for(U_c).claim.rhs)
+    rigid = sp.limit(gap, k, sp.oo).subs(U_a, 0)
+    evidence = f"(1), (2), (6) give h(0) - h_0 = {sp.expand(gap)} at t = 0"
+    if is_zero(gap):
+        return Finding(Verdict.CONFIRMED, evidence)
+    if rigid == 0:
+        needs = "zero only for a rigid support and U_a(0) = 0"
+        return Finding(Verdict.CONDITIONAL, f"{evidence}; {needs}")
+    return Finding(Verdict.REFUTED, evidence)
+
+
+def given_force() -> Finding:
+    """C9: the loads for which (4) has a closure."""
+    good, evidence, _ = _holds("problem-i")
+    least, most = (sp.limit(TANH.phi, r, end) for end in (sp.oo, -sp.oo))
+    if not good:
+        return Finding(Verdict.REFUTED, evidence)
+    return Finding(
+        Verdict.CONDITIONAL,
+        f"{evidence}; needs {least} < R_a/(p_max b L) < {most}, the range of (4)",
+    )
+
+
+def recovered() -> Finding:
+    """C12: every unknown of problem (ii) follows."""
+    missing = undetermined(given_motion())
+    good, evidence, _ = _holds("problem-ii")
+    verdict = Verdict.CONFIRMED if good and not missing else Verdict.REFUTED
+    return Finding(verdict, f"{len(missing)} unknowns undetermined; {evidence}")
+
+
+def stiff_limit() -> Finding:
+    """C14: the limit at equal wear, and what it leaves in the long run."""
+    good, evidence, _ = _holds("10", "rigid-limit-error")
+    drift = catalogue.equation("log-drift-compliant").relation
+    verdict = Verdict.REFUTED if not good else Verdict.CONFIRMED
+    if good and drift.has(k):
+        verdict = Verdict.CONDITIONAL
+        evidence += "; u_c on bounded times only: the coefficient of its ln t depends on k"
+    return Finding(verdict, evidence)
+
+
+def deflection() -> Finding:
+    """C15: p/k for k to infinity at bounded p."""
+    value = sp.limit(Model().support.solve_for(U_c).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
+    verdict = Verdict.CONFIRMED if value == 0 else Verdict.REFUTED
+    return Finding(verdict, f"U_c = p/k with 0 < p < p_max tends to {value}")
+
+
+def vacuous() -> Finding:
+    """C18: (11) is satisfied by every field."""
+    good, evidence, _ = _holds("every-field")
+    verdict = Verdict.INCONSISTENT if good else Verdict.CONFIRMED
+    return Finding(
+        verdict, f"G_inf = G satisfies (11) for every G, so it defines nothing; {evidence}"
+    )
+
+
+def without_dots() -> Finding:
+    """C19: whether accumulation, case (b), satisfies (12) as printed."""
+    cycles, bound = sp.symbols("cycles bound", positive=True)
+    distance = sp.limit(cycles * u_cum - bound, cycles, sp.oo)
+    verdict = Verdict.INCONSISTENT if distance == sp.oo else Verdict.CONFIRMED
+    return Finding(
+        verdict,
+        f"after N cycles of u_cum each, the distance to a periodic G_inf tends to {distance}: "
+        "as printed (12) excludes its own case (b); for rates it holds",
+    )
+
+
+def periodic_rate() -> Finding:
+    """C21: proved rather than assumed."""
+    good, evidence, _ = _holds("14")
+    return Finding(Verdict.CONFIRMED if good else Verdict.REFUTED, f"provable; {evidence}")
+
+
+def bracket() -> Finding:
+    """C24: the bracket of (16) in numbers."""
+    found = Stabilised().bracket.claim.rhs
+    data = {f_c: sp.Rational(1, 4), h_0: sp.Rational(27, 25000), sigma_c0: sp.Rational(9, 25000)}
+    value = found.subs(data).subs(U_a, 0)
+    good, evidence, _ = _holds("bracket")
+    constant = good and not found.has(u_c)
+    verdict = Verdict.REFUTED if constant and value != 0 else Verdict.CONFIRMED
+    return Finding(
+        verdict,
+        f"the bracket is 2 [f_c (h_0 - U_a) - sigma_c0], whatever u_c; for section 4 and U_a = 0 "
+        f"it is {float(value):.2e} mm; {evidence}",
+    )
+
+
+def affine_asymptote() -> Finding:
+    """C27: the coefficient of ln t."""
+    drift = Stabilised().asymptote.claim.rhs
+    free = sp.solve(sp.numer(sp.together(drift)).subs(f_c, sp.Symbol("f", positive=True)), sigma_c0)
+    status = catalogue.equation("19").status
+    verdict = Verdict.CONFIRMED if is_zero(drift) else Verdict.REFUTED
+    return Finding(
+        verdict, f"(19) {status}: u_c - R t grows like A ln t; A = 0 only for sigma_c0 = {free[0]}"
+    )
+
+
+def linear_in_wear_coefficient() -> Finding:
+    """C30: (21) as a function of K_c and of f_c."""
+    wear = Stabilised().wear_per_cycle.claim.rhs
+    affine = sp.diff(wear, K_c, 2) == 0
+    linear = affine and wear.subs(K_c, 0) == 0
+    bent = not is_zero(sp.diff(wear, f_c, 2))
+    verdict = Verdict.CONFIRMED if affine and bent else Verdict.REFUTED
+    kind = "linear" if linear else "affine"
+    return Finding(verdict, f"(21) is {kind} in K_c; its second derivative in f_c is not zero")
+
+
+def one_eighth() -> Finding:
+    """C32: the printed criterion, and what f_c > 1/8 is."""
+    good, evidence, _ = _holds("criterion", "one-eighth")
+    slope = sp.Rational(1, 10)
+    margin = 1 + sp.tanh(4 - 2 / slope)
+    counter = bool(margin > 0)
+    share = validity.share().claim.rhs
+    level = float(share.subs(f_c, sp.Rational(1, 8)))
+    limits = ", ".join(
+        f"{float(validity.threshold_at(value)):.6f} for {name}"
+        for name, value in validity.RESOLUTIONS.items()
+    )
+    verdict = Verdict.REFUTED if good and counter else Verdict.CONFIRMED
+    return Finding(
+        verdict,
+        f"tanh(4 - 2/f_c) > -1 always, by {float(margin):.3e} at f_c = 0.1; f_c > 1/8 is "
+        f"p_inf/p_max > {level:.4e}, a resolution; thresholds: {limits}; {evidence}",
+    )
+
+
+SYMBOLIC = MappingProxyType(
+    {
+        "C1": closure_sign,
+        "C2": _equations("2a", "2b", "7b", "7c"),
+        "C3": _equations("3", "7d"),
+        "C4": regularity,
+        "C5": below_maximum,
+        "C6": increasing,
+        "C7": positive_roughness,
+        "C8": initial_state,
+        "C9": given_force,
+        "C10": _equations("8"),
+        "C11": _equations("8"),
+        "C12": recovered,
+        "C13": _equations("9", "pressure-root"),
+        "C14": stiff_limit,
+        "C15": deflection,
+        "C18": vacuous,
+        "C19": without_dots,
+        "C20": _equations("13"),
+        "C21": periodic_rate,
+        "C22": _equations("15"),
+        "C23": _equations("16a"),
+        "C24": bracket,
+        "C25": _equations("17a", "17b"),
+        "C26": _equations("18"),
+        "C27": affine_asymptote,
+        "C28": _equations("20"),
+        "C29": _equations("21"),
+        "C30": linear_in_wear_coefficient,
+        "C31": _equations("22"),
+        "C32": one_eighth,
+    }
+)
+"""The checks that need no simulation, by claim."""

@@ -1,0 +1,233 @@
+"""Section 2: the model, equations (1) to (7).
+
+Overview
+    Two rigid solids, a rotating pin and a bearing on springs, are in contact and wear.  The
+    hypotheses (1) to (6) are stated here as the note states them; (7) follows from them.
+Key results
+    Model               the hypotheses, for a contact law and a sign of pin wear
+    pressure_in_contact (7e) where the cutoff in the text under (4) allows contact
+    wear_of_pin, roughness_of_pin, roughness_of_bearing   (5) integrated from (6)
+Remarks
+    The note stops using the cutoff h <= 3 sigma after (4); from (7e) on its law holds at every
+    closure.  Both readings are followed: ``Model.pressure`` is the law at every closure, which
+    (8) to (22) rest on, ``Model.pressure_with_cutoff`` the text under (4).
+    With (5), Eq. (1) as printed lets wear of the pin *close* the gap; ``opening=True`` is the
+    physical sign.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+
+import sympy as sp
+
+from ..conditions import Condition
+from ..equations import Equation
+from ..laws import TANH, ContactLaw
+from ..statement import Statement, given
+from ..symbols import initial, rate, symbols
+from ..typeset.display import as_written
+from . import printed
+
+h, h_0, U_a, U_c, u_a, u_c = symbols("h h_0 U_a U_c u_a u_c")
+sigma, sigma_a, sigma_c, sigma_a0, sigma_c0 = symbols("sigma sigma_a sigma_c sigma_a0 sigma_c0")
+p, p_max, R_a, b, L, k = symbols("p p_max R_a b L k")
+V, R, omega, n, kappa = symbols("V R omega n kappa")
+f_a, f_c, f_aa, f_ac, f_cc, f_ca = symbols("f_a f_c f_aa f_ac f_cc f_ca")
+K_a, K_c, H_a, H_c = symbols("K_a K_c H_a H_c")
+
+ROUGH_BEARING = Condition("the bearing is rough", sp.Gt(sigma_c, 0))
+NO_CROSS_COUPLING = {f_ac: 0, f_ca: 0, f_aa: f_a, f_cc: f_c}
+
+
+class Pin(StrEnum):
+    """What the pin does: none of a smooth pin's roughness or an unworn pin's wear is modelled."""
+
+    ABSENT = "bearing"  # smooth, does not wear
+    ROUGH = "rough"  # rough, does not wear
+    WORN = "worn"  # smooth, wears
+    WORN_ROUGH = "worn_rough"
+
+    @property
+    def wears(self) -> bool:
+        """Whether the pin has a wear depth."""
+        return self in (Pin.WORN, Pin.WORN_ROUGH)
+
+    @property
+    def rough(self) -> bool:
+        """Whether the pin has a roughness."""
+        return self in (Pin.ROUGH, Pin.WORN_ROUGH)
+
+
+@dataclass(frozen=True)
+class Model:
+    """The hypotheses of section 2 for one contact law, one sign of pin wear, one kind of pin."""
+
+    law: ContactLaw = TANH
+    opening: bool = False
+    pin: Pin = Pin.WORN_ROUGH
+
+    @cached_property
+    def closure(self) -> Statement:
+        """Eq. (1), or its physical sign, with which wear of either solid opens the gap."""
+        wear = u_c + u_a if self.opening else u_c - u_a
+        remark = "wear of either solid opens the gap" if self.opening else "sign of u_a as printed"
+        claim = sp.Eq(h, h_0 + wear + U_c - U_a)
+        return given(claim, "kinematics, Eq. (1)", U_a, remark, "closure")
+
+    @cached_property
+    def reaction(self) -> Statement:
+        """Eq. (2), equilibrium of the pin."""
+        return given(sp.Eq(p * b * L - R_a, 0), "equilibrium of the pin, Eq. (2)", R_a)
+
+    @cached_property
+    def reaction_force(self) -> Statement:
+        """Eq. (7b), the form in which the reaction follows from the pressure."""
+        return self.reaction.rearrange(sp.Eq(p * b * L, R_a))
+
+    @cached_property
+    def support(self) -> Statement:
+        """Eq. (2), equilibrium of the bearing on its springs."""
+        return given(sp.Eq(k * U_c - p, 0), "equilibrium of the bearing, Eq. (2)", U_c)
+
+    @cached_property
+    def roughness(self) -> Statement:
+        """Eq. (3), equivalent roughness."""
+        claim = sp.Eq(sigma, sp.sqrt(sigma_a**2 + sigma_c**2))
+        return given(claim, "equivalent roughness, Eq. (3)", sigma)
+
+    @cached_property
+    def pressure(self) -> Statement:
+        """Eq. (4) at every closure, as the note uses it from (7e) on."""
+        claim = sp.Eq(p, p_max * self.law.ratio(h / sigma))
+        remark = "the cutoff in the text under (4) is not applied from here on"
+        return given(claim, f"contact law at every closure, {self.law.source}", p, remark)
+
+    @cached_property
+    def pressure_with_cutoff(self) -> Statement:
+        """Eq. (4) with the text under it: no contact for h > 3 sigma."""
+        law = p_max * self.law.ratio(h / sigma)
+        claim = sp.Eq(p, sp.Piecewise((law, self.in_contact.relation), (0, True)))
+        return given(claim, f"contact law with its cutoff, {self.law.source}", p)
+
+    @property
+    def in_contact(self) -> Condition:
+        """Contact is active, in the sense of the text under (4)."""
+        return Condition("contact is active", sp.Le(h, self.law.cutoff * sigma))
+
+    @cached_property
+    def pressure_in_contact(self) -> Statement:
+        """Eq. (7e) where contact is active."""
+        return self.pressure_with_cutoff.restrict(self.in_contact)
+
+    @cached_property
+    def archard(self) -> tuple[Statement, Statement, Statement, Statement]:
+        """Eq. (5): wear of both solids by Archard's law, and what it does to the roughness."""
+        archard = "Archard's law, Eq. (5)"
+        texture = "roughness changes with wear, Eq. (5)"
+        pairs = (
+            (rate("u_a"), K_a * p * V / (3 * H_a), archard),
+            (rate("sigma_a"), f_aa * rate("u_a") + f_ac * rate("u_c"), texture),
+            (rate("u_c"), K_c * p * V / (3 * H_c), archard),
+            (rate("sigma_c"), f_cc * rate("u_c") + f_ca * rate("u_a"), texture),
+        )
+        u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = (
+            given(sp.Eq(left, right), source, left) for left, right, source in pairs
+        )
+        return u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate
+
+    @cached_property
+    def wear_laws(self) -> tuple[Statement, Statement, Statement, Statement]:
+        """Eq. (7f): (5) when wear of a solid changes its own roughness only."""
+        u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = self.archard
+        without = "no cross coupling of roughness: f_ij = 0 for i != j"
+        return (
+            u_a_rate,
+            sigma_a_rate.specialise(NO_CROSS_COUPLING, without),
+            u_c_rate,
+            sigma_c_rate.specialise(NO_CROSS_COUPLING, without),
+        )
+
+    @cached_property
+    def start(self) -> tuple[Statement, ...]:
+        """Eq. (6): initial values of h, u_c, u_a, sigma_a, sigma_c."""
+        values = (("h", h_0), ("u_c", 0), ("u_a", 0), ("sigma_a", sigma_a0), ("sigma_c", sigma_c0))
+        return tuple(
+            given(sp.Eq(initial(name), value), "initial condition, Eq. (6)", initial(name))
+            for name, value in values
+        )
+
+    @cached_property
+    def wear_of_pin(self) -> Statement:
+        """The pin wears in proportion to the bearing: second line of (8)."""
+        _, start_c, start_a, *_ = self.start
+        u_a_rate, _, u_c_rate, _ = self.wear_laws
+        proportional = u_a_rate.substitute(u_c_rate.solve_for(p))
+        worn = proportional.integrate(start_a, start_c).named("wear of the pin")
+        return worn if self.pin.wears else worn.specialise({K_a: 0}, "the pin does not wear")
+
+    @cached_property
+    def roughness_of_pin(self) -> Statement:
+        """sigma_a as a function of the wear of the pin."""
+        rough = self.wear_laws[1].integrate(self.start[3], self.start[2])
+        if not self.pin.rough:
+            return rough.specialise({sigma_a0: 0, f_a: 0}, "the pin is smooth")
+        return rough if self.pin.wears else rough.substitute(self.wear_of_pin)
+
+    @cached_property
+    def roughness_of_bearing(self) -> Statement:
+        """sigma_c as a function of the wear of the bearing."""
+        return self.wear_laws[3].integrate(self.start[4], self.start[1])
+
+    @cached_property
+    def roughness_at_wear(self) -> Statement:
+        """The equivalent roughness in terms of the wear of both solids."""
+        combined = self.roughness.substitute(self.roughness_of_pin)
+        if not self.pin.rough:
+            combined = combined.restrict(ROUGH_BEARING, "a smooth pin leaves no square root")
+        return combined.substitute(self.roughness_of_bearing)
+
+    @cached_property
+    def slip(self) -> Statement:
+        """The slip rate, from the radius of the pin and its speed in revolutions per minute."""
+        slip = given(sp.Eq(V, R * omega), "slip rate of the pin, section 2.4", V)
+        speed = given(sp.Eq(omega, sp.pi * n / 30), "revolutions per minute", omega)
+        return slip.substitute(speed)
+
+
+def equations(model: Model) -> tuple[Equation, ...]:
+    """Return equations (1) to (7g) of a model."""
+    with as_written():
+        closure = (sp.Eq(h, h_0 + (u_c + U_c) - (u_a + U_a)),)
+        reaction = (sp.Eq(p * b * L - R_a, 0),)
+        support = (sp.Eq(k * U_c - p, 0),)
+    deflection = model.support.solve_for(U_c)
+    dropped = (
+        "follows from (4) where contact is active; the note then uses it at every closure, "
+        "which is a hypothesis of its own"
+    )
+    return (
+        Equation("1", "2.1", "closure of the mean surfaces", (model.closure,), display=closure),
+        Equation("2a", "2.2", "equilibrium of the pin", (model.reaction,), display=reaction),
+        Equation("2b", "2.2", "equilibrium of the bearing", (model.support,), display=support),
+        Equation("3", "2.3", "equivalent roughness", (model.roughness,), display=printed.EQ_7D),
+        Equation("4", "2.3", "contact law with its cutoff", (model.pressure_with_cutoff,)),
+        Equation("5", "2.4", "wear laws", model.archard),
+        Equation("6", "2.5", "initial conditions", model.start),
+        Equation("7a", "2.6", "closure", (model.closure,), printed.EQ_7A),
+        Equation("7b", "2.6", "reaction of the pin", (model.reaction_force,), printed.EQ_7B),
+        Equation("7c", "2.6", "deflection of the support", (deflection,), printed.EQ_7C),
+        Equation("7d", "2.6", "equivalent roughness", (model.roughness,), printed.EQ_7D),
+        Equation(
+            "7e",
+            "2.6",
+            "contact pressure",
+            (model.pressure_in_contact,),
+            printed.EQ_7E,
+            remark=dropped,
+        ),
+        Equation("7f", "2.6", "wear laws without cross coupling", model.wear_laws, printed.EQ_7F),
+        Equation("7g", "2.6", "initial conditions", model.start, printed.EQ_7G),
+    )

@@ -1,0 +1,260 @@
+"""Section 4: the stabilised response, equations (11) to (22).
+
+Overview
+    The note goes from (13) to (17) by way of (16), whose second line is false: the step from
+    (15) drops a denominator that grows without bound.  (17) is true all the same.  Here every
+    equation from (14) on is derived from the limit of h/sigma, which ``results.steady_state``
+    proves for f_c > 0 and a bounded load, and the printed forms are compared with the results.
+Key results
+    Stabilised.argument          (17), second line
+    Stabilised.wear_per_cycle    (21)
+    Stabilised.asymptote         what stands in the place of (19)
+    Stabilised.bracket           why (16), second line, is false: the bracket is a constant
+Remarks
+    (11) as printed holds for every field, with G_inf = G.  (12) as printed, without the dots,
+    excludes the accumulation that it is meant to describe.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import sympy as sp
+
+from ..conditions import Condition
+from ..drift import LinearApproach, LogarithmicDrift
+from ..equations import Equation
+from ..limits import Named, Passes, forever, later
+from ..results.steady_state import (
+    SteadyState,
+    closure,
+    made,
+    roughness,
+    steady_state,
+    step,
+)
+from ..rules import Identity
+from ..statement import Statement, given
+from ..symbols import rate, symbols, t
+from ..typeset.display import as_written, minus
+from . import printed_stabilised as printed
+
+h_0, U_a, u_c, p, T, U_mean = symbols("h_0 U_a u_c p T U_mean")
+sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
+u_cum, p_inf, G, G_inf, u_inf, N = symbols("u_cum p_inf G G_inf u_inf N")
+
+PERIODIC = Condition("the load has the period T", typeset=r"\text{the load has the period}\; T")
+
+argument = (4 * roughness - 2 * closure) / roughness
+bracket = (4 * f_c - 2) * roughness - f_c * (4 * roughness - 2 * closure)
+
+
+@dataclass(frozen=True)
+class Stabilised:
+    """Section 4, from the limit of h/sigma."""
+
+    steady: SteadyState = field(default_factory=steady_state)
+
+    @cached_property
+    def vacuous(self) -> Statement:
+        """(11) as printed holds for every field, with G_inf = G."""
+        choice = given(sp.Eq(G_inf, G), "a choice of G_inf", G_inf)
+        claim = sp.Eq(forever(G - G_inf), 0)
+        return step(claim, Passes(), choice, name="every field satisfies (11)")
+
+    @cached_property
+    def asymptotic_response(self) -> Statement:
+        """(11), made to say something: the field itself has a limit."""
+        at_rest = printed.at("G_inf", sp.S.Zero)
+        return given(sp.Eq(forever(G - at_rest), 0), "definition of an asymptotic response")
+
+    @cached_property
+    def stabilised_response(self) -> tuple[Statement, Statement]:
+        """(12), for rates as its text says."""
+        source = "definition of a stabilised response"
+        periodic = sp.Eq(rate("G_inf") - later(rate("G_inf")), 0)
+        return (
+            given(periodic, source),
+            given(sp.Eq(forever(rate("G") - rate("G_inf")), 0), source),
+        )
+
+    @cached_property
+    def periodic_rate(self) -> Statement:
+        """(14): the rates of two cycles come together."""
+        claim = sp.Eq(forever(later(rate("u_c")) - rate("u_c")), 0)
+        return step(claim, Passes(), self.steady.rate, name="the rate becomes periodic")
+
+    @cached_property
+    def passage(self) -> Statement:
+        """First lines of (15), (16) and (17)."""
+        left = 3 * H_c / (K_c * V) * rate("u_c")
+        right = p_max / 2 * (1 + sp.tanh(argument))
+        claim = sp.Eq(forever(left), forever(right))
+        parents = (self.steady.rate_at_wear, self.steady.ratio)
+        return step(claim, Passes(), *parents, name="passage to the limit")
+
+    @cached_property
+    def argument(self) -> Statement:
+        """(17), second line: the argument of tanh tends to 4 - 2/f_c."""
+        claim = sp.Eq(forever(argument), 4 - 2 / f_c)
+        return step(claim, Passes(), self.steady.ratio, name="limit of the argument")
+
+    @cached_property
+    def arguments_meet(self) -> Statement:
+        """(15), second line."""
+        claim = sp.Eq(forever(later(argument) - argument), 0)
+        return step(claim, Passes(), self.steady.ratio, name="the arguments come together")
+
+    @cached_property
+    def bracket(self) -> Statement:
+        """The bracket in (16), second line, does not depend on the wear."""
+        claim = sp.Eq(bracket, 2 * (f_c * (h_0 - U_a) - sigma_c0))
+        remark = "a constant for each load, zero only for one load: (16) as printed is false"
+        return Statement(claim, Identity(), remark=remark, name="bracket of (16)")
+
+    @cached_property
+    def difference(self) -> Statement:
+        """The difference in (15), with the denominators that (16) drops."""
+        wear, load = later(u_c) - u_c, {later(U_a): U_a}
+        claim = sp.Eq(
+            (later(argument) - argument).subs(load),
+            wear * bracket / (roughness * later(roughness)),
+        )
+        remark = "the product of two roughnesses tends to infinity and must not be dropped"
+        conditions = (PERIODIC,)
+        return Statement(claim, Identity(), (), conditions, remark, "from (15) to (16)")
+
+    @cached_property
+    def bracket_over_roughness(self) -> Statement:
+        """(16), second line, with its denominators."""
+        claim = sp.Eq(u_cum * forever(bracket / (roughness * later(roughness))), 0)
+        parents = (self.steady.vanishing, self.steady.divergence)
+        return step(claim, Passes(), *parents, name="(16) with its denominators")
+
+    @cached_property
+    def linear_approach(self) -> Statement:
+        """The distance of the rate from its limit, to first order in 1/t."""
+        steady = self.steady
+        parents = (steady.rate_at_wear, steady.deviation, steady.ratio, steady.rate)
+        return made(LinearApproach(), *parents, name="approach of the rate, first order")
+
+    @cached_property
+    def asymptote(self) -> Statement:
+        """In the place of (19): wear departs from every straight line like ln t."""
+        drift = made(LogarithmicDrift((U_a, U_mean)), self.linear_approach)
+        conditions = (*drift.conditions, PERIODIC)
+        remark = "an affine asymptote exists for sigma_c0 = f_c (h_0 - <U_a>) only"
+        return Statement(
+            drift.claim, drift.rule, drift.parents, conditions, remark, "logarithmic drift"
+        )
+
+    @cached_property
+    def increment(self) -> Statement:
+        """(20): the wear of one cycle of the asymptotic response."""
+        claim = sp.Eq(u_cum, printed.at("u_inf", t + T) - u_inf)
+        return given(claim, "definition of the asymptotic wear per cycle", u_cum)
+
+    @cached_property
+    def wear_per_cycle(self) -> Statement:
+        """(21): the wear of a cycle tends to the product of limit rate and period."""
+        meaning = sp.Eq(u_cum, forever(u_c.subs(t, t + T) - u_c))
+        definition = given(meaning, "definition of u_cum, before (15)", u_cum)
+        return made(Named(), definition, self.steady.wear_per_cycle, name="wear per cycle")
+
+    @cached_property
+    def pressure(self) -> Statement:
+        """(22)."""
+        definition = given(sp.Eq(p_inf, forever(p)), "definition of p_inf", p_inf)
+        return made(Named(), definition, self.steady.pressure, name="asymptotic pressure")
+
+
+def _displays() -> dict[str, tuple[sp.Basic, ...]]:
+    """Return what differs from the printed forms, laid out by an author."""
+    product = 2 * (1 - sp.tanh(4 - 2 / f_c))
+    with as_written():
+        upper = 4 * roughness - 2 * sp.Add(h_0, u_c, -U_a)
+        argument_now = upper / roughness
+        argument_later = later(argument_now).xreplace({later(U_a): U_a})
+        denominators = roughness * later(roughness)
+        speed = K_c * V / (6 * H_c) * p_max * (1 + sp.tanh(4 - 2 / f_c))
+        drift = product / f_c * sp.Add(sigma_c0 / f_c, -h_0, U_mean)
+        return {
+            "11": (sp.Eq(forever(sp.Add(G, -printed.at("G_inf", sp.S.Zero))), 0),),
+            "12": (
+                sp.Eq(sp.Add(rate("G_inf"), -later(rate("G_inf"))), 0),
+                sp.Eq(forever(sp.Add(rate("G"), -rate("G_inf"))), 0),
+            ),
+            "16b": (sp.Eq(u_cum * forever(printed.BRACKET / denominators), 0),),
+            "19": (sp.Eq(forever(sp.Add(u_c, minus(speed * t)) / sp.log(t / T)), drift),),
+            "bracket": (sp.Eq(printed.BRACKET, 2 * (f_c * (h_0 - U_a) - sigma_c0)),),
+            "difference": (
+                sp.Eq(
+                    sp.Add(argument_later, -argument_now),
+                    sp.Add(later(u_c), -u_c) * printed.BRACKET / denominators,
+                ),
+            ),
+        }
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return equations (11) to (22), and what refutes (11) and (16) as printed."""
+    s, shown = Stabilised(), _displays()
+    first, second = "4.1", "4.2"
+    limit = "passage to the limit"
+    return (
+        Equation(
+            "11",
+            first,
+            "asymptotic response",
+            (s.asymptotic_response,),
+            printed.EQ_11,
+            shown["11"],
+            remark="as printed every field satisfies it, with G_inf = G",
+        ),
+        Equation(
+            "12",
+            first,
+            "stabilised response",
+            s.stabilised_response,
+            printed.EQ_12,
+            shown["12"],
+            remark="misprint: without the dots it excludes accumulation, its own case (b)",
+        ),
+        Equation("14", second, "the rate becomes periodic", (s.periodic_rate,), printed.EQ_14),
+        Equation("15", second, limit, (s.passage, s.arguments_meet), printed.EQ_15),
+        Equation("16a", second, limit, (s.passage,), printed.EQ_16A),
+        Equation(
+            "16b",
+            second,
+            "argument, with the denominators restored",
+            (s.bracket_over_roughness,),
+            printed.EQ_16B,
+            shown["16b"],
+            remark="as printed the bracket is a constant that differs from zero",
+        ),
+        Equation("17a", second, limit, (s.passage,), printed.EQ_17A),
+        Equation("17b", second, "limit of the argument", (s.argument,), printed.EQ_17B),
+        Equation("18", second, "limit of the wear rate", (s.steady.rate,), printed.EQ_18),
+        Equation(
+            "19",
+            second,
+            "asymptote of the wear",
+            (s.asymptote,),
+            printed.EQ_19,
+            shown["19"],
+            remark="no affine asymptote: the distance from (19) grows like ln t",
+        ),
+        Equation("20", second, "wear per cycle, definition", (s.increment,), printed.EQ_20),
+        Equation("21", second, "wear per cycle", (s.wear_per_cycle,), printed.EQ_21),
+        Equation("22", second, "asymptotic pressure", (s.pressure,), printed.EQ_22),
+        Equation("every-field", first, "what (11) as printed says", (s.vacuous,)),
+        Equation("bracket", second, "the bracket of (16)", (s.bracket,), display=shown["bracket"]),
+        Equation(
+            "dropped-denominators",
+            second,
+            "from (15) to (16)",
+            (s.difference,),
+            display=shown["difference"],
+        ),
+    )

@@ -1,0 +1,1 @@
+"""Results that the note does not have, a file an idea."""

@@ -1,0 +1,258 @@
+"""Asymptotics as code: the long-time formulas in the form in which numbers are put in.
+
+Overview
+    One and two worn solids, rough or smooth pins, rigid or compliant supports and every contact
+    law share a few formulas: with q the growth of roughness and g that of the closure per wear,
+    h/sigma tends to g/q, and with it pressure, wear per cycle and the coefficient of ln N are
+    known.  The formulas here are taken from the proved statements; a test asserts that for one
+    solid they become those of the note.
+Key results
+    formulas    the functions to generate
+    module      the source of wear/generated/asymptotics.py
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import sympy as sp
+
+from ..codegen.formula_module import Formula, Guard, formula_module
+from ..conditions import Condition
+from ..laws import LAWS, TANH, ContactLaw, r
+from ..note.condensed import Condensed
+from ..note.governing import Model
+from ..stable import released, stable
+from ..symbols import symbol, symbols
+from ..zero import is_zero
+from . import cutoff_two_solids
+from .cutoff import SMOOTHING as OUTGROWN
+from .cutoff import Cutoff
+from .cutoff_two_solids import CutoffTwoSolids
+from .regime_map import THIRD
+from .regimes import Regimes
+from .two_solids import TwoSolids, apart, sigma
+from .validity import threshold_bound
+
+q, g, p_1, kappa, p_inf, k, T, M = symbols("q g p_1 kappa p_inf k T M")
+K_a, K_c, H_a, H_c, p_max = symbols("K_a K_c H_a H_c p_max")
+h_0, U_mean, U_max, sigma_c0, N = symbols("h_0 U_mean U_max sigma_c0 N")
+f_c, p, sigma_a0 = symbols("f_c p sigma_a0")
+
+ORIGIN = (
+    "two-solids",
+    "two-solids-closure-ratio",
+    "two-solids-rate",
+    "two-solids-log-drift",
+    "compliant-pressure",
+    "arrest-depth",
+    "arrest-depth-two-solids",
+    "permanent-contact",
+    "logarithmic-wear",
+    "threshold",
+)
+
+u = sp.Symbol("u", real=True)
+"""Wear of the bearing, as a number."""
+
+steepness = sp.Symbol("steepness", real=True)
+"""phi'/phi at the limit of h/sigma."""
+
+load_factor = sp.Symbol("load_factor", positive=True)
+log_load_factor = sp.Symbol("log_load_factor", real=True)
+"""Logarithm of the mean over a cycle of exp(4 U_a/sigma_c0)."""
+
+
+class _Drift:
+    """The coefficient of ln N for one law, split into what the law gives and the rest."""
+
+    def __init__(self, law: ContactLaw) -> None:
+        self.law = law
+        self.two = TwoSolids(law)
+
+    @cached_property
+    def steepness(self) -> sp.Expr:
+        """phi'/phi at r."""
+        return sp.diff(self.law.phi, r) / self.law.phi
+
+    @cached_property
+    def offset(self) -> sp.Expr:
+        """The limit of u_c (h/sigma - g/q), averaged over a cycle."""
+        return (h_0 - U_mean) / q - g * p_1 / q**3
+
+    def agrees(self) -> bool:
+        """Return whether the derived coefficient is steepness times offset."""
+        claimed = self.steepness.subs(r, g / q) * self.offset
+        return is_zero(self.two.drift.claim.rhs - claimed)
+
+
+def formulas() -> tuple[Formula | Guard, ...]:
+    """Return the long-time formulas."""
+    for law in LAWS.values():
+        if not _Drift(law).agrees():
+            raise ValueError(f"the drift of the {law.name} law does not split into its factors")
+    return (*_geometry(), *_laws(), *_steady(), *_cutoff(), *_logarithmic())
+
+
+def _geometry() -> tuple[Formula | Guard, ...]:
+    printed, physical = TwoSolids(), TwoSolids(opening=True)
+    growth, gap, cross = (statement.claim.rhs for statement in printed.definitions)
+    opening = physical.definitions[1].claim.rhs
+    return (
+        Formula("pin_wear", (), K_a * H_c / (K_c * H_a), "wear of the pin per wear of the bearing"),
+        Formula("roughness_growth", (), growth, "roughness per wear at large wear, q"),
+        Formula("closure_growth", (), gap, "growth of the closure per wear, g, Eq. (1) as printed"),
+        Formula("closure_growth_opening", (), opening, "the same with the physical sign"),
+        Formula("cross_roughness", (), cross, "half the slope of sigma^2 at no wear, p_1"),
+        Formula("apart", (), apart, "zero if the two roughnesses vanish at the same wear"),
+        Formula("closure_ratio", (), g / q, "limit of h/sigma"),
+        Formula("vanishing_wear", (), _vanishing(), "wear at which the roughness vanishes"),
+        Formula("gap_at_peak", (u,), h_0 + g * u - U_max, "closure at the peak of the load"),
+    )
+
+
+def _vanishing() -> sp.Expr:
+    """Return the wear at which sigma vanishes when both roughnesses vanish together."""
+    wear = -p_1 / q**2
+    squared = sigma**2 - (apart / q) ** 2
+    values = {s.claim.lhs: s.claim.rhs for s in TwoSolids().definitions}
+    if not is_zero(squared.subs(symbol("u_c"), wear).subs(values)):
+        raise ValueError(f"the roughness does not vanish at {wear}")
+    return wear
+
+
+def _laws() -> tuple[Formula | Guard, ...]:
+    made = [Formula("tanh_argument", (r,), 4 - 2 * r, "argument of tanh at h/sigma = r")]
+    for law in LAWS.values():
+        made += [
+            Formula(
+                f"share_{law.name}",
+                (r,),
+                _share(law),
+                "share p/p_max of the largest pressure at h/sigma = r",
+            ),
+            Formula(
+                f"steepness_{law.name}",
+                (r,),
+                _steepness(law),
+                "relative slope phi'/phi at h/sigma = r",
+            ),
+        ]
+    return tuple(made)
+
+
+def _share(law: ContactLaw) -> sp.Expr:
+    """Return phi in a form that does not overflow for large r, where the law has one."""
+    row = stable(law)
+    form = row.value if row.far_value is None else row.far_value
+    for name, intermediate in reversed(row.names):
+        form = form.xreplace({name: released(intermediate)})
+    return _equal(form, law.phi)
+
+
+def _steepness(law: ContactLaw) -> sp.Expr:
+    """Return phi'/phi in a form that does not overflow for large r, where the law has one."""
+    exact = _Drift(law).steepness
+    far = stable(law).far_steepness
+    form = sp.cancel(exact) if far is None else far
+    # one exponential, not a quotient that overflows
+    return _equal(sp.powsimp(form, deep=True), exact)
+
+
+def _equal(form: sp.Expr, exact: sp.Expr) -> sp.Expr:
+    """Return a form of an expression after it is proved to equal it."""
+    if not is_zero(form - exact):
+        raise ValueError(f"{form} is not {exact}")
+    return form
+
+
+def _steady() -> tuple[Formula | Guard, ...]:
+    archard = Model().wear_laws[2].substitute(Model().slip).claim.rhs
+    deflection = Condensed(Model()).deflection.claim.rhs
+    offset = _Drift(TANH).offset
+    compliant = offset.subs(h_0, h_0 + deflection.subs(p, p_inf))
+    per_cycle = sp.expand(archard.subs(p, p_inf) * T)
+    share = sp.Symbol("share", positive=True)
+    return (
+        Formula("pressure", (share,), p_max * share, "contact pressure at a share of the largest"),
+        Formula("wear_per_cycle", (), per_cycle, "asymptotic wear of one cycle"),
+        Formula(
+            "log_coefficient",
+            (steepness,),
+            steepness * offset,
+            "coefficient of ln N, rigid support; at U_a for its mean: how the rate there deviates",
+        ),
+        Formula(
+            "log_coefficient_compliant",
+            (steepness,),
+            steepness * compliant,
+            "the same on a compliant support",
+        ),
+    )
+
+
+def _cutoff() -> tuple[Formula | Guard, ...]:
+    one, two = Cutoff(), CutoffTwoSolids()
+    gap, half, product, root = sp.symbols("gap half product root", real=True)
+    parts = (
+        (gap, h_0 - U_max),
+        (half, 9 * p_1 - g * gap),
+        (product, 9 * (sigma_a0**2 + sigma_c0**2) - gap**2),
+    )
+    inside = half**2 + (g**2 - 9 * q**2) * product
+    depth = product / (sp.sqrt(inside) - half)
+    for written, derived in (
+        (inside, cutoff_two_solids.discriminant),
+        (depth, two.arrest_depth.claim.rhs),
+    ):
+        for name, value in reversed(parts):
+            written = written.subs(name, value)
+        if not is_zero(written - derived):
+            raise ValueError(f"{written} is not the derived {derived}")
+    discriminant = sp.Symbol("discriminant", real=True)
+    relation = sp.And(discriminant >= 0, discriminant > half * sp.Abs(half))
+    lost = Condition(cutoff_two_solids.LOST.text, relation)
+    return (
+        Formula("arrest_depth", (), one.arrest_depth.claim.rhs, "wear at arrest, one worn solid"),
+        Guard("gap_outgrows_roughness", OUTGROWN),
+        Guard("gap_and_cutoff_grow_alike", THIRD),
+        Guard("margin_is_lost", lost, (*parts, (discriminant, inside))),
+        Formula(
+            "arrest_depth_two_solids",
+            (),
+            product / (root - half),
+            "wear at arrest, two solids",
+            (*parts, (root, sp.sqrt(inside))),
+        ),
+        Formula(
+            "permanent_depth",
+            (),
+            one.permanent.claim.rhs,
+            "wear beyond which contact is permanent, f_c > 1/3",
+        ),
+    )
+
+
+def _logarithmic() -> tuple[Formula | Guard, ...]:
+    claim = Regimes().logarithmic.claim
+    factor = sp.besseli(0, 4 * symbols("U")[0] / sigma_c0)
+    inside = claim.rhs.atoms(sp.log).pop().args[0]
+    per_cycle = sp.expand((inside - 1) / N).subs(factor, load_factor)
+    level = sp.Symbol("level", real=True)
+    coefficient, mean = sp.cancel(claim.rhs / sp.log(inside)), sp.log(load_factor)
+    return (
+        Formula("tail_coefficient", (), coefficient, "coefficient of ln N for f_c = 0"),
+        Formula(
+            "tail_offset",
+            (log_load_factor,),
+            coefficient * level,
+            "offset of the wear for f_c = 0",
+            ((level, sp.expand_log(sp.log(per_cycle)).subs(mean, log_load_factor)),),
+        ),
+        Formula("slope_threshold", (), threshold_bound(), "least f_c of a resolution epsilon"),
+    )
+
+
+def module() -> str:
+    """Return the source of the generated module."""
+    return formula_module("Long-time behaviour: the formulas of the regimes.", ORIGIN, formulas())

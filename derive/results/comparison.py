@@ -1,0 +1,78 @@
+"""Comparison: what rigorous bounds of the wear rest on.
+
+Overview
+    A larger load never gives less wear (``monotonicity``), so the least and the largest load
+    bound the wear from both sides.  A compliant support acts like the load
+    U_a - p/k, which lies between U_a - p_max/k and U_a.  Means over a cycle are taken at
+    equidistant phases; the error is bounded by the size of the rate at complex loads.
+Key results
+    compliant    the load that a compliant support leaves
+    strip        |1 + e^(a + i b)| > 1 while cos b > 0
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ..conditions import Condition
+from ..equations import Equation
+from ..rules import Positive
+from ..statement import Statement
+from ..symbols import symbols
+from ..typeset.display import as_written, minus
+
+U_a, p, p_max, k = symbols("U_a p p_max k")
+
+UNSATURATED = Condition("the pressure stays below its maximum", sp.Lt(p, p_max))
+_share, _positive = sp.symbols("share positive", positive=True)
+_a, _cosine = sp.symbols("a c", real=True)
+
+SAME_SIDE = Condition("b is less than a quarter turn", sp.Gt(_cosine, 0))
+
+STRIP = sp.pi / 8
+"""Largest |Im h/sigma| at which |phi| <= 1: there |Im(4 h/sigma)| is a quarter turn."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Bounds of the load and of the law at complex closures."""
+
+    @cached_property
+    def compliant(self) -> Statement:
+        """The load that a compliant support leaves lies between two rigid ones."""
+        claim = sp.And(sp.Lt(U_a - p_max / k, U_a - p / k), sp.Lt(U_a - p / k, U_a))
+        signs = ((p, p_max / (1 + _share)),)
+        return Statement(claim, Positive(signs), (), (UNSATURATED,), name="load and support")
+
+    @cached_property
+    def strip(self) -> Statement:
+        """1/(1 + e^z) is less than 1 in modulus while the cosine of Im z is positive."""
+        squared = 1 + 2 * sp.exp(_a) * _cosine + sp.exp(2 * _a)
+        claim = sp.Gt(squared, 1)
+        remark = "|1 + e^(a + i b)|^2 with c = cos b"
+        return Statement(
+            claim,
+            Positive(((_cosine, _positive),)),
+            (),
+            (SAME_SIDE,),
+            remark,
+            "strip of analyticity",
+        )
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return what rigorous bounds rest on."""
+    comparison = Comparison()
+    section = "bounds"
+    with as_written():
+        low, high = sp.Add(U_a, minus(p_max / k)), sp.Add(U_a, minus(p / k))
+        between = (sp.And(sp.Lt(low, high), sp.Lt(high, U_a)),)
+    return (
+        Equation(
+            "compliant-load", section, "load on a support", (comparison.compliant,), (), between
+        ),
+        Equation("strip", section, "strip of analyticity", (comparison.strip,)),
+    )

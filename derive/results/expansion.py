@@ -1,0 +1,154 @@
+"""Expansion for long times: the steady state is approached with a logarithm.
+
+Overview
+    One worn solid with f_c > 0 under U_a = U sin(2 pi t/T).  The roughness sigma = sigma_c0 +
+    f_c u_c grows without bound, and in powers of 1/sigma the rate is steady wear plus a series
+    with periodic coefficients.  Averaging order by order separates the growth m of the
+    roughness from its oscillation w_n within a cycle.  The first drift c_1 makes the wear leave
+    every straight line like A ln t: (19) is no asymptote of u_c, while (21) is its slope.
+Key results
+    Expansion.drift(n)        c_1 to c_4
+    Expansion.oscillation(n)  w_1, w_2
+    Expansion.slow_time       tau as a function of m, to order 1/m^3
+    log-drift                 the drift as a limit, proved on the way to (19)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ..equations import Equation
+from ..laws import TANH
+from ..limits import forever
+from ..note.condensed import Condensed
+from ..note.governing import Model, Pin
+from ..note.stabilised import Stabilised
+from ..statement import Statement, given, inherited
+from ..symbols import symbol, symbols, t
+from ..typeset.display import as_written
+from .expansion_rules import Drift, Oscillation, SlowTime
+from .steady_state import ROUGHENING
+
+h_0, sigma_c0, f_c, k, p_max, U, T = symbols("h_0 sigma_c0 f_c k p_max U T")
+b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
+u_c, u_cum, U_mean, K_c, H_c, V = symbols("u_c u_cum U_mean K_c H_c V")
+c_1, c_2, c_3, c_4 = symbols("c_1 c_2 c_3 c_4")
+
+offset = given(sp.Eq(b_0, sigma_c0 / f_c - h_0), "definition", b_0)
+growth = given(sp.Eq(rho, f_c * u_cum), "definition", rho)
+saturation = given(sp.Eq(theta, sp.tanh(4 - 2 / f_c)), "definition", theta)
+
+
+def _drifts() -> dict[int, sp.Expr]:
+    """Return c_1 to c_4, as an author writes them; ``Drift`` proves them."""
+    rest = 1 - theta
+    third = (3 * theta**2 - 1) * (3 * U**2 + 2 * b_0**2)
+    fourth = (3 * theta**2 - 2) * sp.Add(3 * U**4, 24 * U**2 * b_0**2, 8 * b_0**4)
+    return {
+        1: 2 * rest * b_0,
+        2: -(2 * theta * rest * (U**2 + 2 * b_0**2)),
+        3: sp.Rational(4, 3) * rest * b_0 * third,
+        4: sp.Add(
+            rest**2 * U**2 * rho**2 / (2 * sp.pi**2),
+            -(sp.Rational(2, 3) * theta * rest * fourth),
+        ),
+    }
+
+
+def _oscillations() -> dict[int, sp.Expr]:
+    """Return w_1 and w_2, as an author writes them; ``Oscillation`` proves them."""
+    rest, angle = 1 - theta, 2 * sp.pi * tau
+    waves = sp.Add(
+        sp.pi * U * theta * sp.sin(4 * sp.pi * tau),
+        8 * sp.pi * b_0 * theta * sp.cos(angle),
+        -(rho * sp.sin(angle)),
+    )
+    return {
+        1: -(rest * U * rho / sp.pi * sp.cos(angle)),
+        2: rest * U * rho / (2 * sp.pi**2) * waves,
+    }
+
+
+def _slow_time() -> sp.Expr:
+    """Return rho tau + s_0 as a function of m."""
+    fourth = sp.Add(c_1**4, -(3 * c_1**2 * c_2), 2 * c_1 * c_3, c_2**2, -c_4)
+    return sp.Add(
+        m,
+        -(c_1 * sp.log(m / rho)),
+        sp.Add(c_2, -(c_1**2)) / m,
+        sp.Add(c_1**3, -(2 * c_1 * c_2), c_3) / (2 * m**2),
+        -(fourth / (3 * m**3)),
+    )
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """The expansion for the note's law, a rigid support and a sine load."""
+
+    @property
+    def pressure(self) -> Statement:
+        """The pressure as a function of wear and load."""
+        compliant = Condensed(Model(TANH, pin=Pin.ABSENT)).pressure_of_bearing_wear
+        return compliant.limit(k, sp.oo)
+
+    def drift(self, n: int) -> Statement:
+        """Growth of the roughness at order 1/m^n."""
+        return self._term(Drift(n), sp.Eq(symbol(f"c_{n}"), _drifts()[n]))
+
+    def oscillation(self, n: int) -> Statement:
+        """Oscillation of the roughness at order 1/m^n."""
+        return self._term(Oscillation(n), sp.Eq(symbol(f"w_{n}"), _oscillations()[n]))
+
+    def _term(self, rule: Drift | Oscillation, claim: sp.Equality) -> Statement:
+        parents = (self.pressure, offset, saturation)
+        conditions = (*inherited(parents), ROUGHENING)
+        return Statement(claim, rule, parents, conditions, name="term of the expansion")
+
+    @cached_property
+    def slow_time(self) -> Statement:
+        """The number of cycles as a function of the averaged roughness."""
+        drifts = tuple(self.drift(n) for n in (1, 2, 3, 4))
+        parents = (*drifts, self.oscillation(1), self.oscillation(2))
+        claim = sp.Eq(rho * tau + s_0, _slow_time())
+        return Statement(claim, SlowTime(), parents, inherited(parents), name="slow time")
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return the expansion and the coefficient of the drift."""
+    expansion = Expansion()
+    section = "long times"
+    terms = (*(expansion.drift(n) for n in (1, 2, 3, 4)), offset, saturation, growth)
+    waves = tuple(expansion.oscillation(n) for n in (1, 2))
+    with as_written():
+        steps = tuple(sp.Eq(symbol(f"c_{n}"), value) for n, value in _drifts().items())
+        shifted = sp.Eq(b_0, sp.Add(sigma_c0 / f_c, -h_0))
+        drifts = (*steps, shifted, saturation.claim, growth.claim)
+        swings = tuple(sp.Eq(symbol(f"w_{n}"), value) for n, value in _oscillations().items())
+        slow = (sp.Eq(rho * tau + s_0, _slow_time()),)
+        saturated = sp.tanh(4 - 2 / f_c)
+        line = K_c * V * p_max / (6 * H_c) * (1 + saturated) * t
+        shift = sp.Add(sigma_c0 / f_c, -h_0, U_mean)
+        rest = forever(sp.Add(u_c, -line) / sp.log(t / T))
+        logarithm = (sp.Eq(rest, 2 / f_c * (1 - saturated) * shift),)
+    drift = Stabilised().asymptote
+    return (
+        Equation(
+            "log-drift", section, "logarithmic drift of the wear", (drift,), display=logarithm
+        ),
+        Equation(
+            "expansion-drift", section, "drift of the averaged roughness", terms, display=drifts
+        ),
+        Equation(
+            "expansion-oscillation", section, "oscillation within a cycle", waves, display=swings
+        ),
+        Equation(
+            "expansion",
+            section,
+            "cycles and averaged roughness",
+            (expansion.slow_time,),
+            display=slow,
+        ),
+    )

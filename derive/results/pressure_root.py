@@ -1,0 +1,173 @@
+"""The pressure on a compliant support: one root, always, and its distance from a rigid one.
+
+Overview
+    With a support of stiffness k, Eq. (9) holds the wear rate on both sides.  At given wear and
+    load it is an equation for the pressure, p = p_max phi((g + p/k)/sigma), where g is the
+    closure on an undeflected support.  Left minus right increases with p, is negative at 0 and
+    positive at p_max: there is exactly one root, and it lies in between.  Stiffening the
+    support moves it towards the rigid pressure, from below, by at most p_max^2/(k sigma).
+Key results
+    PressureRoot.equation    the equation for p
+    PressureRoot.unique      the three inequalities by which its root exists and is one
+    PressureRoot.softening   0 <= p_rigid - p <= p_max p/(k sigma), hence (10) as a limit
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ..check import Check
+from ..conditions import Condition
+from ..equations import Equation
+from ..laws import TANH, ContactLaw, r
+from ..note.condensed import Condensed
+from ..note.governing import Model
+from ..rules import Positive, sampled
+from ..statement import Statement
+from ..symbols import symbols
+from ..theorem import Authored, proof, sign
+from ..typeset.display import as_written, minus
+
+p, p_max, k, sigma, U_a, U_c, u_a, u_c = symbols("p p_max k sigma U_a U_c u_a u_c")
+h_0, h_rigid = symbols("h_0 h_rigid")
+
+undeflected = h_0 + u_c - u_a - U_a
+"""The closure on an undeflected support, g."""
+
+BELOW_SATURATION = Condition("the pressure is below its largest value", sp.Lt(p, p_max))
+odds = sp.Symbol("y", positive=True)
+
+
+@dataclass(frozen=True)
+class MeanValue(Authored):
+    """``-1 <= phi' <= 0`` everywhere gives ``0 <= phi(a) - phi(a + d) <= d`` for d >= 0.
+
+    The parent bounds the slope; the claim is the conclusion times a positive factor.
+    """
+
+    law: ContactLaw
+    at: sp.Expr
+    step: sp.Expr
+    factor: sp.Expr
+
+    def conclusion(self) -> sp.Basic:
+        """Return what the theorem says of this law, these points and this factor."""
+        change = self.factor * (self.law.ratio(self.at) - self.law.ratio(self.at + self.step))
+        return sp.And(sp.Ge(change, 0), sp.Le(change, self.factor * self.step))
+
+    def check(self, statement: Statement) -> tuple[Check, ...]:
+        (parent,) = statement.parents
+        slope = sp.diff(self.law.phi, r)
+        bounded = parent.claim == sp.And(sp.Le(slope, 0), sp.Ge(slope, -1))
+        signs = sign(self.factor) == 1 and sign(self.step) == 1
+        passed = bounded and signs and statement.claim == self.conclusion()
+        return *proof(passed, "mean value theorem for phi"), sampled(statement)
+
+
+@dataclass(frozen=True)
+class PressureRoot:
+    """The pressure on a compliant support, for one contact law."""
+
+    law: ContactLaw = TANH
+
+    @property
+    def model(self) -> Model:
+        """Two worn, rough solids."""
+        return Model(self.law)
+
+    @cached_property
+    def equation(self) -> Statement:
+        """The equation that the pressure satisfies at given wear, roughness and load."""
+        model = self.model
+        closed = model.pressure.substitute(model.closure)
+        return closed.substitute(Condensed(model).deflection).named("equation for the pressure")
+
+    def residual(self, pressure: sp.Expr) -> sp.Expr:
+        """Left minus right of that equation, at any pressure."""
+        return pressure - self.equation.claim.rhs.subs(p, pressure)
+
+    @cached_property
+    def unique(self) -> tuple[Statement, Statement, Statement]:
+        """Negative at 0, positive at p_max, increasing in between: exactly one root."""
+        trial = sp.Symbol("x", real=True)
+        slope = sp.diff(self.residual(trial), trial).subs(trial, p)
+        remark = "a continuous, increasing function that changes sign has exactly one root"
+        return (
+            Statement(sp.Lt(self.residual(sp.S.Zero), 0), Positive(), (self.equation,)),
+            Statement(sp.Gt(self.residual(p_max), 0), Positive(), (self.equation,)),
+            Statement(sp.Gt(slope, 0), Positive(), (self.equation,), (), remark, "one root"),
+        )
+
+    @cached_property
+    def slope_bound(self) -> Statement:
+        """The contact law is nowhere steeper than -1."""
+        slope = sp.diff(self.law.phi, r)
+        claim = sp.And(sp.Le(slope, 0), sp.Ge(slope, -1))
+        return Statement(claim, Positive(), name="steepest slope of the law")
+
+    @cached_property
+    def softening(self) -> Statement:
+        """The rigid pressure exceeds the compliant one, by at most p_max p/(k sigma)."""
+        rule = MeanValue(self.law, undeflected / sigma, p / (k * sigma), p_max)
+        remark = "the second pressure is p itself, by its equation, and p < p_max"
+        return Statement(
+            rule.conclusion(), rule, (self.slope_bound,), (BELOW_SATURATION,), remark, "softening"
+        )
+
+    @cached_property
+    def error_bound(self) -> Statement:
+        """That distance is below p_max^2/(k sigma), which tends to 0 for k -> oo."""
+        claim = sp.Le(p_max * p / (k * sigma), p_max**2 / (k * sigma))
+        below = Positive(((p, p_max * odds / (1 + odds)),))
+        return Statement(claim, below, (), (BELOW_SATURATION,), name="bound of the softening")
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return the results on the pressure of a compliant support."""
+    root, shown = PressureRoot(), _displays()
+    section = "compliant support"
+    return (
+        Equation(
+            "pressure-root",
+            section,
+            "exactly one pressure",
+            root.unique,
+            (),
+            shown["root"],
+            where=shown["where"],
+        ),
+        Equation(
+            "rigid-limit-error",
+            section,
+            "distance from a rigid support",
+            (root.softening, root.error_bound),
+            (),
+            shown["softening"],
+            where=shown["where"],
+        ),
+    )
+
+
+def _displays() -> dict[str, tuple[sp.Basic, ...]]:
+    """Return the forms to be read, for the law of the note, and their abbreviations."""
+    phi = sp.Function("phi")
+    with as_written():
+        gap = sp.Eq(h_rigid, h_0 + u_c - u_a - U_a)
+        law = sp.Eq(phi(r), sp.Rational(1, 2) * (1 + sp.tanh(sp.Add(4, minus(2 * r)))))
+        rigid, full, soft = (x / sigma for x in (h_rigid, h_rigid + p_max / k, h_rigid + p / k))
+        slope = sp.Subs(sp.Derivative(phi(r), r), r, soft)
+        root = (
+            sp.Lt(-(p_max * phi(rigid)), 0),
+            sp.Gt(p_max - p_max * phi(full), 0),
+            sp.Gt(1 - p_max / (k * sigma) * slope, 0),
+        )
+        change = p_max * (phi(rigid) - phi(soft))
+        bound = p_max * p / (k * sigma)
+        softening = (
+            sp.And(sp.Ge(change, 0), sp.Le(change, bound)),
+            sp.Le(bound, p_max**2 / (k * sigma)),
+        )
+    return {"root": root, "softening": softening, "where": (gap, law)}

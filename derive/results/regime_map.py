@@ -1,0 +1,75 @@
+"""The map of regimes: what becomes of the wear of one solid, with the formula of each.
+
+Overview
+    Without cutoff the roughness slope f_c decides, and for f_c < 0 the gap that is left where
+    the roughness would vanish; with the cutoff 1/3 takes the part of 0.  The conditions are
+    relations between data, so that the map can be asked with numbers; it covers all of them,
+    each once.
+Key results
+    REGIMES    the rows of the map
+    regime     the row that holds for given data
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import sympy as sp
+
+from ..conditions import Condition
+from ..symbols import symbols
+from .cutoff import ROUGHER
+from .cutoff import SMOOTHING as OUTGROWN
+from .regimes import SMOOTHING
+from .steady_state import ROUGHENING
+
+f_c, h_0, sigma_c0, U_max = symbols("f_c h_0 sigma_c0 U_max")
+
+KEPT = Condition("wear does not change the roughness", sp.Eq(f_c, 0))
+NOT_SMOOTHING = Condition("wear does not smoothen the bearing", sp.Ge(f_c, 0))
+THIRD = Condition("gap and cutoff grow alike", sp.Eq(f_c, sp.Rational(1, 3)))
+_gap = h_0 - sigma_c0 / f_c - U_max
+OPEN = Condition("a gap is left where the roughness would vanish", sp.Gt(_gap, 0))
+CLOSED = Condition("no gap is left where the roughness would vanish", sp.Le(_gap, 0))
+_room = 3 * sigma_c0 - h_0 + U_max
+TOUCHING = Condition("the peak of the load makes contact", sp.Gt(_room, 0))
+APART = Condition("the load never makes contact", sp.Le(_room, 0))
+
+
+class Regime(NamedTuple):
+    """A row of the map: its name, where it holds, and the equations that describe it."""
+
+    name: str
+    cutoff: bool
+    conditions: tuple[Condition, ...]
+    equations: tuple[str, ...]
+
+
+REGIMES = (
+    Regime("steady", False, (ROUGHENING,), ("18", "19", "21", "22")),
+    Regime("logarithmic", False, (KEPT,), ("logarithmic-wear",)),
+    Regime("saturating", False, (SMOOTHING, OPEN), ("saturating-wear",)),
+    Regime("finite-time", False, (SMOOTHING, CLOSED), ("closed-gap",)),
+    Regime("arrest", True, (APART,), ("contact-condition",)),
+    Regime("arrest", True, (TOUCHING, NOT_SMOOTHING, OUTGROWN), ("arrest-depth", "sliding-rate")),
+    Regime("arrest", True, (TOUCHING, SMOOTHING, OPEN), ("arrest-depth", "sliding-rate")),
+    Regime("finite-time", True, (TOUCHING, SMOOTHING, CLOSED), ("closed-gap",)),
+    Regime("steady", True, (TOUCHING, THIRD), ("one-third",)),
+    Regime("steady", True, (TOUCHING, ROUGHER), ("permanent-contact", "21", "22")),
+)
+
+
+def regime(values: Mapping[str, float], cutoff: bool) -> Regime:
+    """Return the regime of one solid from f_c, h_0, sigma_c0 and U_max, in mm.
+
+    >>> section_4 = {"f_c": 0.25, "h_0": 1.08e-3, "sigma_c0": 3.6e-4, "U_max": 5e-4}
+    >>> regime(section_4, cutoff=False).name, regime(section_4, cutoff=True).name
+    ('steady', 'arrest')
+    """
+    (found,) = (
+        row
+        for row in REGIMES
+        if row.cutoff == cutoff and all(c.guard(values) for c in row.conditions)
+    )
+    return found

@@ -1,0 +1,161 @@
+"""Sensitivities: how the asymptotic wear per cycle and pressure depend on the data.
+
+Overview
+    (21) is linear in K_c, V, T and p_max, inversely proportional to H_c, and depends on f_c
+    through tanh(4 - 2/f_c) alone.  An elasticity is the relative change of the result per
+    relative change of a datum; that of f_c is (4/f_c) (1 - y), with y = p_inf/p_max, and is
+    large where little pressure is left.  Inverting (21) identifies f_c or K_c from measured
+    wear; the first integral gives f_c from one measured rate, at any time.
+Key results
+    sensitivity(...)    d u_cum/da or d p_inf/da
+    elasticity(...)     the same, relative
+    slope_from_wear     f_c from u_cum
+    coefficient_from_wear   K_c from u_cum
+    slope_from_rate     f_c from a pressure at one instant
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..equations import Equation
+from ..note.stabilised import Stabilised
+from ..statement import Statement, given, inherited
+from ..symbols import symbols
+from ..typeset.display import as_written
+from .first_integral import RIGID, FirstIntegral
+from .moves import Differentiated, Inserted, Solved
+
+u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
+f_c, h_0, U_a, U, u_c, p, sigma_c0, M, k = symbols("f_c h_0 U_a U u_c p sigma_c0 M k")
+
+wear_per_cycle = Stabilised().wear_per_cycle
+pressure = Stabilised().pressure
+
+largest = given(sp.Eq(M, K_c * V * p_max * T / (3 * H_c)), "definition", M)
+"""The wear of one cycle under the largest pressure."""
+
+share = p_inf / p_max
+"""The asymptotic pressure as a part of the largest."""
+
+POWERS = {K_c: 1, V: 1, T: 1, p_max: 1, H_c: -1}
+"""Data of which u_cum is a power, and the power: its elasticity."""
+
+WITHOUT_EFFECT = (sigma_c0, h_0, U, k)
+"""Data that u_cum and p_inf do not depend on."""
+
+
+def sensitivity(result: Statement, parameter: sp.Symbol, slope: sp.Expr) -> Statement:
+    """Return the statement that ``slope`` is the derivative of a result."""
+    return _differentiated(result, parameter, _slope(result, parameter), slope)
+
+
+def elasticity(result: Statement, parameter: sp.Symbol, value: sp.Expr) -> Statement:
+    """Return the statement that ``value`` is the elasticity of a result."""
+    relative = parameter / result.claim.lhs * _slope(result, parameter)
+    return _differentiated(result, parameter, relative, value)
+
+
+def _slope(result: Statement, parameter: sp.Symbol) -> sp.Derivative:
+    return sp.Derivative(result.claim.lhs, parameter, evaluate=False)
+
+
+def _differentiated(
+    result: Statement, parameter: sp.Symbol, left: sp.Expr, right: sp.Expr
+) -> Statement:
+    parents = (result, pressure, largest)
+    claim = sp.Eq(left, right, evaluate=False)
+    rule = Differentiated(parameter)
+    return Statement(claim, rule, parents, inherited(parents), name="sensitivity")
+
+
+def slope_from_wear() -> Statement:
+    """f_c from the asymptotic wear per cycle."""
+    claim = sp.Eq(f_c, 4 / (8 + sp.log(M / u_cum - 1)))
+    parents = (wear_per_cycle, largest)
+    return Statement(claim, Solved(), parents, inherited(parents), name="f_c from wear per cycle")
+
+
+def coefficient_from_wear() -> Statement:
+    """K_c from the asymptotic wear per cycle."""
+    claim = sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * (1 + sp.exp(4 / f_c - 8)))
+    parents = (wear_per_cycle,)
+    return Statement(claim, Solved(), parents, inherited(parents), name="K_c from wear per cycle")
+
+
+def slope_from_rate() -> Statement:
+    """f_c from the pressure at one instant."""
+    log_odds = sp.log(p / (p_max - p))
+    claim = sp.Eq(f_c, (4 * (h_0 + u_c - U_a) / (8 - log_odds) - sigma_c0) / u_c)
+    integral = FirstIntegral()
+    model = integral.model
+    closure = model.closure.substitute(model.wear_of_pin).substitute(RIGID)
+    parents = (integral.log_odds, closure, model.roughness_at_wear)
+    return Statement(claim, Inserted(), parents, inherited(parents), name="f_c from a pressure")
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return sensitivities, elasticities and identification."""
+    section = "sensitivities"
+    by_slope = M * (4 / f_c**2) * share * (1 - share)
+    powers = tuple(elasticity(wear_per_cycle, a, sp.Integer(n)) for a, n in POWERS.items())
+    nothing = tuple(sensitivity(wear_per_cycle, a, sp.S.Zero) for a in WITHOUT_EFFECT)
+    pressures = (
+        sensitivity(pressure, f_c, p_max * (4 / f_c**2) * share * (1 - share)),
+        sensitivity(pressure, p_max, share),
+    )
+    with as_written():
+        relative = tuple(sp.Eq(a / u_cum * _slope(wear_per_cycle, a), n) for a, n in POWERS.items())
+        by_share = 4 / f_c**2 * share * (1 - share)
+        slope = (sp.Eq(_slope(wear_per_cycle, f_c), M * by_share),)
+        relative_slope = (sp.Eq(f_c / u_cum * _slope(wear_per_cycle, f_c), 4 / f_c * (1 - share)),)
+        of_pressure = (
+            sp.Eq(_slope(pressure, f_c), p_max * by_share),
+            sp.Eq(_slope(pressure, p_max), share),
+        )
+        inverse = (sp.Eq(f_c, 4 / sp.Add(8, sp.log(sp.Add(M / u_cum, -1)))),)
+        gain = (sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * sp.Add(1, sp.exp(4 / f_c - 8))),)
+        instant = 4 * sp.Add(h_0, u_c, -U_a) / sp.Add(8, -sp.log(p / (p_max - p)))
+        at_once = (sp.Eq(f_c, sp.Add(instant, -sigma_c0) / u_c),)
+    return (
+        Equation("elasticities", section, "elasticities of u_cum", powers, display=relative),
+        Equation(
+            "sensitivity-slope",
+            section,
+            "sensitivity of u_cum to f_c",
+            (sensitivity(wear_per_cycle, f_c, by_slope),),
+            display=slope,
+        ),
+        Equation(
+            "elasticity-slope",
+            section,
+            "elasticity of u_cum in f_c",
+            (elasticity(wear_per_cycle, f_c, 4 / f_c * (1 - share)),),
+            display=relative_slope,
+        ),
+        Equation("without-effect", section, "what u_cum does not depend on", nothing),
+        Equation(
+            "sensitivity-pressure",
+            section,
+            "sensitivities of p_inf",
+            pressures,
+            display=of_pressure,
+        ),
+        Equation(
+            "slope-from-wear", section, "f_c from u_cum", (slope_from_wear(),), display=inverse
+        ),
+        Equation(
+            "coefficient-from-wear",
+            section,
+            "K_c from u_cum",
+            (coefficient_from_wear(),),
+            display=gain,
+        ),
+        Equation(
+            "slope-from-pressure",
+            section,
+            "f_c from one measured pressure",
+            (slope_from_rate(),),
+            display=at_once,
+        ),
+    )

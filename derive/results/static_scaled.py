@@ -1,0 +1,124 @@
+"""Static solution, scaled: a form of the closed solution that floating point can evaluate.
+
+Overview
+    exp(-2 x_inf) and Ei(-2 beta/sigma) overflow where their product is harmless.  With
+    z = -2 beta/sigma and E = ln(p_max/p - 1) = z - 2 x_inf, both of them moderate or harmless,
+    the primitive of exp(E) is sigma exp(E) (1 - z exp(-z) Ei(z)).  Its last factor is a bounded
+    function of one variable, which behaves as -1/z for large z: written as such, the primitive
+    has a limit for f_c -> 0.
+Key results
+    scaled_primitive   the identity
+    formulas           what ``wear`` evaluates
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..codegen.formula_module import Formula, formula_module
+from ..equations import Equation
+from ..note.governing import Model, Pin
+from ..statement import Statement, given
+from ..symbols import symbols
+from ..typeset.display import as_written
+from .first_integral import FirstIntegral
+from .moves import Inserted, insert
+from .sensitivities import largest
+from .static_solution import excess, load_offset
+
+h, h_0, U_a, u_c, sigma, sigma_c0, f_c, beta, x_inf, M = symbols(
+    "h h_0 U_a u_c sigma sigma_c0 f_c beta x_inf M"
+)
+z, E = sp.symbols("z E", real=True)
+"""The argument of Ei, and the logarithm of p_max/p - 1."""
+
+u, load, log_ratio, size, gap, remainder, bounded, offset = sp.symbols(
+    "u U_a exponent roughness gap remainder bounded offset", real=True
+)
+"""Names in the generated code."""
+
+argument = given(sp.Eq(z, -2 * beta / sigma), "definition", z)
+exponent = given(sp.Eq(E, z - 2 * x_inf), "definition", E)
+
+
+def _remainder() -> sp.Expr:
+    return sp.Add(1, -(z * sp.exp(-z) * sp.Ei(z)))
+
+
+def scaled_primitive() -> Statement:
+    """The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow."""
+    claim = sp.Eq(sp.exp(-2 * x_inf) * excess(sigma), sigma * sp.exp(E) * _remainder())
+    parents = (exponent, argument)
+    return Statement(claim, Inserted(), parents, name="scaled primitive")
+
+
+def _of_numbers(expr: sp.Expr) -> sp.Expr:
+    """Write an expression with the plain symbols of generated code."""
+    model = Model(pin=Pin.ABSENT)
+    closure = model.closure.substitute(model.wear_of_pin).claim.rhs
+    expr = expr.subs(h, closure.subs(symbols("U_c")[0], 0)).subs(sigma, sigma_c0 + f_c * u_c)
+    return expr.xreplace({u_c: u, U_a: load})
+
+
+def formulas() -> tuple[Formula, ...]:
+    """Return what the closed solution needs, besides Ei."""
+    primitive = scaled_primitive().claim.rhs.xreplace({_remainder(): remainder}) / f_c
+    near = primitive.xreplace({sigma: size, E: log_ratio})
+    return (
+        Formula(
+            "largest_wear",
+            (),
+            insert(largest.claim.rhs, (Model().slip,)),
+            "wear of one cycle under the largest pressure",
+        ),
+        Formula("roughness", (u,), _of_numbers(sigma), "roughness of the bearing"),
+        Formula(
+            "exponent",
+            (u, load),
+            _of_numbers(-FirstIntegral().log_odds.claim.rhs),
+            "logarithm of p_max/p - 1 on a rigid support",
+        ),
+        Formula(
+            "offset",
+            (u, load),
+            _of_numbers(sp.expand(f_c * 2 * load_offset.claim.rhs) / sigma),
+            "the argument z of Ei times -f_c, which stays finite for f_c -> 0",
+        ),
+        Formula(
+            "primitive",
+            (log_ratio, size, remainder),
+            near,
+            "integral of exp(exponent) over u, with remainder = 1 - z exp(-z) Ei(z)",
+        ),
+        Formula(
+            "primitive_far",
+            (log_ratio, size, bounded, offset),
+            (near / remainder * f_c) * bounded / offset,
+            "the same for large z, with bounded = -z remainder",
+        ),
+        Formula("cycles", (u, gap), (u + gap) / M, "cycles to the wear u, gap being that integral"),
+    )
+
+
+def module() -> str:
+    """Return the source of the generated module."""
+    origin = ("first-integral", "static-solution", "static-solution-scaled")
+    return formula_module("Static solution, without the exponential integral.", origin, formulas())
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return the scaled form."""
+    with as_written():
+        left = sp.exp(-(2 * x_inf)) * sp.Add(
+            sigma * sp.exp(-(2 * beta / sigma)), 2 * beta * sp.Ei(-(2 * beta / sigma))
+        )
+        display = (sp.Eq(left, sigma * sp.exp(E) * _remainder()),)
+    return (
+        Equation(
+            "static-solution-scaled",
+            "static load",
+            "closed solution without overflow",
+            (scaled_primitive(),),
+            display=display,
+        ),
+    )

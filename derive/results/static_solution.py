@@ -1,0 +1,148 @@
+"""Static solution: wear under a load that does not vary, in closed form.
+
+Overview
+    For constant U_a the rate depends on the wear alone, so time is the integral of 1/rate:
+    half the wear over C, for the saturated pressure, plus an exponential integral for the
+    excess of the gap.  Where f_c = 0 the integral is elementary and inverts by Lambert's W.  On
+    a compliant support everything is explicit in the pressure but for one integral, which has
+    no closed form; for f_c = 0 it has one.
+Key results
+    StaticSolution.time        t(u_c), f_c != 0, of either sign while sigma > 0
+    StaticSolution.time_smooth t(u_c), f_c = 0
+    StaticSolution.wear_smooth u_c(t), f_c = 0
+References
+    Ei: DLMF 6.2.5.  W: Corless et al., Adv. Comput. Math. 5 (1996) 329.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ..conditions import Condition
+from ..equations import Equation
+from ..laws import TANH
+from ..note.condensed import Condensed
+from ..note.governing import Model, Pin
+from ..statement import Statement, given, inherited
+from ..symbols import symbols, t
+from ..typeset.display import as_written
+from .first_integral import SLOPED
+from .moves import Inverted, Solution
+
+h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
+p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")
+
+CONSTANT_LOAD = Condition("the load does not vary")
+ROUGH = Condition("the roughness has not vanished", sp.Gt(sigma_c0 + f_c * u_c, 0))
+
+half_rate = given(sp.Eq(C, K_c * V * p_max / (6 * H_c)), "definition", C)
+load_offset = given(sp.Eq(beta, 2 * (sigma_c0 / f_c - h_0 + U_a)), "definition", beta)
+limit_argument = given(sp.Eq(x_inf, 4 - 2 / f_c), "definition", x_inf)
+
+with as_written():
+    written_offset = sp.Eq(beta, 2 * sp.Add(sigma_c0 / f_c, -h_0, U_a))
+
+
+def excess(roughness: sp.Expr) -> sp.Expr:
+    """Return a primitive of exp(-2 beta/sigma) with respect to sigma."""
+    z = -2 * beta / roughness
+    return roughness * sp.exp(z) + 2 * beta * sp.Ei(z)
+
+
+@dataclass(frozen=True)
+class StaticSolution:
+    """Wear under a constant load, for the law of the note and a rigid support."""
+
+    @property
+    def model(self) -> Model:
+        """Bearing wear only."""
+        return Model(TANH, pin=Pin.ABSENT)
+
+    @cached_property
+    def rate(self) -> Statement:
+        """Eq. (13), solved for the rate."""
+        return Condensed(self.model).rigid
+
+    @cached_property
+    def time(self) -> Statement:
+        """The time at which the wear is u_c."""
+        parents = (self.rate, half_rate, load_offset, limit_argument)
+        gap = sp.exp(-2 * x_inf) / (2 * f_c) * (excess(sigma_c0 + f_c * u_c) - excess(sigma_c0))
+        claim = sp.Eq(t, (u_c / 2 + gap) / C)
+        conditions = (*inherited(parents), CONSTANT_LOAD, SLOPED, ROUGH)
+        return Statement(claim, Solution(), parents, conditions, name="static solution")
+
+    @cached_property
+    def rate_smooth(self) -> Statement:
+        """The rate of a bearing that keeps its roughness."""
+        return self.rate.specialise({f_c: 0}, "the roughness does not change")
+
+    @cached_property
+    def time_smooth(self) -> Statement:
+        """The time at which the wear is u_c, for f_c = 0."""
+        parents = (self.rate_smooth, half_rate)
+        gap = sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8)
+        claim = sp.Eq(t, (u_c / 2 + gap * (sp.exp(4 * u_c / sigma_c0) - 1)) / C)
+        conditions = (*inherited(parents), CONSTANT_LOAD)
+        return Statement(claim, Solution(), parents, conditions, name="static solution, f_c = 0")
+
+    @cached_property
+    def wear_smooth(self) -> Statement:
+        """The wear at a time, for f_c = 0."""
+        claim = sp.Eq(u_c, _inverse())
+        parents = (self.time_smooth,)
+        conditions = inherited(parents)
+        return Statement(claim, Inverted(), parents, conditions, name="wear at a time, f_c = 0")
+
+
+def _inverse() -> sp.Expr:
+    """Return the wear at time t, for f_c = 0."""
+    gap = sigma_c0 / 8 * sp.exp(4 * sp.Add(h_0, -U_a) / sigma_c0 - 8)
+    travel = C * t + gap
+    inside = 8 * gap / sigma_c0 * sp.exp(8 * travel / sigma_c0)
+    return sp.Add(2 * travel, -(sigma_c0 / 4 * sp.LambertW(inside)))
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return the static solutions."""
+    static = StaticSolution()
+    section = "static load"
+    with as_written():
+        roughness, start = sigma_c0 + f_c * u_c, sigma_c0
+        gap = sp.exp(-(2 * x_inf)) / (2 * f_c)
+        z, z_start = -(2 * beta / roughness), -(2 * beta / start)
+        change = sp.Add(
+            roughness * sp.exp(z),
+            -(start * sp.exp(z_start)),
+            2 * beta * sp.Add(sp.Ei(z), -sp.Ei(z_start)),
+        )
+        time = sp.Eq(t, (u_c / 2 + gap * change) / C)
+        smooth_gap = sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8)
+        inverse = (sp.Eq(u_c, _inverse()),)
+        smooth = sp.Eq(t, (u_c / 2 + smooth_gap * (sp.exp(4 * u_c / sigma_c0) - 1)) / C)
+    return (
+        Equation(
+            "static-solution",
+            section,
+            "time under a constant load",
+            (static.time, load_offset, limit_argument, half_rate),
+            display=(time, written_offset, limit_argument.claim, half_rate.claim),
+        ),
+        Equation(
+            "static-solution-smooth",
+            section,
+            "time under a constant load, f_c = 0",
+            (static.time_smooth, half_rate),
+            display=(smooth, half_rate.claim),
+        ),
+        Equation(
+            "static-wear-smooth",
+            section,
+            "wear under a constant load, f_c = 0",
+            (static.wear_smooth,),
+            display=inverse,
+        ),
+    )

@@ -1,0 +1,142 @@
+"""Two worn solids: the steady state, its cases, and the logarithmic drift.
+
+Overview
+    With pin wear u_a = kappa u_c the equivalent roughness is a root of a quadratic in u_c,
+    sigma^2 = sigma_a0^2 + sigma_c0^2 + 2 p_1 u_c + q^2 u_c^2, and the gap opens by g per wear.
+    As long as the two roughnesses never vanish together (then q > 0 as well), wear is
+    unbounded and h/sigma tends to g/q: x_inf = 4 - 2 g/q, for every sign of f_a and f_c.
+Key results
+    TwoSolids.definitions  q, g and p_1
+    TwoSolids.separation   what keeps sigma away from zero
+    TwoSolids.ratio        h/sigma -> g/q
+    TwoSolids.rate         the steady wear rate
+    TwoSolids.drift        the coefficient of ln t
+Remarks
+    g = 1 - kappa with Eq. (1) as printed, 1 + kappa with the physical sign.  As printed,
+    kappa = 1 keeps the gap bounded and x_inf = 4; kappa > 1 gives x_inf > 4 while h tends to
+    -oo, an artefact of the printed sign of u_a.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ..bounds import Consequence
+from ..conditions import Condition
+from ..drift import FirstOrder, LogarithmicDrift
+from ..equations import Equation
+from ..laws import TANH, ContactLaw
+from ..limits import AtInfinity, Passes, Unbounded, forever
+from ..note import condensed
+from ..note.governing import Model
+from ..rules import Identity
+from ..statement import Statement, given
+from ..symbols import rate, symbols, t
+from ..typeset.display import as_written, minus
+from .steady_state import BOUNDED_LOAD, made, step
+
+h_0, U_a, u_c, U_mean, kappa, q, g, p_1 = symbols("h_0 U_a u_c U_mean kappa q g p_1")
+f_a, f_c, sigma_a0, sigma_c0, T = symbols("f_a f_c sigma_a0 sigma_c0 T")
+p_max, K_a, K_c, H_a, H_c, V = symbols("p_max K_a K_c H_a H_c V")
+
+apart = f_a * kappa * sigma_c0 - f_c * sigma_a0
+"""Zero if and only if the two roughnesses vanish at the same wear."""
+sigma = sp.sqrt(sigma_a0**2 + sigma_c0**2 + 2 * p_1 * u_c + q**2 * u_c**2)
+closure_ratio = (h_0 + g * u_c - U_a) / sigma
+
+NEVER_SMOOTH = Condition("the two roughnesses never vanish together", sp.Ne(apart, 0))
+
+
+@dataclass(frozen=True)
+class TwoSolids:
+    """The long-time limit of (10) for two worn, rough solids."""
+
+    law: ContactLaw = TANH
+    opening: bool = False
+
+    @cached_property
+    def definitions(self) -> tuple[Statement, Statement, Statement]:
+        """q, g and p_1."""
+        gap = 1 + kappa if self.opening else 1 - kappa
+        values = (
+            (q, sp.sqrt((f_a * kappa) ** 2 + f_c**2)),
+            (g, gap),
+            (p_1, f_a * kappa * sigma_a0 + f_c * sigma_c0),
+        )
+        roughening, opening, cross = (
+            given(sp.Eq(name, value), "definition", name) for name, value in values
+        )
+        return roughening, opening, cross
+
+    @cached_property
+    def separation(self) -> Statement:
+        """q^2 sigma^2 is a square plus a constant that vanishes only with both roughnesses."""
+        values = {s.claim.lhs: s.claim.rhs for s in self.definitions}
+        claim = sp.Eq(q**2 * sigma**2, (q**2 * u_c + p_1) ** 2 + apart**2).subs(values)
+        return Statement(claim, Identity(), name="what keeps the roughness from vanishing")
+
+    @cached_property
+    def rate_at_wear(self) -> Statement:
+        """Eq. (10) in terms of kappa, q, g and p_1."""
+        problem = condensed.shared(Model(self.law, self.opening)).rigid
+        ratio_of_wears = {K_a: kappa * K_c * H_a / H_c}
+        wear_rate = K_c * V / (3 * H_c) * p_max * self.law.ratio(closure_ratio)
+        parents = (problem.specialise(ratio_of_wears, "definition of kappa"), *self.definitions)
+        return step(sp.Eq(rate("u_c"), wear_rate), Consequence(), *parents, name="wear rate")
+
+    @cached_property
+    def unbounded(self) -> Statement:
+        """Wear grows without bound."""
+        proved = made(Unbounded((sigma,)), self.rate_at_wear)
+        conditions = (NEVER_SMOOTH, BOUNDED_LOAD)
+        return Statement(proved.claim, proved.rule, proved.parents, conditions, name="growth")
+
+    @cached_property
+    def ratio(self) -> Statement:
+        """h/sigma tends to g/q."""
+        claim = sp.Eq(forever(closure_ratio), g / q)
+        return step(claim, AtInfinity(), self.unbounded, name="limit of h/sigma, two solids")
+
+    @cached_property
+    def rate(self) -> Statement:
+        """The steady wear rate."""
+        claim = sp.Eq(forever(rate("u_c")), K_c * V / (3 * H_c) * p_max * self.law.ratio(g / q))
+        return step(claim, Passes(), self.rate_at_wear, self.ratio, name="steady wear rate")
+
+    @cached_property
+    def first_order(self) -> Statement:
+        """How h/sigma approaches its limit."""
+        offset = (h_0 - U_a) / q - g * p_1 / q**3
+        claim = sp.Eq(forever(u_c * (closure_ratio - g / q) - offset), 0)
+        return step(claim, AtInfinity(), self.unbounded, name="approach of h/sigma")
+
+    @cached_property
+    def drift(self) -> Statement:
+        """The coefficient of ln t in the wear."""
+        parents = (self.rate_at_wear, self.first_order, self.ratio, self.rate)
+        approach = made(FirstOrder(), *parents)
+        return made(LogarithmicDrift((U_a, U_mean)), approach, name="logarithmic drift")
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return the results for two solids, sign of Eq. (1) as printed."""
+    two, physical = TwoSolids(), TwoSolids(opening=True)
+    section = "two solids"
+    with as_written():
+        tanh = sp.tanh(sp.Add(4, minus(2 * g / q)))
+        speed = K_c * V / (6 * H_c) * p_max * (1 + tanh)
+        wear = sp.Add(u_c, minus(speed * t)) / sp.log(t / T)
+        offset = sp.Add(2 * g * p_1 / q**3, minus(2 * sp.Add(h_0, minus(U_mean)) / q))
+        shown_rate = (sp.Eq(forever(rate("u_c")), speed),)
+        shown_drift = (sp.Eq(forever(wear), sp.Add(1, minus(tanh)) * offset),)
+    return (
+        Equation("two-solids", section, "q, g and p_1", two.definitions),
+        Equation("two-solids-opening", section, "q, g, p_1, physical sign", physical.definitions),
+        Equation("two-solids-roughness", section, "roughness", (two.separation,)),
+        Equation("two-solids-closure-ratio", section, "limit of h/sigma", (two.ratio,)),
+        Equation("two-solids-rate", section, "steady wear rate", (two.rate,), (), shown_rate),
+        Equation("two-solids-log-drift", section, "log drift", (two.drift,), (), shown_drift),
+    )

@@ -1,0 +1,131 @@
+"""Validity: what f_c > 1/8 means.
+
+Overview
+    The note calls (22) valid where tanh(4 - 2/f_c) > -1, "that is" f_c > 1/8.  But tanh > -1
+    holds everywhere.  The asymptotic pressure grows with f_c > 0 from 0 on, so that a demand
+    p_inf/p_max > epsilon is a demand f_c > 4/(8 + ln(1/epsilon - 1)).  f_c > 1/8 is the case
+    epsilon = 1/(1 + e^24) = 3.8e-11: not a limit of validity but one of resolution, that of a
+    calculation with ten digits.
+Key results
+    share       p_inf/p_max = 1/(1 + e^(4/f_c - 8))
+    always      tanh(4 - 2/f_c) > -1, without condition
+    growing     d/df_c of it is positive
+    threshold   p_inf/p_max > epsilon if and only if f_c > 4/(8 + ln(1/epsilon - 1))
+    eighth      the case f_c > 1/8
+    RESOLUTIONS the epsilon of some arithmetics
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import sympy as sp
+
+from ..check import Check
+from ..conditions import Condition
+from ..equations import Equation
+from ..rules import Identity, Positive, sampled
+from ..statement import Statement
+from ..symbols import symbols
+from ..theorem import Authored, proof, sign
+from ..typeset.display import as_written, minus
+from ..zero import is_zero
+from .steady_state import ROUGHENING, step
+
+f_c, epsilon = symbols("f_c epsilon")
+_slope = sp.Symbol("slope", positive=True)
+
+RESOLUTIONS = MappingProxyType(
+    {
+        "ten digits": sp.Rational(1, 4) * sp.Integer(10) ** -10,
+        "double precision": sp.Integer(2) ** -55,
+        "single precision": sp.Integer(2) ** -26,
+    }
+)
+"""Half of the 1 + tanh at which a correctly rounded tanh becomes -1."""
+
+RESOLVED = Condition("epsilon is below the largest possible share", epsilon < 1 / (1 + sp.exp(-8)))
+
+
+@dataclass(frozen=True)
+class Threshold(Authored):
+    """``F(x) > e`` if and only if ``x > x*``, for F that increases on x > 0 and F(x*) = e."""
+
+    variable: sp.Symbol
+
+    def check(self, statement: Statement) -> tuple[Check, ...]:
+        demand, bound = statement.claim.args
+        if demand.lts == self.variable or demand.gts == self.variable:
+            demand, bound = bound, demand
+        function, level, point = demand.gts, demand.lts, bound.lts
+        positive = sp.Dummy(positive=True)
+        increases = sign(sp.diff(function.subs(self.variable, positive), positive)) == 1
+        met = is_zero(function.subs(self.variable, point) - level)
+        detail = "the left side increases and reaches the level at the bound"
+        return *proof(increases and met, detail), sampled(statement)
+
+
+def share() -> Statement:
+    """(22) as a share of p_max, in the form to compute with."""
+    claim = sp.Eq((1 + sp.tanh(4 - 2 / f_c)) / 2, 1 / (1 + sp.exp(4 / f_c - 8)))
+    return Statement(claim, Identity(), conditions=(ROUGHENING,), name="share of p_max")
+
+
+def always() -> Statement:
+    """The note's criterion holds without condition."""
+    claim = sp.StrictGreaterThan(sp.tanh(4 - 2 / f_c), -1)
+    signs = Positive(((f_c, _slope),))
+    return Statement(claim, signs, conditions=(ROUGHENING,), name="the criterion always holds")
+
+
+def growing() -> Statement:
+    """The asymptotic pressure grows with f_c."""
+    value = share().claim.rhs
+    claim = sp.Eq(sp.diff(value, f_c), 4 / f_c**2 * value * (1 - value))
+    return step(claim, Identity(), share(), name="slope of the share")
+
+
+def threshold() -> Statement:
+    """A demand on the pressure is a demand on f_c."""
+    bound = 4 / (8 + sp.log(1 / epsilon - 1))
+    claim = sp.Equivalent(sp.Gt(share().claim.rhs, epsilon), sp.Gt(f_c, bound))
+    parents = (share(), growing())
+    conditions = (ROUGHENING, RESOLVED)
+    return Statement(claim, Threshold(f_c), parents, conditions, name="threshold")
+
+
+def eighth() -> Statement:
+    """f_c > 1/8 is a demand on the size of the asymptotic pressure."""
+    return threshold().specialise({epsilon: 1 / (1 + sp.exp(24))}, "resolution of ten digits")
+
+
+def threshold_at(resolution: sp.Expr) -> sp.Expr:
+    """Return the least f_c whose asymptotic pressure an arithmetic can tell from zero.
+
+    >>> round(float(threshold_at(RESOLUTIONS["double precision"])), 9)
+    0.086724449
+    """
+    return threshold_bound().subs(epsilon, resolution)
+
+
+def threshold_bound() -> sp.Expr:
+    """Return the bound of ``threshold`` as an expression in epsilon."""
+    (bound,) = (part.lts for part in threshold().claim.args if part.gts == f_c)
+    return bound
+
+
+def equations() -> tuple[Equation, ...]:
+    """Return what f_c > 1/8 means."""
+    section = "validity"
+    with as_written():
+        value = 1 / (1 + sp.exp(sp.Add(4 / f_c, -8)))
+        half = sp.Rational(1, 2)
+        shown_share = (sp.Eq(half * (1 + sp.tanh(sp.Add(4, minus(2 / f_c)))), value),)
+    return (
+        Equation("share", section, "asymptotic share of p_max", (share(),), (), shown_share),
+        Equation("criterion", section, "the printed criterion always holds", (always(),)),
+        Equation("share-slope", section, "the share grows with f_c", (growing(),)),
+        Equation("threshold", section, "resolution and f_c", (threshold(),)),
+        Equation("one-eighth", section, "what f_c > 1/8 means", (eighth(),)),
+    )

@@ -1,0 +1,192 @@
+"""What both commands have in common: exit status, errors without a traceback, JSON, `--version`.
+
+This module is imported at the start of every command, so it imports the standard library alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from derive import completion
+
+DONE = 0
+FAILED = 1  # a verification does not hold
+USAGE = 2  # bad usage, bad scene, a file that cannot be read or written
+INACCURATE = 3  # the requested accuracy was not reached
+INTERRUPTED = 130
+
+
+def run(
+    name: str,
+    main: Callable[[], int],
+    expected: Mapping[type[Exception], int],
+) -> int:
+    """Run a command and return its exit status.
+
+    Parameters
+    ----------
+    name
+        What error messages begin with.
+    main
+        Does the work, prints the results and returns the exit status.
+    expected
+        Exceptions that are the user's to mend, with the exit status of each. Their text is
+        printed without a traceback. An `OSError` is always among them.
+    """
+    _print_any_character()
+    status = DONE
+    try:
+        status = main()
+        sys.stdout.flush()
+    except BrokenPipeError:
+        pass  # the reader (`head`, `less`) has seen enough
+    except KeyboardInterrupt:
+        complain(name, "interrupted")
+        status = INTERRUPTED
+    except OSError as fault:
+        complain(name, _describe(fault))
+        status = USAGE
+    except tuple(expected) as fault:
+        complain(name, str(fault))
+        status = next(code for kind, code in expected.items() if isinstance(fault, kind))
+    _let_go_of_output()
+    return status
+
+
+def complain(name: str, message: str) -> None:
+    """Print an error, which may have several lines, to standard error."""
+    print(f"{name}: {message}", file=sys.stderr)
+
+
+def print_json(document: object) -> None:
+    """Print one JSON document to standard output. Floats read back as the same floats.
+
+    Arrays become lists. JSON has no word for NaN and infinity: they become `null`.
+
+    >>> print_json({"wear_mm": (1e-07, 0.1 + 0.2), "arrest_cycle": math.nan})
+    {
+      "wear_mm": [
+        1e-07,
+        0.30000000000000004
+      ],
+      "arrest_cycle": null
+    }
+    """
+    print(json.dumps(plain(document), indent=2, allow_nan=False))
+
+
+def plain(value: object) -> Any:
+    """Return `value` in the types of JSON.
+
+    >>> plain({"cycles": (1, 2.5), "error": math.inf})
+    {'cycles': [1, 2.5], 'error': None}
+    """
+    if hasattr(value, "tolist"):  # NumPy's arrays and scalars
+        value = value.tolist()
+    match value:
+        case float():
+            return value if math.isfinite(value) else None
+        case None | bool() | int() | str():
+            return value
+        case Mapping():
+            return {str(key): plain(entry) for key, entry in value.items()}
+        case list() | tuple():
+            return [plain(entry) for entry in value]
+        case os.PathLike():
+            return os.fspath(value)
+    raise TypeError(f"{type(value).__name__} has no form in JSON")
+
+
+def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return rows of text in right-aligned columns, below headers of one or more lines.
+
+    >>> print(table(["cycle", "wear\\n(mm)"], [["1", "1e-05"], ["100", "0.001"]]))
+            wear
+    cycle   (mm)
+        1  1e-05
+      100  0.001
+    """
+    heads = [head.splitlines() for head in header]
+    height = max(map(len, heads))
+    columns = [
+        [""] * (height - len(head)) + head + [row[place] for row in rows]
+        for place, head in enumerate(heads)
+    ]
+    aligned = [[entry.rjust(max(map(len, column))) for entry in column] for column in columns]
+    return "\n".join("  ".join(line).rstrip() for line in zip(*aligned, strict=True))
+
+
+def count(number: int, noun: str) -> str:
+    """Return a number of things, in the plural but for one.
+
+    >>> count(1, "equation"), count(2, "equation")
+    ('1 equation', '2 equations')
+    """
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+class PrintAndStop(argparse.Action):
+    """An option like `--version`: prints a text that is only made when asked for, and stops."""
+
+    def __init__(
+        self,
+        option_strings: Sequence[str],
+        dest: str,
+        text: Callable[[argparse.ArgumentParser], str],
+        help: str,
+    ) -> None:
+        super().__init__(option_strings, dest, nargs=0, help=help)
+        self.text = text
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        print(self.text(parser))
+        parser.exit()
+
+
+def add_common_options(parser: argparse.ArgumentParser) -> None:
+    """Give the parser of a whole command `--version` and `--print-completion`."""
+    parser.add_argument(
+        "--version", action=PrintAndStop, text=_version, help="print the version and stop"
+    )
+    parser.add_argument(
+        "--print-completion",
+        action=PrintAndStop,
+        text=completion.bash,
+        help="print a completion script for bash and stop",
+    )
+
+
+def _version(parser: argparse.ArgumentParser) -> str:
+    from importlib.metadata import version  # takes longer than all the rest of this module
+
+    return f"{parser.prog} {version('derive-wear')}"
+
+
+def _describe(fault: OSError) -> str:
+    if fault.filename is None:
+        return fault.strerror or str(fault)
+    return f"{fault.filename}: {fault.strerror}"
+
+
+def _print_any_character() -> None:
+    """Let no title or path fail to print where the terminal's encoding lacks a character."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors="backslashreplace")
+
+
+def _let_go_of_output() -> None:
+    """Drop what standard output cannot take, or the interpreter would complain on its way out."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)

@@ -1,0 +1,1 @@
+"""Typesetting: relations as LaTeX that an author would have written."""

@@ -1,0 +1,142 @@
+"""Display forms: relations in the order in which an author writes them.
+
+Overview
+    SymPy sorts terms and moves signs.  A display form is therefore authored: a relation built
+    inside ``as_written()``, which keeps the order of terms, and a test asserts that it equals
+    the derived claim.  The printer here follows the order of the arguments, writes fields
+    without their "(t)" and derivatives upright.
+Key results
+    as_written    context in which SymPy evaluates nothing
+    evaluated     the same relation, evaluated again
+    latex         LaTeX of a relation or of a system of them
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.printing.latex import LatexPrinter
+
+from ..symbols import QUANTITIES, t
+
+
+def as_written() -> AbstractContextManager[None]:
+    """Return a context in which relations keep the order in which they are written."""
+    context: AbstractContextManager[None] = sp.evaluate(False)
+    return context
+
+
+def minus(expr: sp.Expr) -> sp.Expr:
+    r"""Return ``-expr`` as one product, so that it is typeset with a plain minus sign.
+
+    >>> with as_written():
+    ...     latex(sp.Add(4, minus(2 * sp.Symbol("g") / sp.Symbol("q"))))
+    '4 - \\frac{2 g}{q}'
+    """
+    return sp.Mul(-1, *sp.Mul.make_args(expr), evaluate=False)
+
+
+def evaluated(expr: sp.Basic) -> sp.Basic:
+    """Return an expression that was built as written, evaluated."""
+    if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):
+        return expr
+    return expr.func(*(evaluated(argument) for argument in expr.args))
+
+
+_RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
+
+
+class _Printer(LatexPrinter):
+    """SymPy's LaTeX printer with the names and habits of the field."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            {"order": "none", "fold_short_frac": False, "mul_symbol": None, "ln_notation": True}
+        )
+
+    def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
+        quantity = QUANTITIES.get(expr.name)
+        if quantity is not None:
+            return quantity.latex
+        return str(super()._print_Symbol(expr, style))
+
+    def _print_Function(self, expr: sp.Function, exp: str | None = None) -> str:
+        name = expr.func.__name__
+        if name not in QUANTITIES:
+            return str(super()._print_Function(expr, exp))
+        body = QUANTITIES[name].latex
+        if expr.args != (t,):
+            body += f"({self._print(expr.args[0])})"
+        return body if exp is None else rf"{body}^{{{exp}}}"
+
+    def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
+        """Print a sum that was built from the left without the brackets of its history."""
+        terms = list(expr.args)
+        while isinstance(terms[0], sp.Add):
+            terms[:1] = terms[0].args
+        if tuple(terms) != expr.args:
+            expr = sp.Add(*terms, evaluate=False)
+        return str(super()._print_Add(expr, order))
+
+    def _print_Piecewise(self, expr: sp.Piecewise) -> str:
+        """Print branches with fractions of full size: small ones read like exponents."""
+        rows = []
+        for value, condition in expr.args:
+            if condition == sp.true:
+                where = r"\text{otherwise}"
+            else:
+                where = rf"\text{{if}}\; {self._print(condition)}"
+            rows.append(rf"\displaystyle {self._print(value)} & {where}")
+        return r"\begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
+
+    def _print_And(self, expr: sp.And) -> str:
+        """Print several relations side by side, two that meet as one chain."""
+        if len(expr.args) == 2 and (found := _chain(*expr.args) or _chain(*reversed(expr.args))):
+            (low, first), middle, (second, high) = found
+            return f"{self._print(low)} {first} {self._print(middle)} {second} {self._print(high)}"
+        return r", \quad ".join(self._print(part) for part in expr.args)
+
+    def _print_Subs(self, expr: sp.Subs) -> str:
+        """Print the slope of a contact law at a point as phi'(point)."""
+        inner, (variable,), (point,) = expr.args
+        if isinstance(inner, sp.Derivative) and inner.expr.args == (variable,):
+            name = self._print(sp.Symbol(inner.expr.func.__name__))
+            return rf"{name}'{{\left({self._print(point)} \right)}}"
+        return str(super()._print_Subs(expr))
+
+    def _print_Derivative(self, expr: sp.Derivative) -> str:
+        (variable, order), *_ = expr.variable_count
+        power = "" if order == 1 else f"^{{{order}}}"
+        below = rf"\mathrm{{d}}{self._print(variable)}{power}"
+        return rf"\frac{{\mathrm{{d}}{power}{self._print(expr.expr)}}}{{{below}}}"
+
+
+_Chain = tuple[tuple[sp.Expr, str], sp.Expr, tuple[str, sp.Expr]]
+
+
+def _chain(left: sp.Basic, right: sp.Basic) -> _Chain | None:
+    """Return what ``low < x`` and ``x < high`` bound and how, None where they do not meet."""
+    bounds = (sp.Ge, sp.Gt, sp.Le, sp.Lt)
+    if not (isinstance(left, bounds) and isinstance(right, bounds)) or left.gts != right.lts:
+        return None
+    first, second = ("<" if isinstance(part, (sp.Gt, sp.Lt)) else r"\leq" for part in (left, right))
+    return (left.lts, first), left.gts, (second, right.gts)
+
+
+def latex(expr: sp.Basic | Sequence[sp.Basic]) -> str:
+    r"""Return LaTeX of an expression, a relation, or a system of relations.
+
+    >>> from derive.symbols import symbol, rate
+    >>> latex(sp.Eq(rate("u_c"), 2 * symbol("p_max")))
+    '\\frac{\\mathrm{d}u_c}{\\mathrm{d}t} = 2 p_{\\max}'
+    """
+    if isinstance(expr, sp.Basic):
+        return str(_Printer().doprint(expr))
+    if len(expr) == 1:
+        return latex(expr[0])
+    lines = (_RELATION.sub(r" &\1 ", latex(part), count=1) for part in expr)
+    return r"\left\{\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}\right."

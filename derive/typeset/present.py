@@ -1,0 +1,103 @@
+"""Presentation: a claim that nobody laid out, in the order in which an author would write it.
+
+SymPy sorts terms and factors by rules of its own, and prefers ``1/2 - tanh(2 h/sigma - 4)/2``.
+Here what is added comes before what is subtracted, sums and functions come after symbols, and the
+note's contact law looks like the note's.  The value is not touched: a test asserts it.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
+
+_HALF = sp.Rational(1, 2)
+
+
+def presentable(expr: sp.Basic) -> sp.Basic:
+    """Return ``expr``, unevaluated, in the order of an author.
+
+    >>> from derive.typeset.display import latex
+    >>> x = sp.Symbol("x")
+    >>> latex(presentable(sp.Rational(1, 2) - sp.tanh(2 * x - 4) / 2))
+    '\\\\frac{1 + \\\\tanh{\\\\left(4 - 2 x \\\\right)}}{2}'
+    """
+    if isinstance(expr, (AppliedUndef, sp.Derivative, sp.Integral, sp.Subs)) or not expr.args:
+        return expr
+    if isinstance(expr, sp.Add):
+        return _sum(expr)
+    if isinstance(expr, sp.Mul):
+        return _product(expr)
+    if isinstance(expr, sp.Piecewise):
+        branches = [(presentable(e.expr), presentable(e.cond)) for e in expr.args]
+        return sp.Piecewise(*branches, evaluate=False)
+    arguments = [presentable(argument) for argument in expr.args]
+    if isinstance(expr, (sp.Function, sp.Pow, sp.logic.boolalg.BooleanFunction, Relational)):
+        return expr.func(*arguments, evaluate=False)
+    return expr.func(*arguments)
+
+
+def _sum(expr: sp.Add) -> sp.Basic:
+    terms = [_upright(term) for term in expr.args]
+    if len(terms) == 2 and terms[0] == _HALF and terms[1].has(sp.tanh):
+        doubled = sp.Add(1, presentable(2 * terms[1]), evaluate=False)
+        return sp.Mul(_HALF, doubled, evaluate=False)
+    ordered = sorted(terms, key=lambda t: (_negative(t), t.is_number == _negative(t)))
+    return sp.Add(*(_term(term) for term in ordered), evaluate=False)
+
+
+def _upright(term: sp.Expr) -> sp.Expr:
+    """Return ``-tanh(-x)`` for a term ``tanh(x)`` where that reads better, unevaluated."""
+    factors = sp.Mul.make_args(term)
+    inner = [f for f in factors if isinstance(f, sp.tanh)]
+    if len(inner) != 1 or not _starts_negative(inner[0].args[0]):
+        return term
+    turned = sp.tanh(sp.expand(-inner[0].args[0]), evaluate=False)
+    rest = sp.Mul(-1, *(f for f in factors if f is not inner[0]))
+    return turned if rest == 1 else sp.Mul(rest, turned, evaluate=False)
+
+
+def _starts_negative(argument: sp.Expr) -> bool:
+    constant, _ = argument.as_coeff_Add()
+    return bool(constant.is_negative)
+
+
+def _negative(term: sp.Expr) -> bool:
+    coefficient, _ = term.as_coeff_Mul()
+    return bool(coefficient.is_negative)
+
+
+def _term(term: sp.Expr) -> sp.Basic:
+    """Return a term with its sign in front of the whole."""
+    if not _negative(term) or term.is_number:
+        return presentable(term)
+    coefficient, rest = term.as_coeff_Mul()
+    positive = rest if coefficient == -1 else -coefficient * rest
+    return sp.Mul(-1, presentable(positive), evaluate=False)
+
+
+def _product(expr: sp.Mul) -> sp.Basic:
+    """Return a fraction of numbers and symbols, followed by what has an inner structure."""
+    plain, below, large = [], [], []
+    for factor in expr.args:
+        if not _structured(factor):
+            plain.append(factor)
+        elif factor.is_Pow and factor.exp.is_negative:
+            below.append(presentable(factor))
+        else:
+            large.append(presentable(factor))
+    if not large and not below:
+        return expr
+    symbols = [f for f in sp.Mul.make_args(sp.Mul(*plain)) if f != 1]
+    if below and all(symbol.is_number for symbol in symbols):  # one fraction reads better
+        return sp.Mul(*symbols, *large, *below, evaluate=False)
+    front = [sp.Mul(*symbols, *below, evaluate=False)] if symbols or below else []
+    return sp.Mul(*front, *large, evaluate=False) if len(front + large) > 1 else (front + large)[0]
+
+
+def _structured(factor: sp.Expr) -> bool:
+    return (
+        bool(factor.has(sp.Add, sp.Function))
+        and not isinstance(factor, (AppliedUndef, sp.Derivative))
+        and not (factor.is_Pow and isinstance(factor.base, (AppliedUndef, sp.Symbol)))
+    )
