@@ -1,0 +1,242 @@
+"""Speed against true error: methods on cases of known wear, interleaved, medians.
+
+Every method first solves every case once, from few cycles to many, as long as a run is expected to
+end within the cap; then rounds over all short runs follow until the time is used up. Start-up
+(import, binding, compilation) is measured apart. Nothing is left out: wrong answers and runs that
+were too long are results.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import NamedTuple
+
+from wear.benchmark.cases import Case
+from wear.benchmark.method import Answer, Method, Run, UnsuitableError
+
+__all__ = ["DEFAULT", "FULL", "QUICK", "Effort", "Measurement", "StartUp", "Status", "benchmark"]
+
+ROUNDING = 4e-15  # a smaller error is none
+WRONG = 1e-2  # a relative error that no reader of a figure would forgive
+NO_ANSWER = Answer(math.nan)
+LEAST_GROWTH = 0.5  # of time with cycles, in powers, that a next run is feared to have
+
+
+class Effort(NamedTuple):
+    """How long to measure, in seconds: a run may be expected to take `cap`, one of up to `repeated`
+    is repeated in at most so many `rounds`, which together take `rest`."""
+
+    cap: float
+    repeated: float
+    rounds: int
+    rest: float
+
+
+QUICK = Effort(cap=0.5, repeated=0.05, rounds=5, rest=3.0)
+DEFAULT = Effort(cap=1.5, repeated=0.25, rounds=7, rest=20.0)
+FULL = Effort(cap=20.0, repeated=1.0, rounds=9, rest=300.0)
+
+
+class Status(StrEnum):
+    """What became of a run."""
+
+    MET = "met"  # the true error is within the tolerance
+    MISSED = "missed"  # it is not, and the method did not say so
+    WRONG = "wrong"  # by more than a percent, and the method did not say so
+    TOLD = "told"  # the method says that it failed
+    STOPPED = "slow"  # the time limit has passed
+    SKIPPED = "skipped"  # it would have taken longer than the cap
+    UNSUITABLE = "unsuitable"  # the method cannot solve such a scene
+
+
+class Measurement(NamedTuple):
+    """A method on a case at a tolerance.
+
+    `seconds` is the median of `repeats` runs (an expectation if skipped), `error` the true signed
+    relative error, `estimate` the method's own; NaN or None where there is none.
+    """
+
+    method: str
+    scene: str
+    cycles: int
+    tolerance: float
+    seconds: float
+    repeats: int
+    error: float
+    estimate: float | None
+    evaluations: int | None
+    status: Status
+    remark: str
+
+
+class StartUp(NamedTuple):
+    """Seconds that a method takes once a scene to get ready: bind, compile, run one cycle."""
+
+    method: str
+    scene: str
+    seconds: float
+
+
+@dataclass
+class Job:
+    """A run to be repeated, and what it has given so far."""
+
+    method: Method
+    case: Case
+    tolerance: float
+    run: Run
+    answer: Answer = NO_ANSWER
+    seconds: list[float] = field(default_factory=list)
+
+    def once(self) -> None:
+        """Run and look at the clock."""
+        start = time.perf_counter()
+        self.answer = self.run(self.case.cycles, self.tolerance)
+        self.seconds.append(time.perf_counter() - start)
+
+    def measured(self) -> Measurement:
+        """The median; of several runs the first one, which warms up, does not count."""
+        counted = self.seconds[1:] or self.seconds
+        error = self.answer.wear / self.case.wear - 1.0
+        status, remark = judge(error, self.tolerance, self.answer)
+        return Measurement(
+            self.method.name,
+            self.case.name,
+            self.case.cycles,
+            self.tolerance,
+            statistics.median(counted),
+            len(counted),
+            error,
+            self.answer.estimate,
+            self.answer.evaluations,
+            status,
+            remark,
+        )
+
+
+Outcome = Job | Measurement | StartUp
+
+
+def judge(error: float, tolerance: float, answer: Answer = NO_ANSWER) -> tuple[Status, str]:
+    """What to call a true relative error, given what the method says of its answer.
+
+    >>> judge(-0.41, 1e-3)
+    (<Status.WRONG: 'wrong'>, 'off by -41 % without a word')
+    """
+    if answer.stopped:
+        return Status.STOPPED, answer.complaint
+    if answer.complaint or not math.isfinite(error):
+        return Status.TOLD, answer.complaint or "no number"
+    if abs(error) <= max(tolerance, ROUNDING):
+        return Status.MET, ""
+    if abs(error) <= WRONG:
+        return Status.MISSED, f"true error {abs(error) / tolerance:.2g} times the tolerance"
+    return Status.WRONG, f"off by {100.0 * error:+.3g} % without a word"
+
+
+def benchmark(
+    methods: Sequence[Method],
+    cases: Sequence[Case],
+    effort: Effort = DEFAULT,
+    progress: Callable[[str], None] = lambda _: None,
+) -> tuple[tuple[Measurement, ...], tuple[StartUp, ...]]:
+    """Measure `methods` on `cases`; what each takes to start is told apart.
+
+    Parameters
+    ----------
+    progress
+        Is told what is being done, a line at a time.
+    """
+    outcomes: list[Outcome] = []
+    for method in methods:
+        progress(f"{method.name}: first runs")
+        outcomes += _begin(method, cases, effort.cap)
+    jobs = [outcome for outcome in outcomes if isinstance(outcome, Job)]
+    _repeat([job for job in jobs if job.seconds[0] <= effort.repeated], effort, progress)
+    not_run = [outcome for outcome in outcomes if isinstance(outcome, Measurement)]
+    starts = tuple(outcome for outcome in outcomes if isinstance(outcome, StartUp))
+    return (*(job.measured() for job in jobs), *not_run), starts
+
+
+def _repeat(jobs: Sequence[Job], effort: Effort, progress: Callable[[str], None]) -> None:
+    """Round after round over all jobs, so that a busy machine disturbs all methods alike."""
+    begin = time.perf_counter()
+    for repeat in range(effort.rounds):
+        progress(f"round {repeat + 1} of {effort.rounds}")
+        for job in jobs:
+            if time.perf_counter() - begin > effort.rest:
+                return
+            job.once()
+
+
+def _begin(method: Method, cases: Sequence[Case], cap: float) -> Iterator[Outcome]:
+    """Get ready for each scene and solve its cases once."""
+    for name in dict.fromkeys(case.name for case in cases):
+        of_scene = sorted((c for c in cases if c.name == name), key=lambda case: case.cycles)
+        start = time.perf_counter()
+        try:
+            run = method.prepare(of_scene[0].scene)
+            run(1, method.tolerances[0])  # what is imported or compiled when first needed
+            yield StartUp(method.name, name, time.perf_counter() - start)
+            for tolerance in method.tolerances:
+                yield from _first_runs(method, run, of_scene, tolerance, cap)
+        except UnsuitableError as fault:
+            for case in of_scene:
+                yield _not_run(method, case, math.nan, Status.UNSUITABLE, str(fault))
+
+
+def _first_runs(
+    method: Method, run: Run, cases: Sequence[Case], tolerance: float, cap: float
+) -> Iterator[Job | Measurement]:
+    """Solve from few cycles to many, until a run is expected to outlast the cap."""
+    before: list[Job] = []
+    for case in cases:
+        expected = _expected(before, case.cycles) if method.steps else 0.0
+        if expected > cap:
+            yield _not_run(method, case, tolerance, Status.SKIPPED, "", expected)
+            continue
+        job = Job(method, case, tolerance, run)
+        job.once()
+        before.append(job)
+        yield job
+
+
+def _expected(before: Sequence[Job], cycles: int) -> float:
+    """Seconds, from how the time grew between the last two runs."""
+    if not before:
+        return 0.0
+    last = before[-1]
+    growth = 1.0
+    if len(before) > 1:
+        ratio = last.seconds[0] / before[-2].seconds[0]
+        growth = math.log(max(ratio, 1.0)) / math.log(last.case.cycles / before[-2].case.cycles)
+        growth = min(max(growth, LEAST_GROWTH if growth > 0.1 else 0.0), 1.0)
+    return float(last.seconds[0] * (cycles / last.case.cycles) ** growth)
+
+
+def _not_run(
+    method: Method,
+    case: Case,
+    tolerance: float,
+    status: Status,
+    remark: str,
+    seconds: float = math.nan,
+) -> Measurement:
+    return Measurement(
+        method.name,
+        case.name,
+        case.cycles,
+        tolerance,
+        seconds,
+        0,
+        math.nan,
+        None,
+        None,
+        status,
+        remark or f"would take some {seconds:.2g} s",
+    )

@@ -1,0 +1,71 @@
+"""On what a benchmark ran: versions, processor, load; and how long imports take."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from wear.benchmark.method import Method
+
+DISTRIBUTIONS = ("derive-wear", "numpy", "scipy")
+PEER_DISTRIBUTIONS = ("heyoka", "diffrax", "jax", "jitcode", "scikit-sundae", "numba")
+CPU = Path("/proc/cpuinfo")
+
+
+def machine(peers: bool = False) -> dict[str, Any]:
+    """Versions, processor, cores, and the load average before the measurement."""
+    names = (*DISTRIBUTIONS, *(PEER_DISTRIBUTIONS if peers else ()))
+    return {
+        "python": platform.python_version(),
+        "versions": {name: found for name in names if (found := _version(name))},
+        "processor": _processor(),
+        "cores": os.cpu_count(),
+        "load_average": os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
+    }
+
+
+def footer(facts: dict[str, Any]) -> str:
+    """The same in a line."""
+    versions = ", ".join(f"{name} {number}" for name, number in facts["versions"].items())
+    text = f"{facts['processor']}, {facts['cores']} cores; Python {facts['python']}, {versions}"
+    busy = facts["load_average"]
+    if busy is not None and busy > 0.5 * (facts["cores"] or 1):
+        text += f"; other programs were running (load average {busy:.1f}): times are too long"
+    return text
+
+
+def _version(name: str) -> str | None:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+def _processor() -> str:
+    if CPU.exists():
+        for line in CPU.read_text(encoding="utf-8", errors="replace").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()
+
+
+def missing(method: Method) -> tuple[str, ...]:
+    """The packages that a method needs and that are not installed."""
+    packages = dict.fromkeys(module.partition(".")[0] for module in method.imports)
+    return tuple(package for package in packages if find_spec(package) is None)
+
+
+def import_seconds(modules: Sequence[str]) -> float:
+    """Time to import these in a fresh process, the start of Python not counted."""
+    lines = ["from time import perf_counter", "start = perf_counter()"]
+    lines += [f"import {module}" for module in modules]
+    code = "\n".join([*lines, "print(perf_counter() - start)"])
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return float(done.stdout.split()[-1])

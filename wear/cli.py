@@ -1,0 +1,62 @@
+"""The command `wear`: parses the line and runs one command of `wear.commands`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+from derive import command_line, terminal
+from wear.commands import (
+    asymptote,
+    bench,
+    cite,
+    claims,
+    explore,
+    figure,
+    reproduce,
+    run,
+    scenes,
+)
+from wear.faults import AccuracyError, SceneError, UsageError
+
+# In the order in which a newcomer needs them.
+COMMANDS = (
+    scenes.COMMAND,
+    run.COMMAND,
+    asymptote.COMMAND,
+    figure.COMMAND,
+    explore.COMMAND,
+    reproduce.COMMAND,
+    claims.COMMAND,
+    bench.COMMAND,
+    cite.COMMAND,
+)
+
+EXAMPLES = """\
+examples:
+  wear scenes
+  wear run section4 --cycles 1,9000,1e8
+  wear run --help
+"""
+
+EXPECTED = {
+    UsageError: terminal.USAGE,
+    SceneError: terminal.USAGE,
+    AccuracyError: terminal.INACCURATE,
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run `wear` with these arguments (default: those of the process); return the exit status."""
+    return command_line.main(parser(), arguments, EXPECTED)
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the whole command line."""
+    description = "Wear of bearings under cyclic contact, for any number of cycles."
+    return command_line.parser("wear", description, EXAMPLES, COMMANDS)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

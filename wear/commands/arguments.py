@@ -1,0 +1,134 @@
+"""Arguments that commands share, and their faults: a scene, numbers of cycles, bounded numbers.
+
+Texts are read after parsing, by methods that remember what is wrong, so that a command can report
+the faults of all its arguments and of its scene in one message.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from derive import completion
+
+if TYPE_CHECKING:
+    from wear.scene import Scene
+
+
+def add_scene(parser: argparse.ArgumentParser, default: str | None = None) -> None:
+    """Declare the scene, which may be left out if there is a default, and `--set`."""
+    about = "a built-in scene (wear scenes lists them) or a TOML file"
+    scene = parser.add_argument(
+        "scene",
+        metavar="SCENE",
+        nargs=None if default is None else "?",
+        default=default,
+        help=about if default is None else f"{about} (default: {default})",
+    )
+    completion.suggest(scene, built_in_names)
+    parser.add_argument(
+        "--set",
+        metavar="TABLE.KEY=VALUE",
+        action="append",
+        default=[],
+        dest="overrides",
+        help="override one entry of the scene, as in bearing.hardness_MPa=200; may be repeated",
+    )
+
+
+def built_in_names() -> Sequence[str]:
+    """Return the names of the built-in scenes."""
+    from wear.scene import builtin_names
+
+    return builtin_names()
+
+
+class Faults:
+    """The faults of a command line, gathered until `stop_if_any`."""
+
+    def __init__(self) -> None:
+        self._messages: list[str] = []
+
+    def add(self, message: str) -> None:
+        """Remember one more fault."""
+        self._messages.append(message)
+
+    def stop_if_any(self) -> None:
+        """Raise a `UsageError` that tells them all, a line each."""
+        from wear.faults import UsageError
+
+        if self._messages:
+            raise UsageError("\n".join(self._messages))
+
+    def scene(self, options: argparse.Namespace) -> Scene | None:
+        """Return the scene that the options name, None if it has faults."""
+        from wear.faults import SceneError
+        from wear.scene import load_scene
+
+        try:
+            return load_scene(options.scene, options.overrides)
+        except SceneError as fault:
+            self.add(str(fault))
+            return None
+
+    def cycles(self, name: str, text: str) -> tuple[int, ...]:
+        """Return numbers of cycles, 0 being the fresh state, from a list.
+
+        >>> Faults().cycles("--cycles", "1, 10,1e8")
+        (1, 10, 100000000)
+        """
+        from wear.solver import MOST_CYCLES
+
+        numbers = [_number(entry) for entry in text.split(",")]
+        wrong = [
+            entry.strip()
+            for entry, number in zip(text.split(","), numbers, strict=True)
+            if not (0 <= number <= MOST_CYCLES and number.is_integer())
+        ]
+        if wrong:
+            entries = ", ".join(map(_quoted, wrong[:10])) + (", ..." if len(wrong) > 10 else "")
+            self.add(
+                f"{name}: {entries}: no number of cycles; "
+                f"give whole numbers from 0 to {MOST_CYCLES:.0e}, such as 1,9000,1e8"
+            )
+            return ()
+        return tuple(map(int, numbers))
+
+    def number(self, name: str, text: str, low: float, high: float) -> float:
+        """Return a number within bounds.
+
+        >>> Faults().number("--rtol", "1e-10", 1e-15, 0.1)
+        1e-10
+        """
+        number = _number(text)
+        if not low <= number <= high:
+            self.add(f"{name}: {_quoted(text)} is no number from {low:g} to {high:g}")
+        return number
+
+    def choice(self, name: str, text: str, choices: Sequence[str]) -> str:
+        """Return one of these words, whatever the case of its letters."""
+        from wear.scene.value import did_you_mean
+
+        exact = {choice.lower(): choice for choice in choices}
+        if text.lower() not in exact:
+            meant = did_you_mean(text, choices)
+            hint = f"; did you mean {meant}?" if meant else ""
+            known = f"choose one of {', '.join(choices)}"
+            end = f"{hint} ({known})" if hint else f"; {known}"
+            self.add(f"{name}: {_quoted(text)} is unknown{end}")
+        return exact.get(text.lower(), text)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def _quoted(text: str) -> str:
+    from wear.scene.value import shown
+
+    return f'"{shown(text)}"'

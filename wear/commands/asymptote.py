@@ -1,0 +1,79 @@
+"""`wear asymptote`: what becomes of the wear in the long run."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from derive import terminal
+from derive.command_line import Command
+from wear.commands.arguments import Faults, add_scene
+
+if TYPE_CHECKING:
+    from wear.regime import Asymptote
+
+EXAMPLE = """\
+  wear asymptote section4           regime, wear per cycle, pressure, drift
+  wear asymptote section4-cutoff    where and in which cycle the wear stops
+  wear asymptote section4 --set bearing.roughness_slope=0.3 --json
+"""
+
+_LABELS: Mapping[str, tuple[str, str]] = {
+    "regime": ("regime", ""),
+    "tanh_argument": ("limit of the argument of tanh", ""),
+    "wear_per_cycle_mm": ("wear per cycle", "mm"),
+    "pressure_MPa": ("contact pressure", "MPa"),
+    "log_coefficient_mm": ("coefficient of ln N", "mm"),
+    "offset_mm": ("offset", "mm"),
+    "saturation_wear_mm": ("wear saturates at", "mm"),
+    "arrest_wear_mm": ("wear stops at", "mm"),
+    "arrest_cycle": ("wear stops in cycle", ""),
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the scene."""
+    add_scene(parser)
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Print the regime of a scene and its constants."""
+    from wear.regime import asymptote
+
+    faults = Faults()
+    scene = faults.scene(options)
+    faults.stop_if_any()
+    assert scene is not None
+    found = asymptote(scene)
+    if options.json:
+        terminal.print_json(asdict(found))
+        return terminal.DONE
+    print("\n".join(_lines(found)))
+    for notice in found.notices:
+        terminal.complain("wear asymptote", notice)
+    return terminal.DONE
+
+
+def _lines(found: Asymptote) -> Iterator[str]:
+    """The constants that apply, a line each."""
+    rows = [
+        (label, value, unit)
+        for name, (label, unit) in _LABELS.items()
+        if (value := getattr(found, name)) is not None
+    ]
+    rows += [
+        (f"cycles until {name.replace('_', ' ')}", cycles, "")
+        for name, cycles in found.cycles_to_stabilise.items()
+        if cycles is not None
+    ]
+    width = max(len(label) for label, _, _ in rows)
+    for label, value, unit in rows:
+        shown = f"{value:.10g}" if isinstance(value, float) else str(value)
+        yield f"{label:{width}}  {shown} {unit}".rstrip()
+
+
+COMMAND = Command(
+    "asymptote", "what becomes of the wear in the long run", EXAMPLE, add_arguments, execute
+)

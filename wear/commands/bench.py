@@ -1,0 +1,196 @@
+"""`wear bench`: speed against true error, and the hard cases."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derive import files, terminal
+from derive.command_line import Command
+from wear.commands.arguments import Faults
+
+if TYPE_CHECKING:
+    from wear.benchmark.hard import Hard
+    from wear.benchmark.method import Method
+    from wear.benchmark.output import Result, Table
+
+READER = "section4"  # the scene of the sentences and of the figure
+HARD_SECONDS, HARD_SECONDS_QUICK = 2.0, 0.3
+
+EXAMPLE = """\
+  wear bench                         own methods and SciPy's, about a minute
+  wear bench --peers -o speed        with heyoka, diffrax, ... as installed; files into speed/
+  wear bench --quick --json          one scene, ten seconds
+  wear bench --hard                  the hard cases: how each method fails
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what to measure and how long."""
+    parser.add_argument(
+        "--peers",
+        action="store_true",
+        help="also what is installed of heyoka, diffrax, JiTCODE, SUNDIALS, numba "
+        "(pip install 'derive-wear[peers]')",
+    )
+    effort = parser.add_mutually_exclusive_group()
+    effort.add_argument("--quick", action="store_true", help="one scene, short runs")
+    effort.add_argument("--full", action="store_true", help="more scenes, long runs")
+    parser.add_argument("--hard", action="store_true", help="the hard cases instead of speed")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="write tables, raw CSV, JSON and the figure there"
+    )
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Measure, print, write."""
+    faults = Faults()
+    if options.hard and options.peers:
+        faults.add("--peers: the hard cases are for the package's own methods and SciPy's")
+    if options.output is not None:
+        problem = files.obstacle(Path(options.output) / "speed.csv")
+        if problem is not None and Path(options.output).exists():
+            faults.add(f"--output: {problem}")
+    faults.stop_if_any()
+    return _hard(options) if options.hard else _speed(options)
+
+
+def _speed(options: argparse.Namespace) -> int:
+    from wear.benchmark import output
+    from wear.benchmark.machine import footer
+    from wear.benchmark.summary import sentences
+
+    result = _measure(options)
+    if options.output is not None:
+        _write_speed(result, Path(options.output))
+    if options.json:
+        terminal.print_json(output.document(result, READER))
+    else:
+        _print_tables(output.tables(result))
+        print("\n".join(sentences(result.runs, READER)))
+        print("\n".join(["", *output.absences(result), footer(dict(result.facts))]))
+    return terminal.DONE
+
+
+def _measure(options: argparse.Namespace) -> Result:
+    from wear import benchmark
+    from wear.benchmark.cases import CYCLES, FEW, ONE, cases, names
+    from wear.benchmark.machine import import_seconds, machine
+    from wear.benchmark.output import Result
+
+    methods, absent = _methods(peers=options.peers)
+    facts = machine(options.peers)
+    _progress("imports")
+    timed = [] if options.quick else methods
+    imports = {method.name: import_seconds(method.imports) for method in timed}
+    if options.quick:
+        chosen, effort = cases("speed", ONE, CYCLES), benchmark.QUICK
+    elif options.full:
+        chosen, effort = cases("speed", names("speed"), CYCLES), benchmark.FULL
+    else:
+        chosen, effort = cases("speed", FEW, CYCLES), benchmark.DEFAULT
+    runs, starts = benchmark.benchmark(methods, chosen, effort, _progress)
+    _progress("")
+    return Result(runs, starts, imports, absent, facts)
+
+
+def _methods(*, peers: bool) -> tuple[Sequence[Method], dict[str, tuple[str, ...]]]:
+    """The methods that can run here, and what the others lack."""
+    from wear.benchmark.machine import missing
+    from wear.benchmark.own import OWN
+    from wear.benchmark.peers import PEERS
+
+    wanted = (*OWN, *PEERS) if peers else OWN
+    absent = {method.name: lack for method in wanted if (lack := missing(method))}
+    return [method for method in wanted if method.name not in absent], absent
+
+
+def _write_speed(result: Result, folder: Path) -> None:
+    from wear.benchmark import output
+
+    with files.replacing_in(folder) as draft:
+        _write(draft / "speed.csv", output.csv_text(result.runs))
+        _write(draft / "speed-start.csv", output.csv_text(result.starts))
+        _write(draft / "speed.md", output.markdown(result, READER))
+        _write(draft / "speed.json", _json(output.document(result, READER)))
+        for name, content in _figures(result).items():
+            (draft / name).write_bytes(content)
+
+
+def _figures(result: Result) -> dict[str, bytes]:
+    """Time against true error, by name of the file, for the numbers of cycles worth a figure."""
+    from wear.benchmark.curves import curves
+    from wear.benchmark.summary import at, figure_cycles
+    from wear.figure_style import encoded
+    from wear.figures import speed_against_error
+
+    drawn = {
+        cycles: speed_against_error(curves(at(result.runs, READER, cycles)))
+        for cycles in figure_cycles(result.runs, READER)
+    }
+    return {
+        f"speed-{cycles}{suffix}": encoded(figure, suffix)
+        for cycles, figure in drawn.items()
+        for suffix in (".svg", ".pdf")
+    }
+
+
+def _hard(options: argparse.Namespace) -> int:
+    from wear.benchmark import hard_output as output
+    from wear.benchmark.hard import catalogue, hard_cases
+    from wear.benchmark.machine import footer, machine
+
+    chosen = [case for case in catalogue() if not options.quick or case.cycles <= 10]
+    limit = HARD_SECONDS_QUICK if options.quick else HARD_SECONDS
+    facts = machine()
+    found = hard_cases(chosen, limit, _progress)
+    _progress("")
+    if options.output is not None:
+        _write_hard(found, footer(facts), Path(options.output))
+    if options.json:
+        terminal.print_json({"machine": facts, "cases": [entry._asdict() for entry in found]})
+    else:
+        _print_tables([output.overview(found), output.failures(found)])
+        print(output.LEGEND)
+        print(footer(facts))
+    return terminal.DONE
+
+
+def _write_hard(found: Sequence[Hard], footer: str, folder: Path) -> None:
+    from wear.benchmark import hard_output as output
+    from wear.benchmark.output import csv_text
+
+    with files.replacing_in(folder) as draft:
+        _write(draft / "hard-cases.csv", csv_text(found))
+        _write(draft / "hard-cases.md", output.markdown(found, footer))
+
+
+def _print_tables(tables: Sequence[Table]) -> None:
+    for table in tables:
+        width = max(len(row[0]) for row in table.rows) if table.rows else 0
+        rows = [(row[0].ljust(width), *row[1:]) for row in table.rows]
+        print(f"{table.caption}\n\n{terminal.table(table.header, rows)}\n")
+
+
+def _write(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8")
+
+
+def _json(document: object) -> str:
+    import json
+
+    return json.dumps(terminal.plain(document), indent=1, allow_nan=False) + "\n"
+
+
+def _progress(line: str) -> None:
+    """Say what is being done where somebody can see it pass."""
+    if sys.stderr.isatty():
+        print(f"\r\x1b[K{line}", end="", file=sys.stderr, flush=True)
+
+
+COMMAND = Command(
+    "bench", "speed against true error, and the hard cases", EXAMPLE, add_arguments, execute
+)

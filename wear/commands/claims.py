@@ -1,0 +1,80 @@
+"""`wear claims`: the ledger of the note's claims, each decided by a computation of this run."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import sys
+import textwrap
+from collections import Counter
+from collections.abc import Sequence
+
+from derive import terminal
+from derive.command_line import Command
+
+EXAMPLE = """\
+  wear claims               every claim of the note, with verdict and evidence
+  wear claims C24 C36       two of them
+  wear claims --json        the same for another program
+"""
+_WIDTH = 96
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the ids of claims."""
+    parser.add_argument("ids", metavar="ID", nargs="*", help="a claim, C1 to C40 (default: all)")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Decide the claims and print what was found."""
+    from wear.report.claims import as_json, ledger
+
+    _check(options.ids)
+    seen = sys.stderr.isatty()
+    entries = ledger(_progress if seen else None, options.ids)
+    if seen:
+        print("\r\033[K", end="", file=sys.stderr)
+    if options.json:
+        terminal.print_json(as_json(entries))
+        return terminal.DONE
+    for claim, finding in entries:
+        print(f"{claim.id}  {claim.where}: {claim.statement}")
+        print(f"     {finding.verdict}")
+        indent = " " * 5
+        print(
+            textwrap.fill(finding.evidence, _WIDTH, initial_indent=indent, subsequent_indent=indent)
+        )
+    print(f"\n{_summary([finding.verdict for _, finding in entries])}")
+    return terminal.DONE
+
+
+def _summary(verdicts: Sequence[str]) -> str:
+    """
+    >>> _summary(["confirmed", "refuted", "confirmed"])
+    '3 claims: 2 confirmed, 1 refuted'
+    """
+    found = Counter(verdicts).most_common()
+    parts = ", ".join(f"{number} {verdict}" for verdict, number in found)
+    return f"{terminal.count(len(verdicts), 'claim')}: {parts}"
+
+
+def _check(ids: list[str]) -> None:
+    from derive.note.claims import CLAIMS
+    from wear.faults import UsageError
+
+    faults = []
+    for identifier in ids:
+        if identifier not in CLAIMS:
+            near = difflib.get_close_matches(identifier, CLAIMS, n=1, cutoff=0.0)
+            faults.append(f"{identifier}: no such claim; did you mean {near[0]}?")
+    if faults:
+        raise UsageError("\n".join(faults))
+
+
+def _progress(done: int, total: int, identifier: str) -> None:
+    print(f"\r\033[K{done}/{total} {identifier}", end="", file=sys.stderr, flush=True)
+
+
+COMMAND = Command(
+    "claims", "the note's claims, each decided by a computation", EXAMPLE, add_arguments, execute
+)

@@ -1,0 +1,51 @@
+"""`wear explore`: a page on which the parameters of a scene can be moved."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from derive import files, terminal
+from derive.command_line import Command
+from wear.commands.arguments import Faults, add_scene
+
+EXAMPLE = """\
+  wear explore                          section4 of the note, into explorer.html
+  wear explore scene.toml -o mine.html  a scene of your own, beside the built-in ones
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_scene(parser, default="section4")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        default="explorer.html",
+        help="the page to write (default: %(default)s)",
+    )
+
+
+def execute(options: argparse.Namespace) -> int:
+    from wear.report.explorer import page
+
+    faults = Faults()
+    scene = faults.scene(options)
+    faults.stop_if_any()
+    assert scene is not None
+    text = page(scene)
+    files.write_atomically(options.output, text)
+    if options.json:
+        terminal.print_json({"page": options.output, "bytes": len(text.encode())})
+    else:
+        print(f"{options.output}: open it in a browser ({Path(options.output).resolve().as_uri()})")
+    return terminal.DONE
+
+
+COMMAND = Command(
+    "explore",
+    "an interactive page: the wear follows the parameters",
+    EXAMPLE,
+    add_arguments,
+    execute,
+)

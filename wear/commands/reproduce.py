@@ -1,0 +1,141 @@
+"""`wear reproduce`: the main job, from the governing equations to the report."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from derive import files, terminal
+from derive.command_line import Command
+
+if TYPE_CHECKING:
+    from wear.report.claims import Entry
+    from wear.report.publish import Published
+    from wear.report.verification import Verification
+
+EXAMPLE = """\
+  wear reproduce               writes report/report.html and all that belongs to it
+  wear reproduce -o elsewhere  into another folder
+"""
+
+Progress = Callable[[str], None]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the folder."""
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", default="report", help="folder (default: %(default)s)"
+    )
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Derive, verify, solve, judge, and write the report."""
+    from wear.faults import UsageError
+
+    folder = Path(options.output)
+    if folder.exists() and not folder.is_dir():
+        raise UsageError(f"--output: {folder}: is not a folder")
+    start = time.monotonic()
+    progress = _progress(start)
+    verification, ledger, published = _reproduce(folder, progress)
+    progress("")
+    summary = _summary(folder, verification, ledger, published, time.monotonic() - start)
+    if options.json:
+        terminal.print_json(summary)
+    else:
+        print("\n".join(_lines(summary)))
+    for line in (published.notice, *published.warnings):
+        if line:
+            terminal.complain("wear reproduce", line)
+    for identifier, check in verification.failures:
+        terminal.complain("wear reproduce", f"({identifier}) {check.kind} fails: {check.detail}")
+    return terminal.DONE if verification.passed else terminal.FAILED
+
+
+def _reproduce(
+    folder: Path, progress: Progress
+) -> tuple[Verification, tuple[Entry, ...], Published]:
+    """Make everything, then put it in place."""
+    progress("deriving the equations")
+    from derive.catalogue import equations
+    from wear.report.claims import as_json, ledger
+    from wear.report.manifest import NAME, manifest
+    from wear.report.paper import paper
+    from wear.report.paper_speed import measured
+    from wear.report.publish import publish
+    from wear.report.runs import run
+    from wear.report.verification import verified
+
+    with files.replacing_in(folder) as draft:
+        catalogue = equations()
+        verification = verified(catalogue, lambda what: progress(f"verifying {what}"))
+        runs = run(lambda what: progress(f"solving: {what}"))
+        judged = ledger(lambda _, __, claim: progress(f"judging claim {claim}"))
+        progress("measuring the speed")
+        speed = measured()
+        progress("writing")
+        published = publish(paper(catalogue, verification, runs, judged, speed), draft)
+        files.write_atomically(draft / "claims.json", _json(as_json(judged)))
+        files.write_atomically(
+            draft / NAME, _json(manifest(draft, runs, f"wear reproduce -o {folder.name}"))
+        )
+    return verification, judged, published
+
+
+def _json(document: object) -> str:
+    import json
+
+    return json.dumps(terminal.plain(document), indent=2, allow_nan=False) + "\n"
+
+
+def _progress(start: float) -> Progress:
+    """Show what is being done, on one line of a terminal; nothing elsewhere."""
+    if not sys.stderr.isatty():
+        return lambda _: None
+
+    def show(what: str) -> None:
+        line = f"{time.monotonic() - start:4.0f} s  {what}" if what else ""
+        print(f"\r\033[K{line[:100]}", end="", file=sys.stderr, flush=True)
+
+    return show
+
+
+def _summary(
+    folder: Path,
+    verification: Verification,
+    ledger: tuple[Entry, ...],
+    published: Published,
+    seconds: float,
+) -> dict[str, Any]:
+    from collections import Counter
+
+    return {
+        "folder": str(folder),
+        "files": sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*")),
+        "equations": verification.equations,
+        "steps": verification.steps,
+        "checks": verification.checks,
+        "failures": [f"({i}) {check.kind}: {check.detail}" for i, check in verification.failures],
+        "verdicts": dict(Counter(str(entry.finding.verdict) for entry in ledger)),
+        "notice": published.notice,
+        "seconds": seconds,
+    }
+
+
+def _lines(summary: dict[str, Any]) -> list[str]:
+    verdicts = ", ".join(f"{number} {verdict}" for verdict, number in summary["verdicts"].items())
+    failed = len(summary["failures"])
+    return [
+        f"{summary['equations']} equations, {summary['steps']} steps, {summary['checks']} checks: "
+        f"{f'{failed} FAILED' if failed else 'all passed'}",
+        f"claims: {verdicts}",
+        f"report: {Path(summary['folder'], 'report.html')}",
+    ]
+
+
+COMMAND = Command("reproduce", "derive, solve and judge everything: the report", EXAMPLE,
+                  add_arguments, execute)  # fmt: skip

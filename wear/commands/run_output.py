@@ -1,0 +1,141 @@
+"""The forms in which `wear run` shows and writes a history, beyond those that a history has."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from derive import files, terminal
+
+if TYPE_CHECKING:
+    from wear.history import Column, History
+
+SYMBOLS = {
+    "bearing_wear_mm": "u_c",
+    "pin_wear_mm": "u_a",
+    "bearing_roughness_mm": r"\sigma_c",
+    "pin_roughness_mm": r"\sigma_a",
+    "closure_mm": "h",
+    "contact_pressure_MPa": "p",
+    "bearing_displacement_mm": "U_c",
+    "pin_reaction_N": "R_a",
+}
+
+
+def text(history: History) -> str:
+    """Return a table for the eye, with what it took."""
+    quantities = _modelled(history)
+    header = ["cycle", *(_heading(column) for column in quantities), "relative\nerror"]
+    rows = [
+        [
+            str(cycle),
+            *(f"{column.values[row]:.10g}" for column in quantities),
+            f"{history.error[row]:.1e}",
+        ]
+        for row, cycle in enumerate(history.cycles.tolist())
+    ]
+    return "\n".join(
+        [
+            history.scene,
+            f"model {history.variant}, method {history.method}, rtol {history.rtol:g}",
+            "",
+            terminal.table(header, rows) if rows else "No requested cycle was reached.",
+            "",
+            f"{history.cost['cycles_integrated']} cycles integrated, "
+            f"{history.cost['rhs_evaluations']} evaluations of the rate, {history.seconds:.3g} s",
+        ]
+    )
+
+
+def worth_telling(history: History) -> tuple[str, ...]:
+    """Return the notices but that of the usual choice of a method, which the table's head names."""
+    usual = f"auto: {history.method}, because the load repeats"
+    return tuple(notice for notice in history.notices if notice != usual)
+
+
+def until_text(until: Mapping[str, Any]) -> str:
+    """Return a table of the cycles after which wears are reached."""
+    found = until["cycles_until"]
+    rows = [
+        [f"{wear:.10g}", "never" if cycles is None else str(cycles)]
+        for wear, cycles in zip(found["bearing_wear_mm"], found["cycles"], strict=True)
+    ]
+    return terminal.table(["bearing\nwear\n(mm)", "reached\nafter\ncycle"], rows)
+
+
+def latex(history: History) -> str:
+    r"""Return a `tabular` to `\input` into a document that loads booktabs."""
+    quantities = _modelled(history)
+    symbols = ["$N$", *(f"${SYMBOLS[column.name]}$" for column in quantities)]
+    units = ["", *(rf"\textnormal{{{column.unit}}}" for column in quantities)]
+    rows = [
+        [f"${latex_number(cycle, 15)}$", *(f"${latex_number(x, 8)}$" for x in state)]
+        for cycle, *state in zip(history.cycles, *(c.values for c in quantities), strict=True)
+    ]
+    title = " ".join(history.scene.split())
+    return "\n".join(
+        [
+            f"% {title}: model {history.variant}, method {history.method}, rtol {history.rtol:g}",
+            rf"\begin{{tabular}}{{{'r' * len(symbols)}}}",
+            r"\toprule",
+            *(rf"{' & '.join(row)} \\" for row in (symbols, units)),
+            r"\midrule",
+            *(rf"{' & '.join(row)} \\" for row in rows),
+            r"\bottomrule",
+            r"\end{tabular}",
+            "",
+        ]
+    )
+
+
+def latex_number(number: float, digits: int) -> str:
+    r"""Return a number for math mode, to so many significant digits.
+
+    >>> latex_number(4.41333e-3, 3), latex_number(1e8, 15), latex_number(12.0, 3)
+    ('4.41\\times 10^{-3}', '10^{8}', '12')
+    """
+    if not math.isfinite(number):
+        return r"\text{--}"
+    if number == 0.0 or (1e-2 <= abs(number) < 1e6 and abs(number) < 10.0**digits):
+        return f"{number:.{digits}g}"
+    mantissa, _, exponent = f"{number:.{digits - 1}e}".partition("e")
+    power = f"10^{{{int(exponent)}}}"
+    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+    return power if mantissa == "1" else rf"{mantissa}\times {power}"
+
+
+def _write_latex(history: History, path: Path) -> None:
+    path.write_text(latex(history), encoding="utf-8")
+
+
+def _write_table(history: History, path: Path) -> None:
+    history.write(path)
+
+
+WRITERS: Mapping[str, Callable[[History, Path], None]] = {
+    ".csv": _write_table,
+    ".nc": _write_table,
+    ".tex": _write_latex,
+}
+
+
+def write(history: History, path: Path) -> None:
+    """Write the file whose suffix is in `WRITERS`, whole or not at all."""
+    with files.replacing(path) as draft:
+        WRITERS[path.suffix](history, draft)
+
+
+def _modelled(history: History) -> Sequence[Column]:
+    """Return the physical columns; those of a pin that is not modelled are zero and left out."""
+    return [
+        column
+        for column in history.columns()
+        if column.name in SYMBOLS and (not column.name.startswith("pin") or column.values.any())
+    ]
+
+
+def _heading(column: Column) -> str:
+    words = column.name.removesuffix(f"_{column.unit}").split("_")
+    return "\n".join([*words, f"({column.unit})"])

@@ -1,0 +1,96 @@
+"""Any number of cycles from a few: wear after N cycles, and cycles until a wear.
+
+Abel's equation for the cycle count, see docs/method.md; the load repeats.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.count.build import build, evaluate, until
+from wear.count.collocation import FloatArray
+from wear.count.cycle import Cost
+from wear.count.scan import LEAST
+from wear.count.stages import counted_stages, evaluate_stages
+from wear.load import Load
+from wear.model import Model
+
+MOST_CYCLES = 1e12
+
+
+class Wear(NamedTuple):
+    """Wear `u_c` (mm) after the cycles asked for, and its estimated relative error."""
+
+    u_c: FloatArray
+    error: FloatArray
+    cost: Cost
+    notices: tuple[str, ...]
+
+
+# Trial states far off the solution may overflow; what is no number fails the estimate of error.
+@np.errstate(all="ignore")
+def wear_after(
+    model: Model, load: Load, cycles: FloatArray, rtol: float, start: float = 0.0
+) -> Wear:
+    """Wear u_c after whole numbers of cycles (any shape), to relative accuracy `rtol`.
+
+    `start` is the wear (mm) before the first of them. Where the accuracy was not reached the
+    estimated error says so.
+    """
+    cycles = np.asarray(cycles, dtype=float)
+    most = float(np.max(cycles, initial=0.0))
+    if model.cutoff:
+        return _with_cutoff(model, load, cycles, rtol, start)
+    counted = build(model, load, most, rtol, start)
+    wear, error = evaluate(counted, cycles)
+    notices: tuple[str, ...] = ()
+    if np.any(wear >= (1 - 1e-9) * counted.limit):
+        notices = (f"the roughness vanishes near u_c = {counted.limit:.4g} mm: the model ends",)
+    elif counted.table is None and np.any(cycles >= len(counted.first)):
+        notices = (f"from cycle {len(counted.first) - 1} on a cycle adds less than can be told",)
+    return Wear(wear, error, counted.cost, notices)
+
+
+def _with_cutoff(model: Model, load: Load, cycles: FloatArray, rtol: float, start: float) -> Wear:
+    """Wear with a cutoff, stage by stage."""
+    found = counted_stages(model, load, float(np.max(cycles, initial=0.0)), rtol, start)
+    wear, error = evaluate_stages(found, cycles)
+    notices = () if found.arrest is None else (str(found.arrest),)
+    return Wear(wear, error, found.cost, notices)
+
+
+class Cycles(NamedTuple):
+    """Whole numbers of cycles after which a wear is first reached, infinite where it is not, and
+    the estimated relative error of the count."""
+
+    cycles: FloatArray
+    error: FloatArray
+    cost: Cost
+
+
+@np.errstate(all="ignore")
+def cycles_until(
+    model: Model,
+    load: Load,
+    wear: FloatArray,
+    rtol: float,
+    start: float = 0.0,
+    most: float = MOST_CYCLES,
+) -> Cycles:
+    """After how many whole cycles from wear `start` (mm) the wear u_c (mm, any shape) is reached,
+    up to `most` cycles."""
+    wear = np.asarray(wear, dtype=float)
+    reach, cost = min(LEAST, most), Cost(0, 0)
+    while True:
+        found = counted_stages(model, load, reach, rtol, start)
+        cost = cost.plus(*found.cost)
+        if reach >= most or found.arrested or np.max(wear, initial=0.0) <= found.last_wear:
+            break
+        reach = min(reach * 1e3, most)
+    count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
+    for stage in reversed(found.stages):
+        after, missed = until(stage.counted, wear)
+        here = np.isfinite(after) & (stage.begins + after <= most)
+        count[here] = stage.begins + after[here]
+        error[here] = (missed[here] + stage.blur) / np.maximum(count[here], 1.0)
+    return Cycles(count, error, cost)

@@ -1,0 +1,277 @@
+"""Direct integration of the wear equation by SciPy's solvers, with an estimate of the true error.
+
+A solver's tolerance bounds the error of a step, not that of the answer. Here every answer is
+computed at least twice, the second time with a tenfold smaller tolerance and shorter longest step;
+the difference estimates the error of the first and bounds that of the second. Both are refined
+until the estimate meets the request.
+
+What else may go wrong is excluded by construction: steps cannot jump over a contact pulse
+(`wear.direct.problem.widest_step`), kinks of the load and of the cutoff are ends of steps
+(`wear.direct.cutoff`), and once wear has stopped for good nothing is integrated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.direct import cutoff
+from wear.direct.cutoff import Mode
+from wear.direct.problem import EPS, Problem, Setting, problem, widest_step
+from wear.direct.sequence import span
+from wear.direct.step import (
+    FINEST_TOLERANCE,
+    METHODS,
+    EndOfModelError,
+    Meter,
+    OutOfTimeError,
+    leg,
+)
+
+if TYPE_CHECKING:
+    from wear.load import AperiodicLoad, Load
+    from wear.model import Model
+
+__all__ = ["METHODS", "DirectResult", "integrate"]
+
+FloatArray = NDArray[np.float64]
+FIRST_TOLERANCE = 0.1  # of the first run, over the requested one
+REFINEMENT = 0.01  # of the tolerance, from run to run
+SHORTENING = 0.8  # of the longest step, from run to run
+SAFETY = 4.0  # on what the distance of two runs tells
+ALIKE = {"BDF": 3.0, "LSODA": 3.0}  # errors of a multistep method's steps do not cancel as well
+FEWEST_STEPS = 100  # counted as if made when the errors of steps are added up
+INPUT_ROUNDOFF = 16 * EPS  # of the rate, from that of the scene's numbers in the law's exponent
+
+
+class DirectResult(NamedTuple):
+    """Wear (mm) at the requested cycles that were reached, in rising order, and how it was got.
+
+    `error` estimates the relative error of `u`, NaN where a run was stopped before there was a
+    second one to compare with. `arrested_in` is the cycle, counted from 1, in which wear stopped
+    for good. `stopped` says why the integration ended early (None: it did not) and `interrupted`
+    whether that was the user or the clock.
+    """
+
+    cycles: tuple[int, ...]
+    u: FloatArray
+    error: FloatArray
+    cycles_integrated: int
+    rhs_evaluations: int
+    arrested_in: int | None
+    stopped: str | None
+    interrupted: bool
+
+
+class Run(NamedTuple):
+    """One integration, as far as it got: the states at the marked cycles."""
+
+    setting: Setting
+    states: list[State]
+
+    def wear(self) -> FloatArray:
+        """Wear in mm at the marks that were reached."""
+        return np.array([state.u for state in self.states], dtype=float)
+
+
+class State(NamedTuple):
+    """The wear in mm at the end of a cycle, after so many steps.
+
+    `arrested_in` is the cycle in which wear stopped for good.
+    """
+
+    cycle: int
+    u: float
+    mode: Mode
+    arrested_in: int | None
+    steps: int
+
+
+def integrate(
+    model: Model,
+    load: Load | AperiodicLoad,
+    cycles: Sequence[int],
+    rtol: float,
+    method: str = "DOP853",
+    deadline: float = np.inf,
+) -> DirectResult:
+    """Integrate the wear from the fresh state to the ends of `cycles`.
+
+    Parameters
+    ----------
+    cycles
+        Numbers of cycles, in any order, 0 for the fresh state.
+    rtol
+        Requested relative error of the wear. The result may miss it: look at `error`.
+    method
+        One of `METHODS`, SciPy's names.
+    deadline
+        A `time.monotonic()` at which to stop with what there is.
+    """
+    marks = _marks(cycles)
+    meter = Meter(deadline)
+    blur = cutoff.roundoff(model, 0.0, load.maximum) if model.cutoff else 0.0
+    runs: list[Run] = []
+    stopped, interrupted = None, False
+    try:
+        for setting in _settings(method, rtol):
+            runs.append(Run(setting, []))
+            for state in _march(model, load, marks, setting, meter):
+                runs[-1].states.append(state)
+            if len(runs) > 1 and np.max(_errors(runs, blur), initial=0.0) <= rtol:
+                break
+    except OutOfTimeError:
+        stopped, interrupted = "the time limit has passed", True
+    except KeyboardInterrupt:
+        stopped, interrupted = "interrupted", True
+    except EndOfModelError as end:
+        stopped = str(end)
+    return _result(runs, blur, cycles, meter, stopped, interrupted)
+
+
+def _settings(method: str, rtol: float) -> Iterator[Setting]:
+    """Ever finer settings, until roundoff ends what a smaller tolerance brings."""
+    tolerance, share = FIRST_TOLERANCE * rtol, 1.0
+    while tolerance > FINEST_TOLERANCE:
+        yield Setting(method, tolerance, share)
+        tolerance, share = REFINEMENT * tolerance, SHORTENING * share
+    yield Setting(method, FINEST_TOLERANCE, share)
+    yield Setting(method, FINEST_TOLERANCE, SHORTENING * share)
+
+
+def _marks(cycles: Sequence[int]) -> tuple[int, ...]:
+    """The requested cycles with powers of two between: there wear is compared and steps adapt."""
+    last = max(cycles, default=0)
+    powers = {1 << k for k in range(last.bit_length())}
+    return tuple(sorted({mark for mark in powers if mark <= last} | set(cycles)))
+
+
+def _march(
+    model: Model,
+    load: Load | AperiodicLoad,
+    marks: Sequence[int],
+    setting: Setting,
+    meter: Meter,
+) -> Iterator[State]:
+    """The states at the marked cycles, one after another."""
+    acting = span(load, 0)
+    of = problem(model, acting.load)
+    state, steps_before = State(0, 0.0, _mode(of, 0.0), None, 0), meter.steps
+    if model.cutoff and cutoff.is_arrested(of, 0.0, state.mode, load.maximum):
+        state = state._replace(arrested_in=0)
+    for mark in marks:
+        while state.cycle < mark and state.arrested_in is None:
+            if state.cycle >= acting.until:
+                acting = span(load, state.cycle)
+                of = replace(of, load=acting.load)
+                state = state._replace(mode=_mode(of, state.u))
+            to = min(mark, acting.until)
+            if model.cutoff:
+                state = _cycles_with_cutoff(of, state, to, setting, meter, load.maximum)
+            else:
+                state = _smooth_cycles(of, state, to, setting, meter)
+        state = state._replace(cycle=mark, steps=meter.steps - steps_before)
+        yield state
+
+
+def _mode(of: Problem, u: float) -> Mode:
+    return cutoff.first_mode(of, u) if of.model.cutoff else Mode.CLOSED
+
+
+def _smooth_cycles(of: Problem, state: State, to: int, setting: Setting, meter: Meter) -> State:
+    """Integrate up to cycle `to`, stopping at kinks of the load only."""
+    length = to - state.cycle
+    u, phase = state.u, 0.0
+    longest = widest_step(of, u, float(length))
+    for end in _stops(of.load.kinks, length):
+        phase, u, _ = leg(of, u, phase, end, setting, meter, longest)
+    meter.cycles += length
+    return state._replace(cycle=to, u=u)
+
+
+def _stops(kinks: tuple[float, ...], length: int) -> Iterator[float]:
+    """The phases after 0 at which a step has to end, up to `length` cycles."""
+    inner = (cycle + kink for cycle in range(length if kinks else 0) for kink in kinks)
+    yield from (phase for phase in inner if phase > 0.0)
+    yield float(length)
+
+
+def _cycles_with_cutoff(
+    of: Problem, state: State, to: int, setting: Setting, meter: Meter, maximum: float
+) -> State:
+    """Integrate up to cycle `to`, or to the end of the one in which wear stops for good."""
+    cut = cutoff.pieces(of.load)
+    while state.cycle < to and state.arrested_in is None:
+        u, mode = cutoff.cycle(of, cut, state.u, state.mode, setting, meter)
+        meter.cycles += 1
+        cycle = state.cycle + 1
+        arrested = cutoff.is_arrested(of, u, mode, maximum)
+        state = state._replace(cycle=cycle, u=u, mode=mode, arrested_in=cycle if arrested else None)
+    return state
+
+
+def _errors(runs: Sequence[Run], blur: float) -> FloatArray:
+    """Relative error of the last run at each mark that it reached, from its distance to the others.
+
+    Errors fall with the tolerance, if not in proportion: the square root of the ratio is counted
+    on. The distance is the largest so far, since two runs may cross. They may also agree by
+    accident: nothing is claimed below the sum, at random, of the errors that the last run's
+    tolerance permits at each step, nor below the roundoff of the scene's numbers, nor below
+    `blur` (mm), the width that roundoff gives the edge of contact.
+    """
+    *others, last = runs
+    wear = last.wear()
+    size = len(wear)
+    distance = np.full(size, blur)
+    for other in others:
+        gain = np.sqrt(last.setting.tolerance / other.setting.tolerance)
+        apart = np.maximum.accumulate(np.abs(other.wear()[:size] - wear))
+        distance = np.maximum(distance, SAFETY * gain * apart)
+    steps = np.array([state.steps for state in last.states], dtype=float)
+    per_step = last.setting.tolerance * ALIKE.get(last.setting.method, 1.0)
+    floor = INPUT_ROUNDOFF + per_step * np.sqrt(FEWEST_STEPS + steps)
+    relative = np.divide(distance, wear, out=np.zeros(size), where=wear > 0.0)
+    return np.where(wear > 0.0, relative + floor, 0.0)
+
+
+def _result(
+    runs: list[Run],
+    blur: float,
+    cycles: Sequence[int],
+    meter: Meter,
+    stopped: str | None,
+    interrupted: bool,
+) -> DirectResult:
+    """The finest states that there are, and their distance to the run before as their error."""
+    states, error = _best(runs, blur)
+    wanted = set(cycles)
+    chosen = [index for index, state in enumerate(states) if state.cycle in wanted]
+    arrests = [state.arrested_in for state in states if state.arrested_in is not None]
+    return DirectResult(
+        tuple(states[index].cycle for index in chosen),
+        np.array([states[index].u for index in chosen], dtype=float),
+        error[chosen],
+        meter.cycles,
+        meter.evaluations,
+        arrests[0] if arrests else None,
+        stopped,
+        interrupted,
+    )
+
+
+def _best(runs: list[Run], blur: float) -> tuple[list[State], FloatArray]:
+    """States and errors from runs of which the last one may have been stopped."""
+    if not runs:
+        return [], np.zeros(0)
+    furthest = len(runs[0].states)
+    complete = [run for run in runs if len(run.states) == furthest]
+    if len(complete) >= 2:
+        return complete[-1].states, _errors(complete, blur)
+    finer = runs[-1].states if len(runs) > 1 else []
+    error = np.full(furthest, np.nan)
+    error[: len(finer)] = _errors(runs, blur)[: len(finer)]
+    return [*finer, *runs[0].states[len(finer) :]], error

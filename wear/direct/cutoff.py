@@ -1,0 +1,237 @@
+"""One cycle with the cutoff of Eq. (4): no pressure once the closure exceeds three roughnesses.
+
+Overview
+    The margin of contact 3 sigma - h rises one to one with the pin's displacement U_a. While the
+    contact is open nothing wears, so its next beginning is a crossing of the load alone. The
+    cycle is therefore cut where the load turns or has a kink, and each piece walked through.
+Modes
+    open      margin < 0: no wear
+    closed    margin > 0: wear as without cutoff
+    sliding   margin = 0, rigid support: the pressure jumps, and wear in Filippov's sense keeps
+              the surfaces at the edge of contact, so that u_c is a function of U_a alone
+Reference
+    A. F. Filippov, Differential Equations with Discontinuous Righthand Sides, Kluwer 1988.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import Enum
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from wear import root
+from wear.direct.problem import EPS, Problem, Real, Setting, widest_step
+from wear.direct.step import EndOfModelError, Meter, first_zero, leg
+
+if TYPE_CHECKING:
+    from wear.load import Load
+    from wear.model import Model
+
+SLIDING_LOOKS = 64  # phases of a piece at which the end of sliding is looked for
+MOST_LEGS = 1000  # in one piece: more is chatter between modes, not contact
+
+
+class Mode(Enum):
+    """How the surfaces meet."""
+
+    OPEN = "open"
+    CLOSED = "closed"
+    SLIDING = "sliding"
+
+
+class Piece(NamedTuple):
+    """An interval of phase in which the load is smooth and does not turn."""
+
+    start: float
+    end: float
+    rising: bool  # or level
+
+
+class Moment(NamedTuple):
+    """A state inside a cycle: phase, wear in mm, mode."""
+
+    phase: float
+    u: float
+    mode: Mode
+
+
+def pieces(load: Load) -> tuple[Piece, ...]:
+    """Cut a cycle where the load turns or has a kink."""
+    cuts = sorted({0.0, 1.0, *load.kinks, *load.peaks, *_troughs(load)})
+    ends = [cut for before, cut in pairwise(cuts) if cut - before > 4 * EPS]
+    starts = [0.0, *ends[:-1]]
+    return tuple(Piece(a, b, bool(load(b) >= load(a))) for a, b in zip(starts, ends, strict=True))
+
+
+def first_mode(of: Problem, u: float) -> Mode:
+    """The mode at phase 0: a contact that only touches counts as open until it closes."""
+    return Mode.CLOSED if of.margin(0.0, u) > 0.0 else Mode.OPEN
+
+
+def is_arrested(of: Problem, u: float, mode: Mode, maximum: float) -> bool:
+    """Whether no load up to `maximum` (mm) closes the contact again: wear has stopped for good."""
+    return mode is not Mode.CLOSED and _threshold(of, u) >= maximum - _slack(of, u)
+
+
+def pressure_share(model: Model, u: float, U_a: float, rise: float) -> float:
+    """The share of the closed contact's pressure that acts: 1 closed, 0 open, between when sliding.
+
+    At the edge of contact a rigid support leaves the pressure undetermined; it is the share that
+    lets wear keep up with the load, which rises by `rise` mm/s.
+    """
+    margin = float(model.margin(u, U_a))
+    if abs(margin) > roundoff(model, u, U_a):
+        return float(margin > 0.0)
+    opening = -float(model.margin_slope(u, U_a) * model.rate(u, U_a))
+    return 1.0 if opening <= 0.0 else float(np.clip(rise / opening, 0.0, 1.0))
+
+
+def roundoff(model: Model, u: float, U_a: float) -> float:
+    """The uncertainty of the margin (mm)."""
+    now = model.fields(u, U_a)
+    return 16 * EPS * float(now.sigma + abs(now.h) + abs(U_a))
+
+
+def cycle(
+    of: Problem, cut: tuple[Piece, ...], u: float, mode: Mode, setting: Setting, meter: Meter
+) -> tuple[float, Mode]:
+    """Wear (mm) and mode at the end of a cycle that starts with wear `u` in `mode`.
+
+    Raises
+    ------
+    OutOfTimeError, EndOfModelError
+    """
+    longest = widest_step(of, u, 1.0)
+    for piece in cut:
+        now = Moment(piece.start, u, mode)
+        for _ in range(MOST_LEGS):
+            now = _next(of, piece, now, setting, meter, longest)
+            if now.phase >= piece.end:
+                break
+        else:
+            raise EndOfModelError("contact opens and closes too often to be followed")
+        _, u, mode = now
+    return u, mode
+
+
+def _next(
+    of: Problem, piece: Piece, now: Moment, setting: Setting, meter: Meter, longest: float
+) -> Moment:
+    """Go on to the next change of mode, or to the end of the piece."""
+    if now.mode is Mode.CLOSED:
+        return _wear(of, piece, now, setting, meter, longest)
+    if not piece.rising:
+        return Moment(piece.end, now.u, Mode.OPEN)
+    if now.mode is Mode.OPEN:
+        return _close(of, piece, now)
+    return _slide(of, piece, now)
+
+
+def _wear(
+    of: Problem, piece: Piece, now: Moment, setting: Setting, meter: Meter, longest: float
+) -> Moment:
+    # A compliant support lets the pressure fall to zero at the edge of contact, so that a rising
+    # load never loses it.
+    slack = None if of.model.compliant and piece.rising else _slack(of, now.u)
+    kink = _following(of) if of.model.compliant else None
+    phase, u, opened = leg(of, now.u, now.phase, piece.end, setting, meter, longest, slack, kink)
+    if not opened:
+        return Moment(phase, u, Mode.CLOSED)
+    return Moment(phase, u, Mode.SLIDING if piece.rising else Mode.OPEN)
+
+
+def _following(of: Problem) -> Callable[[Real, Real], Real]:
+    """How far the support's pressure at the edge of contact is above that of the contact law (MPa).
+
+    While it is negative, a compliant support keeps the contact at its edge.
+    """
+    module, constants = of.model.module, of.model.constants
+
+    def excess(phase: Real, u: Real) -> Real:
+        U_a = of.load(phase)
+        law = root.pressure(module, u, U_a, constants).p
+        return module.limited(np.inf, u, U_a, constants) - law
+
+    return excess
+
+
+def _close(of: Problem, piece: Piece, now: Moment) -> Moment:
+    """Wait, open, for the load to close the gap."""
+    threshold = _threshold(of, now.u)
+    if of.load(piece.end) <= threshold + _slack(of, now.u):
+        return Moment(piece.end, now.u, Mode.OPEN)
+    phase = now.phase
+    if of.load(phase) < threshold:
+        phase = first_zero(lambda at: of.load(at) - threshold, phase, piece.end)
+    holds = of.model.compliant or _pull(of, phase, now.u) < 0.0
+    return Moment(phase, now.u, Mode.CLOSED if holds else Mode.SLIDING)
+
+
+def _slide(of: Problem, piece: Piece, now: Moment) -> Moment:
+    """Follow the edge of contact until the load closes faster than wear can open."""
+    phases = np.linspace(now.phase, piece.end, SLIDING_LOOKS + 1)
+    wear = _edge(of, phases, np.full(phases.shape, now.u))
+    leaves = np.flatnonzero(_pull(of, phases, wear)[:-1] < 0.0)
+    if len(leaves) == 0:
+        return Moment(piece.end, max(now.u, float(wear[-1])), Mode.SLIDING)
+    if leaves[0] == 0:  # a kink of the load
+        return Moment(now.phase, now.u, Mode.CLOSED)
+    first = int(leaves[0]) - 1
+
+    def pull(phase: float) -> Real:
+        return _pull(of, phase, _edge(of, phase, float(wear[first])))
+
+    phase = first_zero(pull, float(phases[first]), float(phases[first + 1]))
+    u = max(now.u, float(_edge(of, phase, float(wear[first]))))
+    return Moment(phase, u, Mode.CLOSED)
+
+
+def _pull(of: Problem, phase: Real, u: Real) -> Real:
+    """How fast closed contact at the edge would open (mm per cycle); negative: it closes."""
+    U_a = of.load(phase)
+    opening = -of.model.margin_slope(u, U_a) * of.load.period * of.model.rate(u, U_a)
+    return opening - of.load.slope(phase)
+
+
+def _edge(of: Problem, phase: Real, u: Real) -> Real:
+    """The wear at which the margin is zero, by Newton's method from the nearby wear `u`.
+
+    The margin is convex in u, and linear for one rough surface.
+    """
+    U_a = of.load(phase)
+    for _ in range(50):
+        step = of.model.margin(u, U_a) / of.model.margin_slope(u, U_a)
+        u = u - step
+        if np.all(np.abs(step) <= 4 * EPS * np.abs(u)):
+            break
+    return u
+
+
+def _threshold(of: Problem, u: float) -> float:
+    """The displacement U_a (mm) that just closes the contact: the margin's slope in U_a is 1."""
+    return -float(of.model.margin(u, 0.0))
+
+
+def _slack(of: Problem, u: float) -> float:
+    """The uncertainty of the margin over the cycle (mm)."""
+    return max(roundoff(of.model, u, U_a) for U_a in (of.load.minimum, of.load.maximum))
+
+
+def _troughs(load: Load) -> tuple[float, ...]:
+    """The lowest phase between each two neighbouring peaks, in [0, 1)."""
+    from scipy.optimize import minimize_scalar
+
+    if not load.peaks:
+        return ()
+    peaks = sorted(load.peaks)
+    found = []
+    for left, right in zip(peaks, [*peaks[1:], peaks[0] + 1.0], strict=True):
+        phases = np.linspace(left, right, 129)
+        lowest = int(np.argmin(load(phases)))
+        around = (float(phases[max(lowest - 1, 0)]), float(phases[min(lowest + 1, 128)]))
+        best = minimize_scalar(load, bounds=around, method="bounded", options={"xatol": 1e-12})
+        found.append(float(best.x) % 1.0)
+    return tuple(found)

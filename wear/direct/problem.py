@@ -1,0 +1,125 @@
+"""The differential equation as an integrator sees it: d(u_c/unit)/dphase for one scene.
+
+Wear is some 1e-4 mm, so an absolute tolerance in millimetres would mean nothing: the variable is
+scaled by about the wear of the first cycle. Time runs in phase (cycles) since the start of a whole
+cycle, so that after any number of cycles the load is evaluated with a small argument.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from wear.load import Load
+    from wear.model import Model
+
+Real = Any  # a float or an array of floats: loads and models broadcast
+EPS = float(np.finfo(float).eps)
+PHASES = 2048  # samples of a cycle for estimates of scale and sharpness
+STEP_PER_PULSE = 0.75  # longest step over the standard deviation of a contact pulse
+DEPTH = 20.0  # up to how many roughnesses of closure the contact law is looked at
+
+
+class Setting(NamedTuple):
+    """How finely to integrate: SciPy's `method`, its tolerance, and the share of the widest step.
+
+    Two runs whose difference is to tell an error must differ in both: where the widest step binds,
+    the tolerance alone changes nothing.
+    """
+
+    method: str
+    tolerance: float
+    share: float
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A model under its load, with the scale of its wear.
+
+    `unit` (mm) is about the wear of the first cycle. `limit` (mm) is the wear at which the only
+    rough surface has become perfectly smooth (infinity if that cannot happen): there the model,
+    in which lengths are measured in roughnesses, ends.
+    """
+
+    model: Model
+    load: Load
+    unit: float
+    limit: float
+
+    def speed(self, phase: Real, u: Real) -> Real:
+        """Wear in mm per cycle at `phase` and wear `u`, contact assumed."""
+        return self.load.period * self.model.rate(u, self.load(phase))
+
+    def margin(self, phase: Real, u: Real) -> Real:
+        """How deep in contact, in mm: negative when open (cutoff only)."""
+        return self.model.margin(u, self.load(phase))
+
+
+def problem(model: Model, load: Load) -> Problem:
+    """Scale the wear of a model under a load."""
+    U_a = load(_grid(load))
+    rate = model.rate(0.0, U_a)
+    if model.cutoff:
+        rate = np.where(model.margin(0.0, U_a) >= 0.0, rate, 0.0)
+    first_cycle = load.period * float(np.mean(rate))
+    roughness = float(model.fields(0.0, load.maximum).sigma)
+    unit = min(first_cycle, roughness) or roughness
+    return Problem(model, load, unit, _smooth_at(model, load, roughness))
+
+
+def widest_step(of: Problem, u: float, end: float) -> float:
+    """The longest step, in cycles, that cannot jump over a contact pulse when the wear is `u`.
+
+    Around a peak of the load the pressure falls like exp(lambda (U_a - peak)), lambda being the
+    steepest logarithmic slope of the contact law; to second order in phase that is a bell of
+    standard deviation 1/sqrt(-lambda U_a''). A flatter pulse, of a saturated contact, is longer.
+    `end` is the length of the integration, returned where there are no pulses.
+    """
+    steepness = _logarithmic_slope(of.model, of.load, u)
+    curvature = _sharpest_bend(of.load)
+    if steepness * curvature <= 0.0:
+        return end
+    return min(end, STEP_PER_PULSE / float(np.sqrt(steepness * curvature)))
+
+
+def _grid(load: Load) -> Any:
+    """Phases of a cycle, its peaks among them: a needle between the samples is not missed."""
+    return np.concatenate([np.arange(PHASES) / PHASES, load.peaks])
+
+
+def _logarithmic_slope(model: Model, load: Load, u: float) -> float:
+    """The largest d ln(rate)/dU_a (1/mm) while the closure at the highest load opens.
+
+    The search starts where the surfaces touch: deeper, a saturated law has no slope.
+    """
+    deepest = model.fields(u, load.maximum)
+    touching = load.maximum + min(float(deepest.h), 0.0)
+    displacement = touching - float(deepest.sigma) * np.linspace(0.0, DEPTH, 81)
+    rate = np.asarray(model.rate(u, displacement))
+    seen = rate > np.finfo(float).tiny
+    if np.count_nonzero(seen) < 2:
+        return 0.0
+    return float(np.max(np.diff(np.log(rate[seen])) / np.diff(displacement[seen])))
+
+
+def _sharpest_bend(load: Load) -> float:
+    """The largest -U_a'' (mm per cycle squared) where the load is smooth.
+
+    At a kink the integrator stops anyway, and so cannot jump over it.
+    """
+    phases = np.arange(PHASES + 1) / PHASES
+    bend = -np.diff(load.slope(phases)) * PHASES
+    for kink in load.kinks:
+        bend[np.abs((phases[:-1] + 0.5 / PHASES - kink + 0.5) % 1.0 - 0.5) < 1.0 / PHASES] = 0.0
+    return float(max(0.0, np.max(bend)))
+
+
+def _smooth_at(model: Model, load: Load, roughness: float) -> float:
+    """The wear at which the only rough surface is smooth; infinity for two or a growing one."""
+    fresh, worn = (model.fields(u, load.maximum) for u in (0.0, roughness))
+    if fresh.sigma_a != 0.0 or worn.sigma_a != 0.0 or worn.sigma_c >= fresh.sigma_c:
+        return np.inf
+    return float(roughness * fresh.sigma_c / (fresh.sigma_c - worn.sigma_c))

@@ -1,0 +1,191 @@
+"""One leg of an integration: SciPy's solver from one phase to another, where all is smooth.
+
+Nothing but `leg` knows SciPy. A leg ends early where contact is lost (`until_open`), where the
+roughness vanishes, or by an exception: the clock, the user, or a solver that gives up.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wear.direct.problem import EPS, Problem, Real, Setting
+
+METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
+FINEST_TOLERANCE = 110 * EPS  # SciPy accepts no relative tolerance below 100 units of roundoff
+LOOKS_PER_STEP = 8  # where a step is searched for the end of contact
+
+
+class OutOfTimeError(Exception):
+    """The time limit has passed."""
+
+
+class EndOfModelError(Exception):
+    """The integration cannot go on; the message says why."""
+
+
+@dataclass
+class Meter:
+    """What an integration has cost so far, and when it has to stop (`time.monotonic`)."""
+
+    deadline: float = np.inf
+    evaluations: int = 0
+    steps: int = 0
+    cycles: int = 0
+
+    def step(self) -> None:
+        """Count a step; raise when time is up."""
+        self.steps += 1
+        if time.monotonic() > self.deadline:
+            raise OutOfTimeError
+
+
+class Leg(NamedTuple):
+    """Where a leg ended: phase, wear in mm, and whether it ended because contact was lost."""
+
+    phase: float
+    u: float
+    opened: bool
+
+
+def leg(
+    of: Problem,
+    u: float,
+    start: float,
+    end: float,
+    setting: Setting,
+    meter: Meter,
+    longest: float,
+    slack: float | None = None,
+    kink: Callable[[Real, Real], Real] | None = None,
+) -> Leg:
+    """Integrate in contact from phase `start` with wear `u` to phase `end`.
+
+    With `slack` (mm) the leg ends as soon as the margin of contact falls below `-slack`; with
+    `kink`, a function of phase and wear, where that changes sign: there the rate has a kink.
+
+    Raises
+    ------
+    OutOfTimeError, EndOfModelError
+    """
+    solver = _solver(of, u, start, end, setting, meter, longest)
+    side = 0.0
+    while solver.status == "running":
+        before = Leg(float(solver.t), u, False)
+        complaint = solver.step()
+        meter.step()
+        if solver.status == "failed":
+            raise EndOfModelError(f"{setting.method} gave up: {str(complaint).rstrip('.')}")
+        u = float(solver.y[0]) * of.unit
+        if u >= of.limit * (1.0 - 1e-9):
+            raise EndOfModelError(
+                f"the only rough surface has become smooth at u_c = {of.limit:.6g} mm, "
+                "where the model ends"
+            )
+        if slack is None and kink is None:
+            continue
+        step = _Step(solver.dense_output(), before.phase, float(solver.t), of.unit)
+        side = side or (0.0 if kink is None else step.side(kink))
+        bent = None if kink is None else step.first(_times(side, kink))
+        opened = None if slack is None else step.first(_plus(slack, of.margin))
+        found = opened if bent is None else bent
+        if found is None:
+            continue
+        if kink is None:
+            return Leg(found, float(step.wear(found)), True)
+        # The step went over a kink, and so is not exact on this side of it either: once more.
+        if found > before.phase:
+            before = leg(of, before.u, before.phase, found, setting, meter, longest)
+        return before._replace(opened=bent is None)
+    return Leg(float(solver.t), u, False)
+
+
+def _solver(
+    of: Problem, u: float, start: float, end: float, setting: Setting, meter: Meter, longest: float
+) -> Any:
+    from scipy import integrate
+
+    ceiling = of.limit * (1.0 - 1e-12)  # no stage of a step may look beyond the end of the model
+    scale = of.load.period / of.unit
+    rate, slope, load = of.model.rate, of.model.slope, of.load
+
+    def right_hand_side(phase: float, y: Any) -> Any:
+        meter.evaluations += 1
+        return [scale * rate(min(y[0] * of.unit, ceiling), float(load(phase)))]
+
+    def jacobian(phase: float, y: Any) -> Any:
+        meter.evaluations += 1
+        return np.array(
+            [[of.load.period * slope(min(y[0] * of.unit, ceiling), float(load(phase)))]]
+        )
+
+    options: dict[str, Any] = (
+        {"jac": jacobian} if setting.method in ("Radau", "BDF", "LSODA") else {}
+    )
+    kind = getattr(integrate, setting.method)
+    return kind(
+        right_hand_side,
+        start,
+        [u / of.unit],
+        end,
+        rtol=setting.tolerance,
+        atol=setting.tolerance,
+        max_step=min(longest, end - start) * setting.share,
+        **options,
+    )
+
+
+class _Step(NamedTuple):
+    """A step that was made, with its interpolant."""
+
+    dense: Callable[[Real], Any]
+    start: float
+    end: float
+    unit: float
+
+    def wear(self, phase: Real) -> Real:
+        """Wear in mm inside the step."""
+        return self.dense(phase)[0] * self.unit
+
+    def side(self, function: Callable[[Real, Real], Real]) -> float:
+        """The sign of a function soon after the start, which may be its zero."""
+        phase = self.start + (self.end - self.start) / LOOKS_PER_STEP
+        return float(np.sign(function(phase, float(self.wear(phase)))))
+
+    def first(self, function: Callable[[Real, Real], Real]) -> float | None:
+        """The first phase at which a function of phase and wear has fallen to zero, if any."""
+        phases = np.linspace(self.start, self.end, LOOKS_PER_STEP + 1)
+        below = np.flatnonzero(function(phases, self.wear(phases))[1:] < 0.0)
+        if len(below) == 0:
+            return None
+        at = int(below[0])
+
+        def value(phase: float) -> Real:
+            return function(phase, float(self.wear(phase)))
+
+        return first_zero(value, float(phases[at]), float(phases[at + 1]))
+
+
+def _times(factor: float, function: Callable[[Real, Real], Real]) -> Callable[[Real, Real], Real]:
+    return lambda phase, wear: factor * function(phase, wear)
+
+
+def _plus(term: float, function: Callable[[Real, Real], Real]) -> Callable[[Real, Real], Real]:
+    return lambda phase, wear: function(phase, wear) + term
+
+
+def first_zero(function: Callable[[float], Any], start: float, end: float) -> float:
+    """The zero of a function that changes sign between `start` and `end`, to roundoff.
+
+    A start that roundoff has put beyond the zero counts as the zero.
+    """
+    from scipy.optimize import brentq
+
+    first, last = float(function(start)), float(function(end))
+    if first * last >= 0.0:
+        return start if abs(first) <= abs(last) else end
+    return float(brentq(function, start, end, xtol=EPS * max(1.0, abs(end)), rtol=8 * EPS))

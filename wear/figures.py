@@ -1,0 +1,309 @@
+"""The figures, drawn from plain arrays.
+
+Overview
+    history                 wear, roughness and pressure against cycles, of one scene
+    wear_history            wear against cycles, one line a solid or model        (Fig. 2a)
+    roughness_history       roughness against cycles                              (Fig. 2b)
+    wear_with_asymptote     wear with the straight lines or curves it tends to    (Fig. 3a)
+    wear_by_coefficient     wear for several wear coefficients                    (Fig. 3b)
+    pressure_in_cycles      contact pressure over the phase of chosen cycles
+    speed_against_error     time against true error, one line a method
+    regime_map              asymptotic pressure over f_c, with the regimes
+    Each returns a matplotlib `Figure`; `wear.figure_style` makes files of it.
+Units
+    Lengths come in mm and are shown in micrometres, pressures in MPa, times in s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+from wear.figure_data import Line, Method, Regime, Threshold
+from wear.figure_style import (
+    COLUMN,
+    GREY,
+    INK,
+    PAGE,
+    PAPER,
+    Stroke,
+    canvas,
+    label_ends,
+    panels,
+    stroke,
+    styled,
+)
+
+_MICROMETRES_PER_MM = 1e3
+_CYCLES = r"Cycles  $t/T$"
+_WEAR = r"Wear  $u$  ($\mathrm{\mu m}$)"
+_BEARING_WEAR = r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)"
+_ROUGHNESS = r"Roughness  $\sigma$  ($\mathrm{\mu m}$)"
+_PRESSURE = r"Contact pressure  $p$  (MPa)"
+#: Distance of a line's markers, in diagonals of the axes.
+_MARK_EVERY = 0.14
+
+
+def history(
+    wear: Sequence[Line],
+    roughness: Sequence[Line],
+    pressure: Sequence[Line],
+    *,
+    logarithmic: bool = False,
+    width: float = COLUMN,
+) -> Figure:
+    """Wear and roughness in mm and contact pressure in MPa against cycles, one above the other.
+
+    On a logarithmic axis of cycles, what grows by decades has a logarithmic axis too: as a power
+    of the cycles it is then a straight line, not one that is flat but for its end.
+    """
+    with styled():
+        figure, (top, middle, bottom) = panels(3, width, 1.3 * width)
+        for axes, lines, quantity, scale in (
+            (top, wear, _WEAR, _MICROMETRES_PER_MM),
+            (middle, roughness, _ROUGHNESS, _MICROMETRES_PER_MM),
+            (bottom, pressure, _PRESSURE, 1.0),
+        ):
+            if logarithmic and _spans_decades(lines):
+                axes.set_yscale("log")
+            _panel(axes, lines, quantity, scale, logarithmic)
+        bottom.set_xlabel(_CYCLES)
+        figure.align_ylabels()
+    return figure
+
+
+def wear_history(
+    lines: Sequence[Line], *, logarithmic: bool = False, width: float = COLUMN
+) -> Figure:
+    """Wear in mm against cycles (Fig. 2a)."""
+    return _history(lines, _WEAR, logarithmic, width)
+
+
+def roughness_history(
+    lines: Sequence[Line], *, logarithmic: bool = False, width: float = COLUMN
+) -> Figure:
+    """Roughness in mm against cycles (Fig. 2b)."""
+    return _history(lines, _ROUGHNESS, logarithmic, width)
+
+
+def wear_with_asymptote(
+    wear: Sequence[Line], asymptotes: Sequence[Line], *, width: float = COLUMN
+) -> Figure:
+    """Bearing wear in mm against cycles with what it tends to (Fig. 3a): the asymptotes are drawn
+    thin and behind."""
+    with styled():
+        figure, axes = canvas(width, 0.66 * width)
+        for line in asymptotes:
+            axes.plot(
+                line.x,
+                line.y * _MICROMETRES_PER_MM,
+                color=_look(line).colour,
+                linestyle=_look(line).dash,
+                linewidth=0.9,
+                zorder=1,
+            )
+        _draw(axes, wear, _MICROMETRES_PER_MM)
+        axes.set(xlabel=_CYCLES, ylabel=_BEARING_WEAR)
+        _frame(axes, wear, _MICROMETRES_PER_MM)
+        _name(axes, wear, _MICROMETRES_PER_MM, bare=asymptotes)
+    return figure
+
+
+def wear_by_coefficient(
+    lines: Sequence[Line], *, logarithmic: bool = False, width: float = COLUMN
+) -> Figure:
+    """Bearing wear in mm against cycles for several wear coefficients K (Fig. 3b)."""
+    return _history(lines, _BEARING_WEAR, logarithmic, width)
+
+
+def pressure_in_cycles(lines: Sequence[Line], *, width: float = COLUMN) -> Figure:
+    """Contact pressure in MPa over the phase in [0, 1] of chosen cycles, one line a cycle."""
+    with styled():
+        figure, axes = canvas(width, 0.6 * width)
+        _draw(axes, lines, 1.0)
+        axes.set(xlabel=r"Phase in the cycle", ylabel=_PRESSURE)
+        axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * max(float(line.y.max()) for line in lines)))
+        _name_peaks(axes, lines)
+    return figure
+
+
+def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
+    """Seconds against true relative error, both logarithmic; accuracy grows to the right.
+
+    Errors of zero are shown at the resolution of double precision.
+    """
+    with styled():
+        figure, axes = canvas(width, 0.5 * width)
+        for family, method in enumerate(methods):
+            _draw_method(axes, method, stroke(family, family // 7))
+        if any(method.failed.any() for method in methods):
+            axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label="missed its tolerance")
+        axes.set(xlabel="True relative error of the wear", ylabel="Time (s)")
+        axes.invert_xaxis()
+        axes.grid(which="major", color=GREY, alpha=0.35, linewidth=0.4)
+        axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=3.0)
+    return figure
+
+
+def regime_map(
+    pressure: Line,
+    regimes: Sequence[Regime],
+    thresholds: Sequence[Threshold],
+    *,
+    width: float = PAGE,
+) -> Figure:
+    """Asymptotic pressure over p_max, logarithmic, against f_c, above the named regimes.
+
+    `pressure` has f_c as x and p_inf/p_max as y.
+    """
+    with styled():
+        figure, axes = canvas(width, 0.42 * width)
+        left, right = min(r.start for r in regimes), max(r.end for r in regimes)
+        axes.semilogy(pressure.x, pressure.y, color=_look(pressure).colour, linewidth=1.6)
+        axes.set(xlim=(left, right), ylim=(float(pressure.y[pressure.y > 0.0].min()), 2.0))
+        axes.set(
+            xlabel=r"Roughness slope of the bearing  $f_c = \mathrm{d}\sigma_c/\mathrm{d}u_c$",
+            ylabel=r"Asymptotic pressure  $p_\infty/p_{\max}$",
+        )
+        for position, regime in enumerate(regimes):
+            _band(axes, regime, position)
+        for threshold in thresholds:
+            axes.axvline(threshold.value, color=INK, linewidth=0.7, linestyle=(0, (4.0, 2.0)))
+            axes.text(
+                threshold.value,
+                0.03,
+                f" {threshold.name}",
+                transform=axes.get_xaxis_transform(),
+                ha="left",
+                va="bottom",
+            )
+    return figure
+
+
+def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
+    error = np.maximum(method.error, np.finfo(float).eps / 2.0)
+    axes.loglog(
+        error,
+        method.seconds,
+        color=look.colour,
+        linestyle=look.dash,
+        linewidth=0.9,
+        marker=look.marker,
+        label=method.name,
+    )
+    axes.loglog(
+        error[method.failed],
+        method.seconds[method.failed],
+        color=look.colour,
+        linestyle="",
+        marker=look.marker,
+        markersize=5.5,
+        markerfacecolor=PAPER,
+    )
+
+
+def _history(lines: Sequence[Line], quantity: str, logarithmic: bool, width: float) -> Figure:
+    with styled():
+        figure, axes = canvas(width, 0.66 * width)
+        _panel(axes, lines, quantity, _MICROMETRES_PER_MM, logarithmic)
+        axes.set_xlabel(_CYCLES)
+    return figure
+
+
+def _panel(
+    axes: Axes, lines: Sequence[Line], quantity: str, scale: float, logarithmic: bool
+) -> None:
+    if logarithmic:
+        axes.set_xscale("log")
+        lines = [_positive(line) for line in lines]
+    _draw(axes, lines, scale)
+    axes.set_ylabel(quantity)
+    _frame(axes, lines, scale)
+    _name(axes, lines, scale)
+
+
+def _spans_decades(lines: Sequence[Line]) -> bool:
+    """Whether all values after the fresh state are positive and span two decades or more."""
+    values = np.concatenate([_positive(line).y for line in lines])
+    return bool(values.min() > 0.0 and values.max() >= 100.0 * values.min())
+
+
+def _look(line: Line) -> Stroke:
+    return stroke(line.family, line.variant)
+
+
+def _positive(line: Line) -> Line:
+    """The part of a line that a logarithmic axis can show."""
+    shown = line.x > 0.0
+    return replace(line, x=line.x[shown], y=line.y[shown])
+
+
+def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:
+    """Lines with a few markers each, shifted from line to line so that they do not coincide."""
+    for position, line in enumerate(lines):
+        axes.plot(
+            line.x,
+            line.y * scale,
+            color=_look(line).colour,
+            linestyle=_look(line).dash,
+            marker=_look(line).marker,
+            markerfacecolor=_look(line).face,
+            markevery=(_MARK_EVERY * (position + 0.5) / len(lines), _MARK_EVERY),
+            clip_on=False,
+        )
+
+
+def _frame(axes: Axes, lines: Sequence[Line], scale: float) -> None:
+    """Limits that end with the data in x and, on a linear axis, contain zero in y."""
+    axes.set_xlim(min(float(line.x[0]) for line in lines), max(float(line.x[-1]) for line in lines))
+    if axes.get_yscale() == "log":
+        axes.autoscale(axis="y")
+        return
+    low = min(0.0, *(float(line.y.min()) for line in lines)) * scale
+    high = max(0.0, *(float(line.y.max()) for line in lines)) * scale
+    margin = 0.05 * (high - low) or 1.0
+    axes.set_ylim(low - margin if low < 0.0 else 0.0, high + margin)
+
+
+def _name(axes: Axes, lines: Sequence[Line], scale: float, bare: Sequence[Line] = ()) -> None:
+    """Names at the right ends; `bare` lines have no markers."""
+    ends = [(float(line.y[-1]) * scale, line.name, _look(line)) for line in lines]
+    ends += [
+        (float(line.y[-1]) * scale, line.name, replace(_look(line), marker="")) for line in bare
+    ]
+    label_ends(axes, ends)
+
+
+def _name_peaks(axes: Axes, lines: Sequence[Line]) -> None:
+    """Names above the highest points, on a halo of paper."""
+    for line in lines:
+        peak = int(np.argmax(line.y))
+        axes.annotate(
+            line.name,
+            (float(line.x[peak]), float(line.y[peak])),
+            xytext=(0.0, 3.0),
+            textcoords="offset points",
+            ha="center",
+            va="bottom",
+            path_effects=[withStroke(linewidth=2.0, foreground=PAPER)],
+        )
+
+
+def _band(axes: Axes, regime: Regime, position: int) -> None:
+    """A shaded range with its name above; neighbours differ in shade."""
+    axes.axvspan(
+        regime.start, regime.end, color=GREY, alpha=0.06 + 0.10 * (position % 2), linewidth=0.0
+    )
+    axes.text(
+        (regime.start + regime.end) / 2.0,
+        1.02,
+        regime.name,
+        transform=axes.get_xaxis_transform(),
+        ha="center",
+        va="bottom",
+    )

@@ -1,0 +1,1 @@
+"""Generated code, one module a variant; not to be edited."""

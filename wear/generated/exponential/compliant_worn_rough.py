@@ -1,0 +1,167 @@
+"""Exponential contact law, compliant support, rough pin that wears.
+
+Written by ``derive generate`` from equations (1), (2b), (3), (4), (5), (6), (8), (9); not to be
+edited.
+All functions broadcast over arrays; the constants may be arrays too.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+VARIANT = "compliant_worn_rough"
+LAW = "exponential"
+EQUATIONS = ("1", "2b", "3", "4", "5", "6", "8", "9")
+OPERATIONS = {
+    "residual": 19,
+    "residual_slope": 21,
+    "start": 7,
+    "rate": 1,
+    "slope": 33,
+    "fields": 16,
+}
+PARAMETERS = (
+    "h_0",
+    "sigma_a0",
+    "sigma_c0",
+    "f_a",
+    "f_c",
+    "K_a",
+    "K_c",
+    "H_a",
+    "H_c",
+    "p_max",
+    "k",
+    "R",
+    "n",
+)
+
+
+class Constants(NamedTuple):
+    """What does not change during a run."""
+
+    h_0: Array  # initial closure, mm
+    sigma_a0: Array  # initial roughness of the pin, mm
+    sigma_c0: Array  # initial roughness of the bearing, mm
+    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    p_max: Array  # largest admissible contact pressure, MPa
+    kappa: Array  # wear of the pin per wear of the bearing, dimensionless
+    gain: Array  # closure per wear of the bearing at a fixed pin
+    slope_a: Array  # roughness of the pin per wear of the bearing
+    compliance: Array  # deflection of the support per pressure, mm/MPa
+    wear_per_pressure: Array  # wear rate per contact pressure, mm/(s MPa)
+
+
+def bind(
+    *,
+    h_0: Array,
+    sigma_a0: Array,
+    sigma_c0: Array,
+    f_a: Array,
+    f_c: Array,
+    K_a: Array,
+    K_c: Array,
+    H_a: Array,
+    H_c: Array,
+    p_max: Array,
+    k: Array,
+    R: Array,
+    n: Array,
+) -> Constants:
+    """Compute the constants of a run from the physical parameters, in mm, s, MPa, rpm."""
+    kappa = H_c * K_a / (H_a * K_c)
+    gain = 1 - kappa
+    slope_a = f_a * kappa
+    compliance = 1 / k
+    wear_per_pressure = np.pi * K_c * R * n / (90 * H_c)
+    return Constants(
+        h_0=h_0,
+        sigma_a0=sigma_a0,
+        sigma_c0=sigma_c0,
+        f_c=f_c,
+        p_max=p_max,
+        kappa=kappa,
+        gain=gain,
+        slope_a=slope_a,
+        compliance=compliance,
+        wear_per_pressure=wear_per_pressure,
+    )
+
+
+class Fields(NamedTuple):
+    """The fields that this variant has."""
+
+    u_a: Array  # wear depth of the pin, mm
+    sigma_a: Array  # roughness of the pin, mm
+    sigma_c: Array  # roughness of the bearing, mm
+    sigma: Array  # equivalent roughness, mm
+    h: Array  # closure of the mean surfaces, mm
+    U_c: Array  # displacement of the bearing on its support, mm
+    p: Array  # contact pressure, MPa
+
+
+def residual(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
+    """What the contact pressure p must make zero, in MPa."""
+    sigma_a = c.sigma_a0 + c.slope_a * u
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
+    h = c.h_0 + c.compliance * p + c.gain * u - U_a
+    ratio = h / sigma
+    share = np.exp(-ratio)
+    return p - c.p_max * share
+
+
+def residual_slope(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
+    """Derivative of the residual with respect to p."""
+    sigma_a = c.sigma_a0 + c.slope_a * u
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
+    h = c.h_0 + c.compliance * p + c.gain * u - U_a
+    ratio = h / sigma
+    share = np.exp(-ratio)
+    return 1 + c.compliance * c.p_max * share / sigma
+
+
+def start(u: Array, U_a: Array, c: Constants) -> Array:
+    """Pressure from which Newton's iteration converges monotonically, in MPa."""
+    h = c.h_0 + c.gain * u - U_a
+    return np.maximum(np.minimum(c.p_max, -h / c.compliance), 0)
+
+
+def rate(p: Array, c: Constants) -> Array:
+    """Wear rate of the bearing, du_c/dt, in mm/s."""
+    return c.wear_per_pressure * p
+
+
+def slope(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
+    """Derivative of the wear rate with respect to u_c at the root, in 1/s."""
+    sigma_a = c.sigma_a0 + c.slope_a * u
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
+    sigma_u = (c.f_c * sigma_c + c.slope_a * sigma_a) / sigma
+    h = c.h_0 + c.compliance * p + c.gain * u - U_a
+    ratio = h / sigma
+    ratio_u = (c.gain - ratio * sigma_u) / sigma
+    share = np.exp(-ratio)
+    residual_p = 1 + c.compliance * c.p_max * share / sigma
+    return -c.wear_per_pressure * c.p_max * ratio_u * share / residual_p
+
+
+def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:
+    """Every field at given wear and load, in mm and MPa."""
+    sigma_a = c.sigma_a0 + c.slope_a * u
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
+    h = c.h_0 + c.compliance * p + c.gain * u - U_a
+    return Fields(
+        u_a=c.kappa * u,
+        sigma_a=sigma_a,
+        sigma_c=sigma_c,
+        sigma=sigma,
+        h=h,
+        U_c=c.compliance * p,
+        p=p,
+    )

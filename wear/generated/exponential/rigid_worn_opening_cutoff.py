@@ -1,0 +1,133 @@
+"""Exponential contact law, rigid support, smooth pin that wears, wear of the pin opens the gap,
+contact for h <= 3 sigma only.
+
+Written by ``derive generate`` from equations (1), (2b), (3), (4), (5), (6), (10); not to be
+edited.
+All functions broadcast over arrays; the constants may be arrays too.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+VARIANT = "rigid_worn_opening_cutoff"
+LAW = "exponential"
+EQUATIONS = ("1", "2b", "3", "4", "5", "6", "10")
+OPERATIONS = {
+    "rate": 9,
+    "slope": 14,
+    "margin": 7,
+    "margin_slope": 2,
+    "fields": 10,
+}
+PARAMETERS = (
+    "h_0",
+    "sigma_c0",
+    "f_c",
+    "K_a",
+    "K_c",
+    "H_a",
+    "H_c",
+    "p_max",
+    "R",
+    "n",
+)
+
+
+class Constants(NamedTuple):
+    """What does not change during a run."""
+
+    h_0: Array  # initial closure, mm
+    sigma_c0: Array  # initial roughness of the bearing, mm
+    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    p_max: Array  # largest admissible contact pressure, MPa
+    kappa: Array  # wear of the pin per wear of the bearing, dimensionless
+    gain: Array  # closure per wear of the bearing at a fixed pin
+    largest_rate: Array  # wear rate at the largest pressure, mm/s
+
+
+def bind(
+    *,
+    h_0: Array,
+    sigma_c0: Array,
+    f_c: Array,
+    K_a: Array,
+    K_c: Array,
+    H_a: Array,
+    H_c: Array,
+    p_max: Array,
+    R: Array,
+    n: Array,
+) -> Constants:
+    """Compute the constants of a run from the physical parameters, in mm, s, MPa, rpm."""
+    kappa = H_c * K_a / (H_a * K_c)
+    gain = 1 + kappa
+    largest_rate = np.pi * K_c * R * n * p_max / (90 * H_c)
+    return Constants(
+        h_0=h_0,
+        sigma_c0=sigma_c0,
+        f_c=f_c,
+        p_max=p_max,
+        kappa=kappa,
+        gain=gain,
+        largest_rate=largest_rate,
+    )
+
+
+class Fields(NamedTuple):
+    """The fields that this variant has."""
+
+    u_a: Array  # wear depth of the pin, mm
+    sigma_c: Array  # roughness of the bearing, mm
+    sigma: Array  # equivalent roughness, mm
+    h: Array  # closure of the mean surfaces, mm
+    p: Array  # contact pressure, MPa
+
+
+def rate(u: Array, U_a: Array, c: Constants) -> Array:
+    """Wear rate of the bearing, du_c/dt, in mm/s."""
+    sigma = c.sigma_c0 + c.f_c * u
+    h = c.h_0 + c.gain * u - U_a
+    ratio = h / sigma
+    share = np.exp(-ratio)
+    return c.largest_rate * share
+
+
+def slope(u: Array, U_a: Array, c: Constants) -> Array:
+    """Derivative of the wear rate with respect to u_c, in 1/s."""
+    sigma = c.sigma_c0 + c.f_c * u
+    h = c.h_0 + c.gain * u - U_a
+    ratio = h / sigma
+    ratio_u = (c.gain - c.f_c * ratio) / sigma
+    share = np.exp(-ratio)
+    return -c.largest_rate * ratio_u * share
+
+
+def margin(u: Array, U_a: Array, c: Constants) -> Array:
+    """3 sigma - h with an undeflected support, in mm: contact where it is not negative."""
+    sigma = c.sigma_c0 + c.f_c * u
+    h = c.h_0 + c.gain * u - U_a
+    return 3 * sigma - h
+
+
+def margin_slope(u: Array, c: Constants) -> Array:
+    """Derivative of the margin with respect to u_c; with respect to U_a it is 1."""
+    return 3 * c.f_c - c.gain
+
+
+def fields(u: Array, U_a: Array, c: Constants) -> Fields:
+    """Every field at given wear and load, in mm and MPa."""
+    sigma = c.sigma_c0 + c.f_c * u
+    h = c.h_0 + c.gain * u - U_a
+    ratio = h / sigma
+    share = np.exp(-ratio)
+    return Fields(
+        u_a=c.kappa * u,
+        sigma_c=sigma,
+        sigma=sigma,
+        h=h,
+        p=c.p_max * share,
+    )

@@ -1,0 +1,1 @@
+"""Generated code of the tanh contact law, one module a variant; not to be edited."""

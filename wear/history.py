@@ -1,0 +1,142 @@
+"""The result of a run: the state of the system at the ends of the requested cycles."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.faults import UsageError
+
+FloatArray = NDArray[np.float64]
+
+
+class Column(NamedTuple):
+    """One quantity of a history: its name in files (with the unit), unit, meaning, values."""
+
+    name: str
+    unit: str
+    meaning: str
+    values: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """Wear, roughness, closure and pressure at the ends of cycles, that is at times N T.
+
+    Attributes
+    ----------
+    cycles
+        Numbers of cycles in the order of the request (of a run that was stopped: those reached).
+    u_c, u_a, sigma_c, sigma_a, h
+        Wear and roughness of bearing and pin, and the closure, in mm, along `cycles`;
+        zero where not modelled.
+    p
+        Contact pressure in MPa; zero out of contact.
+    error
+        Estimated relative error of `u_c`; NaN where there is no estimate.
+    U_c
+        Displacement of the bearing in mm, None with a rigid support.
+    R_a
+        Reaction force on the pin in N, None unless the scene has the contact's width and length.
+    scene, definition
+        Its title, and the whole of it as JSON.
+    variant, operations
+        The generated module that ran and the arithmetic operations of its functions.
+    method, rtol, seconds
+        How it was solved, to what requested relative accuracy, and how long that took.
+    cost
+        `cycles_integrated` and `rhs_evaluations`, those for the error estimate included.
+    notices
+        What a reader should know, in sentences.
+    """
+
+    cycles: NDArray[np.int64]
+    u_c: FloatArray
+    u_a: FloatArray
+    sigma_c: FloatArray
+    sigma_a: FloatArray
+    h: FloatArray
+    p: FloatArray
+    error: FloatArray
+    U_c: FloatArray | None
+    R_a: FloatArray | None
+    scene: str
+    definition: str
+    variant: str
+    operations: Mapping[str, int]
+    method: str
+    rtol: float
+    cost: Mapping[str, int]
+    seconds: float
+    notices: tuple[str, ...]
+
+    def columns(self) -> tuple[Column, ...]:
+        """The quantities along `cycles`, as they are named in files and JSON."""
+        columns = [
+            Column("bearing_wear_mm", "mm", "wear of the bearing", self.u_c),
+            Column("pin_wear_mm", "mm", "wear of the pin", self.u_a),
+            Column("bearing_roughness_mm", "mm", "roughness of the bearing", self.sigma_c),
+            Column("pin_roughness_mm", "mm", "roughness of the pin", self.sigma_a),
+            Column("closure_mm", "mm", "closure of the mean surfaces", self.h),
+            Column("contact_pressure_MPa", "MPa", "contact pressure", self.p),
+        ]
+        if self.U_c is not None:
+            displacement = "displacement of the bearing"
+            columns.append(Column("bearing_displacement_mm", "mm", displacement, self.U_c))
+        if self.R_a is not None:
+            columns.append(Column("pin_reaction_N", "N", "reaction force on the pin", self.R_a))
+        meaning = "estimated relative error of the bearing wear"
+        return (*columns, Column("error_estimate", "1", meaning, self.error))
+
+    def as_json(self) -> dict[str, Any]:
+        """The document of `wear run --json`, in plain values; what does not exist is None."""
+        head = {
+            "scene": self.scene,
+            "model": {"variant": self.variant, "operations": dict(self.operations)},
+            "method": self.method,
+            "rtol": self.rtol,
+            "cycles": self.cycles.tolist(),
+        }
+        lists = {column.name: _finite(column.values) for column in self.columns()}
+        tail = {"cost": dict(self.cost), "seconds": self.seconds, "notices": list(self.notices)}
+        return head | lists | tail
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write a `.csv` or `.nc` (NetCDF-3) file, whole or not at all.
+
+        Raises
+        ------
+        UsageError
+            for any other suffix.
+        OSError
+            if the file cannot be written.
+        """
+        suffix = Path(path).suffix
+        if suffix == ".csv":
+            self.write_csv(path)
+        elif suffix == ".nc":
+            self.write_netcdf(path)
+        else:
+            raise UsageError(f"{path}: the name of a result ends in .csv or .nc")
+
+    def write_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write a line a cycle, floats to round-trip, below comments with scene and method."""
+        from wear import history_files
+
+        history_files.write_csv(self, Path(path))
+
+    def write_netcdf(self, path: str | os.PathLike[str]) -> None:
+        """Write NetCDF-3 with the coordinate `cycle`; units and the scene are attributes."""
+        from wear import history_files
+
+        history_files.write_netcdf(self, Path(path))
+
+
+def _finite(values: FloatArray) -> list[float | None]:
+    return [value if np.isfinite(value) else None for value in values.tolist()]

@@ -1,0 +1,117 @@
+"""Displacements given by Fourier coefficients, with their extremes to roundoff."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.load.phase import FloatArray, centred, within_cycle
+
+
+@dataclass(frozen=True)
+class Harmonics:
+    """U_a = mean + sum over j = 1, 2, ... of cosine_j cos(2 pi j t/T) + sine_j sin(2 pi j t/T)."""
+
+    mean_mm: float
+    cosine_mm: tuple[float, ...]
+    sine_mm: tuple[float, ...]
+    period_s: float
+    kinks: tuple[float, ...] = field(default=(), init=False, repr=False)
+
+    def __call__(self, phase: FloatArray | float) -> FloatArray:
+        return self.mean_mm + _trigonometric_sum(self._terms(), phase)
+
+    def slope(self, phase: FloatArray | float) -> FloatArray:
+        return _trigonometric_sum(_derivative(self._terms()), phase)
+
+    def _terms(self) -> FloatArray:
+        """Rows j, cosine_j, sine_j of the harmonics."""
+        terms = np.zeros((3, max(len(self.cosine_mm), len(self.sine_mm))))
+        terms[0] = np.arange(1, terms.shape[1] + 1)
+        terms[1, : len(self.cosine_mm)] = self.cosine_mm
+        terms[2, : len(self.sine_mm)] = self.sine_mm
+        return terms
+
+    @property
+    def period(self) -> float:
+        return self.period_s
+
+    @property
+    def mean(self) -> float:
+        return self.mean_mm
+
+    @cached_property
+    def minimum(self) -> float:
+        return float(np.min(self(self._turning_points)))
+
+    @cached_property
+    def maximum(self) -> float:
+        return float(np.max(self(self._turning_points)))
+
+    @cached_property
+    def peaks(self) -> tuple[float, ...]:
+        turning = self._turning_points
+        slope_after = self.slope(0.5 * (turning + np.append(turning[1:], turning[0] + 1.0)))
+        tops = turning[(np.roll(slope_after, 1) > 0.0) & (slope_after < 0.0)]
+        return tuple(tops.tolist()) or (0.0,)
+
+    @cached_property
+    def _turning_points(self) -> FloatArray:
+        """Phases of zero slope (and perhaps a few more), in [0, 1), increasing, never empty."""
+        return _zeros(_derivative(self._terms()))
+
+
+def _trigonometric_sum(terms: FloatArray, phase: FloatArray | float) -> FloatArray:
+    turn = 2.0 * math.pi * centred(phase)
+    total = np.zeros_like(turn)
+    for order, cosine, sine in terms.T:
+        total += cosine * np.cos(order * turn) + sine * np.sin(order * turn)
+    return total
+
+
+def _derivative(terms: FloatArray) -> FloatArray:
+    order, cosine, sine = terms
+    return np.stack([order, 2.0 * math.pi * order * sine, -2.0 * math.pi * order * cosine])
+
+
+def _zeros(terms: FloatArray) -> FloatArray:
+    """Phases in [0, 1), increasing, among which are the zeros of a trigonometric sum without mean.
+
+    With z = exp(2 pi i phase) the sum is a polynomial of degree 2n in z over z^n, and its zeros are
+    the roots on the unit circle. The roots come from the companion pencil, which stays accurate
+    when the leading coefficient is small; Newton's iteration brings the simple ones to roundoff.
+    Multiple roots leave the circle by a root of the roundoff, so a wide ring is kept: a phase too
+    many does no harm where extremes are looked for.
+    """
+    half = terms[1] - 1j * terms[2]
+    size = np.max(np.abs(half), initial=0.0)
+    if size == 0.0:
+        return np.zeros(1)
+    alpha, beta = _roots(np.concatenate([half[::-1], [0.0], half.conj()]) / size)
+    ring = np.abs(np.abs(alpha) - np.abs(beta)) < 0.2 * np.abs(alpha)
+    phases = np.angle(alpha[ring] * beta[ring].conj()) / (2.0 * math.pi)
+    slopes = _derivative(terms)
+    for _ in range(4):
+        slope = _trigonometric_sum(slopes, phases)
+        step = np.divide(
+            _trigonometric_sum(terms, phases), slope, out=np.zeros_like(phases), where=slope != 0.0
+        )
+        phases = phases - np.where(np.abs(step) < 1e-3 / terms.shape[1], step, 0.0)
+    return np.unique(within_cycle(np.append(phases, 0.0)) % 1.0)
+
+
+def _roots(coefficients: NDArray[np.complex128]) -> tuple[NDArray[np.complex128], ...]:
+    """The roots alpha/beta of a polynomial, its highest power first."""
+    from scipy.linalg import eigvals  # takes longer to import than all else here
+
+    degree = len(coefficients) - 1
+    companion = np.eye(degree, k=-1, dtype=np.complex128)
+    companion[0] = -coefficients[1:]
+    lead = np.eye(degree, dtype=np.complex128)
+    lead[0, 0] = coefficients[0]
+    alpha, beta = eigvals(companion, lead, homogeneous_eigvals=True)
+    return alpha, beta

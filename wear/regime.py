@@ -1,0 +1,319 @@
+"""What becomes of the wear in the long run: the regime of a scene and its constants.
+
+Overview
+    Without cutoff, wear is steady where roughness grows, logarithmic where it stays, and where
+    it would vanish it saturates or gets there in finite time.  With the cutoff of the text
+    under Eq. (4), wear arrests unless roughness outgrows the gap.  The formulas are generated
+    from the derivation.  They are evaluated in decimal arithmetic with more digits than a
+    double has, so that the results are good to the last place however small they are.
+Key results
+    asymptote    the regime and constants of a scene
+    Asymptote    the result
+"""
+
+from __future__ import annotations
+
+import decimal
+import inspect
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wear.generated import asymptotics as formula
+from wear.model import bind
+from wear.offset import offset
+from wear.solver import obstacle
+
+if TYPE_CHECKING:
+    from wear.load import Load
+    from wear.scene import Scene
+
+TOLERANCE = Decimal("1e-6")
+"""The note's criterion: relative distance of the wear rate from its limit."""
+
+_DIGITS = decimal.Context(prec=60, Emin=-(10**15), Emax=10**15)
+_PHASES = 4096
+
+
+@dataclass(frozen=True)
+class Asymptote:
+    """The long-time behaviour of a scene; what does not apply is None.
+
+    Where wear goes on, ``u_c(N T) = wear_per_cycle_mm N + log_coefficient_mm ln N + offset_mm +
+    o(1)``.  ``arrest_cycle`` is the cycle, counted from 1, in which wear stops for good.
+    ``cycles_to_stabilise`` says when the wear rate is within 1e-6 of its limit: on average over
+    a cycle, and at every instant.
+    """
+
+    scene: str
+    regime: str
+    tanh_argument: float | None = None
+    wear_per_cycle_mm: float | None = None
+    pressure_MPa: float | None = None
+    log_coefficient_mm: float | None = None
+    offset_mm: float | None = None
+    saturation_wear_mm: float | None = None
+    arrest_wear_mm: float | None = None
+    arrest_cycle: int | None = None
+    cycles_to_stabilise: dict[str, float | None] = field(default_factory=dict)
+    notices: tuple[str, ...] = ()
+
+
+class _Case:
+    """A scene's numbers as the formulas take them: exactly the doubles that the scene has."""
+
+    def __init__(self, scene: Scene) -> None:
+        load = scene.periodic_load
+        self.scene, self.load = scene, load
+        plain = {"f_a": 0.0, "sigma_a0": 0.0, "K_a": 0.0, "H_a": 1.0} | scene.parameters()
+        plain |= {"U_min": load.minimum, "U_max": load.maximum, "U_mean": load.mean}
+        self.numbers = plain
+        self.data = {name: Decimal(value) for name, value in plain.items()}
+        # rounded as in the model that runs, so that equal wear of both solids is exactly that
+        self.data["kappa"] = Decimal(float(self.value(formula.pin_wear)))
+        opening = scene.contact.pin_wear_opens_gap
+        gap = formula.closure_growth_opening if opening else formula.closure_growth
+        self.data |= {
+            "q": self.value(formula.roughness_growth),
+            "g": self.value(gap),
+            "p_1": self.value(formula.cross_roughness),
+        }
+
+    def value(self, function: Callable[..., Any], *arguments: Decimal, **more: Decimal) -> Decimal:
+        """Evaluate a generated formula with the data that it names."""
+        return Decimal(function(*arguments, **_named(function, {**self.data, **more})))
+
+    def holds(self, guard: Callable[..., Any], **more: float) -> bool:
+        """Ask a generated condition, in the arithmetic of the model that runs."""
+        return bool(guard(**_named(guard, {**self.numbers, **more})))
+
+    def law(self, kind: str) -> Callable[..., Any]:
+        """Return the formula of this scene's contact law."""
+        found: Callable[..., Any] = getattr(formula, f"{kind}_{self.scene.contact.law}")
+        return found
+
+    def wear_at(self, pressure: float) -> float:
+        """Return the wear of one cycle under a constant pressure, mm."""
+        known = {**self.numbers, "p_inf": pressure}
+        return float(formula.wear_per_cycle(**_named(formula.wear_per_cycle, known)))
+
+    @property
+    def vanishing(self) -> Decimal | None:
+        """Return the wear at which the equivalent roughness would vanish, if it would."""
+        if self.data["q"] == 0 or self.value(formula.apart) != 0:
+            return None
+        wear = self.value(formula.vanishing_wear)
+        return wear if wear > 0 else None
+
+
+def _named(function: Callable[..., Any], known: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the data that a generated function names."""
+    return {name: known[name] for name in inspect.getfullargspec(function).kwonlyargs}
+
+
+def asymptote(scene: Scene) -> Asymptote:
+    """Return the long-time behaviour of a scene.
+
+    Raises
+    ------
+    UsageError
+        if the load does not repeat.
+
+    >>> from wear.scene import load_scene
+    >>> found = asymptote(load_scene("section4"))
+    >>> found.regime, f"{found.wear_per_cycle_mm:.10e}"
+    ('steady', '4.6355474275e-08')
+    """
+    with decimal.localcontext(_DIGITS):
+        case = _Case(scene)
+        return _with_cutoff(case) if scene.contact.cutoff else _without_cutoff(case)
+
+
+def _result(case: _Case, regime: str, **found: Any) -> Asymptote:
+    notices = (*case.scene.notices, *found.pop("notices", ()))
+    return Asymptote(case.scene.name, regime, notices=notices, **found)
+
+
+def _without_cutoff(case: _Case) -> Asymptote:
+    data = case.data
+    if data["q"] == 0:
+        return _constant_roughness(case)
+    end = case.vanishing
+    if end is None:
+        return _steady(case)
+    if case.value(formula.gap_at_peak, end) > 0:
+        said = "wear approaches this depth, logarithmically slowly, as the roughness vanishes"
+        return _result(case, "saturating", saturation_wear_mm=float(end), notices=(said,))
+    said = "the roughness vanishes in finite time; the model ends there"
+    return _result(case, "finite-time", saturation_wear_mm=float(end), notices=(said,))
+
+
+def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
+    ratio = case.value(formula.closure_ratio)
+    share = case.law("share")(ratio)
+    pressure = case.value(formula.pressure, share)
+    per_cycle = case.wear_at(float(pressure))
+    case.data["p_inf"] = pressure
+    steepness = Decimal(case.law("steepness")(ratio))
+    compliant = case.scene.support is not None
+    drift = formula.log_coefficient_compliant if compliant else formula.log_coefficient
+    mean = case.value(drift, steepness)
+    extremes = [case.value(drift, steepness, U_mean=case.data[end]) for end in ("U_min", "U_max")]
+    if case.data["g"] < 0:
+        said = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
+        notices = (*notices, said)
+    tanh = case.scene.contact.law == "tanh"
+    found = offset(case.scene)
+    if found is None:
+        notices = (*notices, f"the offset cannot be told: {_no_offset(case.scene)}")
+    return _result(
+        case,
+        "steady",
+        offset_mm=None if found is None else found.value,
+        tanh_argument=float(formula.tanh_argument(ratio)) if tanh else None,
+        wear_per_cycle_mm=per_cycle,
+        pressure_MPa=float(pressure),
+        log_coefficient_mm=float(mean),
+        cycles_to_stabilise={
+            "mean_rate_within_1e-6": _cycles(abs(mean), per_cycle),
+            "rate_within_1e-6": _cycles(max(map(abs, extremes)), per_cycle),
+        },
+        notices=notices,
+    )
+
+
+def _no_offset(scene: Scene) -> str:
+    against = obstacle(scene)
+    return "1e12 cycles do not reach steady wear" if against is None else against
+
+
+def _cycles(drift: Decimal, per_cycle: float) -> float | None:
+    """Cycles after which ``drift/(N per_cycle)`` is within the criterion."""
+    if per_cycle == 0.0:
+        return None
+    return float(drift / (Decimal(per_cycle) * TOLERANCE))
+
+
+def _constant_roughness(case: _Case) -> Asymptote:
+    """Roughness that wear does not change: the logarithmic regime, if wear opens the gap."""
+    gap = case.data["g"]
+    if gap > 0:
+        sigma, growth = case.scene.initial_roughness, float(gap)
+        level = _log_load_factor(case.load, sigma)
+        largest = case.wear_at(case.numbers["p_max"]) * growth
+        coefficient = formula.tail_coefficient(sigma_c0=sigma) / growth
+        start = case.numbers["h_0"]
+        offset = formula.tail_offset(level, h_0=start, sigma_c0=sigma, M=largest) / growth
+        applies = case.scene.contact.law == "tanh" and case.scene.support is None
+        return _result(
+            case,
+            "logarithmic",
+            wear_per_cycle_mm=0.0,
+            pressure_MPa=0.0,
+            log_coefficient_mm=float(coefficient) if applies else None,
+            offset_mm=float(offset) if applies else None,
+        )
+    if gap < 0:
+        pressure = case.numbers["p_max"]
+        said = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
+        per_cycle = case.wear_at(pressure)
+        return _result(
+            case, "steady", wear_per_cycle_mm=per_cycle, pressure_MPa=pressure, notices=(said,)
+        )
+    said = "wear changes neither closure nor roughness: every cycle is like the first"
+    return _result(case, "steady", wear_per_cycle_mm=_first_cycle(case), notices=(said,))
+
+
+def _log_load_factor(load: Load, sigma: float) -> float:
+    """Logarithm of the mean of exp(4 U_a/sigma) over a period, without overflow."""
+    phases = (np.arange(_PHASES) + 0.5) / _PHASES
+    exponents = 4.0 * (load(phases) - load.maximum) / sigma
+    return 4.0 * load.maximum / sigma + math.log(float(np.mean(np.exp(exponents))))
+
+
+def _first_cycle(case: _Case) -> float:
+    from wear.solver import solve
+
+    return float(solve(case.scene, [1], rtol=1e-12).u_c[0])
+
+
+def _with_cutoff(case: _Case) -> Asymptote:
+    depth, end = _arrest_depth(case), case.vanishing
+    if end is not None and (depth is None or depth >= end):
+        return _without_cutoff(case)  # the roughness vanishes while there is contact
+    if depth is not None:
+        return _arrest(case, depth)
+    one_solid = case.data["kappa"] == 0 and case.data["sigma_a0"] == 0
+    if one_solid and case.holds(formula.gap_and_cutoff_grow_alike):
+        return _at_one_third(case)
+    if not one_solid:
+        return _steady(case, ("the peak of the load keeps contact at every wear",))
+    permanent = float(case.value(formula.permanent_depth))
+    said = f"contact is permanent beyond a wear of {max(permanent, 0.0):.6g} mm"
+    return _steady(case, (said,))
+
+
+def _arrest_depth(case: _Case) -> float | None:
+    """The wear at which the peak of the load no longer makes contact; None if there is none."""
+    data = case.data
+    model = bind(case.scene)
+    if model.margin(0.0, case.load.maximum) <= 0.0:
+        return 0.0
+    if data["kappa"] == 0 and data["sigma_a0"] == 0:
+        falls = case.holds(formula.gap_outgrows_roughness)
+        return float(case.value(formula.arrest_depth)) if falls else None
+    if not formula.margin_is_lost(**_named(formula.margin_is_lost, data)):
+        return None
+    return float(case.value(formula.arrest_depth_two_solids))
+
+
+def _arrest(case: _Case, depth: float) -> Asymptote:
+    if depth == 0.0:
+        said = "the peak of the load never makes contact"
+        return _result(case, "arrest", arrest_wear_mm=0.0, arrest_cycle=0, notices=(said,))
+    cycle = None
+    notices: tuple[str, ...] = ()
+    if case.scene.support is None:
+        cycle, notices = _arrest_cycle(case)
+    else:
+        notices = ("on a compliant support wear approaches this depth without reaching it",)
+    return _result(
+        case,
+        "arrest",
+        wear_per_cycle_mm=0.0,
+        pressure_MPa=0.0,
+        arrest_wear_mm=depth,
+        arrest_cycle=cycle,
+        notices=notices,
+    )
+
+
+def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
+    """The cycle in which wear stops, from the cycle count."""
+    from wear.count import MOST_CYCLES
+    from wear.count.stages import counted_stages
+
+    found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0).arrest
+    if found is None:
+        return None, (f"wear goes on for more than {MOST_CYCLES:.0e} cycles",)
+    return found.cycle, (str(found),) if found.uncertain else ()
+
+
+def _at_one_third(case: _Case) -> Asymptote:
+    """f_c = 1/3: contact in a fixed part of every cycle."""
+    model = bind(case.scene)
+    phases = (np.arange(_PHASES) + 0.5) / _PHASES
+    part = float(np.mean(model.margin(0.0, case.load(phases)) >= 0.0))
+    share = case.law("share")(case.value(formula.closure_ratio))
+    pressure = float(case.value(formula.pressure, share))
+    return _result(
+        case,
+        "steady",
+        wear_per_cycle_mm=part * case.wear_at(pressure),
+        pressure_MPa=pressure,
+        notices=(f"contact lasts {part:.4g} of every cycle",),
+    )

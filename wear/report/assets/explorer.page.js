@@ -1,0 +1,318 @@
+// The page of the explorer: controls, what they change, and the check against Python.
+"use strict";
+
+const DATA = JSON.parse(document.getElementById("data").textContent);
+const $ = (id) => document.getElementById(id);
+const loaded = {}; // generated functions by variant
+let chosen; // the scene, whose numbers the controls change
+
+function functionsOf(variant) {
+  loaded[variant] ??= MODELS[variant]();
+  return loaded[variant];
+}
+
+// Controls and state.
+
+function readState() {
+  const parameters = {};
+  for (const row of DATA.parameters) parameters[row.name] = Number($(`number-${row.name}`).value);
+  return {
+    parameters,
+    law: $("law").value,
+    pin: $("pin").value,
+    compliant: $("compliant").checked,
+    opening: $("opening").checked,
+    cutoff: $("cutoff").checked,
+    cycles: 10 ** Number($("cycles").value),
+    logarithmic: $("logarithmic").checked,
+  };
+}
+
+function variantOf(state) {
+  const wears = state.pin.startsWith("worn");
+  return `${state.law}/${state.compliant ? "compliant" : "rigid"}_${state.pin}`
+    + (state.opening && wears ? "_opening" : "") + (state.cutoff ? "_cutoff" : "");
+}
+
+function position(row, value) {
+  return row.logarithmic ? Math.log10(value) : value;
+}
+
+function setNumber(row, value) {
+  const slider = $(`slider-${row.name}`);
+  $(`number-${row.name}`).value = Number(value.toPrecision(12));
+  const at = position(row, value);
+  slider.min = Math.min(position(row, row.low), at);
+  slider.max = Math.max(position(row, row.high), at);
+  slider.value = at;
+  slider.setAttribute("aria-valuetext", `${shown(value)} ${row.unit}`);
+}
+
+function useScene(name) {
+  chosen = DATA.scenes.find((scene) => scene.name === name);
+  for (const row of DATA.parameters) setNumber(row, chosen.parameters[row.name]);
+  for (const key of ["law", "pin"]) $(key).value = chosen[key];
+  for (const key of ["compliant", "opening", "cutoff"]) $(key).checked = chosen[key];
+  $("description").textContent = chosen.description;
+}
+
+function enableWhatActs(state) {
+  const wears = state.pin.startsWith("worn");
+  $("opening").disabled = !wears;
+  const acts = {
+    K_a: wears, H_a: wears,
+    sigma_a0: state.pin.endsWith("rough"), f_a: state.pin === "worn_rough",
+    k: state.compliant,
+  };
+  for (const [name, active] of Object.entries(acts)) {
+    $(`slider-${name}`).disabled = !active;
+    $(`number-${name}`).disabled = !active;
+  }
+}
+
+// What the controls say, solved.
+
+function solveState(state) {
+  const functions = functionsOf(variantOf(state));
+  const c = functions.bind(state.parameters);
+  const load = makeLoad(chosen.load, state.parameters.U);
+  const solver = makeSolver(functions, c, load, state.parameters.T);
+  const jumps = functions.margin !== undefined && functions.residual === undefined;
+  const settled = (u) => !jumps || functions.margin(u, load.minimum, c) >= 0
+    || functions.margin_slope(u, c) > -1e-9;
+  const fields = (u, U_a) => {
+    const p = functions.pressure ? functions.pressure(u, U_a, c) : undefined;
+    const found = functions.pressure ? functions.fields(p, u, U_a, c) : functions.fields(u, U_a, c);
+    return jumps && functions.margin(u, U_a, c) < 0 ? { ...found, p: 0 } : found;
+  };
+  const rough = (u) => fields(u, load.minimum).sigma > 0;
+  const history = wearOverCycles(solver, Math.round(state.cycles), settled, rough);
+  return { functions, c, load, solver, fields, history };
+}
+
+// Pressure at phases of the cycle that starts with wear u.
+function insideCycle({ solver, load, fields }, u) {
+  const pieces = 200;
+  let worn = u;
+  const points = [[0, fields(u, load.value(0)).p]];
+  const scale = solver.cycle(u, 0);
+  for (let i = 0; i < pieces; i += 1) {
+    worn += solver.span(i / pieces, (i + 1) / pieces, worn, scale);
+    points.push([(i + 1) / pieces, fields(worn, load.value((i + 1) / pieces)).p]);
+  }
+  return points;
+}
+
+function draw(state, solved) {
+  const { history, load, fields } = solved;
+  const points = history.points.filter((point) => point.n <= history.reached);
+  const end = { n: history.reached, u: history.at(history.reached) };
+  if (points.at(-1).n < end.n) points.push(end);
+  const start = (u) => fields(u, load.value(0));
+  const has = Object.keys(start(0));
+  const over = (value) => points.map(({ n, u }) => [n, value(u)]);
+  const axis = { x: "number of cycles", logarithmic: state.logarithmic };
+  const wear = [{ name: "bearing, u_c", points: over((u) => u) }];
+  if (has.includes("u_a")) wear.push({ name: "pin, u_a", points: over((u) => start(u).u_a) });
+  show("wear", wear, { ...axis, y: "wear in mm", zero: true });
+  const rough = [{ name: "bearing, σ_c", points: over((u) => start(u).sigma_c) }];
+  if (has.includes("sigma_a")) {
+    rough.push({ name: "pin, σ_a", points: over((u) => start(u).sigma_a) });
+    rough.push({ name: "both, σ", points: over((u) => start(u).sigma) });
+  }
+  show("roughness", rough, { ...axis, y: "roughness in mm", zero: true });
+  show("pressure", [
+    { name: "at the peak of the load", points: over((u) => fields(u, load.value(load.peak)).p) },
+    { name: "at the end of a cycle", points: over((u) => start(u).p) },
+  ], { ...axis, y: "pressure in MPa", zero: true });
+  const last = Math.max(0, end.n - 1);
+  show("inside", [
+    { name: "first cycle", points: insideCycle(solved, 0) },
+    { name: `cycle ${shown(Math.max(1, end.n))}`, points: insideCycle(solved, history.at(last)) },
+  ], { x: "phase in the cycle, t/T", y: "pressure in MPa", zero: true, logarithmic: false });
+  return end;
+}
+
+function show(name, curves, options) {
+  const names = plot($(`plot-${name}`), curves, options);
+  $(`legend-${name}`).replaceChildren(...names.map((text, index) => {
+    const item = document.createElement("span");
+    const key = element("svg", { viewBox: "0 0 26 8", class: "key", "aria-hidden": "true" },
+      element("path", { class: `curve curve-${index}`, d: "M1 4H25" }));
+    item.append(key, symbols(text));
+    return item;
+  }));
+}
+
+// "u_c" in words becomes u with a lowered c.
+function symbols(text) {
+  const made = document.createElement("span");
+  for (const [index, part] of text.split(/(\S_\S|σ$)/).entries()) {
+    if (index % 2 === 0) made.append(part);
+    else {
+      const letter = document.createElement("i");
+      const low = document.createElement("sub");
+      letter.textContent = part[0];
+      low.textContent = part.slice(2);
+      made.append(letter, low);
+    }
+  }
+  return made;
+}
+
+// Long-time behaviour, from generated formulas.
+
+function asymptote(state, load) {
+  const wears = state.pin.startsWith("worn");
+  const isRough = state.pin.endsWith("rough");
+  const own = state.parameters;
+  const rough = isRough ? { sigma_a0: own.sigma_a0, f_a: wears ? own.f_a : 0 } : { sigma_a0: 0, f_a: 0 };
+  const kappa = wears ? FORMULAS.pin_wear(own) : 0;
+  const data = { ...own, ...rough, kappa, U_mean: load.mean, U_max: load.maximum, U_min: load.minimum };
+  data.q = FORMULAS.roughness_growth(data);
+  data.g = state.opening && wears ? FORMULAS.closure_growth_opening(data) : FORMULAS.closure_growth(data);
+  data.p_1 = FORMULAS.cross_roughness(data);
+  if (data.q === 0) return { regime: "logarithmic: wear goes on ever more slowly", data };
+  if (!isRough && own.f_c < 0) {
+    return { regime: "saturating: the bearing becomes smooth before wear can go on", data };
+  }
+  const limit = FORMULAS.closure_ratio(data);
+  if (state.cutoff && limit > DATA.cutoff) {
+    const found = { regime: "arrest: the gap outgrows the roughness, and contact ends", data };
+    if (!isRough && !wears) found.arrest = FORMULAS.arrest_depth(data);
+    else if (FORMULAS.margin_is_lost(data)) found.arrest = FORMULAS.arrest_depth_two_solids(data);
+    return found;
+  }
+  if (state.cutoff && limit === DATA.cutoff) {
+    return { regime: "steady, with contact in the same part of every cycle", data, limit };
+  }
+  data.p_inf = FORMULAS.pressure(FORMULAS[`share_${state.law}`](limit), data);
+  return {
+    regime: "steady: every cycle wears as much as the one before, in the end",
+    data,
+    limit,
+    pressure: data.p_inf,
+    perCycle: FORMULAS.wear_per_cycle(data),
+    drift: (state.compliant ? FORMULAS.log_coefficient_compliant : FORMULAS.log_coefficient)(
+      FORMULAS[`steepness_${state.law}`](limit), data),
+  };
+}
+
+function tell(state, solved, end) {
+  const found = asymptote(state, solved.load);
+  const number = (value, unit) => (value === undefined ? "does not apply" : `${shown(value)} ${unit}`);
+  const rate = solved.solver.cycle(end.u, 0);
+  const values = {
+    regime: found.regime,
+    "wear-now": number(end.u, "mm"),
+    "cycle-now": number(rate, "mm"),
+    "limit-ratio": number(found.limit, ""),
+    "limit-pressure": number(found.pressure, "MPa"),
+    "limit-cycle": number(found.perCycle, "mm"),
+    "limit-drift": number(found.drift, "mm"),
+    "arrest-wear": number(found.arrest, "mm"),
+    variant: variantOf(state),
+  };
+  for (const [id, text] of Object.entries(values)) $(`value-${id}`).textContent = text.trim();
+  for (const node of document.querySelectorAll("[data-cycles]")) node.textContent = shown(end.n);
+  const notices = solved.history.notices.map((notice) => notice.text);
+  if (Object.values(solved.fields(end.u, solved.load.value(0))).some((value) => !(Math.abs(value) < 1e300))) {
+    notices.push("These numbers are outside the range in which the model has a value.");
+  }
+  if (solved.fields(end.u, 0).sigma_c < 0) {
+    notices.push("The roughness of the bearing is negative: beyond what the model means.");
+  }
+  $("notices").replaceChildren(...notices.map((text) => {
+    const item = document.createElement("li");
+    item.textContent = text;
+    return item;
+  }));
+}
+
+function update() {
+  const state = readState();
+  enableWhatActs(state);
+  $("cycles-shown").textContent = shown(Math.round(state.cycles));
+  const started = performance.now();
+  const solved = solveState(state);
+  const end = draw(state, solved);
+  tell(state, solved, end);
+  $("value-time").textContent = `${Math.round(performance.now() - started)} ms, `
+    + `${shown(solved.solver.cost())} right-hand sides`;
+  document.documentElement.dataset.ready = String(Number(document.documentElement.dataset.ready ?? 0) + 1);
+}
+
+// At most one update is under way; the last change counts.
+let waiting = false;
+function changed() {
+  if (waiting) return;
+  waiting = true;
+  setTimeout(() => {
+    waiting = false;
+    update();
+  }, 15);
+}
+
+// On loading: the same numbers as Python?
+
+function checkAgainstPython() {
+  let wear = 0;
+  let rate = 0;
+  for (const check of DATA.checks) {
+    const scene = DATA.scenes.find((one) => one.name === check.scene);
+    chosen = scene;
+    const most = Math.max(...check.cycles);
+    const state = { ...scene, cycles: most };
+    const solved = solveState(state);
+    for (const [index, n] of check.cycles.entries()) {
+      const own = n <= solved.history.reached ? solved.history.at(n) : NaN;
+      wear = Math.max(wear, Math.abs(own / check.wear_mm[index] - 1));
+      if (Number.isNaN(own)) wear = Infinity;
+    }
+    for (const [u, U_a, value] of check.rates) {
+      const own = solved.functions.right_hand_side(u, U_a, solved.c);
+      rate = Math.max(rate, value === 0 ? Math.abs(own) : Math.abs(own / value - 1));
+    }
+  }
+  const good = wear <= DATA.agreement.wear && rate <= DATA.agreement.rate;
+  const box = $("check");
+  box.classList.add(good ? "good" : "bad");
+  box.dataset.wear = wear;
+  box.dataset.rate = rate;
+  box.textContent = `${good ? "Checked" : "Does not agree with Python"}: wear rates within `
+    + `${rate.toExponential(0)}, wear after up to ${shown(Math.max(...DATA.checks.flatMap((c) => c.cycles)))} cycles `
+    + `within ${wear.toExponential(0)} of the values computed in Python (relative).`;
+}
+
+function begin() {
+  const select = $("scene");
+  for (const scene of DATA.scenes) select.add(new Option(scene.title, scene.name));
+  checkAgainstPython();
+  useScene(DATA.first);
+  select.value = DATA.first;
+  select.addEventListener("input", () => { useScene(select.value); update(); });
+  $("reset").addEventListener("click", () => { useScene(select.value); update(); });
+  for (const row of DATA.parameters) {
+    $(`slider-${row.name}`).addEventListener("input", (event) => {
+      const at = Number(event.target.value);
+      setNumber(row, Number((row.logarithmic ? 10 ** at : at).toPrecision(6)));
+      changed();
+    });
+    $(`number-${row.name}`).addEventListener("change", (event) => {
+      const value = event.target.valueAsNumber;
+      const bad = !Number.isFinite(value) || (row.positive && value <= 0);
+      event.target.setCustomValidity(bad ? "Give a number above zero." : "");
+      event.target.reportValidity();
+      if (!bad) {
+        setNumber(row, value);
+        changed();
+      }
+    });
+  }
+  for (const id of ["law", "pin", "compliant", "opening", "cutoff", "cycles", "logarithmic", "linear"]) {
+    $(id).addEventListener("input", changed);
+  }
+  update();
+}
+
+begin();

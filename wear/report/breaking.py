@@ -1,0 +1,152 @@
+r"""Formulas that nobody laid out, broken so that they stay on the page.
+
+Display forms are broken by their authors. The steps of a derivation are printed by a machine and
+can be of any length: if they are too wide, they are broken before relations and signs, outside of
+brackets where possible. A ``\left ... \right`` pair that is too wide itself is given delimiters of
+a fixed size, a fraction that is too wide becomes a product, and a root a power, so that breaks
+become possible inside.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from wear.report.formula import Piece, fence, parse, rows, source, total
+
+#: Room for a formula beside its number, in em of the text: 160 mm of 11 pt type are 41 em.
+LIMIT = 34.0
+
+_INDENT = 2.5  # of a line that is not the first, and begins with a sign
+#: Width, as a share of a line, from which on pieces are opened: smaller until all lines fit.
+_SHARES = (1.0, 0.75, 0.5, 0.25)
+_SIZES = ((r"\bigl", r"\bigr"), (r"\biggl", r"\biggr"), (r"\Biggl", r"\Biggr"))
+_SYSTEM = re.compile(
+    r"(?P<open>(?:\\left\\\{\s*)?\\begin\{aligned\})(?P<rows>.*)"
+    r"(?P<close>\\end\{aligned\}(?:\s*\\right\.)?[.,;]?)",
+    re.DOTALL,
+)
+
+
+def broken(latex: str, limit: float = LIMIT) -> str:
+    r"""The formula as it is, or as rows of ``aligned`` if it is wider than `limit` em.
+
+    >>> broken("a = b + c", limit=4.0)
+    '\\begin{aligned}a &= b \\\\ &\\qquad + c\\end{aligned}'
+    >>> broken("a = b + c")
+    'a = b + c'
+    """
+    system = _SYSTEM.fullmatch(latex.strip())
+    if system is not None and r"\begin{aligned}" not in system["rows"]:
+        lines = [line for row in rows(system["rows"]) for line in _lines(row, limit)]
+        return system["open"] + r"\\".join(lines) + system["close"]
+    lines = _lines(latex, limit)
+    if len(lines) == 1:
+        return latex
+    return r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}"
+
+
+def _lines(row: str, limit: float) -> list[str]:
+    """One row as lines for a table with one alignment point."""
+    pieces = parse(row)
+    if total(pieces) <= limit:
+        return [row]
+    for share in _SHARES:
+        first, *others = _fill(_open_up(pieces, share * (limit - _INDENT)), limit)
+        if max(map(total, (first, *others))) <= limit - _INDENT:
+            break
+    start = source(first) if any(piece.tex == "&" for piece in first) else _aligned(first)
+    return [start.strip(), *(rf"&\qquad {_unaligned(line).strip()}" for line in others)]
+
+
+def _unaligned(line: tuple[Piece, ...]) -> str:
+    """The line without a point of alignment: it is the indent that aligns it."""
+    return source(piece for piece in line if piece.tex != "&")
+
+
+def _aligned(line: tuple[Piece, ...]) -> str:
+    """The line with its first relation as the point of alignment."""
+    for index, piece in enumerate(line):
+        if piece.kind == "relation" and piece.depth == 0:
+            return source(line[:index]) + "&" + source(line[index:])
+    return "&" + source(line)
+
+
+def _open_up(pieces: tuple[Piece, ...], limit: float) -> tuple[Piece, ...]:
+    """The pieces with those opened that leave little of a line, or need more than one."""
+    opened: list[Piece] = []
+    for piece in pieces:
+        if piece.kind == "fence" and piece.width > 0.6 * limit:
+            opened += _open_up(_unfenced(piece), limit)
+        elif piece.kind == "root" and piece.width > 0.9 * limit:
+            opened += _open_up(_as_power(piece), limit)
+        elif piece.kind == "fraction" and piece.width > 0.9 * limit:
+            opened += _open_up(_as_product(piece, limit), limit)
+        else:
+            opened.append(piece)
+    return tuple(opened)
+
+
+def _unfenced(piece: Piece) -> tuple[Piece, ...]:
+    """A fence with delimiters of a fixed size, which may stand on different lines."""
+    left, right = _SIZES[min(piece.height, 2)]
+    opening, closing = piece.delimiters
+    inside = (replace(inner, depth=inner.depth + piece.depth + 1) for inner in piece.parts[0])
+    return (
+        Piece(left + opening, 0.6, depth=piece.depth),
+        *inside,
+        Piece(right + closing, 0.6, depth=piece.depth),
+    )
+
+
+def _as_power(root: Piece) -> tuple[Piece, ...]:
+    """A root as a power of one half."""
+    return _bracketed(root.parts[0], root.depth), Piece("^{1/2}", 1.0, depth=root.depth)
+
+
+def _as_product(fraction: Piece, limit: float) -> tuple[Piece, ...]:
+    """A fraction on one line, or one over its denominator if that is narrow."""
+    numerator, denominator = fraction.parts
+    above = _bracketed(numerator, fraction.depth)
+    if total(denominator) > 0.6 * limit:
+        slash = Piece(r"\Big/", 0.8, depth=fraction.depth)
+        return above, slash, _bracketed(denominator, fraction.depth)
+    below = Piece(
+        rf"\frac{{1}}{{{source(denominator)}}}",
+        total(denominator) + 0.25,
+        height=fraction.height,
+        depth=fraction.depth,
+    )
+    return below, above
+
+
+def _bracketed(pieces: tuple[Piece, ...], depth: int) -> Piece:
+    return replace(fence("[", pieces, "]"), depth=depth)
+
+
+def _fill(pieces: tuple[Piece, ...], limit: float) -> list[tuple[Piece, ...]]:
+    """Lines that fit, full but broken as little inside brackets as can be."""
+    lines, rest, room = [], pieces, limit
+    while total(rest) > room:
+        possible = list(_breaks(rest))
+        fitting = [i for i in possible if total(rest[:i]) <= room] or possible[:1]
+        if not fitting:
+            break
+        cost = {i: rest[i].depth + _emptiness(total(rest[:i]) / room) for i in fitting}
+        best = min(fitting, key=lambda i: (cost[i], -i))
+        lines.append(rest[:best])
+        rest, room = rest[best:], limit - _INDENT
+    return [*lines, rest]
+
+
+def _emptiness(filled: float) -> int:
+    """Levels of brackets that one rather breaks inside of than leave a line so empty."""
+    return 0 if filled > 0.5 else 2 if filled > 0.25 else 4
+
+
+def _breaks(pieces: tuple[Piece, ...]) -> Iterator[int]:
+    """Where a line may start."""
+    for index, piece in enumerate(pieces):
+        if index > 0 and piece.kind in ("relation", "sign") and pieces[index - 1].tex != "&":
+            yield index

@@ -1,0 +1,246 @@
+"""The ledger: every claim of the note with a verdict and the evidence of this run.
+
+Overview
+    Claims that mathematics decides are checked in ``derive.note.claim_checks``; here are those
+    that need the note's scenes and their solution.  A check solves what the note solved and
+    compares with what it prints.
+Key results
+    ledger           all claims, decided
+    as_json          the ledger as the command prints it
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+
+from derive.note.claim_checks import SYMBOLIC
+from derive.note.claims import CLAIMS, Claim, Finding, Verdict
+from wear.regime import Asymptote, asymptote
+from wear.report.reconcile import PRINTED, reconciliations, slope_for_simulation
+from wear.scene import Scene, load_scene
+from wear.solver import solve
+
+LEAST_SLOPE = 1.0 / 8.0
+"""The note's condition on f_c, printed after (22)."""
+FIGURE_3B = ("section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4")
+
+
+class Entry(NamedTuple):
+    """One line of the ledger."""
+
+    claim: Claim
+    finding: Finding
+
+
+@cache
+def _scene(name: str) -> Scene:
+    return load_scene(name)
+
+
+@cache
+def _asymptote(name: str) -> Asymptote:
+    return asymptote(_scene(name))
+
+
+@cache
+def _increments(name: str, cycles: tuple[int, ...]) -> tuple[float, ...]:
+    """Return the wear of the cycle that follows each number of cycles."""
+    pairs = sorted({n + offset for n in cycles for offset in (0, 1)})
+    wear = dict(zip(pairs, solve(_scene(name), pairs, rtol=1e-12).u_c, strict=True))
+    return tuple(float(wear[n + 1] - wear[n]) for n in cycles)
+
+
+def _limit(name: str) -> float:
+    """Return the wear per cycle that (21) gives."""
+    value = _asymptote(name).wear_per_cycle_mm
+    if value is None:
+        raise ValueError(f"{name} has no steady wear")
+    return value
+
+
+def _initial_closure(name: str, printed: float, digits: int) -> Finding:
+    """Compare a printed h_0 with three times the initial roughness."""
+    exact = 3.0 * _scene(name).initial_roughness
+    evidence = f"3 sigma(0) = {exact:.9g} mm; printed {printed} mm"
+    if abs(exact - printed) <= 1e-12 * exact:
+        return Finding(Verdict.CONFIRMED, evidence)
+    if round(exact, digits) != printed:
+        return Finding(Verdict.NOT_REPRODUCIBLE, evidence)
+    side = "out of contact" if printed > exact else "inside contact"
+    return Finding(Verdict.CONDITIONAL, f"{evidence}, its rounding; taken literally, {side}")
+
+
+def closure_of_section_3() -> Finding:
+    """C16."""
+    return _initial_closure("section3", 0.0011, 4)
+
+
+def closure_of_section_4() -> Finding:
+    """C33."""
+    return _initial_closure("section4", 0.00108, 5)
+
+
+def closure_of_section_5() -> Finding:
+    """C39."""
+    return _initial_closure("section5", 0.0011, 4)
+
+
+def two_stages() -> Finding:
+    """C17: whether the rate of Fig. 2 levels off."""
+    cycles = (100, 1000, 4500, 9000)
+    steps = _increments("section3", cycles)
+    still = steps[3] / steps[2]
+    stop = _asymptote("section3-cutoff")
+    shown = ", ".join(f"{step:.3e}" for step in steps)
+    evidence = (
+        f"wear of one cycle after {', '.join(map(str, cycles))} cycles: {shown} mm; a doubling "
+        f"from 4500 changes it by a factor {still:.3f}, and the limit is {_limit('section3'):.2e} "
+        f"mm: no stabilised stage. With the cutoff wear stops at {stop.arrest_wear_mm:.4e} mm, in "
+        f"cycle {stop.arrest_cycle}"
+    )
+    levelled = still > 0.99
+    return Finding(Verdict.CONFIRMED if levelled else Verdict.NOT_REPRODUCIBLE, evidence)
+
+
+def stabilised_after() -> Finding:
+    """C34: the note's criterion at its number of cycles."""
+    (step,) = _increments("section4", (PRINTED.cycles,))
+    distance = step / _limit("section4") - 1.0
+    needed = _asymptote("section4").cycles_to_stabilise
+    shown = ", ".join(f"{name}: {value:.3g}" for name, value in needed.items() if value)
+    met = abs(distance) < PRINTED.criterion
+    return Finding(
+        Verdict.CONFIRMED if met else Verdict.NOT_REPRODUCIBLE,
+        f"after {PRINTED.cycles} cycles the mean rate is off its limit by {distance:.4g} of it, "
+        f"not {PRINTED.criterion:g}; cycles needed: {shown}",
+    )
+
+
+def _as_printed(found: float, printed: float) -> bool:
+    """Return whether a number rounds to one printed with three digits."""
+    return f"{found:.2e}" == f"{printed:.2e}"
+
+
+def simulated_wear() -> Finding:
+    """C35."""
+    (found,) = _increments("section4", (PRINTED.cycles,))
+    met = _as_printed(found, PRINTED.simulated_mm)
+    evidence = f"the solution gives {found:.6e} mm, printed {PRINTED.simulated_mm:.2e} mm"
+    if met:
+        return Finding(Verdict.CONFIRMED, evidence)
+    slope = f"the simulation needs f_c = {slope_for_simulation():.8g} for it"
+    return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}; {slope}; {_reconciled()}")
+
+
+def formula_wear() -> Finding:
+    """C36."""
+    found = _limit("section4")
+    met = _as_printed(found, PRINTED.formula_mm)
+    evidence = (
+        f"(21) gives {found:.11e} mm, printed {PRINTED.formula_mm:.2e} mm, "
+        f"{PRINTED.formula_mm / found:.3f} times as much"
+    )
+    if met:
+        return Finding(Verdict.CONFIRMED, evidence)
+    return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}; {_reconciled()}")
+
+
+def _reconciled() -> str:
+    """Say which change of one datum would give the printed numbers, the best first."""
+    return "; ".join(change.sentence for change in reconciliations()[:2])
+
+
+def efficiency() -> Finding:
+    """C37: simulation and formula at the same cycle, and how they converge."""
+    cycles = (PRINTED.cycles, 10**6, 10**8)
+    limit, drift = _limit("section4"), _asymptote("section4").log_coefficient_mm or 0.0
+    steps = _increments("section4", cycles)
+    law = [(step - limit) * n / drift for step, n in zip(steps, cycles, strict=True)]
+    ratio = steps[0] / limit
+    met = abs(ratio - 1.0) < 0.01
+    shown = ", ".join(f"{value:.3f} at {n:.0e}" for value, n in zip(law, cycles, strict=True))
+    return Finding(
+        Verdict.CONFIRMED if met else Verdict.NOT_REPRODUCIBLE,
+        f"at cycle {cycles[0]} the simulated wear of a cycle is {ratio:.4f} times that of (21); "
+        f"the two do converge, as A/N: distance times N/A is {shown}",
+    )
+
+
+def quicker_for_lower_wear() -> Finding:
+    """C38: the order of the scenes of Fig. 3b, by the note's criterion and by an absolute one."""
+    cycles = np.arange(1, 401)
+    relative, absolute = [], []
+    for name in FIGURE_3B:
+        (step,) = _increments(name, (PRINTED.cycles,))
+        relative.append(step / _limit(name) - 1.0)
+        wear = solve(_scene(name), [int(n) for n in cycles], rtol=1e-10).u_c
+        absolute.append(int(cycles[1:][np.diff(wear) < 1e-6][0]) - 1)
+    growing = all(np.diff(relative) > 0)
+    coefficients = ", ".join(f"{_scene(name).bearing.wear_coefficient:g}" for name in FIGURE_3B)
+    distances = ", ".join(f"{value:.3g}" for value in relative)
+    counts = ", ".join(map(str, absolute))
+    return Finding(
+        Verdict.CONFIRMED if growing else Verdict.REFUTED,
+        f"for K = {coefficients} the relative distance from the limit after {PRINTED.cycles} "
+        f"cycles is {distances}: the higher K, the nearer; less than 1e-6 mm a cycle is reached "
+        f"after {counts} cycles, in which sense it holds weakly",
+    )
+
+
+def data_and_condition() -> Finding:
+    """C40."""
+    slopes = {name: _scene(name).bearing.roughness_slope for name in ("section3", "section5")}
+    met = all(slope > LEAST_SLOPE for slope in slopes.values())
+    shown = ", ".join(f"f_c = {slope} in {name}" for name, slope in slopes.items())
+    return Finding(
+        Verdict.CONFIRMED if met else Verdict.INCONSISTENT,
+        f"{shown}; the note asks for f_c > {LEAST_SLOPE}; (21) would give "
+        f"{_limit('section3'):.2e} and {_limit('section5'):.2e} mm a cycle",
+    )
+
+
+SIMULATED = MappingProxyType(
+    {
+        "C16": closure_of_section_3,
+        "C17": two_stages,
+        "C33": closure_of_section_4,
+        "C34": stabilised_after,
+        "C35": simulated_wear,
+        "C36": formula_wear,
+        "C37": efficiency,
+        "C38": quicker_for_lower_wear,
+        "C39": closure_of_section_5,
+        "C40": data_and_condition,
+    }
+)
+"""The checks that need the note's scenes, by claim."""
+
+
+def ledger(
+    progress: Callable[[int, int, str], None] | None = None, ids: Sequence[str] = ()
+) -> tuple[Entry, ...]:
+    """Decide every claim (or those of the given ids), in the order of the note.
+
+    ``progress`` is told how many of how many are done, and which is next.
+    """
+    chosen = [CLAIMS[identifier] for identifier in ids] or list(CLAIMS.values())
+    checks = {**SYMBOLIC, **SIMULATED}
+    entries = []
+    for number, claim in enumerate(chosen):
+        if progress is not None:
+            progress(number, len(chosen), claim.id)
+        entries.append(Entry(claim, checks[claim.id]()))
+    return tuple(entries)
+
+
+def as_json(entries: Sequence[Entry]) -> list[dict[str, str]]:
+    """Return the ledger as the contract has it."""
+    return [
+        {**claim._asdict(), "verdict": str(finding.verdict), "evidence": finding.evidence}
+        for claim, finding in entries
+    ]

@@ -1,0 +1,139 @@
+"""The system of the model: pin, rough surfaces, bearing on springs, and its unknowns.
+
+The four displacements are drawn pointing down, the sense in which Eq. (1) counts them: those of the
+pin close the gap, those of the bearing open it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Arc, FancyArrowPatch
+from numpy.typing import NDArray
+
+from wear.figure_style import GREY, INK, canvas, stroke, styled
+
+#: What the drawing shows, for those who do not see it.
+DESCRIPTION = (
+    "Section through the model. Above, the rotating pin, pushed down by the displacement U_a "
+    "against the reaction R_a. Below, the bearing on a row of springs of stiffness k, deflected by "
+    "U_c. Their rough surfaces face each other; the closure h is the distance of the mean "
+    "surfaces, which wear moves by u_a and u_c. The contact pressure p acts between them."
+)
+
+_LEFT, _RIGHT = 2.2, 8.2
+_PIN, _BEARING, _SPRINGS, _GROUND = 4.9, 3.75, 2.2, 0.8  # heights of surfaces and supports
+_TOP = 6.6
+
+
+def system() -> Figure:
+    """The drawing, 120 mm wide."""
+    with styled():
+        figure, axes = canvas(120.0, 78.0)
+        axes.set(xlim=(-0.2, 11.4), ylim=(0.3, 7.85), aspect="equal")
+        axes.axis("off")
+        _solids(axes)
+        _springs(axes)
+        _closure(axes)
+        _displacements(axes)
+        _loads(axes)
+    return figure
+
+
+def _profile(seed: float, height: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A surface that looks rough: a few incommensurable waves, the same in every run."""
+    x = np.linspace(_LEFT, _RIGHT, 241)
+    waves = ((0.055, 7.3), (0.045, 13.1), (0.035, 23.7), (0.02, 41.0))
+    rough = np.sum([a * np.sin(w * x + seed * w) for a, w in waves], axis=0)
+    return x, height + rough
+
+
+def _solids(axes: Axes) -> None:
+    pin, bearing = stroke(0).colour, stroke(1).colour
+    x, lower = _profile(0.3, _PIN)
+    axes.fill_between(x, lower, _TOP, color=pin, alpha=0.18, linewidth=0.0)
+    axes.plot(x, lower, color=pin)
+    axes.plot([_LEFT, _LEFT, _RIGHT, _RIGHT], [lower[0], _TOP, _TOP, lower[-1]], color=pin)
+    x, upper = _profile(1.1, _BEARING)
+    axes.fill_between(x, _SPRINGS, upper, color=bearing, alpha=0.18, linewidth=0.0)
+    axes.plot(x, upper, color=bearing)
+    axes.plot(
+        [_LEFT, _LEFT, _RIGHT, _RIGHT], [upper[0], _SPRINGS, _SPRINGS, upper[-1]], color=bearing
+    )
+    for height in (_PIN, _BEARING):
+        axes.plot(
+            [_LEFT - 0.4, _RIGHT + 0.75], [height, height], color=GREY, lw=0.6, ls=(0, (6, 2, 1, 2))
+        )
+    axes.text(2.5, 6.15, "pin", va="center")
+    axes.text(2.5, 2.6, "bearing", va="center")
+    axes.text(_LEFT - 0.5, _PIN, r"$\sigma_a$", ha="right", va="center")
+    axes.text(_LEFT - 0.5, _BEARING, r"$\sigma_c$", ha="right", va="center")
+
+
+def _springs(axes: Axes) -> None:
+    zigzag = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 1.0, 0.0, 0.0])
+    heights = _SPRINGS - (_SPRINGS - _GROUND) * np.array(
+        [0.0, 0.15, 0.22, 0.36, 0.5, 0.64, 0.78, 0.85, 1.0]
+    )
+    for x in np.linspace(_LEFT + 0.5, _RIGHT - 0.5, 6):
+        axes.plot(x + 0.16 * zigzag, heights, color=INK, linewidth=0.8)
+    axes.plot([_LEFT, _RIGHT], [_GROUND, _GROUND], color=INK)
+    for x in np.linspace(_LEFT + 0.15, _RIGHT, 22):
+        axes.plot([x, x - 0.2], [_GROUND, _GROUND - 0.22], color=INK, linewidth=0.5)
+    axes.text(_LEFT - 0.05, (_SPRINGS + _GROUND) / 2.0, r"$k$", ha="right", va="center")
+
+
+def _closure(axes: Axes) -> None:
+    _arrow(axes, (_RIGHT + 0.5, _BEARING), (_RIGHT + 0.5, _PIN), both=True)
+    axes.text(_RIGHT + 0.65, (_PIN + _BEARING) / 2.0, r"$h$", va="center")
+    middle = (_LEFT + _RIGHT) / 2.0
+    for x in (middle - 1.2, middle, middle + 1.2):
+        _arrow(axes, (x, _BEARING + 0.22), (x, _PIN - 0.2), thin=True)
+    axes.text(middle + 0.12, (_PIN + _BEARING) / 2.0, r"$p$", va="center")
+
+
+def _displacements(axes: Axes) -> None:
+    pin, bearing = stroke(0).colour, stroke(1).colour
+    for x, top, name, colour, side in (
+        (_RIGHT + 0.5, 6.5, r"$U_a$ pin moves", pin, 0.15),
+        (_RIGHT + 0.5, 5.6, r"$u_a$ pin wears", pin, 0.15),
+        (_RIGHT + 0.5, 3.6, r"$u_c$ bearing wears", bearing, 0.15),
+        (_RIGHT + 0.5, 2.7, r"$U_c$ bearing moves", bearing, 0.15),
+    ):
+        _arrow(axes, (x, top), (x, top - 0.6), colour=str(colour))
+        axes.text(x + side, top - 0.3, name, va="center")
+
+
+def _loads(axes: Axes) -> None:
+    middle = (_LEFT + _RIGHT) / 2.0
+    _arrow(axes, (middle, 7.6), (middle, _TOP))
+    axes.text(middle + 0.15, 7.25, r"$R_a$", va="center")
+    axes.add_patch(
+        Arc((middle, 5.85), 1.1, 1.0, theta1=20.0, theta2=300.0, color=INK, linewidth=0.8)
+    )
+    _arrow(axes, (middle + 0.27, 5.42), (middle + 0.4, 5.52))
+    axes.text(middle, 5.85, r"$\omega$", ha="center", va="center")
+
+
+def _arrow(
+    axes: Axes,
+    start: tuple[float, float],
+    end: tuple[float, float],
+    *,
+    both: bool = False,
+    thin: bool = False,
+    colour: str = INK,
+) -> None:
+    axes.add_patch(
+        FancyArrowPatch(
+            start,
+            end,
+            arrowstyle="<|-|>" if both else "-|>",
+            mutation_scale=6.0 if thin else 8.0,
+            color=colour,
+            linewidth=0.6 if thin else 0.9,
+            shrinkA=0.0,
+            shrinkB=0.0,
+        )
+    )

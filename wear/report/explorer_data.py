@@ -1,0 +1,165 @@
+"""What the explorer's page knows: scenes, ranges of the sliders, values to check itself against.
+
+Key results
+    scene_data      a scene in the numbers that the sliders show
+    check_data      wear and wear rates of a scene, computed in Python
+    parameter_rows  what can be moved, from the vocabulary
+    models          the generated functions of every variant, as JavaScript
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from wear.load import Constant, Harmonics, Load, Sine, Table
+from wear.scene import Scene, load_scene
+
+CYCLES = (1, 10, 100, 1000, 10000)
+GROUPS: Mapping[str, tuple[str, ...]] = {
+    "Bearing": ("K_c", "H_c", "sigma_c0", "f_c"),
+    "Pin": ("K_a", "H_a", "sigma_a0", "f_a"),
+    "Contact": ("p_max", "h_0"),
+    "Support": ("k",),
+    "Load and motion": ("U", "T", "R", "n"),
+}
+
+
+def scene_data(scene: Scene) -> dict[str, Any]:
+    """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
+    other = load_scene("section3").parameters() | {"k": 1e5}
+    numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
+    key = scene.variant
+    return {
+        "name": scene.name,
+        "title": scene.title or scene.name,
+        "description": " ".join(scene.description.split()),
+        "law": key.law,
+        "pin": "bearing" if key.pin == "absent" else key.pin,
+        "compliant": key.support == "compliant",
+        "opening": key.opening,
+        "cutoff": key.cutoff,
+        "parameters": {name: numbers[name] for group in GROUPS.values() for name in group},
+        "load": _load_data(scene.periodic_load),
+    }
+
+
+def _size(load: Load) -> float:
+    """The amplitude of a sine; any other load is multiplied by the number on its slider."""
+    return load.amplitude_mm if isinstance(load, Sine) else 1.0
+
+
+def _load_data(load: Load) -> dict[str, Any]:
+    if isinstance(load, Sine):
+        return {"kind": "sine", "stops": [0.25, 0.75]}
+    if isinstance(load, Constant):
+        return {"kind": "constant", "value_mm": load.value_mm, "stops": []}
+    if isinstance(load, Harmonics):
+        return {
+            "kind": "harmonics",
+            "mean_mm": load.mean_mm,
+            "cosine_mm": list(load.cosine_mm),
+            "sine_mm": list(load.sine_mm),
+            "stops": list(load.peaks),
+        }
+    if not isinstance(load, Table):
+        raise TypeError(f"the explorer has no load of kind {type(load).__name__}")
+    phases = sorted({0.0, 1.0, *load.kinks})
+    values = [float(load(phase)) for phase in phases]
+    return {"kind": "table", "phase": phases, "value": values, "stops": list(load.kinks)}
+
+
+def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
+    """Return wear after cycles, and wear rates along the way, as Python computes them."""
+    from wear.model import bind
+    from wear.solver import solve
+
+    history = solve(scene, cycles, rtol=1e-10)
+    model = bind(scene)
+    phases = np.linspace(0.0, 1.0, 7)
+    depths = np.concatenate([[0.0], history.u_c])
+    rates = []
+    for depth in depths:
+        loads = scene.periodic_load(phases)
+        found = model.rate(np.full_like(loads, depth), loads)
+        if model.cutoff and not model.compliant:
+            found = np.where(model.margin(depth, loads) >= 0.0, found, 0.0)
+        rates += [[float(depth), float(a), float(b)] for a, b in zip(loads, found, strict=True)]
+    return {
+        "scene": scene.name,
+        "cycles": list(cycles),
+        "wear_mm": history.u_c.tolist(),
+        "rates": rates,
+    }
+
+
+def parameter_rows() -> list[dict[str, Any]]:
+    """Return name, range, scale and unit of every slider."""
+    from derive.symbols import QUANTITIES
+
+    rows = []
+    for name in (name for group in GROUPS.values() for name in group):
+        quantity = QUANTITIES[name]
+        domain = quantity.domain
+        unit = "" if quantity.unit == "1" else quantity.unit
+        rows.append(
+            {
+                "name": name,
+                "meaning": quantity.meaning.split(", ")[0],
+                "latex": quantity.latex,
+                "unit": unit,
+                "low": domain.low,
+                "high": domain.high,
+                "logarithmic": domain.logarithmic,
+                "positive": domain.positive,
+            }
+        )
+    return rows
+
+
+def models() -> str:
+    """Return a script with the generated functions of every variant and the formulas."""
+    from derive.codegen.formula_module import Formula
+    from derive.codegen.javascript import definitions, formula_function, guard_function
+    from derive.results.asymptotics import formulas
+    from derive.variant import VARIANTS
+
+    entries = []
+    for variant in VARIANTS:
+        text, names = definitions(variant)
+        body = f"{_without_comments(text)}\nreturn {{ {', '.join(names)} }};"
+        entries.append(f'"{variant.law.name}/{variant.module}": () => {{\n{body}\n}},')
+    closed = tuple(formulas())
+    written = (
+        formula_function(entry) if isinstance(entry, Formula) else guard_function(entry)
+        for entry in closed
+    )
+    text = "\n".join(_without_comments(function) for function in written)
+    names = tuple(formula.name for formula in closed)
+    return (
+        '"use strict";\nconst MODELS = {\n' + "\n".join(entries) + "\n};\n"
+        f"const FORMULAS = (() => {{\n{text}\nreturn {{ {', '.join(names)} }};\n}})();\n"
+    )
+
+
+def _without_comments(text: str) -> str:
+    """Leave out what readers of the page's source find in `derive code --target javascript`."""
+    blocks = re.sub(r"/\*\*.*?\*/\n", "", text, flags=re.DOTALL)
+    return re.sub(r"\n{2,}", "\n", re.sub(r" // .*", "", blocks))
+
+
+def checked(scenes: Iterable[Scene]) -> list[dict[str, Any]]:
+    """Return the check data of the scenes whose wear Python finds to the last digits wanted."""
+    from wear.faults import AccuracyError
+
+    found = []
+    for scene in scenes:
+        try:
+            interrupted = scene.contact.cutoff and scene.support is None
+            found.append(check_data(scene, CYCLES[:3] if interrupted else CYCLES))
+        except AccuracyError:
+            continue
+    return found

@@ -1,0 +1,44 @@
+"""The paper's section on how to make it again."""
+
+from __future__ import annotations
+
+from wear.report.document import Column, Given, Listing, Section, Table, Text
+from wear.report.manifest import versions
+from wear.report.words import paragraph, words
+
+COMMANDS = """\
+make reproduce                        # this report, from a fresh clone
+make test                             # every check of the software
+derive steps 21                       # how an equation follows, step by step
+wear run section4 --cycles 9000,9001  # the cycle that the note calls stabilised
+wear asymptote section4               # regime and constants of a scene
+wear claims                           # the ledger above
+"""
+
+
+def section() -> Section:
+    """Commands, versions, checksums."""
+    rows = tuple(
+        ((Text(name),), (Given(number, "version of a package"),))
+        for name, number in versions().items()
+    )
+    return Section(
+        "sec:reproduce",
+        "How to reproduce this report",
+        (
+            paragraph(
+                "Every number in the text, the tables and the figures was computed by the run that "
+                "wrote this file; on the page, the tooltip of a number names its computation. The "
+                "file `manifest.json` beside the report lists versions, scenes and the checksum of "
+                "every file. `equations.tex` has every equation as a macro for a report of one's "
+                "own, `claims.json` the ledger as data."
+            ),
+            Listing(COMMANDS, "Commands that reproduce the results"),
+            Table(
+                "tab:versions",
+                words("Versions in this run."),
+                (Column(words("Package")), Column(words("Version"))),
+                rows,
+            ),
+        ),
+    )

@@ -1,0 +1,296 @@
+r"""The document as LaTeX: ``report.tex``, which inputs ``equations.tex``, and its figures.
+
+Overview
+    `report` writes all files. ``equations.tex`` holds one macro for each equation that has a name,
+    so that other reports may ``\input`` the same file. Equations carry their numbers as tags,
+    sections, figures and tables are numbered by LaTeX itself; a test compares the outcome with
+    `wear.report.numbering`.
+Packages
+    amsmath, amssymb, booktabs, longtable, graphicx, hyperref, microtype, cleveref. Without cleveref
+    (it is not in the smaller TeX installations) references fall back to those of hyperref.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import assert_never
+
+from wear.report.display import display
+from wear.report.document import (
+    Block,
+    Claims,
+    Code,
+    Column,
+    Document,
+    Emphasis,
+    Equation,
+    Figure,
+    Given,
+    Inline,
+    Items,
+    Link,
+    Listing,
+    Math,
+    Number,
+    Paragraph,
+    Prose,
+    Reference,
+    Section,
+    Step,
+    Steps,
+    Table,
+    Text,
+    grouped,
+)
+from wear.report.numbering import Mark, mentioned_by, number
+from wear.report.tex_text import escape, heading, verbatim
+from wear.report.walk import blocks
+
+_HEADINGS = ("section", "subsection", "subsubsection")
+_THIN_SPACE = r"\,"
+#: Characters of ``\footnotesize\ttfamily`` in a line of text.
+_LISTING_WIDTH = 96
+
+
+@dataclass(frozen=True)
+class Sources:
+    """The files of the report: name to content."""
+
+    report: str
+    equations: str
+    figures: Mapping[str, bytes]
+
+
+@dataclass(frozen=True)
+class Context:
+    """What the blocks share."""
+
+    marks: Mapping[str, Mark]
+    mentioned_by: Mapping[str, tuple[str, ...]]
+
+
+def report(document: Document) -> Sources:
+    """All files of the report. Raises `ValueError` for references that lead nowhere and characters
+    without a LaTeX form."""
+    here = Context(number(document), mentioned_by(document))
+    body = "\n".join(_section(here, section, depth=0) for section in document.sections)
+    preamble = files("wear.report").joinpath("assets/preamble.tex").read_text(encoding="utf-8")
+    source = (
+        f"{preamble}\\input{{equations}}\n"
+        f"\\title{{{heading(document.title)}}}\n"
+        f"\\author{{{prose(here, document.subtitle)}}}\n\\date{{}}\n"
+        f"\\begin{{document}}\n\\maketitle\n"
+        f"\\begin{{abstract}}\\noindent {prose(here, document.abstract)}\\end{{abstract}}\n"
+        f"\\tableofcontents\n{body}\n"
+        f"\\bigskip\\noindent{{\\footnotesize {prose(here, document.colophon)}\\par}}\n"
+        f"\\end{{document}}\n"
+    )
+    return Sources(source, equations(document), dict(_figures(document)))
+
+
+def equations(document: Document) -> str:
+    """One macro for each equation that has a name: the formula alone, to be set in any display."""
+    here = number(document)
+    lines = ["% Formulas of the report, one macro each. Needs amsmath and amssymb."]
+    for block in blocks(document):
+        if isinstance(block, Equation) and block.macro:
+            _check_macro(block)
+            title = prose(Context(here, {}), block.title)
+            lines.append(f"% ({here[block.label].number}) {title}".rstrip())
+            lines.append(f"\\providecommand{{\\{block.macro}}}{{{display(block.latex)}}}")
+    return "\n".join(lines) + "\n"
+
+
+def prose(here: Context, content: Prose) -> str:
+    """Inline nodes as LaTeX."""
+    return "".join(_inline(here, piece) for piece in content)
+
+
+def _inline(here: Context, piece: Inline) -> str:
+    match piece:
+        case Text(text) | Given(text):
+            return escape(text)
+        case Emphasis(text):
+            return f"\\emph{{{escape(text)}}}"
+        case Code(text):
+            return f"\\texttt{{{_breakable(text)}}}"
+        case Math(latex):
+            return f"${latex}$"
+        case Reference(label):
+            return _link(here, label)
+        case Link(text, url):
+            return f"\\href{{{_url(url)}}}{{{escape(text)}}}"
+        case Number():
+            return _number(piece)
+    assert_never(piece)
+
+
+def _breakable(code: str) -> str:
+    """Code that may be broken after the signs that join its parts."""
+    return "".join(escape(c) + (r"\allowbreak{}" if c in "/._-=" else "") for c in code)
+
+
+def _url(url: str) -> str:
+    return url.replace("\\", "/").replace("%", r"\%").replace("#", r"\#").replace("&", r"\&")
+
+
+def _number(node: Number) -> str:
+    digits, exponent = node.decimal
+    power = "" if exponent is None else f"\\times10^{{{exponent}}}"
+    unit = f"~{escape(node.unit)}" if node.unit else ""
+    return f"${grouped(digits, _THIN_SPACE)}{power}${unit}"
+
+
+def _link(here: Context, label: str) -> str:
+    mark = here.marks[label]
+    if mark.kind in ("claim", "derivation"):
+        return f"\\hyperlink{{{label}}}{{{escape(mark.name)}}}"
+    return f"\\cref{{{label}}}"
+
+
+def _mentions(here: Context, label: str) -> str:
+    sources = here.mentioned_by.get(label, ())
+    return f"\\seealso{{{', '.join(_link(here, s) for s in sources)}}}\n" if sources else ""
+
+
+def _block(here: Context, block: Block, depth: int) -> str:
+    match block:
+        case Paragraph(content):
+            return f"\n{prose(here, content)}\n"
+        case Items(entries, ordered):
+            name = "enumerate" if ordered else "itemize"
+            items = "\n".join(f"\\item {prose(here, entry)}" for entry in entries)
+            return f"\\begin{{{name}}}\n{items}\n\\end{{{name}}}\n"
+        case Equation():
+            return _equation(here, block)
+        case Figure():
+            return _figure(here, block)
+        case Table():
+            return _table(here, block)
+        case Claims():
+            return _claims(here, block)
+        case Steps():
+            return _steps(here, block)
+        case Listing(code):
+            return (
+                "\n{\\footnotesize\n\\begin{verbatim}\n"
+                f"{verbatim(code, _LISTING_WIDTH)}\n\\end{{verbatim}}\n}}\n"
+            )
+        case Section():
+            return _section(here, block, depth)
+    assert_never(block)
+
+
+def _section(here: Context, section: Section, depth: int) -> str:
+    inside = "".join(_block(here, block, depth + 1) for block in section.blocks)
+    return f"\n\\{_HEADINGS[depth]}{{{heading(section.title)}}}\\label{{{section.label}}}\n{inside}"
+
+
+def _equation(here: Context, equation: Equation) -> str:
+    formula = f"\\{equation.macro}" if equation.macro else display(equation.latex)
+    tag = here.marks[equation.label].number
+    status = f"\\status{{{escape(equation.status)}}}" if equation.status else ""
+    title = f"{prose(here, equation.title)} {status}".strip()
+    printed = f"\\printed{{{display(equation.printed)}}}\n" if equation.printed else ""
+    return (
+        (f"\n\\formulatitle{{{title}}}\n" if title else "\n")
+        + "\\begingroup\\keepwithnext\n"
+        + f"\\begin{{equation}}{formula}\\tag{{{tag}}}\\label{{{equation.label}}}"
+        + f"\\end{{equation}}\n{printed}{_mentions(here, equation.label)}\\endgroup\n"
+    )
+
+
+def _figure(here: Context, figure: Figure) -> str:
+    return (
+        "\\begin{figure}[htbp]\\centering\n"
+        f"\\includegraphics[width=\\naturalwidth]{{{figure.file}.pdf}}\n"
+        f"\\caption{{{prose(here, figure.caption)}}}\\label{{{figure.label}}}\n"
+        f"{_mentions(here, figure.label)}\\end{{figure}}\n"
+    )
+
+
+def _figures(document: Document) -> Iterator[tuple[str, bytes]]:
+    for block in blocks(document):
+        if isinstance(block, Figure):
+            yield f"{block.file}.pdf", block.pdf
+
+
+def _table(here: Context, table: Table) -> str:
+    rows = [" & ".join(prose(here, cell) for cell in row) for row in table.rows]
+    if table.long:
+        return _long_table(here, table.label, table.caption, table.columns, rows)
+    head = " & ".join(prose(here, column.heading) for column in table.columns)
+    body = "".join(f"{row} \\\\\n" for row in rows)
+    return (
+        f"\\begin{{table}}[htbp]\\centering\\small\n"
+        f"\\caption{{{prose(here, table.caption)}}}\\label{{{table.label}}}\n"
+        f"\\begin{{tabular}}{{{_alignment(table.columns)}}}\\toprule\n"
+        f"{head} \\\\\\midrule\n{body}\\bottomrule\\end{{tabular}}\n"
+        f"{_mentions(here, table.label)}\\end{{table}}\n"
+    )
+
+
+def _long_table(
+    here: Context, label: str, caption: Prose, columns: tuple[Column, ...], rows: list[str]
+) -> str:
+    head = " & ".join(prose(here, column.heading) for column in columns)
+    body = "".join(f"{row} \\\\\n" for row in rows)
+    return (
+        f"{{\\footnotesize\n\\begin{{longtable}}{{{_alignment(columns)}}}\n"
+        f"\\caption{{{prose(here, caption)}}}\\label{{{label}}}\\\\\\toprule\n"
+        f"{head} \\\\\\midrule\\endfirsthead\n"
+        f"\\toprule {head} \\\\\\midrule\\endhead\n"
+        f"\\bottomrule\\endfoot\n{body}\\end{{longtable}}}}\n{_mentions(here, label)}"
+    )
+
+
+def _alignment(columns: tuple[Column, ...]) -> str:
+    def one(column: Column) -> str:
+        if column.width:
+            return f">{{\\raggedright\\arraybackslash}}p{{{column.width:g}\\linewidth}}"
+        return "r" if column.numeric else "l"
+
+    return "@{}" + "".join(one(column) for column in columns) + "@{}"
+
+
+def _claims(here: Context, ledger: Claims) -> str:
+    heads = (("Claim", 0.0), ("Where", 0.09), ("Statement", 0.27), ("Verdict", 0.15))
+    columns = tuple(Column((Text(title),), width=width) for title, width in heads)
+    columns += (Column((Text("Evidence"),), width=0.3),)
+    rows = [
+        " & ".join(
+            (
+                f"\\hypertarget{{{claim.label}}}{{{escape(claim.id)}}}",
+                prose(here, claim.where),
+                prose(here, claim.statement),
+                escape(claim.verdict),
+                prose(here, claim.evidence),
+            )
+        )
+        for claim in ledger.claims
+    ]
+    return _long_table(here, ledger.label, ledger.caption, columns, rows)
+
+
+def _steps(here: Context, steps: Steps) -> str:
+    entries = "\n".join(f"\\item {_step(here, step)}" for step in steps.steps)
+    return (
+        f"\n\\medskip\\noindent\\hypertarget{{{steps.label}}}{{}}"
+        f"{{\\small\\textbf{{Derivation of {_link(here, steps.of)}}}\n"
+        f"\\begin{{enumerate}}\n{entries}\n\\end{{enumerate}}}}\n"
+    )
+
+
+def _step(here: Context, step: Step) -> str:
+    formula = f"\\[{display(step.latex)}\\]" if step.latex else ""
+    check = f"{{\\footnotesize\\textit{{Check: {prose(here, step.check)}}}}}" if step.check else ""
+    return f"{prose(here, step.text)}{formula}{check}"
+
+
+def _check_macro(equation: Equation) -> None:
+    if not (equation.macro.isascii() and equation.macro.isalpha()):
+        raise ValueError(
+            f"{equation.label}: a macro's name has letters only, not {equation.macro!r}"
+        )

@@ -1,0 +1,95 @@
+"""Text as LaTeX: specials escaped, letters and signs outside ASCII in a form that pdfTeX sets."""
+
+from __future__ import annotations
+
+_SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "{": r"\{",
+    "}": r"\}",
+    "$": r"\$",
+    "&": r"\&",
+    "#": r"\#",
+    "%": r"\%",
+    "_": r"\_",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    '"': r"\textquotedbl{}",
+}
+_SIGN = {
+    "\u00a0": "~",
+    "\u2009": r"\,",
+    "\u202f": r"\,",
+    "\u2010": "-",
+    "\u2011": r"\mbox{-}",
+    "\u2013": "--",
+    "\u2014": "---",
+    "\u2018": "`",
+    "\u2019": "'",
+    "\u201c": "``",
+    "\u201d": "''",
+    "\u2026": r"\dots{}",
+    "\u2212": r"\ensuremath{-}",
+    "·": r"\ensuremath{\cdot}",
+    "×": r"\ensuremath{\times}",
+    "±": r"\ensuremath{\pm}",
+    "°": r"\textdegree{}",
+    "µ": r"\textmu{}",
+    "→": r"\ensuremath{\to}",
+    "≤": r"\ensuremath{\le}",
+    "≥": r"\ensuremath{\ge}",
+    "≈": r"\ensuremath{\approx}",
+    "∞": r"\ensuremath{\infty}",
+    "²": r"\textsuperscript{2}",
+    "³": r"\textsuperscript{3}",
+}
+_LATIN = range(0x00C0, 0x0180)
+
+
+def escape(text: str) -> str:
+    r"""The text for LaTeX with utf8 input and T1 fonts.
+
+    >>> print(escape("5 % of p_max – Éric & Söhne"))
+    5 \% of p\_max -- Éric \& Söhne
+
+    Raises `ValueError` for a character without a form; formulas belong into `Math` nodes.
+    """
+    return "".join(_character(character, text) for character in text)
+
+
+def heading(text: str) -> str:
+    """The text for a title, whose signs also go into the outline of the PDF."""
+    return "".join(
+        f'\\texorpdfstring{{{_SIGN[c]}}}{{\\unichar{{"{ord(c):04X}}}}}'
+        if "\\" in _SIGN.get(c, "")
+        else escape(c)
+        for c in text
+    )
+
+
+def verbatim(code: str, width: int) -> str:
+    """Code for a `verbatim` environment: lines cut at `width`, the rest indented below."""
+    if "\\end{verbatim}" in code:
+        raise ValueError("a listing cannot hold the end of its own environment")
+    lines = []
+    for line in code.rstrip("\n").split("\n"):
+        while len(line) > width:
+            lines.append(line[:width])
+            line = "    " + line[width:]
+        lines.append(line)
+    return "\n".join(lines)
+
+
+def _character(character: str, text: str) -> str:
+    if character in _SPECIAL:
+        return _SPECIAL[character]
+    if character.isascii() or ord(character) in _LATIN:
+        return character
+    if character in _SIGN:
+        return _SIGN[character]
+    raise ValueError(
+        f"no LaTeX form for {character!r} (U+{ord(character):04X}) in {text!r}: "
+        "write it as a formula or add it to the table of signs in wear.report.tex_text"
+    )

@@ -1,0 +1,77 @@
+"""What is legal in a scene, but may not be what its author means."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from wear.load import Blocks, HistoryLoad
+
+if TYPE_CHECKING:
+    from wear.scene import Scene
+
+CONTACT_REACH = 3  # contact needs h <= 3 sigma, the text under (4); a test holds it to derive's
+
+
+def notices(scene: Scene) -> tuple[str, ...]:
+    """One sentence for each thing worth knowing before the scene is solved."""
+    return (*_pin_notices(scene), *_closure_notices(scene), *_load_notices(scene))
+
+
+def _pin_notices(scene: Scene) -> Iterator[str]:
+    variant = scene.variant
+    wears = variant.pin.startswith("worn")
+    if scene.pin is not None and variant.pin == "absent":
+        yield "the pin neither wears nor is rough: it is not modelled"
+    if wears and not variant.opening:
+        yield (
+            "wear of the pin closes the gap, the sign of Eq. (1) as printed; "
+            "for the physical sign set contact.pin_wear_opens_gap = true"
+        )
+    if scene.contact.pin_wear_opens_gap and not wears:
+        yield "pin_wear_opens_gap has no effect: the pin does not wear"
+
+
+def _closure_notices(scene: Scene) -> Iterator[str]:
+    first = initial_displacement(scene)
+    reach = CONTACT_REACH * scene.initial_roughness
+    closure = scene.closure - first
+    if scene.contact.cutoff and scene.closure - scene.load.maximum > reach:
+        yield "with the cutoff the pin never comes into contact: there is no wear"
+    elif scene.contact.cutoff and closure > reach:
+        yield (
+            f"starts out of contact: the closure {closure:.6g} mm exceeds "
+            f"3 sigma(0) = {reach:.6g} mm and the cutoff is on"
+        )
+    if scene.closure < scene.load.maximum:
+        yield (
+            "the pin moves further than the initial closure: the closure turns negative, "
+            "outside 0 <= h of the text under (4)"
+        )
+    if scene.support is not None:
+        yield "the support gives way: the closure is that of the unloaded system, h_0 of Eq. (1)"
+    elif first != 0.0:
+        yield (
+            f"U_a(0) = {first:.6g} mm is not zero: the run starts at the closure "
+            f"h_0 - U_a(0) = {closure:.6g} mm, not at the h_0 of Eq. (6)"
+        )
+
+
+def initial_displacement(scene: Scene) -> float:
+    """U_a(0) in mm."""
+    load = scene.load
+    if isinstance(load, Blocks | HistoryLoad):
+        return float(load.value(0.0))
+    return float(scene.periodic_load(0.0))
+
+
+def _load_notices(scene: Scene) -> Iterator[str]:
+    if not isinstance(scene.load, Blocks):
+        return
+    starts = [float(block.load(0.0)) for block in scene.load.blocks]
+    jumps = [place + 1 for place in range(1, len(starts)) if starts[place] != starts[place - 1]]
+    if scene.load.repeat > 1 and starts[0] != starts[-1]:
+        jumps.insert(0, 1)
+    if jumps:
+        places = ", ".join(map(str, jumps[:10])) + (", ..." if len(jumps) > 10 else "")
+        yield f"the displacement jumps at the start of block {places}"

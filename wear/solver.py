@@ -1,0 +1,264 @@
+"""`solve`: the wear of a scene after any numbers of cycles, by the method that suits."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear import direct
+from wear.direct.sequence import most_cycles
+from wear.faults import AccuracyError, Interrupted, UsageError
+from wear.history import History
+from wear.load import HistoryLoad
+from wear.states import fields_at, negative_roughness, reaction_of
+
+if TYPE_CHECKING:
+    from wear.model import Model
+    from wear.scene import Scene
+
+__all__ = ["METHODS", "MOST_CYCLES", "solve"]
+
+FloatArray = NDArray[np.float64]
+METHODS = ("auto", "cycle-count", *direct.METHODS)
+MOST_CYCLES = 10**12
+AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
+DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
+
+
+class Wear(NamedTuple):
+    """What every method gives: wear (mm) at the cycles reached, its relative error, the cost.
+
+    `stopped` says why cycles are missing, `interrupted` whether by the user or the clock.
+    """
+
+    method: str
+    cycles: tuple[int, ...]
+    u: FloatArray
+    error: FloatArray
+    cost: dict[str, int]
+    notices: tuple[str, ...]
+    stopped: str | None
+    interrupted: bool
+
+
+def solve(
+    scene: Scene,
+    cycles: Sequence[int | float],
+    rtol: float = 1e-10,
+    method: str = "auto",
+    time_limit: float | None = None,
+) -> History:
+    """Solve a scene for its state after numbers of load cycles.
+
+    Parameters
+    ----------
+    cycles
+        Whole numbers from 0 (the fresh state) to 1e12, in any order.
+    rtol
+        Requested relative error of the bearing's wear.
+    method
+        "auto", "cycle-count" (any number of cycles from a few; the load must repeat) or one of
+        SciPy's integrators, which go through every cycle.
+    time_limit
+        Seconds after which to stop with what there is.
+
+    Raises
+    ------
+    UsageError
+        if the request makes no sense, all that is wrong with it at once.
+    AccuracyError
+        if `rtol` was not reached; `best` is the history that was.
+    Interrupted
+        on Ctrl-C or at the time limit; `history` has the cycles that were reached.
+
+    >>> from wear.scene import load_scene
+    >>> history = solve(load_scene("section4"), [1, 10], rtol=1e-6)
+    >>> [f"{wear:.4e}" for wear in history.u_c]
+    ['3.0253e-05', '2.3692e-04']
+    """
+    from wear.model import bind
+
+    start = time.monotonic()
+    wanted = _check(scene, cycles, rtol, method, time_limit)
+    model = bind(scene)
+    deadline = np.inf if time_limit is None else start + time_limit
+    wear = _solved(model, scene, wanted, rtol, method, deadline)
+    history = _history(scene, model, wanted, wear, rtol, time.monotonic() - start)
+    if wear.interrupted:
+        raise Interrupted(_reached(wear), history)
+    worst = float(np.max(history.error, initial=0.0))
+    if wear.stopped or not worst <= rtol:
+        missed = f"{wear.method}: the estimated error is {worst:.1e}, {rtol:.1e} was requested"
+        raise AccuracyError(_reached(wear) if wear.stopped else missed, history)
+    return history
+
+
+def _check(
+    scene: Scene,
+    cycles: Sequence[int | float],
+    rtol: float,
+    method: str,
+    time_limit: float | None,
+) -> tuple[int, ...]:
+    """The numbers of cycles as integers; everything that is wrong with the request at once."""
+    faults: list[str] = []
+    wanted = tuple(_whole(number, faults) for number in cycles)
+    if not wanted:
+        faults.append("cycles: give at least one number of cycles")
+    if not 1e-15 <= rtol <= 0.1:
+        faults.append(f"rtol: {rtol!r} is not between 1e-15 and 0.1")
+    if method not in METHODS:
+        faults.append(f"method: {method!r} is none of {', '.join(METHODS)}")
+    elif method == "cycle-count" and obstacle(scene) is not None:
+        faults.append(f"method: cycle-count is not for this scene: {obstacle(scene)}; take auto")
+    if time_limit is not None and not time_limit > 0.0:
+        faults.append(f"time_limit: {time_limit!r} is no positive number of seconds")
+    if max(wanted, default=0) > most_cycles(scene.load):
+        faults.append(f"cycles: the load ends after {most_cycles(scene.load)} whole cycles")
+    if faults:
+        raise UsageError("\n".join(faults))
+    return wanted
+
+
+def _whole(number: int | float, faults: list[str]) -> int:
+    whole = int(number) if math.isfinite(number) else -1
+    if whole != number or not 0 <= whole <= MOST_CYCLES:
+        faults.append(f"cycles: {number!r} is no whole number from 0 to 1e12")
+        return 0
+    return whole
+
+
+def obstacle(scene: Scene) -> str | None:
+    """Why cycles of this scene cannot be counted, None if they can."""
+    if isinstance(scene.load, HistoryLoad):
+        return "the load does not repeat"
+    if scene.contact.cutoff and scene.support is not None:
+        return "the contact has a cutoff and a compliant support"
+    return None
+
+
+def _methods(
+    scene: Scene, method: str, wanted: tuple[int, ...], rtol: float
+) -> tuple[tuple[str, str], ...]:
+    """The methods to try in turn, each with the reason to tell (none if the user chose it)."""
+    if method != "auto":
+        return ((method, ""),)
+    against = obstacle(scene)
+    if against is not None:
+        return (("DOP853", against),)
+    first = ("cycle-count", "the load repeats")
+    if max(wanted) > AFFORDABLE_CYCLES or rtol < DIRECT_LIMIT:
+        return (first,)
+    return (first, ("DOP853", "the cycle count missed the requested accuracy"))
+
+
+def _solved(
+    model: Model,
+    scene: Scene,
+    wanted: tuple[int, ...],
+    rtol: float,
+    method: str,
+    deadline: float,
+) -> Wear:
+    """The first method's result that meets the request, or that with the smallest error."""
+    results: list[Wear] = []
+    for name, reason in _methods(scene, method, wanted, rtol):
+        run = _cycle_count if name == "cycle-count" else _direct
+        wear = run(model, scene, wanted, rtol, name, deadline)
+        if reason:
+            wear = wear._replace(notices=(f"auto: {name}, because {reason}", *wear.notices))
+        results.append(wear)
+        if wear.interrupted or (wear.stopped is None and _worst(wear) <= rtol):
+            return wear
+    complete = [wear for wear in results if wear.stopped is None]
+    return min(complete or results, key=_worst)
+
+
+def _worst(wear: Wear) -> float:
+    return float(np.max(np.nan_to_num(wear.error, nan=np.inf), initial=0.0))
+
+
+def _cycle_count(
+    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, _: float
+) -> Wear:
+    from wear.count.blocks import wear_after
+
+    cycles = tuple(sorted(set(wanted)))
+    try:
+        found = wear_after(model, scene.load, np.array(cycles, dtype=float), rtol)
+    except KeyboardInterrupt:
+        return _nothing(name, "interrupted", interrupted=True)
+    except (AccuracyError, ArithmeticError, ValueError) as fault:  # LinAlgError is a ValueError
+        return _nothing(name, f"the cycles could not be counted ({fault})", interrupted=False)
+    cost = {name: int(number) for name, number in found.cost._asdict().items()}
+    return Wear(name, cycles, found.u_c, found.error, cost, found.notices, None, False)
+
+
+def _nothing(name: str, stopped: str, interrupted: bool) -> Wear:
+    cost = {"cycles_integrated": 0, "rhs_evaluations": 0}
+    return Wear(name, (), np.empty(0), np.empty(0), cost, (), stopped, interrupted)
+
+
+def _direct(
+    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
+) -> Wear:
+    found = direct.integrate(model, scene.load, wanted, rtol, name, deadline)
+    cost = {
+        "cycles_integrated": found.cycles_integrated,
+        "rhs_evaluations": found.rhs_evaluations,
+    }
+    notices: tuple[str, ...] = ()
+    if found.arrested_in is not None:
+        notices = (f"wear stops for good in cycle {found.arrested_in}",)
+    return Wear(
+        name,
+        found.cycles,
+        found.u,
+        found.error,
+        cost,
+        notices,
+        found.stopped,
+        found.interrupted,
+    )
+
+
+def _reached(wear: Wear) -> str:
+    last = f"cycle {wear.cycles[-1]}" if wear.cycles else "no requested cycle"
+    return f"{wear.method}: {wear.stopped}; {last} was reached"
+
+
+def _history(
+    scene: Scene, model: Model, wanted: tuple[int, ...], wear: Wear, rtol: float, seconds: float
+) -> History:
+    """All fields at the requested cycles that were reached, in the order of the request."""
+    place = {cycle: at for at, cycle in enumerate(wear.cycles)}
+    cycles = [cycle for cycle in wanted if cycle in place]
+    order = [place[cycle] for cycle in cycles]
+    u, error = wear.u[order], wear.error[order]
+    fields = fields_at(model, scene, cycles, u)
+    return History(
+        cycles=np.array(cycles, dtype=np.int64),
+        u_c=u,
+        u_a=fields.u_a,
+        sigma_c=fields.sigma_c,
+        sigma_a=fields.sigma_a,
+        h=fields.h,
+        p=fields.p,
+        error=error,
+        U_c=fields.U_c if model.compliant else None,
+        R_a=reaction_of(scene, fields.p),
+        scene=scene.title or scene.name,
+        definition=scene.to_json(),
+        variant=model.variant,
+        operations=model.operations,
+        method=wear.method,
+        rtol=rtol,
+        cost=wear.cost,
+        seconds=seconds,
+        notices=(*scene.notices, *wear.notices, *negative_roughness(model, fields, u)),
+    )

@@ -1,0 +1,69 @@
+"""The fields of a scene at the ends of cycles, from the wear that a solver found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.direct.cutoff import pressure_share, roundoff
+from wear.load import Blocks, HistoryLoad
+
+if TYPE_CHECKING:
+    from wear.model import Fields, Model
+    from wear.scene import Scene
+
+FloatArray = NDArray[np.float64]
+
+
+def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) -> Fields:
+    """Fields at the ends of cycles; at the edge of contact with the share of pressure that acts."""
+    loads = [_displacement(scene, cycle) for cycle in cycles]
+    U_a = np.array([value for value, _ in loads], dtype=float)
+    fields = model.fields(u, U_a)
+    if not model.cutoff or model.compliant:
+        return fields
+    edge = [roundoff(model, *state) for state in zip(u, U_a, strict=True)]
+    closed = model.fields(u, U_a + np.array(edge)).p
+    share = [
+        pressure_share(model, wear, value, rise)
+        for wear, (value, rise) in zip(u, loads, strict=True)
+    ]
+    return fields._replace(p=closed * np.array(share))
+
+
+def _displacement(scene: Scene, cycle: int) -> tuple[float, float]:
+    """U_a (mm) and dU_a/dt (mm/s) at the end of a cycle."""
+    if isinstance(scene.load, Blocks | HistoryLoad):
+        at = scene.load.time_at(cycle)
+        return float(scene.load.value(at)), float(scene.load.slope(at))
+    load = scene.periodic_load
+    return float(load(0.0)), float(load.slope(0.0)) / load.period
+
+
+def negative_roughness(model: Model, fields: Fields, u: FloatArray) -> tuple[str, ...]:
+    """The equation takes a roughness squared; the note's assumption that it is positive ends."""
+    fresh = model.fields(0.0, 0.0)
+    notices = []
+    for solid, name in (("bearing", "sigma_c"), ("pin", "sigma_a")):
+        worn, new = getattr(fields, name), float(getattr(fresh, name))
+        if len(u) and np.min(worn) < 0.0:
+            at = int(np.argmin(worn))
+            beyond = u[at] * new / (new - worn[at])  # linear in the wear
+            notices.append(
+                f"the roughness of the {solid} is negative beyond u_c = {beyond:.6g} mm: "
+                "the equation takes its square, but the model is no longer meant"
+            )
+    return tuple(notices)
+
+
+def reaction_of(scene: Scene, pressure: FloatArray) -> FloatArray | None:
+    """The reaction force of the pin in N, where the scene says how large the contact is."""
+    from wear.generated.reaction import reaction
+
+    numbers = scene.parameters()
+    if "b" not in numbers:
+        return None
+    return np.asarray(reaction(pressure, b=numbers["b"], L=numbers["L"]))
