@@ -1,0 +1,261 @@
+"""A judge of generated code: 50-digit values of a program's functions, and how far off is far.
+
+Every value is that of the exact form, everything inserted into everything.  It comes with the sum
+of its absolute terms, |f| + sum |x df/dx| over all names x on the way to it: arguments, constants
+and intermediates.  That is what one unit of roundoff in each of them can make of it.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Mapping
+from functools import cache
+from typing import NamedTuple
+
+import mpmath
+import sympy as sp
+
+from derive.program import Function, Program, program
+from derive.stable import released
+from derive.variant import VARIANTS, Variant
+
+UNITS = 8
+ROUNDOFF = 2.0**-53
+#: Where doubles lose digits to underflow, times the largest factor that a function may have.
+FLOOR = 1e-290
+DIGITS = 50
+
+
+class Judged(NamedTuple):
+    """An exact value, and the error that is one unit of roundoff."""
+
+    value: mpmath.mpf
+    unit: mpmath.mpf
+
+    def units(self, computed: float) -> float:
+        """Return the error of a computed value in units."""
+        if math.isinf(computed) or math.isnan(computed):
+            return math.inf
+        return float(max(abs(mpmath.mpf(computed) - self.value) - FLOOR, 0) / self.unit)
+
+
+class Dual(NamedTuple):
+    """A value with its derivatives by name."""
+
+    value: mpmath.mpf
+    slopes: dict[str, mpmath.mpf]
+
+
+@cache
+def made(variant: Variant) -> Program:
+    """Return the program of a variant, once."""
+    return program(variant)
+
+
+@cache
+def composed(function: Function) -> tuple[sp.Expr, ...]:
+    """Return the exact form of a function, once."""
+    return function.composed()
+
+
+def variant_of(law: str, module: str) -> Variant:
+    """Return the variant of a generated module."""
+    return next(v for v in VARIANTS if v.law.name == law and v.module == module)
+
+
+def judge(function: Function, values: Mapping[str, float], index: int = 0) -> Judged:
+    """Evaluate a result of a function where its arguments and constants have these values."""
+    with mpmath.workdps(DIGITS):
+        numbers = {name: mpmath.mpf(value) for name, value in values.items()}
+        value = _evaluate(composed(function)[index], numbers).value
+        return Judged(value, _unit(value, _absolute_terms(function, numbers, index)))
+
+
+def judge_expression(expr: sp.Expr, values: Mapping[str, float]) -> Judged:
+    """Evaluate an expression that is computed in one line."""
+    with mpmath.workdps(DIGITS):
+        numbers = {name: mpmath.mpf(value) for name, value in values.items()}
+        found = _evaluate(expr, numbers)
+        return Judged(found.value, _unit(found.value, _terms(found.slopes, numbers)))
+
+
+def _unit(value: mpmath.mpf, terms: mpmath.mpf) -> mpmath.mpf:
+    return (abs(value) + terms) * ROUNDOFF + mpmath.mpf(FLOOR)
+
+
+def _absolute_terms(function: Function, values: Mapping[str, mpmath.mpf], index: int) -> mpmath.mpf:
+    """Return sum |x df/dx|: derivatives go back from the result, line by line."""
+    known = dict(values)
+    lines = []
+    for name, expr in function.assignments:
+        line = _evaluate(released(expr), known)
+        known[name.name] = line.value
+        lines.append((name.name, line.slopes))
+    total = dict(_evaluate(function.results[index], known).slopes)
+    for name, slopes in reversed(lines):
+        for inner, slope in slopes.items():
+            total[inner] = total.get(inner, mpmath.mpf(0)) + total.get(name, 0) * slope
+    return _terms(total, known)
+
+
+def _evaluate(expr: sp.Expr, values: Mapping[str, mpmath.mpf]) -> Dual:
+    if isinstance(expr, sp.Symbol):
+        return Dual(values[expr.name], {expr.name: mpmath.mpf(1)})
+    if expr.is_number:
+        return Dual(expr._to_mpmath(mpmath.mp.prec), {})
+    parts = [_evaluate(argument, values) for argument in expr.args]
+    numbers = [part.value for part in parts]
+    if expr.is_Add:
+        return _combined(mpmath.fsum(numbers), parts, [mpmath.mpf(1)] * len(parts))
+    if expr.is_Mul:
+        others = [mpmath.fprod(numbers[:i] + numbers[i + 1 :]) for i in range(len(parts))]
+        return _combined(mpmath.fprod(numbers), parts, others)
+    if isinstance(expr, sp.exp):
+        value = mpmath.exp(numbers[0])
+        return _combined(value, parts, [value])
+    if expr.is_Pow:
+        base, exponent = numbers
+        value = mpmath.power(base, exponent)
+        return _combined(value, parts[:1], [exponent * mpmath.power(base, exponent - 1)])
+    if isinstance(expr, (sp.Min, sp.Max)):
+        choose = min if isinstance(expr, sp.Min) else max
+        value = choose(numbers)
+        names = set().union(*(part.slopes for part in parts))
+        return Dual(  # an error of any of them can reach the result
+            value, {n: max(abs(part.slopes.get(n, 0)) for part in parts) for n in sorted(names)}
+        )
+    raise TypeError(f"{type(expr).__name__} in {expr}")
+
+
+def _terms(slopes: Mapping[str, mpmath.mpf], values: Mapping[str, mpmath.mpf]) -> mpmath.mpf:
+    return mpmath.fsum((values[name] * slope for name, slope in slopes.items()), absolute=True)
+
+
+def _combined(value: mpmath.mpf, parts: list[Dual], factors: list[mpmath.mpf]) -> Dual:
+    slopes: dict[str, mpmath.mpf] = {}
+    for part, factor in zip(parts, factors, strict=True):
+        for name, slope in part.slopes.items():
+            slopes[name] = slopes.get(name, mpmath.mpf(0)) + factor * slope
+    return Dual(value, slopes)
+
+
+def dual(expr: sp.Expr, values: Mapping[str, mpmath.mpf]) -> Dual:
+    """Evaluate an expression and its derivatives, with digits to lose to cancellation."""
+    with mpmath.workdps(3 * DIGITS):
+        return _evaluate(expr, dict(values))
+
+
+def exact_values(variant: Variant, at: Point) -> dict[str, mpmath.mpf]:
+    """Return the constants of a run without rounding, and the state."""
+    parameters = {name: mpmath.mpf(value) for name, value in at.parameters.items()}
+    with mpmath.workdps(3 * DIGITS):
+        constants = {
+            name.name: _evaluate(expr, parameters).value
+            for name, expr in made(variant).exact_constants.items()
+        }
+    state = {"u": mpmath.mpf(at.u), "U_a": mpmath.mpf(at.U_a), "p": mpmath.mpf(at.p)}
+    return constants | state
+
+
+def judge_root(residual: Function, slope: Function, values: Mapping[str, float]) -> Judged:
+    """Evaluate the contact pressure on a compliant support; ``values['p']`` is near it.
+
+    Its absolute terms are those of the residual, seen from the pressure.
+    """
+    with mpmath.workdps(DIGITS):
+        numbers = {name: mpmath.mpf(value) for name, value in values.items()}
+        for _ in range(8):  # from a few digits on Newton's iteration doubles them
+            steepness = judge(slope, numbers).value
+            step = judge(residual, numbers).value / steepness
+            numbers["p"] -= step
+        assert abs(step) <= abs(numbers["p"]) * mpmath.mpf(10) ** -40
+        return Judged(numbers["p"], judge(residual, numbers).unit / steepness)
+
+
+# Points
+
+
+class Point(NamedTuple):
+    """Physical parameters, and where to evaluate: u, U_a and, for residuals, p."""
+
+    parameters: dict[str, float]
+    u: float
+    U_a: float
+    p: float
+
+
+def point(
+    variant: Variant,
+    generator: random.Random,
+    argument: float,
+    vanishing: bool = False,
+) -> Point:
+    """Draw a point at which the argument of tanh, 4 - 2 h/sigma, is about ``argument``.
+
+    ``vanishing``: the roughness of the bearing has nearly worn off.
+    """
+
+    def between(low: float, high: float) -> float:
+        return math.exp(generator.uniform(math.log(low), math.log(high)))
+
+    everything = {
+        "h_0": between(1e-5, 1e-2),
+        "sigma_a0": between(1e-7, 1e-3),
+        "sigma_c0": between(1e-7, 1e-3),
+        "f_a": generator.uniform(-0.05, 0.6),
+        "f_c": generator.uniform(-0.05, 0.6),
+        "K_c": between(1e-9, 1e-1),
+        "H_a": between(10, 1e4),
+        "H_c": between(10, 1e4),
+        "p_max": between(1, 3e3),
+        "k": between(1, 1e12),
+        "R": between(0.1, 1e3),
+        "n": between(0.1, 1e5),
+    }
+    kappa = between(1e-2, 30)
+    everything["K_a"] = kappa * everything["K_c"] * everything["H_a"] / everything["H_c"]
+    u = between(1e-12, 1e-2)
+    if vanishing:
+        everything["f_c"] = -between(1e-3, 0.5)
+        u = everything["sigma_c0"] / -everything["f_c"] * (1 - between(1e-4, 1e-1))
+    elif everything["f_c"] < 0:
+        u = min(u, 0.9 * everything["sigma_c0"] / -everything["f_c"])
+    bearing = everything["sigma_c0"] + everything["f_c"] * u
+    pin = 0.0
+    if variant.pin.rough:
+        pin = everything["sigma_a0"] + everything["f_a"] * kappa * u * variant.pin.wears
+    gain = 1.0 + kappa * (1 if variant.opening else -1) if variant.pin.wears else 1.0
+    closure = (2.0 - argument / 2.0) * math.hypot(bearing, pin)
+    pressure = everything["p_max"] * between(1e-12, 1)
+    deflection = pressure / everything["k"] if variant.compliant else 0.0
+    load = everything["h_0"] + gain * u + deflection - closure
+    names = [parameter.name for parameter in made(variant).parameters]
+    return Point({name: everything[name] for name in names}, u, load, pressure)
+
+
+def points(variant: Variant, count: int, seed: int = 0) -> list[Point]:
+    """Draw points from everywhere, the extremes of the argument first."""
+    generator = random.Random(f"{variant.law.name}/{variant.module}/{seed}")
+    arguments = [-700.0, 700.0, -30.0, -1.0, 0.0, 1.0, 20.0]
+    arguments += [generator.uniform(-40, 40) for _ in range(count - len(arguments))]
+    return [
+        point(variant, generator, argument, vanishing=index % 5 == 4)
+        for index, argument in enumerate(arguments)
+    ]
+
+
+def inputs(function: Function, at: Point, constants: Mapping[str, float]) -> dict[str, float]:
+    """Return the value of every symbol of a function at a point."""
+    state = {"u": at.u, "U_a": at.U_a, "p": at.p}
+    arguments = {a.name: state[a.name] for a in function.arguments}
+    return {**constants, **arguments}
+
+
+def names_in(function: Function, program_of: Program) -> set[str]:
+    """Return every name that stands in a generated function."""
+    expressions = [value for _, value in function.assignments] + list(function.results)
+    constants = {name.name for name, _ in program_of.constants}
+    used = {symbol.name for expression in expressions for symbol in expression.free_symbols}
+    own = {name.name for name, _ in function.assignments} | {a.name for a in function.arguments}
+    return (used - constants) | own

@@ -1,0 +1,90 @@
+"""The verdicts that mathematics alone reaches, and that they would change with their grounds."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import pytest
+import sympy as sp
+
+from derive.note import claim_checks
+from derive.note.claim_checks import SYMBOLIC
+from derive.note.claims import CLAIMS, Verdict
+from derive.note.governing import Model
+from derive.symbols import symbol
+
+VERDICTS = {
+    "C1": Verdict.INCONSISTENT,
+    "C2": Verdict.CONFIRMED,
+    "C3": Verdict.CONFIRMED,
+    "C4": Verdict.INCONSISTENT,
+    "C5": Verdict.CONFIRMED,
+    "C6": Verdict.CONFIRMED,
+    "C7": Verdict.INCONSISTENT,
+    "C8": Verdict.CONDITIONAL,
+    "C9": Verdict.CONDITIONAL,
+    "C10": Verdict.CONFIRMED,
+    "C11": Verdict.CONFIRMED,
+    "C12": Verdict.CONFIRMED,
+    "C13": Verdict.CONFIRMED,
+    "C14": Verdict.CONDITIONAL,
+    "C15": Verdict.CONFIRMED,
+    "C18": Verdict.INCONSISTENT,
+    "C19": Verdict.INCONSISTENT,
+    "C20": Verdict.CONFIRMED,
+    "C21": Verdict.CONFIRMED,
+    "C22": Verdict.CONDITIONAL,
+    "C23": Verdict.CONDITIONAL,
+    "C24": Verdict.REFUTED,
+    "C25": Verdict.CONDITIONAL,
+    "C26": Verdict.CONDITIONAL,
+    "C27": Verdict.REFUTED,
+    "C28": Verdict.CONFIRMED,
+    "C29": Verdict.CONDITIONAL,
+    "C30": Verdict.CONFIRMED,
+    "C31": Verdict.CONDITIONAL,
+    "C32": Verdict.REFUTED,
+}
+
+
+@pytest.mark.parametrize("identifier", SYMBOLIC)
+def test_verdict(identifier: str) -> None:
+    finding = SYMBOLIC[identifier]()
+    assert finding.verdict is VERDICTS[identifier], finding.evidence
+    assert finding.evidence
+
+
+def test_the_claims_stand_in_the_order_of_the_note() -> None:
+    assert list(CLAIMS) == [f"C{number}" for number in range(1, 41)]
+    assert set(SYMBOLIC) <= set(CLAIMS)
+
+
+def test_the_physical_sign_would_be_consistent(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(claim_checks, "Model", lambda: Model(opening=True))
+    assert claim_checks.closure_sign().verdict is Verdict.CONFIRMED
+
+
+def test_a_law_that_exceeds_its_maximum_would_be_refuted(monkeypatch: pytest.MonkeyPatch) -> None:
+    doubled = dataclasses.replace(claim_checks.TANH, phi=2 * claim_checks.TANH.phi)
+    monkeypatch.setattr(claim_checks, "TANH", doubled)
+    assert claim_checks.below_maximum().verdict is Verdict.REFUTED
+
+
+def test_an_equation_whose_step_fails_refutes_its_claim(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(claim_checks, "_holds", lambda *_: (False, "some fail", False))
+    assert SYMBOLIC["C10"]().verdict is Verdict.REFUTED
+    assert claim_checks.given_force().verdict is Verdict.REFUTED
+    assert claim_checks.vacuous().verdict is Verdict.CONFIRMED
+
+
+def test_thresholds_are_in_the_evidence_of_c32() -> None:
+    evidence = claim_checks.one_eighth().evidence
+    for figure in ("3.7751e-11", "0.123411", "0.086724", "0.153717"):
+        assert figure in evidence
+
+
+def test_the_bracket_would_vanish_for_one_load() -> None:
+    """f_c (h_0 - U_a) = sigma_c0 is the one load for which (16) would hold."""
+    bracket = claim_checks.Stabilised().bracket.claim.rhs
+    load = symbol("h_0") - symbol("sigma_c0") / symbol("f_c")
+    assert sp.expand(bracket.subs(symbol("U_a"), load)) == 0

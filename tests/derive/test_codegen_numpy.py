@@ -1,0 +1,328 @@
+"""Generated NumPy modules: true to the derivation, accurate to roundoff, always the same."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+import flint
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sympy.core.function import AppliedUndef
+
+import wear.generated
+import wear.root
+from derive import generate
+from derive.codegen.numpy_module import module_text
+from derive.laws import LAWS, r
+from derive.note.condensed import Condensed
+from derive.stable import STABLE, proof
+from derive.statement import check
+from derive.symbols import QUANTITIES, rate
+from derive.variant import VARIANTS, Variant
+from derive.zero import is_zero
+from tests.derive import exact
+
+GENERATED = Path(wear.generated.__file__).parent
+COMPLIANT = [variant for variant in VARIANTS if variant.compliant]
+
+
+def name_of(variant: Variant) -> str:
+    return f"{variant.law.name}/{variant.module}"
+
+
+every_variant = pytest.mark.parametrize("variant", VARIANTS, ids=map(name_of, VARIANTS))
+
+
+def module_of(variant):
+    return importlib.import_module(f"wear.generated.{variant.law.name}.{variant.module}")
+
+
+def plain(expr: sp.Expr) -> sp.Expr:
+    """Functions of time as the symbols of a program, the slip rate in terms of its data."""
+    names = {"u_c": "u", "U_a": "U_a", "p": "p"}
+    fields = [f for f in expr.atoms(AppliedUndef) if f.func.__name__ in QUANTITIES]
+    return expr.xreplace(
+        {f: sp.Symbol(names[f.func.__name__], real=True) for f in fields},
+    )
+
+
+def in_parameters(variant: Variant, name: str) -> sp.Expr:
+    """The exact form of a generated function in terms of physical parameters."""
+    made = exact.made(variant)
+    function = next(f for f in made.functions if f.name == name)
+    return function.composed()[0].xreplace(made.exact_constants)
+
+
+# What the code computes
+
+
+def test_generated_files_are_up_to_date():
+    assert generate.outdated(GENERATED) == ()
+
+
+def test_outdated_tells_missing_changed_and_strange_files(tmp_path):
+    assert set(generate.outdated(tmp_path)) == set(generate.sources())
+    generate.write(tmp_path)
+    assert generate.outdated(tmp_path) == ()
+    (tmp_path / "tanh" / "rigid_bearing.py").write_text("changed")
+    (tmp_path / "tanh" / "strange.py").write_text("")
+    assert set(generate.write(tmp_path)) == {"tanh/rigid_bearing.py", "tanh/strange.py"}
+    assert generate.outdated(tmp_path) == ()
+
+
+@every_variant
+def test_rate_is_the_derived_right_hand_side(variant):
+    """(10) and (13) for a rigid support; for a compliant one Archard's law, (7f)."""
+    condensed = Condensed(variant.model)
+    slip = variant.model.slip
+    if variant.compliant:
+        wanted = variant.model.wear_laws[2].substitute(slip).claim.rhs
+    else:
+        wanted = condensed.rigid.substitute(slip).claim.rhs
+    assert is_zero(in_parameters(variant, "rate") - plain(wanted))
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_rate_of_a_smooth_pin_that_does_not_wear_is_13(law):
+    variant = exact.variant_of(law, "rigid_bearing")
+    condensed = Condensed(variant.model).rigid_condensed.solve_for(rate("u_c"))
+    wanted = condensed.substitute(variant.model.slip).claim.rhs
+    assert is_zero(in_parameters(variant, "rate") - plain(wanted))
+
+
+@pytest.mark.parametrize("variant", COMPLIANT, ids=map(name_of, COMPLIANT))
+def test_residual_is_the_general_implicit_form(variant):
+    """(9): the residual at the pressure that belongs to a wear rate."""
+    wanted = Condensed(variant.model).pressure_of_bearing_wear.claim
+    assert is_zero(in_parameters(variant, "residual") - plain(wanted.lhs - wanted.rhs))
+
+
+@every_variant
+def test_slopes_are_derivatives(variant):
+    """Against derivatives by another route, dual numbers in place of formulas, to 40 digits."""
+    made = exact.made(variant)
+    functions = {f.name: exact.composed(f)[0] for f in made.functions if f.name != "fields"}
+    for at in exact.points(variant, 12)[7:]:
+        values = exact.exact_values(variant, at)
+        for name, value in derivatives(variant, functions, values).items():
+            found = exact.dual(functions[name], values).value
+            with mpmath.workdps(exact.DIGITS):
+                assert mpmath.almosteq(found, value, rel_eps=mpmath.mpf(10) ** -40), name
+
+
+@mpmath.workdps(3 * exact.DIGITS)
+def derivatives(variant, functions, values):
+    """What each generated slope must be."""
+    rises = {name: exact.dual(expr, values).slopes for name, expr in functions.items()}
+    wanted = {}
+    if variant.cutoff:
+        wanted["margin_slope"] = rises["margin"]["u"]
+    if not variant.compliant:
+        return wanted | {"slope": rises["rate"]["u"]}
+    per_pressure = rises["rate"]["p"]
+    if variant.cutoff:
+        wanted["limited_slope"] = per_pressure * rises["margin"]["u"] / values["compliance"]
+    at_root = -rises["residual"]["u"] / rises["residual"]["p"]
+    return wanted | {"residual_slope": rises["residual"]["p"], "slope": per_pressure * at_root}
+
+
+@pytest.mark.parametrize("law", STABLE)
+def test_stable_forms_are_proved(law):
+    for statement in proof(law):
+        assert all(outcome.passed for outcome in check(statement))
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_newton_has_a_start_for_every_law(law):
+    """Where a law is convex everywhere the start is at h/sigma = 0, with phi of at least 1."""
+    if law.inflection.is_finite:
+        assert is_zero(sp.diff(law.phi, r, 2).subs(r, law.inflection))
+    else:
+        assert law.phi.subs(r, 0) >= 1
+    assert sp.diff(law.phi, r, 2).subs(r, 3) > 0
+
+
+@pytest.mark.parametrize("stiffness", [1.0, 1e3, 1e12])
+@pytest.mark.parametrize("law", LAWS)
+def test_pressure_is_found_however_soft_the_support(law, stiffness):
+    """Even where the undeflected law would overflow: a gap closed by a thousand roughnesses."""
+    variant = exact.variant_of(law, "compliant_bearing")
+    module = module_of(variant)
+    at = exact.points(variant, 8)[7]
+    constants = module.bind(**{**at.parameters, "k": stiffness, "sigma_c0": 1e-6, "h_0": 1e-3})
+    load = 1e-3 + min(0.9 * at.parameters["p_max"] / stiffness, 1.0)
+    found = wear.root.pressure(module, 0.0, load, constants)
+    values = {**constants._asdict(), "u": 0.0, "U_a": load, "p": float(found.p)}
+    named = {f.name: f for f in exact.made(variant).functions}
+    judged = exact.judge_root(named["residual"], named["residual_slope"], values)
+    assert judged.units(float(found.p)) <= exact.UNITS
+
+
+# What it costs
+
+
+@every_variant
+def test_a_variant_has_what_it_needs_and_no_more(variant):
+    text = module_text(variant)
+    module = module_of(variant)
+    assert ("sqrt" in text) == variant.pin.rough
+    assert ("def residual" in text) == variant.compliant
+    assert ("def margin" in text) == variant.cutoff
+    assert ("K_a" in module.PARAMETERS) == variant.pin.wears
+    assert ("sigma_a0" in module.PARAMETERS) == variant.pin.rough
+    assert ("k" in module.PARAMETERS) == variant.compliant
+    assert "tanh(" not in text
+    assert set(module.OPERATIONS) == {f.name for f in exact.made(variant).functions}
+    assert {f.name: f.operations for f in exact.made(variant).functions} == module.OPERATIONS
+
+
+def test_what_is_not_modelled_costs_nothing():
+    def cost(module, name="rate"):
+        return module_of(exact.variant_of("tanh", module)).OPERATIONS[name]
+
+    assert cost("rigid_bearing") < cost("rigid_worn") < cost("rigid_worn_rough")
+    assert cost("rigid_bearing") < cost("rigid_rough") < cost("rigid_worn_rough")
+    assert cost("rigid_bearing") == cost("rigid_bearing_cutoff")
+    assert cost("rigid_bearing") == 12
+
+
+def test_text_does_not_depend_on_the_hash_seed():
+    code = """
+import hashlib
+from derive.codegen.targets import TARGETS, source
+from derive.variant import VARIANTS
+for variant in VARIANTS[::11]:
+    for target in TARGETS:
+        print(hashlib.sha256(source(variant, target).encode()).hexdigest())
+"""
+    printed = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed in ("0", "4711")
+    }
+    assert len(printed) == 1
+
+
+# How accurate it is
+
+
+def numbers(variant, at):
+    """The constants of a point, as the module binds them."""
+    module = module_of(variant)
+    return module, module.bind(**at.parameters)
+
+
+@st.composite
+def drawn(draw):
+    variant = draw(st.sampled_from(VARIANTS))
+    generator = random.Random(draw(st.integers(0, 2**32)))
+    argument = draw(st.floats(-700, 700) | st.floats(-20, 4))
+    return variant, exact.point(variant, generator, argument, vanishing=draw(st.booleans()))
+
+
+@settings(max_examples=300)
+@given(drawn())
+def test_functions_are_accurate_to_roundoff(case):
+    """At most 8 units of roundoff times the sum of the absolute terms, for every function."""
+    variant, at = case
+    module, constants = numbers(variant, at)
+    for function in exact.made(variant).functions:
+        values = exact.inputs(function, at, constants._asdict())
+        arguments = [np.float64(values[a.name]) for a in function.arguments]
+        found = getattr(module, function.name)(*arguments, constants)
+        results = tuple(found) if function.name == "fields" else (found,)
+        for index, result in enumerate(results):
+            units = exact.judge(function, values, index).units(float(result))
+            assert units <= exact.UNITS, function.name
+
+
+@settings(max_examples=50)
+@given(drawn())
+def test_constants_are_accurate_to_roundoff(case):
+    variant, at = case
+    _, constants = numbers(variant, at)
+    for name, expr in exact.made(variant).exact_constants.items():
+        bound = getattr(constants, name.name)
+        assert exact.judge_expression(expr, at.parameters).units(bound) <= exact.UNITS
+
+
+@pytest.mark.parametrize("argument", [-19.5, -12.0, -5.0])
+def test_small_pressures_keep_their_digits(argument):
+    """Where 1 + tanh(x) has few digits left or none, the generated form has all."""
+    variant = exact.variant_of("tanh", "rigid_bearing")
+    at = exact.point(variant, random.Random(1), argument)
+    module, constants = numbers(variant, at)
+    function = next(f for f in exact.made(variant).functions if f.name == "rate")
+    exactly = exact.judge(function, exact.inputs(function, at, constants._asdict()))
+    assert module.rate(at.u, at.U_a, constants) == pytest.approx(float(exactly.value), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["rigid_bearing", "rigid_worn_rough", "rigid_worn_rough_opening"])
+def test_balls_of_the_exact_form_hold_the_computed_values(name):
+    """Ball arithmetic encloses (10) as printed, with tanh; the code's values lie at the balls."""
+    variant = exact.variant_of("tanh", name)
+    printed = plain(Condensed(variant.model).rigid.substitute(variant.model.slip).claim.rhs)
+    flint.ctx.prec = 4000  # 1 + tanh(-700) begins after 600 digits
+    for at in exact.points(variant, 40):
+        module, constants = numbers(variant, at)
+        values = {**at.parameters, "u": at.u, "U_a": at.U_a}
+        ball = enclosed(printed, {name: flint.arb(value) for name, value in values.items()})
+        assert ball.rel_accuracy_bits() > 200
+        computed = module.rate(at.u, at.U_a, constants)
+        exactly = exact.judge_expression(in_parameters(variant, "rate"), values)
+        reach = flint.arb(0, float(2 * exact.UNITS * exactly.unit) + exact.FLOOR)
+        assert (ball + reach).contains(flint.arb(computed))
+
+
+def enclosed(expr: sp.Expr, values) -> flint.arb:
+    """An expression in ball arithmetic."""
+    if isinstance(expr, sp.Symbol):
+        return values[expr.name]
+    if expr is sp.pi:
+        return flint.arb.pi()
+    if expr.is_Rational:
+        return flint.arb(flint.fmpq(int(expr.p), int(expr.q)))
+    parts = [enclosed(argument, values) for argument in expr.args]
+    if expr.is_Add:
+        return sum(parts[1:], parts[0])
+    if expr.is_Mul:
+        product = parts[0]
+        for part in parts[1:]:
+            product = product * part
+        return product
+    if isinstance(expr, sp.tanh):
+        return parts[0].tanh()
+    if expr.is_Pow and expr.exp == sp.Rational(1, 2):
+        return parts[0].sqrt()
+    if expr.is_Pow and expr.exp == sp.Rational(-1, 2):
+        return 1 / parts[0].sqrt()
+    if expr.is_Pow and expr.exp.is_Integer:
+        return parts[0] ** int(expr.exp)
+    raise TypeError(f"{type(expr).__name__} in {expr}")
+
+
+def test_functions_broadcast_over_arrays():
+    variant = exact.variant_of("tanh", "rigid_worn_rough_cutoff")
+    rows = exact.points(variant, 20)
+    module = module_of(variant)
+    columns = {name: np.array([[at.parameters[name]] for at in rows]) for name in module.PARAMETERS}
+    constants = module.bind(**columns)
+    wear, load = np.array([at.u for at in rows]), np.array([at.U_a for at in rows])
+    table = module.rate(wear, load, constants)
+    assert table.shape == (20, 20)
+    for row, at in enumerate(rows):
+        alone = module.rate(wear, load, module.bind(**at.parameters))
+        assert np.array_equal(table[row], alone)

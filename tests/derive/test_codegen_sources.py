@@ -1,0 +1,457 @@
+"""C, Fortran and JavaScript: compiled, run, and as accurate as the NumPy code."""
+
+from __future__ import annotations
+
+import decimal
+import importlib
+import json
+import math
+import re
+import subprocess
+
+import pytest
+import sympy as sp
+
+import wear.root
+from derive.codegen import c, fortran, javascript
+from derive.codegen.emit import EmitError, Target, emit
+from derive.codegen.formula_module import Formula, formula_module
+from derive.codegen.increment import increment
+from derive.codegen.numpy_module import numpy_target
+from derive.codegen.targets import TARGETS, source
+from derive.laws import ContactLaw, r
+from derive.note.governing import Pin
+from derive.variant import VARIANTS, Variant
+from tests.derive import exact
+
+EVERY_TARGET = (numpy_target(), c.C, fortran.FORTRAN, javascript.JAVASCRIPT)
+every_target = pytest.mark.parametrize("target", EVERY_TARGET, ids=TARGETS)
+RUN = (
+    "tanh/rigid_bearing",
+    "tanh/rigid_worn_rough_opening_cutoff",
+    "tanh/compliant_rough",
+    "tanh/compliant_worn_rough_cutoff",
+    "exponential/rigid_rough_cutoff",
+    "exponential/compliant_worn",
+)
+every_run = pytest.mark.parametrize("name", RUN)
+COUNT = 60
+FLAGS = ("-O2", "-ffp-contract=off", "-Wall", "-Werror")
+
+
+def run(*command, **options):
+    """Run a program; its complaints are the test's."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+# What is refused
+
+
+@every_target
+@pytest.mark.parametrize(
+    "expr",
+    [
+        sp.gamma(sp.Symbol("x")),
+        sp.Function("f")(sp.Symbol("x")),
+        sp.tanh(sp.Symbol("x")),
+        sp.I * sp.Symbol("x"),
+        sp.sqrt(sp.Symbol("x") * sp.I),
+        sp.oo + sp.Symbol("x", positive=True) * sp.I,
+        sp.Symbol("x") ** sp.Symbol("y"),
+        sp.Symbol("x") ** sp.Rational(1, 3),
+        sp.Symbol("x; system"),
+        sp.Symbol("sigma'"),
+        sp.Symbol("1x"),
+        sp.Symbol("_x"),
+        sp.Symbol("x\n"),
+        sp.Symbol("\u03c3"),
+        sp.Symbol(""),
+        sp.Piecewise((1, sp.Symbol("x") > 0), (0, True)),
+        sp.Min(*sp.symbols("x y z")),
+    ],
+    ids=str,
+)
+def test_what_a_target_has_no_word_for_is_refused(target, expr):
+    with pytest.raises(EmitError):
+        emit(expr, target)
+
+
+def test_an_unknown_target_is_refused():
+    with pytest.raises(ValueError, match=r"'rust' is no target; there are numpy, c, fortran"):
+        source(VARIANTS[0], "rust")
+
+
+# How expressions are written
+
+
+def read_back(text: str) -> sp.Expr:
+    """An expression that a target has written, read again as SymPy's own."""
+    text = re.sub(r"_dp\b|Math\.|np\.|wear_", "", text)
+    words = {"sqrt": sp.sqrt, "exp": sp.exp, "pi": sp.pi, "PI": sp.pi}
+    words |= dict.fromkeys(("minimum", "smaller", "min"), sp.Min)
+    words |= dict.fromkeys(("maximum", "larger", "max"), sp.Max)
+    words |= {name: sp.Symbol(name) for name in ("x", "y", "z")}
+    return sp.nsimplify(sp.sympify(text.replace("3.141592653589793", "pi"), locals=words))
+
+
+x, y, z = sp.symbols("x y z")
+
+
+ALGEBRAIC = ContactLaw(
+    "algebraic",
+    1 / (1 + (1 + r) ** 2) ** sp.Rational(3, 2) + 1 / (sp.Rational(9, 2) + r**2),
+    sp.Integer(0),
+    "an example with half-integer powers and a fraction",
+)
+
+
+@pytest.mark.parametrize("language", TARGETS)
+@pytest.mark.parametrize("compliant", [False, True])
+def test_an_algebraic_law_can_be_written(language, compliant):
+    variant = Variant(ALGEBRAIC, compliant, Pin.WORN_ROUGH, False, False)
+    assert "sqrt(" in source(variant, language)
+
+
+def test_formulas_are_exact_in_decimal(tmp_path, monkeypatch):
+    """No number of 17 digits comes between those of 40."""
+    share = Formula("share", (r,), ALGEBRAIC.phi, "share")
+    slope = Formula("slope", (r,), sp.diff(ALGEBRAIC.phi, r), "slope")
+    (tmp_path / "written_law.py").write_text(formula_module("A law.", ("4",), (share, slope)))
+    monkeypatch.syspath_prepend(str(tmp_path))
+    written = importlib.import_module("written_law")
+    for function, expr in ((written.share, share.value), (written.slope, slope.value)):
+        with decimal.localcontext(prec=40):
+            found = function(decimal.Decimal(7) / 8)
+        assert isinstance(found, decimal.Decimal)
+        assert abs(sp.Float(str(found), 40) - expr.subs(r, sp.Rational(7, 8)).evalf(50)) < 1e-36
+
+
+@every_target
+@pytest.mark.parametrize(
+    "expr",
+    [
+        x - y - (z - 1),
+        x / (y * z),
+        x / (y / z),
+        1 / x**2,
+        y / x**2,
+        -(x**2),
+        (-x) ** 3,
+        (x + y) ** 2 / (x - y) ** 3,
+        x / y / z * 2,
+        -2 * x / 3,
+        sp.Rational(1, 2) * x,
+        x * (y + 1) / (2 * (z - 1)),
+        sp.exp(-x) - sp.exp(sp.Min(8 - 4 * x, 709)),
+        sp.sqrt(x**2 + y**2),
+        1 / sp.sqrt(x),
+        sp.Max(0, sp.Min(x, y / z)),
+        sp.pi * x / 90,
+        x - sp.Float(0.1),
+        x ** sp.Rational(3, 2),
+        (1 + x**2) ** sp.Rational(7, 2) / 3,
+        2 * y / x ** sp.Rational(3, 2),
+        (x + y) ** sp.Rational(-5, 2),
+        x - y / (1 + x**2) ** sp.Rational(3, 2),
+        x / 3 - sp.Rational(9, 2) - y / 5,
+        x * (y - sp.Rational(1, 3)) ** 2,
+    ],
+    ids=str,
+)
+def test_what_is_written_reads_back(target, expr):
+    assert sp.simplify(read_back(emit(expr, target)) - expr) == 0
+
+
+@pytest.mark.parametrize("target", [c.C, fortran.FORTRAN], ids=lambda target: target.name)
+def test_no_integer_divides_an_integer(target):
+    assert read_back(emit(sp.Rational(1, 3), target)) == sp.Rational(1, 3)
+    assert re.fullmatch(r"1\.0(_dp)? / 3\.0(_dp)?", emit(sp.Rational(1, 3), target))
+
+
+@pytest.mark.parametrize("language", ["c", "fortran", "javascript"])
+def test_sources_tell_what_they_are(language):
+    for variant in VARIANTS[::7]:
+        text = source(variant, language)
+        head = re.sub(r"\s+(\*|!)?\s*", " ", text[:1500])
+        for identifier in variant.equations:
+            assert f"({identifier})" in head
+        for function in exact.made(variant).functions:
+            assert f"{function.name} {function.operations}" in head
+        for parameter in exact.made(variant).parameters:
+            assert re.search(rf"\b{parameter.name}\b.{{1,4}}\S.*, ?\S", text), parameter
+        assert max(map(len, text.splitlines())) <= 132
+        assert "pow(" not in text
+        assert "tanh(" not in text
+
+
+def test_fortran_does_not_take_two_names_for_one():
+    """Fortran reads U_a and u_a as the same name."""
+    for variant in VARIANTS:
+        made = exact.made(variant)
+        for function in made.functions:
+            names = {fortran.FORTRAN.rename(name) for name in exact.names_in(function, made)}
+            assert len({name.lower() for name in names}) == len(names)
+
+
+# Every variant compiles, without a warning
+
+
+def test_every_c_source_is_clean(need_tool, tmp_path):
+    compiler = need_tool("gcc")
+    for index, variant in enumerate(VARIANTS):
+        (tmp_path / f"{index}.c").write_text(source(variant, "c"))
+    files = sorted(map(str, tmp_path.glob("*.c")))
+    run(compiler, "-std=c99", "-pedantic", "-Wextra", *FLAGS, "-fsyntax-only", *files)
+
+
+def test_every_fortran_source_is_clean(need_tool, tmp_path):
+    compiler = need_tool("gfortran")
+    for index, variant in enumerate(VARIANTS):
+        (tmp_path / f"{index}.f90").write_text(source(variant, "fortran"))
+    files = sorted(map(str, tmp_path.glob("*.f90")))
+    run(compiler, "-std=f2008", *FLAGS, "-fsyntax-only", *files, cwd=tmp_path)
+
+
+def test_every_javascript_source_is_a_module(need_tool, tmp_path):
+    node = need_tool("node", "nodejs")
+    names = []
+    for index, variant in enumerate(VARIANTS):
+        (tmp_path / f"{index}.mjs").write_text(source(variant, "javascript"))
+        names.append(f"import * as m{index} from './{index}.mjs';")
+    (tmp_path / "all.mjs").write_text("\n".join(names) + "\nconsole.log(Object.keys(m0).length);")
+    assert int(run(node, str(tmp_path / "all.mjs"))) == 5
+
+
+# And computes the same
+
+
+def outputs(variant):
+    """What a driver prints for a point: every function, every field, root and right-hand side."""
+    made = exact.made(variant)
+    plain = [f for f in made.functions if f.name != "fields"]
+    return plain, made.fields, ["pressure"] * variant.compliant + ["right_hand_side"]
+
+
+def c_driver(variant):
+    plain, fields, roots = outputs(variant)
+    parameters = [p.name for p in exact.made(variant).parameters]
+    calls = [f"wear_{f.name}({', '.join([a.name for a in f.arguments] + ['&c'])})" for f in plain]
+    at = ", ".join(a.name for a in exact.made(variant).functions[-1].arguments)
+    lines = [f'        printf("%.17g ", {call});' for call in calls]
+    lines += [f"        f = wear_fields({at}, &c);"]
+    lines += [f'        printf("%.17g ", f.{name});' for name in fields]
+    lines += [f'        printf("%.17g ", wear_{root}(u, U_a, &c));' for root in roots]
+    reads = " && ".join(
+        f'scanf("%lf", &{name}) == 1'
+        for name in [*(f"d.{name}" for name in parameters), "u", "U_a", "p"]
+    )
+    return "\n".join(
+        [
+            source(variant, "c"),
+            "#include <stdio.h>",
+            "int main(void)",
+            "{",
+            "    struct wear_parameters d;",
+            "    struct wear_fields f;",
+            "    double u, U_a, p;",
+            f"    while ({reads}) {{",
+            "        const struct wear_constants c = wear_bind(&d);",
+            *lines,
+            '        printf("\\n");',
+            "    }",
+            "    return 0;",
+            "}",
+            "",
+        ]
+    )
+
+
+def fortran_driver(variant):
+    plain, fields, roots = outputs(variant)
+    words = fortran.FORTRAN.rename
+    parameters = [p.name for p in exact.made(variant).parameters]
+    calls = [f"{f.name}({', '.join([words(a.name) for a in f.arguments] + ['c'])})" for f in plain]
+    at = ", ".join(words(a.name) for a in exact.made(variant).functions[-1].arguments)
+    calls += [f"f%{words(name)}" for name in fields]
+    calls += [f"{root}(u, pin_displacement, c)" for root in roots]
+    return "\n".join(
+        [
+            source(variant, "fortran"),
+            "program driver",
+            "  use, intrinsic :: iso_fortran_env, only: dp => real64",
+            f"  use wear_{variant.law.name}_{variant.module}",
+            "  implicit none",
+            f"  real(dp) :: d({len(parameters)}), u, pin_displacement, p",
+            "  type(constants) :: c",
+            "  type(fields_type) :: f",
+            "  integer :: status",
+            "  do",
+            "    read (*, *, iostat=status) d, u, pin_displacement, p",
+            "    if (status /= 0) exit",
+            f"    c = bind_constants({', '.join(f'd({i + 1})' for i in range(len(parameters)))})",
+            f"    f = fields({at}, c)",
+            *(f"    write (*, '(es28.17e4)', advance='no') {call}" for call in calls),
+            "    write (*, *)",
+            "    if (p < 0) stop",
+            "  end do",
+            "end program driver",
+            "",
+        ]
+    )
+
+
+def javascript_driver(variant):
+    plain, fields, roots = outputs(variant)
+    parameters = [p.name for p in exact.made(variant).parameters]
+    calls = [f"m.{f.name}({', '.join([a.name for a in f.arguments] + ['c'])})" for f in plain]
+    at = ", ".join(a.name for a in exact.made(variant).functions[-1].arguments)
+    calls += [f"m.fields({at}, c).{name}" for name in fields]
+    calls += [f"m.{root}(u, U_a, c)" for root in roots]
+    return f"""
+import * as m from './source.mjs';
+import {{ readFileSync }} from 'node:fs';
+for (const line of readFileSync(0, 'utf8').trim().split('\\n')) {{
+  const [{", ".join([*parameters, "u", "U_a", "p"])}] = line.split(' ').map(Number);
+  const c = m.bind({{ {", ".join(parameters)} }});
+  console.log([{", ".join(calls)}].join(' '));
+}}
+"""
+
+
+def build(language, variant, folder, need_tool):
+    """Write, compile and return the command that runs a driver."""
+    program = str(folder / "driver")
+    if language == "c":
+        compiler = need_tool("gcc")
+        (folder / "driver.c").write_text(c_driver(variant))
+        run(compiler, "-std=c99", *FLAGS, str(folder / "driver.c"), "-lm", "-o", program)
+        return [program]
+    if language == "fortran":
+        compiler = need_tool("gfortran")
+        (folder / "driver.f90").write_text(fortran_driver(variant))
+        run(compiler, "-std=f2008", *FLAGS, "driver.f90", "-o", program, cwd=folder)
+        return [program]
+    node = need_tool("node", "nodejs")
+    (folder / "source.mjs").write_text(source(variant, "javascript"))
+    (folder / "driver.mjs").write_text(javascript_driver(variant))
+    return [node, str(folder / "driver.mjs")]
+
+
+@pytest.fixture(scope="module")
+def wanted():
+    """The judged outputs of each variant at its points, computed once."""
+    known = {}
+
+    def of(name):
+        if name not in known:
+            variant = exact.variant_of(*name.split("/"))
+            rows = exact.points(variant, COUNT)
+            known[name] = variant, rows, [judged(variant, at) for at in rows]
+        return known[name]
+
+    return of
+
+
+def judged(variant, at):
+    """Every output at a point, at 50 digits."""
+    module = importlib.import_module(f"wear.generated.{variant.law.name}.{variant.module}")
+    constants = module.bind(**at.parameters)
+    made = exact.made(variant)
+    by_name = {f.name: f for f in made.functions}
+    values = {**constants._asdict(), "u": at.u, "U_a": at.U_a, "p": at.p}
+    plain, fields, _ = outputs(variant)
+    found = [exact.judge(f, values) for f in plain]
+    found += [exact.judge(by_name["fields"], values, index) for index in range(len(fields))]
+    if not variant.compliant:
+        rate = exact.judge(by_name["rate"], values)
+        cut = variant.cutoff and exact.judge(by_name["margin"], values).value < 0
+        return [*found, exact.Judged(0 * rate.value, rate.unit) if cut else rate]
+    near = float(wear.root.pressure(module, at.u, at.U_a, constants).p)
+    root = exact.judge_root(by_name["residual"], by_name["residual_slope"], {**values, "p": near})
+    if variant.cutoff:
+        limited = exact.judge(by_name["limited"], {**values, "p": root.value})
+        root = exact.Judged(limited.value, root.unit + limited.unit)
+    speed = constants.wear_per_pressure
+    return [*found, root, exact.Judged(speed * root.value, speed * (2 * root.unit))]
+
+
+@every_run
+@pytest.mark.parametrize("language", ["c", "fortran", "javascript"])
+def test_compiled_code_is_accurate_to_roundoff(language, name, need_tool, tmp_path, wanted):
+    """At most 8 units of roundoff times the sum of the absolute terms, as the NumPy code."""
+    command = None
+    variant, rows, references = wanted(name)
+    command = build(language, variant, tmp_path, need_tool)
+    text = "\n".join(
+        " ".join(map(repr, [*at.parameters.values(), at.u, at.U_a, at.p])) for at in rows
+    )
+    printed = run(*command, input=text + "\n").splitlines()
+    assert len(printed) == len(rows)
+    for line, reference in zip(printed, references, strict=True):
+        for number, one in zip(map(float, line.split()), reference, strict=True):
+            assert one.units(number) <= exact.UNITS
+
+
+def test_not_a_number_is_not_hidden(need_tool, tmp_path):
+    """fmin and Fortran's min would make a full pressure of it."""
+    variant = exact.variant_of("tanh", "rigid_bearing")
+    names = [p.name for p in exact.made(variant).parameters]
+    text = " ".join(["1"] * len(names) + ["NaN", "0", "1"]) + "\n"
+    for language in ("c", "fortran", "javascript"):
+        folder = tmp_path / language
+        folder.mkdir()
+        printed = run(*build(language, variant, folder, need_tool), input=text)
+        assert math.isnan(float(printed.split()[0])), language
+
+
+# Wear laws for finite element codes
+
+
+@pytest.mark.parametrize("module", ["rigid_bearing", "rigid_worn", "rigid_worn_rough"])
+def test_increments_add_up_to_the_wear_that_the_model_has(module, need_tool, tmp_path):
+    """Ten unequal increments at constant pressure: wear and roughness of the generated fields."""
+    variant = exact.variant_of("tanh", module)
+    made = increment(variant)
+    at = exact.points(variant, 8)[7]
+    states = [name.name for name, _ in made.growth]
+    start = dict.fromkeys(states, 0.0)
+    start["sigma_c"] = at.parameters["sigma_c0"]
+    if "sigma_a" in start:
+        start["sigma_a"] = at.parameters["sigma_a0"]
+    data = [repr(at.parameters[s.name]) + "_dp" for s in made.parameters]
+    continued = ", &\n      "
+    (tmp_path / "user.f90").write_text(
+        f"""{source(variant, "fortran")}
+program user
+  use, intrinsic :: iso_fortran_env, only: dp => real64
+  implicit none
+  real(dp) :: {", ".join(states)}
+  integer :: i
+  {"; ".join(f"{name} = {value!r}_dp" for name, value in start.items())}
+  do i = 1, 10
+    call wear_increment(100.0_dp, 4.0_dp, 0.1_dp * i, &
+      {continued.join([*data, *states])})
+  end do
+  write (*, '({len(states)}es28.17e4)') {", ".join(states)}
+end program user
+"""
+    )
+    compiler = need_tool("gfortran")
+    run(compiler, "-std=f2008", *FLAGS, "user.f90", "-o", "user", cwd=tmp_path)
+    found = dict(zip(states, map(float, run(str(tmp_path / "user")).split()), strict=True))
+    p = at.parameters
+    worn = p["K_c"] * 100.0 * 4.0 * 5.5 / (3.0 * p["H_c"])
+    assert found["u_c"] == pytest.approx(worn, rel=1e-14)
+    generated = importlib.import_module(f"wear.generated.tanh.{module}")
+    fields = generated.fields(found["u_c"], 0.0, generated.bind(**p))
+    for name in states[1:]:
+        assert found[name] == pytest.approx(getattr(fields, name), rel=1e-13), name
+
+
+def test_targets_are_tables():
+    """A further language is one more table and its layout."""
+    made = Target("latin", {sp.exp: "exponens"}, lambda b, n: f"{b}^{n}", str, "pi")
+    assert emit(sp.exp(x) * sp.pi / y**2, made) == "pi * exponens(x) / (y^2)"
+    assert json.dumps(TARGETS) == '["numpy", "c", "fortran", "javascript"]'

@@ -1,0 +1,199 @@
+"""The command `derive`, as it is installed."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import sympy as sp
+from sympy.core.function import UndefinedFunction
+
+from derive import catalogue
+from derive.cli import main
+from derive.equations import Status
+from derive.symbols import QUANTITIES, symbol
+from derive.typeset.display import evaluated
+from derive.typeset.macros import macro_name, macros
+from derive.zero import same
+
+
+def _json(capsys: pytest.CaptureFixture[str], *arguments: str) -> object:
+    assert main([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_list_has_what_the_contract_asks(capsys: pytest.CaptureFixture[str]) -> None:
+    rows = _json(capsys, "list")
+    assert isinstance(rows, list)
+    assert all(set(row) >= {"id", "section", "title", "status"} for row in rows)
+    assert {row["status"] for row in rows} <= {status.value for status in Status}
+
+
+def test_srepr_is_a_relation_with_the_names_of_the_contract(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["show", "21", "--as", "srepr"]) == 0
+    relation = sp.parse_expr(capsys.readouterr().out, global_dict=vars(sp) | {"Symbol": sp.Symbol})
+    assert {s.name for s in relation.free_symbols} == {
+        "u_cum",
+        "K_c",
+        "V",
+        "T",
+        "H_c",
+        "p_max",
+        "f_c",
+    }
+    assert same(relation, catalogue.equation("21").relation)
+
+
+@pytest.mark.parametrize("form", ["text", "latex", "srepr", "mathml", "json"])
+def test_every_form_of_every_equation_of_the_note(
+    form: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for equation in catalogue.equations():
+        assert main(["show", equation.id, "--as", form]) == 0
+        assert capsys.readouterr().out.strip()
+
+
+def test_names_are_those_of_the_vocabulary() -> None:
+    """What a reader of srepr meets is in the table, or a bound variable."""
+    for equation in catalogue.equations():
+        if equation.id[0].isdigit():
+            names = {s.name for s in equation.relation.free_symbols}
+            functions = {f.__name__ for f in equation.relation.atoms(UndefinedFunction)}
+            assert names | functions <= set(QUANTITIES), equation.id
+
+
+def test_steps_tell_rule_parents_assumptions_and_status(capsys: pytest.CaptureFixture[str]) -> None:
+    document = _json(capsys, "steps", "10")
+    assert isinstance(document, dict)
+    steps = document["steps"]
+    assert [step["step"] for step in steps] == list(range(1, len(steps) + 1))
+    for step in steps:
+        assert step["status"] in ("given", "proved")
+        assert all(parent < step["step"] for parent in step["parents"])
+        assert {"rule", "assumptions", "claim"} <= set(step)
+
+
+def test_verify_has_the_form_of_the_contract(capsys: pytest.CaptureFixture[str]) -> None:
+    rows = _json(capsys, "verify", "8", "21")
+    assert isinstance(rows, list)
+    assert [row["id"] for row in rows] == ["8", "21"]
+    for row in rows:
+        assert all(check["passed"] is True and check["detail"] for check in row["checks"])
+
+
+def test_a_failing_check_is_status_1(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from derive.check import Check
+
+    monkeypatch.setattr(catalogue, "check", lambda _: (Check("proof", False, "planted"),))
+    assert main(["verify", "21"]) == 1
+    assert "planted" in capsys.readouterr().out
+
+
+def test_unknown_ids_are_told_all_at_once_with_what_is_near(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["show", "static-solutoin"]) == 2
+    assert "did you mean static-solution" in capsys.readouterr().err
+    assert main(["verify", "211", "nonsense"]) == 2
+    assert re.search("211(.|\n)*nonsense", capsys.readouterr().err)
+
+
+@pytest.mark.parametrize("target", ["numpy", "c", "fortran", "javascript"])
+def test_code_of_a_variant(target: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["code", "rigid_bearing", "--target", target]) == 0
+    text = capsys.readouterr().out
+    assert "(13)" in text or "13" in text
+    assert "tanh(" not in text
+
+
+def test_a_variant_that_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["code", "rigid_baering"]) == 2
+    assert "rigid_bearing" in capsys.readouterr().err
+
+
+def test_generated_code_is_up_to_date(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["generate", "--check"]) == 0
+    assert "up to date" in capsys.readouterr().out
+
+
+def test_latex_is_written_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "equations.tex"
+    assert main(["latex", "-o", str(file)]) == 0
+    assert file.read_text(encoding="utf-8") == macros(catalogue.equations())
+    assert main(["latex", "-o", str(tmp_path / "missing" / "equations.tex")]) == 2
+    assert "missing" in capsys.readouterr().err
+
+
+def test_macro_names_are_letters_and_differ() -> None:
+    names = [macro_name(equation) for equation in catalogue.equations()]
+    assert all(name.isalpha() for name in names)
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("equation", catalogue.equations(), ids=lambda e: e.id)
+def test_what_is_typeset_is_what_was_derived(equation) -> None:  # type: ignore[no-untyped-def]
+    assert len(equation.shown) == len(equation.claims)
+    assert equation.typeset_agrees
+    if not equation.where:
+        for shown, claim in zip(equation.shown, equation.claims, strict=True):
+            assert same(evaluated(shown), claim)
+
+
+def test_a_wrong_abbreviation_is_caught() -> None:
+    equation = catalogue.equation("pressure-root")
+    gap, law = equation.where
+    wrong_gap = sp.Eq(gap.lhs, gap.rhs + 2 * symbol("u_a"))
+    wrong_law = sp.Eq(law.lhs, law.rhs / 2)
+    for where in ((wrong_gap, law), (gap, wrong_law), (gap,)):
+        assert not replace(equation, where=where).typeset_agrees
+
+
+def test_macros_compile(tmp_path: Path, need_tool) -> None:  # type: ignore[no-untyped-def]
+    engine = need_tool("pdflatex")
+    (tmp_path / "equations.tex").write_text(macros(catalogue.equations()), encoding="utf-8")
+    body = "\n".join(
+        rf"\begin{{equation}}\{macro_name(e)}\end{{equation}}" for e in catalogue.equations()
+    )
+    document = "\\documentclass{article}\\usepackage{amsmath}\\input{equations}\\begin{document}\n"
+    (tmp_path / "report.tex").write_text(document + body + "\n\\end{document}\n", encoding="utf-8")
+    command = [engine, "-interaction=nonstopmode", "-halt-on-error", "report.tex"]
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stdout[-2000:]
+
+
+def test_help_of_every_command_shows_an_example(capsys: pytest.CaptureFixture[str]) -> None:
+    for command in ("list", "show", "steps", "verify", "latex", "code", "generate"):
+        with pytest.raises(SystemExit) as stop:
+            main([command, "--help"])
+        assert stop.value.code == 0
+        assert "examples:" in capsys.readouterr().out
+
+
+def test_starting_the_command_does_not_import_sympy() -> None:
+    code = "import sys, derive, derive.cli; sys.exit('sympy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_steps_show_formulas_as_on_paper(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["steps", "22"]) == 0
+    shown = capsys.readouterr().out
+    assert "lim p(t) = " in shown
+    assert not re.search(r"Eq\(|Limit\(|``", shown)
+
+
+def test_lists_end_with_a_sum(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list"]) == 0
+    *_, last = capsys.readouterr().out.splitlines()
+    assert re.match(rf"{len(catalogue.equations())} equations: \d+ derived, ", last)
+    assert main(["verify", "21"]) == 0
+    *_, last = capsys.readouterr().out.splitlines()
+    assert re.fullmatch(r"1 equation, \d+ checks: all hold", last)

@@ -1,0 +1,150 @@
+"""Every step of every derivation proves itself, and no wrong step can."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+import sympy as sp
+
+from derive import catalogue
+from derive.equations import Status
+from derive.laws import EXPONENTIAL, GENERAL, LAWS, TANH
+from derive.note import condensed, governing, problems
+from derive.note.governing import Model, Pin
+from derive.note.problems import given_load, given_motion, undetermined
+from derive.rules import Given
+from derive.sample import UnsatisfiableError
+from derive.statement import Statement, chain, check
+from derive.symbols import symbols
+from derive.zero import same
+from tests.derive.mutation import mutants
+
+IDS = [equation.id for equation in catalogue.equations()]
+NOTE = [
+    *("1", "2a", "2b", "3", "4", "5", "6", "7a", "7b", "7c", "7d", "7e", "7f", "7g", "8", "9"),
+    *("10", "11", "12", "13", "14", "15", "16a", "16b", "17a", "17b", "18", "19", "20", "21", "22"),
+]
+
+
+def _steps() -> list[Statement]:
+    """Return the steps of all equations, each claim by each rule once."""
+    found: dict[tuple[sp.Basic, str], Statement] = {}
+    for equation in catalogue.equations():
+        for step in equation.steps:
+            found.setdefault((step.claim, repr(step.rule)), step)
+    return [step for step in found.values() if not isinstance(step.rule, Given)]
+
+
+STEPS = _steps()
+
+
+def test_the_note_is_there_in_its_order() -> None:
+    assert [i for i in IDS if i[0].isdigit()] == NOTE
+    assert len(IDS) == len(set(IDS))
+
+
+@pytest.mark.parametrize("identifier", IDS)
+def test_every_check_holds(identifier: str) -> None:
+    (verdict,) = catalogue.verify([identifier])
+    assert [c for c in verdict.checks if not c.passed] == []
+    assert {c.kind for c in verdict.checks} >= {"dimensions", "typeset"}
+
+
+@pytest.mark.parametrize("step", STEPS, ids=lambda s: type(s.rule).__name__)
+def test_every_step_is_proved_and_dimensions_are_checked(step: Statement) -> None:
+    kinds = {outcome.kind for outcome in check(step)}
+    assert {"dimensions", "proof"} <= kinds
+
+
+def _caught(step: Statement, wrong: sp.Basic) -> bool:
+    try:
+        return not all(outcome.passed for outcome in check(replace(step, claim=wrong)))
+    except (UnsatisfiableError, ValueError, TypeError, AttributeError, LookupError):
+        return True  # the claim is not even of the form that the rule makes
+
+
+@pytest.mark.parametrize("step", STEPS, ids=lambda s: type(s.rule).__name__)
+def test_no_wrong_step_passes(step: Statement) -> None:
+    wrong = [(what, claim) for what, claim in mutants(step.claim) if not same(claim, step.claim)]
+    assert wrong
+    assert [what for what, claim in wrong if not _caught(step, claim)] == []
+
+
+HYPOTHESES = [(name, None) for name in ("closure", "support", "roughness", "pressure")] + [
+    (name, place) for name in ("archard", "start") for place in range(len(getattr(Model(), name)))
+]
+
+
+def _with_wrong(name: str, place: int | None, what: int) -> Model:
+    """Return a model in which one hypothesis is mutated, before anything is derived from it."""
+    model = Model()
+    stated = getattr(model, name)
+    target = stated if place is None else stated[place]
+    wrong = [claim for _, claim in mutants(target.claim) if not same(claim, target.claim)]
+    wrong = wrong[min(what, len(wrong) - 1)]
+    made = replace(target, claim=wrong)
+    model.__dict__[name] = made if place is None else (*stated[:place], made, *stated[place + 1 :])
+    return model
+
+
+@pytest.mark.parametrize(("name", "place"), HYPOTHESES)
+@pytest.mark.parametrize("what", [0, 1])
+def test_a_wrong_hypothesis_shows_in_sections_2_and_3(
+    name: str, place: int | None, what: int
+) -> None:
+    """What follows from a wrong hypothesis is not what the note prints, or does not follow."""
+    model = _with_wrong(name, place, what)
+    try:
+        made = [*governing.equations(model), *condensed.equations(model)]
+    except (ValueError, AttributeError):
+        return  # the derivation does not even go through
+    assert not all(equation.agrees for equation in made)
+
+
+def test_printed_forms_of_sections_2_and_3_follow() -> None:
+    for equation in (*governing.equations(Model()), *condensed.equations(Model())):
+        assert equation.agrees, equation.id
+        assert equation.status in (Status.DEFINITION, Status.DERIVED)
+
+
+def test_a_physical_sign_is_told_from_the_printed_one() -> None:
+    opening = Model(opening=True)
+    parted = {
+        e.id for e in (*governing.equations(opening), *condensed.equations(opening)) if not e.agrees
+    }
+    assert parted == {"7a", "8"}
+
+
+@pytest.mark.parametrize("law", [TANH, EXPONENTIAL, GENERAL], ids=lambda law: law.name)
+@pytest.mark.parametrize("pin", list(Pin))
+@pytest.mark.parametrize("opening", [False, True])
+def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening) -> None:  # type: ignore[no-untyped-def]
+    if opening and not pin.wears:
+        return
+    problem = condensed.Condensed(Model(law, opening, pin))
+    for step in chain(problem.scalar, problem.rigid):
+        assert all(outcome.passed for outcome in check(step)), step.claim
+
+
+def test_a_law_is_written_once() -> None:
+    """The exponential law's condensed problem, made by hand, is the derived one."""
+    problem = condensed.Condensed(Model(LAWS["exponential"], pin=Pin.ABSENT))
+    h_0, u_c, U_a, sigma_c0, f_c = symbols("h_0 u_c U_a sigma_c0 f_c")
+    p_max, K_c, V, H_c = symbols("p_max K_c V H_c")
+    by_hand = K_c * V * p_max / (3 * H_c) * sp.exp(-(h_0 + u_c - U_a) / (sigma_c0 + f_c * u_c))
+    assert same(problem.rigid.claim.rhs, by_hand)
+
+
+@pytest.mark.parametrize("problem", [given_load(), given_motion()], ids=lambda p: p.id)
+def test_every_field_follows_in_both_problems(problem: problems.Problem) -> None:
+    assert undetermined(problem) == ()
+    fields = {"p", "u_a", "u_c", "sigma_a", "sigma_c", "sigma", "U_c", "h"}
+    other = {"problem-i": "U_a", "problem-ii": "R_a"}[problem.id]
+    assert {str(u.func) for u in problem.unknowns} == fields | {other}
+
+
+def test_an_order_that_uses_what_it_has_not_is_told() -> None:
+    problem = given_motion()
+    shuffled = replace(problem, order=problem.order[::-1])
+    assert undetermined(shuffled) != ()

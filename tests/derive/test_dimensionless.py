@@ -1,0 +1,53 @@
+"""Dimensionless groups: the numbers of them, and that scenes with equal groups wear alike."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+
+from derive.results.dimensionless import (
+    DEFINITIONS,
+    ONE,
+    TWO,
+    compliant,
+    count,
+    one_solid,
+    two_solids,
+)
+from derive.statement import Statement, check
+from derive.symbols import symbols
+
+k, U_a, u_c, T, sigma_c0 = symbols("k U_a u_c T sigma_c0")
+
+
+@pytest.mark.parametrize(
+    ("statement", "groups"), [(one_solid(), 4), (two_solids(), 7), (compliant(), 4)]
+)
+def test_the_number_of_groups(statement: Statement, groups: int) -> None:
+    assert len(statement.rule.groups) == groups
+    (proof,) = [c for c in check(statement) if c.kind == "proof"]
+    assert proof.passed
+
+
+def test_buckingham_leaves_more_groups_than_occur() -> None:
+    assert count(ONE) == (9, 3)
+    assert count(TWO) == (13, 3)
+    assert count((*ONE, k)) == (10, 3)
+
+
+def test_other_units_and_another_pair_of_materials_change_nothing() -> None:
+    """Two scenes that share no number but their groups have the same scaled rate."""
+    parent = one_solid().parents[0].claim.rhs
+    names = symbols("K_c H_c V p_max T f_c sigma_c0 h_0 U")
+    numbers = ("1e-6", "200", "4600", "300", "0.06", "0.25", "3.6e-4", "1.08e-3", "5e-4")
+    first = [sp.Rational(x) for x in numbers]
+    factors = [3, 5, 7, 11, sp.Rational(13 * 5, 3 * 7 * 11), 1, 13, 13, 13]
+    rates = []
+    for data in (first, [a * b for a, b in zip(first, factors, strict=True)]):
+        scene = dict(zip(names, data, strict=True))
+        for group in ("mu", "eta", "nu"):
+            definition = next(d for s, d in DEFINITIONS.items() if s.name == group)
+            rates.append(definition.claim.rhs.subs(scene))
+        state = {u_c: scene[sigma_c0] * 2, U_a: scene[names[-1]] / 3}
+        rates.append(sp.N((parent * T / sigma_c0).subs(state).subs(scene), 40))
+    assert rates[:4] == pytest.approx(rates[4:], rel=1e-30)

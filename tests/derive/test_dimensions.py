@@ -1,0 +1,68 @@
+"""Dimensions are checked from the vocabulary, on both sides of everything."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy as sp
+
+from derive import catalogue
+from derive.dimensions import DimensionError, dimension, homogeneous, parse_unit
+from derive.symbols import QUANTITIES, rate, symbol, symbols
+
+u_c, h, sigma, p, k, t = (*symbols("u_c h sigma p k"), symbol("t"))
+
+
+def test_units_are_read() -> None:
+    assert parse_unit("MPa/mm") == (-1, 0, 1)
+    assert parse_unit("MPa mm^2") == (2, 0, 1)
+    assert parse_unit("1") == (0, 0, 0)
+
+
+@pytest.mark.parametrize("name", list(QUANTITIES))
+def test_every_unit_of_the_vocabulary_is_readable(name: str) -> None:
+    assert all(isinstance(power, Fraction) for power in parse_unit(QUANTITIES[name].unit))
+
+
+def test_a_rate_is_a_length_per_time() -> None:
+    assert dimension(rate("u_c")) == (1, -1, 0)
+    assert dimension(sp.sqrt(u_c**2)) == (1, 0, 0)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        sp.Eq(h, u_c / sigma),
+        sp.Eq(h, u_c + p),
+        sp.Eq(p, k),
+        sp.Eq(sigma, sp.sqrt(sigma)),
+        sp.Eq(rate("u_c"), u_c),
+        sp.Eq(h / sigma, sp.tanh(h)),
+        sp.Lt(h, p),
+        sp.Eq(p, sp.Piecewise((p, h < p), (0, True))),
+    ],
+    ids=str,
+)
+def test_what_does_not_fit_is_told(wrong: sp.Basic) -> None:
+    assert homogeneous(wrong) is not None
+
+
+def test_zero_fits_any_dimension() -> None:
+    assert homogeneous(sp.Eq(h, 0, evaluate=False)) is None
+
+
+def test_a_function_of_a_length_is_an_error() -> None:
+    with pytest.raises(DimensionError):
+        dimension(sp.exp(h))
+
+
+@pytest.mark.parametrize("equation", catalogue.equations(), ids=lambda e: e.id)
+def test_every_equation_is_homogeneous_as_derived_and_as_printed(equation) -> None:  # type: ignore[no-untyped-def]
+    for relation in (*equation.claims, *equation.printed, *equation.shown):
+        assert homogeneous(relation) is None
+
+
+def test_turns_per_minute_are_a_frequency() -> None:
+    assert QUANTITIES["n"].unit == "rpm"
+    assert parse_unit("rpm") == parse_unit("1/s")

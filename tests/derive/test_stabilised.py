@@ -1,0 +1,210 @@
+"""Section 4 and what replaces its false steps, against numbers that were found independently."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+
+from derive import catalogue
+from derive.equations import Status
+from derive.laws import EXPONENTIAL, GENERAL, TANH
+from derive.note import stabilised
+from derive.results import cutoff, cutoff_two_solids, regimes, two_solids, validity
+from derive.results.steady_state import SteadyState
+from derive.statement import chain, check
+from derive.symbols import symbol
+
+VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
+DIGITS = 30
+
+SECTION_4 = {
+    "f_c": "1/4",
+    "h_0": "27/25000",
+    "sigma_c0": "9/25000",
+    "K_c": "1/1000000",
+    "H_c": "200",
+    "p_max": "300",
+    "U_mean": "0",
+    "U_max": "1/2000",
+    "U": "1/2000",
+    "T": "3/50",
+}
+SLIP = sp.Integer(22) * 2000 * sp.pi / 30
+
+
+@pytest.fixture(autouse=True)
+def _digits() -> Iterator[None]:
+    with mpmath.workdps(45):
+        yield
+
+
+def number(expr: sp.Expr, **changed: str) -> mpmath.mpf:
+    """Evaluate an expression with the data of section 4, to 40 digits."""
+    data = {symbol(name): sp.Rational(value) for name, value in (SECTION_4 | changed).items()}
+    return mpmath.mpf(sp.N(expr.subs(symbol("V"), SLIP).subs(data), 40))
+
+
+def agrees(found: mpmath.mpf, reference: str, digits: int = DIGITS) -> bool:
+    return bool(abs(found / mpmath.mpf(reference) - 1) < mpmath.mpf(10) ** -digits)
+
+
+STATUS = {
+    "11": Status.CORRECTED,
+    "12": Status.CORRECTED,
+    "14": Status.DERIVED,
+    "15": Status.DERIVED,
+    "16a": Status.DERIVED,
+    "16b": Status.CORRECTED,
+    "17a": Status.DERIVED,
+    "17b": Status.DERIVED,
+    "18": Status.DERIVED,
+    "19": Status.CORRECTED,
+    "20": Status.DEFINITION,
+    "21": Status.DERIVED,
+    "22": Status.DERIVED,
+}
+
+
+@pytest.mark.parametrize(("identifier", "status"), STATUS.items())
+def test_the_status_of_each_equation_of_section_4(identifier: str, status: Status) -> None:
+    assert catalogue.equation(identifier).status is status
+
+
+@pytest.mark.parametrize("law", [TANH, EXPONENTIAL, GENERAL], ids=lambda law: law.name)
+def test_the_limit_is_proved_for_every_law(law) -> None:  # type: ignore[no-untyped-def]
+    steady = SteadyState(law)
+    for step in chain(steady.pressure, steady.wear_per_cycle):
+        assert all(outcome.passed for outcome in check(step)), step.claim
+
+
+def test_wear_per_cycle_and_pressure_of_section_4() -> None:
+    section_4 = VALUES["sec4_f0.25"]
+    found = stabilised.Stabilised()
+    assert agrees(number(found.wear_per_cycle.claim.rhs), section_4["u_cum_mm"])
+    assert agrees(number(found.pressure.claim.rhs), section_4["p_inf_MPa"])
+
+
+@pytest.mark.parametrize(
+    ("slope", "reference"),
+    [("1/4", "0.0057580683832485130861216608317042"), ("1/2", "-0.00144")],
+)
+def test_the_logarithmic_drift(slope: str, reference: str) -> None:
+    drift = stabilised.Stabilised().asymptote.claim.rhs
+    assert agrees(number(drift, f_c=slope), reference)
+
+
+def test_the_bracket_of_16_is_a_constant_that_is_not_zero() -> None:
+    bracket = stabilised.Stabilised().bracket.claim.rhs.subs(symbol("U_a"), 0)
+    assert agrees(number(bracket), "-1.8e-4")
+
+
+@pytest.mark.parametrize("opening", [False, True])
+def test_two_solids_of_section_3(opening: bool) -> None:
+    reference = VALUES["two_solids"]
+    sign = "physical" if opening else "printed"
+    solids = two_solids.TwoSolids(opening=opening)
+    definitions = {s.claim.lhs: s.claim.rhs for s in solids.definitions}
+    data = {"f_a": "1/20", "f_c": "-1/20", "kappa": "1/3"}
+    data |= {"sigma_a0": "13/200000", "sigma_c0": "9/25000"}
+    limit = 4 - 2 * (symbol("g") / symbol("q")).subs(definitions)
+    assert agrees(number(limit, **data), reference[f"x_inf_{sign}_sign"])
+    wear = solids.rate.claim.rhs.subs(definitions) * symbol("T")
+    assert agrees(number(wear, **data), reference[f"u_cum_{sign}_sign"])
+
+
+@pytest.mark.parametrize(("opening", "name"), [(False, "printed"), (True, "physical")])
+@pytest.mark.parametrize(("section", "slope"), [("sec3", "-1/20"), ("sec5", "1/20")])
+def test_arrest_depth_of_two_solids(opening: bool, name: str, section: str, slope: str) -> None:
+    solids = two_solids.TwoSolids(opening=opening)
+    definitions = {s.claim.lhs: s.claim.rhs for s in solids.definitions}
+    depth = cutoff_two_solids.CutoffTwoSolids().arrest_depth.claim.rhs.subs(definitions)
+    sigma = sp.sqrt(sp.Rational(65, 10**6) ** 2 + sp.Rational(36, 10**5) ** 2)
+    depth = depth.subs(symbol("h_0"), 3 * sigma)
+    data = {"f_a": "1/20", "f_c": slope, "kappa": "1/3"}
+    data |= {"sigma_a0": "13/200000", "sigma_c0": "9/25000"}
+    reference = VALUES["cutoff"][f"{section}_{name}_u_stop"].split()[0]
+    assert agrees(number(depth, **data), reference, digits=28)
+
+
+@pytest.mark.parametrize(
+    ("slope", "reference"), [("1/4", "0.002"), ("-1/20", "0.00043478260869565217391304347826087")]
+)
+def test_arrest_depth_of_one_solid(slope: str, reference: str) -> None:
+    depth = cutoff.Cutoff().arrest_depth.claim.rhs
+    assert agrees(number(depth, f_c=slope), reference)
+
+
+def test_one_solid_is_the_case_of_two() -> None:
+    depth = cutoff_two_solids.CutoffTwoSolids().arrest_depth.claim.rhs
+    single = {symbol("sigma_a0"): 0, symbol("g"): 1, symbol("q"): symbol("f_c")}
+    single[symbol("p_1")] = symbol("f_c") * symbol("sigma_c0")
+    assert agrees(number(depth.subs(single)), "0.002")
+
+
+def test_wear_per_cycle_for_one_third() -> None:
+    wear = cutoff.Cutoff().per_cycle.claim.rhs.subs(symbol("d"), sp.Rational(1, 2))
+    assert agrees(number(wear, f_c="1/3"), VALUES["cutoff"]["u_cum_f_1/3"])
+
+
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("ten digits", "f_10digit_rounded"),
+        ("double precision", "f_float64"),
+        ("single precision", "f_float32"),
+    ],
+)
+def test_thresholds(name: str, key: str) -> None:
+    bound = validity.threshold_at(validity.RESOLUTIONS[name])
+    assert agrees(mpmath.mpf(sp.N(bound, 40)), VALUES["thresholds"][key])
+
+
+def test_the_threshold_of_doubles_is_where_a_correctly_rounded_tanh_becomes_minus_one() -> None:
+    bound = float(validity.threshold_at(validity.RESOLUTIONS["double precision"]))
+    with mpmath.workdps(60):
+        for slope, lost in ((bound * (1 - 1e-12), True), (bound * (1 + 1e-12), False)):
+            rounded = float(mpmath.tanh(4 - 2 / mpmath.mpf(slope)))
+            assert (1.0 + rounded == 0.0) is lost
+
+
+def test_the_threshold_of_singles_is_where_a_correctly_rounded_tanh_becomes_minus_one() -> None:
+    bound = float(validity.threshold_at(validity.RESOLUTIONS["single precision"]))
+    for slope, lost in ((bound * (1 - 1e-7), True), (bound * (1 + 1e-7), False)):
+        rounded = np.float32(np.tanh(4.0 - 2.0 / slope))
+        assert bool(np.float32(1.0) + rounded == 0) is lost
+
+
+def test_one_eighth() -> None:
+    parts = validity.eighth().claim.args
+    bounds = {part.lts for part in parts}
+    assert bounds == {sp.Rational(1, 8), 1 / (1 + sp.exp(24))}
+
+
+def test_saturating_wear_approaches_the_static_solution() -> None:
+    """The law for f_c < 0 against quadrature of dN/ds; the relative distance falls like s."""
+    law = regimes.Regimes().saturating.claim.rhs
+    decline, start, gap, wear = (mpmath.mpf(v) for v in ("0.05", "3.6e-4", "8.28e-3", "1.38e-4"))
+    distances = []
+    with mpmath.workdps(30):
+        for share in (8, 16, 32):
+            s = start / share
+
+            def slowness(v: mpmath.mpf) -> mpmath.mpf:
+                return 1 + mpmath.exp(4 * gap / v - 8 - 4 / decline)
+
+            grid = [s * mpmath.mpf(2) ** (mpmath.mpf(j) / 8) for j in range(8 * 8 + 1)]
+            grid = [v for v in grid if v < start] + [start]
+            exact = mpmath.quad(slowness, grid) / (decline * wear)
+            data = {"h_star": gap, "sigma_c": s, "M": wear, "f_c": -decline}
+            values = {symbol(name): sp.Float(str(value), 30) for name, value in data.items()}
+            claimed = mpmath.exp(mpmath.mpf(sp.N(law.subs(values), 30)))
+            distances.append(float(abs(claimed / exact - 1)))
+    assert distances[0] < 0.02
+    assert [a / b for a, b in pairwise(distances)] == pytest.approx([2, 2], rel=0.1)

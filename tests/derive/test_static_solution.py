@@ -1,0 +1,91 @@
+"""The static solutions against reference values of 18 to 38 digits."""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+from pathlib import Path
+
+import mpmath
+import pytest
+import sympy as sp
+
+from derive.results.static_compliant import StaticCompliant
+from derive.results.static_scaled import scaled_primitive
+from derive.results.static_solution import StaticSolution
+from derive.statement import Statement
+from derive.symbols import symbols, t
+
+VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
+h_0, U_a, u_c, sigma_c0, f_c, C, beta, x_inf = symbols("h_0 U_a u_c sigma_c0 f_c C beta x_inf")
+p, p_max, k = symbols("p p_max k")
+
+M = 44 * sp.pi / 10**6
+SECTION_4 = {sigma_c0: sp.Rational("3.6e-4"), h_0: sp.Rational("1.08e-3"), C: M / 2}
+"""Time is counted in cycles: C T = M/2."""
+
+
+def _number(statement: Statement, slope: str, load: str, more: dict[sp.Expr, sp.Expr]) -> sp.Expr:
+    known = {**SECTION_4, f_c: sp.Rational(slope), U_a: sp.Rational(load), **more}
+    offset = 2 * (sigma_c0 / f_c - h_0 + U_a)
+    right = statement.claim.rhs.subs({beta: offset, x_inf: 4 - 2 / f_c})
+    return sp.N(right.subs(known), 40)
+
+
+@pytest.mark.parametrize(
+    ("slope", "load", "key"),
+    [
+        ("0.25", "0", "tau(u=3e-4;f=.25,Ua=0)"),
+        ("0.25", "5e-4", "tau(u=3e-4;f=.25,Ua=5e-4)"),
+        ("0.25", "-5e-4", "tau(u=3e-4;f=.25,Ua=-5e-4)"),
+        ("-0.05", "0", "tau(u=3e-4;f=-.05,Ua=0)"),
+    ],
+)
+def test_cycles_to_a_wear(slope: str, load: str, key: str) -> None:
+    found = _number(StaticSolution().time, slope, load, {u_c: sp.Rational("3e-4")})
+    assert abs(found / sp.Float(VALUES["static"][key], 40) - 1) < 1e-28
+
+
+def test_wear_after_cycles_without_change_of_roughness() -> None:
+    known = {**SECTION_4, U_a: sp.S.Zero, t: sp.Integer(100)}
+    found = sp.N(StaticSolution().wear_smooth.claim.rhs.subs(known), 40)
+    expected = sp.Float(VALUES["static"]["u_f0(100 cycles,Ua=0)"], 40)
+    assert abs(found / expected - 1) < 1e-28
+
+
+def test_the_smooth_solution_is_the_limit_of_the_rough_one() -> None:
+    wear = {u_c: sp.Rational("3e-4")}
+    smooth = _number(StaticSolution().time_smooth, "0", "0", wear)
+    gaps = [
+        abs(_number(StaticSolution().time, slope, "0", wear) / smooth - 1)
+        for slope in ("1e-3", "1e-4", "1e-5")
+    ]
+    for wide, narrow in pairwise(gaps):
+        assert wide / narrow == pytest.approx(10.0, rel=0.05)
+
+
+def test_cycles_on_a_compliant_support() -> None:
+    """Parametric in the pressure: the two pressures are roots of the wear."""
+    stiffness = {k: sp.Integer(10**6), p_max: sp.Integer(300)}
+    static = StaticCompliant()
+    known = {**SECTION_4, **stiffness, f_c: sp.Rational("0.25"), U_a: sp.S.Zero}
+    offset = 2 * (sigma_c0 / f_c - h_0 + U_a)
+    wear = sp.lambdify(p, static.wear.claim.rhs.subs(beta, offset).subs(known), "mpmath")
+    with mpmath.workdps(40):
+        first = mpmath.findroot(wear, (3, 6), solver="anderson")
+        last = mpmath.findroot(lambda x: wear(x) - mpmath.mpf("3e-4"), (0.5, 4), solver="anderson")
+        time = static.time.claim.rhs.subs(beta, offset).subs(known).subs(p.subs(t, 0), first)
+        found = sp.lambdify(p, time, "mpmath")(last)
+        key = "finite_k(k=1e6MPa/mm,f=.25,Ua=0) tau(u=3e-4)"
+        assert abs(found / mpmath.mpf(VALUES["static"][key]) - 1) < mpmath.mpf("1e-19")
+
+
+def test_the_scaled_form_equals_the_plain_one_where_both_can_be_evaluated() -> None:
+    claim = scaled_primitive().claim
+    z, E, sigma = sp.Symbol("z", real=True), sp.Symbol("E", real=True), symbols("sigma")[0]
+    for argument, limit in ((-3, 2), (5, -1), (-40, 4), (60, -20)):
+        size = sp.Rational(7, 10000)
+        known = {sigma: size, x_inf: sp.Integer(limit), beta: -argument * size / 2}
+        left = claim.lhs.subs(known)
+        right = claim.rhs.subs({z: argument, E: argument - 2 * limit}).subs(known)
+        assert abs(sp.N(left / right - 1, 30)) < 1e-28

@@ -1,0 +1,172 @@
+"""Exit status, messages and JSON, as every command has them."""
+
+import argparse
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from derive import completion, terminal
+
+
+class SceneError(Exception):
+    """Stands for what is the user's to mend."""
+
+
+def stop(fault):
+    def main():
+        raise fault
+
+    return main
+
+
+@pytest.mark.parametrize(
+    ("fault", "status", "message"),
+    [
+        (SceneError("two faults:\none\ntwo"), 2, "wear run: two faults:\none\ntwo\n"),
+        (FileNotFoundError(2, "No such file", "a.toml"), 2, "wear run: a.toml: No such file\n"),
+        (OSError("no space"), 2, "wear run: no space\n"),
+        (KeyboardInterrupt(), 130, "wear run: interrupted\n"),
+    ],
+)
+def test_the_users_faults_have_a_message_and_a_status(capsys, fault, status, message):
+    assert terminal.run("wear run", stop(fault), {SceneError: 2}) == status
+    assert capsys.readouterr() == ("", message)
+
+
+def test_our_own_faults_are_not_hidden():
+    with pytest.raises(ZeroDivisionError):
+        terminal.run("wear run", stop(ZeroDivisionError()), {SceneError: 2})
+
+
+@pytest.mark.parametrize("status", [0, 1, 3])
+def test_the_status_is_that_of_the_work(status):
+    assert terminal.run("derive verify", lambda: status, {}) == status
+
+
+def test_a_reader_that_has_seen_enough_is_no_fault():
+    code = """
+from derive import terminal
+def main():
+    for number in range(100_000):
+        print(number)
+    return 0
+raise SystemExit(terminal.run("derive list", main, {}))
+"""
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as run:
+        assert run.stdout.readline() == b"0\n"
+        run.stdout.close()
+        assert run.stderr.read() == b""
+    assert run.returncode == 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="/dev/full is Linux's")
+def test_a_full_disk_under_the_output_is_told():
+    code = """
+from derive import terminal
+raise SystemExit(terminal.run("derive list", lambda: print("one") or 0, {}))
+"""
+    with Path("/dev/full").open("wb") as full:
+        run = subprocess.run(
+            [sys.executable, "-c", code], stdout=full, stderr=subprocess.PIPE, check=False
+        )
+    assert run.stderr == b"derive list: No space left on device\n"
+    assert run.returncode == 2
+
+
+def test_a_title_that_the_terminal_cannot_show_is_no_fault():
+    code = r"""
+from derive import terminal
+terminal.run("wear run", lambda: print("palier \u00e0 \u03c3") or 0, {})
+"""
+    ascii_only = {"PYTHONIOENCODING": "ascii"}
+    run = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, env=ascii_only, check=True
+    )
+    assert run.stdout == b"palier \\xe0 \\u03c3\n"
+
+
+DOCUMENTS = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.text(),
+    lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner),
+)
+
+
+@given(DOCUMENTS)
+def test_what_json_can_hold_reads_back_the_same(document):
+    assert json.loads(json.dumps(terminal.plain(document), allow_nan=False)) == document
+
+
+def test_arrays_become_lists_and_what_is_no_number_null(capsys):
+    wear = np.array([1e-7, np.nan, np.inf, 0.1 + 0.2])
+    terminal.print_json({"wear": wear, "best": wear[0], "count": np.int64(3), "limit": -math.inf})
+    document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert document == {
+        "wear": [1e-7, None, None, 0.1 + 0.2],
+        "best": 1e-7,
+        "count": 3,
+        "limit": None,
+    }
+
+
+def test_what_has_no_form_in_json_is_refused():
+    with pytest.raises(TypeError, match="object"):
+        terminal.plain({"odd": object()})
+
+
+@pytest.fixture
+def parser():
+    whole = argparse.ArgumentParser(prog="toy")
+    terminal.add_common_options(whole)
+    run = whole.add_subparsers().add_parser("run")
+    run.add_argument("--method", choices=["auto", "Radau"])
+    completion.suggest(run.add_argument("scene"), lambda: ["section3", "section4"])
+    return whole
+
+
+def complete(script: str, *words: str) -> list[str]:
+    """Return what bash offers for the last of these words."""
+    quoted = " ".join(f"'{word}'" for word in words)
+    ask = f"COMP_WORDS=({quoted}); COMP_CWORD={len(words) - 1}; _toy_complete; "
+    shown = subprocess.run(
+        ["bash", "-c", script + "\n" + ask + 'printf "%s\\n" "${COMPREPLY[@]}"'],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return shown.stdout.split()
+
+
+@pytest.mark.parametrize(
+    ("words", "offered"),
+    [
+        (["toy", "r"], ["run"]),
+        (["toy", "--v"], ["--version"]),
+        (["toy", "run", "sec"], ["section3", "section4"]),
+        (["toy", "run", "--m"], ["--method"]),
+        (["toy", "run", "Ra"], ["Radau"]),
+    ],
+)
+def test_bash_completes(parser, need_tool, words, offered):
+    need_tool("bash")
+    assert complete(completion.bash(parser), *words) == offered
+
+
+def test_the_version_is_that_of_the_distribution(parser, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        parser.parse_args(["--version"])
+    assert stopped.value.code == 0
+    name, version = capsys.readouterr().out.split()
+    assert (name, version[0].isdigit()) == ("toy", True)

@@ -1,0 +1,152 @@
+"""House rules: what holds for every file, and what starting a command may import."""
+
+import ast
+import re
+import subprocess
+import sys
+import tomllib
+from itertools import chain
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+HEAVY = {"sympy", "mpmath", "flint", "matplotlib", "scipy.integrate", "pandas"}
+
+
+def imported_by(code: str) -> set[str]:
+    """Return the modules that a fresh interpreter has loaded after running `code`."""
+    run = subprocess.run(
+        [sys.executable, "-c", f"{code}\nimport sys\nprint('\\n', *sys.modules)"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return set(run.stdout.splitlines()[-1].split())
+
+
+def tracked(pattern: str) -> list[Path]:
+    """Return the project's own files, without what was built or installed."""
+    listing = subprocess.run(
+        ["git", "ls-files", "-z", "--", pattern],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    names = filter(None, listing.stdout.split("\0"))
+    return [path for path in (ROOT / name for name in names) if path.is_file()]
+
+
+def imports(node: ast.Import | ast.ImportFrom) -> list[str]:
+    """Return the names that a statement imports, the package's first."""
+    names = [name.name for name in node.names]
+    return [node.module or ".", *names] if isinstance(node, ast.ImportFrom) else names
+
+
+@pytest.fixture(scope="module")
+def sources(need_tool) -> dict[Path, ast.Module]:
+    need_tool("git")
+    return {path: ast.parse(path.read_bytes()) for path in tracked("*.py")}
+
+
+@pytest.mark.parametrize("package", ["wear", "derive", "derive.terminal", "wear.cli"])
+def test_importing_is_light(package):
+    assert not imported_by(f"import {package}") & HEAVY
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["scenes"], ["cite"]])
+def test_commands_without_mathematics_import_none(arguments):
+    code = f"""
+from wear.cli import main
+try:
+    main({arguments!r})
+except SystemExit:
+    pass
+"""
+    assert not imported_by(code) & HEAVY
+
+
+@pytest.mark.parametrize("package", ["derive", "wear"])
+def test_what_a_package_offers_is_not_hidden_by_a_module_of_the_same_name(package):
+    """Importing a module `wear.solve` turns a function `wear.solve` into it, if given lazily."""
+    code = f"""
+import importlib, types, {package} as package
+offered = getattr(package, "__all__", ())
+for name in offered:
+    try:
+        importlib.import_module("{package}." + name)
+    except ModuleNotFoundError:
+        pass
+assert not [n for n in offered if isinstance(getattr(package, n), types.ModuleType)]
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+
+
+def test_no_file_names_a_place_of_one_machine(need_tool):
+    need_tool("git")
+    place = re.compile(r"(?<![\w./~$}{-])/(?:work|root|home|tmp|Users)/\w")
+    found = [
+        f"{path.relative_to(ROOT)}: {match.group()}"
+        for path in tracked("*")
+        if b"\0" not in (content := path.read_bytes())
+        for match in [place.search(content.decode())]
+        if match
+    ]
+    assert not found
+
+
+def test_no_text_is_run_as_code(sources):
+    """Neither `eval` nor `exec`, nor what runs code on reading: pickle, parse_expr."""
+    banned = {"eval", "exec", "parse_expr", "sympify"}
+    found = [
+        f"{path.relative_to(ROOT)}:{node.lineno}"
+        for path, tree in sources.items()
+        for node in ast.walk(tree)
+        if (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Name)
+            and node.func.id in banned
+        )
+        or (isinstance(node, ast.Import) and any("pickle" in name.name for name in node.names))
+        or (isinstance(node, ast.ImportFrom) and "pickle" in (node.module or ""))
+    ]
+    assert not found
+
+
+def test_every_module_says_what_it_holds(sources):
+    silent = [
+        str(path.relative_to(ROOT))
+        for path, tree in sources.items()
+        if tree.body and ast.get_docstring(tree) is None
+    ]
+    assert not silent
+
+
+def test_generated_code_imports_numpy_alone(sources):
+    allowed = {"__future__", "typing", "numpy"}
+    generated = {path: tree for path, tree in sources.items() if "generated" in path.parts}
+    foreign = [
+        f"{path.relative_to(ROOT)}:{node.lineno}"
+        for path, tree in generated.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        and imports(node)[0].split(".")[0] not in allowed
+    ]
+    assert not foreign
+
+
+def test_pins_cover_every_requirement():
+    name = re.compile(r"[A-Za-z0-9_.-]+")
+    pins = (ROOT / "constraints.txt").read_text().splitlines()
+    pinned = {line.split("==")[0].lower().replace("_", "-") for line in pins if "==" in line}
+    requirements = [*PROJECT["dependencies"], *chain(*PROJECT["optional-dependencies"].values())]
+    required = {name.match(text).group().lower().replace("_", "-") for text in requirements}
+    assert required - {"derive-wear"} <= pinned
+
+
+def test_the_citation_has_the_version_of_the_package():
+    citation = (ROOT / "CITATION.cff").read_text()
+    assert f"\nversion: {PROJECT['version']}\n" in citation

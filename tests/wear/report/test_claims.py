@@ -1,0 +1,78 @@
+"""The ledger: the verdicts that need the note's scenes, their figures, and that they can change."""
+
+from __future__ import annotations
+
+import pytest
+
+from derive.note.claim_checks import SYMBOLIC
+from derive.note.claims import CLAIMS, Verdict
+from wear.report import claims, reconcile
+from wear.report.claims import SIMULATED, as_json, ledger
+
+VERDICTS = {
+    "C16": Verdict.CONDITIONAL,
+    "C17": Verdict.NOT_REPRODUCIBLE,
+    "C33": Verdict.CONFIRMED,
+    "C34": Verdict.NOT_REPRODUCIBLE,
+    "C35": Verdict.NOT_REPRODUCIBLE,
+    "C36": Verdict.NOT_REPRODUCIBLE,
+    "C37": Verdict.NOT_REPRODUCIBLE,
+    "C38": Verdict.REFUTED,
+    "C39": Verdict.CONDITIONAL,
+    "C40": Verdict.INCONSISTENT,
+}
+FIGURES = {
+    "C16": ("0.00109746298",),
+    "C17": ("cycle 491", "6.2218e-04"),
+    "C34": ("1.24e+11", "2.97e+11"),
+    "C35": ("1.886718e-07", "f_c = 0.4172934"),
+    "C36": ("4.63554742752e-08", "506.952"),
+    "C37": ("4.0701",),
+    "C38": ("194, 205, 217, 243",),
+    "C40": ("4.38e-23",),
+}
+
+
+@pytest.mark.parametrize("identifier", SIMULATED)
+def test_verdict_and_figures(identifier: str) -> None:
+    finding = SIMULATED[identifier]()
+    assert finding.verdict is VERDICTS[identifier], finding.evidence
+    for figure in FIGURES.get(identifier, ()):
+        assert figure in finding.evidence
+
+
+def test_every_claim_has_one_check() -> None:
+    assert set(SYMBOLIC) | set(SIMULATED) == set(CLAIMS)
+    assert not set(SYMBOLIC) & set(SIMULATED)
+
+
+def test_the_ledger_as_json() -> None:
+    told: list[tuple[int, int, str]] = []
+    rows = as_json(ledger(lambda *news: told.append(news), ["C5", "C33"]))
+    assert [row["id"] for row in rows] == ["C5", "C33"]
+    assert all(list(row) == ["id", "where", "statement", "verdict", "evidence"] for row in rows)
+    assert told == [(0, 2, "C5"), (1, 2, "C33")]
+
+
+def test_true_numbers_would_be_confirmed(monkeypatch: pytest.MonkeyPatch) -> None:
+    true = reconcile.Printed(simulated_mm=1.89e-7, formula_mm=4.64e-8, criterion=4.0)
+    monkeypatch.setattr(claims, "PRINTED", true)
+    assert claims.simulated_wear().verdict is Verdict.CONFIRMED
+    assert claims.formula_wear().verdict is Verdict.CONFIRMED
+    assert claims.stabilised_after().verdict is Verdict.CONFIRMED
+
+
+def test_one_change_of_f_c_reconciles_best() -> None:
+    best, *others = reconcile.reconciliations()
+    assert best.datum == "f_c"
+    assert best.value == pytest.approx(0.41729339833096945516, rel=1e-14)
+    assert best.misfit == pytest.approx(-0.0040, abs=2e-4)
+    assert {change.datum for change in others} == {"K_c", "p_max", "H_c", "R"}
+    (coefficient,) = (change for change in others if change.datum == "K_c")
+    assert coefficient.value == pytest.approx(506.95199148770437756e-6, rel=1e-14)
+    assert all(abs(change.misfit) > 5 * abs(best.misfit) for change in others)
+
+
+def test_the_printed_simulation_needs_nearly_the_same_slope() -> None:
+    needed = reconcile.slope_for_simulation()
+    assert needed == pytest.approx(reconcile.reconciliations()[0].value, rel=1e-3)

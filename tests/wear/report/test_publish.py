@@ -1,0 +1,35 @@
+"""All files of a report, and nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from wear.report.document import Document
+from wear.report.publish import publish
+
+FILES = {
+    "report.html", "report.tex", "equations.tex",
+    "system.svg", "system.pdf", "wear.svg", "wear.pdf",
+}  # fmt: skip
+
+
+def test_a_report_is_these_files(
+    sample: Document, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    need_tool("pdflatex")
+    published = publish(sample, tmp_path)
+    assert {file.name for file in tmp_path.iterdir()} == FILES | {"report.pdf"}
+    assert {file.name for file in published.files} == FILES | {"report.pdf"}
+    assert (published.warnings, published.notice) == ((), "")
+
+
+def test_without_tex_only_the_pdf_is_missing(
+    sample: Document, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    published = publish(sample, tmp_path)
+    assert {file.name for file in tmp_path.iterdir()} == FILES
+    assert "install" in published.notice

@@ -1,0 +1,147 @@
+"""LaTeX: compiles without a warning that matters, and carries the same numbers as the page."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from wear.report import tex
+from wear.report.document import Document, Equation, Listing, Paragraph, Section, Text
+from wear.report.numbering import number
+from wear.report.tex_text import escape, verbatim
+from wear.report.typeset import Typeset, typeset, warnings
+
+
+def _write(folder: Path, sources: tex.Sources) -> Path:
+    (folder / "equations.tex").write_text(sources.equations, encoding="utf-8")
+    for name, content in sources.figures.items():
+        (folder / name).write_bytes(content)
+    report = folder / "report.tex"
+    report.write_text(sources.report, encoding="utf-8")
+    return report
+
+
+@pytest.fixture(scope="module")
+def compiled(
+    sample: Document, tmp_path_factory: pytest.TempPathFactory, need_tool: Callable[..., str]
+) -> tuple[Path, Typeset]:
+    need_tool("pdflatex")
+    report = _write(tmp_path_factory.mktemp("tex"), tex.report(sample))
+    return report, typeset(report)
+
+
+def test_the_report_compiles_without_a_warning(compiled: tuple[Path, Typeset]) -> None:
+    report, outcome = compiled
+    assert outcome.notice == ""
+    assert outcome.warnings == ()
+    assert outcome.pdf == report.with_suffix(".pdf")
+    assert outcome.pdf.read_bytes().startswith(b"%PDF")
+
+
+def test_the_pdf_is_the_same_in_every_run(
+    sample: Document, compiled: tuple[Path, Typeset], tmp_path: Path
+) -> None:
+    again = typeset(_write(tmp_path, tex.report(sample))).pdf
+    first = compiled[1].pdf
+    assert first is not None
+    assert again is not None
+    assert again.read_bytes() == first.read_bytes()
+
+
+def test_tex_numbers_every_label_as_the_page_does(
+    sample: Document, compiled: tuple[Path, Typeset]
+) -> None:
+    auxiliary = compiled[0].with_suffix(".aux").read_text(encoding="utf-8")
+    numbers = dict(re.findall(r"\\newlabel\{([^}@]+)\}\{\{\{?([^}]*)\}", auxiliary))
+    expected = {
+        label: mark.number
+        for label, mark in number(sample).items()
+        if mark.kind not in ("claim", "derivation")  # these have names, not numbers
+    }
+    assert numbers == expected
+
+
+def test_equations_can_be_put_into_another_report(
+    sample: Document, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    need_tool("pdflatex")
+    (tmp_path / "equations.tex").write_text(tex.equations(sample), encoding="utf-8")
+    other = tmp_path / "other.tex"
+    other.write_text(
+        "\\documentclass{article}\\usepackage[margin=25mm]{geometry}\\usepackage{amsmath,amssymb}\\input{equations}\n"
+        "\\begin{document}\\begin{equation}\\EqCondensedProblem\\end{equation}\n"
+        "\\[\\EqWearPerCycle\\]\\[\\EqStaticSolution\\]\\end{document}\n",
+        encoding="utf-8",
+    )
+    outcome = typeset(other)
+    assert (outcome.notice, outcome.warnings) == ("", ())
+
+
+def test_a_failing_run_is_a_notice(tmp_path: Path, need_tool: Callable[..., str]) -> None:
+    need_tool("pdflatex")
+    source = tmp_path / "broken.tex"
+    source.write_text("\\documentclass{article}\\begin{document}\\nonsense\\end{document}")
+    outcome = typeset(source)
+    assert outcome.pdf is None
+    assert "Undefined control sequence" in outcome.notice
+    assert "\n" not in outcome.notice
+
+
+def test_without_an_engine_one_line_says_how_to_get_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    outcome = typeset(tmp_path / "report.tex")
+    assert outcome.pdf is None
+    assert "install" in outcome.notice
+    assert "\n" not in outcome.notice
+
+
+def test_every_special_compiles(
+    sample: Document, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    need_tool("pdflatex")
+    text = "\\ { } $ & # % _ ^ ~ < > | \" ' ` é ü Ł ő – — “ ” ‘ ’ … − · × ± ° µ → ≤ ≥ ≈ ∞ ² ³"
+    blocks = (Paragraph((Text(text),)), Listing("a" * 250 + "\n\\%{}_^", "code"))
+    document = replace(sample, sections=(Section("sec:a", text, blocks),), abstract=())
+    outcome = typeset(_write(tmp_path, tex.report(document)))
+    assert (outcome.notice, outcome.warnings) == ("", ())
+
+
+def test_a_character_without_a_form_is_named() -> None:
+    with pytest.raises(ValueError, match=r"U\+03C3"):
+        escape("roughness σ")
+
+
+def test_a_listing_loses_no_character() -> None:
+    code = "short\n" + "x" * 205
+    shown = verbatim(code, 96)
+    assert max(len(line) for line in shown.split("\n")) <= 96
+    assert shown.replace("\n    ", "") == code
+
+
+def test_a_macro_has_letters_only() -> None:
+    equation = Equation("eq:21", "a", macro="Eq21")
+    document = Document("T", (), (), (Section("sec:a", "A", (equation,)),))
+    with pytest.raises(ValueError, match="Eq21"):
+        tex.equations(document)
+
+
+@pytest.mark.parametrize(
+    ("line", "matters"),
+    [
+        ("LaTeX Warning: Reference `eq:9' on page 1 undefined on input line 3.", True),
+        ("Package hyperref Warning: Token not allowed in a PDF string", True),
+        ("LaTeX Font Warning: Font shape undefined", True),
+        ("Overfull \\hbox (1.5pt too wide) in paragraph", True),
+        ("Overfull \\hbox (0.9pt too wide) in paragraph", False),
+        ("Underfull \\hbox (badness 10000) in paragraph", False),
+        ("Package: infwarerr 2019/12/03 v1.5 Providing info/warning messages", False),
+    ],
+)
+def test_which_lines_of_a_log_matter(line: str, matters: bool) -> None:
+    assert bool(warnings(f"before\n{line}\nafter")) == matters

@@ -1,0 +1,68 @@
+"""Abel's equation against maps whose count is known in closed form."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from wear.count import abel
+from wear.count.collocation import FloatArray, chebyshev_nodes
+
+SHIFT = 0.3
+
+
+def panels(edges: FloatArray, m: int, slope: float) -> abel.Panels:
+    """Panels for P(u) = (u + c) exp(slope) - c: n = ln(u + c)/slope, the density is constant."""
+    starts, across = edges[:-1], abel.widths(SHIFT, edges[:-1], edges[1:])
+    wear = abel.panel_wear(SHIFT, starts, across, chebyshev_nodes(m))
+    return abel.solve(SHIFT, starts, across, (wear + SHIFT) * np.expm1(slope))
+
+
+def square_root_panels(edges: FloatArray, m: int) -> abel.Panels:
+    """Panels for P(u) = sqrt(u^2 + a): n = u^2/a, known for every u."""
+    starts, across = edges[:-1], abel.widths(SHIFT, edges[:-1], edges[1:])
+    wear = abel.panel_wear(SHIFT, starts, across, chebyshev_nodes(m))
+    return abel.solve(SHIFT, starts, across, AREA / (np.sqrt(wear**2 + AREA) + wear))
+
+
+AREA = 1e-2
+
+
+def test_geometric_map() -> None:
+    table = abel.count(panels(np.array([0.0, 1.0, 5.0]), 8, 0.01), 3.0)
+    wear = np.array([0.0, 0.2, 1.0, 3.0, 4.9])
+    assert_allclose(abel.cycles_until(table, wear), 3.0 + np.log1p(wear / SHIFT) / 0.01, rtol=1e-14)
+
+
+@pytest.mark.parametrize("cycles", [101.0, 137.5, 1000.0, 9900.0])
+def test_square_root_map_and_its_inverse(cycles: float) -> None:
+    table = abel.count(square_root_panels(np.array([1.0, 2.0, 4.0, 10.0]), 24), 100.0)
+    at = np.array([cycles])
+    wear, pace = abel.wear_after(table, at, abel.part_of(table.cycles, at))
+    assert_allclose(wear, np.sqrt(AREA * cycles), rtol=2e-13)
+    assert_allclose(pace, AREA / (2 * wear), rtol=1e-8)  # enough for an error estimate
+    assert_allclose(abel.cycles_until(table, wear), at, rtol=1e-13)
+
+
+def test_residual_tells_the_error_of_the_count() -> None:
+    t = np.linspace(-0.95, 0.95, 7)
+    errors, residuals = [], []
+    for m in (4, 6, 8, 10):
+        found = square_root_panels(np.array([1.0, 10.0]), m)
+        wear = abel.panel_wear(SHIFT, found.starts, found.widths, t)
+        rises = AREA / (np.sqrt(wear**2 + AREA) + wear)
+        residuals.append(np.max(np.abs(abel.residual(found, t, rises))))
+        end = abel.count(found, 100.0).last_cycles
+        errors.append(abs(end - 10000.0) / 10000.0)
+    assert np.all(np.array(errors) < residuals)
+    assert residuals[-1] < 1e-3 * residuals[0]  # spectral: a factor 10 for every two nodes
+
+
+def test_counts_of_neighbours_agree_where_panels_are_long() -> None:
+    found = square_root_panels(np.array([1.0, 3.0, 10.0]), 24)
+    assert np.max(abel.junctions(found.take(slice(-1)), found.take(slice(1, None)))) < 1e-10
+
+
+def test_counts_of_neighbours_part_where_panels_are_short() -> None:
+    """Two cycles on 16 nodes leave room for an oscillation of period one cycle."""
+    found = square_root_panels(np.sqrt(AREA * np.array([1.0, 3.0, 5.0])), 16)
+    assert np.min(abel.junctions(found.take(slice(-1)), found.take(slice(1, None)))) > 1e-13

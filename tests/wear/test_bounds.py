@@ -1,0 +1,109 @@
+"""Rigorous bounds: they contain references and solutions, and are as tight as promised."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from derive.results.comparison import STRIP as DERIVED_STRIP
+from tests.wear.reference_scenes import REFERENCE, TABLES, tables
+from wear.bounds import STRIP, Enclosure, static_bounds, wear_bounds
+from wear.faults import UsageError
+from wear.load import Constant, Harmonics, Sine
+from wear.scene import Scene, scene_from_tables
+from wear.solver import solve
+
+SCENES = [name for name in TABLES if name != "S4"]
+
+
+def scene(**changes: Any) -> Scene:
+    return scene_from_tables(tables(**changes))
+
+
+def contains(bounds: Enclosure, wear: float) -> bool:
+    return bounds.low <= wear <= bounds.high
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_bounds_contain_the_reference_values(name: str) -> None:
+    made = scene_from_tables(TABLES[name])
+    cycles = [1, 10, 100]
+    for count, bounds in zip(cycles, wear_bounds(made, cycles), strict=True):
+        assert contains(bounds, REFERENCE[name][count]), count
+
+
+def test_bounds_of_section_4_are_tight() -> None:
+    (first, tenth, later) = wear_bounds(scene(), [1, 10, 1000])
+    assert first.high / first.low < 1.16
+    assert tenth.high / tenth.low < 1.07
+    assert later.high / later.low < 1.0008
+    assert contains(later, REFERENCE["S2"][1000])
+
+
+def test_bounds_under_a_constant_load_close_as_the_wear_slows_down() -> None:
+    made = replace(scene(), load=Constant(5e-4, 0.06))
+    early, late = wear_bounds(made, [10, 300])
+    assert late.high / late.low < early.high / early.low < 1.1
+
+
+def test_static_bounds_are_looser() -> None:
+    cycles = [1, 50]
+    for tight, loose in zip(
+        wear_bounds(scene(), cycles), static_bounds(scene(), cycles), strict=True
+    ):
+        assert loose.low < tight.low < tight.high < loose.high
+
+
+def test_a_compliant_support_wears_less_than_a_rigid_one() -> None:
+    rigid, compliant = wear_bounds(scene(), [20])[0], wear_bounds(scene(k=1e5), [20])[0]
+    assert compliant.high == rigid.high
+    assert compliant.low < rigid.low
+
+
+def test_the_strip_is_the_derived_one() -> None:
+    assert float(sp.N(DERIVED_STRIP, 20)) == STRIP
+
+
+SLOPES = st.floats(-0.2, 1.0).filter(lambda f: abs(f) > 1e-3)
+
+
+@settings(max_examples=300)
+@given(
+    slope=SLOPES,
+    wear_coefficient=st.floats(1e-8, 2e-6),
+    pin=st.booleans(),
+    first=st.floats(-4e-4, 4e-4),
+    second=st.floats(-2e-4, 2e-4),
+    mean=st.floats(-2e-4, 2e-4),
+)
+def test_bounds_contain_the_solution(
+    slope: float, wear_coefficient: float, pin: bool, first: float, second: float, mean: float
+) -> None:
+    load = Harmonics(mean, (first,), (second, first / 2), 0.06)
+    made = replace(scene(K=wear_coefficient, f_c=slope, pin=pin), load=load)
+    (bounds,) = wear_bounds(made, [3])
+    assert contains(bounds, float(solve(made, [3], rtol=1e-10).u_c[0]))
+
+
+@settings(max_examples=15)
+@given(amplitude=st.floats(1e-9, 1.5e-3), pin=st.booleans())
+def test_a_larger_load_never_gives_less_wear(amplitude: float, pin: bool) -> None:
+    made = replace(scene(pin=pin), load=Sine(amplitude, 0.06))
+    (static,) = static_bounds(made, [2])
+    assert contains(static, float(solve(made, [2], rtol=1e-9).u_c[0]))
+
+
+@pytest.mark.parametrize("cycles", [[0], [1.5], [-1]])
+def test_only_whole_cycles(cycles: list[Any]) -> None:
+    with pytest.raises(UsageError, match="whole numbers"):
+        wear_bounds(scene(), cycles)
+
+
+def test_what_has_no_bounds_is_told() -> None:
+    with pytest.raises(UsageError, match="without cutoff"):
+        wear_bounds(scene(cutoff=True), [1])

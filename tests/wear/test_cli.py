@@ -1,0 +1,136 @@
+"""The command `wear`: what all its commands share, and those that need no solver."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tomllib
+
+import pytest
+
+from wear import cli
+from wear.cite import REFERENCES
+from wear.scene import builtin_names, load_scene, parse_scene
+
+COMMANDS = [command.name for command in cli.COMMANDS]
+
+
+@pytest.fixture
+def wear(capsys):
+    """Run `wear` in this process; give status, output and messages."""
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        try:
+            status = cli.main(arguments)
+        except SystemExit as stop:  # argparse's way of ending
+            status = stop.code
+        return status, *capsys.readouterr()
+
+    return call
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_teaches_by_an_example(wear, name):
+    status, shown, messages = wear(name, "--help")
+    assert (status, messages) == (0, "")
+    assert re.search(rf"examples:\n +wear {name}", shown)
+
+
+def test_the_help_lists_every_command(wear):
+    status, shown, _ = wear("--help")
+    assert status == 0
+    assert all(re.search(rf"^ +{name} +\w", shown, re.MULTILINE) for name in COMMANDS)
+
+
+def test_the_version_is_shown(wear):
+    assert re.fullmatch(r"wear \d+\.\d+\.\d+\n", wear("--version")[1])
+
+
+@pytest.mark.parametrize("arguments", [[], ["fly"], ["cite", "--fly"], ["cite", "nobody"]])
+def test_bad_usage_is_told_on_standard_error(wear, arguments):
+    status, shown, messages = wear(*arguments)
+    assert (status, shown) == (2, "")
+    assert "usage:" in messages
+
+
+def test_the_installed_command_is_this_one():
+    from pathlib import Path
+
+    command = Path(sys.executable).with_name("wear")
+    if not command.exists():
+        pytest.skip("wear is not installed beside this interpreter")
+    run = subprocess.run([command, "cite", "note"], capture_output=True, text=True, check=True)
+    assert "@misc{note," in run.stdout
+
+
+def test_scenes_lists_all_with_titles(wear):
+    status, shown, _ = wear("scenes")
+    assert status == 0
+    listed = dict(line.split(maxsplit=1) for line in shown.splitlines())
+    assert listed == {name: load_scene(name).title for name in builtin_names()}
+
+
+def test_scenes_json_has_the_same(wear):
+    documents = json.loads(wear("scenes", "--json")[1])
+    assert [document["name"] for document in documents] == list(builtin_names())
+    assert set(documents[0]) == {"name", "title", "description"}
+
+
+@pytest.mark.parametrize("name", ["section3", "section4"])
+def test_a_described_scene_is_a_scene_file(wear, name):
+    described = wear("scenes", "--describe", name)[1]
+    assert parse_scene(described, name) == load_scene(name)
+    [document] = json.loads(wear("scenes", "--describe", name, "--json")[1])
+    tables = tomllib.loads(described)
+    assert document["tables"]["bearing"] == tables["bearing"]
+
+
+def test_a_scene_that_is_not_there_is_told_with_a_guess(wear):
+    status, shown, messages = wear("scenes", "secton4", "fly")
+    assert (status, shown) == (2, "")
+    assert "did you mean section4?" in messages
+    assert '"fly"' in messages
+
+
+def test_cite_gives_every_entry_once(wear):
+    entries = re.findall(r"^@\w+\{(.+),$", wear("cite")[1], re.MULTILINE)
+    assert entries == list(REFERENCES)
+    assert [entry["key"] for entry in json.loads(wear("cite", "--json")[1])] == entries
+
+
+def test_cite_is_bibtex_that_latex_takes(wear, need_tool, tmp_path):
+    need_tool("bibtex")
+    (tmp_path / "all.bib").write_text(wear("cite")[1])
+    (tmp_path / "all.aux").write_text("\\citation{*}\n\\bibdata{all}\n\\bibstyle{plain}\n")
+    run = subprocess.run(
+        ["bibtex", "all"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert run.returncode == 0, run.stdout
+    written = (tmp_path / "all.bbl").read_text()
+    assert all(f"\\bibitem{{{key}}}" in written for key in REFERENCES)
+
+
+def test_the_completion_knows_commands_scenes_and_options(wear, need_tool):
+    need_tool("bash")
+    script = wear("--print-completion")[1]
+    ask = "COMP_WORDS=(wear scenes section4); COMP_CWORD=2; _wear_complete; echo ${COMPREPLY[@]}"
+    environment = {"PATH": os.environ["PATH"]}
+    run = subprocess.run(
+        ["bash", "-c", f"{script}\n{ask}"],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=environment,
+    )
+    assert run.stdout.split() == [name for name in builtin_names() if name.startswith("section4")]
+
+
+def test_claims_end_with_a_count_of_verdicts(wear):
+    *_, last = wear("claims", "C1", "C2")[1].splitlines()
+    assert re.fullmatch(r"2 claims: 1 \w+, 1 \w+", last)
+
+
+def test_a_choice_is_told_in_one_sentence(wear):
+    messages = wear("run", "section4", "--method", "foo")[2]
+    assert '"foo" is unknown; choose one of auto, ' in messages

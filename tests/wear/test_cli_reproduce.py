@@ -1,0 +1,157 @@
+"""`wear reproduce`, `wear asymptote`, `wear figure`."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from derive.check import Check
+from tests.wear.report import quick
+from wear import cli, regime
+from wear.report import claims, paper, paper_speed, runs, typeset, verification
+from wear.scene import load_scene
+
+Call = Callable[..., tuple[int, str, str]]
+
+ALWAYS = {
+    "report.html", "report.tex", "equations.tex", "claims.json", "manifest.json",
+    *(f"figure-{n}.{kind}" for n in ("2a", "2b", "3a", "3b") for kind in ("svg", "pdf")),
+}  # fmt: skip
+
+
+@pytest.fixture
+def call(capsys: pytest.CaptureFixture[str]) -> Call:
+    """Run `wear` in this process; give status, output and messages."""
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        return cli.main(arguments), *capsys.readouterr()
+
+    return run
+
+
+@pytest.fixture
+def shortened(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have the main job use quick runs, trust the derivations, and find no TeX."""
+    monkeypatch.setattr(runs, "run", lambda _: quick.runs())
+    monkeypatch.setattr(verification, "verified", lambda found, _: quick.trusted(found))
+    monkeypatch.setattr(claims, "ledger", lambda _: quick.few_claims())
+    monkeypatch.setattr(paper_speed, "measured", quick.measurements)
+    monkeypatch.setattr(paper, "paper", lambda *_: quick.paper())
+    monkeypatch.setattr(typeset.shutil, "which", lambda _: None)
+
+
+@pytest.mark.usefixtures("shortened")
+def test_the_main_job_writes_every_file(call: Call, tmp_path: Path) -> None:
+    folder = tmp_path / "report"
+    status, shown, messages = call("reproduce", "-o", str(folder), "--json")
+    summary = json.loads(shown)
+    assert status == 0
+    assert ALWAYS <= {path.name for path in folder.iterdir()} == set(summary["files"])
+    assert "texlive" in messages
+    assert not any(path.name.startswith(".") for path in folder.iterdir())
+    _check_manifest(folder)
+    entries = json.loads((folder / "claims.json").read_text())
+    assert [entry["id"] for entry in entries] == list(quick.CLAIMS)
+    assert set(entries[0]) == {"id", "where", "statement", "verdict", "evidence"}
+
+
+def _check_manifest(folder: Path) -> None:
+    """Every other file has its checksum there, and no path of this machine is."""
+    manifest = json.loads((folder / "manifest.json").read_text())
+    found = {path.name for path in folder.iterdir()} - {"manifest.json"}
+    assert set(manifest["sha256"]) == found
+    for name, digest in manifest["sha256"].items():
+        assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest
+    assert {"python", "numpy", "sympy"} <= set(manifest["versions"])
+    assert str(folder.parent) not in json.dumps(manifest)
+
+
+@pytest.mark.usefixtures("shortened")
+def test_a_step_that_does_not_hold_is_told(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    failure = ("21", Check("proof", False, "the move gives something else"))
+
+    def failing(found, _):  # type: ignore[no-untyped-def]
+        return dataclasses.replace(quick.trusted(found), failures=(failure,))
+
+    monkeypatch.setattr(verification, "verified", failing)
+    status, shown, messages = call("reproduce", "-o", str(tmp_path))
+    assert status == 1
+    assert "1 FAILED" in shown
+    assert "(21) proof fails: the move gives something else" in messages
+
+
+@pytest.mark.usefixtures("shortened")
+def test_an_interrupt_leaves_nothing_behind(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(_):  # type: ignore[no-untyped-def]
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(claims, "ledger", interrupted)
+    folder = tmp_path / "report"
+    assert call("reproduce", "-o", str(folder))[0] == 130
+    assert not folder.exists()
+
+
+def test_a_file_is_no_folder(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "report").write_text("kept")
+    status, _, messages = call("reproduce", "-o", str(tmp_path / "report"))
+    assert (status, (tmp_path / "report").read_text()) == (2, "kept")
+    assert "is not a folder" in messages
+
+
+KEYS = {
+    "scene", "regime", "tanh_argument", "wear_per_cycle_mm", "pressure_MPa", "log_coefficient_mm",
+    "offset_mm", "arrest_wear_mm", "arrest_cycle", "cycles_to_stabilise", "notices",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["section4", "f-zero", "roughness-vanishing", "chatter"])
+def test_the_asymptote_has_the_keys_of_the_contract(call: Call, name: str) -> None:
+    status, shown, messages = call("asymptote", name, "--json")
+    found = json.loads(shown)
+    assert (status, messages) == (0, "")
+    assert set(found) >= KEYS
+    assert found["scene"] == name
+    assert found["regime"] == regime.asymptote(load_scene(name)).regime
+
+
+def test_the_asymptote_is_printed_with_units(call: Call) -> None:
+    status, shown, _ = call("asymptote", "section4", "--set", "bearing.roughness_slope=0.5")
+    assert status == 0
+    assert "steady" in shown
+    assert "6.911503838e-05 mm" in shown  # half of M: p_inf/p_max = 1/2 at f_c = 1/2
+
+
+def test_what_does_not_apply_is_not_printed(call: Call) -> None:
+    shown = call("asymptote", "chatter")[1]
+    assert "wear stops in cycle  3" in shown
+    assert "coefficient of ln N" not in shown
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png"])
+def test_a_figure_is_written(call: Call, tmp_path: Path, suffix: str) -> None:
+    file = tmp_path / f"wear{suffix}"
+    status, shown, _ = call("figure", "section3", "-o", str(file), "--cycles", "100", "--json")
+    assert status == 0
+    assert file.stat().st_size > 1000
+    assert json.loads(shown)["cycles"] == [0, 100]
+
+
+def test_a_logarithmic_figure_begins_with_the_first_cycle(call: Call, tmp_path: Path) -> None:
+    file = tmp_path / "wear.svg"
+    shown = call("figure", "section4", "-o", str(file), "--cycles", "1e8", "--log", "--json")[1]
+    assert json.loads(shown)["cycles"] == [1, 10**8]
+
+
+def test_all_faults_of_a_figure_are_told_at_once(call: Call) -> None:
+    status, _, messages = call("figure", "nowhere", "-o", "wear.gif", "--cycles", "1,2")
+    assert status == 2
+    assert all(word in messages for word in ("nowhere", ".gif", "one number of cycles"))

@@ -1,0 +1,254 @@
+"""`wear run`: the state after given numbers of cycles, and what goes wrong with the request."""
+
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from wear import cli
+from wear.commands.run_output import latex_number, text
+from wear.faults import AccuracyError, Interrupted
+from wear.scene import load_scene
+from wear.solver import solve
+
+CONTRACT = {
+    "scene", "model", "method", "rtol", "cycles", "bearing_wear_mm", "pin_wear_mm",
+    "bearing_roughness_mm", "pin_roughness_mm", "closure_mm", "contact_pressure_MPa",
+    "error_estimate", "cost", "seconds", "notices",
+}  # fmt: skip
+
+
+@pytest.fixture
+def run(capsys):
+    """Run `wear run` in this process; give status, output and messages."""
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        return cli.main(["run", *arguments]), *capsys.readouterr()
+
+    return call
+
+
+@pytest.fixture
+def solver(monkeypatch):
+    """Have `wear run` call another function in place of the solver."""
+
+    def put(function):
+        monkeypatch.setattr("wear.solver.solve", function)
+
+    return put
+
+
+@pytest.fixture(scope="module")
+def history():
+    return solve(load_scene("section4"), (1, 10), rtol=1e-6)
+
+
+def test_json_has_the_keys_of_the_contract_and_the_numbers_of_the_history(run):
+    status, shown, _ = run("section4", "--cycles", "1,10", "--rtol", "1e-8", "--json")
+    document = json.loads(shown, parse_constant=pytest.fail)
+    history = solve(load_scene("section4"), (1, 10), rtol=1e-8)
+    assert status == 0
+    assert set(document) >= CONTRACT
+    assert set(document["model"]) >= {"variant", "operations"}
+    assert set(document["cost"]) == {"cycles_integrated", "rhs_evaluations"}
+    assert document["cycles"] == [1, 10]
+    for column in history.columns():
+        assert document[column.name] == column.values.tolist()
+
+
+def test_the_state_follows_the_order_of_the_cycles_in_the_json(run):
+    document = json.loads(run("section4", "--cycles", "10,1,10", "--json")[1])
+    wear = dict(zip(document["cycles"], document["bearing_wear_mm"], strict=True))
+    assert set(wear) == {1, 10}
+    assert wear[1] < wear[10]
+
+
+def test_the_table_names_quantities_with_units(run):
+    status, shown, _ = run("section4", "--cycles", "1,1e1")
+    words = shown.split()
+    assert status == 0
+    assert {"bearing", "wear", "roughness", "closure", "pressure", "(mm)", "(MPa)"} <= set(words)
+    assert "pin" not in words  # section 4 has no pin to wear
+    assert "pin" in run("section3", "--cycles", "1")[1].split()
+
+
+def test_the_table_shows_the_wear(run):
+    shown = run("section4", "--cycles", "1,1e1")[1]
+    expected = solve(load_scene("section4"), (1, 10)).u_c
+    states = [line.split() for line in shown.splitlines() if line.strip()[:2] in ("1 ", "10")]
+    assert [float(state[1]) for state in states] == pytest.approx(expected.tolist(), rel=1e-9)
+
+
+def test_a_number_can_be_set(run):
+    changed = "bearing.wear_coefficient=2e-6"
+    document = json.loads(run("section4", "--cycles", "1", "--set", changed, "--json")[1])
+    expected = solve(load_scene("section4", [changed]), (1,))
+    assert document["bearing_wear_mm"] == expected.u_c.tolist()
+
+
+def test_all_faults_are_told_at_once(run, tmp_path):
+    status, shown, messages = run(
+        *("secton4", "--set", "bearing.hardness_MPa=-1", "--cycles", "1.5,nan,abc,1e400,-3,7"),
+        *("--rtol", "2", "--method", "DOP85", "--time-limit", "-1"),
+        *("-o", str(tmp_path / "missing" / "wear.csv")),
+    )
+    assert (status, shown) == (2, "")
+    told = [
+        "did you mean the built-in scene section4",
+        '"1.5", "nan", "abc", "1e400", "-3": no number of cycles',
+        '--rtol: "2"',
+        "did you mean DOP853?",
+        '--time-limit: "-1"',
+        "missing: no such folder",
+    ]
+    assert [phrase for phrase in told if phrase not in messages] == []
+
+
+@pytest.mark.parametrize("cycles", ["", ",", "1,", "1;2", "2e12", "inf", "0x10", "1" * 5000])
+def test_what_is_no_list_of_cycles_is_refused(run, cycles):
+    status, shown, messages = run("section4", "--cycles", cycles)
+    assert (status, shown) == (2, "")
+    assert "--cycles" in messages
+    assert len(messages) < 400
+
+
+@pytest.mark.parametrize("name", ["wear", "wear.xlsx", "wear.CSV.gz"])
+def test_an_unknown_form_of_file_is_refused_before_solving(run, solver, tmp_path, name):
+    solver(pytest.fail)
+    status, _, messages = run("section4", "-o", str(tmp_path / name))
+    assert status == 2
+    assert ".csv, .nc, .tex" in messages
+
+
+def test_the_csv_file_holds_the_history(run, tmp_path):
+    file = tmp_path / "wear.csv"
+    assert run("section4", "--cycles", "1,10", "-o", str(file))[:2] == (0, "")
+    lines = (line for line in file.read_text().splitlines() if not line.startswith("#"))
+    rows = list(csv.DictReader(lines))
+    expected = solve(load_scene("section4"), (1, 10))
+    assert [float(row["bearing_wear_mm"]) for row in rows] == expected.u_c.tolist()
+
+
+def test_the_netcdf_file_holds_the_history(run, tmp_path):
+    from scipy.io import netcdf_file
+
+    path = tmp_path / "wear.nc"
+    assert run("section4", "--cycles", "1,10", "-o", str(path))[:2] == (0, "")
+    expected = solve(load_scene("section4"), (1, 10))
+    with netcdf_file(path, mmap=False) as file:
+        assert file.variables["bearing_wear_mm"][:].tolist() == expected.u_c.tolist()
+
+
+def test_the_latex_table_compiles(run, need_tool, tmp_path):
+    need_tool("latexmk")
+    assert run("section3", "--cycles", "1,1e4", "-o", str(tmp_path / "wear.tex"))[0] == 0
+    (tmp_path / "main.tex").write_text(
+        "\\documentclass{article}\\usepackage{booktabs}\\usepackage[landscape]{geometry}\n"
+        "\\begin{document}\\small\\input{wear}\\end{document}\n"
+    )
+    command = ["latexmk", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "main.tex"]
+    compiled = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert compiled.returncode == 0, compiled.stdout[-2000:]
+    assert "Overfull" not in (tmp_path / "main.log").read_text()
+
+
+@pytest.mark.parametrize("number", [0.0, 1.0, -2.5e-7, 4.6355474275170e-8, 1e12, 123456.7, 0.02])
+def test_a_number_in_latex_is_that_number(number):
+    text = latex_number(number, 17).replace(r"\times ", "*")
+    mantissa, _, power = text.rpartition("10^{") if "10^{" in text else (text, "", "0}")
+    value = float(mantissa.strip("*") or 1) * 10.0 ** int(power.strip("}"))
+    assert math.isclose(value, number, rel_tol=1e-15)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="/dev/full is Linux's")
+def test_a_full_disk_under_the_output_is_told():
+    command = [sys.executable, "-m", "wear.cli", "run", "section4", "--cycles", "1", "--json"]
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 2
+    assert "No space left" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_file_is_not_touched_when_the_solver_fails(run, solver, tmp_path):
+    solver(lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt))
+    file = tmp_path / "wear.csv"
+    file.write_text("the one before")
+    status, shown, messages = run("section4", "-o", str(file))
+    assert (status, shown, messages) == (130, "", "wear run: interrupted\n")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["wear.csv"]
+    assert file.read_text() == "the one before"
+
+
+@pytest.mark.parametrize(("fault", "status"), [("interrupted", 130), ("accuracy", 3)])
+def test_what_was_computed_is_kept(run, solver, history, tmp_path, fault, status):
+    def stop(*_, **__):
+        if fault == "interrupted":
+            raise Interrupted("interrupted after 10 cycles", history)
+        raise AccuracyError("only 1e-4 was reached", history)
+
+    solver(stop)
+    file = tmp_path / "wear.csv"
+    done, shown, messages = run("section4", "--json", "-o", str(file))
+    assert done == status
+    assert json.loads(shown)["bearing_wear_mm"] == history.u_c.tolist()
+    assert fault in messages or "1e-4" in messages
+    assert len(file.read_text().splitlines()) > len(history.cycles)
+
+
+def test_no_number_that_json_lacks_is_printed(run, solver, history):
+    from dataclasses import replace
+
+    solver(lambda *_, **__: replace(history, error=np.array([np.nan, np.inf])))
+    document = json.loads(run("section4", "--json")[1], parse_constant=pytest.fail)
+    assert document["error_estimate"] == [None, None]
+
+
+def test_notices_go_to_standard_error(run):
+    _, shown, messages = run("section3", "--cycles", "1", "--json")
+    notices = json.loads(shown)["notices"]
+    assert notices
+    usual = "auto: cycle-count, because the load repeats"  # the table's head says so
+    assert all(notice in messages for notice in notices if notice != usual)
+    assert set(notices) > {usual}
+
+
+def test_a_reader_may_stop_reading():
+    command = [sys.executable, "-m", "wear.cli", "run", "section4", "--cycles", "1"]
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, check=False)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+def test_the_usual_choice_of_a_method_is_no_notice_on_the_terminal(run):
+    status, shown, messages = run("section4", "--cycles", "1")
+    assert (status, messages) == (0, "")
+    assert "method cycle-count" in shown
+    document = json.loads(run("section4", "--cycles", "1", "--json")[1])
+    assert "auto: cycle-count, because the load repeats" in document["notices"]
+
+
+def test_an_unusual_choice_of_a_method_is_told(run, tmp_path):
+    (tmp_path / "rows.csv").write_text("t_s,U_a_mm\n0,0\n1,1e-4\n4,0\n")
+    own = tmp_path / "own.toml"
+    own.write_text(load_scene("section4").to_toml().partition("[load]")[0])
+    with own.open("a") as file:
+        file.write('[load]\nkind = "history"\nfile = "rows.csv"\nperiod_s = 1.0\n')
+    assert "auto: DOP853, because" in run(str(own), "--cycles", "1", "--rtol", "1e-6")[2]
+
+
+def test_no_state_at_all_is_told_in_words(history):
+    fields = ("cycles", "u_c", "u_a", "sigma_c", "sigma_a", "h", "p", "error")
+    nothing = replace(history, **{name: getattr(history, name)[:0] for name in fields})
+    shown = text(nothing)
+    assert "No requested cycle was reached." in shown
+    assert "(mm)" not in shown

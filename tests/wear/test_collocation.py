@@ -1,0 +1,57 @@
+"""Nodes and matrices: exact for polynomials, spectral for smooth functions."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from wear.count import collocation as c
+
+
+@pytest.mark.parametrize("m", [4, 14, 24, 30])
+def test_gauss_integrates_polynomials_exactly(m: int) -> None:
+    rule = c.gauss(m)
+    for degree in (0, 1, m - 1):
+        values = rule.nodes**degree
+        assert_allclose(
+            rule.integrate @ values, rule.nodes ** (degree + 1) / (degree + 1), atol=3e-16
+        )
+    for degree in (m, 2 * m - 1):  # the quadrature goes on to twice the order
+        assert_allclose(rule.weights @ rule.nodes**degree, 1 / (degree + 1), rtol=1e-13)
+
+
+def test_gauss_quadrature_ends_at_twice_the_order() -> None:
+    rule = c.gauss(4)
+    assert abs(rule.weights @ (2 * rule.nodes - 1) ** 8 - 1 / 9) > 1e-4
+
+
+def test_legendre_coefficients_give_the_values_back() -> None:
+    rule = c.gauss(9)
+    values = np.exp(rule.nodes)
+    series = rule.coefficients @ values
+    assert_allclose(np.polynomial.legendre.legval(2 * rule.nodes - 1, series), values, rtol=1e-14)
+
+
+def test_running_integral_goes_on_across_intervals() -> None:
+    over = c.mesh(np.array([0.0, 0.3, 0.35, 1.0]), 16)
+    got = c.running_integral(np.cos(5 * over.phases), over)
+    assert_allclose(got, np.sin(5 * over.phases) / 5, atol=1e-15)
+    assert_allclose(c.integral(np.cos(5 * over.phases), over), np.sin(5.0) / 5, rtol=1e-14)
+
+
+def test_an_interval_of_a_mesh_is_a_mesh() -> None:
+    over = c.mesh(np.array([0.0, 0.3, 1.0]), 5)
+    part = over.interval(1)
+    assert part.edges.tolist() == [0.3, 1.0]
+    assert_allclose(part.phases[0], 0.3 + 0.7 * c.gauss(5).nodes)
+
+
+def test_chebyshev_analysis_inverts_evaluation_and_extrapolates() -> None:
+    m = 11
+    series = np.linspace(1.0, -2.0, m)
+    nodes = c.chebyshev_nodes(m)
+    assert_allclose(
+        c.chebyshev_analysis(m) @ (c.chebyshev_values(nodes, m) @ series), series, atol=1e-14
+    )
+    at = np.array([[-1.1, 0.2], [1.05, 1.0]])
+    want = np.polynomial.chebyshev.chebval(at, series)
+    assert_allclose(c.chebyshev_values(at, m) @ series, want, rtol=1e-12)

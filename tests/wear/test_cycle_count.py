@@ -1,0 +1,174 @@
+"""Any number of cycles: against reference values, an independent integrator, and identities."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from tests.independent import Problem
+from tests.independent import wear_after as independent
+from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
+from wear import count
+from wear.count.collocation import FloatArray
+from wear.model import bind
+from wear.scene import Scene, scene_from_tables
+
+ROUNDING = 3e-15  # below, an error needs no estimate
+
+
+def counted(scene: Scene, cycles: FloatArray, rtol: float, start: float = 0.0) -> count.Wear:
+    return count.wear_after(bind(scene), scene.periodic_load, cycles, rtol, start)
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-12, 1e-13])
+@pytest.mark.parametrize("name", TABLES)
+def test_reference_values(name: str, rtol: float) -> None:
+    cycles = np.array(sorted(REFERENCE[name]), dtype=float)
+    want = np.array([REFERENCE[name][int(n)] for n in cycles])
+    found = counted(reference_scene(name), cycles, rtol)
+    true = np.abs(found.u_c / want - 1)
+    assert np.all(found.error <= rtol)
+    assert np.all((true <= found.error) | (true < ROUNDING))
+
+
+@pytest.mark.parametrize("name", ["S1", "S2", "S4"])
+def test_cost_does_not_grow_with_the_cycles(name: str) -> None:
+    scene = reference_scene(name)
+    costs = [counted(scene, np.array([n]), 1e-12).cost for n in (1e3, 1e6, 1e9, 1e12)]
+    assert max(cost.cycles_integrated for cost in costs) <= 160
+    assert counted(scene, np.array([9000.0]), 1e-12).cost.cycles_integrated <= 80
+
+
+def problem(scene: Scene) -> Problem:
+    """The same scene, for the independent integrator."""
+    p = scene.parameters()
+    speed = math.pi * p["R"] * p["n"] / 30
+    load = scene.to_tables()["load"]
+    pin = "K_a" in p
+    return Problem(
+        wear_rate=p["K_c"] * speed * p["p_max"] / (3 * p["H_c"]),
+        roughness=p["sigma_c0"],
+        slope=p["f_c"],
+        closure=p["h_0"],
+        period=load["period_s"],
+        mean=load.get("mean_mm", load.get("value_mm", 0.0)),
+        cosine=tuple(load.get("cosine_mm", ())),
+        sine=tuple(load.get("sine_mm", (load.get("amplitude_mm", 0.0),))),
+        pin_roughness=p.get("sigma_a0", 0.0),
+        pin_slope=p.get("f_a", 0.0),
+        kappa=p["K_a"] * p["H_c"] / (p["K_c"] * p["H_a"]) if pin else 0.0,
+        sign=1 if scene.contact.pin_wear_opens_gap else -1,
+        deflection=p["p_max"] / p["k"] if "k" in p else 0.0,
+    )
+
+
+def between(low: float, high: float) -> st.SearchStrategy[float]:
+    """A thousand steps: no denormals, which a scene file refuses."""
+    return st.integers(0, 1000).map(lambda i: low + (high - low) * i / 1000)
+
+
+@st.composite
+def scenes(draw: st.DrawFn) -> Scene:
+    """Scenes far beyond the note's: wear fast and slow, loads of a few harmonics."""
+    roughness = 10 ** draw(between(-4, -3))
+    swing = roughness * 10 ** draw(between(-1.5, 0.4))
+    K = 10 ** draw(between(-8, -3))
+    made = tables(
+        K=K,
+        f_c=draw(between(-0.3, 0.6)),
+        pin=draw(st.booleans()),
+        k=draw(st.none() | between(3, 8).map(lambda e: 10**e)),
+    )
+    made["bearing"]["roughness_mm"] = roughness
+    made["contact"].pop("closure_in_sigma", None)
+    made["contact"]["closure_mm"] = roughness * draw(between(0, 8))
+    made["load"] = {
+        "kind": "harmonics",
+        "mean_mm": swing * draw(between(-0.5, 0.5)),
+        "cosine_mm": [swing * draw(between(-0.5, 0.5))],
+        "sine_mm": [swing, swing * draw(between(-0.3, 0.3))],
+        "period_s": 0.06,
+    }
+    if "pin" in made:
+        made["pin"]["wear_coefficient"] = K * 10 ** draw(between(-1, 0.6))
+        made["pin"]["roughness_mm"] = roughness * draw(between(0.1, 1))
+        made["pin"]["roughness_slope"] = draw(between(-0.2, 0.3))
+        made["contact"]["pin_wear_opens_gap"] = draw(st.booleans())
+    return scene_from_tables(made, "drawn")
+
+
+@settings(max_examples=25)
+@given(scene=scenes(), rtol=st.sampled_from([1e-6, 1e-9, 1e-12]))
+def test_drawn_scenes_against_an_independent_integrator(scene: Scene, rtol: float) -> None:
+    cycles = [1, 4, 8]
+    want = np.array(list(independent(problem(scene), cycles).values()))
+    found = counted(scene, np.array(cycles, dtype=float), rtol)
+    true = np.abs(found.u_c / want - 1)
+    assert np.all((true <= found.error) | (true < ROUNDING))
+
+
+@pytest.mark.parametrize("name", ["S2", "S8_1"])
+def test_the_independent_integrator_agrees_with_the_references(name: str) -> None:
+    found = independent(problem(reference_scene(name)), [1, 10])
+    for cycles, wear in found.items():
+        assert_allclose(wear, REFERENCE[name][cycles], rtol=1e-15)
+
+
+@pytest.mark.parametrize("first", [3.0, 40.0, 5000.0])
+def test_cycles_add_up(first: float) -> None:
+    """Going on from the wear after some cycles gives what going through gives."""
+    scene = reference_scene("S5")
+    through = counted(scene, np.array([first, first + 700.0]), 1e-12)
+    on = counted(scene, np.array([700.0]), 1e-12, start=float(through.u_c[0]))
+    assert_allclose(on.u_c[0], through.u_c[1], rtol=1e-13)
+
+
+def test_more_digits_change_nothing_but_the_error() -> None:
+    """The estimates at two tolerances cover what they differ by, and are not idle."""
+    cycles = np.array([20.0, 1e3, 1e7])
+    scene = reference_scene("S4")
+    fine = counted(scene, cycles, 1e-13)
+    rough = counted(scene, cycles, 1e-6)
+    apart = np.abs(rough.u_c / fine.u_c - 1)
+    assert np.all(apart <= rough.error + fine.error)
+    assert np.sum(rough.error <= 1000 * np.maximum(apart, ROUNDING)) >= 2
+
+
+@given(cycles=st.integers(1, 10**12))
+@settings(max_examples=20)
+@example(cycles=5)
+@example(cycles=6)
+def test_cycles_until_a_wear_is_the_inverse(cycles: int) -> None:
+    scene = reference_scene("S4")
+    model, load = bind(scene), scene.periodic_load
+    wear = counted(scene, np.array([float(cycles)]), 1e-12).u_c
+    found = count.cycles_until(model, load, wear, 1e-12)
+    assert abs(found.cycles[0] - cycles) <= 2e-12 * cycles
+
+
+def test_wear_that_is_never_reached_takes_for_ever() -> None:
+    scene = reference_scene("S6")
+    found = count.cycles_until(bind(scene), scene.periodic_load, np.array([1e-5, 7e-3, 0.0]), 1e-9)
+    assert found.cycles.tolist() == [1.0, np.inf, 0.0]
+
+
+def test_no_pressure_no_wear() -> None:
+    made = tables()
+    made["contact"]["closure_mm"] = 1.0
+    found = counted(scene_from_tables(made, "far"), np.array([0.0, 1.0, 1e12]), 1e-9)
+    assert found.u_c.tolist() == [0.0, 0.0, 0.0]
+    assert "adds less" in found.notices[0]
+
+
+def test_vanishing_roughness_is_said_and_not_solved() -> None:
+    """With f < 0 and the pin pressed in, the roughness is gone after finitely many cycles."""
+    made = tables(f_c=-0.5, load=CONSTANT)
+    made["load"]["value_mm"] = 2e-3
+    found = counted(scene_from_tables(made, "vanishing"), np.array([1.0, 1e6]), 1e-9)
+    assert found.error[0] < 1e-9
+    assert found.error[1] == np.inf
+    assert "roughness vanishes" in found.notices[0]
+    assert found.u_c[1] <= 3.6e-4 / 0.5

@@ -1,0 +1,96 @@
+"""The cutoff: arrest in the very cycle, kinks crossed, permanent contact counted."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tests.wear.reference_scenes import reference_scene, tables
+from wear import count, direct
+from wear.count.cutoff import one_cycle, turning_points
+from wear.count.stages import kinks
+from wear.load import Harmonics
+from wear.model import bind
+from wear.scene import load_scene, scene_from_tables
+
+
+@pytest.mark.parametrize(
+    ("name", "cycle", "wear"),
+    [
+        ("section4-cutoff", 2045, 0.002),
+        ("section3-cutoff", 491, 0.000622179713311576220356230662647),
+        ("section5-cutoff", 824, 0.000980449714835624807061453807989),
+    ],
+)
+def test_wear_stops_in_its_cycle_and_stays(name: str, cycle: int, wear: float) -> None:
+    scene = load_scene(name)
+    around = np.array([cycle - 1.0, float(cycle), 1e12])
+    found = count.wear_after(bind(scene), scene.periodic_load, around, 1e-10)
+    assert found.notices == (f"wear stops for good in cycle {cycle}",)
+    assert_allclose(found.u_c[1:], wear, rtol=1e-15)
+    assert found.u_c[0] < wear
+    assert np.all(found.error <= 1e-10)
+
+
+@pytest.mark.parametrize("slope", [0.25, 0.5])
+def test_counted_cycles_are_integrated_ones(slope: float) -> None:
+    """f above and below 1/3: direct integration with events shares no code with the map."""
+    scene = scene_from_tables(tables(f_c=slope, cutoff=True), "cutoff")
+    model, load = bind(scene), scene.periodic_load
+    cycles = [1, 2, 7, 40]
+    found = count.wear_after(model, load, np.array(cycles, dtype=float), 1e-10)
+    want = direct.integrate(model, load, cycles, 1e-10, "DOP853", np.inf)
+    assert np.all(np.abs(found.u_c / want.u - 1) <= found.error + want.error)
+
+
+def test_in_permanent_contact_the_cutoff_changes_nothing() -> None:
+    made = tables(f_c=0.5, cutoff=True)
+    made["contact"]["closure_mm"] = 4e-4
+    scene = scene_from_tables(made, "closed")
+    made["contact"]["cutoff"] = False
+    without = scene_from_tables(made, "smooth")
+    cycles = np.array([1.0, 30.0, 1e6])
+    found, want = (
+        count.wear_after(bind(one), one.periodic_load, cycles, 1e-11) for one in (scene, without)
+    )
+    assert_allclose(found.u_c, want.u_c, rtol=1e-11)
+
+
+def test_kinks_are_where_contact_grazes() -> None:
+    scene = scene_from_tables(tables(f_c=0.25, cutoff=True), "cutoff")
+    cycle = one_cycle(bind(scene), scene.periodic_load)
+    # Section 4: (1 - 3 f) u = U_a at the edge, of which only the peak, 5e-4 mm, is ahead.
+    assert_allclose(kinks(cycle, 1e-4), [2e-3], rtol=1e-14)
+
+
+def test_a_load_turns_where_its_slope_vanishes() -> None:
+    load = Harmonics(0.0, (1e-4, -2e-4), (3e-4, 1e-4), 0.06)
+    turns = turning_points(load)[1:-1]
+    assert len(turns) == 4
+    assert np.max(np.abs(load.slope(turns))) < 1e-13
+    assert turning_points(reference_scene("S2").periodic_load).tolist() == [0.0, 0.25, 0.75, 1.0]
+
+
+def test_the_wear_at_which_contact_ends_is_known_better_than_the_cycle() -> None:
+    """f just below 1/3: arrest at U/(1 - 3 f), in a cycle that double precision cannot tell."""
+    scene = load_scene("f-just-below-one-third")
+    found = count.wear_after(bind(scene), scene.periodic_load, np.array([1e8, 1e12]), 1e-10)
+    slope = scene.parameters()["f_c"]
+    assert_allclose(found.u_c[1], 5e-4 / (1 - 3 * slope), rtol=1e-9)
+    assert np.all(found.error <= 1e-10)
+    assert "give or take" in found.notices[0]
+
+
+def test_contact_in_a_fixed_part_of_the_cycle_has_no_kinks() -> None:
+    scene = load_scene("f-one-third")
+    found = count.wear_after(bind(scene), scene.periodic_load, np.array([1e12]), 1e-10)
+    assert found.cost.cycles_integrated <= 200
+    assert found.error[0] <= 1e-10
+
+
+def test_cycles_until_a_wear_with_a_cutoff() -> None:
+    scene = load_scene("section4-cutoff")
+    model, load = bind(scene), scene.periodic_load
+    wear = count.wear_after(model, load, np.array([7.0, 500.0]), 1e-11).u_c
+    wanted = np.array([*wear, 0.002, 0.0021])
+    found = count.cycles_until(model, load, wanted, 1e-11)
+    assert found.cycles.tolist() == [7.0, 500.0, 2045.0, np.inf]

@@ -1,0 +1,207 @@
+"""Direct integration: against references, against itself, against what must not change."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from wear import direct
+from wear.direct.plain import plain
+from wear.direct.problem import Setting, problem, widest_step
+from wear.direct.step import Meter, leg
+from wear.load import Constant, Sine
+from wear.model import bind
+from wear.scene import Scene, scene_from_tables
+
+from .reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
+
+ROUNDOFF = float(np.finfo(float).eps)
+
+
+def integrate(scene: Scene, cycles, rtol, method="DOP853"):
+    return direct.integrate(bind(scene), scene.load, cycles, rtol, method)
+
+
+def true_errors(name, result):
+    reference = [REFERENCE[name][cycle] for cycle in result.cycles]
+    return np.abs(result.u / np.array(reference) - 1.0)
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-10])
+@pytest.mark.parametrize("name", REFERENCE)
+def test_wear_is_within_the_request_and_the_estimate_not_below_the_true_error(name, rtol):
+    result = integrate(reference_scene(name), [1, 10, 100], rtol)
+    true = true_errors(name, result)
+    assert np.all(true <= 10 * rtol)
+    assert np.all(true <= result.error)
+    assert np.all(result.error <= rtol)
+    assert result.stopped is None
+
+
+@pytest.mark.parametrize("method", [m for m in direct.METHODS if m != "DOP853"])
+@pytest.mark.parametrize("name", ["S2", "S3d", "S7"])
+def test_every_method_keeps_the_promise(name, method):
+    result = integrate(reference_scene(name), [1, 10], 1e-7, method)
+    true = true_errors(name, result)
+    assert np.all(true <= 1e-6)
+    assert np.all(true <= result.error)
+    assert np.all(result.error <= 1e-7)
+
+
+@pytest.mark.parametrize(("rtol", "reached"), [(1e-3, True), (1e-8, True), (1e-14, False)])
+@pytest.mark.parametrize("name", ["S2", "S3a", "S4"])
+def test_the_estimate_is_honest_for_any_request(name, rtol, reached):
+    """Roundoff and SciPy's smallest tolerance end what can be reached: that is told."""
+    result = integrate(reference_scene(name), [1, 10], rtol)
+    assert np.all(true_errors(name, result) <= result.error)
+    assert bool(np.max(result.error) <= rtol) is reached
+
+
+@pytest.mark.parametrize(
+    ("method", "order"), [("RK23", 3), ("RK45", 5), ("DOP853", 8), ("Radau", 5)]
+)
+def test_steps_of_fixed_length_converge_with_the_order_of_the_method(method, order):
+    """On half a cycle (over a whole one the errors of a smooth periodic function cancel)."""
+    scene = reference_scene("S2")
+    of = problem(bind(scene), scene.load)
+    exact = leg(of, 0.0, 0.0, 0.4, Setting("DOP853", 1e-13, 1.0), Meter(), 1e-3).u
+    counts = (8, 12, 16, 24) if order == 8 else (32, 64, 128)
+    errors = [
+        leg(of, 0.0, 0.0, 0.4, Setting(method, 1.0, 1.0), Meter(), 0.4 / count).u / exact - 1.0
+        for count in counts
+    ]
+    slope = np.polyfit(np.log(counts), np.log(np.abs(errors)), 1)[0]
+    assert -slope == pytest.approx(order, abs=0.6)
+
+
+def test_a_sine_without_amplitude_is_a_constant():
+    still = tables(load={"kind": "sine", "amplitude_mm": 0.0, "period_s": 0.06})
+    level = tables(load=CONSTANT | {"value_mm": 0.0})
+    one, other = (integrate(scene_from_tables(t), [1, 100], 1e-10) for t in (still, level))
+    np.testing.assert_allclose(one.u, other.u, rtol=1e-13)
+
+
+def scaled(factor: float) -> dict:
+    """Section 4 in another unit of length (pressures and the dimensionless numbers stay)."""
+    made = tables(load={"kind": "sine", "amplitude_mm": 5e-4 * factor, "period_s": 0.06})
+    made["bearing"]["roughness_mm"] *= factor
+    made["contact"]["closure_mm"] *= factor
+    made["motion"]["radius_mm"] *= factor
+    return made
+
+
+@pytest.mark.parametrize("factor", [1e-6, 0.125, 1e6])
+def test_another_unit_of_length_scales_the_wear(factor):
+    plain_units = integrate(reference_scene("S2"), [1, 10], 1e-10)
+    other_units = integrate(scene_from_tables(scaled(factor)), [1, 10], 1e-10)
+    np.testing.assert_allclose(other_units.u, factor * plain_units.u, rtol=2e-11)
+
+
+@settings(max_examples=8)
+@given(factor=st.floats(0.01, 100.0))
+def test_wear_coefficient_and_period_trade_off(factor):
+    """K enters as K T only, and so does the rotation speed."""
+    slow = tables(K=1e-5 * factor, load={"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.06})
+    fast = tables(K=1e-5)
+    fast["load"]["period_s"] = 0.06 * factor
+    one, other = (integrate(scene_from_tables(t), [1, 5], 1e-8) for t in (slow, fast))
+    np.testing.assert_allclose(one.u, other.u, rtol=2e-8)
+
+
+@dataclasses.dataclass(frozen=True)
+class Late:
+    """A sine that starts whole cycles later: the same load."""
+
+    load: Sine
+    by: int
+
+    def __call__(self, phase):
+        return self.load(np.asarray(phase) - self.by)
+
+    def slope(self, phase):
+        return self.load.slope(np.asarray(phase) - self.by)
+
+    def __getattr__(self, name):
+        return getattr(self.load, name)
+
+
+def test_a_shift_by_whole_cycles_changes_nothing():
+    scene = reference_scene("S1")
+    result = integrate(scene, [1, 20], 1e-9)
+    late = direct.integrate(bind(scene), Late(scene.load, 7), [1, 20], 1e-9)
+    np.testing.assert_allclose(late.u, result.u, rtol=1e-11)
+
+
+@settings(max_examples=12)
+@given(
+    f_c=st.integers(-50, 1000).map(lambda thousandth: thousandth / 1000),
+    log_K=st.floats(-7, -3),
+    amplitude=st.floats(1e-9, 2e-3),
+    closure=st.floats(1e-5, 2e-3),
+    method=st.sampled_from(["RK45", "Radau", "LSODA"]),
+)
+def test_methods_agree_on_drawn_scenes(f_c, log_K, amplitude, closure, method):
+    load = {"kind": "sine", "amplitude_mm": amplitude, "period_s": 0.06}
+    made = tables(K=10.0**log_K, f_c=f_c, load=load)
+    made["contact"]["closure_mm"] = closure
+    scene = scene_from_tables(made)
+    one, other = (integrate(scene, [1, 3], 1e-6, name) for name in ("DOP853", method))
+    assume(one.stopped is None and other.stopped is None)  # the roughness may vanish
+    allowed = (one.error + other.error) * one.u
+    assert np.all(np.abs(one.u - other.u) <= allowed)
+
+
+@settings(max_examples=8)
+@given(level=st.integers(-500, 500), more=st.integers(0, 500))
+def test_more_displacement_wears_more(level, more):
+    wear = [
+        integrate(scene_from_tables(tables(load=CONSTANT | {"value_mm": 1e-6 * nm})), [10], 1e-9).u[
+            0
+        ]
+        for nm in (level, level + more)
+    ]
+    assert wear[0] <= wear[1] * (1.0 + 1e-8)
+
+
+def test_steps_resolve_the_pulses_of_a_large_swing():
+    """U = 10 h_0: pulses of a hundredth of a period once the contact is worn in."""
+    load = {"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06}
+    scene = scene_from_tables(tables(load=load, f_c=0.0))
+    of = problem(bind(scene), scene.load)
+    deviation = math.sqrt(3.6e-4 / (4 * 4 * math.pi**2 * 1.08e-2))  # of exp(4 U_a/sigma)
+    assert deviation < 0.015
+    assert 0.0 < widest_step(of, 0.0, 1.0) <= deviation
+    one, other = (integrate(scene, [1, 30], 1e-7, name) for name in ("DOP853", "LSODA"))
+    assert np.all(np.abs(one.u / other.u - 1.0) <= one.error + other.error)
+
+
+def test_without_a_pulse_steps_may_be_long():
+    scene = reference_scene("S7")
+    assert isinstance(scene.load, Constant)
+    assert widest_step(problem(bind(scene), scene.load), 0.0, 100.0) == 100.0
+
+
+def test_the_end_of_the_model_is_told_with_what_there_is():
+    """f_c < 0 and always in contact: the roughness of the only rough surface reaches zero."""
+    made = tables(K=1e-3, f_c=-0.5, load=CONSTANT | {"value_mm": 3e-3})
+    result = integrate(scene_from_tables(made), [0, 1000], 1e-8)
+    assert result.cycles == (0,)
+    assert "has become smooth at u_c = 0.00072 mm" in result.stopped
+
+
+def test_the_fresh_state_costs_nothing():
+    result = integrate(reference_scene("S2"), [0], 1e-10)
+    assert result.u.tolist() == [0.0]
+    assert result.error.tolist() == [0.0]
+    assert result.cycles_integrated == 0
+
+
+@pytest.mark.parametrize(("name", "method"), [("S1", "LSODA"), ("S2", "RK45")])
+def test_default_tolerances_are_silently_wrong(name, method):
+    """Why this module exists: what a user would write first misses the wear by percents."""
+    scene = reference_scene(name)
+    naive = plain(bind(scene), scene.load, 100, method).u
+    assert abs(naive / REFERENCE[name][100] - 1.0) > 0.02

@@ -1,0 +1,190 @@
+"""The cutoff: contact intervals, sliding at its edge, arrest; compliant supports that soften it."""
+
+import math
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from wear import direct
+from wear.direct.cutoff import Mode, first_mode, is_arrested, pieces, pressure_share
+from wear.direct.problem import problem
+from wear.load import Harmonics, Sine, Table
+from wear.model import bind
+from wear.scene import Scene, scene_from_tables
+
+from .reference_scenes import CONSTANT, reference_scene, tables
+
+LARGEST_WEAR = 44 * math.pi * 1e-6  # mm per cycle at p_max and K = 1e-6
+
+
+def integrate(scene: Scene, cycles, rtol=1e-9, method="DOP853"):
+    return direct.integrate(bind(scene), scene.load, cycles, rtol, method, time.monotonic() + 60)
+
+
+@pytest.mark.parametrize(
+    ("f_c", "pin", "depth"),
+    [
+        (0.25, False, 0.002),
+        (-0.05, False, 0.00043478260869565217391),
+        (-0.05, True, 0.00062217971331157622036),
+        (0.05, True, 0.00098044971483562480706),
+    ],
+)
+def test_wear_stops_at_the_arrest_depth(f_c, pin, depth):
+    """Sections 3 to 5 with the cutoff of Eq. (4); a hundredfold K arrests at the same depth."""
+    scene = scene_from_tables(tables(K=1e-4, f_c=f_c, pin=pin, cutoff=True))
+    result = integrate(scene, [1, 1000, 10**12])
+    assert result.u[-1] == pytest.approx(depth, rel=1e-14)
+    assert result.u[-2] == result.u[-1]
+    assert result.arrested_in < 30
+    assert result.cycles_integrated <= 3 * result.arrested_in
+
+
+def test_the_cycle_of_arrest_does_not_depend_on_method_or_accuracy():
+    scene = scene_from_tables(tables(K=1e-4, cutoff=True))
+    arrests = {
+        integrate(scene, [100], rtol, method).arrested_in
+        for rtol, method in ((1e-6, "DOP853"), (1e-10, "DOP853"), (1e-6, "Radau"), (1e-6, "LSODA"))
+    }
+    assert arrests == {21}
+
+
+def test_a_constant_load_wears_until_the_gap_opens():
+    result = integrate(scene_from_tables(tables(K=1e-4, cutoff=True, load=CONSTANT)), [10])
+    assert result.u[0] == pytest.approx(0.002, rel=1e-14)  # (3 sigma_0 - h_0 + U_a)/(1 - 3 f)
+
+
+def explicit(scene: Scene, cycles: int, steps: int) -> float:
+    """Euler's method with the discontinuous rate, which converges to Filippov's solution."""
+    model, period, u = bind(scene), scene.load.period, 0.0
+    loads = scene.load(np.arange(steps) / steps)
+    for _ in range(cycles):
+        for U_a in loads:
+            if model.margin(u, U_a) >= 0.0:
+                u += float(model.rate(u, U_a)) * period / steps
+    return u
+
+
+@pytest.mark.parametrize(("f_c", "pin"), [(-0.05, False), (0.05, True)])
+def test_sliding_is_the_limit_of_small_steps(f_c, pin):
+    """Fast wear reaches the edge of contact in the first cycle and slides along it to the peak."""
+    scene = scene_from_tables(tables(K=1e-3, f_c=f_c, pin=pin, cutoff=True))
+    wear = integrate(scene, [1]).u[0]
+    for steps in (1500, 6000):  # a step at the edge wears some 6/steps of the whole
+        assert explicit(scene, 1, steps) == pytest.approx(wear, rel=10 / steps)
+
+
+def test_one_third_keeps_a_fixed_share_of_the_period_in_contact():
+    """f_c = 1/3: contact while U_a >= h_0 - 3 sigma_0 = 0, half of the period, in every cycle."""
+    scene = scene_from_tables(tables(K=0.1, f_c=1 / 3, cutoff=True))
+    result = integrate(scene, [49, 50], 1e-9)
+    pressure = 1.0 / (1.0 + math.exp(4.0))  # h/sigma tends to 1/f = 3
+    assert np.diff(result.u)[0] == pytest.approx(1e5 * LARGEST_WEAR * pressure / 2, rel=4e-3)
+
+
+def test_contact_becomes_permanent_above_one_third():
+    """Once it is, the cutoff makes no difference to the rate."""
+    scene = scene_from_tables(tables(K=1e-3, f_c=0.5, cutoff=True))
+    model = bind(scene)
+    worn = integrate(scene, [20]).u[0]
+    assert np.all(model.margin(worn, scene.load(np.arange(64) / 64)) > 0.0)
+
+
+@settings(max_examples=10)
+@given(
+    f_thousandths=st.integers(-50, 300),
+    amplitude_nm=st.integers(10, 1500),
+    closure_percent=st.integers(20, 100),
+)
+def test_drawn_scenes_stop_at_or_before_the_depth(f_thousandths, amplitude_nm, closure_percent):
+    f_c, U = f_thousandths / 1000, 1e-6 * amplitude_nm
+    load = {"kind": "sine", "amplitude_mm": U, "period_s": 0.06}
+    made = tables(K=1e-3, f_c=f_c, cutoff=True, load=load)
+    made["contact"]["closure_mm"] = h_0 = 1.08e-3 * closure_percent / 100
+    depth = (3 * 3.6e-4 - h_0 + U) / (1 - 3 * f_c)
+    result = integrate(scene_from_tables(made), [1, 60], 1e-7)
+    if result.stopped is None:
+        assert np.all(result.u <= depth * (1.0 + 1e-12))
+        assert result.arrested_in is None or result.u[-1] == pytest.approx(depth, rel=1e-12)
+    else:
+        assert "smooth" in result.stopped
+        assert depth >= 3.6e-4 / -f_c  # the roughness is used up before the contact
+
+
+def test_a_stiff_support_tends_to_the_rigid_one():
+    rigid = integrate(scene_from_tables(tables(K=1e-3, cutoff=True)), [1]).u[0]
+    wear = [
+        integrate(scene_from_tables(tables(K=1e-3, cutoff=True, k=k)), [1], 1e-7).u[0]
+        for k in (1e6, 1e7, 1e8)
+    ]
+    gaps = [rigid - u for u in wear]
+    assert gaps[0] > gaps[1] > gaps[2] > 0.0
+    assert gaps[2] < 2e-3 * rigid
+
+
+def test_pieces_are_monotone_and_cover_the_cycle():
+    loads = (
+        Sine(5e-4, 0.06),
+        Sine(-5e-4, 0.06),
+        Table((0.0, 0.01, 0.03, 0.05, 0.06), (0.0, 1e-3, 1e-3, -1e-3, 0.0)),
+        Harmonics(1e-4, (1e-4, 3e-4), (2e-4, 0.0), 0.06),
+    )
+    for load in loads:
+        cut = pieces(load)
+        assert (cut[0].start, cut[-1].end) == (0.0, 1.0)
+        for piece in cut:
+            inside = np.diff(load(np.linspace(piece.start, piece.end, 40)))
+            rising = inside >= -1e-15 if piece.rising else inside <= 1e-15
+            assert np.all(rising)
+
+
+def test_two_peaks_of_a_table_load():
+    """The lower peak first wears what only it can reach, then the higher one alone is left."""
+    rows = {"times_s": (0.0, 0.015, 0.03, 0.045, 0.06), "values_mm": (0.0, 3e-4, 0.0, 5e-4, 0.0)}
+    scene = scene_from_tables(tables(K=1e-4, f_c=0.0, cutoff=True))
+    result = direct.integrate(bind(scene), Table(**rows), [200], 1e-8)
+    assert result.u[0] == pytest.approx(5e-4, rel=1e-12)
+
+
+def test_the_pressure_at_the_edge_is_what_keeps_up_with_the_load():
+    scene = scene_from_tables(tables(K=1e-3, f_c=-0.05, cutoff=True))
+    model = bind(scene)
+    u = 3e-4
+    edge = -float(model.margin(u, 0.0))  # the displacement that just touches
+    opening = -float(model.margin_slope(u, edge) * model.rate(u, edge))
+    assert pressure_share(model, u, edge + 1e-6, 0.0) == 1.0
+    assert pressure_share(model, u, edge - 1e-6, 0.0) == 0.0
+    assert pressure_share(model, u, edge, -1.0) == 0.0
+    assert pressure_share(model, u, edge, 0.5 * opening) == pytest.approx(0.5)
+    assert pressure_share(model, u, edge, 2.0 * opening) == 1.0
+
+
+def test_a_gap_that_no_load_closes_never_wears():
+    scene = scene_from_tables(tables(cutoff=True, load=CONSTANT | {"value_mm": -1e-4}))
+    of = problem(bind(scene), scene.load)
+    assert first_mode(of, 0.0) is Mode.OPEN
+    assert is_arrested(of, 0.0, Mode.OPEN, scene.load.maximum)
+    result = integrate(scene, [1, 10**12])
+    assert result.u.tolist() == [0.0, 0.0]
+    assert (result.arrested_in, result.rhs_evaluations) == (0, 0)
+
+
+def test_a_deep_contact_does_not_know_the_cutoff():
+    """While 3 sigma is never reached, the scene with cutoff is the scene without."""
+    level = CONSTANT | {"value_mm": 5e-4}
+    one = integrate(scene_from_tables(tables(cutoff=True, load=level)), [5], 1e-10).u[0]
+    other = integrate(reference_scene("S7"), [5], 1e-10).u[0]
+    assert one == pytest.approx(other, rel=1e-11)
+
+
+@pytest.mark.parametrize("k", [1e6, 1e9])
+def test_kinks_of_a_compliant_support_cost_no_accuracy(k):
+    """The pressure follows the support, then the contact law, then the support again."""
+    scene = scene_from_tables(tables(K=1e-3, cutoff=True, k=k))
+    one = integrate(scene, [1, 2], 1e-10)
+    other = integrate(scene, [1, 2], 1e-7, "Radau")
+    assert np.all(one.error <= 1e-10)
+    assert np.all(np.abs(one.u / other.u - 1.0) <= one.error + other.error)

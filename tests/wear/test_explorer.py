@@ -1,0 +1,398 @@
+"""The explorer: a page that works alone, agrees with Python and answers to its controls."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import wear
+from derive.codegen import javascript
+from tests.derive.exact import variant_of
+from tests.wear.browser import browser
+from wear.cli import main
+from wear.report import explorer, explorer_data
+from wear.scene import builtin_names, load_scene
+
+READY = "document.documentElement?.dataset.ready >= 1"
+UPDATES = "Number(document.documentElement.dataset.ready)"
+
+
+@pytest.fixture(scope="module")
+def page_file(tmp_path_factory) -> Path:
+    """The page as the command writes it."""
+    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    assert main(["explore", "-o", str(path)]) == 0
+    return path
+
+
+@pytest.fixture(scope="module")
+def window(page_file, need_tool, tmp_path_factory):
+    """A browser with the page open in it."""
+    program = need_tool("chromium", "chromium-browser", "google-chrome")
+    with browser(program, tmp_path_factory.mktemp("profile")) as page:
+        page.size(1280, 1000)
+        page.open(page_file, READY)
+        yield page
+
+
+@pytest.fixture
+def page(window, page_file):
+    """The page as it comes up, and no complaint of the browser while it is used."""
+    window.complaints.clear()
+    window.requests.clear()
+    window.open(page_file, READY)
+    yield window
+    assert window.complaints == []
+    fetched = [url for url in window.requests if not url.startswith("data:font/woff2;")]
+    assert set(fetched) == {page_file.as_uri()}
+
+
+def put(page, name, value, event="input"):
+    """Set a control and wait for the page to have followed."""
+    before = page.run(UPDATES)
+    page.run(
+        f"(() => {{ const e = document.getElementById({name!r}); e.value = {value!r};"
+        f" e.dispatchEvent(new Event({event!r}, {{ bubbles: true }})); }})()"
+    )
+    page.wait(f"{UPDATES} > {before}")
+
+
+def click(page, name):
+    before = page.run(UPDATES)
+    page.run(f"document.getElementById({name!r}).click()")
+    page.wait(f"{UPDATES} > {before}")
+
+
+def text(page, name):
+    return page.run(f"document.getElementById({name!r}).textContent")
+
+
+def curves(page):
+    return page.run(
+        "Object.fromEntries(['wear','roughness','pressure','inside'].map((n) => [n,"
+        " [...document.querySelectorAll(`#plot-${n} path`)].map((p) => p.getAttribute('d'))]))"
+    )
+
+
+def number(shown: str) -> float:
+    """A number as the page shows it."""
+    powers = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+    plain = shown.split(" mm")[0].split(" MPa")[0].replace("\u2212", "-")
+    if " × 10" in plain:
+        digits, power = plain.split(" × 10")
+        return float(digits) * 10.0 ** int(power.translate(powers))
+    return float(plain)
+
+
+# The file
+
+
+def test_page_stands_alone(page_file):
+    """Nothing is fetched, and nothing but what was written may run."""
+    written = page_file.read_text(encoding="utf-8")
+    policy = re.search(r'Content-Security-Policy" content="([^"]+)"', written)
+    assert policy is not None
+    assert policy[1].startswith("default-src 'none'; script-src 'sha256-")
+    assert "unsafe-inline" not in policy[1].replace("style-src-attr 'unsafe-inline'", "")
+    assert "unsafe-eval" not in policy[1]
+    for address in re.findall(r"https?://[^\"'\s<)]+", written):
+        assert address.startswith("http://www.w3.org/"), address
+    assert not re.search(r"<(?:link|img|iframe)\b|\bsrc=|@import|\bon\w+=", written)
+    assert "eval(" not in written
+    assert "Math.pow" not in written
+
+
+def test_data_cannot_end_its_script(page_file):
+    inside = re.search(
+        r'<script type="application/json" id="data">(.*?)</script>',
+        page_file.read_text(encoding="utf-8"),
+        re.DOTALL,
+    )
+    assert inside is not None
+    assert "<" not in inside[1]
+    data = json.loads(inside[1])
+    assert [scene["name"] for scene in data["scenes"]] == list(builtin_names())
+
+
+def test_a_title_cannot_become_markup(tmp_path):
+    scene = load_scene("section4")
+    file = tmp_path / "own.toml"
+    file.write_text(scene.to_toml().replace(scene.title, "</script><script>alert(1)</script>"))
+    written = explorer.page(load_scene(str(file)))
+    assert "<script>alert" not in written
+
+
+def test_changed_scene_does_not_hide_the_built_in_one():
+    data = explorer._data(load_scene("section4", ["bearing.roughness_slope=0.3"]))
+    names = [scene["name"] for scene in data["scenes"]]
+    assert data["first"] == names[0] == "section4 (changed)"
+    assert "section4" in names
+    assert data["scenes"][0]["parameters"]["f_c"] == 0.3
+
+
+def own_scene(folder: Path, load: str):
+    """Section 4 under another load."""
+    file = folder / "own.toml"
+    file.write_text(load_scene("section4").to_toml().split("[load]")[0] + "[load]\n" + load)
+    return load_scene(str(file))
+
+
+LOADS = {
+    "sine": 'kind = "sine"\namplitude_mm = 5e-4\nperiod_s = 0.06\n',
+    "constant": 'kind = "constant"\nvalue_mm = 3e-4\nperiod_s = 0.06\n',
+    "harmonics": 'kind = "harmonics"\nmean_mm = 1e-4\ncosine_mm = [1e-4]\n'
+    "sine_mm = [2e-4, 5e-5]\nperiod_s = 0.06\n",
+    "table": 'kind = "table"\nfile = "pin.csv"\n',
+}
+
+
+@pytest.mark.parametrize("kind", LOADS)
+def test_loads_are_those_of_python(kind, tmp_path, need_tool):
+    """Displacement and its slope, and the wear that they make, in the page's own functions."""
+    (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.03,1e-4\n0.06,0\n")
+    scene = own_scene(tmp_path, LOADS[kind])
+    data = explorer_data.scene_data(scene)
+    assert data["load"]["kind"] == kind
+    phases = np.linspace(0.0, 1.0, 40, endpoint=False) + 0.003
+    text, names = javascript.definitions(variant_of("tanh", "rigid_bearing"))
+    (tmp_path / "run.js").write_text(
+        f"""{explorer._asset("explorer.solve.js")}
+const model = (() => {{ {text}; return {{ {", ".join(names)} }}; }})();
+const P = {json.dumps(data["parameters"])};
+const load = makeLoad({json.dumps(data["load"])}, P.U);
+const solver = makeSolver(model, model.bind(P), load, P.T);
+const history = wearOverCycles(solver, 1e6, () => true, () => true);
+console.log(JSON.stringify({{
+  value: {phases.tolist()}.map(load.value), slope: {phases.tolist()}.map(load.slope),
+  extremes: [load.minimum, load.maximum, load.mean],
+  wear: [1, 100, 1e6].map(history.at), notices: history.notices,
+}}));
+"""
+    )
+    done = subprocess.run(
+        [need_tool("node", "nodejs"), str(tmp_path / "run.js")],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    found = json.loads(done.stdout)
+    load = scene.periodic_load
+    assert found["value"] == pytest.approx(load(phases).tolist(), rel=1e-13, abs=1e-18)
+    assert found["slope"] == pytest.approx(load.slope(phases).tolist(), rel=1e-11, abs=1e-16)
+    assert found["extremes"] == pytest.approx(
+        [load.minimum, load.maximum, load.mean], rel=2e-3, abs=1e-7
+    )
+    expected = wear.solve(scene, [1, 100, 10**6], rtol=1e-10).u_c
+    assert found["wear"] == pytest.approx(expected.tolist(), rel=1e-8)
+    assert found["notices"] == []
+
+
+def test_a_load_that_does_not_repeat_is_refused(tmp_path, capsys):
+    (tmp_path / "measured.csv").write_text("t_s,U_a_mm\n0,0\n1,4e-4\n2,0\n")
+    base = load_scene("section4").to_toml().split("[load]")[0]
+    file = tmp_path / "measured.toml"
+    file.write_text(f'{base}[load]\nkind = "history"\nfile = "measured.csv"\nperiod_s = 1.0\n')
+    assert main(["explore", str(file), "-o", str(tmp_path / "page.html")]) == 2
+    assert not (tmp_path / "page.html").exists()
+    assert "does not repeat" in capsys.readouterr().err
+
+
+def test_command_reports_in_json(page_file, capsys, monkeypatch):
+    monkeypatch.setattr(explorer, "page", lambda scene: f"page of {scene.name}")
+    target = page_file.with_name("other.html")
+    assert main(["explore", "section3", "-o", str(target), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {"page": str(target), "bytes": 16}
+    assert target.read_text() == "page of section3"
+
+
+# The page in a browser
+
+
+def test_page_agrees_with_python_when_it_loads(page):
+    assert "good" in page.run("document.getElementById('check').className")
+    assert float(page.run("document.getElementById('check').dataset.wear")) <= 1e-7
+    assert float(page.run("document.getElementById('check').dataset.rate")) <= 1e-12
+    assert text(page, "check").startswith("Checked: ")
+
+
+@pytest.mark.parametrize(
+    "name", ["section3", "section4", "section5", "soft-support", "section4-cutoff", "fast-wear"]
+)
+def test_wear_is_that_of_the_solver(page, name):
+    put(page, "scene", name)
+    put(page, "cycles", "2")
+    expected = wear.solve(load_scene(name), [100], rtol=1e-8).u_c[0]
+    assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
+
+
+def test_many_cycles(page):
+    put(page, "cycles", "8")
+    expected = wear.solve(load_scene("section4"), [10**8], rtol=1e-8).u_c[0]
+    assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
+    assert text(page, "notices") == ""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "section3",
+        "section3-physical",
+        "section4",
+        "section5",
+        "soft-support",
+        "equal-wear",
+        "f-zero",
+        "section3-cutoff",
+        "section4-cutoff",
+        "roughness-vanishing",
+    ],
+)
+def test_asymptotic_values_are_those_of_python(page, name):
+    put(page, "scene", name)
+    found = wear.asymptote(load_scene(name))
+    for shown, value in {
+        "limit-cycle": found.wear_per_cycle_mm,
+        "limit-pressure": found.pressure_MPa,
+        "arrest-wear": found.arrest_wear_mm,
+    }.items():
+        said = text(page, f"value-{shown}")
+        if found.regime in ("steady", "arrest"):
+            assert (said == "does not apply") == (not value), (shown, said, value)
+        if said != "does not apply":
+            assert number(said) == pytest.approx(value, rel=1e-4)
+    drift = text(page, "value-limit-drift")
+    if found.regime == "steady":
+        assert number(drift) == pytest.approx(found.log_coefficient_mm, rel=1e-4, abs=1e-12)
+    assert text(page, "value-regime").startswith(found.regime)
+
+
+def test_arrest_is_found_in_its_cycle(page):
+    """With the cutoff the note's section 4 stops in its 2045th cycle, at 0.002 mm."""
+    click(page, "cutoff")
+    assert text(page, "value-variant") == "tanh/rigid_bearing_cutoff"
+    assert text(page, "value-regime").startswith("arrest")
+    assert "stops in cycle 2045." in text(page, "notices")
+    assert number(text(page, "value-arrest-wear")) == pytest.approx(0.002, rel=1e-4)
+    assert number(text(page, "value-wear-now")) == pytest.approx(0.002, rel=1e-4)
+
+
+def test_arrest_of_two_solids_is_found_in_its_cycle(page):
+    put(page, "scene", "section3-cutoff")
+    put(page, "cycles", "3")
+    assert text(page, "notices") == "Wear stops in cycle 491."
+
+
+def test_page_says_when_nothing_wears(page):
+    click(page, "cutoff")
+    put(page, "number-h_0", "0.1", event="change")
+    assert text(page, "notices") == "Nothing wears."
+    assert number(text(page, "value-wear-now")) == 0.0
+
+
+def test_every_slider_that_acts_moves_a_curve(page):
+    put(page, "scene", "section3")
+    click(page, "compliant")
+    for row in explorer_data.parameter_rows():
+        before = curves(page)
+        slider = f"slider-{row['name']}"
+        read = "(({ min, max, value }) => [min, max, value].map(Number))"
+        low, high, at = page.run(f"{read}(document.getElementById({slider!r}))")
+        put(page, slider, str(at + 0.1 * (high - low) * (1 if at < 0.5 * (low + high) else -1)))
+        assert curves(page) != before, row["name"]
+
+
+def test_choices_choose_the_generated_variant(page):
+    click(page, "compliant")
+    assert text(page, "value-variant") == "tanh/compliant_bearing"
+    put(page, "pin", "worn_rough")
+    click(page, "opening")
+    assert text(page, "value-variant") == "tanh/compliant_worn_rough_opening"
+    put(page, "law", "exponential")
+    assert text(page, "value-variant") == "exponential/compliant_worn_rough_opening"
+    assert len(curves(page)["roughness"]) == 3
+    click(page, "reset")
+    assert text(page, "value-variant") == "tanh/rigid_bearing"
+    assert page.run("document.getElementById('slider-K_a').disabled")
+
+
+def test_numbers_are_taken_and_bad_ones_refused(page):
+    put(page, "number-f_c", "0.41729340", event="change")
+    assert number(text(page, "value-limit-cycle")) == pytest.approx(2.35e-5, rel=1e-3)
+    before = text(page, "value-limit-cycle")
+    page.run(
+        "(() => { const e = document.getElementById('number-H_c'); e.value = '-5';"
+        " e.dispatchEvent(new Event('change')); })()"
+    )
+    assert not page.run("document.getElementById('number-H_c').validity.valid")
+    assert text(page, "value-limit-cycle") == before
+
+
+def test_page_says_when_it_does_not_carry_so_far(page):
+    """The bearing is pressed smooth: its roughness vanishes after a finite number of cycles."""
+    put(page, "number-f_c", "-0.05", event="change")
+    put(page, "number-U", "9e-3", event="change")
+    put(page, "cycles", "9")
+    reached = page.run("document.querySelector('[data-cycles]').textContent")
+    assert 1 < number(reached) < 1e9
+    said = text(page, "notices")
+    assert f"Carried to {reached} cycles only. There the roughness vanishes" in said
+
+
+def test_axis_is_logarithmic_or_linear(page):
+    logarithmic = curves(page)["wear"]
+    click(page, "linear")
+    linear = curves(page)["wear"]
+    assert linear != logarithmic
+    labels = "[...document.querySelectorAll('#plot-wear text')].map((t) => t.textContent)"
+    assert {"0", "10000"} <= set(page.run(labels))
+    click(page, "logarithmic")
+    assert {"1", "10", "100", "1000", "10⁴"} <= set(page.run(labels))
+
+
+def test_plots_are_told_to_those_who_do_not_see_them(page):
+    said = page.run("document.getElementById('plot-wear').getAttribute('aria-label')")
+    assert said.startswith("wear in mm against number of cycles: bearing, u_c goes from ")
+    assert said.endswith("to 0.004597 at 10000.")
+    labelled = page.run(
+        "[...document.querySelectorAll('input, select')].every((e) => e.labels.length"
+        " || e.getAttribute('aria-label'))"
+    )
+    assert labelled
+
+
+def test_keyboard_moves_a_slider(page):
+    page.run("document.getElementById('slider-f_c').focus()")
+    before, count = text(page, "value-limit-cycle"), page.run(UPDATES)
+    page.press("ArrowRight")
+    page.wait(f"{UPDATES} > {count}")
+    assert text(page, "value-limit-cycle") != before
+
+
+@pytest.mark.parametrize("width", [390, 768, 1280])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_runs_out_of_the_page(page, width, scheme):
+    page.media(prefers_color_scheme=scheme, prefers_reduced_motion="reduce")
+    page.size(width, 900)
+    try:
+        assert page.run("document.documentElement.scrollWidth") <= width
+        dark = page.run("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
+        assert dark == (scheme == "dark")
+        assert not page.run("matchMedia('(prefers-reduced-motion: no-preference)').matches")
+    finally:
+        page.size(1280, 1000)
+        page.media()
+
+
+def test_script_outside_the_policy_does_not_run(window, page_file):
+    """The policy is in force: a script that is put in does nothing."""
+    window.open(page_file, READY)
+    window.run(
+        "(() => { const s = document.createElement('script'); s.textContent = 'window.broken = 1';"
+        " document.body.append(s); })()"
+    )
+    assert window.run("window.broken === undefined")

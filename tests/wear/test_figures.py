@@ -1,0 +1,195 @@
+"""Figures: what is drawn is what was given, in every run the same, legible without colour."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from wear import figure_style, figures
+from wear.figure_data import Line, Method, Regime, Threshold
+from wear.report import drawing
+
+CYCLES = np.linspace(0.0, 100.0, 201)
+WEAR = 1e-4 * np.log1p(CYCLES)
+
+
+def _lines() -> list[Line]:
+    return [
+        Line("bearing", CYCLES, WEAR),
+        Line("bearing, cutoff", CYCLES, 0.9 * WEAR, 0, 1),
+        Line("pin", CYCLES, WEAR / 3.0, 1),
+    ]
+
+
+def _methods() -> list[Method]:
+    error = np.array([1e-3, 1e-9, 0.0])
+    missed = np.array([True, False, False])
+    return [
+        Method(f"method {i}", error * (i + 1), np.array([1.0, 2.0, 3.0]) * 2.0**i, missed)
+        for i in range(9)
+    ]
+
+
+def _all() -> dict[str, Figure]:
+    slope = np.linspace(0.05, 1.0, 50)
+    return {
+        "history": figures.history(_lines(), _lines(), _lines()[:1], logarithmic=True),
+        "wear": figures.wear_history(_lines()),
+        "logarithmic": figures.wear_history(_lines(), logarithmic=True),
+        "roughness": figures.roughness_history(_lines()),
+        "asymptote": figures.wear_with_asymptote(_lines()[:1], _lines()[2:]),
+        "coefficient": figures.wear_by_coefficient(_lines()),
+        "pressure": figures.pressure_in_cycles([Line("first", CYCLES / 100.0, WEAR)]),
+        "speed": figures.speed_against_error(_methods()),
+        "map": figures.regime_map(
+            Line("p", slope, slope**9),
+            [Regime("slow", -0.2, 0.0), Regime("steady", 0.0, 1.0)],
+            [Threshold("$1/8$", 0.125)],
+        ),
+        "system": drawing.system(),
+    }
+
+
+@pytest.fixture(scope="module")
+def drawn() -> dict[str, Figure]:
+    return _all()
+
+
+@pytest.fixture(scope="module")
+def written(drawn: dict[str, Figure]) -> dict[str, str]:
+    return {name: figure_style.svg(figure) for name, figure in drawn.items()}
+
+
+def test_files_are_the_same_in_every_run(written: dict[str, str]) -> None:
+    first, second = (figures.wear_history(_lines()) for _ in range(2))
+    assert figure_style.svg(first) == figure_style.svg(second) == written["wear"]
+    assert figure_style.svg(first) == written["wear"]  # writing a figure does not change it
+    assert figure_style.pdf(first) == figure_style.pdf(second)
+
+
+def test_svg_holds_no_date_and_needs_no_font(written: dict[str, str]) -> None:
+    for content in written.values():
+        assert "<text" not in content
+        assert "dc:date" not in content
+
+
+def test_pdf_holds_no_date(drawn: dict[str, Figure]) -> None:
+    assert b"CreationDate" not in figure_style.pdf(drawn["wear"])
+
+
+def test_width_is_the_width_of_a_column(written: dict[str, str]) -> None:
+    for name, millimetres in (("wear", 90.0), ("speed", 190.0), ("system", 120.0)):
+        width = re.search(r'width="([\d.]+)pt"', written[name])
+        assert width is not None
+        assert float(width[1]) == pytest.approx(millimetres / 25.4 * 72.0, rel=1e-5)
+
+
+def test_curves_are_the_data_in_micrometres(drawn: dict[str, Figure]) -> None:
+    curves = [line for line in drawn["wear"].axes[0].lines if len(line.get_xdata()) == 201]
+    for curve, line in zip(curves, _lines(), strict=True):
+        np.testing.assert_array_equal(curve.get_xdata(), line.x)
+        np.testing.assert_allclose(curve.get_ydata(), line.y * 1e3, rtol=1e-15)
+
+
+def test_a_logarithmic_axis_leaves_out_the_start(drawn: dict[str, Figure]) -> None:
+    axes = drawn["logarithmic"].axes[0]
+    assert axes.get_xscale() == "log"
+    assert axes.get_xlim() == (0.5, 100.0)
+
+
+def test_failures_and_exact_results_are_shown(drawn: dict[str, Figure]) -> None:
+    axes = drawn["speed"].axes[0]
+    hollow = [line for line in axes.lines if line.get_markerfacecolor() == figure_style.PAPER]
+    assert sum(len(line.get_xdata()) for line in hollow) == 9
+    shown = np.concatenate([np.asarray(line.get_xdata(), dtype=float) for line in axes.lines])
+    assert shown.min() > 0.0
+
+
+def test_every_line_is_named(drawn: dict[str, Figure]) -> None:
+    names = [text.get_text() for text in drawn["wear"].axes[0].texts]
+    assert sorted(names) == sorted(line.name for line in _lines())
+
+
+def test_lines_differ_without_colour() -> None:
+    looks = [figure_style.stroke(family, variant) for family in range(7) for variant in range(2)]
+    assert len({(look.marker, look.dash, look.face == look.colour) for look in looks}) == 14
+
+
+def test_neighbouring_families_differ_in_lightness() -> None:
+    def lightness(family: int) -> float:
+        red, green, blue = to_rgb(figure_style.stroke(family).colour)
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    assert abs(lightness(0) - lightness(1)) > 0.05
+
+
+def test_drawing_changes_no_settings() -> None:
+    before = dict(mpl.rcParams)
+    figure_style.png(figures.wear_history(_lines()), 50.0)
+    assert dict(mpl.rcParams) == before
+
+
+@pytest.mark.parametrize(
+    ("suffix", "start"), [(".svg", b"<?xml"), (".PDF", b"%PDF"), (".png", b"\x89PNG")]
+)
+def test_the_suffix_names_the_kind_of_file(
+    drawn: dict[str, Figure], suffix: str, start: bytes
+) -> None:
+    assert figure_style.encoded(drawn["wear"], suffix).startswith(start)
+
+
+def test_an_unknown_suffix_is_told_with_the_known_ones(drawn: dict[str, Figure]) -> None:
+    with pytest.raises(ValueError, match=r"\.bmp.*\.svg, \.pdf or \.png"):
+        figure_style.encoded(drawn["wear"], ".bmp")
+
+
+def test_pyplot_is_not_imported() -> None:
+    code = (
+        "import sys, wear.figures, wear.report.drawing as d, wear.figure_style as s;"
+        "s.svg(d.system()); print('matplotlib.pyplot' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
+
+
+@pytest.mark.parametrize(
+    ("x", "y"), [(np.zeros(3), np.zeros(4)), (np.zeros((2, 2)), np.zeros((2, 2))), ([], [])]
+)
+def test_arrays_of_other_shapes_are_refused(x: np.ndarray, y: np.ndarray) -> None:
+    with pytest.raises(ValueError, match="shape"):
+        Line("line", x, y)
+
+
+@given(
+    heights=st.lists(st.floats(0.0, 1.0), min_size=1, max_size=10),
+    gap=st.floats(0.01, 0.1),
+)
+def test_names_stay_apart_in_order_and_inside(heights: list[float], gap: float) -> None:
+    ends = np.sort(np.array(heights))
+    placed = figure_style.spread(ends, gap)
+    assert np.all(np.diff(placed) >= gap * (1.0 - 1e-9))
+    assert placed[0] >= -1e-12
+    assert placed[-1] <= 1.0 + 1e-12
+    if np.all(np.diff(ends) >= gap):
+        np.testing.assert_allclose(placed, ends, atol=1e-12)
+
+
+def test_what_grows_by_decades_has_a_logarithmic_axis() -> None:
+    cycles = np.array([0.0, 1.0, 1e2, 1e4])
+    wear, level = (
+        Line("bearing", cycles, 1e-7 * cycles),
+        Line("bearing", cycles, 1.0 + 0.0 * cycles),
+    )
+    arrested = Line("contact", cycles, np.array([3.0, 1.0, 0.0, 0.0]))
+    for logarithmic, scale in ((True, "log"), (False, "linear")):
+        drawn = figures.history([wear], [level], [arrested], logarithmic=logarithmic)
+        assert [axes.get_yscale() for axes in drawn.axes] == [scale, "linear", "linear"]

@@ -1,0 +1,124 @@
+"""The hard catalogue: the default method keeps its word, the references are what they say."""
+
+import math
+
+import pytest
+
+from tests import independent, independent_cutoff
+from tests.wear.test_cycle_count import problem
+from wear.benchmark import Status
+from wear.benchmark import hard as hard_cases
+from wear.benchmark import hard_output as output
+from wear.benchmark.cases import cases, names
+from wear.benchmark.hard import Hard, attempt, catalogue, methods_of, worst
+from wear.scene import builtin_scenes, load_scene
+
+BLURRED = {"grazing": 1e-8}  # contact by 1e-9 mm of 1e-3: the data's own roundoff is 1e-9 of it
+
+
+def test_every_hard_scene_has_references():
+    hard = {scene.name for scene in builtin_scenes() if scene.hard}
+    assert hard | {"a-billion-cycles"} == set(names("hard"))
+
+
+@pytest.mark.parametrize("name", names("hard"))
+def test_the_default_method_keeps_its_word(name):
+    tolerance = BLURRED.get(name, 1e-10)
+    for case in cases("hard", [name]):
+        found = attempt(case, "auto", tolerance, 60.0)
+        assert found.status is Status.MET, found
+        assert found.honest, found
+
+
+@pytest.mark.parametrize("method", [*hard_cases.SCIPY])
+def test_methods_that_step_keep_their_word_or_say_so(method):
+    for name in ("fast-wear", "large-swing", "soft-support", "chatter", "grazing"):
+        (case,) = cases("hard", [name], [1])
+        found = attempt(case, method, 1e-6, 60.0)
+        assert found.honest, found
+        assert found.status in (Status.MET, Status.TOLD), found
+
+
+def test_defaults_of_scipy_are_wrong_without_a_word():
+    """What the catalogue is there to show."""
+    (case,) = cases("hard", ["large-swing"], [1])
+    found = attempt(case, "solve_ivp RK45", 1e-3, 60.0)
+    assert found.status is Status.WRONG
+    assert "without a word" in found.remark
+
+
+@pytest.mark.parametrize("name", ["fast-wear", "very-fast-wear", "tiny-amplitude", "equal-wear"])
+def test_references_without_cutoff_are_integrated_anew(name):
+    found = independent.wear_after(problem(load_scene(name)), [1])
+    (case,) = cases("hard", [name], [1])
+    assert found[1] == case.wear
+
+
+@pytest.mark.parametrize("name", ["chatter", "grazing", "f-one-third"])
+def test_references_with_cutoff_are_integrated_anew(name):
+    found = independent_cutoff.wear_after(problem(load_scene(name)), [1, 2])
+    (case,) = cases("hard", [name], [1])
+    assert found[1] == case.wear
+    assert found[2] > found[1]
+
+
+@pytest.mark.parametrize("name", ["chatter", "grazing"])
+def test_arrest_is_at_the_depth_that_opens_the_gap(name):
+    data = problem(load_scene(name))
+    depth = (3 * data.roughness - data.closure + data.sine[0]) / (1 - 3 * data.slope)
+    (case,) = cases("hard", [name], [10**9])
+    assert case.wear == pytest.approx(depth, rel=1e-8 if name == "grazing" else 1e-14)
+
+
+def test_the_judge_of_the_cutoff_without_an_edge_is_the_other_judge():
+    """Deep in contact, 3 sigma is never reached."""
+    data = problem(load_scene("tiny-amplitude", ["contact.closure_mm=2e-4"]))
+    assert independent_cutoff.wear_after(data, [1]) == independent.wear_after(data, [1])
+
+
+def entry(method="auto", status=Status.MET, error=1e-12, cycles=1, **changes) -> Hard:
+    made = Hard("made", cycles, method, 1e-10, error, 1e-11, 0.1, status, "because")
+    return made._replace(**changes)
+
+
+def test_an_estimate_below_the_error_outranks_all_else():
+    lying = entry(error=1e-9, cycles=10)
+    assert not lying.honest
+    assert entry(estimate=None, error=1.0).honest
+    assert entry(error=math.nan).honest
+    assert (
+        worst([entry(), entry(status=Status.WRONG, estimate=None), lying], "made", "auto") == lying
+    )
+    assert worst([], "made", "auto") is None
+
+
+def test_the_tables_say_how_a_method_fails():
+    found = [
+        entry(),
+        entry("b", Status.TOLD, math.nan),
+        entry("c", Status.WRONG, 0.3, estimate=None),
+        entry("d", error=1e-9),
+    ]
+    row = output.overview(found).rows[0]
+    assert row == ("made", "1e-12", "told", "30 % wrong", "1e-9 estimate")
+    assert [line[2] for line in output.failures(found).rows] == ["b", "c", "d"]
+    assert "claims an error of 1.0e-11, has one of 1.0e-09" in output.markdown(found, "here")
+
+
+def test_a_method_that_was_too_slow_is_not_asked_for_more(monkeypatch):
+    tried = []
+
+    def slow(case, method, *_):
+        tried.append((method, case.cycles))
+        seconds = 9.0 if method == "Radau" else 0.1
+        return entry(method, cycles=case.cycles, scene=case.name, seconds=seconds)
+
+    monkeypatch.setattr(hard_cases, "attempt", slow)
+    found = hard_cases.hard_cases(cases("hard", ["f-zero"]), time_limit=2.0)
+    assert [call for call in tried if call[0] == "Radau"] == [("Radau", 1)]
+    assert len(found) == len(tried)
+
+
+def test_far_cycles_are_for_the_method_that_counts_them():
+    far = [case for case in catalogue() if case.cycles > hard_cases.EVERY_CYCLE]
+    assert {name for case in far for name, _ in methods_of(case)} == {"auto"}

@@ -1,0 +1,233 @@
+"""Histories: the fields at the ends of cycles, what is told with them, and their files."""
+
+import csv
+import dataclasses
+import json
+import signal
+import threading
+
+import numpy as np
+import pytest
+from scipy.io import netcdf_file
+
+from wear.faults import AccuracyError, Interrupted, UsageError
+from wear.load import Blocks, HistoryLoad, Table
+from wear.scene import scene_from_tables
+from wear.solver import solve
+
+from .reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
+
+CONTRACT = {
+    *("scene", "model", "method", "rtol", "cycles", "bearing_wear_mm", "pin_wear_mm"),
+    *("bearing_roughness_mm", "pin_roughness_mm", "closure_mm", "contact_pressure_MPa"),
+    *("error_estimate", "cost", "seconds", "notices"),
+}
+
+
+@pytest.fixture(scope="module")
+def section3():
+    return solve(reference_scene("S1"), [10, 0, 1, 10], rtol=1e-8, method="DOP853")
+
+
+@pytest.fixture(scope="module")
+def compliant():
+    return solve(reference_scene("S8_2"), [0, 1], rtol=1e-6, method="DOP853")
+
+
+def test_requests_are_answered_in_their_order(section3):
+    assert section3.cycles.tolist() == [10, 0, 1, 10]
+    expected = [REFERENCE["S1"][10], 0.0, REFERENCE["S1"][1], REFERENCE["S1"][10]]
+    np.testing.assert_allclose(section3.u_c, expected, rtol=1e-8)
+
+
+def test_the_fields_are_those_of_the_equations(section3):
+    """Eqs. (1), (3), (4), (5) by hand, at U_a(N T) = 0."""
+    u_c, u_a = section3.u_c, section3.u_c / 3.0
+    np.testing.assert_allclose(section3.u_a, u_a, rtol=1e-14)
+    np.testing.assert_allclose(section3.sigma_c, 3.6e-4 - 0.05 * u_c, rtol=1e-14)
+    np.testing.assert_allclose(section3.sigma_a, 6.5e-5 + 0.05 * u_a, rtol=1e-14)
+    h = 3.0 * np.hypot(3.6e-4, 6.5e-5) + u_c - u_a
+    np.testing.assert_allclose(section3.h, h, rtol=1e-14)
+    sigma = np.hypot(section3.sigma_c, section3.sigma_a)
+    np.testing.assert_allclose(section3.p, 150 * (1 + np.tanh(4 - 2 * h / sigma)), rtol=1e-10)
+
+
+def test_a_compliant_support_gives_way(compliant, section3):
+    np.testing.assert_allclose(compliant.U_c, compliant.p / 1e5, rtol=1e-14)
+    np.testing.assert_allclose(compliant.h, 1.08e-3 + compliant.u_c + compliant.U_c, rtol=1e-14)
+    assert section3.U_c is None
+
+
+def test_a_history_cannot_be_changed(section3):
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        section3.rtol = 1.0
+
+
+def test_json_has_the_keys_of_the_contract(section3, compliant):
+    document = section3.as_json()
+    assert set(document) == CONTRACT
+    assert set(document["model"]) == {"variant", "operations"}
+    assert set(document["cost"]) == {"cycles_integrated", "rhs_evaluations"}
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
+    assert document["bearing_wear_mm"] == section3.u_c.tolist()
+    assert set(compliant.as_json()) == CONTRACT | {"bearing_displacement_mm"}
+
+
+def test_json_has_none_for_what_does_not_exist(section3):
+    unknown = dataclasses.replace(section3, error=np.full(4, np.nan))
+    assert unknown.as_json()["error_estimate"] == [None] * 4
+
+
+def test_csv_reads_back_exactly(section3, tmp_path):
+    section3.write(tmp_path / "wear.csv")
+    lines = (tmp_path / "wear.csv").read_text(encoding="utf-8").splitlines()
+    notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    assert [int(row["cycle"]) for row in rows] == section3.cycles.tolist()
+    for column in section3.columns():
+        assert [float(row[column.name]) for row in rows] == column.values.tolist()
+    assert notes["method"] == "DOP853"
+    scene = scene_from_tables(json.loads(notes["scene"]))
+    assert scene == reference_scene("S1")
+
+
+def test_netcdf_reads_back_exactly_with_units_and_scene(compliant, tmp_path):
+    compliant.write(tmp_path / "wear.nc")
+    with netcdf_file(tmp_path / "wear.nc", mmap=False) as file:
+        for column in compliant.columns():
+            variable = file.variables[column.name]
+            assert variable.dimensions == ("cycle",)
+            assert variable.units.decode() == column.unit
+            assert variable[:].tolist() == column.values.tolist()
+        assert file.variables["cycle"][:].tolist() == [0.0, 1.0]
+        assert scene_from_tables(json.loads(file.scene)) == reference_scene("S8_2")
+        assert json.loads(file.cost) == compliant.cost
+
+
+def test_a_file_that_fails_leaves_the_one_before(section3, tmp_path):
+    target = tmp_path / "wear.csv"
+    target.write_text("before")
+    broken = dataclasses.replace(section3, u_a=section3.u_a[:2])  # shorter than the others
+    with pytest.raises(ValueError, match="zip"):
+        broken.write(target)
+    assert target.read_text() == "before"
+    assert [file.name for file in tmp_path.iterdir()] == ["wear.csv"]
+
+
+def test_an_unknown_kind_of_file_is_refused(section3, tmp_path):
+    with pytest.raises(UsageError, match=r"\.csv or \.nc"):
+        section3.write(tmp_path / "wear.xlsx")
+    assert not list(tmp_path.iterdir())
+
+
+def test_everything_wrong_with_a_request_is_told_at_once():
+    with pytest.raises(UsageError) as refusal:
+        solve(
+            reference_scene("S2"),
+            [1, -1, 1.5, float("nan"), 1e13],
+            rtol=2.0,
+            method="Euler",
+            time_limit=0.0,
+        )
+    told = str(refusal.value)
+    assert len(told.splitlines()) == 7
+    for phrase in ("-1", "1.5", "nan", "10000000000000.0", "rtol: 2.0", "'Euler'", "time_limit"):
+        assert phrase in told
+
+
+def test_no_cycles_are_refused():
+    with pytest.raises(UsageError, match="at least one"):
+        solve(reference_scene("S2"), [])
+
+
+def test_an_accuracy_out_of_reach_is_told_with_the_best_result():
+    with pytest.raises(AccuracyError, match="requested") as miss:
+        solve(reference_scene("S2"), [1, 10], rtol=1e-15, method="DOP853")
+    best = miss.value.best
+    true = np.abs(best.u_c / [REFERENCE["S2"][1], REFERENCE["S2"][10]] - 1.0)
+    assert np.all(true <= best.error)
+    assert np.all(best.error < 1e-11)
+
+
+def test_a_time_limit_keeps_what_was_computed():
+    with pytest.raises(Interrupted, match="time limit") as stop:
+        solve(reference_scene("S2"), [1, 2, 10**11], 1e-6, "RK23", time_limit=1.0)
+    history = stop.value.history
+    assert history.cycles.tolist() == [1, 2]
+    np.testing.assert_allclose(history.u_c[0], REFERENCE["S2"][1], rtol=1e-5)
+    assert history.as_json()["cycles"] == [1, 2]
+
+
+def test_an_interrupt_keeps_what_was_computed():
+    timer = threading.Timer(1.0, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    try:
+        with pytest.raises(Interrupted, match="interrupted") as stop:
+            solve(reference_scene("S2"), [1, 10**9], 1e-6, "DOP853")
+    finally:
+        timer.cancel()
+    history = stop.value.history
+    assert history.cycles.tolist() == [1]
+    assert np.isnan(history.error).all()  # there was no second run to compare with
+    np.testing.assert_allclose(history.u_c, REFERENCE["S2"][1], rtol=1e-5)
+
+
+def test_a_negative_roughness_is_told_with_the_wear_at_which_it_begins():
+    """Section 3 with fast wear: sigma_c changes sign at u_c = 3.6e-4/0.05 = 0.0072 mm."""
+    made = tables(K=1e-3, f_c=-0.05, pin=True, load=CONSTANT | {"value_mm": 1e-2})
+    history = solve(scene_from_tables(made), [1], 1e-6, "DOP853")
+    assert history.sigma_c[0] < 0.0
+    assert any("bearing is negative beyond u_c = 0.0072 mm" in text for text in history.notices)
+
+
+def test_the_pressure_out_of_contact_is_zero_and_arrest_is_told():
+    made = tables(K=1e-4, cutoff=True)
+    history = solve(scene_from_tables(made), [0, 100], 1e-8, "DOP853")
+    assert history.p.tolist() == [pytest.approx(300 / (1 + np.exp(4))), 0.0]
+    assert history.h[1] == pytest.approx(1.08e-3 + 0.002)
+    assert "wear stops for good in cycle 21" in history.notices
+
+
+def test_auto_tells_what_it_took_and_why():
+    history = solve(reference_scene("S2"), [1, 10, 10**8], 1e-9)
+    assert history.method == "cycle-count"
+    assert any(text.startswith("auto: cycle-count, because") for text in history.notices)
+    wear = [REFERENCE["S2"][cycle] for cycle in (1, 10, 10**8)]
+    assert np.all(np.abs(history.u_c / wear - 1.0) <= history.error)
+
+
+def blocks(repeat: int = 1):
+    small = {"kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06, "cycles": 2}
+    large = {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.03, "cycles": 3}
+    return tables(K=1e-5, load={"kind": "blocks", "blocks": [small, large], "repeat": repeat})
+
+
+def test_blocks_wear_like_their_loads_one_after_the_other():
+    scene = scene_from_tables(blocks(2))
+    assert isinstance(scene.load, Blocks)
+    history = solve(scene, [1, 2, 5, 10], 1e-9)
+    alone = solve(scene_from_tables(tables(K=1e-5, load={
+        "kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06})), [1, 2], 1e-9)  # fmt: skip
+    direct = solve(scene, [1, 2, 5, 10], 1e-9, "DOP853")
+    assert history.method == "cycle-count"
+    np.testing.assert_allclose(history.u_c, direct.u_c, rtol=2e-9)
+    np.testing.assert_allclose(history.u_c[:2], alone.u_c, rtol=2e-9)
+    assert history.u_c[3] < 2 * history.u_c[2]
+    with pytest.raises(UsageError, match="ends after 10 whole cycles"):
+        solve(scene, [11], 1e-6)
+
+
+def test_a_measured_history_wears_like_the_table_it_repeats():
+    times = np.array([0.0, 0.01, 0.03, 0.045, 0.06])
+    values = np.array([0.0, 5e-4, 1e-4, -5e-4, 0.0])
+    repeated = np.concatenate([times[:-1] + 0.06 * n for n in range(3)] + [[0.18]])
+    levels = np.concatenate([*[values[:-1]] * 3, [0.0]])
+    scene = scene_from_tables(tables(K=1e-5))
+    measured = HistoryLoad(tuple(repeated), tuple(levels), 0.06)
+    table = Table(tuple(times), tuple(values))
+    one, other = (
+        solve(dataclasses.replace(scene, load=load), [1, 3], 1e-9, method)
+        for load, method in ((measured, "auto"), (table, "DOP853"))
+    )
+    assert one.method == "DOP853"
+    np.testing.assert_allclose(one.u_c, other.u_c, rtol=2e-9)

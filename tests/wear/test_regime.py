@@ -1,0 +1,194 @@
+"""Long-time behaviour: published values, every regime, and agreement with the solver."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import fields
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from wear.generated import asymptotics as formula
+from wear.regime import Asymptote, asymptote
+from wear.scene import load_scene
+from wear.solver import solve
+
+VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
+
+
+def _asymptote(name: str, *overrides: str) -> Asymptote:
+    return asymptote(load_scene(name, overrides))
+
+
+def _published(group: str, key: str) -> float:
+    return float(VALUES[group][key])
+
+
+def test_section_4() -> None:
+    found = _asymptote("section4")
+    assert found.regime == "steady"
+    assert found.tanh_argument == -4.0
+    assert found.wear_per_cycle_mm == pytest.approx(_published("sec4_f0.25", "u_cum_mm"), rel=2e-15)
+    assert found.pressure_MPa == pytest.approx(_published("sec4_f0.25", "p_inf_MPa"), rel=1e-15)
+    assert found.log_coefficient_mm == pytest.approx(
+        _published("sec4_f0.25", "A_log_mm"), rel=2e-15
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "sign"), [("section3", "printed"), ("section3-physical", "physical")]
+)
+def test_two_solids(name: str, sign: str) -> None:
+    found = _asymptote(name)
+    assert found.tanh_argument == pytest.approx(
+        _published("two_solids", f"x_inf_{sign}_sign"), rel=1e-15
+    )
+    # the data are doubles: their rounding counts 2 |x_inf| times
+    assert found.wear_per_cycle_mm == pytest.approx(
+        _published("two_solids", f"u_cum_{sign}_sign"), rel=2e-14
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "overrides", "depth", "cycle"),
+    [
+        ("section4-cutoff", (), 0.002, 2045),
+        ("section4-cutoff", ("bearing.roughness_slope=-0.05",), 0.00043478260869565217, 342),
+        ("section3-cutoff", (), 0.000622179713311576220, 491),
+        ("section5-cutoff", (), 0.000980449714835624807, 824),
+        ("section3-cutoff", ("contact.pin_wear_opens_gap=true",), 0.000339874441997526118, 271),
+        ("section5-cutoff", ("contact.pin_wear_opens_gap=true",), 0.000424901542324972828, 350),
+    ],
+)
+def test_arrest(name: str, overrides: tuple[str, ...], depth: float, cycle: int) -> None:
+    found = _asymptote(name, *overrides)
+    assert found.regime == "arrest"
+    assert found.arrest_wear_mm == pytest.approx(depth, rel=1e-14)
+    assert found.arrest_cycle == cycle
+    (wear,) = solve(load_scene(name, overrides), [cycle + 100], rtol=1e-9).u_c
+    assert wear == pytest.approx(depth, rel=1e-9)
+
+
+def test_one_third_with_cutoff() -> None:
+    found = _asymptote("f-one-third")
+    assert found.wear_per_cycle_mm == pytest.approx(_published("cutoff", "u_cum_f_1/3"), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("name", "overrides", "regime"),
+    [
+        ("f-zero", (), "logarithmic"),
+        ("roughness-vanishing", (), "saturating"),
+        ("f-tiny-negative", (), "saturating"),
+        ("f-tiny-positive", (), "steady"),
+        ("f-just-above-one-third", (), "steady"),
+        ("roughness-vanishing", ("load.kind=constant", "load.value_mm=0.01"), "finite-time"),
+        ("pin-wears-faster", (), "steady"),
+        ("equal-wear", (), "steady"),
+        ("section3", ("bearing.roughness_slope=0.0", "pin.roughness_slope=0.0"), "logarithmic"),
+    ],
+)
+def test_regimes(name: str, overrides: tuple[str, ...], regime: str) -> None:
+    assert _asymptote(name, *overrides).regime == regime
+
+
+def test_thresholds() -> None:
+    assert formula.slope_threshold(epsilon=1 / (1 + math.exp(24))) == pytest.approx(
+        0.125, rel=1e-14
+    )
+    double = formula.slope_threshold(epsilon=2.0**-55)
+    assert double == pytest.approx(_published("thresholds", "f_float64"), rel=1e-15)
+
+
+@settings(max_examples=60)
+@given(st.floats(1e-3, 100.0), st.sampled_from([-1.0, 1.0]))
+def test_long_time_formulas_are_good_to_a_few_ulp(slope: float, sign: float) -> None:
+    """f_c from 0.001 to 100, both signs (a rough pin that does not wear makes both steady)."""
+    found = _asymptote(
+        "section3", f"bearing.roughness_slope={sign * slope!r}", "pin.wear_coefficient=0.0"
+    )
+    with mpmath.workdps(60):
+        exact = 300 / (1 + mpmath.exp(4 / mpmath.mpf(slope) - 8))
+        if exact > mpmath.mpf(2) ** -1022:
+            assert abs(mpmath.mpf(found.pressure_MPa) / exact - 1) < 4 * 2.0**-53
+        else:
+            assert found.pressure_MPa == pytest.approx(float(exact), abs=1e-322)
+    assert math.isfinite(found.log_coefficient_mm or 0.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "overrides", "cycles"),
+    [
+        ("section4", ("bearing.roughness_slope=0.5",), 10**9),
+        ("section4", ("bearing.roughness_slope=0.5", "support.stiffness_MPa_per_mm=1e5"), 10**9),
+        ("section4", ("bearing.roughness_slope=0.6", "contact.law=exponential"), 10**9),
+        ("section3", ("bearing.roughness_slope=0.4", "pin.roughness_slope=0.2"), 10**9),
+    ],
+)
+def test_the_solver_approaches_rate_and_drift(
+    name: str, overrides: tuple[str, ...], cycles: int
+) -> None:
+    """Increment per cycle -> u_cum (1 + A/(N u_cum)), so N (increment/u_cum - 1) -> A/u_cum."""
+    scene = load_scene(name, overrides)
+    found = asymptote(scene)
+    rate, drift = found.wear_per_cycle_mm, found.log_coefficient_mm
+    assert rate is not None
+    assert drift is not None
+    wear = solve(scene, [cycles // 1000, cycles], rtol=1e-13).u_c
+    few, many = cycles // 1000, cycles
+    measured = (wear[1] - wear[0] - rate * (many - few)) / math.log(many / few)
+    assert measured == pytest.approx(drift, rel=2e-2)
+    assert wear[1] / many == pytest.approx(rate, rel=1e-3)
+
+
+def test_logarithmic_wear_meets_the_solver() -> None:
+    scene = load_scene("f-zero")
+    found = asymptote(scene)
+    (wear,) = solve(scene, [10**9], rtol=1e-10).u_c
+    assert found.log_coefficient_mm is not None
+    assert found.offset_mm is not None
+    assert wear == pytest.approx(
+        found.log_coefficient_mm * math.log(1e9) + found.offset_mm, rel=1e-4
+    )
+
+
+def test_stabilisation_of_section_4_is_far_beyond_9000_cycles() -> None:
+    when = _asymptote("section4").cycles_to_stabilise
+    assert when["mean_rate_within_1e-6"] == pytest.approx(1.242e11, rel=1e-3)
+    assert when["rate_within_1e-6"] == pytest.approx(2.967e11, rel=1e-3)
+
+
+def test_a_change_of_units_changes_lengths_only() -> None:
+    plain, up, down = (_asymptote(name) for name in ("section4", "scaled-up", "scaled-down"))
+    for other, scale in ((up, 1e6), (down, 1e-6)):
+        assert other.wear_per_cycle_mm == pytest.approx(plain.wear_per_cycle_mm * scale, rel=1e-12)
+        assert other.log_coefficient_mm == pytest.approx(
+            plain.log_coefficient_mm * scale, rel=1e-12
+        )
+
+
+def test_the_fields_are_those_of_the_contract() -> None:
+    names = {field.name for field in fields(Asymptote)}
+    assert names >= {
+        "scene",
+        "regime",
+        "tanh_argument",
+        "wear_per_cycle_mm",
+        "pressure_MPa",
+        "log_coefficient_mm",
+        "offset_mm",
+        "arrest_wear_mm",
+        "arrest_cycle",
+        "cycles_to_stabilise",
+        "notices",
+    }
+
+
+def test_the_load_factor_does_not_overflow() -> None:
+    found = _asymptote("f-zero", "load.amplitude_mm=0.5")
+    assert np.isfinite(found.offset_mm)

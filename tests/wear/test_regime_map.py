@@ -1,0 +1,58 @@
+"""The derived map of regimes and the regimes that scenes are told meet, everywhere."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from derive import catalogue
+from derive.results.regime_map import REGIMES, regime
+from tests.wear.reference_scenes import tables
+from wear import regime as wear_regime
+from wear.load import Sine
+from wear.regime import asymptote
+from wear.scene import scene_from_tables
+
+THIRD = 1 / 3
+
+
+@pytest.fixture(autouse=True)
+def _without_integration(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The regime is asked for, not the cycle of arrest or the offset."""
+    monkeypatch.setattr(wear_regime, "_arrest_cycle", lambda _case: (None, ()))
+    monkeypatch.setattr(wear_regime, "offset", lambda _scene: None)
+
+
+@settings(max_examples=60)
+@given(
+    slope=st.sampled_from([-0.3, -0.05, -1e-9, 0.0, 1e-9, 0.125, 0.25, 0.5, 2.0])
+    | st.floats(-0.5, 2.0).filter(lambda f: abs(f) > 1e-6 and abs(f - THIRD) > 1e-6),
+    amplitude=st.sampled_from([1e-5, 5e-4, 2e-3, 9e-3]) | st.floats(1e-6, 2e-2),
+    closure=st.floats(5e-4, 3e-3),
+    cutoff=st.booleans(),
+)
+def test_a_scene_is_in_the_regime_of_the_map(
+    slope: float, amplitude: float, closure: float, cutoff: bool
+) -> None:
+    scene = scene_from_tables(tables(f_c=slope, cutoff=cutoff))
+    contact = replace(scene.contact, closure_mm=closure)
+    scene = replace(scene, contact=contact, load=Sine(amplitude, 0.06))
+    data = {"f_c": slope, "h_0": closure, "sigma_c0": 3.6e-4, "U_max": amplitude}
+    assert asymptote(scene).regime == regime(data, cutoff).name
+
+
+def test_one_third_is_steady_with_the_cutoff() -> None:
+    found = asymptote(scene_from_tables(tables(f_c=THIRD, cutoff=True)))
+    assert found.regime == "steady"
+    assert found.wear_per_cycle_mm == pytest.approx(1.243117591822268629e-6, rel=1e-12)
+    assert Fraction(THIRD) != Fraction(1, 3)  # the nearest double stands for it
+
+
+def test_the_map_names_equations_that_exist() -> None:
+    for row in REGIMES:
+        for identifier in row.equations:
+            assert catalogue.equation(identifier).id == identifier

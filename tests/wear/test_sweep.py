@@ -1,0 +1,73 @@
+"""Sweeps: every scene as if it were alone."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from tests.wear.reference_scenes import REFERENCE, TABLES, reference_scene, tables
+from wear.count import wear_after
+from wear.count.sweep import sweep
+from wear.faults import UsageError
+from wear.model import bind
+from wear.scene import load_scene, scene_from_tables
+
+CYCLES = np.array([1.0, 10.0, 100.0, 1000.0, 9000.0])
+
+
+@pytest.mark.parametrize("rtol", [1e-7, 1e-11])
+@pytest.mark.parametrize("names", [["S1"], ["S2", "S4", "S5", "S6"], ["S3a", "S3b", "S3c", "S3d"]])
+def test_reference_values(names: list[str], rtol: float) -> None:
+    found = sweep([reference_scene(name) for name in names], CYCLES, rtol)
+    want = np.array([[REFERENCE[name][int(n)] for n in CYCLES] for name in names])
+    true = np.abs(found.u_c / want - 1)
+    assert np.all(found.error <= rtol)
+    assert np.all((true <= found.error) | (true < 3e-15))
+
+
+def test_figure_3b_is_one_call() -> None:
+    names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
+    found = sweep([load_scene(name) for name in names], CYCLES)
+    assert not found.alone.any()
+    assert np.all(np.diff(found.u_c, axis=0) > 0)
+
+
+@settings(max_examples=5)
+@given(
+    st.lists(
+        st.tuples(st.integers(-70, -50), st.integers(-5, 40), st.integers(2, 8)),
+        min_size=1,
+        max_size=20,
+    )
+)
+def test_a_scene_does_not_feel_its_neighbours(drawn: list[tuple[int, int, int]]) -> None:
+    scenes = [
+        scene_from_tables(
+            tables(
+                K=10 ** (K / 10),
+                f_c=f / 100,
+                load={"kind": "sine", "amplitude_mm": U * 1e-4, "period_s": 0.06},
+            ),
+            "drawn",
+        )
+        for K, f, U in drawn
+    ]
+    found = sweep(scenes, CYCLES, 1e-8)
+    alone = np.array(
+        [wear_after(bind(scene), scene.periodic_load, CYCLES, 1e-12).u_c for scene in scenes]
+    )
+    assert np.all(np.abs(found.u_c / alone - 1) <= found.error + 1e-12)
+
+
+def test_what_does_not_fit_is_solved_alone() -> None:
+    narrow = tables(load={"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06})
+    found = sweep([reference_scene("S2"), scene_from_tables(narrow, "narrow")], CYCLES, 1e-10)
+    assert found.alone[1]
+    assert np.all(found.error <= 1e-10)
+    assert_allclose(found.u_c[0], [REFERENCE["S2"][int(n)] for n in CYCLES], rtol=1e-10)
+
+
+def test_scenes_of_different_kinds_do_not_mix() -> None:
+    with pytest.raises(UsageError):
+        sweep([scene_from_tables(TABLES["S1"], "S1"), reference_scene("S2")], CYCLES)
