@@ -1,0 +1,87 @@
+"""Equations as Markdown, from the catalogue of `derive`."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from mathml_renderer import anchor
+
+from derive.catalogue import equation, equations
+from derive.equations import Equation, Status
+from derive.symbols import QUANTITIES
+from derive.typeset.macros import macro_name
+from derive.typeset.nomenclature import meaning
+
+MEANING = {
+    Status.DEFINITION: "taken as the model, or a name given to something",
+    Status.DERIVED: "every step from the governing equations is proved",
+    Status.NUMERIC: "some step is only sampled",
+    Status.CORRECTED: "does not hold as printed; the form that does is derived and shown",
+    Status.REFUTED: "does not hold",
+}
+
+
+def displayed(*identifiers: str) -> str:
+    """Equations with their numbers, one below the other."""
+    return "\n\n".join(_formula(equation(identifier)) for identifier in identifiers)
+
+
+def catalogue() -> str:
+    """Every equation: what is said of it, its conditions, its form."""
+    found = equations()
+    states = [s for s in MEANING if any(e.status is s for e in found)]
+    counts = [
+        f"- *{status.value}* ({sum(e.status is status for e in found)}): {MEANING[status]}"
+        for status in states
+    ]
+    parts = [f"{len(found)} equations, each with its status:", "\n".join(counts)]
+    for is_own, group in groupby(found, key=lambda e: not e.id[0].isdigit()):
+        parts.append("## Beyond the note" if is_own else "## The note's equations")
+        parts += [_entry(member) for member in group]
+    return "\n\n".join(parts)
+
+
+def symbols() -> str:
+    """Every quantity: its symbol, its name in SymPy, meaning and unit."""
+    rows = ["| symbol | name | meaning | unit |", "| --- | --- | --- | --- |"]
+    rows += [
+        f"| ${q.latex}$ | `{q.name}` | {meaning(q)} | {'' if q.unit == '1' else q.unit} |"
+        for q in QUANTITIES.values()
+    ]
+    return "\n".join(rows)
+
+
+def _entry(found: Equation) -> str:
+    name = f"({found.id})" if found.id[0].isdigit() else found.id
+    section = f"section {found.section}" if found.section[0].isdigit() else found.section
+    parts = [
+        f"({anchor(found.id)})=\n### {name} {_capitalised(found.title)}",
+        f"*{found.status.value}*, {section}, {_rests_on(found)}; in LaTeX `\\{macro_name(found)}`",
+        _block(found.latex),
+    ]
+    if found.conditions:
+        parts.append("If " + ", ".join(condition.text for condition in found.conditions) + ".")
+    if found.printed and not found.agrees:
+        parts += ["As printed, which does not hold:", _block(found.printed_latex)]
+    if found.remark:
+        parts.append(f"{_capitalised(found.remark)}.")
+    return "\n\n".join(parts)
+
+
+def _rests_on(found: Equation) -> str:
+    others = len(found.steps) - len(found.statements)
+    if others == 0:
+        return "as it stands"
+    return "from one statement" if others == 1 else f"from {others} statements"
+
+
+def _capitalised(text: str) -> str:
+    return text[0].upper() + text[1:]
+
+
+def _formula(found: Equation) -> str:
+    return _block(rf"{found.latex}\tag{{{found.id}}}")
+
+
+def _block(latex: str) -> str:
+    return f"```{{math}}\n{latex}\n```"

@@ -1,0 +1,65 @@
+"""The scene file as Markdown, from the schema that validates it."""
+
+from __future__ import annotations
+
+from wear.scene import schema
+
+
+def reference() -> str:
+    """A section a table of the file, a row a key."""
+    parts = ["## Top of the file", _keys((schema.TITLE, schema.DESCRIPTION))]
+    for table in schema.TABLES:
+        parts += [f"## `[{table.name}]`", _sentence(table), _keys(table.keys)]
+    parts += [
+        "## `[load]`",
+        "The displacement $U_a(t)$ of the pin. `kind` chooses among the following.",
+    ]
+    for load in schema.LOADS:
+        kind = schema.Key("kind", schema.Kind.CHOICE, f'`"{load.name}"`')
+        parts += [f'### `kind = "{load.name}"`', _sentence(load), _keys((kind, *load.keys))]
+    names = ", ".join(f"`{load.name}`" for load in schema.PERIODIC_LOADS)
+    parts += [
+        "### `[[load.blocks]]`",
+        f"Each block is a periodic load ({names}) with its keys, and",
+        _keys((schema.CYCLES,)),
+    ]
+    return "\n\n".join(parts)
+
+
+def _sentence(table: schema.Table) -> str:
+    said = [f"{table.meaning[0].upper()}{table.meaning[1:]}."]
+    if table.one_of:
+        said.append(f"Exactly one of {_listed(table.one_of, 'and')} is given.")
+    if table.together:
+        said.append(f"Give both of {_listed(table.together, 'and')} or neither.")
+    return " ".join(said)
+
+
+def _listed(names: tuple[str, ...], word: str) -> str:
+    return f" {word} ".join(f"`{name}`" for name in names)
+
+
+def _keys(keys: tuple[schema.Key, ...]) -> str:
+    rows = ["| key | value | unit | default | meaning |", "| --- | --- | --- | --- | --- |"]
+    rows += [
+        f"| `{key.name}` | {_value(key)} | {key.unit} | {_default(key)} | {key.meaning} |"
+        for key in keys
+    ]
+    return "\n".join(rows)
+
+
+def _value(key: schema.Key) -> str:
+    if key.choices:
+        return ", ".join(f'`"{name}"`' for name in key.choices)
+    if key.kind is schema.Kind.NUMBER and key.domain is not schema.Domain.REAL:
+        return f"{key.kind.value} {key.domain.value}"
+    return key.kind.value
+
+
+def _default(key: schema.Key) -> str:
+    if key.required:
+        return "required"
+    if key.default is None or key.default == ():
+        return ""
+    shown = str(key.default).lower() if isinstance(key.default, bool) else repr(key.default)
+    return f"`{shown}`".replace("'", '"')
