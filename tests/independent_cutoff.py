@@ -1,132 +1,229 @@
 """An independent judge of the cutoff: the Taylor series of `tests.independent`, cut at the edge.
 
-One worn solid, rigid support, U_a = U sin(2 pi t/T). The rate jumps where h = 3 sigma, which the
-series finds by bisection to some 40 digits; Filippov's solution at the edge is typed out on
-purpose: a pin that rises faster than the closed surfaces wear apart closes them, one that rises
-more slowly is followed along the edge, up to its peak.
+Rigid support, one or two solids, harmonics or straight lines for U_a. The rate jumps where
+h = 3 sigma. Filippov's solution is followed by brute force: the cycle is cut where the load turns
+or has a kink; in contact every step of the series is looked at closely for the margin
+3 sigma - h; at the edge a pin that rises faster than the closed surfaces wear apart closes them,
+one that rises more slowly is followed along the edge. Zeros are bisected to some 40 digits.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from itertools import pairwise
 
 import mpmath
+from mpmath import mpf
 
-from tests.independent import BITS, ONE, Judge, Problem, fixed
+from tests.independent import BITS, ONE, ORDER, Judge, Problem, fixed, zip_longest
 
 BISECTIONS = 130
+LOOKS = 32  # at each step, or along the edge of contact, before bisection
+SAMPLES = 128  # of a sum of harmonics, for its turning points
+LONGEST = mpf(1) / 32  # step
+BLUR = mpf(2) ** (40 - BITS)
+
+Rows = tuple[tuple[float, float], ...]  # phases from 0 to 1 and U_a in mm: straight lines between
+Real = Callable[[mpf], mpf]
 
 
 class CutoffJudge(Judge):
-    """A `Judge` whose pressure vanishes for h > 3 sigma."""
+    """A `Judge` whose pressure vanishes for h > 3 sigma; lengths in units of the roughness."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, rows: Rows = ()) -> None:
         super().__init__(problem)
-        others = (problem.pin_roughness, problem.kappa, problem.deflection, *problem.cosine)
-        assert not any(others)
+        assert not problem.deflection
+        self.rows = [(mpf(phase), mpf(value) / self.unit) for phase, value in rows]
         with mpmath.workprec(BITS + 60):
-            unit = self.unit
-            self.swing = mpmath.mpf(problem.sine[0]) / unit
-            self.unloading = 1 - 3 * mpmath.mpf(problem.slope)  # of the margin, per wear
-            self.edge = mpmath.mpf(problem.closure) / unit - 3  # U_a at first contact, fresh
-            self.slide = mpmath.mpf(self.drive) / ONE / (1 + mpmath.exp(4))  # wear rate at the edge
+            self.edge_rate = mpf(self.drive) / ONE / (1 + mpmath.exp(4))
+            self.steepest = 2 * max(abs(self.speed(mpf(k) / SAMPLES)) for k in range(SAMPLES))
+            self.widening = mpf(abs(self.gap) + 3 * (abs(self.one[1]) + abs(self.two[1]))) / ONE
+            self.cuts = [phase for phase, _ in self.rows] or self.turning_points()
+
+    def turning_points(self) -> list[mpf]:
+        """Where a sum of harmonics turns, with both ends of the cycle."""
+        grid = [mpf(k) / SAMPLES for k in range(SAMPLES + 1)]
+        signs = [self.speed(phase) < 0 for phase in grid]
+        turns = [k for k in range(SAMPLES) if signs[k] != signs[k + 1]]
+        return [mpf(0), *(zero(self.speed, grid[k], grid[k + 1]) for k in turns), mpf(1)]
+
+    def displacement(self, phase: mpf) -> list[int]:
+        """Taylor coefficients of U_a in phase."""
+        if not self.rows:
+            return super().displacement(phase)
+        return [fixed(self.load(phase)), fixed(self.speed(phase)), *[0] * (ORDER - 1)]
+
+    def load(self, phase: mpf) -> mpf:
+        """U_a."""
+        if self.rows:
+            (start, value), _ = self.line(phase)
+            return value + self.speed(phase) * (phase - start)
+        total = mpf(self.data.mean)
+        for n, (c, s) in enumerate(zip_longest(self.data.cosine, self.data.sine), 1):
+            turn = 2 * mpmath.pi * n * phase
+            total += c * mpmath.cos(turn) + s * mpmath.sin(turn)
+        return total / self.unit
+
+    def speed(self, phase: mpf) -> mpf:
+        """dU_a/dphase, to the right of a kink."""
+        if self.rows:
+            (start, first), (end, last) = self.line(phase)
+            return (last - first) / (end - start)
+        total = mpf(0)
+        for n, (c, s) in enumerate(zip_longest(self.data.cosine, self.data.sine), 1):
+            turn = 2 * mpmath.pi * n
+            total += turn * (s * mpmath.cos(turn * phase) - c * mpmath.sin(turn * phase))
+        return total / self.unit
+
+    def line(self, phase: mpf) -> tuple[tuple[mpf, mpf], tuple[mpf, mpf]]:
+        """The two rows that hold a phase."""
+        pairs = list(pairwise(self.rows))
+        return next((pair for pair in pairs if pair[0][0] <= phase < pair[1][0]), pairs[-1])
+
+    def reach(self, wear: mpf) -> mpf:
+        """3 sigma - h at zero displacement."""
+        one, two = self.roughnesses(wear)
+        closure = (mpf(self.closure) + mpf(self.gap) * wear) / ONE
+        return 3 * mpmath.sqrt(one**2 + two**2) - closure
+
+    def reach_slope(self, wear: mpf) -> mpf:
+        """Its derivative with respect to the wear."""
+        one, two = self.roughnesses(wear)
+        turn = (one * self.one[1] + two * self.two[1]) / mpmath.sqrt(one**2 + two**2)
+        return (3 * turn - self.gap) / ONE
+
+    def roughnesses(self, wear: mpf) -> tuple[mpf, mpf]:
+        """Of the bearing and of the pin."""
+        one, two = ((mpf(start) + mpf(slope) * wear) / ONE for start, slope in (self.one, self.two))
+        return one, two
+
+    def pull(self, phase: mpf, wear: mpf) -> mpf:
+        """The rate of the margin in contact, at its edge."""
+        return self.speed(phase) + self.reach_slope(wear) * self.edge_rate
 
     def cycle(self) -> None:
-        """One period, from phase 0: the rise to the peak at 1/4, the fall, and the rise again."""
+        """One period."""
         with mpmath.workprec(BITS + 60):
-            phase = mpmath.mpf(0)
-            for end in (mpmath.mpf(1) / 4, mpmath.mpf(3) / 4, mpmath.mpf(1)):
-                self.monotone(phase, end)
-                phase = end
+            for begin, end in pairwise(self.cuts):
+                self.monotone(begin, end)
 
-    def touch(self) -> mpmath.mpf:
-        """The displacement from which on there is contact, at the present wear."""
-        return self.edge + self.unloading * self.wear / ONE
-
-    def load(self, phase: mpmath.mpf) -> mpmath.mpf:
-        """U_a in units of the roughness."""
-        return self.swing * mpmath.sin(2 * mpmath.pi * phase)
-
-    def monotone(self, phase: mpmath.mpf, end: mpmath.mpf) -> None:
+    def monotone(self, phase: mpf, end: mpf) -> None:
         """A stretch on which U_a only rises or only falls."""
-        margin = self.load(phase) - self.touch()
-        if abs(margin) < mpmath.mpf(2) ** (40 - BITS):
-            margin = mpmath.mpf(0)
-        rising = self.load(end) > self.load(phase)
-        if margin < 0 or (margin == 0 and not rising):
-            if not rising or self.load(end) <= self.touch():
+        top, rising = self.load(end - (end - phase) * BLUR), self.load(end) > self.load(phase)
+        while phase < end:
+            wear = mpf(self.wear) / ONE
+            margin = self.load(phase) + self.reach(wear)
+            if margin > BLUR:
+                phase = self.closed(phase, end)
+                if phase < end and not rising:
+                    return
+            elif not rising or top + self.reach(wear) <= BLUR:
                 return
-            phase = self.crossing(phase, end)
-            margin = mpmath.mpf(0)
-        if margin > 0 or self.speed(phase) > self.unloading * self.slide:
-            phase = self.closed(phase, end)
-        if phase < end and rising and self.unloading > 0:  # along the edge, to the peak at the end
-            self.wear = fixed((self.load(end) - self.edge) / self.unloading)
+            elif margin < -BLUR:
+                phase = self.touching(wear, phase, end)
+            elif self.pull(phase, wear) > 0:
+                phase = self.closed(phase, end)
+            else:
+                phase = self.slide(phase, end)
 
-    def speed(self, phase: mpmath.mpf) -> mpmath.mpf:
-        """dU_a/dphase."""
-        return 2 * mpmath.pi * self.swing * mpmath.cos(2 * mpmath.pi * phase)
+    def touching(self, wear: mpf, phase: mpf, end: mpf) -> mpf:
+        """Where a load that rises closes the gap."""
+        reach = self.reach(wear)
+        return zero(lambda at: self.load(at) + reach, phase, end)
 
-    def crossing(self, phase: mpmath.mpf, end: mpmath.mpf) -> mpmath.mpf:
-        """Where a rising pin first touches."""
-        quarter = mpmath.asin(self.touch() / self.swing) / (2 * mpmath.pi)
-        crossing = quarter if end <= mpmath.mpf(1) / 4 else 1 + quarter
-        assert phase <= crossing <= end
-        return crossing
-
-    def closed(self, phase: mpmath.mpf, end: mpmath.mpf) -> mpmath.mpf:
+    def closed(self, phase: mpf, end: mpf) -> mpf:
         """Integrate in contact to `end`, or to where contact is lost; return that phase."""
         while phase < end:
-            step = min(mpmath.mpf(1) / 32, end - phase)
+            step = min(LONGEST, end - phase)
             u, slope = self.series(phase)
             scale = self.wear + (abs(u[1]) >> 4)
             while not self.fine(u, slope, scale, step):
                 step /= 2
             lost = self.lost(u, phase, step)
-            self.wear = evaluate(u, step if lost is None else lost)
+            self.wear = int(mpmath.nint(evaluate(u, step if lost is None else lost)))
             if lost is not None:
                 return phase + lost
             phase = phase + step if step < end - phase else end
         return end
 
     @staticmethod
-    def fine(u: list[int], slope: int, scale: int, step: mpmath.mpf) -> bool:
+    def fine(u: list[int], slope: int, scale: int, step: mpf) -> bool:
         last = max(abs(u[-1]) * step ** (len(u) - 1), abs(u[-2]) * step ** (len(u) - 2))
-        return bool(last <= mpmath.mpf(scale) / 2**70 and slope * step < ONE)
+        return bool(last <= mpf(scale) / 2**70 and slope * step < ONE)
 
-    def lost(self, u: list[int], phase: mpmath.mpf, step: mpmath.mpf) -> mpmath.mpf | None:
+    def lost(self, u: list[int], phase: mpf, step: mpf) -> mpf | None:
         """The part of a step after which the surfaces part, None if they do not."""
 
-        def margin(t: mpmath.mpf) -> mpmath.mpf:
-            return (
-                self.load(phase + t) - self.edge - self.unloading * evaluate(u, t) / mpmath.mpf(ONE)
-            )
+        def margin(t: mpf) -> mpf:
+            return self.load(phase + t) + self.reach(evaluate(u, t) / ONE)
 
-        looks = [step * k / 8 for k in range(1, 9)]
-        after = next((t for t in looks if margin(t) < 0), None)
-        if after is None:
+        worn = (evaluate(u, step) - u[0]) / ONE
+        if margin(mpf(0)) > self.steepest * step + self.widening * worn:
             return None
-        low, high = after - step / 8, after
-        for _ in range(BISECTIONS):
-            middle = (low + high) / 2
-            low, high = (low, middle) if margin(middle) < 0 else (middle, high)
+        looks = [step * k / LOOKS for k in range(LOOKS + 1)]
+        for before, after in pairwise(looks):
+            if margin(after) < -BLUR:
+                return zero(margin, before, after)
+        return None
+
+    def slide(self, phase: mpf, end: mpf) -> mpf:
+        """Follow the edge of contact until the load closes it, or to `end`; return that phase."""
+
+        def pull(at: mpf) -> mpf:
+            wear = self.edge(at)
+            return self.pull(at, wear) if wear is not None else ONE
+
+        looks = [phase + (end - phase) * k / (8 * LOOKS) for k in range(8 * LOOKS)]
+        looks.append(end - (end - phase) * BLUR)
+        held = next((pair for pair in pairwise(looks) if pull(pair[1]) > 0), None)
+        leaves = end if held is None else zero(pull, *held)
+        wear = self.edge(min(leaves, looks[-1]))
+        assert wear is not None
+        self.wear = fixed(wear)
+        return leaves
+
+    def edge(self, phase: mpf) -> mpf | None:
+        """The wear at the edge of contact, from the present one, None where there is no edge.
+
+        The margin is convex in the wear, so that Newton's method does not go beyond its root.
+        """
+        wear, load = mpf(self.wear) / ONE, self.load(phase)
+        for _ in range(60):
+            slope = self.reach_slope(wear)
+            if slope >= 0:
+                return None
+            step = (load + self.reach(wear)) / slope
+            wear -= step
+            if abs(step) < BLUR:
+                return wear
+        return None
+
+
+def zero(function: Real, low: mpf, high: mpf) -> mpf:
+    """Where a function changes its sign, by bisection; `low` if it does not."""
+    side = function(low) < 0
+    if (function(high) < 0) == side:
         return low
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (function(middle) < 0) == side else (low, middle)
+    return low
 
 
-def evaluate(series: list[int], step: mpmath.mpf) -> int:
+def evaluate(series: list[int], step: mpf) -> mpf:
     """The sum of a Taylor series."""
-    total = mpmath.mpf(0)
+    total = mpf(0)
     for coefficient in reversed(series):
         total = total * step + coefficient
-    return int(mpmath.nint(total))
+    return total
 
 
-def wear_after(problem: Problem, cycles: Iterable[int]) -> dict[int, float]:
+def wear_after(problem: Problem, cycles: Iterable[int], rows: Rows = ()) -> dict[int, float]:
     """u_c in mm at the end of each of `cycles`, to double precision."""
-    judge, done, found = CutoffJudge(problem), 0, {}
+    judge, done, found = CutoffJudge(problem, rows), 0, {}
     for wanted in sorted(cycles):
         while done < wanted:
             before = judge.wear
             judge.cycle()
             done = wanted if judge.wear == before else done + 1
         with mpmath.workprec(BITS):
-            found[wanted] = float(mpmath.mpf(judge.wear) / ONE * judge.unit)
+            found[wanted] = float(mpf(judge.wear) / ONE * judge.unit)
     return found
