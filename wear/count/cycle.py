@@ -237,7 +237,8 @@ def _picard(cycle: Cycle, starts: FloatArray) -> Advance:
         end = fresh[..., -1, -1]
         change = float(np.max(np.abs(end - inside[..., -1, -1]) / (end + TINY)))
         inside = fresh
-        converged = change * min(1.0, change / last) <= ROUNDOFF or change <= NOISE
+        # A change that was large, or grew, foretells nothing.
+        converged = change * min(1.0, change / min(last, 1.0)) <= ROUNDOFF or change <= NOISE
         if converged or not change < 1e30 or (iteration > PATIENCE and change > last):
             break
         last = change
