@@ -22,7 +22,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from .laws import EXPONENTIAL, LAWS, TANH, ContactLaw, r
-from .rules import Identity
+from .rules.authored import Identity
 from .statement import Statement
 
 HELD = 709

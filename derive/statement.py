@@ -20,18 +20,9 @@ import sympy as sp
 from .check import Check
 from .conditions import Condition
 from .dimensions import homogeneous
-from .rules import (
-    Given,
-    Integrate,
-    Multiply,
-    Rearrange,
-    Restrict,
-    Rule,
-    SolveFor,
-    Specialise,
-    Substitute,
-    TakeLimit,
-)
+from .rules import Given, Rule
+from .rules.algebra import Multiply, Rearrange, Restrict, SolveFor, Specialise, Substitute
+from .rules.calculus import Integrate, TakeLimit
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..program import Assignment
+from ..program.function import Assignment
 from ..symbols import rate, symbols
 from ..variant import Variant
 

@@ -15,7 +15,8 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from ..program import Function, Program, program
+from ..program import Program, program
+from ..program.function import Function
 from ..variant import Variant
 from .emit import Target, emit
 from .formula_module import Formula, Guard

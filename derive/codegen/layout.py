@@ -14,7 +14,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from ..program import Function, Program
+from ..program import Program
+from ..program.function import Function
 from .emit import Target, emit
 from .wording import remark_on, title_of
 

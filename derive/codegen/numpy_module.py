@@ -12,7 +12,8 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from ..program import Function, Program, program
+from ..program import Program, program
+from ..program.function import Function
 from ..variant import Variant
 from .emit import Target, emit
 from .wording import meaning_of, title_of

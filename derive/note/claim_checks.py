@@ -19,8 +19,8 @@ from .. import catalogue
 from ..equations import Status
 from ..laws import TANH, r
 from ..results import validity
+from ..rules.sign import sign
 from ..symbols import symbols
-from ..theorem import sign
 from ..zero import is_zero
 from .claims import Finding, Verdict
 from .governing import ROUGH_BEARING, Model

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..limits import forever, later
+from ..rules.limits import forever, later
 from ..symbols import rate, symbol, symbols, t
 from ..typeset.display import as_written
 

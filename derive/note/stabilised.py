@@ -23,9 +23,7 @@ from functools import cached_property
 import sympy as sp
 
 from ..conditions import Condition
-from ..drift import LinearApproach, LogarithmicDrift
 from ..equations import Equation
-from ..limits import Named, Passes, forever, later
 from ..results.steady_state import (
     SteadyState,
     closure,
@@ -34,7 +32,9 @@ from ..results.steady_state import (
     steady_state,
     step,
 )
-from ..rules import Identity
+from ..rules.authored import Identity
+from ..rules.drift import LinearApproach, LogarithmicDrift
+from ..rules.limits import Named, Passes, forever, later
 from ..statement import Statement, given
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus

@@ -19,7 +19,7 @@ import sympy as sp
 
 from ..conditions import Condition
 from ..equations import Equation
-from ..rules import Positive
+from ..rules.authored import Positive
 from ..statement import Statement
 from ..symbols import symbols
 from ..typeset.display import as_written, minus

@@ -17,19 +17,18 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..bounds import Consequence, Monotone
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import GENERAL, TANH, ContactLaw, r
-from ..limits import Passes, forever
 from ..note.condensed import Condensed
 from ..note.governing import Model, Pin
-from ..rules import Identity, Positive
+from ..rules.authored import Identity, Inserted, Positive
+from ..rules.bounds import Consequence, Monotone
+from ..rules.limits import Passes, forever
 from ..statement import Statement, given, inherited
 from ..symbols import rate, symbols
 from ..typeset.display import as_written
 from .expansion_rules import LogarithmicCoefficient
-from .moves import Inserted
 from .steady_state import BOUNDED_LOAD, ROUGHENING, SIGNS, SteadyState, made, roughness, step
 
 h_0, U_a, U_c, u_c, p, U, sigma_c0, f_c = symbols("h_0 U_a U_c u_c p U sigma_c0 f_c")

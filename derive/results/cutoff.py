@@ -33,18 +33,17 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..bounds import Consequence, Monotone
 from ..check import Check
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import TANH, ContactLaw
-from ..rules import Given, Identity, sampled
+from ..rules import Authored, Given, proof, sampled
+from ..rules.authored import Identity, Inserted
+from ..rules.bounds import Consequence, Monotone
 from ..statement import Statement, given
 from ..symbols import rate, symbols, t
-from ..theorem import Authored, proof
 from ..typeset.display import as_written, minus
 from ..zero import is_zero
-from .moves import Inserted
 from .static_solution import ROUGH
 from .steady_state import closure, made, roughness, steady_state, step
 
@@ -67,7 +66,7 @@ class Rearranged(Authored):
     def check(self, statement: Statement) -> tuple[Check, ...]:
         left, right = statement.claim.args
         equal = is_zero((left.gts - left.lts) - (right.gts - right.lts))
-        return *proof(equal, "the differences of the sides are equal"), sampled(statement)
+        return proof(equal, "the differences of the sides are equal"), sampled(statement)
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,8 @@ class WhileInContact(Authored):
         speed = limit.claim.rhs.subs(f_c, self.slope)
         claim = statement.claim
         accumulated = is_zero(claim.rhs - speed * d * T) and claim.lhs == u_cum
-        return proof(accumulated, "mean value theorem on the part of the period in contact")
+        detail = "mean value theorem on the part of the period in contact"
+        return (proof(accumulated, detail),)
 
 
 @dataclass(frozen=True)

@@ -24,10 +24,10 @@ from .. import sample
 from ..check import Check
 from ..conditions import Condition
 from ..equations import Equation
-from ..rules import Identity
+from ..rules import Authored, proof
+from ..rules.authored import Identity
 from ..statement import Statement
 from ..symbols import symbols
-from ..theorem import Authored, proof
 from ..typeset.display import as_written, minus
 from ..zero import is_zero
 
@@ -67,7 +67,7 @@ class FirstZero(Authored):
         claim = statement.claim
         zero = is_zero(self.squared.subs(claim.lhs, claim.rhs))
         detail = "it satisfies the squared equation"
-        return *proof(zero, detail), self._follow(statement)
+        return proof(zero, detail), self._follow(statement)
 
     def _follow(self, statement: Statement) -> Check:
         claim = statement.claim

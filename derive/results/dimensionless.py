@@ -26,13 +26,12 @@ from ..equations import Equation
 from ..laws import TANH
 from ..note.condensed import Condensed
 from ..note.governing import Model, Pin
-from ..rules import SAMPLES
+from ..rules import SAMPLES, Authored, proof
+from ..rules.authored import insert
 from ..statement import Statement, given
 from ..symbols import symbols
-from ..theorem import Authored
 from ..typeset.display import as_written
 from ..zero import is_zero
-from .moves import insert
 
 U_a, u_c, p, h_0, U, k, T, V = symbols("U_a u_c p h_0 U k T V")
 f_a, f_c, K_a, K_c, H_a, H_c, p_max = symbols("f_a f_c K_a K_c H_a H_c p_max")
@@ -84,7 +83,7 @@ class Nondimensional(Authored):
             f"scaling gives the claim: {found} data, rank {rank}, hence at most "
             f"{found - rank} groups, of which {len(self.groups)} occur"
         )
-        return Check("proof", proved, detail), self._sample(rest)
+        return proof(proved, detail), self._sample(rest)
 
     def _sample(self, rest: sp.Expr) -> Check:
         rest = rest.subs({field: sp.Symbol(field.func.__name__) for field in (v, a, q)})

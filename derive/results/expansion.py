@@ -22,10 +22,10 @@ import sympy as sp
 
 from ..equations import Equation
 from ..laws import TANH
-from ..limits import forever
 from ..note.condensed import Condensed
 from ..note.governing import Model, Pin
 from ..note.stabilised import Stabilised
+from ..rules.limits import forever
 from ..statement import Statement, given, inherited
 from ..symbols import symbol, symbols, t
 from ..typeset.display import as_written

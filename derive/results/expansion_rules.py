@@ -20,10 +20,9 @@ import sympy as sp
 
 from .. import sample
 from ..check import Check
-from ..rules import RuleError
+from ..rules import Authored, RuleError, proof
 from ..sample import DIGITS
 from ..symbols import symbol, symbols
-from ..theorem import Authored
 from ..zero import is_zero
 from .averaging import Averaged, average
 from .harmonics import Harmonics, constant, sine, total
@@ -91,7 +90,7 @@ class Drift(Authored):
     def check(self, statement: Statement) -> tuple[Check, ...]:
         again = averaged(statement.parents[0].claim).drift[self.order]
         proved = is_zero(statement.claim.rhs - again)
-        return (Check("proof", proved, "averaged again, order by order"),)
+        return (proof(proved, "averaged again, order by order"),)
 
 
 @dataclass(frozen=True)
@@ -103,7 +102,7 @@ class Oscillation(Authored):
     def check(self, statement: Statement) -> tuple[Check, ...]:
         again = averaged(statement.parents[0].claim).oscillation[self.order].at(tau)
         proved = is_zero(sp.expand_trig(statement.claim.rhs) - sp.expand_trig(again))
-        return (Check("proof", proved, "averaged again, order by order"),)
+        return (proof(proved, "averaged again, order by order"),)
 
 
 @dataclass(frozen=True)
@@ -122,7 +121,7 @@ class SlowTime(Authored):
         slope = sp.diff(statement.claim.rhs, m).subs(m, 1 / small)
         remainder = sp.Poly(sp.expand(slope * speed - 1), small)
         proved = all(powers[0] > ORDER for powers in remainder.monoms())
-        return Check("proof", proved, "dtau/dm times dm/dtau is 1 + O(m^-5)"), _residual(statement)
+        return proof(proved, "dtau/dm times dm/dtau is 1 + O(m^-5)"), _residual(statement)
 
 
 def _residual(statement: Statement) -> Check:
@@ -191,7 +190,7 @@ class LogarithmicCoefficient(Authored):
         claimed = statement.claim.rhs.subs(steady.lhs, steady.rhs)
         proved = is_zero(claimed - again)
         detail = "the pressure, expanded again in 1/sigma, agrees"
-        return Check("proof", proved, detail), self._sample(statement)
+        return proof(proved, detail), self._sample(statement)
 
     def _sample(self, statement: Statement) -> Check:
         pressure, steady = (sample.concrete(s.claim) for s in statement.parents)

@@ -25,10 +25,10 @@ from ..equations import Equation
 from ..laws import GENERAL, TANH, ContactLaw
 from ..note.condensed import Condensed
 from ..note.governing import Model, Pin
+from ..rules.authored import Inserted, LogOdds
 from ..statement import Statement, given, inherited
 from ..symbols import symbols
 from ..typeset.display import as_written
-from .moves import Inserted, LogOdds
 
 h, h_0, U_a, U_c, u_c, sigma = symbols("h h_0 U_a U_c u_c sigma")
 p, p_max, k, f_c, sigma_c0 = symbols("p p_max k f_c sigma_c0")

@@ -25,10 +25,10 @@ from ..equations import Equation
 from ..laws import TANH, ContactLaw
 from ..note.condensed import Condensed
 from ..note.governing import Model, Pin
-from ..rules import sampled
+from ..rules import Authored, proof, sampled
+from ..rules.sign import sign
 from ..statement import Statement, inherited
 from ..symbols import symbols
-from ..theorem import Authored, sign
 
 h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
 K_c, H_c, V, p_max = symbols("K_c H_c V p_max")
@@ -62,7 +62,7 @@ class OfOneSign(Authored):
         claim = statement.claim
         direction = sign(_manifest(slope, statement.conditions))
         proved = direction is not None and claim == _bound(slope, direction)
-        return Check("proof", proved, "the derivative has one sign"), sampled(statement)
+        return proof(proved, "the derivative has one sign"), sampled(statement)
 
 
 def _bound(slope: sp.Expr, direction: int) -> sp.Basic:

@@ -25,10 +25,11 @@ from ..equations import Equation
 from ..laws import TANH, ContactLaw, r
 from ..note.condensed import Condensed
 from ..note.governing import Model
-from ..rules import Positive, sampled
+from ..rules import Authored, proof, sampled
+from ..rules.authored import Positive
+from ..rules.sign import sign
 from ..statement import Statement
 from ..symbols import symbols
-from ..theorem import Authored, proof, sign
 from ..typeset.display import as_written, minus
 
 p, p_max, k, sigma, U_a, U_c, u_a, u_c = symbols("p p_max k sigma U_a U_c u_a u_c")
@@ -64,7 +65,7 @@ class MeanValue(Authored):
         bounded = parent.claim == sp.And(sp.Le(slope, 0), sp.Ge(slope, -1))
         signs = sign(self.factor) == 1 and sign(self.step) == 1
         passed = bounded and signs and statement.claim == self.conclusion()
-        return *proof(passed, "mean value theorem for phi"), sampled(statement)
+        return proof(passed, "mean value theorem for phi"), sampled(statement)
 
 
 @dataclass(frozen=True)

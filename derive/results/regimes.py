@@ -21,18 +21,18 @@ from functools import cached_property
 import mpmath
 import sympy as sp
 
-from ..bounds import Consequence, Monotone
 from ..check import Check
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import TANH
-from ..limits import T
 from ..note import condensed
 from ..note.governing import Model, Pin
-from ..rules import Positive
+from ..rules import Authored, proof
+from ..rules.authored import Positive
+from ..rules.bounds import Consequence, Monotone
+from ..rules.limits import T
 from ..statement import Statement, given
 from ..symbols import rate, symbols
-from ..theorem import Authored, proof
 from ..typeset.display import as_written, minus
 from ..zero import is_zero
 from .static_solution import CONSTANT_LOAD
@@ -79,7 +79,7 @@ class Separated(Authored):
         claimed = sp.exp(4 * statement.claim.rhs / sigma_c0).subs(size.lhs, size.rhs)
         grows = is_zero(sp.powsimp(sp.expand_log(claimed)) - (1 + N * T * mean))
         detail = "e^(4 u/sigma_c0) grows by the same amount in every cycle"
-        return *proof(bool(separable and grows), detail), _bessel_mean()
+        return proof(bool(separable and grows), detail), _bessel_mean()
 
 
 def _bessel_mean() -> Check:
@@ -117,7 +117,7 @@ class Asymptotic(Authored):
         slope = sp.diff(claimed.subs({sigma_c: s, f_c: -decline}), s)
         quotient = _cancelled(-slope * decline * T * exact_rate)
         value = sp.limit(quotient, s, 0, "+")
-        return proof(value == 1, f"the quotient of claimed and exact dN/ds tends to {value}")
+        return (proof(value == 1, f"the quotient of claimed and exact dN/ds tends to {value}"),)
 
 
 def _cancelled(expr: sp.Expr) -> sp.Expr:

@@ -20,11 +20,12 @@ import sympy as sp
 
 from ..equations import Equation
 from ..note.stabilised import Stabilised
+from ..rules.authored import Inserted
+from ..rules.data import Differentiated, Solved
 from ..statement import Statement, given, inherited
 from ..symbols import symbols
 from ..typeset.display import as_written
 from .first_integral import RIGID, FirstIntegral
-from .moves import Differentiated, Inserted, Solved
 
 u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
 f_c, h_0, U_a, U, u_c, p, sigma_c0, M, k = symbols("f_c h_0 U_a U u_c p sigma_c0 M k")

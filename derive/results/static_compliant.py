@@ -24,11 +24,12 @@ from ..equations import Equation
 from ..laws import TANH
 from ..note.condensed import Condensed
 from ..note.governing import Model, Pin
+from ..rules.authored import Inserted
+from ..rules.solutions import ParametricSolution
 from ..statement import Statement, inherited
 from ..symbols import initial, symbols, t
 from ..typeset.display import as_written
 from .first_integral import FirstIntegral
-from .moves import Inserted, ParametricSolution
 from .static_solution import CONSTANT_LOAD, half_rate, load_offset, written_offset
 
 h, h_0, U_a, u_c, sigma, sigma_c0, f_c = symbols("h h_0 U_a u_c sigma sigma_c0 f_c")

@@ -18,11 +18,11 @@ import sympy as sp
 from ..codegen.formula_module import Formula, formula_module
 from ..equations import Equation
 from ..note.governing import Model, Pin
+from ..rules.authored import Inserted, insert
 from ..statement import Statement, given
 from ..symbols import symbols
 from ..typeset.display import as_written
 from .first_integral import FirstIntegral
-from .moves import Inserted, insert
 from .sensitivities import largest
 from .static_solution import excess, load_offset
 

@@ -26,11 +26,11 @@ from ..equations import Equation
 from ..laws import TANH
 from ..note.condensed import Condensed
 from ..note.governing import Model, Pin
+from ..rules.solutions import Inverted, Solution
 from ..statement import Statement, given, inherited
 from ..symbols import symbols, t
 from ..typeset.display import as_written
 from .first_integral import SLOPED
-from .moves import Inverted, Solution
 
 h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
 p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")

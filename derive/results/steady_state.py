@@ -25,14 +25,14 @@ from functools import cache, cached_property
 
 import sympy as sp
 
-from ..bounds import Consequence, Grows, LogarithmicSlope, Monotone
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import GENERAL, TANH, ContactLaw, r
-from ..limits import Accumulates, Diverges, Passes, Vanishes, forever
 from ..note import condensed
 from ..note.governing import Model, Pin
-from ..rules import Identity, Positive
+from ..rules.authored import Identity, Positive
+from ..rules.bounds import Consequence, Grows, LogarithmicSlope, Monotone
+from ..rules.limits import Accumulates, Diverges, Passes, Vanishes, forever
 from ..statement import Statement, inherited
 from ..symbols import rate, symbols
 

@@ -24,15 +24,15 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..bounds import Consequence
 from ..conditions import Condition
-from ..drift import FirstOrder, LogarithmicDrift
 from ..equations import Equation
 from ..laws import TANH, ContactLaw
-from ..limits import AtInfinity, Passes, Unbounded, forever
 from ..note import condensed
 from ..note.governing import Model
-from ..rules import Identity
+from ..rules.authored import Identity
+from ..rules.bounds import Consequence
+from ..rules.drift import FirstOrder, LogarithmicDrift
+from ..rules.limits import AtInfinity, Passes, Unbounded, forever
 from ..statement import Statement, given
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus

@@ -25,10 +25,11 @@ import sympy as sp
 from ..check import Check
 from ..conditions import Condition
 from ..equations import Equation
-from ..rules import Identity, Positive, sampled
+from ..rules import Authored, proof, sampled
+from ..rules.authored import Identity, Positive
+from ..rules.sign import sign
 from ..statement import Statement
 from ..symbols import symbols
-from ..theorem import Authored, proof, sign
 from ..typeset.display import as_written, minus
 from ..zero import is_zero
 from .steady_state import ROUGHENING, step
@@ -63,7 +64,7 @@ class Threshold(Authored):
         increases = sign(sp.diff(function.subs(self.variable, positive), positive)) == 1
         met = is_zero(function.subs(self.variable, point) - level)
         detail = "the left side increases and reaches the level at the bound"
-        return *proof(increases and met, detail), sampled(statement)
+        return proof(increases and met, detail), sampled(statement)
 
 
 def share() -> Statement:

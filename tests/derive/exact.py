@@ -16,7 +16,8 @@ from typing import NamedTuple
 import mpmath
 import sympy as sp
 
-from derive.program import Function, Program, program
+from derive.program import Program, program
+from derive.program.function import Function
 from derive.stable import released
 from derive.variant import VARIANTS, Variant
 

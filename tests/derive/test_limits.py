@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
-from derive.bounds import Consequence, Grows, LogarithmicSlope, Monotone
-from derive.drift import LogarithmicDrift
-from derive.limits import (
+from derive.rules import Given, RuleError
+from derive.rules.bounds import Consequence, Grows, LogarithmicSlope, Monotone
+from derive.rules.drift import LogarithmicDrift
+from derive.rules.limits import (
     Accumulates,
     AtInfinity,
     Diverges,
@@ -18,10 +19,9 @@ from derive.limits import (
     in_terms_of,
     later,
 )
-from derive.rules import Given, RuleError
+from derive.rules.sign import sign
 from derive.statement import Statement, check, given
 from derive.symbols import initial, rate, symbols, t
-from derive.theorem import sign
 
 u_c, U_a, U, h_0, sigma_c0, f_c, C = symbols("u_c U_a U h_0 sigma_c0 f_c C")
 START = sp.Eq(initial("u_c"), 0)

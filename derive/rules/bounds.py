@@ -15,21 +15,22 @@ from typing import TYPE_CHECKING
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .check import Check
-from .rules import RuleError, sampled
-from .symbols import t
-from .theorem import LAW, Authored, Theorem, assume, proof, sign
-from .zero import same
+from ..check import Check
+from ..symbols import t
+from ..zero import same
+from . import Authored, Pointwise, RuleError, Theorem, proof, sampled
+from .sign import LAW, assume, sign
 
 if TYPE_CHECKING:
-    from .statement import Statement
+    from ..statement import Statement
 
 
 @dataclass(frozen=True)
-class Monotone:
+class Monotone(Pointwise):
     """``a >= b`` gives ``F(a) >= F(b)`` for an increasing F, ``<=`` for a decreasing one."""
 
     function: sp.Lambda
+    theorem = "the derivative of the function has one sign"
 
     def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
         (claim,) = parents
@@ -39,11 +40,6 @@ class Monotone:
             raise RuleError(f"{self.function} is not manifestly monotone")
         high, low = self.function(claim.gts), self.function(claim.lts)
         return sp.Ge(high, low) if direction > 0 else sp.Le(high, low)
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        again = self.apply(tuple(parent.claim for parent in statement.parents))
-        detail = "the derivative of the function has one sign"
-        return *proof(same(again, statement.claim), detail), sampled(statement)
 
 
 @dataclass(frozen=True)
@@ -84,7 +80,7 @@ class LogarithmicSlope(Authored):
         ratio = self.function(self.a) / self.function(self.b)
         said = sp.Le(sp.Abs(sp.log(ratio)), self.bound * sp.Abs(self.a - self.b))
         detail = "mean value theorem for ln F, whose slope stays within the bound"
-        return *proof(held and said == statement.claim, detail), sampled(statement)
+        return proof(held and said == statement.claim, detail), sampled(statement)
 
 
 @dataclass(frozen=True)
@@ -98,4 +94,4 @@ class Consequence(Authored):
             claim = claim.subs(other.lhs, other.rhs)
             first = first.subs(other.lhs, other.rhs)
         detail = "the parents, inserted, turn it into the first of them"
-        return *proof(same(claim, first), detail), sampled(statement)
+        return proof(same(claim, first), detail), sampled(statement)

@@ -1,22 +1,17 @@
-"""Rules for results that are authored and then proved, beyond the algebra of an instant.
+"""Solutions of the differential equation, found by insight and proved by differentiating back.
 
 Overview
-    A closed form, an expansion or a sensitivity is found by insight and proved by a machine
-    that knows nothing of the insight: a solution by differentiating it back, an asymptotic
-    expansion by inserting it, a derivative by taking it again.  Each rule has a second,
-    independent route in numbers: quadrature, difference quotients, the fall of a residual.
+    A closed form is proved by a machine that knows nothing of the insight.  Each rule has a
+    second, independent route in numbers: quadrature, or insertion at 50 digits.
 Key results
-    Inserted         an equation that its parents turn into an identity
-    LogOdds          a logarithm, proved from its exponential
-    Differentiated   the derivative of a parent with respect to a parameter
-    Solution         t(u), the solution of du/dt = Q(u) under a constant load
-    Inverted         u(t), the inverse of such a t(u)
+    Solution            t(u), the solution of du/dt = Q(u) under a constant load
+    Inverted            u(t), the inverse of such a t(u)
     ParametricSolution  t(p), where wear and rate are functions of the pressure
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import mpmath
@@ -24,95 +19,14 @@ import sympy as sp
 
 from .. import sample
 from ..check import Check
-from ..conditions import Condition
-from ..rules import SAMPLES, RuleError, sampled
 from ..sample import Source
 from ..symbols import symbol, t
-from ..theorem import Authored
 from ..zero import is_zero
+from . import SAMPLES, Authored, RuleError, proof
+from .authored import insert
 
 if TYPE_CHECKING:
     from ..statement import Statement
-
-RESOLVED = Condition("160 digits resolve 1 + tanh", sp.Gt(symbol("f_c"), sp.Rational(1, 50)))
-"""Where samples of the steady state are drawn: below, 1 + tanh(4 - 2/f_c) rounds to 0."""
-
-
-def insert(expr: sp.Expr, statements: tuple[Statement, ...]) -> sp.Expr:
-    """Insert ``left = right`` of each statement, in order."""
-    for statement in statements:
-        expr = expr.subs(statement.claim.lhs, statement.claim.rhs)
-    return expr
-
-
-@dataclass(frozen=True)
-class Inserted(Authored):
-    """An authored equation that becomes an identity when its parents are inserted, in order.
-
-    ``pivot``: what later samples compute from this equation instead of from its parents.
-    """
-
-    pivot: sp.Expr | None = None
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        claim = statement.claim
-        rest = insert(claim.lhs - claim.rhs, statement.parents)
-        detail = "the parents, inserted, reduce left minus right to 0"
-        from_parents = replace(statement, rule=Inserted())
-        return Check("proof", is_zero(rest), detail), sampled(from_parents)
-
-
-@dataclass(frozen=True)
-class LogOdds(Authored):
-    """An authored ``ln a = b`` of reals, proved as ``a = e^b`` with the parents inserted."""
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        claim = statement.claim
-        inside = insert(claim.lhs.args[0], statement.parents)
-        proved = claim.lhs.func == sp.log and is_zero(inside - sp.exp(claim.rhs))
-        return Check("proof", proved, "its exponential is an identity"), sampled(statement)
-
-
-@dataclass(frozen=True)
-class Differentiated(Authored):
-    """An authored relation for dy/da, the derivative of a result with respect to a datum.
-
-    The first parent says ``y = F(a, ...)``; the others name constants of the claim.
-    """
-
-    parameter: sp.Symbol
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        slope = sp.diff(statement.parents[0].claim.rhs, self.parameter)
-        claim = statement.claim
-        rest = insert(self._with(claim.lhs - claim.rhs, slope, statement), statement.parents)
-        detail = "the derivative, taken again, agrees"
-        return Check("proof", is_zero(rest), detail), self._sample(statement)
-
-    def _with(self, expr: sp.Expr, slope: sp.Expr, statement: Statement) -> sp.Expr:
-        result = statement.parents[0].claim.lhs
-        return expr.xreplace({sp.Derivative(result, self.parameter, evaluate=False): slope})
-
-    def _sample(self, statement: Statement) -> Check:
-        """Compare with difference quotients, of 30 digits."""
-        value, slope = statement.parents[0].claim.rhs, sp.Dummy()
-        claim = self._with(statement.claim, slope, statement)
-        left, right = (insert(side, statement.parents) for side in claim.args)
-        everything = sp.Tuple(value, self.parameter, left, right)
-        conditions = (*statement.conditions, RESOLVED)
-        worlds = sample.satisfying((), everything, conditions, SAMPLES)
-        passed = True
-        for world in worlds:
-            measured = {**world, slope: self._quotient(value, world)}
-            gap = abs(sample.evaluate(left, measured) - sample.evaluate(right, measured))
-            passed = passed and bool(gap <= 1e-30 * abs(sample.evaluate(right, measured)))
-        return Check("sample", passed, f"{SAMPLES} points, difference quotients, 30 digits")
-
-    def _quotient(self, value: sp.Expr, world: sample.World) -> sp.Expr:
-        at, step = world[self.parameter], sp.Float(10) ** -40 * world[self.parameter]
-        above = sample.evaluate(value, {**world, self.parameter: at + step})
-        below = sample.evaluate(value, {**world, self.parameter: at - step})
-        return (above - below) / (2 * step)
 
 
 @dataclass(frozen=True)
@@ -128,7 +42,7 @@ class Solution(Authored):
         slope = is_zero(sp.diff(time, unknown) - slowness)
         start = is_zero(time.subs(unknown, 0))
         detail = "its derivative is the reciprocal of the rate, and it begins at 0"
-        return Check("proof", slope and start, detail), self._sample(statement)
+        return proof(slope and start, detail), self._sample(statement)
 
     def _pieces(self, statement: Statement) -> tuple[sp.Symbol, sp.Expr, sp.Expr]:
         """Return u, 1/Q(u) and F(u), with the fields as plain symbols."""
@@ -176,7 +90,7 @@ class Inverted(Authored):
         wear, inverse = statement.claim.lhs, statement.claim.rhs
         rest = parent.claim.rhs.subs(wear, inverse) - parent.claim.lhs
         detail = "inserted into the solution, it gives back the time"
-        return Check("proof", is_zero(_resolved(rest)), detail), self._sample(rest, statement)
+        return proof(is_zero(_resolved(rest)), detail), self._sample(rest, statement)
 
     def _sample(self, rest: sp.Expr, statement: Statement) -> Check:
         worlds = sample.satisfying((), rest, statement.conditions, SAMPLES)
@@ -213,7 +127,7 @@ class ParametricSolution(Authored):
         start = pieces.time.subs(pieces.pressure, pieces.start).doit()
         begins = is_zero(start.subs(pieces.load, pieces.load_at_start))
         detail = "its derivative is that of the wear over the rate, and it begins at 0"
-        return Check("proof", slope and begins, detail), self._sample(pieces, statement)
+        return proof(slope and begins, detail), self._sample(pieces, statement)
 
     def _sample(self, pieces: _Parametric, statement: Statement) -> Check:
         """Compare F with the integral of dt/dp, by quadrature."""
@@ -261,32 +175,3 @@ class _Parametric:
             low, high = mpmath.mpf(sp.N(first, 60)), mpmath.mpf(sp.N(first, 60)) * 1.01
             found, claimed = mpmath.quad(slowness, [low, high]), time(high)
         return bool(abs(found - claimed) <= mpmath.mpf(10) ** -30 * abs(claimed))
-
-
-@dataclass(frozen=True)
-class Solved(Authored):
-    """An authored ``a = G(y, ...)``, the first parent ``y = F(a, ...)`` solved for a datum.
-
-    Further parents name constants of the claim.  Proof: F(G(y)) = y; F is monotone in a.
-    """
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        first, *names = statement.parents
-        claim, law = statement.claim, first.claim
-        back = insert(law.rhs.subs(claim.lhs, claim.rhs), tuple(names))
-        proved = is_zero(back - law.lhs)
-        detail = "inserted into what it solves, it gives back the result"
-        return Check("proof", proved, detail), self._sample(statement)
-
-    def _sample(self, statement: Statement) -> Check:
-        """Compute y from drawn data, and the datum from y."""
-        first, *names = statement.parents
-        claim, law = statement.claim, first.claim
-        again = insert(claim.rhs.subs(law.lhs, law.rhs), tuple(names))
-        conditions = (*statement.conditions, RESOLVED)
-        worlds = sample.satisfying((), sp.Tuple(again, claim.lhs), conditions, SAMPLES)
-        passed = all(
-            abs(sample.evaluate(again, world) / world[claim.lhs] - 1) < 10**-sample.DIGITS
-            for world in worlds
-        )
-        return Check("sample", passed, f"{SAMPLES} points, {sample.DIGITS} digits")

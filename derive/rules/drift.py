@@ -12,11 +12,10 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..symbols import t
+from ..zero import is_zero
+from . import RuleError, Theorem
 from .limits import T, forever, in_terms_of
-from .rules import RuleError
-from .symbols import t
-from .theorem import Theorem
-from .zero import is_zero
 
 
 @dataclass(frozen=True)

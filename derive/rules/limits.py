@@ -24,15 +24,15 @@ from typing import TYPE_CHECKING
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .check import Check
-from .rules import RuleError, sources
-from .sample import DIGITS, Source, evaluate, satisfying
-from .symbols import symbol, t
-from .theorem import LAW, Authored, Theorem, assume, proof, sign
-from .zero import is_zero
+from ..check import Check
+from ..sample import DIGITS, Source, evaluate, satisfying
+from ..symbols import symbol, t
+from ..zero import is_zero
+from . import Authored, RuleError, Theorem, proof, sources
+from .sign import LAW, assume, sign
 
 if TYPE_CHECKING:
-    from .statement import Statement
+    from ..statement import Statement
 
 T = symbol("T")
 _LOAD = symbol("U_a").func
@@ -110,7 +110,7 @@ class AtInfinity(Authored):
         flat = inside.xreplace({wear: y}).xreplace(plain)
         value = sp.limit(flat, y, sp.oo).xreplace({d: f for f, d in plain.items()})
         proved = divergence.rhs == sp.oo and is_zero(value - claim.rhs)
-        return *proof(proved, f"SymPy's limit is {value}"), approached(statement)
+        return proof(proved, f"SymPy's limit is {value}"), approached(statement)
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ class Passes(Authored):
         right = self._value(claim.rhs, statement)
         detail = "continuous function of quantities whose limits are known"
         proved = left is not None and right is not None and is_zero(left - right)
-        return *proof(proved, detail), approached(statement)
+        return proof(proved, detail), approached(statement)
 
     def _value(self, side: sp.Expr, statement: Statement) -> sp.Expr | None:
         """Return the value of ``side`` with its limits taken; None where one is not known."""

@@ -1,0 +1,127 @@
+"""The functions of the wear rate: explicit with a rigid support, through the pressure else.
+
+Key results
+    law         the contact law at ``ratio``, in a form to compute with
+    to_ratio    the assignments that lead to ``ratio``
+    rigid       rate and slope with a rigid support
+    compliant   the equation of the pressure, where to start, rate and slope at its root
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..laws import r
+from ..stable import stable
+from ..symbols import symbol
+from ..variant import Variant
+from .function import Assignment, Function
+from .relations import Relations
+from .slopes import with_slopes
+from .symbols import (
+    compliance,
+    h,
+    largest_rate,
+    load,
+    number,
+    pressure,
+    ratio,
+    sigma,
+    u,
+    wear_per_pressure,
+)
+
+p_max = symbol("p_max")
+
+
+def law(variant: Variant) -> tuple[tuple[Assignment, ...], sp.Expr, sp.Expr]:
+    """Return the law's intermediates, value and slope at ``ratio``."""
+    row = stable(variant.law)
+    names = tuple((name, expr.subs(r, ratio)) for name, expr in row.names)
+    return names, row.value.subs(r, ratio), row.slope.subs(r, ratio)
+
+
+def to_ratio(relations: Relations, deflected: bool) -> tuple[Assignment, ...]:
+    """Return the assignments of the roughnesses, the closure and their ratio."""
+    return (*relations.roughnesses(), relations.closure(deflected), (ratio, h / sigma))
+
+
+def rigid(relations: Relations) -> tuple[Function, ...]:
+    """Return the rate of wear and its slope."""
+    names, value, slope = law(relations.variant)
+    start = to_ratio(relations, deflected=False)
+    sloped, slopes = with_slopes(start)
+    return (
+        Function.made(
+            "rate",
+            (u, load),
+            (*start, *names),
+            (largest_rate * value,),
+            "wear rate of the bearing, du_c/dt, in mm/s",
+        ),
+        Function.made(
+            "slope",
+            (u, load),
+            (*sloped, *names),
+            (largest_rate * slope * slopes[ratio],),
+            "derivative of the wear rate with respect to u_c, in 1/s",
+        ),
+    )
+
+
+def compliant(relations: Relations) -> tuple[Function, ...]:
+    """Return the residual of the pressure and its slope, a start, the rate and its slope."""
+    names, value, slope = law(relations.variant)
+    start = to_ratio(relations, deflected=True)
+    sloped, slopes = with_slopes(start)
+    stiffening = number("residual_p"), 1 - p_max * slope * compliance / sigma
+    at = (pressure, u, load)
+    return (
+        Function.made(
+            "residual",
+            at,
+            (*start, *names),
+            (pressure - p_max * value,),
+            "what the contact pressure p must make zero, in MPa",
+        ),
+        Function.made(
+            "residual_slope",
+            at,
+            (*start, *names),
+            (stiffening[1],),
+            "derivative of the residual with respect to p",
+        ),
+        _start(relations),
+        Function.made(
+            "rate",
+            (pressure,),
+            (),
+            (wear_per_pressure * pressure,),
+            "wear rate of the bearing, du_c/dt, in mm/s",
+        ),
+        Function.made(
+            "slope",
+            at,
+            (*sloped, *names, stiffening),
+            (wear_per_pressure * p_max * slope * slopes[ratio] / stiffening[0],),
+            "derivative of the wear rate with respect to u_c at the root, in 1/s",
+        ),
+    )
+
+
+def _start(relations: Relations) -> Function:
+    """Return where Newton's iteration starts.
+
+    At the pressure with h/sigma at the inflection of the law, or the nearest one in [0, p_max],
+    the residual is negative and concave from there to the root, or positive and convex.
+    """
+    inflection = relations.variant.law.inflection
+    ratio_at_start = inflection if inflection.is_finite else sp.Integer(0)
+    guess = sp.Max(0, sp.Min((ratio_at_start * sigma - h) / compliance, p_max))
+    return Function.made(
+        "start",
+        (u, load),
+        (*relations.roughnesses(), relations.closure(deflected=False)),
+        (guess,),
+        "pressure from which Newton's iteration converges monotonically, in MPa",
+    )

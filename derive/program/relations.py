@@ -1,0 +1,107 @@
+"""The derived relations of a variant, in the symbols of its program.
+
+Overview
+    The statements of `derive.note` speak of functions of time.  Here they become assignments of
+    numbers, in which what does not change during a run stands as a named constant.
+Key results
+    groups       the named constants of a run
+    Relations    roughness, closure and wear of the pin, as assignments
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ..note.condensed import Condensed
+from ..note.governing import Pin
+from ..statement import Statement, given
+from ..symbols import QUANTITIES, symbols
+from ..variant import Variant
+from . import symbols as named
+from .function import Assignment
+
+kappa, K_a, K_c, H_a, H_c, k, p, p_max, f_a = symbols("kappa K_a K_c H_a H_c k p p_max f_a")
+
+
+def groups(variant: Variant) -> tuple[Assignment, ...]:
+    """Return the named constants of a run: each a combination of parameters."""
+    model = variant.model
+    archard = model.wear_laws[2].substitute(model.slip).claim.rhs / p
+    sign = 1 if variant.opening else -1
+    found: list[Assignment] = []
+    if variant.pin.wears:
+        found += [(kappa, _kappa().claim.rhs), (named.gain, 1 + sign * kappa)]
+    if variant.pin is Pin.WORN_ROUGH:
+        found.append((named.slope_a, f_a * kappa))
+    if variant.compliant:
+        found += [(named.compliance, 1 / k), (named.wear_per_pressure, archard)]
+    else:
+        found.append((named.largest_rate, archard * p_max))
+    return tuple(found)
+
+
+def _kappa() -> Statement:
+    """Return the wear of the pin per wear of the bearing."""
+    return given(sp.Eq(kappa, K_a * H_c / (K_c * H_a)), "definition of kappa", kappa)
+
+
+def _plain(expr: sp.Expr) -> sp.Expr:
+    """Replace functions of time by the symbols of the program."""
+    names = {"u_c": named.u, "U_a": named.load, "p": named.pressure}
+    fields = [f for f in expr.atoms(sp.Function) if f.func.__name__ in QUANTITIES]
+    return expr.xreplace(
+        {f: names.get(f.func.__name__, named.number(f.func.__name__)) for f in fields}
+    )
+
+
+@dataclass(frozen=True)
+class Relations:
+    """The relations of a variant in the program's symbols."""
+
+    variant: Variant
+
+    def pin_wear(self) -> sp.Expr:
+        """Return u_a in terms of the wear of the bearing."""
+        return _plain(self._wear_of_pin().claim.rhs)
+
+    def roughnesses(self) -> tuple[Assignment, ...]:
+        """Return the assignments of sigma_a, sigma_c (where there are two) and sigma."""
+        model, pin = self.variant.model, self.variant.pin
+        bearing = _plain(model.roughness_of_bearing.claim.rhs)
+        if not pin.rough:
+            return ((named.sigma, bearing),)
+        rough = model.roughness_of_pin
+        if pin.wears:
+            rough = rough.substitute(self._wear_of_pin())
+        own = self._hoisted(_plain(rough.claim.rhs))
+        combined = _plain(model.roughness.claim.rhs)
+        if pin.wears:
+            return (
+                (named.sigma_a, own),
+                (named.sigma_c, bearing),
+                (named.sigma, combined),
+            )
+        return (named.sigma_c, bearing), (named.sigma, combined.subs(named.sigma_a, own))
+
+    def closure(self, deflected: bool) -> Assignment:
+        """Return the assignment of h; the undeflected one is that of a rigid support."""
+        deflection = Condensed(self.variant.model).deflection
+        if not deflected:
+            deflection = deflection.limit(k, sp.oo)
+        closed = self.variant.model.closure.substitute(self._wear_of_pin(), deflection)
+        expr = self._hoisted(_plain(closed.claim.rhs))
+        return named.h, expr.subs(1 / k, named.compliance)
+
+    def _wear_of_pin(self) -> Statement:
+        worn = self.variant.model.wear_of_pin
+        return worn.substitute(_kappa().solve_for(K_a)) if self.variant.pin.wears else worn
+
+    def _hoisted(self, expr: sp.Expr) -> sp.Expr:
+        """Write a polynomial in the state with named constants for its coefficients."""
+        collected = sp.collect(sp.expand(expr), named.u)
+        for name, value in groups(self.variant):
+            if name is not kappa:
+                collected = collected.subs(value, name)
+        return collected
