@@ -26,7 +26,9 @@ def scene_of(name: str) -> Scene:
 def history(scene: Scene, cycles: FloatArray, phases: FloatArray = PHASES) -> Inside:
     """All chunks as one."""
     parts = list(fields_inside(bind(scene), scene.periodic_load, cycles, phases))
-    fields = [np.concatenate(column) for column in zip(*(part.fields for part in parts))]
+    fields = [
+        np.concatenate(column) for column in zip(*(part.fields for part in parts), strict=True)
+    ]
     return Inside(
         np.concatenate([part.cycles for part in parts]),
         phases,
