@@ -11,31 +11,24 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel
-from wear.count.collocation import BoolArray, FloatArray, Mesh, chebyshev_nodes, mesh
-from wear.count.cutoff import margin_terms, one_cycle
-from wear.count.cycle import (
-    ROUNDOFF,
-    TINY,
-    Cost,
-    OneCycle,
-    Settings,
-    refined,
-    settings,
-    unresolved,
-)
+from wear.count.collocation import FloatArray, Mesh, mesh
+from wear.count.cutoff import one_cycle
+from wear.count.cycle import ROUNDOFF, Cost, OneCycle, Settings, refined, settings
 from wear.count.first import Opening, opening
-from wear.count.scan import halves, roughness_limit, roughness_scale, scan
+from wear.count.panels import CHECKS as CHECKS
+from wear.count.panels import NONE as NONE
+from wear.count.panels import Filled, Maps, Solved, fill, onward
+from wear.count.request import Request
+from wear.count.rounding import roundoff
+from wear.count.rounding import roundoff_of as roundoff_of
+from wear.count.scan import roughness_limit, roughness_scale, scan
 from wear.faults import UsageError
 from wear.load import Load
 from wear.model import Model
 
-CHECKS = np.array([-0.99, -0.2, 0.9])  # positions off the nodes of a panel
-MOST_ROUNDS = 12  # of refinement
-MOST_PANELS = 200
 MOST_EVALUATIONS = 20_000_000  # then no finer mesh is tried: the estimate tells what is missed
 NO_DIGIT = 0.1  # relative error
 SAFETY = 3.0  # on measured discrepancies
-NONE: FloatArray = np.empty(0)
 
 
 class CycleCount(NamedTuple):
@@ -66,105 +59,16 @@ class CycleCount(NamedTuple):
         return float(np.sum(np.diff(self.first[:2])))
 
 
-class Maps(NamedTuple):
-    """The one-cycle map twice: `coarse` gives the result, `fine` judges it."""
-
-    coarse: OneCycle
-    fine: OneCycle
-
-
-class Solved(NamedTuple):
-    """Panels between wear `starts` and `ends` (mm) with Abel's equation solved on them: `series`
-    (panels, m) and the greatest `residual` (panels,) off the nodes."""
-
-    starts: FloatArray
-    ends: FloatArray
-    series: FloatArray
-    residual: FloatArray
-
-    def where(self, chosen: BoolArray) -> "Solved":
-        """Some of the panels."""
-        return Solved(*(array[chosen] for array in self))
-
-    def joined(self, other: "Solved") -> "Solved":
-        """Both, in rising order."""
-        both = [np.concatenate(pair) for pair in zip(self, other, strict=True)]
-        order = np.argsort(both[0])
-        return Solved(*(array[order] for array in both))
-
-    def panels(self, shift: float) -> abel.Panels:
-        """The panels with their density."""
-        across = abel.widths(shift, self.starts, self.ends)
-        return abel.Panels(shift, self.starts, across, self.series)
-
-
-def solve_panels(
-    both: Maps, shift: float, starts: FloatArray, ends: FloatArray, size: Settings
-) -> tuple[Solved, BoolArray, Cost]:
-    """Solve Abel's equation with the coarse map, and test it off the nodes with the fine one.
-
-    Returns also the intervals of phase (q,) to be refined, should the fault lie there.
-    """
-    across = abel.widths(shift, starts, ends)
-    wear = abel.panel_wear(shift, starts, across, chebyshev_nodes(size.panel_nodes))
-    ahead = both.coarse.advance(wear)
-    panels = abel.solve(shift, starts, across, ahead.increment)
-    check = abel.panel_wear(shift, starts, across, CHECKS)
-    fine = both.fine.advance(check)
-    residual = np.max(np.abs(abel.residual(panels, CHECKS, fine.increment)), axis=1)
-    cost = Cost(wear.size + check.size, ahead.evaluations + fine.evaluations)
-    solved = Solved(starts, ends, panels.series, residual)
-    rough = ~ahead.converged
-    worst = ~(residual <= size.residual_tolerance)
-    if worst.any():
-        again = both.coarse.advance(check[worst])
-        cost = cost.plus(again.increment.size, again.evaluations)
-        apart = np.max(np.abs(again.increment / fine.increment[worst] - 1.0))
-        if not apart < size.residual_tolerance / 4:
-            rates = again.rate.reshape(-1, *again.rate.shape[-2:])
-            rough |= unresolved(rates, both.coarse.over, size.phase_tolerance)
-            rough |= ~rough.any()
-    return solved, rough, cost
-
-
-class Filled(NamedTuple):
-    """Panels with Abel's equation solved, or the intervals `rough` (q,) of phase to refine first;
-    `cost` is that of all so far."""
-
-    solved: Solved
-    rough: BoolArray
-    cost: Cost
-
-
-def fill(both: Maps, shift: float, edges: FloatArray, size: Settings, cost: Cost) -> Filled:
-    """Solve panels between `edges` (mm), and cut those with too large a residual."""
-    starts, ends = edges[:-1], edges[1:]
-    done = Solved(NONE, NONE, np.empty((0, size.panel_nodes)), NONE)
-    for rounds in range(MOST_ROUNDS):
-        fresh, rough, spent = solve_panels(both, shift, starts, ends, size)
-        cost = cost.plus(*spent)
-        worst = ~(fresh.residual <= size.residual_tolerance)
-        last = rounds == MOST_ROUNDS - 1 or len(done.starts) + len(starts) > MOST_PANELS
-        if rough.any() or last or not worst.any():
-            break
-        done = done.joined(fresh.where(~worst))
-        starts, ends = halves(shift, starts[worst], ends[worst])
-    return Filled(done.joined(fresh), rough, cost)
-
-
-def onward(table: abel.Count, cycles: float, limit: float) -> FloatArray | None:
-    """Ends (mm) of one more panel, if the table does not reach `cycles`; `limit` (mm) is the
-    greatest wear that has a meaning."""
-    missing, end = cycles - table.last_cycles, table.last_wear
-    if not (missing > 0 and end < 0.999999 * limit):  # not with what is no number either
-        return None
-    further = np.clip(1.2 * missing * table.length[-1] / table.gain[-1], 0.1, 1.0)
-    offset = table.offset[-1] * np.exp(table.length[-1])
-    return np.array([end, min(end + offset * np.expm1(further), limit)])
-
-
-def build(model: Model, load: Load, cycles: float, rtol: float, start: float = 0.0) -> CycleCount:
-    """The count of cycles from wear `start` (mm), up to `cycles` at least.
+def build(
+    model: Model,
+    load: Load,
+    cycles: float,
+    rtol: float,
+    start: float = 0.0,
+    deadline: float = np.inf,
+) -> CycleCount:
+    """The count of cycles from wear `start` (mm), up to `cycles` at least. After the `deadline`
+    (`time.monotonic()`) nothing is refined any more: the estimated error tells what is missed.
 
     Raises
     ------
@@ -174,7 +78,7 @@ def build(model: Model, load: Load, cycles: float, rtol: float, start: float = 0
     if model.cutoff:
         raise UsageError("only the wear after whole cycles can be counted with a cutoff")
     limit = roughness_limit(model, 1e12 * roughness_scale(model))
-    return build_upto(one_cycle(model, load), model, load, cycles, rtol, start, limit)
+    return build_upto(one_cycle(model, load), model, load, cycles, rtol, start, limit, deadline)
 
 
 def build_upto(
@@ -185,40 +89,62 @@ def build_upto(
     rtol: float,
     start: float,
     limit: float,
+    deadline: float = np.inf,
 ) -> CycleCount:
     """The count from wear `start` up to `cycles`, or up to the wear `limit` (mm)."""
-    size = settings(rtol)
+    request = Request(cycles, rtol, start, limit, deadline)
     shift = roughness_scale(model)
     reach = scan(cycle, shift, start, cycles, limit)
     samples = reach[:: max(1, len(reach) // 6)]
+    size = attainable(settings(rtol), model, load, samples)
     cycle = cycle.resolved(samples, size.phase_nodes, size.phase_tolerance)
-    cost = Cost(0, 0)
+    first = opening(cycle, shift, reach, request, size)
+    if first.edges is None:
+        error = exact_error(model, load, first)
+        return CycleCount(first.wear, error, None, None, NONE, first.over, limit, first.cost)
+    cost, over = first.cost, cycle.over
     while True:
-        first = opening(cycle, shift, reach, limit, cycles, size)
-        over = first.over
-        cost = cost.plus(*first.cost)
-        if first.edges is None:
-            error = exact_error(model, load, first)
-            return CycleCount(first.wear, error, None, None, NONE, over, limit, cost)
         both = Maps(cycle.on(over), cycle.on(mesh(over.edges, size.finer_nodes)))
-        filled = fill(both, shift, first.edges, size, cost)
-        table = abel.count(filled.solved.panels(shift), float(first.cycles))
-        while not filled.rough.any() and (edges := onward(table, cycles, limit)) is not None:
-            more = fill(both, shift, edges, size, filled.cost)
-            filled = more._replace(solved=filled.solved.joined(more.solved))
-            table = abel.count(filled.solved.panels(shift), float(first.cycles))
+        filled = _filled(both, shift, first, request, size, cost)
         cost = filled.cost
-        spent = len(over.lengths) >= cycle.most_intervals or cost.rhs_evaluations > MOST_EVALUATIONS
-        if spent or not filled.rough.any():
-            return _judged(model, load, first, filled.solved, shift, limit, cost)
-        cycle = cycle.on(refined(over, filled.rough))
+        full = len(over.lengths) >= cycle.most_intervals or cost.rhs_evaluations > MOST_EVALUATIONS
+        if full or request.late or not filled.rough.any():
+            return _judged(model, load, first, filled.solved, shift, over, limit, cost)
+        over = refined(over, filled.rough)
+
+
+def attainable(size: Settings, model: Model, load: Load, wear: FloatArray) -> Settings:
+    """The settings, with no residual asked for that rounding alone exceeds at one of the wears."""
+    floor = float(np.max(roundoff(model, load, wear)))
+    return size._replace(residual_tolerance=max(size.residual_tolerance, floor))
+
+
+def _filled(
+    both: Maps, shift: float, first: Opening, request: Request, size: Settings, cost: Cost
+) -> Filled:
+    """Panels as planned, and on from there until they reach the cycles requested."""
+    if first.edges is None:
+        raise AssertionError("the first cycles tell where panels begin")
+    filled = fill(both, shift, first.edges, size, cost)
+    while not filled.rough.any() and not request.late:
+        table = abel.count(filled.solved.panels(shift), float(first.cycles))
+        edges = onward(table, request.cycles, request.limit)
+        if edges is None:
+            break
+        more = fill(both, shift, edges, size, filled.cost)
+        filled = more._replace(solved=filled.solved.joined(more.solved))
+    return filled
 
 
 def exact_error(model: Model, load: Load, exact: Opening) -> FloatArray:
-    """Estimated error (mm) of cycles that were integrated one by one."""
-    lost = roundoff(model, load, exact.wear[1:]) * np.diff(exact.wear)
-    lost = np.concatenate([[0.0], np.cumsum(lost)])
-    return SAFETY * exact.error + lost + ROUNDOFF * exact.wear
+    """Estimated error (mm) of cycles that were integrated one by one: what each has missed, by its
+    mesh and by rounding, as the cycles after it change it."""
+    rounding = roundoff(model, load, exact.wear)
+    lost = np.maximum(rounding[1:], rounding[:-1]) * exact.added * np.maximum(exact.growth, 1.0)
+    error = [0.0]
+    for missed, growth in zip(SAFETY * exact.missed + lost, exact.growth, strict=True):
+        error.append(error[-1] * growth + missed)
+    return np.array(error) + ROUNDOFF * exact.wear
 
 
 def _judged(
@@ -227,6 +153,7 @@ def _judged(
     first: Opening,
     solved: Solved,
     shift: float,
+    over: Mesh,
     limit: float,
     cost: Cost,
 ) -> CycleCount:
@@ -234,35 +161,15 @@ def _judged(
     panels = solved.panels(shift)
     table = abel.count(panels, float(first.cycles))
     parts = len(table.length) // len(panels.starts)
-    missed = np.cumsum(np.repeat(solved.residual, parts) * table.gain)
-    at_junctions = np.cumsum(
-        np.concatenate([[0.0], abel.junctions(panels.take(slice(-1)), panels.take(slice(1, None)))])
-    )
-    error = SAFETY * np.concatenate([[0.0], missed + np.repeat(at_junctions, parts)])
-    ends = np.append(table.cycles, table.last_cycles)
-    error += roundoff(model, load, np.append(table.wear, table.last_wear)) * ends
+    at_junctions = abel.junctions(panels.take(slice(-1)), panels.take(slice(1, None)))
+    missed = SAFETY * np.repeat(solved.residual, parts) * table.gain
+    missed[::parts] += SAFETY * np.concatenate([[0.0], at_junctions])
+    rounding = roundoff(model, load, np.append(table.wear, table.last_wear))
+    missed += np.maximum(rounding[1:], rounding[:-1]) * table.gain
     first_error = exact_error(model, load, first)
-    error += first_error[-1] / abel.first_pace(table)[0]
-    return CycleCount(first.wear, first_error, table, panels, error, first.over, limit, cost)
-
-
-def roundoff(model: Model, load: Load, wear: FloatArray) -> FloatArray:
-    """Relative error by rounding of the rate at the peak of the load, and of where contact ends."""
-    peak = np.full_like(wear, load.maximum)
-    error = roundoff_of(model, peak, wear)
-    if model.cutoff and not model.compliant:
-        terms = margin_terms(model, wear) + abs(load.maximum)
-        error += np.minimum(ROUNDOFF * terms / (np.abs(model.margin(wear, peak)) + TINY), 1e-9)
-    return error
-
-
-def roundoff_of(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatArray:
-    """Relative error of the rate by rounding: its condition with respect to the closure's terms."""
-    closure = model.fields(wear, displacement).h
-    terms = np.abs(closure) + 2 * wear + np.abs(displacement)
-    steepness = np.abs(model.slope(wear, displacement)) / (model.rate(wear, displacement) + TINY)
-    result: FloatArray = ROUNDOFF * (4 + steepness * terms)
-    return result
+    begun = first_error[-1] / abel.first_pace(table)[0]
+    error = begun + np.concatenate([[0.0], np.cumsum(missed)])
+    return CycleCount(first.wear, first_error, table, panels, error, over, limit, cost)
 
 
 def evaluate(counted: CycleCount, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -1,0 +1,114 @@
+"""Abel's equation on panels of wear: solved with one map of a cycle, tested off the nodes with a
+finer one, which says what to refine.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.count import abel
+from wear.count.collocation import BoolArray, FloatArray, chebyshev_nodes
+from wear.count.cycle import Cost, OneCycle, Settings, unresolved
+from wear.count.scan import halves
+
+CHECKS = np.array([-0.99, -0.2, 0.9])  # positions off the nodes of a panel
+MOST_ROUNDS = 12  # of refinement
+MOST_PANELS = 200
+NONE: FloatArray = np.empty(0)
+
+
+class Maps(NamedTuple):
+    """The one-cycle map twice: `coarse` gives the result, `fine` judges it."""
+
+    coarse: OneCycle
+    fine: OneCycle
+
+
+class Solved(NamedTuple):
+    """Panels between wear `starts` and `ends` (mm) with Abel's equation solved on them: `series`
+    (panels, m) and the greatest `residual` (panels,) off the nodes."""
+
+    starts: FloatArray
+    ends: FloatArray
+    series: FloatArray
+    residual: FloatArray
+
+    def where(self, chosen: BoolArray) -> "Solved":
+        """Some of the panels."""
+        return Solved(*(array[chosen] for array in self))
+
+    def joined(self, other: "Solved") -> "Solved":
+        """Both, in rising order."""
+        both = [np.concatenate(pair) for pair in zip(self, other, strict=True)]
+        order = np.argsort(both[0])
+        return Solved(*(array[order] for array in both))
+
+    def panels(self, shift: float) -> abel.Panels:
+        """The panels with their density."""
+        across = abel.widths(shift, self.starts, self.ends)
+        return abel.Panels(shift, self.starts, across, self.series)
+
+
+def solve_panels(
+    both: Maps, shift: float, starts: FloatArray, ends: FloatArray, size: Settings
+) -> tuple[Solved, BoolArray, Cost]:
+    """Solve Abel's equation with the coarse map, and test it off the nodes with the fine one.
+
+    Returns also the intervals of phase (q,) to be refined, should the fault lie there.
+    """
+    across = abel.widths(shift, starts, ends)
+    wear = abel.panel_wear(shift, starts, across, chebyshev_nodes(size.panel_nodes))
+    ahead = both.coarse.advance(wear)
+    panels = abel.solve(shift, starts, across, ahead.increment)
+    check = abel.panel_wear(shift, starts, across, CHECKS)
+    fine = both.fine.advance(check)
+    residual = np.max(np.abs(abel.residual(panels, CHECKS, fine.increment)), axis=1)
+    cost = Cost(wear.size + check.size, ahead.evaluations + fine.evaluations)
+    solved = Solved(starts, ends, panels.series, residual)
+    rough = ~ahead.converged
+    worst = ~(residual <= size.residual_tolerance)
+    if worst.any():
+        again = both.coarse.advance(check[worst])
+        cost = cost.plus(again.increment.size, again.evaluations)
+        apart = np.max(np.abs(again.increment / fine.increment[worst] - 1.0))
+        if not apart < size.residual_tolerance / 4:
+            rates = again.rate.reshape(-1, *again.rate.shape[-2:])
+            rough |= unresolved(rates, both.coarse.over, size.phase_tolerance)
+            rough |= ~rough.any()
+    return solved, rough, cost
+
+
+class Filled(NamedTuple):
+    """Panels with Abel's equation solved, or the intervals `rough` (q,) of phase to refine first;
+    `cost` is that of all so far."""
+
+    solved: Solved
+    rough: BoolArray
+    cost: Cost
+
+
+def fill(both: Maps, shift: float, edges: FloatArray, size: Settings, cost: Cost) -> Filled:
+    """Solve panels between `edges` (mm), and cut those with too large a residual."""
+    starts, ends = edges[:-1], edges[1:]
+    done = Solved(NONE, NONE, np.empty((0, size.panel_nodes)), NONE)
+    for rounds in range(MOST_ROUNDS):
+        fresh, rough, spent = solve_panels(both, shift, starts, ends, size)
+        cost = cost.plus(*spent)
+        worst = ~(fresh.residual <= size.residual_tolerance)
+        last = rounds == MOST_ROUNDS - 1 or len(done.starts) + len(starts) > MOST_PANELS
+        if rough.any() or last or not worst.any():
+            break
+        done = done.joined(fresh.where(~worst))
+        starts, ends = halves(shift, starts[worst], ends[worst])
+    return Filled(done.joined(fresh), rough, cost)
+
+
+def onward(table: abel.Count, cycles: float, limit: float) -> FloatArray | None:
+    """Ends (mm) of one more panel, if the table does not reach `cycles`; `limit` (mm) is the
+    greatest wear that has a meaning."""
+    missing, end = cycles - table.last_cycles, table.last_wear
+    if not (missing > 0 and end < 0.999999 * limit):  # not with what is no number either
+        return None
+    further = np.clip(1.2 * missing * table.length[-1] / table.gain[-1], 0.1, 1.0)
+    offset = table.offset[-1] * np.exp(table.length[-1])
+    return np.array([end, min(end + offset * np.expm1(further), limit)])
