@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.build import build, evaluate, until
+from wear.count.build import cycle_count, evaluate, until
 from wear.count.collocation import FloatArray
 from wear.count.cycle import Cost
 from wear.count.scan import LEAST
@@ -30,18 +30,23 @@ class Wear(NamedTuple):
 # Trial states far off the solution may overflow; what is no number fails the estimate of error.
 @np.errstate(all="ignore")
 def wear_after(
-    model: Model, load: Load, cycles: FloatArray, rtol: float, start: float = 0.0
+    model: Model,
+    load: Load,
+    cycles: FloatArray,
+    rtol: float,
+    start: float = 0.0,
+    deadline: float = np.inf,
 ) -> Wear:
     """Wear u_c after whole numbers of cycles (any shape), to relative accuracy `rtol`.
 
-    `start` is the wear (mm) before the first of them. Where the accuracy was not reached the
-    estimated error says so.
+    `start` is the wear (mm) before the first of them. After the `deadline` (`time.monotonic()`)
+    nothing is refined any more. Where the accuracy was not reached the estimated error says so.
     """
     cycles = np.asarray(cycles, dtype=float)
     most = float(np.max(cycles, initial=0.0))
     if model.cutoff:
-        return _with_cutoff(model, load, cycles, rtol, start)
-    counted = build(model, load, most, rtol, start)
+        return _with_cutoff(model, load, cycles, rtol, start, deadline)
+    counted = cycle_count(model, load, most, rtol, start, deadline)
     wear, error = evaluate(counted, cycles)
     notices: tuple[str, ...] = ()
     if np.any(wear >= (1 - 1e-9) * counted.limit):
@@ -51,9 +56,12 @@ def wear_after(
     return Wear(wear, error, counted.cost, notices)
 
 
-def _with_cutoff(model: Model, load: Load, cycles: FloatArray, rtol: float, start: float) -> Wear:
+def _with_cutoff(
+    model: Model, load: Load, cycles: FloatArray, rtol: float, start: float, deadline: float
+) -> Wear:
     """Wear with a cutoff, stage by stage."""
-    found = counted_stages(model, load, float(np.max(cycles, initial=0.0)), rtol, start)
+    most = float(np.max(cycles, initial=0.0))
+    found = counted_stages(model, load, most, rtol, start, deadline)
     wear, error = evaluate_stages(found, cycles)
     notices = () if found.arrest is None else (str(found.arrest),)
     return Wear(wear, error, found.cost, notices)

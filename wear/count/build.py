@@ -15,12 +15,9 @@ from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import one_cycle
 from wear.count.cycle import ROUNDOFF, Cost, OneCycle, Settings, refined, settings
 from wear.count.first import Opening, opening
-from wear.count.panels import CHECKS as CHECKS
-from wear.count.panels import NONE as NONE
-from wear.count.panels import Filled, Maps, Solved, fill, onward
+from wear.count.panels import NONE, SAFETY, Filled, Maps, Solved, fill, onward
 from wear.count.request import Request
 from wear.count.rounding import roundoff
-from wear.count.rounding import roundoff_of as roundoff_of
 from wear.count.scan import roughness_limit, roughness_scale, scan
 from wear.faults import UsageError
 from wear.load import Load
@@ -28,7 +25,6 @@ from wear.model import Model
 
 MOST_EVALUATIONS = 20_000_000  # then no finer mesh is tried: the estimate tells what is missed
 NO_DIGIT = 0.1  # relative error
-SAFETY = 3.0  # on measured discrepancies
 
 
 class CycleCount(NamedTuple):
@@ -59,7 +55,7 @@ class CycleCount(NamedTuple):
         return float(np.sum(np.diff(self.first[:2])))
 
 
-def build(
+def cycle_count(
     model: Model,
     load: Load,
     cycles: float,
@@ -78,10 +74,11 @@ def build(
     if model.cutoff:
         raise UsageError("only the wear after whole cycles can be counted with a cutoff")
     limit = roughness_limit(model, 1e12 * roughness_scale(model))
-    return build_upto(one_cycle(model, load), model, load, cycles, rtol, start, limit, deadline)
+    cycle = one_cycle(model, load)
+    return cycle_count_upto(cycle, model, load, cycles, rtol, start, limit, deadline)
 
 
-def build_upto(
+def cycle_count_upto(
     cycle: OneCycle,
     model: Model,
     load: Load,

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wear.count import abel
-from wear.count.build import CHECKS, NONE, SAFETY, CycleCount, build, evaluate
+from wear.count.build import CycleCount, cycle_count, evaluate
 from wear.count.collocation import (
     BoolArray,
     FloatArray,
@@ -34,6 +34,7 @@ from wear.count.cycle import (
     refined,
     settings,
 )
+from wear.count.panels import CHECKS, NONE, SAFETY
 from wear.count.scan import halves, roughness_scale
 from wear.load import Load
 from wear.model import Model
@@ -97,7 +98,7 @@ def course(
     model: Model, load: Load, last: float, phases: FloatArray, rtol: float = 1e-12
 ) -> Course:
     """Prepare for cycles up to `last` and for `phases` (m,) in [0, 1]."""
-    counted = build(model, load, last + 1.0, rtol)
+    counted = cycle_count(model, load, last + 1.0, rtol)
     size, shift = settings(rtol), roughness_scale(model)
     first = counted.first[:-1] if counted.table else counted.first
     cycle = drive(model, load, mesh(counted.over.edges, size.finer_nodes))

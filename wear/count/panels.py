@@ -12,6 +12,7 @@ from wear.count.cycle import Cost, OneCycle, Settings, unresolved
 from wear.count.scan import halves
 
 CHECKS = np.array([-0.99, -0.2, 0.9])  # positions off the nodes of a panel
+SAFETY = 3.0  # on measured discrepancies
 MOST_ROUNDS = 12  # of refinement
 MOST_PANELS = 200
 NONE: FloatArray = np.empty(0)

@@ -6,15 +6,17 @@ may hold a kink: panels end shortly before it, a few exact cycles lead across, a
 anew. A stage counts from its own start.
 """
 
+import time
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.build import NONE, CycleCount, build, build_upto, evaluate, exact_error
+from wear.count.build import CycleCount, cycle_count, cycle_count_upto, evaluate, exact_error
 from wear.count.collocation import FloatArray
 from wear.count.cutoff import EDGE, CutoffCycle, margin_terms, one_cycle
 from wear.count.cycle import ROUNDOFF, TINY, Cost, OneCycle, settings
 from wear.count.first import exact_cycles
+from wear.count.panels import NONE
 from wear.count.scan import roughness_limit, roughness_scale
 from wear.load import Load
 from wear.model import Model
@@ -105,13 +107,15 @@ def _root(cycle: CutoffCycle, low: float, high: float, height: float) -> float:
 
 
 @np.errstate(all="ignore")
-def counted_stages(model: Model, load: Load, cycles: float, rtol: float, start: float) -> Stages:
+def counted_stages(
+    model: Model, load: Load, cycles: float, rtol: float, start: float, deadline: float = np.inf
+) -> Stages:
     """Count from the wear `start` (mm) up to `cycles`, or until wear stops.
 
-    Without a cutoff one stage does.
+    Without a cutoff one stage does. After the `deadline` (`time.monotonic()`) no other is begun.
     """
     if not model.cutoff:
-        counted = build(model, load, cycles, rtol, start)
+        counted = cycle_count(model, load, cycles, rtol, start, deadline)
         return Stages((Stage(0.0, counted, 0.0),), False, np.inf, counted.cost)
     cycle = one_cycle(model, load)
     shift = roughness_scale(model)
@@ -137,7 +141,9 @@ def counted_stages(model: Model, load: Load, cycles: float, rtol: float, start: 
                 break
             continue
         if limit > wear:
-            counted = build_upto(exact, model, load, cycles - begins, rtol, wear, limit)
+            counted = cycle_count_upto(
+                exact, model, load, cycles - begins, rtol, wear, limit, deadline
+            )
         else:
             run = exact_cycles(exact, wear, target, cycles - begins, size)
             error = exact_error(model, load, run)
@@ -152,6 +158,8 @@ def counted_stages(model: Model, load: Load, cycles: float, rtol: float, start: 
         after, relative = evaluate(counted, np.array([ran]))
         begins, wear = begins + ran, float(after[0])
         inherited += float(relative[0]) * wear
+        if time.monotonic() > deadline:
+            break
     return Stages(tuple(done), False, np.inf, cost)
 
 

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wear.count import abel, wear_after
-from wear.count.build import CHECKS, SAFETY, roundoff_of
 from wear.count.collocation import BoolArray, FloatArray, Mesh, chebyshev_nodes, integral, mesh
 from wear.count.cycle import TINY, Settings, advance, first_edges, refined, settings, unresolved
 from wear.count.first import BLOCK
+from wear.count.panels import CHECKS, SAFETY
+from wear.count.rounding import roundoff_of
 from wear.count.scan import LEAST, SPLIT
 from wear.load import Load
 from wear.model import Model
