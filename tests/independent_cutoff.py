@@ -174,7 +174,7 @@ class CutoffJudge(Judge):
         looks = [phase + (end - phase) * k / (8 * LOOKS) for k in range(8 * LOOKS)]
         looks.append(end - (end - phase) * BLUR)
         held = next((pair for pair in pairwise(looks) if pull(pair[1]) > 0), None)
-        leaves = end if held is None else zero(pull, *held)
+        leaves = end if held is None else min(zero(pull, *held) + BLUR, end)
         wear = self.edge(min(leaves, looks[-1]))
         assert wear is not None
         self.wear = fixed(wear)
