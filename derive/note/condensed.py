@@ -9,6 +9,7 @@ Key results
     Condensed.scalar         (8) with u_a eliminated as well: Q of (9)
     Condensed.rigid          (10), the limit k -> oo of (8), taken by the machine
     Condensed.rigid_condensed (13), for a smooth pin that does not wear
+    bearing_only, two_solids  the problems that all results rest on, each derived once
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from functools import cache, cached_property
 import sympy as sp
 
 from ..equations import Equation
+from ..laws import TANH, ContactLaw
 from ..statement import Statement
 from ..symbols import symbols
 from . import printed
@@ -86,9 +88,15 @@ class Condensed:
 
 
 @cache
-def shared(model: Model) -> Condensed:
-    """Return section 3 of a model, derived once for all that rests on it."""
-    return Condensed(model)
+def bearing_only(law: ContactLaw = TANH) -> Condensed:
+    """Return the problem of a pin that is smooth and does not wear: section 4."""
+    return Condensed(Model(law, pin=Pin.ABSENT))
+
+
+@cache
+def two_solids(law: ContactLaw = TANH, opening: bool = False) -> Condensed:
+    """Return the problem of two worn, rough solids: section 3."""
+    return Condensed(Model(law, opening))
 
 
 def equations(model: Model) -> tuple[Equation, ...]:

@@ -20,8 +20,7 @@ import sympy as sp
 from ..codegen.formula_module import Formula, Guard, formula_module
 from ..conditions import Condition
 from ..laws import LAWS, TANH, ContactLaw, r
-from ..note.condensed import Condensed
-from ..note.governing import Model
+from ..note.condensed import bearing_only
 from ..stable import released, stable
 from ..symbols import symbol, symbols
 from ..zero import is_zero
@@ -167,8 +166,9 @@ def _equal(form: sp.Expr, exact: sp.Expr) -> sp.Expr:
 
 
 def _steady() -> tuple[Formula | Guard, ...]:
-    archard = Model().wear_laws[2].substitute(Model().slip).claim.rhs
-    deflection = Condensed(Model()).deflection.claim.rhs
+    problem = bearing_only()
+    archard = problem.model.wear_laws[2].substitute(problem.model.slip).claim.rhs
+    deflection = problem.deflection.claim.rhs
     offset = _Drift(TANH).offset
     compliant = offset.subs(h_0, h_0 + deflection.subs(p, p_inf))
     per_cycle = sp.expand(archard.subs(p, p_inf) * T)

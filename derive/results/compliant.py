@@ -20,8 +20,7 @@ import sympy as sp
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import GENERAL, TANH, ContactLaw, r
-from ..note.condensed import Condensed
-from ..note.governing import Model, Pin
+from ..note.condensed import bearing_only
 from ..rules.authored import Identity, Inserted, Positive
 from ..rules.bounds import Consequence, Monotone
 from ..rules.limits import Passes, forever
@@ -109,7 +108,7 @@ class CompliantSteadyState(SteadyState):
 def drift_coefficient(law: ContactLaw) -> Statement:
     """Return A of ``u_c(N T) = u_cum N + A ln N + O(1)`` for any periodic load."""
     steady = given(sp.Eq(p_inf, p_max * law.ratio(1 / f_c)), "definition", p_inf)
-    condensed = Condensed(Model(law, pin=Pin.ABSENT)).pressure_of_bearing_wear
+    condensed = bearing_only(law).pressure_of_bearing_wear
     decline = -sp.diff(law.phi, r).subs(r, 1 / f_c) / law.ratio(1 / f_c)
     claim = sp.Eq(A, decline * (sigma_c0 / f_c - h_0 + U_mean - p_inf / k) / f_c)
     parents = (condensed, steady)

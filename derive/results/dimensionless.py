@@ -23,9 +23,8 @@ from .. import sample
 from ..check import Check
 from ..dimensions import dimension
 from ..equations import Equation
-from ..laws import TANH
-from ..note.condensed import Condensed
-from ..note.governing import Model, Pin
+from ..note import condensed
+from ..note.condensed import bearing_only
 from ..rules import SAMPLES, Authored, proof
 from ..rules.authored import insert
 from ..statement import Statement, given
@@ -136,20 +135,20 @@ def _compliant() -> sp.Basic:
 
 def one_solid() -> Statement:
     """Four groups for one worn solid."""
-    parent = Condensed(Model(TANH, pin=Pin.ABSENT)).rigid
+    parent = bearing_only().rigid
     return _statement(parent, _one(), T / sigma_c0, (f_c, mu, eta, nu), ONE)
 
 
 def two_solids() -> Statement:
     """Seven groups for two worn, rough solids."""
-    parent = Condensed(Model(TANH)).rigid
+    parent = condensed.two_solids().rigid
     groups = (f_c, mu, eta, nu, f_a, kappa, zeta)
     return _statement(parent, _two(), T / sigma_c0, groups, TWO)
 
 
 def compliant() -> Statement:
     """One more group for a compliant support, in the pressure."""
-    parent = Condensed(Model(TANH, pin=Pin.ABSENT)).pressure_of_bearing_wear
+    parent = bearing_only().pressure_of_bearing_wear
     groups = (f_c, eta, nu, lamda)
     return _statement(parent, _compliant(), 1 / p_max, groups, (*ONE, k))
 

@@ -21,9 +21,7 @@ from functools import cached_property
 import sympy as sp
 
 from ..equations import Equation
-from ..laws import TANH
-from ..note.condensed import Condensed
-from ..note.governing import Model, Pin
+from ..note.condensed import bearing_only
 from ..note.stabilised import Stabilised
 from ..rules.limits import forever
 from ..statement import Statement, given, inherited
@@ -91,8 +89,7 @@ class Expansion:
     @property
     def pressure(self) -> Statement:
         """The pressure as a function of wear and load."""
-        compliant = Condensed(Model(TANH, pin=Pin.ABSENT)).pressure_of_bearing_wear
-        return compliant.limit(k, sp.oo)
+        return bearing_only().pressure_of_bearing_wear.limit(k, sp.oo)
 
     def drift(self, n: int) -> Statement:
         """Growth of the roughness at order 1/m^n."""

@@ -23,8 +23,8 @@ import sympy as sp
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import GENERAL, TANH, ContactLaw
-from ..note.condensed import Condensed
-from ..note.governing import Model, Pin
+from ..note.condensed import bearing_only
+from ..note.governing import Model
 from ..rules.authored import Inserted, LogOdds
 from ..statement import Statement, given, inherited
 from ..symbols import symbols
@@ -48,7 +48,7 @@ class FirstIntegral:
     @property
     def model(self) -> Model:
         """Bearing wear only."""
-        return Model(self.law, pin=Pin.ABSENT)
+        return bearing_only(self.law).model
 
     @cached_property
     def line(self) -> Statement:
@@ -70,7 +70,7 @@ class FirstIntegral:
     @cached_property
     def compliant(self) -> Statement:
         """What stays constant, with a support of stiffness k."""
-        deflection = Condensed(self.model).deflection
+        deflection = bearing_only(self.law).deflection
         return self._from(deflection, p / k).named("first integral, compliant support")
 
     @cached_property

@@ -23,8 +23,7 @@ from ..check import Check
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import TANH, ContactLaw
-from ..note.condensed import Condensed
-from ..note.governing import Model, Pin
+from ..note.condensed import bearing_only
 from ..rules import Authored, proof, sampled
 from ..rules.sign import sign
 from ..statement import Statement, inherited
@@ -82,13 +81,9 @@ def _manifest(slope: sp.Expr, conditions: tuple[Condition, ...]) -> sp.Expr:
     return sp.expand(slope) if APART in conditions else slope
 
 
-def _rate(law: ContactLaw) -> Statement:
-    return Condensed(Model(law, pin=Pin.ABSENT)).rigid
-
-
 def effect(law: ContactLaw, datum: sp.Expr) -> Statement:
     """Return the sign of the effect of a datum on the rate at given wear and load."""
-    rate = _rate(law)
+    rate = bearing_only(law).rigid
     slope = _slope(rate.claim.rhs, datum)
     claim = _bound(slope, 1 if datum in INCREASING else -1)
     apart = (APART, WORN) if datum in WHILE_APART else ()

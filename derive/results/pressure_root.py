@@ -23,8 +23,7 @@ from ..check import Check
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import TANH, ContactLaw, r
-from ..note.condensed import Condensed
-from ..note.governing import Model
+from ..note.condensed import two_solids
 from ..rules import Authored, proof, sampled
 from ..rules.authored import Positive
 from ..rules.sign import sign
@@ -74,17 +73,12 @@ class PressureRoot:
 
     law: ContactLaw = TANH
 
-    @property
-    def model(self) -> Model:
-        """Two worn, rough solids."""
-        return Model(self.law)
-
     @cached_property
     def equation(self) -> Statement:
         """The equation that the pressure satisfies at given wear, roughness and load."""
-        model = self.model
-        closed = model.pressure.substitute(model.closure)
-        return closed.substitute(Condensed(model).deflection).named("equation for the pressure")
+        problem = two_solids(self.law)
+        closed = problem.model.pressure.substitute(problem.model.closure, problem.deflection)
+        return closed.named("equation for the pressure")
 
     def residual(self, pressure: sp.Expr) -> sp.Expr:
         """Left minus right of that equation, at any pressure."""

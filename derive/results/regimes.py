@@ -25,8 +25,7 @@ from ..check import Check
 from ..conditions import Condition
 from ..equations import Equation
 from ..laws import TANH
-from ..note import condensed
-from ..note.governing import Model, Pin
+from ..note.condensed import bearing_only
 from ..rules import Authored, proof
 from ..rules.authored import Positive
 from ..rules.bounds import Consequence, Monotone
@@ -134,7 +133,7 @@ class Regimes:
     @cached_property
     def rate(self) -> Statement:
         """Eq. (13), solved for the rate."""
-        return condensed.shared(Model(TANH, pin=Pin.ABSENT)).rigid
+        return bearing_only().rigid
 
     @cached_property
     def tail_rate(self) -> sp.Expr:

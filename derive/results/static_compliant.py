@@ -21,9 +21,8 @@ import sympy as sp
 
 from ..conditions import Condition
 from ..equations import Equation
-from ..laws import TANH
-from ..note.condensed import Condensed
-from ..note.governing import Model, Pin
+from ..note.condensed import bearing_only
+from ..note.governing import Model
 from ..rules.authored import Inserted
 from ..rules.solutions import ParametricSolution
 from ..statement import Statement, inherited
@@ -49,7 +48,7 @@ class StaticCompliant:
     @property
     def model(self) -> Model:
         """Bearing wear only."""
-        return Model(TANH, pin=Pin.ABSENT)
+        return bearing_only().model
 
     @cached_property
     def wear(self) -> Statement:
@@ -70,7 +69,7 @@ class StaticCompliant:
         model = self.model
         smooth = model.roughness_at_wear.specialise({f_c: 0}, "the roughness does not change")
         closed = FirstIntegral().log_odds.solve_for(h)
-        deflection = Condensed(model).deflection
+        deflection = bearing_only().deflection
         opened = model.closure.substitute(model.wear_of_pin).solve_for(u_c)
         parents = (opened, closed, deflection, smooth)
         claim = sp.Eq(u_c, _worn_smooth())

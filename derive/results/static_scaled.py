@@ -17,7 +17,7 @@ import sympy as sp
 
 from ..codegen.formula_module import Formula, formula_module
 from ..equations import Equation
-from ..note.governing import Model, Pin
+from ..note.condensed import bearing_only
 from ..rules.authored import Inserted, insert
 from ..statement import Statement, given
 from ..symbols import symbols
@@ -54,7 +54,7 @@ def scaled_primitive() -> Statement:
 
 def _of_numbers(expr: sp.Expr) -> sp.Expr:
     """Write an expression with the plain symbols of generated code."""
-    model = Model(pin=Pin.ABSENT)
+    model = bearing_only().model
     closure = model.closure.substitute(model.wear_of_pin).claim.rhs
     expr = expr.subs(h, closure.subs(symbols("U_c")[0], 0)).subs(sigma, sigma_c0 + f_c * u_c)
     return expr.xreplace({u_c: u, U_a: load})
@@ -68,7 +68,7 @@ def formulas() -> tuple[Formula, ...]:
         Formula(
             "largest_wear",
             (),
-            insert(largest.claim.rhs, (Model().slip,)),
+            insert(largest.claim.rhs, (bearing_only().model.slip,)),
             "wear of one cycle under the largest pressure",
         ),
         Formula("roughness", (u,), _of_numbers(sigma), "roughness of the bearing"),

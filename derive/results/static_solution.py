@@ -23,9 +23,7 @@ import sympy as sp
 
 from ..conditions import Condition
 from ..equations import Equation
-from ..laws import TANH
-from ..note.condensed import Condensed
-from ..note.governing import Model, Pin
+from ..note.condensed import bearing_only
 from ..rules.solutions import Inverted, Solution
 from ..statement import Statement, given, inherited
 from ..symbols import symbols, t
@@ -56,15 +54,10 @@ def excess(roughness: sp.Expr) -> sp.Expr:
 class StaticSolution:
     """Wear under a constant load, for the law of the note and a rigid support."""
 
-    @property
-    def model(self) -> Model:
-        """Bearing wear only."""
-        return Model(TANH, pin=Pin.ABSENT)
-
     @cached_property
     def rate(self) -> Statement:
         """Eq. (13), solved for the rate."""
-        return Condensed(self.model).rigid
+        return bearing_only().rigid
 
     @cached_property
     def time(self) -> Statement:

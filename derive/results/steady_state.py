@@ -29,7 +29,7 @@ from ..conditions import Condition
 from ..equations import Equation
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note import condensed
-from ..note.governing import Model, Pin
+from ..note.governing import Model
 from ..rules.authored import Identity, Positive
 from ..rules.bounds import Consequence, Grows, LogarithmicSlope, Monotone
 from ..rules.limits import Accumulates, Diverges, Passes, Vanishes, forever
@@ -78,12 +78,12 @@ class SteadyState:
     @property
     def model(self) -> Model:
         """Bearing wear only, as in section 4."""
-        return Model(self.law, pin=Pin.ABSENT)
+        return condensed.bearing_only(self.law).model
 
     @cached_property
     def rate_at_wear(self) -> Statement:
         """Eq. (13), solved for the rate."""
-        return condensed.shared(self.model).rigid.named("wear rate")
+        return condensed.bearing_only(self.law).rigid.named("wear rate")
 
     @cached_property
     def deviation(self) -> Statement:
@@ -146,7 +146,7 @@ class SteadyState:
     @cached_property
     def pressure(self) -> Statement:
         """The pressure tends to p_max phi(1/f_c): (22) for the law of the note."""
-        law = condensed.shared(self.model).pressure_of_bearing_wear.limit(k, sp.oo)
+        law = condensed.bearing_only(self.law).pressure_of_bearing_wear.limit(k, sp.oo)
         claim = sp.Eq(forever(p), p_max * self.law.ratio(1 / f_c))
         return step(claim, Passes(), law, self.ratio, name="steady pressure")
 

@@ -28,7 +28,6 @@ from ..conditions import Condition
 from ..equations import Equation
 from ..laws import TANH, ContactLaw
 from ..note import condensed
-from ..note.governing import Model
 from ..rules.authored import Identity
 from ..rules.bounds import Consequence
 from ..rules.drift import FirstOrder, LogarithmicDrift
@@ -81,7 +80,7 @@ class TwoSolids:
     @cached_property
     def rate_at_wear(self) -> Statement:
         """Eq. (10) in terms of kappa, q, g and p_1."""
-        problem = condensed.shared(Model(self.law, self.opening)).rigid
+        problem = condensed.two_solids(self.law, self.opening).rigid
         ratio_of_wears = {K_a: kappa * K_c * H_a / H_c}
         wear_rate = K_c * V / (3 * H_c) * p_max * self.law.ratio(closure_ratio)
         parents = (problem.specialise(ratio_of_wears, "definition of kappa"), *self.definitions)
