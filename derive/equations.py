@@ -18,7 +18,6 @@ from .check import Check
 from .conditions import Condition
 from .rules import Given
 from .statement import Statement, chain, check
-from .symbols import t
 from .typeset.display import evaluated, latex
 from .typeset.present import presentable
 from .zero import same
@@ -77,7 +76,7 @@ class Equation:
     @property
     def latex(self) -> str:
         """Return the equation in LaTeX, laid out as an author would write it."""
-        return latex((*self.shown, *self.where))
+        return latex(self.shown, self.where)
 
     @property
     def printed_latex(self) -> str:
@@ -134,10 +133,10 @@ def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:
 def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
     """Return an expression with one abbreviation written out, a function at its arguments too."""
     name = short.lhs
-    if isinstance(name, AppliedUndef) and name.args != (t,):
-        function = sp.Lambda(name.args, short.rhs)
-        return evaluated(expr).subs(name.func, function).doit()
-    return evaluated(expr).subs(name, short.rhs)
+    if not isinstance(name, AppliedUndef):
+        return evaluated(expr).subs(name, short.rhs)
+    written = evaluated(expr).replace(name.func, sp.Lambda(name.args, short.rhs))
+    return written.replace(sp.Subs, lambda *args: sp.Subs(*args).doit())  # slopes of the function
 
 
 def system(claims: tuple[sp.Basic, ...]) -> sp.Basic:

@@ -66,6 +66,7 @@ def same(left: sp.Basic, right: sp.Basic) -> bool:
     if left == right:
         return True
     if isinstance(left, Relational) and isinstance(right, Relational):
+        right = right if left.func == right.func else right.reversed
         return left.func == right.func and same(left.lhs, right.lhs) and same(left.rhs, right.rhs)
     if isinstance(left, sp.logic.boolalg.BooleanFunction):
         return left.func == right.func and all(

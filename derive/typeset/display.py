@@ -7,6 +7,7 @@ Overview
     without their "(t)" and derivatives upright.
 Key results
     as_written    context in which SymPy evaluates nothing
+    minus, over   terms and factors that keep their sign and their fraction
     evaluated     the same relation, evaluated again
     latex         LaTeX of a relation or of a system of them
 """
@@ -14,14 +15,14 @@ Key results
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.printing.latex import LatexPrinter
 
-from ..symbols import QUANTITIES, t
+from ..symbols import QUANTITIES, symbol, t
 
 
 def as_written() -> AbstractContextManager[None]:
@@ -40,6 +41,17 @@ def minus(expr: sp.Expr) -> sp.Expr:
     return sp.Mul(-1, *sp.Mul.make_args(expr), evaluate=False)
 
 
+def over(expr: sp.Expr) -> sp.Expr:
+    r"""Return ``1/expr`` as a factor that keeps its own fraction; inside ``as_written``.
+
+    >>> x, y = sp.symbols("x y")
+    >>> with as_written():
+    ...     latex(over(x) * sp.Add(1, y))
+    '\\frac{1}{x} \\left(1 + y\\right)'
+    """
+    return sp.Mul(1, sp.Pow(expr, -1), evaluate=False)
+
+
 def evaluated(expr: sp.Basic) -> sp.Basic:
     """Return an expression that was built as written, evaluated."""
     if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):
@@ -50,13 +62,35 @@ def evaluated(expr: sp.Basic) -> sp.Basic:
 _RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
 
 
+_SETTINGS = {
+    "order": "none",
+    "fold_short_frac": False,
+    "fold_frac_powers": True,
+    "mul_symbol": None,
+    "ln_notation": True,
+    "diff_operator": "rd",
+}
+
+
 class _Printer(LatexPrinter):
-    """SymPy's LaTeX printer with the names and habits of the field."""
+    """SymPy's LaTeX printer with the names and habits of the field.
+
+    As ISO 80000-2 has it, the d of a differential and the base e stand upright.  Fractions inside
+    fractions and exponents, where they would be tiny, are written on the line.
+    """
 
     def __init__(self) -> None:
-        super().__init__(
-            {"order": "none", "fold_short_frac": False, "mul_symbol": None, "ln_notation": True}
-        )
+        super().__init__(_SETTINGS)
+        self._small = False
+
+    @contextmanager
+    def _in_small(self) -> Iterator[None]:
+        """Write fractions on the line."""
+        before, self._small = self._small, True
+        try:
+            yield
+        finally:
+            self._small = before
 
     def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
         quantity = QUANTITIES.get(expr.name)
@@ -67,7 +101,8 @@ class _Printer(LatexPrinter):
     def _print_Function(self, expr: sp.Function, exp: str | None = None) -> str:
         name = expr.func.__name__
         if name not in QUANTITIES:
-            return str(super()._print_Function(expr, exp))
+            is_scaled = expr.args == (symbol("tau"),)  # a field of scaled time
+            return name if is_scaled else str(super()._print_Function(expr, exp))
         body = QUANTITIES[name].latex
         if expr.args != (t,):
             body += f"({self._print(expr.args[0])})"
@@ -81,6 +116,45 @@ class _Printer(LatexPrinter):
         if tuple(terms) != expr.args:
             expr = sp.Add(*terms, evaluate=False)
         return str(super()._print_Add(expr, order))
+
+    def _print_Mul(self, expr: sp.Expr) -> str:
+        """Print a product; SymPy calls this with powers too."""
+        whole = sp.Mul(*_factors(expr), evaluate=False) if self._small else expr
+        above, below = sp.fraction(whole, exact=True)
+        if below == 1:
+            return str(super()._print_Mul(expr))
+        first, *others = _factors(above)
+        sign = "- " if first.is_Number and first.is_negative else ""
+        if sign:
+            above = sp.Mul(*([] if first == -1 else [-first]), *others, evaluate=False)
+        return sign + self._fraction(above, below)
+
+    def _fraction(self, above: sp.Expr, below: sp.Expr) -> str:
+        """Print a fraction, on the line where it would be tiny."""
+        on_the_line = self._small
+        with self._in_small():
+            over, under = self._print(above), self._print(below)
+        if not on_the_line:
+            return rf"\frac{{{over}}}{{{under}}}"
+        over = rf"\left({over}\right)" if above.is_Add else over
+        under = rf"\left({under}\right)" if below.is_Add or below.is_Mul else under
+        return f"{over} / {under}"
+
+    def _print_log(self, expr: sp.Expr, exp: str | None = None) -> str:
+        bare = exp is None and expr.args[0].is_Symbol
+        return rf"\ln {self._print(expr.args[0])}" if bare else str(super()._print_log(expr, exp))
+
+    def _print_Rational(self, expr: sp.Rational) -> str:
+        on_the_line = self._small and expr.q != 1
+        return f"{expr.p} / {expr.q}" if on_the_line else str(super()._print_Rational(expr))
+
+    def _print_ExpBase(self, expr: sp.Expr, exp: str | None = None) -> str:
+        with self._in_small():
+            power = self._print(expr.args[0])
+        return str(self._do_exponent(rf"\mathrm{{e}}^{{{power}}}", exp))
+
+    def _print_Exp1(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return str(self._do_exponent(r"\mathrm{e}", exp))
 
     def _print_Piecewise(self, expr: sp.Piecewise) -> str:
         """Print branches with fractions of full size: small ones read like exponents."""
@@ -111,8 +185,18 @@ class _Printer(LatexPrinter):
     def _print_Derivative(self, expr: sp.Derivative) -> str:
         (variable, order), *_ = expr.variable_count
         power = "" if order == 1 else f"^{{{order}}}"
+        above = rf"\mathrm{{d}}{power}{self._print(expr.expr)}"
         below = rf"\mathrm{{d}}{self._print(variable)}{power}"
-        return rf"\frac{{\mathrm{{d}}{power}{self._print(expr.expr)}}}{{{below}}}"
+        return f"{above} / {below}" if self._small else rf"\frac{{{above}}}{{{below}}}"
+
+
+def _factors(expr: sp.Expr) -> Iterator[sp.Expr]:
+    """Yield the factors of a product, and of the products inside it."""
+    if not expr.is_Mul:
+        yield expr
+        return
+    for factor in expr.args:
+        yield from _factors(factor)
 
 
 _Chain = tuple[tuple[sp.Expr, str], sp.Expr, tuple[str, sp.Expr]]
@@ -127,8 +211,10 @@ def _chain(left: sp.Basic, right: sp.Basic) -> _Chain | None:
     return (left.lts, first), left.gts, (second, right.gts)
 
 
-def latex(expr: sp.Basic | Sequence[sp.Basic]) -> str:
+def latex(expr: sp.Basic | Sequence[sp.Basic], where: Sequence[sp.Basic] = ()) -> str:
     r"""Return LaTeX of an expression, a relation, or a system of relations.
+
+    ``where`` are the abbreviations in a system, which follow it.
 
     >>> from derive.symbols import symbol, rate
     >>> latex(sp.Eq(rate("u_c"), 2 * symbol("p_max")))
@@ -136,7 +222,9 @@ def latex(expr: sp.Basic | Sequence[sp.Basic]) -> str:
     """
     if isinstance(expr, sp.Basic):
         return str(_Printer().doprint(expr))
-    if len(expr) == 1:
+    if len(expr) == 1 and not where:
         return latex(expr[0])
-    lines = (_RELATION.sub(r" &\1 ", latex(part), count=1) for part in expr)
+    lines = [_RELATION.sub(r" &\1 ", latex(part), count=1) for part in (*expr, *where)]
+    if where:
+        lines[len(expr)] = r"\text{with}\quad " + lines[len(expr)]
     return r"\left\{\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}\right."

@@ -11,7 +11,13 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
+from ..symbols import t
+
 _HALF = sp.Rational(1, 2)
+#: What comes first in a product, in the order of the note.
+_FIRST = (
+    "f_a", "f_c", "kappa", "K_a", "K_c", "H_a", "H_c", "k", "b", "L", "V", "T", "p_max",
+)  # fmt: skip
 
 
 def presentable(expr: sp.Basic) -> sp.Basic:
@@ -38,12 +44,23 @@ def presentable(expr: sp.Basic) -> sp.Basic:
 
 
 def _sum(expr: sp.Add) -> sp.Basic:
+    if _is_half(expr):
+        return sp.Mul(_HALF, _doubled(expr), evaluate=False)
     terms = [_upright(term) for term in expr.args]
-    if len(terms) == 2 and terms[0] == _HALF and terms[1].has(sp.tanh):
-        doubled = sp.Add(1, presentable(2 * terms[1]), evaluate=False)
-        return sp.Mul(_HALF, doubled, evaluate=False)
-    ordered = sorted(terms, key=lambda t: (_negative(t), t.is_number == _negative(t)))
+    ordered = sorted(terms, key=lambda e: (_negative(e), e.is_number == _negative(e)))
     return sp.Add(*(_term(term) for term in ordered), evaluate=False)
+
+
+def _is_half(expr: sp.Expr) -> bool:
+    """Whether an expression is ``1/2 + tanh(x)/2``, a share that is better written as a half."""
+    return bool(
+        expr.is_Add and len(expr.args) == 2 and expr.args[0] == _HALF and expr.args[1].has(sp.tanh)
+    )
+
+
+def _doubled(expr: sp.Add) -> sp.Expr:
+    """Return ``1 + tanh(x)`` for ``1/2 + tanh(x)/2``, unevaluated."""
+    return sp.Add(1, presentable(2 * _upright(expr.args[1])), evaluate=False)
 
 
 def _upright(term: sp.Expr) -> sp.Expr:
@@ -80,24 +97,40 @@ def _product(expr: sp.Mul) -> sp.Basic:
     """Return a fraction of numbers and symbols, followed by what has an inner structure."""
     plain, below, large = [], [], []
     for factor in expr.args:
-        if not _structured(factor):
+        if _is_half(factor):
+            plain.append(_HALF)
+            large.append(_doubled(factor))
+        elif isinstance(factor, sp.Derivative):
+            large.insert(0, factor)
+        elif not _structured(factor):
             plain.append(factor)
         elif factor.is_Pow and factor.exp.is_negative:
             below.append(presentable(factor))
         else:
             large.append(presentable(factor))
-    if not large and not below:
-        return expr
-    symbols = [f for f in sp.Mul.make_args(sp.Mul(*plain)) if f != 1]
+    symbols = sorted((f for f in sp.Mul.make_args(sp.Mul(*plain)) if f != 1), key=_place)
     if below and all(symbol.is_number for symbol in symbols):  # one fraction reads better
         return sp.Mul(*symbols, *large, *below, evaluate=False)
     front = [sp.Mul(*symbols, *below, evaluate=False)] if symbols or below else []
     return sp.Mul(*front, *large, evaluate=False) if len(front + large) > 1 else (front + large)[0]
 
 
+def _place(factor: sp.Expr) -> tuple[bool, bool, int]:
+    """Return where a factor stands in a product: data, other symbols, fields, time."""
+    base = factor.base if factor.is_Pow else factor
+    name = getattr(base, "name", "")
+    first = _FIRST.index(name) if name in _FIRST else len(_FIRST)
+    return base == t, isinstance(base, AppliedUndef), -1 if factor.is_number else first
+
+
 def _structured(factor: sp.Expr) -> bool:
     return (
         bool(factor.has(sp.Add, sp.Function))
-        and not isinstance(factor, (AppliedUndef, sp.Derivative))
-        and not (factor.is_Pow and isinstance(factor.base, (AppliedUndef, sp.Symbol)))
+        and not _is_name(factor)
+        and not (factor.is_Pow and _is_name(factor.base))
     )
+
+
+def _is_name(expr: sp.Expr) -> bool:
+    """Whether an expression is a symbol or a field now."""
+    return expr.is_Symbol or (isinstance(expr, AppliedUndef) and expr.args == (t,))

@@ -133,11 +133,16 @@ def _fill(pieces: tuple[Piece, ...], limit: float) -> list[tuple[Piece, ...]]:
         fitting = [i for i in possible if total(rest[:i]) <= room] or possible[:1]
         if not fitting:
             break
-        cost = {i: rest[i].depth + _emptiness(total(rest[:i]) / room) for i in fitting}
+        cost = {i: _cost(rest[i], total(rest[:i]) / room) for i in fitting}
         best = min(fitting, key=lambda i: (cost[i], -i))
         lines.append(rest[:best])
         rest, room = rest[best:], limit - _INDENT
     return [*lines, rest]
+
+
+def _cost(start: Piece, filled: float) -> float:
+    """How little one likes a line that is so full, with the next one starting there."""
+    return start.depth + _emptiness(filled) - (0.5 if start.kind == "relation" else 0.0)
 
 
 def _emptiness(filled: float) -> int:
