@@ -62,6 +62,15 @@ def put(page, name, value, event="input"):
     page.wait(f"{UPDATES} > {before}")
 
 
+def refuse(page, name, value):
+    """Type a number that the page does not take."""
+    page.run(
+        f"(() => {{ const e = document.getElementById({name!r}); e.value = {value!r};"
+        " e.dispatchEvent(new Event('change')); })()"
+    )
+    return page.run(f"document.getElementById({name!r}).validationMessage")
+
+
 def click(page, name):
     before = page.run(UPDATES)
     page.run(f"document.getElementById({name!r}).click()")
@@ -324,12 +333,120 @@ def test_numbers_are_taken_and_bad_ones_refused(page):
     put(page, "number-f_c", "0.41729340", event="change")
     assert number(text(page, "value-limit-cycle")) == pytest.approx(2.35e-5, rel=1e-3)
     before = text(page, "value-limit-cycle")
-    page.run(
-        "(() => { const e = document.getElementById('number-H_c'); e.value = '-5';"
-        " e.dispatchEvent(new Event('change')); })()"
-    )
-    assert not page.run("document.getElementById('number-H_c').validity.valid")
+    assert refuse(page, "number-H_c", "-5") == "Give a number above zero."
     assert text(page, "value-limit-cycle") == before
+
+
+def test_a_refused_number_is_not_used_by_what_comes_next(page):
+    assert refuse(page, "number-sigma_c0", "0") == "Give a number above zero."
+    assert refuse(page, "number-h_0", "-1") == "Give zero or a number above it."
+    assert refuse(page, "number-f_c", "") == "Give a number."
+    before = text(page, "value-wear-now")
+    click(page, "linear")
+    assert text(page, "value-wear-now") == before
+    click(page, "reset")
+    assert page.run("document.querySelectorAll('input:invalid').length") == 0
+
+
+def test_contact_that_ends_on_a_compliant_support(page):
+    """The rate bends where contact ends: it is found in many cycles all the same."""
+    click(page, "cutoff")
+    click(page, "compliant")
+    assert text(page, "value-variant") == "tanh/compliant_bearing_cutoff"
+    assert text(page, "value-regime").startswith("arrest")
+    assert number(text(page, "value-arrest-wear")) == pytest.approx(0.002, rel=1e-4)
+    assert 0.0019 < number(text(page, "value-wear-now")) < 0.002
+    put(page, "cycles", "1")
+    scene = load_scene("section4", ["contact.cutoff=true", "support.stiffness_MPa_per_mm=1e5"])
+    expected = wear.solve(scene, [10], rtol=1e-6).u_c[0]
+    assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
+
+
+def test_equations_are_those_of_the_choices(page):
+    def numbers():
+        return page.run(
+            "[...document.querySelectorAll('[data-holds]')].filter((row) => !row.hidden)"
+            ".map((row) => row.querySelector('.row > span').textContent).filter((text) => text)"
+        )
+
+    assert numbers() == ["(1)", "(7e)", "(7f)", "(13)", "(21)", "(22)"]
+    click(page, "cutoff")
+    assert numbers() == ["(1)", "(4)", "(7f)"]
+    click(page, "cutoff")
+    click(page, "compliant")
+    put(page, "pin", "worn_rough")
+    assert numbers() == ["(1)", "(3)", "(7e)", "(7c)", "(7f)", "(8)"]
+    click(page, "opening")
+    assert numbers() == ["(3)", "(7e)", "(7c)", "(7f)"]
+    put(page, "law", "exponential")
+    assert numbers() == ["(3)", "(7c)", "(7f)"]
+
+
+REGIMES = {
+    "alike": {"pin": "worn", "number-f_c": "0"},
+    "closing": {"pin": "worn", "number-f_c": "0", "number-K_a": "1e-4"},
+    "arrest": {"cutoff": "", "number-f_c": "-0.05"},
+    "partial": {"cutoff": "", "number-f_c": repr(1 / 3)},
+    "never": {"cutoff": "", "number-h_0": "0.1"},
+    "finite-time": {"number-f_c": "-0.05", "number-U": "9e-3"},
+}
+
+
+@pytest.mark.parametrize("name", REGIMES)
+def test_regimes_at_the_edges_are_those_of_python(page, name):
+    overrides = {
+        "number-f_c": "bearing.roughness_slope",
+        "number-K_a": "pin.wear_coefficient",
+        "number-h_0": "contact.closure_mm",
+        "number-U": "load.amplitude_mm",
+    }
+    settings = []
+    put(page, "cycles", "1")
+    for control, value in REGIMES[name].items():
+        if control == "cutoff":
+            click(page, control)
+            settings.append("contact.cutoff=true")
+        elif control == "pin":
+            put(page, control, value)
+            pin = {"hardness_MPa": 200, "wear_coefficient": 1e-6, "roughness_mm": 0}
+            settings += [f"pin.{key}={number}" for key, number in pin.items()]
+            settings.append("pin.roughness_slope=0")
+            put(page, "number-H_a", "200", event="change")
+        else:
+            put(page, control, value, event="change")
+            settings.append(f"{overrides[control]}={value}")
+    found = wear.asymptote(load_scene("section4", settings))
+    assert text(page, "value-regime").startswith(found.regime)
+    shown = {
+        "limit-cycle": found.wear_per_cycle_mm,
+        "limit-pressure": found.pressure_MPa,
+        "arrest-wear": found.arrest_wear_mm,
+    }
+    for field, value in shown.items():
+        if value and name != "alike":
+            assert number(text(page, f"value-{field}")) == pytest.approx(value, rel=1e-4)
+
+
+def test_on_a_phone_the_plot_stays_in_sight(page):
+    """One plot at a time, chosen by name, above whatever is scrolled to."""
+    page.size(390, 844)
+    try:
+        for name in ("wear", "roughness", "pressure", "inside"):
+            page.run(f"document.getElementById('show-{name}').click()")
+            page.run("document.getElementById('slider-n').scrollIntoView()")
+            place = (
+                "(({ top, bottom, width }) => [top, bottom, width])"
+                f"(document.getElementById('plot-{name}').getBoundingClientRect())"
+            )
+            top, bottom, width = page.run(place)
+            assert 0 <= top < bottom < 422
+            assert width > 300
+            shown = "[...document.querySelectorAll('.plots figure')].filter((f) => f.offsetWidth)"
+            assert page.run(f"{shown}.length") == 1
+            slider = "document.getElementById('slider-n').getBoundingClientRect().top"
+            assert page.run(slider) > bottom
+    finally:
+        page.size(1280, 1000)
 
 
 def test_page_says_when_it_does_not_carry_so_far(page):

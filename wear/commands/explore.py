@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 from derive import files, terminal
@@ -33,7 +34,12 @@ def execute(options: argparse.Namespace) -> int:
     scene = faults.scene(options)
     faults.stop_if_any()
     assert scene is not None
+    seen = sys.stderr.isatty()
+    if seen:
+        print("deriving the model and its equations ...", end="", file=sys.stderr, flush=True)
     text = page(scene)
+    if seen:
+        print("\r\033[K", end="", file=sys.stderr)
     files.write_atomically(options.output, text)
     if options.json:
         terminal.print_json({"page": options.output, "bytes": len(text.encode())})

@@ -19,7 +19,7 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
-from wear.report import explorer_data, mathml
+from wear.report import explorer_data, explorer_equations, mathml
 from wear.report.html import style
 from wear.scene import Scene, builtin_names, load_scene
 
@@ -27,14 +27,13 @@ CHECKED = ("section3", "section4", "section5", "section4-cutoff", "soft-support"
 AGREEMENT = {"wear": 1e-7, "rate": 1e-12}
 """Largest relative distances from Python: the page's own tolerance, and roundoff."""
 
-EQUATIONS = ("1", "3", "4", "7c", "7f", "8", "21", "22", "log-drift-any-law", "arrest-depth")
 SCRIPTS = ("explorer.solve.js", "explorer.plot.js", "explorer.page.js")
 
 _PLOTS = {
-    "wear": "Wear",
-    "roughness": "Roughness",
-    "pressure": "Contact pressure over the cycles",
-    "inside": "Contact pressure inside a cycle",
+    "wear": ("Wear", "Wear"),
+    "roughness": ("Roughness", "Roughness"),
+    "pressure": ("Pressure", "Contact pressure over the cycles"),
+    "inside": ("In a cycle", "Contact pressure inside a cycle"),
 }
 _PINS = {
     "bearing": "smooth, does not wear",
@@ -88,15 +87,17 @@ cycles, by this page alone. The model on it is generated from the derivation.</p
 <p class="check" id="check" role="status">Not checked: this page needs a script to run.</p>
 </header>
 <main class="columns" id="results" tabindex="-1">
+<div class="workbench">
 {_plots()}
 <form class="controls" autocomplete="off" aria-label="Parameters">
 {_controls(data["parameters"])}
 </form>
+</div>
 <div class="details">
 {_values()}
 <section class="equations" aria-labelledby="equations">
 <h2 id="equations">Equations</h2>
-{_equations()}
+{explorer_equations.rows()}
 </section>
 </div>
 </main>
@@ -147,15 +148,23 @@ def _asset(name: str) -> str:
 
 
 def _plots() -> str:
+    """The plots; where there is room for one, its name chooses it (`explorer.css`)."""
+    choices = "\n".join(
+        f'<input type="radio" name="plot" id="show-{name}"{" checked" if name == "wear" else ""}>'
+        f'<label for="show-{name}">{short}</label>'
+        for name, (short, _) in _PLOTS.items()
+    )
     plots = "\n".join(
-        f'<figure><figcaption id="caption-{name}">{title}</figcaption>'
+        f'<figure id="figure-{name}"><figcaption>{title}</figcaption>'
         f'<svg id="plot-{name}" role="img" viewBox="0 0 460 270"></svg>'
         f'<div class="legend" id="legend-{name}" aria-hidden="true"></div></figure>'
-        for name, title in _PLOTS.items()
+        for name, (_, title) in _PLOTS.items()
     )
     return (
-        '<section class="results" aria-label="Plots">\n<ul id="notices" role="status"></ul>\n'
-        f'<div class="plots">\n{plots}\n</div>\n</section>'
+        '<section class="results" aria-label="Plots">\n'
+        f'<div class="choice" role="radiogroup" aria-label="Plot shown">\n{choices}\n</div>\n'
+        '<p id="summary"></p>\n<ul id="notices" role="status"></ul>\n'
+        f'<div class="plots" id="plots">\n{plots}\n</div>\n</section>'
     )
 
 
@@ -225,25 +234,13 @@ def _tick(name: str, text: str) -> str:
 
 def _slider(row: Mapping[str, Any]) -> str:
     name = row["name"]
-    label = f"{mathml.inline(row['latex'])} {escape(row['meaning'])}"
+    symbol = mathml.inline(row["latex"])
+    meaning = f'<span id="meaning-{name}">{escape(row["meaning"])}</span>'
     spoken = escape(f"{row['meaning']}, {row['unit'] or 'dimensionless'}")
     return (
-        f'<div class="control"><label for="slider-{name}">{label}</label><div class="pair">'
+        f'<div class="control"><label for="slider-{name}">{symbol} {meaning}</label>'
+        '<div class="pair">'
         f'<input type="range" id="slider-{name}" step="any">'
         f'<input type="number" id="number-{name}" step="any" aria-label="{spoken}">'
-        f'<span class="unit">{escape(row["unit"])}</span></div></div>'
+        f'<span class="unit" id="unit-{name}">{escape(row["unit"])}</span></div></div>'
     )
-
-
-def _equations() -> str:
-    from derive.catalogue import equation
-
-    rows = []
-    for identifier in EQUATIONS:
-        one = equation(identifier)
-        number = f"({identifier})" if identifier[0].isdigit() else ""
-        rows.append(
-            f'<p>{escape(one.title[0].upper() + one.title[1:])}</p><div class="row">'
-            f'<div class="formula">{mathml.block(one.latex)}</div><span>{number}</span></div>'
-        )
-    return "\n".join(rows)

@@ -19,6 +19,8 @@ from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.scene import Scene, load_scene
 
 CYCLES = (1, 10, 100, 1000, 10000)
+NOT_NEGATIVE = ("h_0",)
+"""What a scene file takes from zero on."""
 GROUPS: Mapping[str, tuple[str, ...]] = {
     "Bearing": ("K_c", "H_c", "sigma_c0", "f_c"),
     "Pin": ("K_a", "H_a", "sigma_a0", "f_a"),
@@ -115,6 +117,7 @@ def parameter_rows() -> list[dict[str, Any]]:
                 "high": domain.high,
                 "logarithmic": domain.logarithmic,
                 "positive": domain.positive,
+                "negative": not domain.positive and name not in NOT_NEGATIVE,
             }
         )
     return rows

@@ -5,6 +5,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
 const $ = (id) => document.getElementById(id);
 const loaded = {}; // generated functions by variant
 let chosen; // the scene, whose numbers the controls change
+const parameters = {}; // the numbers that hold; a field may show one that was refused
 
 function functionsOf(variant) {
   loaded[variant] ??= MODELS[variant]();
@@ -14,10 +15,8 @@ function functionsOf(variant) {
 // Controls and state.
 
 function readState() {
-  const parameters = {};
-  for (const row of DATA.parameters) parameters[row.name] = Number($(`number-${row.name}`).value);
   return {
-    parameters,
+    parameters: { ...parameters },
     law: $("law").value,
     pin: $("pin").value,
     compliant: $("compliant").checked,
@@ -34,13 +33,23 @@ function variantOf(state) {
     + (state.opening && wears ? "_opening" : "") + (state.cutoff ? "_cutoff" : "");
 }
 
+// A load that is no sine is multiplied by the number on the slider of the amplitude.
+function rowOf(row) {
+  if (row.name !== "U" || chosen.load.kind === "sine") return row;
+  return { ...row, meaning: "the load is multiplied by", unit: "", low: 0.1, high: 10 };
+}
+
 function position(row, value) {
-  return row.logarithmic ? Math.log10(value) : value;
+  return row.logarithmic ? Math.log10(Math.max(value, row.low * 1e-3)) : value;
 }
 
 function setNumber(row, value) {
   const slider = $(`slider-${row.name}`);
-  $(`number-${row.name}`).value = Number(value.toPrecision(12));
+  const number = $(`number-${row.name}`);
+  parameters[row.name] = value;
+  const short = Number(value.toPrecision(12));
+  number.value = short !== 0 && Math.abs(short) < 1e-3 ? short.toExponential() : short;
+  number.setCustomValidity("");
   const at = position(row, value);
   slider.min = Math.min(position(row, row.low), at);
   slider.max = Math.max(position(row, row.high), at);
@@ -50,7 +59,11 @@ function setNumber(row, value) {
 
 function useScene(name) {
   chosen = DATA.scenes.find((scene) => scene.name === name);
-  for (const row of DATA.parameters) setNumber(row, chosen.parameters[row.name]);
+  for (const row of DATA.parameters.map(rowOf)) {
+    setNumber(row, chosen.parameters[row.name]);
+    $(`meaning-${row.name}`).textContent = row.meaning;
+    $(`unit-${row.name}`).textContent = row.unit;
+  }
   for (const key of ["law", "pin"]) $(key).value = chosen[key];
   for (const key of ["compliant", "opening", "cutoff"]) $(key).checked = chosen[key];
   $("description").textContent = chosen.description;
@@ -160,36 +173,48 @@ function symbols(text) {
   return made;
 }
 
-// Long-time behaviour, from generated formulas.
+// Long-time behaviour, from generated formulas: the regime and what is known of it.
 
-function asymptote(state, load) {
+const REGIMES = {
+  steady: "steady: every cycle wears as much as the one before, in the end",
+  partial: "steady, with contact in the same part of every cycle",
+  closing: "steady: wear of the pin closes the gap without end",
+  alike: "steady: every cycle is like the first",
+  logarithmic: "logarithmic: wear goes on ever more slowly",
+  saturating: "saturating: wear ends where the roughness would vanish",
+  "finite-time": "finite-time: the roughness vanishes, and the model ends there",
+  arrest: "arrest: the gap outgrows the roughness, and contact ends",
+};
+
+function longRun(state, { functions, c, load }) {
   const wears = state.pin.startsWith("worn");
-  const isRough = state.pin.endsWith("rough");
   const own = state.parameters;
-  const rough = isRough ? { sigma_a0: own.sigma_a0, f_a: wears ? own.f_a : 0 } : { sigma_a0: 0, f_a: 0 };
-  const kappa = wears ? FORMULAS.pin_wear(own) : 0;
-  const data = { ...own, ...rough, kappa, U_mean: load.mean, U_max: load.maximum, U_min: load.minimum };
+  const rough = state.pin.endsWith("rough")
+    ? { sigma_a0: own.sigma_a0, f_a: wears ? own.f_a : 0 } : { sigma_a0: 0, f_a: 0 };
+  const data = {
+    ...own, ...rough, kappa: wears ? FORMULAS.pin_wear(own) : 0,
+    U_mean: load.mean, U_max: load.maximum, U_min: load.minimum,
+  };
   data.q = FORMULAS.roughness_growth(data);
-  data.g = state.opening && wears ? FORMULAS.closure_growth_opening(data) : FORMULAS.closure_growth(data);
+  data.g = (state.opening && wears ? FORMULAS.closure_growth_opening : FORMULAS.closure_growth)(data);
   data.p_1 = FORMULAS.cross_roughness(data);
-  if (data.q === 0) return { regime: "logarithmic: wear goes on ever more slowly", data };
-  if (!isRough && own.f_c < 0) {
-    return { regime: "saturating: the bearing becomes smooth before wear can go on", data };
+  const vanishing = data.q !== 0 && FORMULAS.apart(data) === 0 ? FORMULAS.vanishing_wear(data) : -1;
+  const oneSolid = data.kappa === 0 && data.sigma_a0 === 0;
+  if (state.cutoff) {
+    const depth = arrestDepth(functions.margin(0, load.maximum, c), oneSolid, data);
+    if (depth !== undefined && !(vanishing > 0 && depth >= vanishing)) return { kind: "arrest", arrest: depth };
+    if (depth === undefined && vanishing <= 0 && oneSolid && FORMULAS.gap_and_cutoff_grow_alike(data)) {
+      return partial(state, data, load, (U_a) => functions.margin(0, U_a, c) >= 0);
+    }
+  }
+  if (data.q === 0) return constantRoughness(data);
+  if (vanishing > 0) {
+    return { kind: FORMULAS.gap_at_peak(vanishing, data) > 0 ? "saturating" : "finite-time" };
   }
   const limit = FORMULAS.closure_ratio(data);
-  if (state.cutoff && limit > DATA.cutoff) {
-    const found = { regime: "arrest: the gap outgrows the roughness, and contact ends", data };
-    if (!isRough && !wears) found.arrest = FORMULAS.arrest_depth(data);
-    else if (FORMULAS.margin_is_lost(data)) found.arrest = FORMULAS.arrest_depth_two_solids(data);
-    return found;
-  }
-  if (state.cutoff && limit === DATA.cutoff) {
-    return { regime: "steady, with contact in the same part of every cycle", data, limit };
-  }
   data.p_inf = FORMULAS.pressure(FORMULAS[`share_${state.law}`](limit), data);
   return {
-    regime: "steady: every cycle wears as much as the one before, in the end",
-    data,
+    kind: "steady",
     limit,
     pressure: data.p_inf,
     perCycle: FORMULAS.wear_per_cycle(data),
@@ -198,14 +223,36 @@ function asymptote(state, load) {
   };
 }
 
+// The wear at which the peak of the load no longer makes contact, if there is one.
+function arrestDepth(marginAtPeak, oneSolid, data) {
+  if (marginAtPeak <= 0) return 0;
+  if (oneSolid) return FORMULAS.gap_outgrows_roughness(data) ? FORMULAS.arrest_depth(data) : undefined;
+  return FORMULAS.margin_is_lost(data) ? FORMULAS.arrest_depth_two_solids(data) : undefined;
+}
+
+function partial(state, data, load, touches) {
+  const limit = FORMULAS.closure_ratio(data);
+  const pressure = FORMULAS.pressure(FORMULAS[`share_${state.law}`](limit), data);
+  const phases = Array.from({ length: 4096 }, (_, i) => (i + 0.5) / 4096);
+  const part = phases.filter((phase) => touches(load.value(phase))).length / phases.length;
+  return { kind: "partial", limit, pressure, perCycle: part * FORMULAS.wear_per_cycle({ ...data, p_inf: pressure }) };
+}
+
+function constantRoughness(data) {
+  if (data.g > 0) return { kind: "logarithmic" };
+  if (data.g === 0) return { kind: "alike" };
+  const perCycle = FORMULAS.wear_per_cycle({ ...data, p_inf: data.p_max });
+  return { kind: "closing", pressure: data.p_max, perCycle };
+}
+
 function tell(state, solved, end) {
-  const found = asymptote(state, solved.load);
-  const number = (value, unit) => (value === undefined ? "does not apply" : `${shown(value)} ${unit}`);
+  const found = longRun(state, solved);
+  const number = (value, unit) => (value === undefined ? "does not apply" : `${shown(value)} ${unit}`.trim());
   const rate = solved.solver.cycle(end.u, 0);
   const values = {
-    regime: found.regime,
+    regime: REGIMES[found.kind],
     "wear-now": number(end.u, "mm"),
-    "cycle-now": number(rate, "mm"),
+    "cycle-now": Number.isFinite(rate) ? number(rate, "mm") : "not found",
     "limit-ratio": number(found.limit, ""),
     "limit-pressure": number(found.pressure, "MPa"),
     "limit-cycle": number(found.perCycle, "mm"),
@@ -213,15 +260,33 @@ function tell(state, solved, end) {
     "arrest-wear": number(found.arrest, "mm"),
     variant: variantOf(state),
   };
-  for (const [id, text] of Object.entries(values)) $(`value-${id}`).textContent = text.trim();
+  for (const [id, text] of Object.entries(values)) $(`value-${id}`).textContent = text;
   for (const node of document.querySelectorAll("[data-cycles]")) node.textContent = shown(end.n);
+  const [regime] = REGIMES[found.kind].split(/[:,]/);
+  const last = { perCycle: `${values["limit-cycle"]} a cycle in the end`, arrest: `ends at ${values["arrest-wear"]}` };
+  const known = Object.keys(last).find((name) => found[name] !== undefined);
+  $("summary").textContent = [
+    `${values["wear-now"]} after ${shown(end.n)} cycles`, regime, ...(known ? [last[known]] : []),
+  ].join(" \u00b7 ");
+  showEquations(state, found.kind);
   const notices = solved.history.notices.map((notice) => notice.text);
-  if (Object.values(solved.fields(end.u, solved.load.value(0))).some((value) => !(Math.abs(value) < 1e300))) {
+  const fields = solved.fields(end.u, solved.load.value(0));
+  if (Object.values(fields).some((value) => !(Math.abs(value) < 1e300))) {
     notices.push("These numbers are outside the range in which the model has a value.");
   }
-  if (solved.fields(end.u, 0).sigma_c < 0) {
-    notices.push("The roughness of the bearing is negative: beyond what the model means.");
+  if (fields.sigma_c < 0) notices.push("The roughness of the bearing is negative: beyond what the model means.");
+  notify(notices);
+}
+
+function showEquations(state, regime) {
+  const facts = { ...state, opening: state.opening && state.pin.startsWith("worn"), regime };
+  for (const row of document.querySelectorAll("[data-holds]")) {
+    const holds = Object.entries(JSON.parse(row.dataset.holds));
+    row.hidden = !holds.every(([choice, values]) => values.includes(facts[choice]));
   }
+}
+
+function notify(notices) {
   $("notices").replaceChildren(...notices.map((text) => {
     const item = document.createElement("li");
     item.textContent = text;
@@ -232,13 +297,19 @@ function tell(state, solved, end) {
 function update() {
   const state = readState();
   enableWhatActs(state);
-  $("cycles-shown").textContent = shown(Math.round(state.cycles));
+  const cycles = shown(Math.round(state.cycles));
+  $("cycles-shown").textContent = cycles;
+  $("cycles").setAttribute("aria-valuetext", cycles);
   const started = performance.now();
-  const solved = solveState(state);
-  const end = draw(state, solved);
-  tell(state, solved, end);
-  $("value-time").textContent = `${Math.round(performance.now() - started)} ms, `
-    + `${shown(solved.solver.cost())} right-hand sides`;
+  try {
+    const solved = solveState(state);
+    tell(state, solved, draw(state, solved));
+    $("value-time").textContent = `${Math.round(performance.now() - started)} ms, `
+      + `${shown(solved.solver.cost())} right-hand sides`;
+  } catch (fault) {
+    notify(["This page cannot compute that. What it shows is the setting before."]);
+    console.error(fault);
+  }
   document.documentElement.dataset.ready = String(Number(document.documentElement.dataset.ready ?? 0) + 1);
 }
 
@@ -284,6 +355,12 @@ function checkAgainstPython() {
     + `within ${wear.toExponential(0)} of the values computed in Python (relative).`;
 }
 
+function faultOf(row, value) {
+  if (!Number.isFinite(value)) return "Give a number.";
+  if (row.positive && value <= 0) return "Give a number above zero.";
+  return !row.negative && value < 0 ? "Give zero or a number above it." : "";
+}
+
 function begin() {
   const select = $("scene");
   for (const scene of DATA.scenes) select.add(new Option(scene.title, scene.name));
@@ -295,16 +372,16 @@ function begin() {
   for (const row of DATA.parameters) {
     $(`slider-${row.name}`).addEventListener("input", (event) => {
       const at = Number(event.target.value);
-      setNumber(row, Number((row.logarithmic ? 10 ** at : at).toPrecision(6)));
+      setNumber(rowOf(row), Number((row.logarithmic ? 10 ** at : at).toPrecision(6)));
       changed();
     });
     $(`number-${row.name}`).addEventListener("change", (event) => {
       const value = event.target.valueAsNumber;
-      const bad = !Number.isFinite(value) || (row.positive && value <= 0);
-      event.target.setCustomValidity(bad ? "Give a number above zero." : "");
+      const fault = faultOf(row, value);
+      event.target.setCustomValidity(fault);
       event.target.reportValidity();
-      if (!bad) {
-        setNumber(row, value);
+      if (!fault) {
+        setNumber(rowOf(row), value);
         changed();
       }
     });
@@ -312,6 +389,7 @@ function begin() {
   for (const id of ["law", "pin", "compliant", "opening", "cutoff", "cycles", "logarithmic", "linear"]) {
     $(id).addEventListener("input", changed);
   }
+  addEventListener("resize", changed);
   update();
 }
 

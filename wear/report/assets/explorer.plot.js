@@ -1,8 +1,7 @@
 // Plots of the explorer: curves in a frame, as SVG that follows the page's colours.
 "use strict";
 
-const WIDTH = 460;
-const HEIGHT = 270;
+const ONE_AT_A_TIME = matchMedia("(max-width: 44rem)"); // as in explorer.css
 const MARGIN = { left: 54, right: 14, top: 12, bottom: 44 };
 
 // Ticks at round numbers: 1, 2 or 5 times a power of ten; on a logarithmic axis powers of ten.
@@ -48,6 +47,14 @@ function element(name, attributes, ...children) {
   return made;
 }
 
+// As wide as the page has room for, so that letters keep their size; one plot at a time is flat.
+function sizeOf(svg) {
+  const room = svg.clientWidth || document.getElementById("plots").clientWidth; // hidden: none
+  if (ONE_AT_A_TIME.matches) return { width: Math.max(300, room), height: 225 };
+  const width = Math.min(460, Math.max(300, room));
+  return { width, height: Math.round(0.587 * width) };
+}
+
 // Draw `curves` ({ name, points: [x, y][] }) into `svg`; { x, y } name the axes.
 function plot(svg, curves, { x, y, logarithmic, zero }) {
   const drawn = curves.map((curve) => ({
@@ -65,8 +72,9 @@ function plot(svg, curves, { x, y, logarithmic, zero }) {
   }
   high += 0.04 * (high - low);
   if (low !== 0) low -= 0.04 * (high - low);
-  const across = WIDTH - MARGIN.left - MARGIN.right;
-  const down = HEIGHT - MARGIN.top - MARGIN.bottom;
+  const { width, height } = sizeOf(svg);
+  const across = width - MARGIN.left - MARGIN.right;
+  const down = height - MARGIN.top - MARGIN.bottom;
   const position = logarithmic
     ? (value) => MARGIN.left + across * Math.log(value / left) / Math.log(right / left)
     : (value) => MARGIN.left + across * (value - left) / (right - left);
@@ -79,12 +87,12 @@ function plot(svg, curves, { x, y, logarithmic, zero }) {
   for (const value of ticks(left, right, logarithmic)) {
     const at = position(value).toFixed(1);
     parts.push(element("line", { class: "grid", x1: at, x2: at, y1: MARGIN.top, y2: MARGIN.top + down }));
-    parts.push(element("text", { x: at, y: HEIGHT - MARGIN.bottom + 17, "text-anchor": "middle" },
+    parts.push(element("text", { x: at, y: height - MARGIN.bottom + 17, "text-anchor": "middle" },
       label(value, logarithmic, rightScale)));
   }
   for (const value of ticks(low, high, false)) {
     const at = level(value).toFixed(1);
-    parts.push(element("line", { class: "grid", x1: MARGIN.left, x2: WIDTH - MARGIN.right, y1: at, y2: at }));
+    parts.push(element("line", { class: "grid", x1: MARGIN.left, x2: width - MARGIN.right, y1: at, y2: at }));
     parts.push(element("text", { x: MARGIN.left - 6, y: Number(at) + 4, "text-anchor": "end" },
       label(value, false, highScale)));
   }
@@ -97,12 +105,12 @@ function plot(svg, curves, { x, y, logarithmic, zero }) {
     if (path) parts.push(element("path", { class: `curve curve-${index}`, d: path }));
   });
   parts.push(element("text", {
-    class: "axis", x: MARGIN.left + across / 2, y: HEIGHT - 6, "text-anchor": "middle",
+    class: "axis", x: MARGIN.left + across / 2, y: height - 6, "text-anchor": "middle",
   }, titled(x, rightScale)));
   parts.push(element("text", {
     class: "axis", x: -MARGIN.top - down / 2, y: 13, transform: "rotate(-90)", "text-anchor": "middle",
   }, titled(y, highScale)));
-  svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
+  svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   svg.replaceChildren(...parts);
   svg.setAttribute("aria-label", described(drawn, x, y));
   return drawn.map((curve) => curve.name);

@@ -9,7 +9,10 @@
 
 const WEAR_TOLERANCE = 1e-9;
 const MOST_EVALUATIONS = 1.5e6;
+const PANEL_TOLERANCE = 1e-8;
+const LOOSE_TOLERANCE = 1e-5; // where the rate has corners and halving a panel helps little
 const SMALL_SLOPE = 4e-3; // of D: beyond, cycles are taken one by one
+const BEND_WIDTH = 1e-8; // phase to which a bend of the rate is located
 const GRID = 128; // phases of a cycle at which contact is looked for
 
 // The load: displacement of the pin in mm against phase, in cycles.
@@ -88,7 +91,8 @@ function step(f, x, y, h) {
 
 function makeSolver(functions, c, load, period) {
   let evaluations = 0;
-  const jumps = functions.margin !== undefined && functions.residual === undefined;
+  const ends = functions.margin !== undefined;
+  const jumps = ends && functions.residual === undefined; // a support makes the jump a bend
   const rate = jumps ? functions.rate : functions.right_hand_side;
   const speed = (phase, u) => {
     evaluations += 1;
@@ -116,7 +120,7 @@ function makeSolver(functions, c, load, period) {
       }
       x = x + h >= to ? to : x + h;
       gained = next;
-      h = Math.min(h * Math.min(4, 0.9 * (size / Math.max(error, 1e-300)) ** 0.2), 1 / 12);
+      h = Math.min(h * (error > 0 ? Math.min(4, 0.9 * (size / error) ** 0.2) : 4), 1 / 12);
     }
     return { gained, x: to };
   }
@@ -124,7 +128,7 @@ function makeSolver(functions, c, load, period) {
   function ended(f, x, gained, h, u, until) {
     let low = 0;
     let high = h;
-    for (let i = 0; i < 60; i += 1) {
+    for (let i = 0; i < 60 && (jumps || high - low > BEND_WIDTH); i += 1) {
       const middle = (low + high) / 2;
       if (until(x + middle, u + step(f, x, gained, middle)[0]) < 0) high = middle;
       else low = middle;
@@ -136,16 +140,31 @@ function makeSolver(functions, c, load, period) {
   function span(from, to, u, scale) {
     if (!jumps) {
       const corners = load.corners.map((corner) => Math.floor(from) + corner);
-      const ends = [...corners.filter((corner) => corner > from && corner < to), to];
       let gained = 0;
       let x = from;
-      for (const end of ends) {
-        gained += advance(x, end, u + gained, scale).gained;
-        x = end;
+      for (const end of [...corners.filter((corner) => corner > from && corner < to), to]) {
+        while (x < end) {
+          const until = ends ? unbent(x, u + gained) : undefined;
+          const done = advance(x, end, u + gained, Math.max(scale, gained), until);
+          gained += done.gained;
+          x = done.x;
+        }
       }
       return gained;
     }
     return interrupted(from, to, u, scale);
+  }
+
+  // On a support the rate bends where contact ends and where the support lets go no further:
+  // positive as long as none of both is passed.
+  function unbent(x, u) {
+    const branch = (phase, depth) => {
+      if (margin(phase, depth) <= 0) return 0;
+      const U_a = load.value(phase);
+      return functions.pressure(depth, U_a, c) < functions.limited(Infinity, depth, U_a, c) ? 2 : 1;
+    };
+    const now = branch(x, u);
+    return (phase, depth) => (branch(phase, depth) === now ? 1 : -1);
   }
 
   function interrupted(from, to, start, scale) {
@@ -274,7 +293,8 @@ function wearOverCycles(solver, wanted, smooth, rough) {
   let before = NaN;
   let gained = 0;
   let vanished = false;
-  let loose = false;
+  let coarsest = 0;
+  let halvings = 0;
   while (n < wanted) {
     gained = solver.cycle(u, Math.abs(gained));
     if (!Number.isFinite(gained)) break;
@@ -300,15 +320,18 @@ function wearOverCycles(solver, wanted, smooth, rough) {
   while (n < wanted && Number.isFinite(gained) && !vanished && panels.length < 400) {
     const panel = makePanel(solver, u, width, n, scale);
     const meant = panel.n !== undefined && rough(panel.u[ORDER]);
-    if ((!meant || panel.error > 1e-8) && width > scale) {
+    const allowed = halvings < 4 ? PANEL_TOLERANCE : LOOSE_TOLERANCE;
+    if (!(meant && panel.error <= allowed) && width > scale) {
       width /= 2;
+      if (meant) halvings += 1;
       continue;
     }
+    halvings = 0;
     if (!meant) {
       vanished = panel.n !== undefined;
       break;
     }
-    loose ||= panel.error > 1e-8;
+    coarsest = Math.max(coarsest, panel.error);
     panels.push(panel);
     for (let i = 1; i <= ORDER; i += 1) points.push({ n: panel.n[i], u: panel.u[i] });
     n = panel.n[ORDER];
@@ -316,8 +339,11 @@ function wearOverCycles(solver, wanted, smooth, rough) {
     scale = panel.least;
     width *= panel.error < 1e-11 ? 2 : 1.2;
   }
-  if (loose) notices.push({ kind: "accuracy", text: "Not everywhere as accurate as 8 digits." });
-  const reached = Math.min(n, wanted);
+  if (coarsest > PANEL_TOLERANCE) {
+    const digits = Math.max(0, Math.floor(-Math.log10(coarsest)));
+    notices.push({ kind: "accuracy", text: `Only accurate to about ${digits} digits.` });
+  }
+  const reached = Math.min(Math.floor(n), wanted);
   if (reached < wanted) {
     notices.push({
       kind: "limit",
@@ -350,6 +376,7 @@ function makePanel(solver, start, width, from, scale) {
 
 function wearAt(points, panels, count) {
   const panel = panels.find((one) => one.n[0] <= count && count <= one.n[ORDER]);
+  if (points.length === 1) return points[0].u;
   if (!panel) {
     let k = 1;
     while (k < points.length - 1 && points[k].n < count) k += 1;
