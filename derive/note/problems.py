@@ -22,11 +22,20 @@ from ..conditions import Condition
 from ..equations import Equation
 from ..results.first_integral import FirstIntegral
 from ..statement import Statement
-from ..symbols import symbols, t
-from .condensed import Condensed
+from ..symbols import rate, symbols, t
+from ..typeset.display import as_written, minus
+from ..typeset.present import presentable
+from .condensed import (
+    Condensed,
+    deflection_at_rate,
+    half_rate,
+    roughness_of_both,
+    wear_ratio,
+)
 from .governing import Model
 
 h, p, p_max, R_a, U_a, b, L = symbols("h p p_max R_a U_a b L")
+h_0, u_a, u_c, kappa = symbols("h_0 u_a u_c kappa")
 
 CARRIED = Condition("the contact can carry the load", sp.And(R_a > 0, R_a < p_max * b * L))
 
@@ -112,7 +121,22 @@ def given_motion(model: Model | None = None) -> Problem:
 
 def equations() -> tuple[Equation, ...]:
     """Return both problems as systems, in the order in which the fields follow."""
-    return tuple(
-        Equation(problem.id, "3", problem.title, problem.order)
-        for problem in (given_load(), given_motion())
+    load, motion = given_load(), given_motion()
+    x = sp.Symbol("x", real=True)
+    with as_written():
+        closure = sp.Add(h_0, (1 - kappa) * u_c, deflection_at_rate, -U_a)
+        argument = sp.Eq(x, sp.Add(4, minus(2 * closure / roughness_of_both)))
+        law = sp.Eq(rate("u_c"), half_rate * (1 + sp.tanh(x)))
+        proportional = sp.Eq(u_a, kappa * u_c)
+    others = tuple(presentable(statement.claim) for statement in motion.order[2:])
+    return (
+        Equation(load.id, "3", load.title, load.order),
+        Equation(
+            motion.id,
+            "3",
+            motion.title,
+            motion.order,
+            display=(law, proportional, *others),
+            where=(wear_ratio, argument),
+        ),
     )

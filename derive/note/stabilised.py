@@ -28,6 +28,7 @@ from ..results.steady_state import (
     SteadyState,
     closure,
     made,
+    per_cycle,
     roughness,
     steady_state,
     step,
@@ -42,7 +43,7 @@ from . import printed_stabilised as printed
 
 h_0, U_a, u_c, p, T, U_mean = symbols("h_0 U_a u_c p T U_mean")
 sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
-u_cum, p_inf, G, G_inf, u_inf, N = symbols("u_cum p_inf G G_inf u_inf N")
+u_cum, p_inf, G, G_inf, u_inf, A, sigma = symbols("u_cum p_inf G G_inf u_inf A sigma")
 
 PERIODIC = Condition("the load has the period T", typeset=r"\text{the load has the period}\; T")
 
@@ -171,14 +172,12 @@ class Stabilised:
 
 def _displays() -> dict[str, tuple[sp.Basic, ...]]:
     """Return what differs from the printed forms, laid out by an author."""
-    product = 2 * (1 - sp.tanh(4 - 2 / f_c))
     with as_written():
-        upper = 4 * roughness - 2 * sp.Add(h_0, u_c, -U_a)
-        argument_now = upper / roughness
-        argument_later = later(argument_now).xreplace({later(U_a): U_a})
         denominators = roughness * later(roughness)
-        speed = K_c * V / (6 * H_c) * p_max * (1 + sp.tanh(4 - 2 / f_c))
-        drift = product / f_c * sp.Add(sigma_c0 / f_c, -h_0, U_mean)
+        upper = 4 * sigma - 2 * sp.Add(h_0, u_c, -U_a)
+        upper_later = later(upper).xreplace({later(U_a): U_a})
+        bracket = sp.Add((4 * f_c - 2) * sigma, minus(f_c * upper))
+        worn = sp.Add(later(u_c), -u_c)
         return {
             "11": (sp.Eq(forever(sp.Add(G, -printed.at("G_inf", sp.S.Zero))), 0),),
             "12": (
@@ -186,15 +185,22 @@ def _displays() -> dict[str, tuple[sp.Basic, ...]]:
                 sp.Eq(forever(sp.Add(rate("G"), -rate("G_inf"))), 0),
             ),
             "16b": (sp.Eq(u_cum * forever(printed.BRACKET / denominators), 0),),
-            "19": (sp.Eq(forever(sp.Add(u_c, minus(speed * t)) / sp.log(t / T)), drift),),
+            "19": (sp.Eq(forever(sp.Add(u_c, minus(u_cum * t / T)) / sp.log(t / T)), A),),
             "bracket": (sp.Eq(printed.BRACKET, 2 * (f_c * (h_0 - U_a) - sigma_c0)),),
             "difference": (
                 sp.Eq(
-                    sp.Add(argument_later, -argument_now),
-                    sp.Add(later(u_c), -u_c) * printed.BRACKET / denominators,
+                    sp.Add(upper_later / later(sigma), minus(upper / sigma)),
+                    worn * bracket / (sigma * later(sigma)),
                 ),
             ),
         }
+
+
+def drift_and_wear() -> tuple[sp.Eq, sp.Eq]:
+    """Return the coefficient of the drift and (21), as abbreviations."""
+    with as_written():
+        coefficient = 2 / f_c * (1 - sp.tanh(4 - 2 / f_c)) * sp.Add(sigma_c0 / f_c, -h_0, U_mean)
+        return sp.Eq(A, coefficient), per_cycle
 
 
 def equations() -> tuple[Equation, ...]:
@@ -244,6 +250,7 @@ def equations() -> tuple[Equation, ...]:
             printed.EQ_19,
             shown["19"],
             remark="no affine asymptote: the distance from (19) grows like ln t",
+            where=drift_and_wear(),
         ),
         Equation("20", second, "wear per cycle, definition", (s.increment,), printed.EQ_20),
         Equation("21", second, "wear per cycle", (s.wear_per_cycle,), printed.EQ_21),
@@ -256,5 +263,6 @@ def equations() -> tuple[Equation, ...]:
             "from (15) to (16)",
             (s.difference,),
             display=shown["difference"],
+            where=(sp.Eq(sigma, roughness),),
         ),
     )

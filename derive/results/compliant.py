@@ -123,10 +123,12 @@ def equations() -> tuple[Equation, ...]:
     """Return the results for a compliant support."""
     general, tanh = CompliantSteadyState(GENERAL), CompliantSteadyState(TANH)
     section = "compliant support"
+    slope = sp.diff(GENERAL.phi, r).subs(r, 1 / f_c)
     with as_written():
         steepness = 2 * (1 - sp.tanh(4 - 2 / f_c)) / f_c
         shifted = sp.Add(sigma_c0 / f_c, -h_0, U_mean, -(p_inf / k))
         display = (sp.Eq(A, steepness * shifted),)
+        any_law = (sp.Eq(A, -(slope / (f_c * GENERAL.ratio(1 / f_c))) * shifted),)
     return (
         Equation("compliant-pressure", section, "asymptotic pressure", (general.pressure,)),
         Equation(
@@ -137,6 +139,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "coefficient of ln t, any law",
             (drift_coefficient(GENERAL),),
+            display=any_law,
         ),
         Equation(
             "log-drift-compliant",

@@ -42,7 +42,7 @@ from ..rules.authored import Identity, Inserted
 from ..rules.bounds import Consequence, Monotone
 from ..statement import Statement, given
 from ..symbols import rate, symbols, t
-from ..typeset.display import as_written, minus
+from ..typeset.display import as_written, minus, over
 from ..zero import is_zero
 from .static_solution import ROUGH
 from .steady_state import closure, made, roughness, steady_state, step
@@ -191,16 +191,70 @@ def equations() -> tuple[Equation, ...]:
         now = sp.Add(3 * sp.Add(sigma_c0, f_c * u_c), minus(sp.Add(h_0, u_c, minus(U_a))))
         room = sp.Add(3 * sigma_c0, minus(h_0), U_a, sp.Add(3 * f_c, -1) * u_c)
         linear = (sp.Eq(now, room),)
+        gone = sp.Add(sp.Add(1, minus(3 * f_c)) * sp.Add(u_stop, -u_c), -sp.Add(U_max, -U_a))
+        kept = sp.Add(sp.Add(3 * f_c, -1) * sp.Add(u_c, -u_perm), U_a, -U_min)
+        least = K_c * V * p_max / (6 * H_c) * sp.Add(1, -sp.tanh(2))
+        opens = sp.Add(1, minus(3 * f_c))
+        follows = (sp.Eq(rate("u_c"), over(opens) * rate("U_a")),)
+        before = sp.Add(3 * f_c * rate("u_c"), -sp.Add(rate("u_c"), -rate("U_a")))
+        changes = (sp.Eq(before, sp.Add(rate("U_a"), minus(opens * rate("u_c")))),)
+        touching = sp.Equivalent(
+            sp.Le(opens * u_c, sp.Add(3 * sigma_c0, minus(h_0), U_a)),
+            sp.Le(sp.Add(h_0, u_c, -U_a), 3 * sp.Add(sigma_c0, f_c * u_c)),
+        )
+        edge = sp.Equivalent(
+            sp.Le(p, k * sp.Add(3 * sigma, -sp.Add(h, -(p / k)))), sp.Le(k * h, 3 * k * sigma)
+        )
+        third = (sp.Eq(u_cum, d * (K_c * V * T * p_max / (6 * H_c)) * sp.Add(1, -sp.tanh(2))),)
     return (
-        Equation("contact-condition", section, "contact and wear", (cut.contact,)),
+        Equation(
+            "contact-condition", section, "condition of contact", (cut.contact,), (), (touching,)
+        ),
         Equation("arrest-depth", section, "arrest depth", (cut.arrest_depth,), (), depth),
-        Equation("no-contact", section, "margin beyond the arrest depth", (cut.no_contact,)),
-        Equation("rate-in-contact", section, "least rate in contact", (cut.lowest_rate,)),
-        Equation("sliding-rate", section, "wear that follows the load", (cut.sliding,)),
-        Equation("margin-rate", section, "rate of the margin", (cut.margin_rate,)),
-        Equation("margin", section, "margin and wear", (cut.in_wear,), (), linear),
-        Equation("one-third", section, "wear per cycle, f_c = 1/3", (cut.per_cycle,)),
-        Equation("permanent-contact", section, "f_c > 1/3", (cut.permanent,), (), permanent),
-        Equation("always-contact", section, "margin beyond it", (cut.always_contact,)),
-        Equation("edge-of-contact", section, "compliant support", (cut.at_edge,)),
+        Equation(
+            "no-contact",
+            section,
+            "margin and arrest depth",
+            (cut.no_contact,),
+            (),
+            (sp.Eq(now, gone),),
+        ),
+        Equation(
+            "rate-in-contact",
+            section,
+            "least rate in contact",
+            (cut.lowest_rate,),
+            (),
+            (sp.Ge(rate("u_c"), least),),
+        ),
+        Equation(
+            "sliding-rate", section, "wear that follows the load", (cut.sliding,), (), follows
+        ),
+        Equation("margin-rate", section, "rate of the margin", (cut.margin_rate,), (), changes),
+        Equation("margin", section, "margin 3 sigma - h", (cut.in_wear,), (), linear),
+        Equation("one-third", section, "wear per cycle, f_c = 1/3", (cut.per_cycle,), (), third),
+        Equation(
+            "permanent-contact",
+            section,
+            "wear from which contact is permanent",
+            (cut.permanent,),
+            (),
+            permanent,
+        ),
+        Equation(
+            "always-contact",
+            section,
+            "margin and permanent contact",
+            (cut.always_contact,),
+            (),
+            (sp.Eq(now, kept),),
+        ),
+        Equation(
+            "edge-of-contact",
+            section,
+            "edge of contact, compliant support",
+            (cut.at_edge,),
+            (),
+            (edge,),
+        ),
     )

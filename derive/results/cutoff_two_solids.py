@@ -32,7 +32,7 @@ from ..typeset.display import as_written, minus
 from ..zero import is_zero
 
 h_0, U_max, u_stop, q, g, p_1 = symbols("h_0 U_max u_stop q g p_1")
-sigma_a0, sigma_c0 = symbols("sigma_a0 sigma_c0")
+sigma_a0, sigma_c0, sigma = symbols("sigma_a0 sigma_c0 sigma")
 
 sigma_stop = sp.sqrt(sigma_a0**2 + sigma_c0**2 + 2 * p_1 * u_stop + q**2 * u_stop**2)
 margin = 3 * sigma_stop - (h_0 + g * u_stop - U_max)
@@ -111,13 +111,39 @@ def equations() -> tuple[Equation, ...]:
     """Return what the cutoff brings, for two solids."""
     cut = CutoffTwoSolids()
     section = "cutoff"
+    a_0, a_1, a_2 = sp.symbols("a_0 a_1 a_2", real=True)
     with as_written():
+        squares = sp.Add(sigma_a0**2, sigma_c0**2)
+        stopped = sp.Add(squares, 2 * p_1 * u_stop, q**2 * u_stop**2)
+        slope = sp.Add(p_1, q**2 * u_stop) ** 2 / sigma**2
+        second = sp.Add(q**2, minus(slope)) * (3 / sigma)
+        curved = (sp.Eq(second, 3 * sp.Add(q**2 * squares, minus(p_1**2)) / sigma**3),)
         gap = sp.Add(h_0, minus(U_max))
-        half = sp.Add(9 * p_1, minus(g * gap))
-        product = sp.Add(9 * sp.Add(sigma_a0**2, sigma_c0**2), minus(gap**2))
-        root = sp.sqrt(sp.Add(half**2, sp.Add(g**2, minus(9 * q**2)) * product))
-        depth = (sp.Eq(u_stop, product / sp.Add(root, minus(half))),)
+        root = sp.sqrt(sp.Add(a_1**2, minus(a_2 * a_0)))
+        depth = (sp.Eq(u_stop, a_0 / sp.Add(root, minus(a_1))),)
+        names = (
+            sp.Eq(a_0, sp.Add(9 * squares, minus(gap**2))),
+            sp.Eq(a_1, sp.Add(9 * p_1, minus(g * gap))),
+            sp.Eq(a_2, sp.Add(9 * q**2, minus(g**2))),
+        )
+        where = (sp.Eq(sigma, sp.sqrt(stopped)),)
     return (
-        Equation("margin-curvature", section, "curvature of the margin", (cut.convex,)),
-        Equation("arrest-depth-two-solids", section, "arrest", (cut.arrest_depth,), (), depth),
+        Equation(
+            "margin-curvature",
+            section,
+            "second derivative of the margin with respect to wear",
+            (cut.convex,),
+            (),
+            curved,
+            where=where,
+        ),
+        Equation(
+            "arrest-depth-two-solids",
+            section,
+            "arrest depth, two solids",
+            (cut.arrest_depth,),
+            (),
+            depth,
+            where=names,
+        ),
     )

@@ -29,14 +29,14 @@ from ..rules import SAMPLES, Authored, proof
 from ..rules.authored import insert
 from ..statement import Statement, given
 from ..symbols import symbols
-from ..typeset.display import as_written
+from ..typeset.display import as_written, over
 from ..zero import is_zero
 
 U_a, u_c, p, h_0, U, k, T, V = symbols("U_a u_c p h_0 U k T V")
 f_a, f_c, K_a, K_c, H_a, H_c, p_max = symbols("f_a f_c K_a K_c H_a H_c p_max")
 sigma_a0, sigma_c0, kappa, tau = symbols("sigma_a0 sigma_c0 kappa tau")
 
-v, a, q = (sp.Function(name, real=True)(tau) for name in ("v", "a", "q"))
+v, a, q = (sp.Function(name, real=True)(tau) for name in ("v", "a", "y"))
 """Wear in initial roughnesses, load in amplitudes, pressure in largest pressures."""
 
 mu, eta, nu, zeta, lamda = sp.symbols("mu eta nu zeta lambda", positive=True)
@@ -114,8 +114,8 @@ def _statement(
 
 
 def _rate(closure: sp.Expr, roughness: sp.Expr) -> sp.Basic:
-    law = sp.Rational(1, 2) * (1 + sp.tanh(sp.Add(4, -(2 * closure / roughness))))
-    return sp.Eq(sp.Derivative(v, tau), mu * law)
+    argument = sp.Add(4, -(2 * closure / roughness))
+    return sp.Eq(sp.Derivative(v, tau), mu / 2 * (1 + sp.tanh(argument)))
 
 
 def _one() -> sp.Basic:
@@ -129,8 +129,8 @@ def _two() -> sp.Basic:
 
 def _compliant() -> sp.Basic:
     closure = sp.Add(eta, v, -(nu * a), lamda * q)
-    law = sp.Rational(1, 2) * (1 + sp.tanh(sp.Add(4, -(2 * closure / (1 + f_c * v)))))
-    return sp.Eq(q, law)
+    argument = sp.Add(4, -(2 * closure / (1 + f_c * v)))
+    return sp.Eq(q, over(2) * (1 + sp.tanh(argument)))
 
 
 def one_solid() -> Statement:
@@ -157,11 +157,16 @@ def equations() -> tuple[Equation, ...]:
     """Return the dimensionless problems."""
     section = "dimensionless groups"
     with as_written():
-        one, two, soft = (_one(),), (_two(),), (_compliant(),)
-    return (
-        Equation("groups-one-solid", section, "four groups", (one_solid(),), display=one),
-        Equation("groups-two-solids", section, "seven groups", (two_solids(),), display=two),
-        Equation(
-            "groups-compliant", section, "pressure, one more group", (compliant(),), display=soft
-        ),
+        one, two, soft = _one(), _two(), _compliant()
+    return tuple(
+        Equation(name, section, title, (found, *more), display=(law, *(s.claim for s in more)))
+        for name, title, found, law, more in (
+            ("groups-one-solid", "four groups", one_solid(), one, _defined(mu, eta, nu)),
+            ("groups-two-solids", "seven groups", two_solids(), two, _defined(kappa, zeta)),
+            ("groups-compliant", "pressure, one more group", compliant(), soft, _defined(lamda)),
+        )
     )
+
+
+def _defined(*groups: sp.Symbol) -> tuple[Statement, ...]:
+    return tuple(DEFINITIONS[group] for group in groups)

@@ -22,7 +22,7 @@ import sympy as sp
 
 from ..equations import Equation
 from ..note.condensed import bearing_only
-from ..note.stabilised import Stabilised
+from ..note.stabilised import Stabilised, drift_and_wear
 from ..rules.limits import forever
 from ..statement import Statement, given, inherited
 from ..symbols import symbol, symbols, t
@@ -30,9 +30,9 @@ from ..typeset.display import as_written
 from .expansion_rules import Drift, Oscillation, SlowTime
 from .steady_state import ROUGHENING
 
-h_0, sigma_c0, f_c, k, p_max, U, T = symbols("h_0 sigma_c0 f_c k p_max U T")
+h_0, sigma_c0, f_c, k, U, T = symbols("h_0 sigma_c0 f_c k U T")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
-u_c, u_cum, U_mean, K_c, H_c, V = symbols("u_c u_cum U_mean K_c H_c V")
+u_c, u_cum, A = symbols("u_c u_cum A")
 c_1, c_2, c_3, c_4 = symbols("c_1 c_2 c_3 c_4")
 
 offset = given(sp.Eq(b_0, sigma_c0 / f_c - h_0), "definition", b_0)
@@ -125,15 +125,17 @@ def equations() -> tuple[Equation, ...]:
         drifts = (*steps, shifted, saturation.claim, growth.claim)
         swings = tuple(sp.Eq(symbol(f"w_{n}"), value) for n, value in _oscillations().items())
         slow = (sp.Eq(rho * tau + s_0, _slow_time()),)
-        saturated = sp.tanh(4 - 2 / f_c)
-        line = K_c * V * p_max / (6 * H_c) * (1 + saturated) * t
-        shift = sp.Add(sigma_c0 / f_c, -h_0, U_mean)
-        rest = forever(sp.Add(u_c, -line) / sp.log(t / T))
-        logarithm = (sp.Eq(rest, 2 / f_c * (1 - saturated) * shift),)
+        line = u_cum * t / T
+        logarithm = (sp.Eq(forever(sp.Add(u_c, -line) / sp.log(t / T)), A),)
     drift = Stabilised().asymptote
     return (
         Equation(
-            "log-drift", section, "logarithmic drift of the wear", (drift,), display=logarithm
+            "log-drift",
+            section,
+            "logarithmic drift of the wear",
+            (drift,),
+            display=logarithm,
+            where=drift_and_wear(),
         ),
         Equation(
             "expansion-drift", section, "drift of the averaged roughness", terms, display=drifts

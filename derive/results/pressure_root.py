@@ -159,8 +159,8 @@ def _displays() -> dict[str, tuple[sp.Basic, ...]]:
             sp.Gt(p_max - p_max * phi(full), 0),
             sp.Gt(1 - p_max / (k * sigma) * slope, 0),
         )
-        change = p_max * (phi(rigid) - phi(soft))
-        bound = p_max * p / (k * sigma)
+        change = sp.Add(p_max * phi(rigid), minus(p_max * phi(soft)))
+        bound = p_max / (k * sigma) * p
         softening = (
             sp.And(sp.Ge(change, 0), sp.Le(change, bound)),
             sp.Le(bound, p_max**2 / (k * sigma)),

@@ -172,7 +172,7 @@ class Regimes:
     @cached_property
     def finite(self) -> Statement:
         """While the load closes the gap, the rate stays above a positive constant."""
-        overlap = given(sp.Eq(U_a, h_0 - sigma_c0 / f_c + U), "a load with h* = -U", U_a)
+        overlap = given(sp.Eq(U_a, h_0 - sigma_c0 / f_c + U), "a load that closes the gap", U_a)
         claim = sp.Le(closure / roughness, 1 / f_c)
         ratio = Statement(claim, Positive(_FALLING), (overlap,), (SMOOTHING, ROUGH))
         y = sp.Dummy("r", real=True)
@@ -190,9 +190,37 @@ def equations() -> tuple[Equation, ...]:
         level = sp.exp(sp.Add(8, minus(4 * h_0 / sigma_c0))) * sp.besseli(0, 4 * U / sigma_c0)
         inside = sp.Add(1, 4 * M / sigma_c0 * level * N)
         logarithmic = (sp.Eq(u_c, sigma_c0 / 4 * sp.log(inside)),)
+        exponent = sp.Add(8, minus(4 * sp.Add(h_0, u_c, -U_a) / roughness))
+        tail = (sp.Lt(rate("u_c"), K_c * V * p_max / (3 * H_c) * sp.exp(exponent)),)
+        rest = sp.log(sigma_c**2 / (-4 * f_c * h_star * M))
+        count = sp.Add(4 * h_star / sigma_c, -8, 4 / f_c, rest)
+        saturating = (sp.Eq(sp.log(N), count),)
+        fastest = K_c * V * p_max / (6 * H_c) * (1 + sp.tanh(sp.Add(4, minus(2 / f_c))))
+        closed = (sp.Ge(rate("u_c"), fastest),)
     return (
-        Equation("tail", section, "tail of the rate", (regimes.tail,)),
-        Equation("logarithmic-wear", section, "f_c = 0", (regimes.logarithmic,), (), logarithmic),
-        Equation("saturating-wear", section, "f_c < 0, open gap", (regimes.saturating,)),
-        Equation("closed-gap", section, "f_c < 0, closed gap", (regimes.finite,)),
+        Equation("tail", section, "exponential tail of the rate", (regimes.tail,), (), tail),
+        Equation(
+            "logarithmic-wear",
+            section,
+            "wear along the tail after N cycles, f_c = 0",
+            (regimes.logarithmic,),
+            (),
+            logarithmic,
+        ),
+        Equation(
+            "saturating-wear",
+            section,
+            "cycles until the roughness is sigma_c, to leading order as it vanishes",
+            (regimes.saturating,),
+            (),
+            saturating,
+        ),
+        Equation(
+            "closed-gap",
+            section,
+            "least rate while U_a > h_0 - sigma_c0/f_c",
+            (regimes.finite,),
+            (),
+            closed,
+        ),
     )

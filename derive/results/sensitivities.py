@@ -24,7 +24,7 @@ from ..rules.authored import Inserted
 from ..rules.data import Differentiated, Solved
 from ..statement import Statement, given, inherited
 from ..symbols import symbols
-from ..typeset.display import as_written
+from ..typeset.display import as_written, over
 from .first_integral import RIGID, FirstIntegral
 
 u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
@@ -117,7 +117,7 @@ def equations() -> tuple[Equation, ...]:
         inverse = (sp.Eq(f_c, 4 / sp.Add(8, sp.log(sp.Add(M / u_cum, -1)))),)
         gain = (sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * sp.Add(1, sp.exp(4 / f_c - 8))),)
         instant = 4 * sp.Add(h_0, u_c, -U_a) / sp.Add(8, -sp.log(p / (p_max - p)))
-        at_once = (sp.Eq(f_c, sp.Add(instant, -sigma_c0) / u_c),)
+        at_once = (sp.Eq(f_c, over(u_c) * sp.Add(instant, -sigma_c0)),)
     return (
         Equation("elasticities", section, "elasticities of u_cum", powers, display=relative),
         Equation(

@@ -27,7 +27,7 @@ from ..rules.authored import Inserted
 from ..rules.solutions import ParametricSolution
 from ..statement import Statement, inherited
 from ..symbols import initial, symbols, t
-from ..typeset.display import as_written
+from ..typeset.display import as_written, over
 from .first_integral import FirstIntegral
 from .static_solution import CONSTANT_LOAD, half_rate, load_offset, written_offset
 
@@ -120,9 +120,21 @@ def equations() -> tuple[Equation, ...]:
     """Return the static solutions on a compliant support."""
     static = StaticCompliant()
     section = "static load"
+    size, primitive = sp.Function("S"), sp.Function("Q")
     with as_written():
-        rough = (sp.Eq(u_c, _worn(p)), sp.Eq(t, _by_parts() / (2 * C)))
-        smooth = (sp.Eq(u_c, _worn_smooth()), sp.Eq(t, _elementary() / (2 * C)))
+        odds = sp.Add(sp.log(p_s / (p_max - p_s)), -8, 4 / f_c)
+        roughness = sp.Eq(size(p_s), 2 * sp.Add(beta, -(2 * p_s / k)) / odds)
+        worn, growth = sp.Add(size(p), -sigma_c0), sp.Add(size(p_s), -sigma_c0)
+        inside = p_max * growth / (f_c * p_s**2)
+        with sp.evaluate(True):
+            integral = sp.Integral(inside, (p_s, p_start, p))
+        by_parts = sp.Add((p_max * worn) / (f_c * p), integral)
+        rough = (sp.Eq(u_c, over(f_c) * worn), sp.Eq(t, over(2 * C) * by_parts))
+        ratio = (p_max - p_s) / p_s
+        depth = sigma_c0 / 4 * sp.Add(ratio, sp.log(ratio))
+        elementary = sp.Eq(primitive(p_s), sp.Add(depth, -(p_max / k * sp.log(p_s / p_max))))
+        change = sp.Add(primitive(p), -primitive(p_start))
+        smooth = (sp.Eq(u_c, _worn_smooth()), sp.Eq(t, over(2 * C) * change))
     return (
         Equation(
             "static-solution-compliant",
@@ -130,6 +142,7 @@ def equations() -> tuple[Equation, ...]:
             "wear and time at a pressure",
             (static.wear, static.time, load_offset, half_rate),
             display=(*rough, written_offset, half_rate.claim),
+            where=(roughness,),
         ),
         Equation(
             "static-solution-compliant-smooth",
@@ -137,5 +150,6 @@ def equations() -> tuple[Equation, ...]:
             "wear and time at a pressure, f_c = 0",
             (static.wear_smooth, static.time_smooth, half_rate),
             display=(*smooth, half_rate.claim),
+            where=(elementary,),
         ),
     )

@@ -112,13 +112,17 @@ def equations() -> tuple[Equation, ...]:
         left = sp.exp(-(2 * x_inf)) * sp.Add(
             sigma * sp.exp(-(2 * beta / sigma)), 2 * beta * sp.Ei(-(2 * beta / sigma))
         )
-        display = (sp.Eq(left, sigma * sp.exp(E) * _remainder()),)
+        display = (
+            sp.Eq(left, sigma * sp.exp(E) * _remainder()),
+            exponent.claim,
+            sp.Eq(z, -(2 * beta / sigma)),
+        )
     return (
         Equation(
             "static-solution-scaled",
             "static load",
-            "closed solution without overflow",
-            (scaled_primitive(),),
+            "the primitive without overflow",
+            (scaled_primitive(), exponent, argument),
             display=display,
         ),
     )

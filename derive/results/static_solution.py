@@ -27,7 +27,7 @@ from ..note.condensed import bearing_only
 from ..rules.solutions import Inverted, Solution
 from ..statement import Statement, given, inherited
 from ..symbols import symbols, t
-from ..typeset.display import as_written
+from ..typeset.display import as_written, over
 from .first_integral import SLOPED
 
 h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
@@ -103,19 +103,21 @@ def equations() -> tuple[Equation, ...]:
     """Return the static solutions."""
     static = StaticSolution()
     section = "static load"
+    s, gap = sp.Symbol("s", positive=True), sp.Symbol("ell", positive=True)
+    primitive = sp.Function("P")
     with as_written():
-        roughness, start = sigma_c0 + f_c * u_c, sigma_c0
-        gap = sp.exp(-(2 * x_inf)) / (2 * f_c)
-        z, z_start = -(2 * beta / roughness), -(2 * beta / start)
-        change = sp.Add(
-            roughness * sp.exp(z),
-            -(start * sp.exp(z_start)),
-            2 * beta * sp.Add(sp.Ei(z), -sp.Ei(z_start)),
-        )
-        time = sp.Eq(t, (u_c / 2 + gap * change) / C)
-        smooth_gap = sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8)
-        inverse = (sp.Eq(u_c, _inverse()),)
-        smooth = sp.Eq(t, (u_c / 2 + smooth_gap * (sp.exp(4 * u_c / sigma_c0) - 1)) / C)
+        z = -(2 * beta / s)
+        excess_of = sp.Eq(primitive(s), sp.Add(s * sp.exp(z), 2 * beta * sp.Ei(z)))
+        change = sp.Add(primitive(sigma_c0 + f_c * u_c), -primitive(sigma_c0))
+        travelled = sp.Add(u_c / 2, over(2 * f_c) * sp.exp(-(2 * x_inf)) * change)
+        time = sp.Eq(t, over(C) * travelled)
+        opened = sp.exp(sp.Add(4 * sp.Add(h_0, -U_a) / sigma_c0, -8))
+        smooth_gap = sp.Eq(gap, sigma_c0 / 8 * opened)
+        worn = sp.Add(sp.exp(4 * u_c / sigma_c0), -1)
+        smooth = sp.Eq(t, over(C) * sp.Add(u_c / 2, gap * worn))
+        travel = sp.Add(C * t, gap)
+        lambert = sp.LambertW(8 * gap / sigma_c0 * sp.exp(8 * travel / sigma_c0))
+        inverse = (sp.Eq(u_c, sp.Add(2 * travel, -(sigma_c0 / 4 * lambert))),)
     return (
         Equation(
             "static-solution",
@@ -123,6 +125,7 @@ def equations() -> tuple[Equation, ...]:
             "time under a constant load",
             (static.time, load_offset, limit_argument, half_rate),
             display=(time, written_offset, limit_argument.claim, half_rate.claim),
+            where=(excess_of,),
         ),
         Equation(
             "static-solution-smooth",
@@ -130,6 +133,7 @@ def equations() -> tuple[Equation, ...]:
             "time under a constant load, f_c = 0",
             (static.time_smooth, half_rate),
             display=(smooth, half_rate.claim),
+            where=(smooth_gap,),
         ),
         Equation(
             "static-wear-smooth",
@@ -137,5 +141,6 @@ def equations() -> tuple[Equation, ...]:
             "wear under a constant load, f_c = 0",
             (static.wear_smooth,),
             display=inverse,
+            where=(smooth_gap,),
         ),
     )

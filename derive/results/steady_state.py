@@ -34,10 +34,12 @@ from ..rules.authored import Identity, Positive
 from ..rules.bounds import Consequence, Grows, LogarithmicSlope, Monotone
 from ..rules.limits import Accumulates, Diverges, Passes, Vanishes, forever
 from ..statement import Statement, inherited
-from ..symbols import rate, symbols
+from ..symbols import rate, symbols, t
+from ..typeset.display import as_written
 
 h_0, U_a, u_c, p, T, U, k = symbols("h_0 U_a u_c p T U k")
 sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
+beta, u_cum = symbols("beta u_cum")
 
 ROUGHENING = Condition("the bearing roughens as it wears", sp.Gt(f_c, 0))
 BOUNDED_LOAD = Condition("the load is bounded by U", sp.Le(sp.Abs(U_a), U))
@@ -56,6 +58,10 @@ SIGNS = (
 """The domain f_c > 0, u_c > 0, -U < U_a < U in positive parameters."""
 
 _BOUND = sigma_c0 / f_c + h_0 + U
+
+with as_written():
+    per_cycle = sp.Eq(u_cum, K_c * V * T / (6 * H_c) * p_max * (1 + sp.tanh(4 - 2 / f_c)))
+"""What u_cum stands for in display forms."""
 
 
 def step(claim: sp.Basic, rule: object, *parents: Statement, name: str = "") -> Statement:
@@ -182,10 +188,33 @@ def equations() -> tuple[Equation, ...]:
     """Return the results for any contact law."""
     general, tanh = steady_state(GENERAL), steady_state(TANH)
     section = "steady state"
+    with as_written():
+        offset = sp.Eq(beta, 2 * sp.Add(sigma_c0 / f_c, -h_0, U_a))
+        ratio = sp.Add(h_0, u_c, -U_a) / roughness
+        deviation = (sp.Eq(ratio, sp.Add(1 / f_c, -(beta / (2 * roughness)))),)
+        relative = rate("u_c") / (u_cum / T)
+        far = sp.Le(sp.Abs(sp.log(relative)), 2 * sp.Abs(beta / roughness))
+        slowest = sp.Add(4, -(4 / f_c), -(2 * sp.Add(h_0, U) / sigma_c0))
+        growth = (sp.Ge(u_c, K_c * V * p_max * t / (6 * H_c) * (1 + sp.tanh(slowest))),)
     return (
-        Equation("deviation", section, "exact deviation of h/sigma", (general.deviation,)),
-        Equation("growth", section, "wear grows without bound", (tanh.growth,)),
+        Equation(
+            "deviation",
+            section,
+            "exact deviation of h/sigma from 1/f_c",
+            (general.deviation,),
+            display=deviation,
+            where=(offset,),
+        ),
+        Equation("growth", section, "wear grows without bound", (tanh.growth,), display=growth),
+        Equation("general-rate", section, "wear rate, any law", (general.rate_at_wear,)),
         Equation("closure-ratio", section, "limit of h/sigma, any law", (general.ratio,)),
         Equation("general-law", section, "asymptotic pressure, any law", (general.pressure,)),
-        Equation("approach", section, "distance from the steady rate", (tanh.approach,)),
+        Equation(
+            "approach",
+            section,
+            "distance from the steady rate",
+            (tanh.approach,),
+            display=(far,),
+            where=(offset, per_cycle),
+        ),
     )

@@ -39,7 +39,7 @@ from .steady_state import BOUNDED_LOAD, made, step
 
 h_0, U_a, u_c, U_mean, kappa, q, g, p_1 = symbols("h_0 U_a u_c U_mean kappa q g p_1")
 f_a, f_c, sigma_a0, sigma_c0, T = symbols("f_a f_c sigma_a0 sigma_c0 T")
-p_max, K_a, K_c, H_a, H_c, V = symbols("p_max K_a K_c H_a H_c V")
+p_max, K_a, K_c, H_a, H_c, V, A, u_cum = symbols("p_max K_a K_c H_a H_c V A u_cum")
 
 apart = f_a * kappa * sigma_c0 - f_c * sigma_a0
 """Zero if and only if the two roughnesses vanish at the same wear."""
@@ -127,15 +127,53 @@ def equations() -> tuple[Equation, ...]:
     with as_written():
         tanh = sp.tanh(sp.Add(4, minus(2 * g / q)))
         speed = K_c * V / (6 * H_c) * p_max * (1 + tanh)
-        wear = sp.Add(u_c, minus(speed * t)) / sp.log(t / T)
+        wear = sp.Add(u_c, minus(u_cum * t / T)) / sp.log(t / T)
         offset = sp.Add(2 * g * p_1 / q**3, minus(2 * sp.Add(h_0, minus(U_mean)) / q))
         shown_rate = (sp.Eq(forever(rate("u_c")), speed),)
-        shown_drift = (sp.Eq(forever(wear), sp.Add(1, minus(tanh)) * offset),)
+        shown_drift = (sp.Eq(forever(wear), A),)
+        coefficient = sp.Eq(A, sp.Add(1, minus(tanh)) * offset)
+        per_cycle = sp.Eq(u_cum, K_c * V * T / (6 * H_c) * p_max * (1 + tanh))
+        cross = sp.Add(f_a * kappa * sigma_c0, minus(f_c * sigma_a0))
+        squares = sp.Add(sigma_a0**2, sigma_c0**2, 2 * p_1 * u_c, q**2 * u_c**2)
+        separated = (sp.Eq(q**2 * squares, sp.Add(cross**2, sp.Add(p_1, q**2 * u_c) ** 2)),)
+        names = (
+            sp.Eq(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2)),
+            sp.Eq(p_1, f_a * kappa * sigma_a0 + f_c * sigma_c0),
+        )
+        ratio = sp.Add(h_0, g * u_c, -U_a) / sp.sqrt(squares)
     return (
-        Equation("two-solids", section, "q, g and p_1", two.definitions),
-        Equation("two-solids-opening", section, "q, g, p_1, physical sign", physical.definitions),
-        Equation("two-solids-roughness", section, "roughness", (two.separation,)),
-        Equation("two-solids-closure-ratio", section, "limit of h/sigma", (two.ratio,)),
+        Equation("two-solids", section, "growth of roughness and gap", two.definitions),
+        Equation(
+            "two-solids-opening",
+            section,
+            "growth of roughness and gap, physical sign",
+            physical.definitions,
+        ),
+        Equation(
+            "two-solids-roughness",
+            section,
+            "the roughness does not vanish",
+            (two.separation,),
+            (),
+            separated,
+            where=names,
+        ),
+        Equation(
+            "two-solids-closure-ratio",
+            section,
+            "limit of h/sigma",
+            (two.ratio,),
+            (),
+            (sp.Eq(forever(ratio), g / q),),
+        ),
         Equation("two-solids-rate", section, "steady wear rate", (two.rate,), (), shown_rate),
-        Equation("two-solids-log-drift", section, "log drift", (two.drift,), (), shown_drift),
+        Equation(
+            "two-solids-log-drift",
+            section,
+            "logarithmic drift",
+            (two.drift,),
+            (),
+            shown_drift,
+            where=(coefficient, per_cycle),
+        ),
     )
