@@ -1,7 +1,7 @@
 """Shell completion, read off an argparse parser.
 
 `eval "$(wear --print-completion)"` in `~/.bashrc`; zsh takes the same text after
-`autoload bashcompinit && bashcompinit`.
+`autoload -U compinit bashcompinit && compinit && bashcompinit`.
 """
 
 from __future__ import annotations
@@ -9,27 +9,59 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterator, Sequence
 
-TEMPLATE = """\
+_FILES = ("FILE", "DIR", "SCENE")
+"""Metavars of arguments that are paths, or may be."""
+
+_TEMPLATE = """\
 _{name}_complete() {{
-    local current="${{COMP_WORDS[COMP_CWORD]}}" words=""
-    case "${{COMP_WORDS[1]}}" in
+    local current="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD-1]}}"
+    local words="" files="" IFS=$'\\n'
+    case "$COMP_CWORD ${{COMP_WORDS[1]}} $before" in
+        1\\ *) words="{commands}" ;;
+        *" =") ;;
 {cases}
     esac
-    [ "$COMP_CWORD" -eq 1 ] && words="{commands}"
-    COMPREPLY=($(compgen -W "$words" -- "$current") $(compgen -f -- "$current"))
+    COMPREPLY=($(compgen -W "${{words// /$IFS}}" -- "$current"))
+    [ -z "$files" ] || COMPREPLY+=($(compgen -f -- "$current"))
+    if type compopt >/dev/null 2>&1; then
+        [ -z "$files" ] || compopt -o filenames 2>/dev/null
+        case "${{COMPREPLY[0]}}" in *=) compopt -o nospace 2>/dev/null ;; esac
+    fi
 }}
-complete -o filenames -F _{name}_complete {name}"""
+complete -F _{name}_complete {name}"""
+
+_CASE = """\
+        *" {command} {before}") words="{words}" files="{files}" ;;"""
+_REST = """\
+        *" {command} "*)
+            case "$current" in
+                -*) words="{options}" ;;
+                *) words="{words}" files="{files}" ;;
+            esac ;;"""
 
 
 def bash(parser: argparse.ArgumentParser) -> str:
-    """Return a bash script that completes commands, options, choices, suggestions and files."""
+    """Return a bash script that completes commands, options, their values, and files."""
     commands = dict(_commands(parser))
-    cases = "\n".join(
-        f'        {name}) words="{" ".join(_words(command))}" ;;'
-        for name, command in commands.items()
-    )
-    first = " ".join([*commands, *_words(parser)])
-    return TEMPLATE.format(name=parser.prog, cases=cases, commands=first)
+    cases = [case for name, command in commands.items() for case in _cases(name, command)]
+    first = " ".join([*commands, *_options(parser)])
+    return _TEMPLATE.format(name=parser.prog, cases="\n".join(cases), commands=first)
+
+
+def _cases(name: str, parser: argparse.ArgumentParser) -> Iterator[str]:
+    """What comes after each option that has a value, then everything else."""
+    for action in parser._actions:
+        if action.nargs != 0:
+            for option in action.option_strings:
+                yield _CASE.format(command=name, before=option, **_values([action]))
+    places = [action for action in parser._actions if not action.option_strings]
+    yield _REST.format(command=name, options=" ".join(_options(parser)), **_values(places))
+
+
+def _values(actions: Sequence[argparse.Action]) -> dict[str, str]:
+    words = [word for action in actions for word in _words(action)]
+    files = any(action.metavar in _FILES for action in actions)
+    return {"words": " ".join(words), "files": "yes" if files else ""}
 
 
 def suggest(action: argparse.Action, words: Callable[[], Sequence[str]]) -> None:
@@ -43,10 +75,11 @@ def _commands(parser: argparse.ArgumentParser) -> Iterator[tuple[str, argparse.A
             yield from action.choices.items()
 
 
-def _words(parser: argparse.ArgumentParser) -> Iterator[str]:
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            continue
-        yield from (option for option in action.option_strings if option.startswith("--"))
-        yield from map(str, action.choices or ())
-        yield from getattr(action, "suggestions", tuple)()
+def _options(parser: argparse.ArgumentParser) -> list[str]:
+    every = (option for action in parser._actions for option in action.option_strings)
+    return [option for option in every if option.startswith("--")]
+
+
+def _words(action: argparse.Action) -> Sequence[str]:
+    suggested: Callable[[], Sequence[str]] = getattr(action, "suggestions", tuple)
+    return [*map(str, action.choices or ()), *suggested()]

@@ -158,7 +158,7 @@ def add_common_options(parser: argparse.ArgumentParser) -> None:
         "--print-completion",
         action=PrintAndStop,
         text=completion.bash,
-        help="print a completion script for bash and stop",
+        help="print a completion script for bash and zsh and stop",
     )
 
 

@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         help="a variant (--list names them), or LAW/VARIANT (default law: tanh)",
     )
-    completion.suggest(variant, variant_names)
+    completion.suggest(variant, _short_names)
     parser.add_argument(
         "--target", choices=TARGETS, default="numpy", help="language (default: %(default)s)"
     )
@@ -41,6 +41,11 @@ def variant_names() -> tuple[str, ...]:
     from derive.variant import VARIANTS
 
     return tuple(f"{variant.law.name}/{variant.module}" for variant in VARIANTS)
+
+
+def _short_names() -> tuple[str, ...]:
+    """Return the names of the variants as they may be typed."""
+    return tuple(name.removeprefix("tanh/") for name in variant_names())
 
 
 def execute(options: argparse.Namespace) -> int:

@@ -132,7 +132,11 @@ def parser():
     terminal.add_common_options(whole)
     run = whole.add_subparsers().add_parser("run")
     run.add_argument("--method", choices=["auto", "Radau"])
-    completion.suggest(run.add_argument("scene"), lambda: ["section3", "section4"])
+    run.add_argument("--cycles", metavar="N,...")
+    run.add_argument("-o", "--output", metavar="FILE")
+    completion.suggest(run.add_argument("--set"), lambda: ["contact.law=", "load.kind="])
+    scene = run.add_argument("scene", metavar="SCENE")
+    completion.suggest(scene, lambda: ["section3", "section4"])
     return whole
 
 
@@ -146,7 +150,7 @@ def complete(script: str, *words: str) -> list[str]:
         text=True,
         check=True,
     )
-    return shown.stdout.split()
+    return shown.stdout.split("\n")[:-1] if shown.stdout != "\n" else []
 
 
 @pytest.mark.parametrize(
@@ -155,12 +159,21 @@ def complete(script: str, *words: str) -> list[str]:
         (["toy", "r"], ["run"]),
         (["toy", "--v"], ["--version"]),
         (["toy", "run", "sec"], ["section3", "section4"]),
+        (["toy", "run", ""], ["section3", "section4", "mine of today.toml"]),
         (["toy", "run", "--m"], ["--method"]),
-        (["toy", "run", "Ra"], ["Radau"]),
+        (["toy", "run", "section3", "--method", ""], ["auto", "Radau"]),
+        (["toy", "run", "--method", "Radau", "s"], ["section3", "section4"]),
+        (["toy", "run", "--cycles", ""], []),
+        (["toy", "run", "-o", ""], ["mine of today.toml"]),
+        (["toy", "run", "--set", "con"], ["contact.law="]),
+        (["toy", "run", "--set", "contact.law", "=", ""], []),
+        (["toy", ""], ["run", "--help", "--version", "--print-completion"]),
     ],
 )
-def test_bash_completes(parser, need_tool, words, offered):
+def test_bash_completes(parser, need_tool, words, offered, tmp_path, monkeypatch):
     need_tool("bash")
+    (tmp_path / "mine of today.toml").touch()
+    monkeypatch.chdir(tmp_path)
     assert complete(completion.bash(parser), *words) == offered
 
 

@@ -28,7 +28,7 @@ def add_scene(parser: argparse.ArgumentParser, default: str | None = None) -> No
         help=about if default is None else f"{about} (default: {default})",
     )
     completion.suggest(scene, built_in_names)
-    parser.add_argument(
+    overrides = parser.add_argument(
         "--set",
         metavar="TABLE.KEY=VALUE",
         action="append",
@@ -36,6 +36,7 @@ def add_scene(parser: argparse.ArgumentParser, default: str | None = None) -> No
         dest="overrides",
         help="override one entry of the scene, as in bearing.hardness_MPa=200; may be repeated",
     )
+    completion.suggest(overrides, _entries)
 
 
 def built_in_names() -> Sequence[str]:
@@ -43,6 +44,13 @@ def built_in_names() -> Sequence[str]:
     from wear.scene import builtin_names
 
     return builtin_names()
+
+
+def _entries() -> Sequence[str]:
+    """Return the beginnings of what `--set` takes, but for the load, whose keys vary."""
+    from wear.scene.schema import TABLES
+
+    return [f"{table.name}.{name}=" for table in TABLES for name in table.names]
 
 
 class Faults:
