@@ -33,6 +33,15 @@ def test_geometric_map() -> None:
     assert_allclose(abel.cycles_until(table, wear), 3.0 + np.log1p(wear / SHIFT) / 0.01, rtol=1e-14)
 
 
+def test_the_first_cycles_of_a_long_panel_keep_their_digits() -> None:
+    slope = 1e-12
+    table = abel.count(panels(np.array([0.0, 1.0]), 8, slope), 0.0)
+    at = np.array([1.0, 7.0, 1e3])
+    wear, _ = abel.wear_after(table, at, abel.part_of(table.cycles, at))
+    assert_allclose(wear, SHIFT * np.expm1(at * slope), rtol=3e-14)
+    assert_allclose(abel.cycles_until(table, wear), at, rtol=1e-14)
+
+
 @pytest.mark.parametrize("cycles", [101.0, 137.5, 1000.0, 9900.0])
 def test_square_root_map_and_its_inverse(cycles: float) -> None:
     table = abel.count(square_root_panels(np.array([1.0, 2.0, 4.0, 10.0]), 24), 100.0)

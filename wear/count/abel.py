@@ -180,18 +180,22 @@ def count(panels: Panels, first: float) -> Count:
 
 
 def _part_values(series: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Density dn/dx and its integral from 0, at `x` in [0, 1] of parts with these series."""
+    """Density dn/dx and its integral from 0, at `x` in [0, 1] of parts with these series.
+
+    The integral of P_k from -1 is (z^2 - 1) P_k'(z)/(k (k + 1)), here with z^2 - 1 = -4 x (1 - x):
+    a part may hold 1e9 cycles, of which the first few are to keep their digits.
+    """
     z = 2 * x - 1
-    before, here = np.ones_like(z), z
-    density = series[:, 0] + series[:, 1] * z
-    total = series[:, 0] * (z + 1)
+    before, here = np.ones_like(z), z  # P_{k-1}, P_k
+    slope_before, slope = np.zeros_like(z), np.ones_like(z)  # their derivatives
+    density, bend = series[:, 0].copy(), np.zeros_like(z)
     for k in range(1, series.shape[1]):
+        density += series[:, k] * here
+        bend += series[:, k] / (k * (k + 1)) * slope
         after = ((2 * k + 1) * z * here - k * before) / (k + 1)
-        total += series[:, k] * (after - before) / (2 * k + 1)
-        if k + 1 < series.shape[1]:
-            density += series[:, k + 1] * after
+        slope_before, slope = slope, slope_before + (2 * k + 1) * here
         before, here = here, after
-    return density, total / 2
+    return density, x * (series[:, 0] - 2 * (1 - x) * bend)
 
 
 def part_of(begins: FloatArray, at: FloatArray) -> IntArray:
@@ -212,7 +216,7 @@ def wear_after(table: Count, cycles: FloatArray, part: IntArray) -> tuple[FloatA
         density, total = _part_values(series, x)
         change = (wanted - total) / density
         x = np.clip(x + change, 0.0, 1.0)
-        if not np.any(np.abs(change) > 1e-8):  # Newton: the next change would be its square
+        if not np.any(np.abs(change) > 1e-8 * x):  # Newton: the next change would be its square
             break
     offset, length = table.offset[part], table.length[part]
     wear = table.wear[part] + offset * np.expm1(length * x)

@@ -99,6 +99,7 @@ def cycle_count_upto(
     if first.edges is None:
         error = exact_error(model, load, first)
         return CycleCount(first.wear, error, None, None, NONE, first.over, limit, first.cost)
+    size = attainable(size, model, load, first.edges)
     cost, over = first.cost, cycle.over
     while True:
         both = Maps(cycle.on(over), cycle.on(mesh(over.edges, size.finer_nodes)))
@@ -162,7 +163,8 @@ def _judged(
     missed = SAFETY * np.repeat(solved.residual, parts) * table.gain
     missed[::parts] += SAFETY * np.concatenate([[0.0], at_junctions])
     rounding = roundoff(model, load, np.append(table.wear, table.last_wear))
-    missed += np.maximum(rounding[1:], rounding[:-1]) * table.gain
+    of_density = ROUNDOFF * np.repeat(np.abs(solved.series[:, 0]), parts)  # the logarithm is kept
+    missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
     first_error = exact_error(model, load, first)
     begun = first_error[-1] / abel.first_pace(table)[0]
     error = begun + np.concatenate([[0.0], np.cumsum(missed)])

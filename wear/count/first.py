@@ -8,7 +8,7 @@ from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cycle import Cost, Drive, OneCycle, Settings, refined, unresolved
 from wear.count.march import growth_of, march
 from wear.count.request import Request
-from wear.count.scan import plan_panels
+from wear.count.scan import plan_panels, scan
 
 BLOCK = 5  # cycles integrated at once
 MOST_FIRST = 120
@@ -68,10 +68,12 @@ def opening(
     while True:
         exact = more_cycles(cycle, exact, request.limit, size)
         last = float(exact.wear[-1])
-        pace = min(float(exact.added[-1]), float(cycle.frozen(exact.wear[-1:])[0]))
+        pace = float(exact.added[-1])
         if exact.cycles >= request.cycles or last >= request.limit or not pace > 0:
             return exact
-        end = max(end, min(request.limit, last + 10 * BLOCK * pace))
+        if last + 10 * BLOCK * pace > end:  # wear has outrun the scan
+            cycles = request.cycles - exact.cycles
+            end = float(scan(cycle, shift, last, cycles, request.limit)[-1])
         edges, counts = plan_panels(cycle, shift, last, end, size.panel_nodes, size.tail_tolerance)
         long = np.all(counts >= size.panel_nodes)
         if long or exact.cycles >= MOST_FIRST or request.late:

@@ -26,8 +26,10 @@ def roundoff_of(model: Model, displacement: FloatArray, wear: FloatArray) -> Flo
     """Relative error of the rate by rounding: its condition with respect to the terms of the
     closure and the roughness, of which the contact law takes the quotient."""
     fields = model.fields(wear, displacement)
-    terms = 2 * np.abs(fields.h) + np.abs(displacement) + np.abs(fields.U_c)
-    apart = APART * fields.sigma
+    sigma, fresh = fields.sigma, model.fields(np.zeros_like(wear), displacement).sigma
+    cancelled = (fresh + np.abs(sigma - fresh)) / sigma  # where roughness vanishes
+    terms = np.abs(fields.h) * (1 + cancelled) + np.abs(displacement) + np.abs(fields.U_c)
+    apart = APART * sigma
     more, less = (model.rate(wear, displacement + sign * apart) for sign in (1.0, -1.0))
     steepness = np.abs(more - less) / (2 * apart * (np.minimum(more, less) + TINY))
     lost = SMALLEST / np.maximum(less, SMALLEST)
