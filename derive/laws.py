@@ -26,8 +26,7 @@ class ContactLaw:
     """A contact law ``p = p_max phi(r)`` with ``r = h/sigma``.
 
     phi must be positive, continuous and decreasing, convex for ``r > inflection`` and concave
-    below it (``-oo``: convex everywhere, with phi(0) >= 1); the pressure of a compliant support
-    rests on that.
+    below it (``-oo``: convex everywhere); the pressure of a compliant support rests on that.
     ``cutoff`` is the ratio h/sigma beyond which the note's text has no contact.
     """
 

@@ -1,14 +1,25 @@
-"""The contact pressure on a compliant support: the root of p = p_max phi((h + p/k)/sigma).
+"""The contact pressure on a compliant support: the root of p = p_max phi(at + give p).
 
-The left side rises with p and the right side falls, so that there is exactly one root. The
-residual is concave where the contact law is convex, and convex where it is concave; the generated
-`start` is the pressure at the law's inflection (or the nearest one in [0, p_max]). If the root lies
-above, the residual is negative and concave from there to the root; if below, positive and convex.
-In both cases Newton's iteration from the start moves towards the root and never beyond it, for
-every wear, load and stiffness. Far from the root each iteration gains at least about a factor e in
-the pressure that is missing or in excess; near it the number of digits doubles.
+`at` is the closure over the roughness with an undeflected support, `give` the roughnesses that the
+support gives way per pressure. The left side rises with p and the right side falls, so that there
+is exactly one root.
 
-So steps keep their sign until nothing but roundoff is left: that is where the iteration ends.
+It lies between two pressures that are known, `lower` and `upper`: that at which h/sigma is at the
+law's inflection, and that which the law has there. Between them the residual is concave (the law
+convex) or convex all over. So Newton's iteration converges from anywhere between: the first step
+ends on the side of the root from which tangents do not cross it, or is brought back to the nearer
+bound, which is on that side too; every further step goes towards the root and never beyond. A good
+start only saves iterations: the generated one solves the law's exponential tail by Lambert's
+function, so that four iterations do but where a soft support is pressed down to nearly p_max.
+
+After a step the error is at most half its square times the curvature over the slope of the
+residual, that is at most
+
+    give step^2/2 times the largest |phi''/phi'|
+
+as |phi'| grows towards the inflection. The iteration ends where give step^2 is a quarter of the
+roundoff of p. What is left is then below what rounding of h/sigma makes of p, which is a roundoff
+of h/sigma times |phi'/phi|. See `derive.results.pressure_root`.
 """
 
 from __future__ import annotations
@@ -19,8 +30,8 @@ import numpy as np
 
 from wear.faults import AccuracyError
 
-MOST_ITERATIONS = 800  # a factor e each: more than the range of doubles
-CLOSE = 2.0 * float(np.finfo(float).eps)
+MOST_ITERATIONS = 200  # a factor e each where the start is bad: more than any double needs
+CLOSE = float(np.finfo(float).eps) / 4.0
 
 Real = Any  # a float or an array of floats
 
@@ -28,11 +39,17 @@ Real = Any  # a float or an array of floats
 class CompliantModule(Protocol):
     """A generated module for a compliant support; `c` are its bound constants."""
 
-    def start(self, u: Real, U_a: Real, c: Any) -> Real: ...
+    def undeflected(self, u: Real, U_a: Real, c: Any) -> Real: ...
 
-    def residual(self, p: Real, u: Real, U_a: Real, c: Any) -> Real: ...
+    def softness(self, u: Real, c: Any) -> Real: ...
 
-    def residual_slope(self, p: Real, u: Real, U_a: Real, c: Any) -> Real: ...
+    def start(self, at: Real, give: Real, c: Any) -> Real: ...
+
+    def lower(self, at: Real, give: Real, c: Any) -> Real: ...
+
+    def upper(self, at: Real, give: Real, c: Any) -> Real: ...
+
+    def newton(self, p: Real, at: Real, give: Real, c: Any) -> Real: ...
 
 
 class Root(NamedTuple):
@@ -42,50 +59,32 @@ class Root(NamedTuple):
     iterations: int
 
 
-def pressure(module: CompliantModule, u: Real, U_a: Real, c: Any) -> Root:
+def pressure(
+    module: CompliantModule, u: Real, U_a: Real, c: Any, near: Real | None = None
+) -> Root:
     """Solve for the contact pressure at wear `u` and displacement `U_a` (mm), which broadcast.
 
-    The relative accuracy is that of the residual's terms: a few units of roundoff, times the
-    argument of the law where that is large, however small the pressure.
+    `near` is a pressure to start from in place of the general start; any number will do. The
+    relative accuracy is that of the law's value: a few units of roundoff, times the argument of
+    the law where that is large, however small the pressure.
 
     Raises
     ------
     AccuracyError
         if the arguments are no numbers for which the contact law has a value.
     """
-    iterate = _one if isinstance(u, float) and isinstance(U_a, float) else _many
-    found = iterate(module, u, U_a, c)
-    if found is None:
-        raise AccuracyError("the contact pressure on the compliant support could not be solved for")
-    return found
-
-
-def _one(module: CompliantModule, u: float, U_a: float, c: Any) -> Root | None:
-    """The root for scalars, at a third of the time that arrays of no dimension take."""
-    p = module.start(u, U_a, c)
-    first = module.residual(p, u, U_a, c)
-    if np.ndim(first) > 0:  # the constants of many scenes
-        return _many(module, u, U_a, c)
-    rises = first < 0.0
+    at, give = module.undeflected(u, U_a, c), module.softness(u, c)
+    low, high = module.lower(at, give, c), module.upper(at, give, c)
+    p = module.start(at, give, c) if near is None else near
+    # Python's own functions take a tenth of the time of NumPy's on scalars.
+    scalar = isinstance(at, float)
+    smaller, larger, every = (min, max, bool) if scalar else (np.minimum, np.maximum, np.all)
     for count in range(1, MOST_ITERATIONS + 1):
-        residual = first if count == 1 else module.residual(p, u, U_a, c)
-        step = residual / module.residual_slope(p, u, U_a, c)
-        p = p - step
-        if abs(step) <= CLOSE * p or (step >= 0.0 if rises else step <= 0.0):
-            return Root(max(p, np.float64(0.0)), count)
-    return None
-
-
-def _many(module: CompliantModule, u: Real, U_a: Real, c: Any) -> Root | None:
-    """The roots for arrays; an element that is done may be iterated on without harm."""
-    p = module.start(u, U_a, c)
-    towards: Real = None
-    done: Real = np.False_
-    for count in range(1, MOST_ITERATIONS + 1):
-        step = module.residual(p, u, U_a, c) / module.residual_slope(p, u, U_a, c)
-        p = p - step
-        towards = np.sign(step) if towards is None else towards
-        done = done | (np.abs(step) <= CLOSE * np.abs(p)) | (step * towards <= 0.0)
-        if np.all(done):
-            return Root(np.maximum(p, 0.0), count)
-    return None
+        last = smaller(larger(p, low), high)
+        p = module.newton(last, at, give, c)
+        step = p - last
+        if every(give * step * step <= CLOSE * p):
+            return Root(p, count)
+    if near is not None:  # so far off that the law has no value there
+        return pressure(module, u, U_a, c)
+    raise AccuracyError("the contact pressure on the compliant support could not be solved for")

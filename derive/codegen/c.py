@@ -38,7 +38,14 @@ def _number(decimal: str) -> str:
 C = Target(
     name="c",
     functions=MappingProxyType(
-        {sp.exp: "exp", sp.sqrt: "sqrt", sp.Min: "wear_smaller", sp.Max: "wear_larger"}
+        {
+            sp.exp: "exp",
+            sp.log: "log",
+            sp.sqrt: "sqrt",
+            sp.Abs: "fabs",
+            sp.Min: "wear_smaller",
+            sp.Max: "wear_larger",
+        }
     ),
     power=lambda base, exponent: " * ".join([base] * exponent),
     number=_number,
@@ -59,14 +66,14 @@ _NEWTON = """\
 {facts} */
 double wear_pressure(double u, double U_a, const struct wear_constants *c)
 {{
-    const double close = 0x1p-51; /* two units in the last place of 1 */
-    double p = wear_start(u, U_a, c), first = 0.0;
-    for (int count = 0; count < 800; ++count) {{
-        const double step = wear_residual(p, u, U_a, c) / wear_residual_slope(p, u, U_a, c);
-        p -= step;
-        if (count == 0)
-            first = step;
-        if (fabs(step) <= close * fabs(p) || (first > 0.0 ? step <= 0.0 : step >= 0.0))
+    const double close = 0x1p-54; /* a quarter of the roundoff of 1 */
+    const double at = wear_undeflected(u, U_a, c), give = wear_softness(u, c);
+    const double lower = wear_lower(at, give, c), upper = wear_upper(at, give, c);
+    double p = wear_start(at, give, c);
+    for (int count = 0; count < 200; ++count) {{
+        const double last = p < lower ? lower : p > upper ? upper : p;
+        p = wear_newton(last, at, give, c);
+        if (give * (p - last) * (p - last) <= close * p)
             return {result};
     }}
     return NAN; /* an argument is not a number, or out of the range of the contact law */
@@ -176,11 +183,10 @@ def _function(function: Function, made: Program) -> str:
 
 
 def _newton(variant: Variant) -> str:
-    positive = "p > 0.0 ? p : 0.0"
     return _NEWTON.format(
         meaning=PRESSURE[0].upper() + PRESSURE[1:],
         facts="\n".join(f"   {fact}" for fact in FACTS_OF_NEWTON),
-        result=f"wear_limited({positive}, u, U_a, c)" if variant.cutoff else positive,
+        result="wear_limited(p, u, U_a, c)" if variant.cutoff else "p",
     )
 
 

@@ -48,7 +48,14 @@ def _number(decimal: str) -> str:
 FORTRAN = Target(
     name="fortran",
     functions=MappingProxyType(
-        {sp.exp: "exp", sp.sqrt: "sqrt", sp.Min: "smaller", sp.Max: "larger"}
+        {
+            sp.exp: "exp",
+            sp.log: "log",
+            sp.sqrt: "sqrt",
+            sp.Abs: "abs",
+            sp.Min: "smaller",
+            sp.Max: "larger",
+        }
     ),
     power=lambda base, exponent: f"{base}**{exponent}",
     number=_number,
@@ -70,15 +77,17 @@ _NEWTON = """\
   pure elemental real(dp) function pressure(u, pin_displacement, c)
     real(dp), intent(in) :: u, pin_displacement
     type(constants), intent(in) :: c
-    real(dp) :: p, first, step
+    real(dp) :: p, last, at, give, low, high
     integer :: count
-    p = start(u, pin_displacement, c)
-    first = 0.0_dp
-    do count = 1, 800
-      step = residual(p, u, pin_displacement, c) / residual_slope(p, u, pin_displacement, c)
-      p = p - step
-      if (count == 1) first = step
-      if (abs(step) <= 2 * epsilon(p) * abs(p) .or. step * sign(1.0_dp, first) <= 0.0_dp) then
+    at = undeflected(u, pin_displacement, c)
+    give = softness(u, c)
+    low = lower(at, give, c)
+    high = upper(at, give, c)
+    p = start(at, give, c)
+    do count = 1, 200
+      last = merge(low, merge(high, p, p > high), p < low)
+      p = newton(last, at, give, c)
+      if (give * (p - last)**2 <= epsilon(p) / 4 * p) then
         pressure = {result}
         return
       end if
@@ -206,11 +215,10 @@ def _selections(functions: Iterable[str]) -> list[str]:
 
 
 def _newton(variant: Variant) -> str:
-    positive = "merge(p, 0.0_dp, p > 0.0_dp)"
     return _NEWTON.format(
         meaning=PRESSURE[0].upper() + PRESSURE[1:],
         facts="\n".join(f"  !> {fact}" for fact in FACTS_OF_NEWTON),
-        result=f"limited({positive}, u, pin_displacement, c)" if variant.cutoff else positive,
+        result="limited(p, u, pin_displacement, c)" if variant.cutoff else "p",
     )
 
 

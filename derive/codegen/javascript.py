@@ -52,14 +52,15 @@ _NEWTON = """\
 /** {meaning}.
 {facts} */
 function pressure(u, U_a, c) {{
-  let p = start(u, U_a, c);
-  let first = 0;
-  for (let count = 0; count < 800; count += 1) {{
-    const step = residual(p, u, U_a, c) / residual_slope(p, u, U_a, c);
-    p -= step;
-    if (count === 0) first = step;
-    const turned = first > 0 ? step <= 0 : step >= 0;
-    if (turned || Math.abs(step) <= 2 * Number.EPSILON * Math.abs(p)) return {result};
+  const at = undeflected(u, U_a, c);
+  const give = softness(u, c);
+  const low = lower(at, give, c);
+  const high = upper(at, give, c);
+  let p = start(at, give, c);
+  for (let count = 0; count < 200; count += 1) {{
+    const last = Math.min(Math.max(p, low), high);
+    p = newton(last, at, give, c);
+    if (give * (p - last) * (p - last) <= (Number.EPSILON / 4) * p) return {result};
   }}
   return NaN; // an argument is not a number, or out of the range of the contact law
 }}"""
@@ -172,7 +173,7 @@ def _newton(variant: Variant) -> str:
     return _NEWTON.format(
         meaning=PRESSURE[0].upper() + PRESSURE[1:],
         facts="\n".join(f" * {fact}" for fact in FACTS_OF_NEWTON),
-        result="limited(Math.max(p, 0), u, U_a, c)" if variant.cutoff else "Math.max(p, 0)",
+        result="limited(p, u, U_a, c)" if variant.cutoff else "p",
     )
 
 

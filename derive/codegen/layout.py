@@ -25,8 +25,8 @@ WIDEST = 100
 RIGHT_HAND_SIDE = "du_c/dt in mm/s with all that this variant has: what an integrator needs"
 PRESSURE = "contact pressure in MPa: the only root of the residual, by Newton's iteration"
 FACTS_OF_NEWTON = (
-    "The steps keep their sign until only roundoff is left: the iteration ends there.",
-    "Far from the root each gains at least about a factor e, so that 800 suffice for any double.",
+    "Between the bounds every step but the first goes towards the root and never beyond.",
+    "The square of a step, in roughnesses, tells the next one: the iteration ends at roundoff.",
 )
 
 

@@ -36,6 +36,10 @@ _INTERMEDIATES = {
     "share": "p/p_max",
     "spread": "p (p_max - p)/p_max^2",
     "residual_p": "slope of the residual with p",
+    "rise": "p_max times the fall of the law per pressure",
+    "level": "logarithm of z, whose Lambert function W(z) is the start",
+    "grown": "1 + the smaller of z and 1/z",
+    "height": "ln(1 + z)",
 }
 
 

@@ -19,7 +19,7 @@ import sympy as sp
 
 from ..symbols import QUANTITIES
 from ..variant import Variant
-from . import cutoff, fields, rate
+from . import cutoff, fields, rate, root
 from .function import Assignment, Function
 from .relations import Relations, groups, kappa
 
@@ -61,7 +61,10 @@ def program(variant: Variant) -> Program:
 def _functions(variant: Variant) -> tuple[Function, ...]:
     """Return the functions of a variant, that of the fields last."""
     relations = Relations(variant)
-    found = rate.compliant(relations) if variant.compliant else rate.rigid(relations)
+    if variant.compliant:
+        found = (*root.root(relations), *rate.compliant(relations))
+    else:
+        found = rate.rigid(relations)
     if variant.cutoff:
         found += cutoff.margin(relations)
     if variant.cutoff and variant.compliant:

@@ -4,7 +4,7 @@ Key results
     law         the contact law at ``ratio``, in a form to compute with
     to_ratio    the assignments that lead to ``ratio``
     rigid       rate and slope with a rigid support
-    compliant   the equation of the pressure, where to start, rate and slope at its root
+    compliant   rate and slope at the pressure with a compliant support
 """
 
 from __future__ import annotations
@@ -70,28 +70,11 @@ def rigid(relations: Relations) -> tuple[Function, ...]:
 
 
 def compliant(relations: Relations) -> tuple[Function, ...]:
-    """Return the residual of the pressure and its slope, a start, the rate and its slope."""
-    names, value, slope = law(relations.variant)
-    start = to_ratio(relations, deflected=True)
-    sloped, slopes = with_slopes(start)
+    """Return the rate of wear at a pressure, and its slope at the root."""
+    names, _, slope = law(relations.variant)
+    sloped, slopes = with_slopes(to_ratio(relations, deflected=True))
     stiffening = number("residual_p"), 1 - p_max * slope * compliance / sigma
-    at = (pressure, u, load)
     return (
-        Function.made(
-            "residual",
-            at,
-            (*start, *names),
-            (pressure - p_max * value,),
-            "what the contact pressure p must make zero, in MPa",
-        ),
-        Function.made(
-            "residual_slope",
-            at,
-            (*start, *names),
-            (stiffening[1],),
-            "derivative of the residual with respect to p",
-        ),
-        _start(relations),
         Function.made(
             "rate",
             (pressure,),
@@ -101,27 +84,9 @@ def compliant(relations: Relations) -> tuple[Function, ...]:
         ),
         Function.made(
             "slope",
-            at,
+            (pressure, u, load),
             (*sloped, *names, stiffening),
             (wear_per_pressure * p_max * slope * slopes[ratio] / stiffening[0],),
             "derivative of the wear rate with respect to u_c at the root, in 1/s",
         ),
-    )
-
-
-def _start(relations: Relations) -> Function:
-    """Return where Newton's iteration starts.
-
-    At the pressure with h/sigma at the inflection of the law, or the nearest one in [0, p_max],
-    the residual is negative and concave from there to the root, or positive and convex.
-    """
-    inflection = relations.variant.law.inflection
-    ratio_at_start = inflection if inflection.is_finite else sp.Integer(0)
-    guess = sp.Max(0, sp.Min((ratio_at_start * sigma - h) / compliance, p_max))
-    return Function.made(
-        "start",
-        (u, load),
-        (*relations.roughnesses(), relations.closure(deflected=False)),
-        (guess,),
-        "pressure from which Newton's iteration converges monotonically, in MPa",
     )

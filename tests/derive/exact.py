@@ -115,6 +115,10 @@ def _evaluate(expr: sp.Expr, values: Mapping[str, mpmath.mpf]) -> Dual:
     if isinstance(expr, sp.exp):
         value = mpmath.exp(numbers[0])
         return _combined(value, parts, [value])
+    if isinstance(expr, sp.log):
+        return _combined(mpmath.log(numbers[0]), parts, [1 / numbers[0]])
+    if isinstance(expr, sp.Abs):
+        return _combined(abs(numbers[0]), parts, [mpmath.sign(numbers[0])])
     if expr.is_Pow:
         base, exponent = numbers
         value = mpmath.power(base, exponent)
@@ -155,11 +159,10 @@ def exact_values(variant: Variant, at: Point) -> dict[str, mpmath.mpf]:
             name.name: _evaluate(expr, parameters).value
             for name, expr in made(variant).exact_constants.items()
         }
-    state = {"u": mpmath.mpf(at.u), "U_a": mpmath.mpf(at.U_a), "p": mpmath.mpf(at.p)}
-    return constants | state
+    return constants | {name: mpmath.mpf(value) for name, value in at.state.items()}
 
 
-def judge_root(residual: Function, slope: Function, values: Mapping[str, float]) -> Judged:
+def judge_root(residual: Function, values: Mapping[str, float]) -> Judged:
     """Evaluate the contact pressure on a compliant support; ``values['p']`` is near it.
 
     Its absolute terms are those of the residual, seen from the pressure.
@@ -167,8 +170,9 @@ def judge_root(residual: Function, slope: Function, values: Mapping[str, float])
     with mpmath.workdps(DIGITS):
         numbers = {name: mpmath.mpf(value) for name, value in values.items()}
         for _ in range(8):  # from a few digits on Newton's iteration doubles them
-            steepness = judge(slope, numbers).value
-            step = judge(residual, numbers).value / steepness
+            found = _evaluate(composed(residual)[0], numbers)
+            steepness = found.slopes["p"]
+            step = found.value / steepness
             numbers["p"] -= step
         assert abs(step) <= abs(numbers["p"]) * mpmath.mpf(10) ** -40
         return Judged(numbers["p"], judge(residual, numbers).unit / steepness)
@@ -178,12 +182,20 @@ def judge_root(residual: Function, slope: Function, values: Mapping[str, float])
 
 
 class Point(NamedTuple):
-    """Physical parameters, and where to evaluate: u, U_a and, for residuals, p."""
+    """Physical parameters, and where to evaluate: u, U_a and, with a compliant support, p, h/sigma
+    without deflection and the support's deflection per pressure over sigma."""
 
     parameters: dict[str, float]
     u: float
     U_a: float
     p: float
+    undeflected: float
+    softness: float
+
+    @property
+    def state(self) -> dict[str, float]:
+        """Every number but the parameters, by name."""
+        return {name: value for name, value in self._asdict().items() if name != "parameters"}
 
 
 def point(
@@ -227,12 +239,20 @@ def point(
     if variant.pin.rough:
         pin = everything["sigma_a0"] + everything["f_a"] * kappa * u * variant.pin.wears
     gain = 1.0 + kappa * (1 if variant.opening else -1) if variant.pin.wears else 1.0
-    closure = (2.0 - argument / 2.0) * math.hypot(bearing, pin)
+    sigma = math.hypot(bearing, pin)
+    closure = (2.0 - argument / 2.0) * sigma
     pressure = everything["p_max"] * between(1e-12, 1)
     deflection = pressure / everything["k"] if variant.compliant else 0.0
     load = everything["h_0"] + gain * u + deflection - closure
     names = [parameter.name for parameter in made(variant).parameters]
-    return Point({name: everything[name] for name in names}, u, load, pressure)
+    return Point(
+        {name: everything[name] for name in names},
+        u,
+        load,
+        pressure,
+        (closure - deflection) / sigma,
+        1.0 / (everything["k"] * sigma),
+    )
 
 
 def points(variant: Variant, count: int, seed: int = 0) -> list[Point]:
@@ -248,8 +268,7 @@ def points(variant: Variant, count: int, seed: int = 0) -> list[Point]:
 
 def inputs(function: Function, at: Point, constants: Mapping[str, float]) -> dict[str, float]:
     """Return the value of every symbol of a function at a point."""
-    state = {"u": at.u, "U_a": at.U_a, "p": at.p}
-    arguments = {a.name: state[a.name] for a in function.arguments}
+    arguments = {a.name: at.state[a.name] for a in function.arguments}
     return {**constants, **arguments}
 
 

@@ -22,8 +22,9 @@ import wear.generated
 import wear.root
 from derive import generate
 from derive.codegen.numpy_module import module_text
-from derive.laws import LAWS, r
+from derive.laws import LAWS, ContactLaw, r
 from derive.note.condensed import Condensed
+from derive.program.root import tail
 from derive.stable import STABLE, proof
 from derive.statement import check
 from derive.symbols import QUANTITIES, rate
@@ -131,8 +132,23 @@ def derivatives(variant, functions, values):
     per_pressure = rises["rate"]["p"]
     if variant.cutoff:
         wanted["limited_slope"] = per_pressure * rises["margin"]["u"] / values["compliance"]
-    at_root = -rises["residual"]["u"] / rises["residual"]["p"]
-    return wanted | {"residual_slope": rises["residual"]["p"], "slope": per_pressure * at_root}
+    return wanted | {"slope": -per_pressure * rises["residual"]["u"] / rises["residual"]["p"]}
+
+
+@pytest.mark.parametrize("variant", COMPLIANT, ids=map(name_of, COMPLIANT))
+def test_a_step_of_newton_is_that_of_the_residual(variant):
+    """p - residual/slope, in a form in which nothing cancels, to 40 digits."""
+    functions = {f.name: exact.composed(f)[0] for f in exact.made(variant).functions}
+    for at in exact.points(variant, 12)[7:]:
+        values = exact.exact_values(variant, at)
+        residual = exact.dual(functions["residual"], values)
+        for name in ("undeflected", "softness"):
+            values[name] = exact.dual(functions[name], values).value
+        found = exact.dual(functions["newton"], values).value
+        with mpmath.workdps(exact.DIGITS):
+            wanted = values["p"] - residual.value / residual.slopes["p"]
+            terms = abs(values["p"]) + abs(found)
+            assert abs(found - wanted) <= terms * mpmath.mpf(10) ** -40
 
 
 @pytest.mark.parametrize("law", STABLE)
@@ -142,13 +158,23 @@ def test_stable_forms_are_proved(law):
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
-def test_newton_has_a_start_for_every_law(law):
-    """Where a law is convex everywhere the start is at h/sigma = 0, with phi of at least 1."""
+def test_every_law_is_curved_one_way_on_each_side_of_its_inflection(law):
+    """Newton's iteration for the pressure on a compliant support rests on it."""
+    bend = sp.diff(law.phi, r, 2)
     if law.inflection.is_finite:
-        assert is_zero(sp.diff(law.phi, r, 2).subs(r, law.inflection))
-    else:
-        assert law.phi.subs(r, 0) >= 1
-    assert sp.diff(law.phi, r, 2).subs(r, 3) > 0
+        assert is_zero(bend.subs(r, law.inflection))
+    for ratio in range(-20, 40):
+        if ratio != law.inflection:
+            assert (bend.subs(r, ratio) > 0) == bool(ratio > law.inflection)
+
+
+def test_the_tail_of_a_law_is_found_where_it_has_one():
+    assert tail(LAWS["tanh"]) == (sp.exp(8), 4)
+    assert tail(LAWS["exponential"]) == (1, 1)
+    two = ContactLaw("two", (sp.exp(-r) + sp.exp(-3 * r)) / 2, -sp.oo, "an example")
+    assert tail(two) == (sp.Rational(1, 2), 1)
+    power = ContactLaw("power", 1 / (1 + r**2), sp.Integer(0), "an example")
+    assert tail(power) == (0, 0)
 
 
 @pytest.mark.parametrize("stiffness", [1.0, 1e3, 1e12])
@@ -163,7 +189,7 @@ def test_pressure_is_found_however_soft_the_support(law, stiffness):
     found = wear.root.pressure(module, 0.0, load, constants)
     values = {**constants._asdict(), "u": 0.0, "U_a": load, "p": float(found.p)}
     named = {f.name: f for f in exact.made(variant).functions}
-    judged = exact.judge_root(named["residual"], named["residual_slope"], values)
+    judged = exact.judge_root(named["residual"], values)
     assert judged.units(float(found.p)) <= exact.UNITS
 
 

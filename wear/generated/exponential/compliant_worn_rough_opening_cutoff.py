@@ -18,8 +18,12 @@ LAW = "exponential"
 EQUATIONS = ("1", "2b", "3", "4", "5", "6", "8", "9")
 OPERATIONS = {
     "residual": 19,
-    "residual_slope": 21,
-    "start": 7,
+    "undeflected": 13,
+    "softness": 10,
+    "start": 17,
+    "lower": 4,
+    "upper": 3,
+    "newton": 11,
     "rate": 1,
     "slope": 33,
     "margin": 14,
@@ -119,21 +123,47 @@ def residual(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
     return p - c.p_max * share
 
 
-def residual_slope(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the residual with respect to p."""
+def undeflected(u: Array, U_a: Array, c: Constants) -> Array:
+    """Closure over roughness with an undeflected support."""
     sigma_a = c.sigma_a0 + c.slope_a * u
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
-    h = c.h_0 + c.compliance * p + c.gain * u - U_a
-    ratio = h / sigma
-    share = np.exp(-ratio)
-    return 1 + c.compliance * c.p_max * share / sigma
-
-
-def start(u: Array, U_a: Array, c: Constants) -> Array:
-    """Pressure from which Newton's iteration converges monotonically, in MPa."""
     h = c.h_0 + c.gain * u - U_a
-    return np.maximum(np.minimum(c.p_max, -h / c.compliance), 0)
+    return h / sigma
+
+
+def softness(u: Array, c: Constants) -> Array:
+    """Roughnesses that the support gives way per pressure, in 1/MPa."""
+    sigma_a = c.sigma_a0 + c.slope_a * u
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
+    return c.compliance / sigma
+
+
+def start(undeflected: Array, softness: Array, c: Constants) -> Array:
+    """Estimate of the pressure with the support, in MPa."""
+    level = np.log(c.p_max * softness) - undeflected
+    grown = 1 + np.exp(-np.abs(level))
+    height = np.log(grown) + np.maximum(level, 0)
+    return height * (1 - np.log(1 + height) / (2 + height)) / softness
+
+
+def lower(undeflected: Array, softness: Array, c: Constants) -> Array:
+    """A pressure below that with the support, in MPa."""
+    return np.maximum(np.minimum(c.p_max, -undeflected / softness), 0)
+
+
+def upper(undeflected: Array, softness: Array, c: Constants) -> Array:
+    """A pressure above that with the support, in MPa."""
+    return np.maximum(c.p_max, -undeflected / softness)
+
+
+def newton(p: Array, undeflected: Array, softness: Array, c: Constants) -> Array:
+    """The pressure after a step of Newton's iteration from p, in MPa."""
+    ratio = undeflected + p * softness
+    share = np.exp(-ratio)
+    rise = c.p_max * softness * share
+    return (p * rise + c.p_max * share) / (1 + rise)
 
 
 def rate(p: Array, c: Constants) -> Array:

@@ -18,8 +18,12 @@ LAW = "tanh"
 EQUATIONS = ("1", "2b", "3", "4", "5", "6", "8", "9")
 OPERATIONS = {
     "residual": 16,
-    "residual_slope": 21,
-    "start": 10,
+    "undeflected": 6,
+    "softness": 3,
+    "start": 21,
+    "lower": 5,
+    "upper": 4,
+    "newton": 18,
     "rate": 1,
     "slope": 30,
     "margin": 7,
@@ -108,22 +112,45 @@ def residual(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
     return p - c.p_max * share
 
 
-def residual_slope(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the residual with respect to p."""
+def undeflected(u: Array, U_a: Array, c: Constants) -> Array:
+    """Closure over roughness with an undeflected support."""
     sigma = c.sigma_c0 + c.f_c * u
-    h = c.h_0 + c.compliance * p + c.gain * u - U_a
-    ratio = h / sigma
+    h = c.h_0 + c.gain * u - U_a
+    return h / sigma
+
+
+def softness(u: Array, c: Constants) -> Array:
+    """Roughnesses that the support gives way per pressure, in 1/MPa."""
+    sigma = c.sigma_c0 + c.f_c * u
+    return c.compliance / sigma
+
+
+def start(undeflected: Array, softness: Array, c: Constants) -> Array:
+    """Estimate of the pressure with the support, in MPa."""
+    level = 8 + np.log(4 * c.p_max * softness) - 4 * undeflected
+    grown = 1 + np.exp(-np.abs(level))
+    height = np.log(grown) + np.maximum(level, 0)
+    return height * (1 - np.log(1 + height) / (2 + height)) / (4 * softness)
+
+
+def lower(undeflected: Array, softness: Array, c: Constants) -> Array:
+    """A pressure below that with the support, in MPa."""
+    return np.maximum(np.minimum(c.p_max / 2, (2 - undeflected) / softness), 0)
+
+
+def upper(undeflected: Array, softness: Array, c: Constants) -> Array:
+    """A pressure above that with the support, in MPa."""
+    return np.maximum(c.p_max / 2, (2 - undeflected) / softness)
+
+
+def newton(p: Array, undeflected: Array, softness: Array, c: Constants) -> Array:
+    """The pressure after a step of Newton's iteration from p, in MPa."""
+    ratio = undeflected + p * softness
     odds = np.exp(np.minimum(8 - 4 * ratio, 709))
     share = odds / (1 + odds)
     spread = share / (1 + odds)
-    return 1 + 4 * c.compliance * c.p_max * spread / sigma
-
-
-def start(u: Array, U_a: Array, c: Constants) -> Array:
-    """Pressure from which Newton's iteration converges monotonically, in MPa."""
-    sigma = c.sigma_c0 + c.f_c * u
-    h = c.h_0 + c.gain * u - U_a
-    return np.maximum(np.minimum(c.p_max, (2 * sigma - h) / c.compliance), 0)
+    rise = 4 * c.p_max * softness * spread
+    return (p * rise + c.p_max * share) / (1 + rise)
 
 
 def rate(p: Array, c: Constants) -> Array:

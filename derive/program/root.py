@@ -1,0 +1,140 @@
+"""The functions of the equation for the pressure on a compliant support.
+
+At given wear and load the pressure p is the root of p = p_max phi(undeflected + softness p), with
+the ratio h/sigma of an undeflected support and the roughnesses that the support gives way per
+pressure.  The root lies between two known pressures: that with h/sigma at the inflection of the
+law, and that of the law at its inflection.  Between them the residual is curved one way, so that a
+step of Newton's iteration from anywhere in between ends on one side of the root, and the steps
+after it go towards the root and never beyond.  See `derive.results.pressure_root`.
+
+Key results
+    root    residual, undeflected, softness, start, lower, upper, newton
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from ..laws import ContactLaw, r
+from ..stable import stable
+from .function import Assignment, Function
+from .rate import law, p_max, to_ratio
+from .relations import Relations
+from .symbols import compliance, h, load, number, pressure, ratio, sigma, u
+
+undeflected, softness = map(number, ("undeflected", "softness"))
+"""What the equation depends on: h/sigma with an undeflected support; the support's deflection per
+pressure, over sigma."""
+
+rise, level, grown, height = map(number, ("rise", "level", "grown", "height"))
+
+
+def root(relations: Relations) -> tuple[Function, ...]:
+    """Return the equation of the pressure, bounds of its root, a start and Newton's step."""
+    names, value, slope = law(relations.variant)
+    edge = _edge(relations.variant.law)
+    of_equation = (undeflected, softness)
+    return (
+        Function.made(
+            "residual",
+            (pressure, u, load),
+            (*to_ratio(relations, deflected=True), *names),
+            (pressure - p_max * value,),
+            "what the contact pressure p must make zero, in MPa",
+        ),
+        Function.made(
+            "undeflected",
+            (u, load),
+            to_ratio(relations, deflected=False)[:-1],
+            (h / sigma,),
+            "closure over roughness with an undeflected support",
+        ),
+        Function.made(
+            "softness",
+            (u,),
+            relations.roughnesses(),
+            (compliance / sigma,),
+            "roughnesses that the support gives way per pressure, in 1/MPa",
+        ),
+        _start(relations.variant.law),
+        Function.made(
+            "lower",
+            of_equation,
+            (),
+            (sp.Max(0, sp.Min(*edge)),),
+            "a pressure below that with the support, in MPa",
+        ),
+        Function.made(
+            "upper",
+            of_equation,
+            (),
+            (sp.Max(*edge),),
+            "a pressure above that with the support, in MPa",
+        ),
+        Function.made(
+            "newton",
+            (pressure, *of_equation),
+            (
+                (ratio, undeflected + softness * pressure),
+                *names,
+                (rise, -p_max * softness * slope),
+            ),
+            ((p_max * value + rise * pressure) / (1 + rise),),
+            "the pressure after a step of Newton's iteration from p, in MPa",
+        ),
+    )
+
+
+def _edge(law: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
+    """Return two pressures between which the root lies and the law is curved one way.
+
+    Any ratio will do for a law that is convex everywhere.
+    """
+    at = law.inflection if law.inflection.is_finite else sp.Integer(0)
+    return (at - undeflected) / softness, p_max * law.ratio(at)
+
+
+def _start(of: ContactLaw) -> Function:
+    """Return an estimate of the root, near it if the law falls exponentially.
+
+    With phi = A exp(-m r) the root is W(z)/(m softness), z = A m softness p_max exp(-m undeflected)
+    and W of Lambert, which w (1 - ln(1 + w)/(2 + w)) with w = ln(1 + z) equals to a few percent.
+    """
+    names: tuple[Assignment, ...] = ()
+    amplitude, steepness = tail(of)
+    if steepness == 0:
+        estimate = _edge(of)[0]
+    else:
+        logarithm = sp.log(steepness * p_max * softness) + sp.log(amplitude)
+        names = (
+            (level, logarithm - steepness * undeflected),
+            (grown, 1 + sp.exp(-sp.Abs(level))),
+            (height, sp.Max(level, 0) + sp.log(grown)),
+        )
+        estimate = height * (1 - sp.log(1 + height) / (2 + height)) / (steepness * softness)
+    return Function.made(
+        "start",
+        (undeflected, softness),
+        names,
+        (estimate,),
+        "estimate of the pressure with the support, in MPa",
+    )
+
+
+@cache
+def tail(of: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
+    """Return A and m of a law that tends to A exp(-m r) for large r; m = 0 if it does not.
+
+    >>> from ..laws import TANH
+    >>> tail(TANH)
+    (exp(8), 4)
+    """
+    row = stable(of)
+    value = of.phi if row.far_value is None else row.far_value
+    steepness = sp.diff(of.phi, r) / of.phi if row.far_steepness is None else row.far_steepness
+    m = -sp.limit(steepness.rewrite(sp.exp), r, sp.oo)
+    if not (m.is_finite and m.is_positive):
+        return sp.Integer(0), sp.Integer(0)
+    return sp.limit(value.rewrite(sp.exp) * sp.exp(m * r), r, sp.oo), m
