@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -94,7 +95,7 @@ class Equation:
         """Return the hypotheses under which the equation holds."""
         return tuple(dict.fromkeys(c for s in self.statements for c in s.conditions))
 
-    @property
+    @cached_property
     def agrees(self) -> bool:
         """Return whether the printed form, if there is one, is what was derived."""
         return not self.printed or _agree(self.printed, self.claims)

@@ -3,11 +3,11 @@ r"""Nomenclature: what the symbols of some equations mean, as a LaTeX table.
 Key results
     quantities      the quantities that occur in equations, in the order of the vocabulary
     nomenclature    a tabular with their symbols, meanings and units
+    meaning, unit   of one quantity, in LaTeX
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
 import sympy as sp
@@ -15,9 +15,10 @@ from sympy.core.function import AppliedUndef
 
 from ..equations import Equation
 from ..symbols import QUANTITIES, Quantity
+from .reading import read
 
-_DIFFERENTIALS = re.compile(r"\bd (\w+)/d (\w+)")
-_NAME = re.compile(r"(?<![\\\w$])(1/)?([A-Za-z]+(?:_\w+)?)(?:\^(\d)|(/T))?(?![\w$])")
+#: Units that have a name.
+_UNITS = {"1": "--", "MPa mm^2": r"$\mathrm{N}$"}
 
 
 def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
@@ -43,7 +44,7 @@ def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
 def nomenclature(equations: Iterable[Equation]) -> str:
     """Return a tabular of the symbols of equations; needs amsmath and booktabs."""
     rows = [
-        rf"${quantity.latex}$ & {meaning(quantity)} & {_unit(quantity.unit)} \\"
+        rf"${quantity.latex}$ & {meaning(quantity)} & {unit(quantity)} \\"
         for quantity in quantities(equations)
     ]
     head = [r"\begin{tabular}{lll}", r"\toprule", r"symbol & meaning & unit \\", r"\midrule"]
@@ -58,27 +59,12 @@ def meaning(quantity: Quantity) -> str:
     >>> print(meaning(QUANTITIES["c_2"]))
     drift at order $1/m^2$
     """
-    text = _DIFFERENTIALS.sub(
-        lambda m: rf"$\mathrm{{d}}{_latex(m[1])}/\mathrm{{d}}{_latex(m[2])}$", quantity.meaning
+    return "".join(
+        f"${part.text}$" if part.kind == "formula" else part.text for part in read(quantity.meaning)
     )
-    parts = re.split(r"(\$.*?\$)", text)
-    return "".join(part if part.startswith("$") else _NAME.sub(_formula, part) for part in parts)
 
 
-def _formula(found: re.Match[str]) -> str:
-    """A name that can only be that of a quantity, or that stands in a quotient or power."""
-    inverse, name, power, period = found.groups()
-    certain = name in QUANTITIES and (len(name) > 1 or inverse or power or period)
-    if not certain:
-        return found[0]
-    exponent = f"^{power}" if power else ""
-    return f"${inverse or ''}{_latex(name)}{exponent}{period or ''}$"
-
-
-def _latex(name: str) -> str:
-    return QUANTITIES[name].latex if name in QUANTITIES else name
-
-
-def _unit(unit: str) -> str:
-    spaced = unit.replace(" ", r"\,")
-    return "--" if unit == "1" else rf"$\mathrm{{{spaced}}}$"
+def unit(quantity: Quantity) -> str:
+    """Return the unit in LaTeX, a dash for none."""
+    spaced = quantity.unit.replace(" ", r"\,")
+    return _UNITS.get(quantity.unit, rf"$\mathrm{{{spaced}}}$")

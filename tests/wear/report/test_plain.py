@@ -53,12 +53,13 @@ def test_words_are_kept(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "nodes"),
     [
-        ("h/sigma", [Math("h"), Text("/"), Math(r"\bar{\sigma}")]),
+        ("h/sigma", [Math(r"h/\bar{\sigma}")]),
         ("see (16)", [Text("see "), Reference("eq:16b")]),
         ("Eq. (7a) holds", [Reference("eq:7a"), Text(" holds")]),
         ("dh/du_a", [Math(r"\mathrm{d}h/\mathrm{d}u_a")]),
         ("in section4", [Text("in "), Code("section4")]),
-        ("K = 1e-6", [Math("K"), Text(" = "), Number(1e-6, 1, source="a test")]),
+        ("K = 1e-6", [Math("K ="), Text(" "), Number(1e-6, 1, source="a test")]),
+        ("1 + O(1)", [Math("1 + O(1)")]),
         ("(99)", [Given("(99)", "a test")]),
     ],
 )
