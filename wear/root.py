@@ -59,32 +59,36 @@ class Root(NamedTuple):
     iterations: int
 
 
-def pressure(
-    module: CompliantModule, u: Real, U_a: Real, c: Any, near: Real | None = None
-) -> Root:
+def pressure(module: CompliantModule, u: Real, U_a: Real, c: Any, near: Real | None = None) -> Root:
     """Solve for the contact pressure at wear `u` and displacement `U_a` (mm), which broadcast.
 
     `near` is a pressure to start from in place of the general start; any number will do. The
     relative accuracy is that of the law's value: a few units of roundoff, times the argument of
-    the law where that is large, however small the pressure.
+    the law where that is large, however small the pressure. Among many states, one without a
+    pressure (trial states may hold no number, or a negative roughness) gets no number.
 
     Raises
     ------
     AccuracyError
-        if the arguments are no numbers for which the contact law has a value.
+        if a single state has no pressure.
     """
     at, give = module.undeflected(u, U_a, c), module.softness(u, c)
     low, high = module.lower(at, give, c), module.upper(at, give, c)
     p = module.start(at, give, c) if near is None else near
     # Python's own functions take a tenth of the time of NumPy's on scalars.
     scalar = isinstance(at, float)
-    smaller, larger, every = (min, max, bool) if scalar else (np.minimum, np.maximum, np.all)
-    for count in range(1, MOST_ITERATIONS + 1):
+    smaller, larger, some = (min, max, bool) if scalar else (np.minimum, np.maximum, np.any)
+    count = 0
+    moves: Real = True
+    while moves and count < MOST_ITERATIONS:
         last = smaller(larger(p, low), high)
         p = module.newton(last, at, give, c)
         step = p - last
-        if every(give * step * step <= CLOSE * p):
-            return Root(p, count)
-    if near is not None:  # so far off that the law has no value there
+        moves = some(give * step * step > CLOSE * p)
+        count += 1
+    lost = moves or some(p != p)
+    if lost and near is not None:  # so far off that the law had no value there
         return pressure(module, u, U_a, c)
-    raise AccuracyError("the contact pressure on the compliant support could not be solved for")
+    if lost and (scalar or moves):
+        raise AccuracyError("the contact pressure on the compliant support could not be solved for")
+    return Root(p, count)

@@ -167,7 +167,19 @@ def test_the_smallest_pressures_keep_their_digits():
     assert abs(float(found / expected - 1)) < 8 * ROUNDOFF * 700
 
 
-def test_what_is_no_number_is_refused(law):
-    for scalar in (np.nan, np.array([0.0, np.nan])):
-        with pytest.raises(AccuracyError):
-            root.pressure(law.module, scalar, 0.0, law.constants(1e-4, 1e5))
+def test_a_state_without_a_pressure_is_refused_alone_and_told_among_many(law):
+    c = law.constants(1e-4, 1e5)
+    with pytest.raises(AccuracyError):
+        root.pressure(law.module, np.nan, 0.0, c)
+    alone = root.pressure(law.module, 1e-4, 0.0, c).p
+    found = root.pressure(law.module, np.array([1e-4, np.nan]), 0.0, c).p
+    np.testing.assert_allclose(found, [alone, np.nan], rtol=1e-13)
+
+
+def test_a_start_where_the_law_overflows_is_given_up():
+    law = Law(exponential, lambda x: mpmath.exp(-x), 1.0)
+    U_a, c = 0.5, law.constants(1e-4, 1e3)
+    at, give = exponential.undeflected(0.0, U_a, c), exponential.softness(0.0, c)
+    with np.errstate(all="ignore"):
+        found = root.pressure(exponential, 0.0, U_a, c, near=0.0).p
+    assert float(found / exact(law, at, give, found) - 1) < 1e-11

@@ -69,8 +69,8 @@ class Cycle(Protocol):
     @property
     def displacement(self) -> FloatArray: ...
 
-    def rate(self, u: FloatArray) -> FloatArray:
-        """Wear rate in mm per cycle at wear `u` (..., q, m)."""
+    def rate(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+        """Wear rate in mm per cycle at wear `u` (..., q, m), sought from a rate `near` by."""
 
     def interval(self, i: int) -> "Cycle":
         """The part over one interval of the mesh."""
@@ -110,9 +110,10 @@ class Drive(NamedTuple):
     over: Mesh
     displacement: FloatArray  # (q, m), mm
 
-    def rate(self, u: FloatArray) -> FloatArray:
-        """Wear rate in mm per cycle at wear `u` (..., q, m)."""
-        rate: FloatArray = self.model.rate(u, self.displacement)
+    def rate(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+        """Wear rate in mm per cycle at wear `u` (..., q, m), sought from a rate `near` by."""
+        known = None if near is None else near / self.load.period
+        rate: FloatArray = self.model.rate(u, self.displacement, known)
         return self.load.period * rate
 
     @property
@@ -231,7 +232,7 @@ def _picard(cycle: Cycle, starts: FloatArray) -> Advance:
     evaluations = rate.size
     last, converged = 1.0, False
     for iteration in range(MOST_ITERATIONS):
-        rate = cycle.rate(u + inside)
+        rate = cycle.rate(u + inside, rate)
         evaluations += rate.size
         fresh = running_integral(rate, cycle.over)
         end = fresh[..., -1, -1]

@@ -47,11 +47,12 @@ class ManyDrives(NamedTuple):
     over: Mesh
     displacement: FloatArray  # (scenes, 1, q, m), mm
 
-    def rate(self, u: FloatArray) -> FloatArray:
-        """Wear rate in mm per cycle at wear `u` (scenes, k, q, m)."""
+    def rate(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+        """Wear rate in mm per cycle at wear `u` (scenes, k, q, m), sought from a rate `near` by."""
         wear, displacement = np.broadcast_arrays(u, self.displacement)
         flat = (len(u), -1)
-        rate: FloatArray = self.model.rate(wear.reshape(flat), displacement.reshape(flat))
+        known = None if near is None else (near / self.period).reshape(flat)
+        rate: FloatArray = self.model.rate(wear.reshape(flat), displacement.reshape(flat), known)
         return self.period * rate.reshape(wear.shape)
 
     def interval(self, i: int) -> ManyDrives:
