@@ -6,7 +6,7 @@ import numpy as np
 
 from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cycle import Cost, Drive, OneCycle, Settings, refined, unresolved
-from wear.count.march import growth_of, march
+from wear.count.march import growth_of, march, overlooked
 from wear.count.request import Request
 from wear.count.scan import plan_panels, scan
 
@@ -66,6 +66,7 @@ def opening(
     exact = fresh(cycle, float(reach[0]))
     end = float(reach[-1])
     while True:
+        before = exact.cycles
         exact = more_cycles(cycle, exact, request.limit, size)
         last = float(exact.wear[-1])
         pace = float(exact.added[-1])
@@ -75,7 +76,8 @@ def opening(
             cycles = request.cycles - exact.cycles
             end = float(scan(cycle, shift, last, cycles, request.limit)[-1])
         edges, counts = plan_panels(cycle, shift, last, end, size.panel_nodes, size.tail_tolerance)
-        long = np.all(counts >= size.panel_nodes)
+        calm = exact.cycles - before == BLOCK
+        long = calm and np.all(counts >= size.panel_nodes)
         if long or exact.cycles >= MOST_FIRST or request.late:
             return exact._replace(edges=edges)
 
@@ -109,6 +111,8 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
             return _one_cycle(at, exact, limit, size, evaluations)
         full = len(over.lengths) >= cycle.most_intervals
         rough = unresolved(run.rate, over, size.phase_tolerance) | ~run.converged
+        if isinstance(at, Drive):
+            rough |= overlooked(at, start, run, size.phase_tolerance)
         if full or not rough.any():
             finer = at.on(mesh(over.edges, size.finer_nodes))
             judged = finer.advance(np.append(start, wear[:-1]))

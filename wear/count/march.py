@@ -10,10 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import FloatArray, integral, mesh
-from wear.count.cycle import TINY, Drive, Settings, unresolved
+from wear.count.collocation import BoolArray, FloatArray, integral, mesh
+from wear.count.cycle import TINY, Advance, Drive, Settings, unresolved
 
 SHORTEST = 1e-12  # of a cycle
+NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
 
 
 class Marched(NamedTuple):
@@ -42,6 +43,7 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
         tolerance = size.phase_tolerance * (1.0 + done.added / (own + TINY))
         sound = run.converged.all() and float(at) + own < limit
         sound = sound and not unresolved(run.rate[None], part.over, tolerance).any()
+        sound = sound and not overlooked(part, float(at), run, tolerance).any()
         if not sound and end - begin > SHORTEST:
             middle = (begin + end) / 2
             todo += [(middle, end), (begin, middle)]
@@ -64,3 +66,28 @@ def growth_of(cycle: Drive, start: float, inside: FloatArray) -> FloatArray:
     slope = cycle.load.period * cycle.model.slope(start + inside, cycle.displacement)
     growth: FloatArray = np.exp(integral(slope, cycle.over))
     return growth
+
+
+def overlooked(cycle: Drive, start: float, run: Advance, tolerance: float) -> BoolArray:
+    """Which intervals (q,) of phase hide a change of the rate between an end and the nodes, over
+    the cycles of `run` on end (..., q, m) from wear `start` (mm).
+
+    Fast wear may have opened the gap before the first node: then nothing but the rate at the start
+    of the interval tells. The measure is that of `unresolved`.
+    """
+    over = cycle.over
+    q, m = over.phases.shape
+    rate = run.rate.reshape(-1, q, m)
+    added = (rate @ over.rule.weights * over.lengths).ravel()
+    wear = start + np.concatenate([[0.0], np.cumsum(added)])
+    phases = np.append(np.tile(over.edges[:-1], len(rate)), over.edges[-1])
+    at_edges = cycle.load.period * cycle.model.rate(wear, cycle.load(phases))
+    series = rate @ over.rule.coefficients.T
+    left = np.abs(series @ (-1.0) ** np.arange(m) - at_edges[:-1].reshape(-1, q))
+    right = np.abs(np.sum(series, axis=-1) - at_edges[1:].reshape(-1, q))
+    largest = np.max(np.abs(series), axis=-1) + TINY
+    apart = np.maximum(left, right)
+    missed = apart * (apart / largest) * over.lengths
+    missed[apart < NOISE_AT_ENDS * largest] = 0.0
+    rough: BoolArray = np.any(missed > tolerance * integral(rate, over)[:, None], axis=0)
+    return rough

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel
-from wear.count.collocation import BoolArray, FloatArray, chebyshev_nodes
+from wear.count.collocation import BoolArray, FloatArray, chebyshev_nodes, chebyshev_values
 from wear.count.cycle import Cost, OneCycle, Settings, unresolved
 from wear.count.scan import halves
 
-CHECKS = np.array([-0.99, -0.2, 0.9])  # positions off the nodes of a panel
+CHECKS = np.array([-1.0, -0.38, 0.93])  # positions off the nodes of a panel, where T_m is large
 SAFETY = 3.0  # on measured discrepancies
 MOST_ROUNDS = 12  # of refinement
 MOST_PANELS = 200
@@ -43,6 +43,13 @@ class Solved(NamedTuple):
         both = [np.concatenate(pair) for pair in zip(self, other, strict=True)]
         order = np.argsort(both[0])
         return Solved(*(array[order] for array in both))
+
+    def cycles(self, shift: float) -> FloatArray:
+        """How many cycles each of the panels takes, roughly."""
+        m = self.series.shape[1]
+        density = np.exp(self.series @ chebyshev_values(chebyshev_nodes(m), m).T)
+        cycles: FloatArray = np.mean(density, axis=1) * abel.widths(shift, self.starts, self.ends)
+        return cycles
 
     def panels(self, shift: float) -> abel.Panels:
         """The panels with their density."""
@@ -96,6 +103,8 @@ def fill(both: Maps, shift: float, edges: FloatArray, size: Settings, cost: Cost
         fresh, rough, spent = solve_panels(both, shift, starts, ends, size)
         cost = cost.plus(*spent)
         worst = ~(fresh.residual <= size.residual_tolerance)
+        # A panel of few cycles would hide an oscillation.
+        worst &= ~(fresh.cycles(shift) < 2 * size.panel_nodes)
         last = rounds == MOST_ROUNDS - 1 or len(done.starts) + len(starts) > MOST_PANELS
         if rough.any() or last or not worst.any():
             break
