@@ -103,10 +103,11 @@ class Model:
         followed = self.module.limited_slope(u, self.constants)
         return np.where(limited, np.where(margin > 0.0, followed, 0.0), smooth)
 
-    def fields(self, u: Real, U_a: Real) -> Fields:
-        """Every field at given wear and load."""
+    def fields(self, u: Real, U_a: Real, near: Real | None = None) -> Fields:
+        """Every field at given wear and load; on a compliant support from a pressure `near` by."""
         if self.compliant:
-            found = self.module.fields(self.pressure(u, U_a), u, U_a, self.constants)
+            p = self.pressure(u, U_a, near)
+            found = self.module.fields(p, u, U_a, self.constants)
         else:
             found = self.module.fields(u, U_a, self.constants)
         zero = np.zeros(np.broadcast(u, U_a).shape)

@@ -58,8 +58,8 @@ class Inside(NamedTuple):
 
 class Panels(NamedTuple):
     """What cycles add that start between the wears `starts` and `ends` (panels,), mm: Chebyshev
-    coefficients `series` (panels, m, phases) in y = ln(u + shift), and what these may have `missed`
-    (panels,), mm."""
+    coefficients `series` (panels, m, columns) in y = ln(u + shift), and what these may have
+    `missed` (panels,), mm."""
 
     starts: FloatArray
     ends: FloatArray
@@ -80,8 +80,10 @@ class Panels(NamedTuple):
 class Course(NamedTuple):
     """How wear grows within a cycle up to `phases`, ready for interpolation.
 
-    `first` (k, phases) mm is what has been added in each of the first cycles and `first_missed`
-    (k,) mm its estimated error; the `panels` tell what later ones add.
+    `first` (k, columns) mm is what has been added in each of the first cycles and `first_missed`
+    (k,) mm its estimated error; the `panels` tell what later ones add. There is a column for each
+    phase, and with a compliant support another with the logarithm of the pressure (MPa) there, from
+    which that is sought.
     """
 
     counted: CycleCount
@@ -107,6 +109,7 @@ def course(
     apart = _judged(cycle, first, phases, size) - added
     rounding = np.diff(counted.first_error, append=counted.first_error[-1])
     missed = np.max(np.abs(apart), axis=1) + rounding[: len(first)]
+    added = _with_pressure(model, first, added, load(phases))
     if not run.converged.all():
         missed[:] = np.inf
     cost = counted.cost.plus(2 * len(first), 2 * run.evaluations)
@@ -125,9 +128,11 @@ def _panels(
     """The panels of the count, cut in two where a phase needs it: there what a cycle adds depends
     on the wear more sharply than at its end."""
     size, known = settings(rtol), counted.panels
-    done = Panels(NONE, NONE, np.empty((0, size.panel_nodes, len(phases))), NONE)
+    columns = len(phases) * (2 if cycle.model.compliant else 1)
+    done = Panels(NONE, NONE, np.empty((0, size.panel_nodes, columns)), NONE)
     if known is None:
         return done, cost
+    displacement = cycle.load(phases)
     starts = known.starts
     ends = starts + (starts + shift) * np.expm1(known.widths)
     for rounds in range(MOST_ROUNDS):
@@ -136,12 +141,12 @@ def _panels(
         checks = abel.panel_wear(shift, starts, across, CHECKS)
         cycle, run = _resolved(cycle, nodes.ravel(), max(rtol, ROUNDOFF))
         cost = cost.plus(nodes.size + checks.size, 2 * run.evaluations)
-        added = _at_phases(run, cycle.over, phases).reshape(*nodes.shape, len(phases))
-        series = chebyshev_analysis(size.panel_nodes) @ added
-        judged = _judged(cycle, checks.ravel(), phases, size)
-        apart = (
-            judged.reshape(*checks.shape, -1) - chebyshev_values(CHECKS, size.panel_nodes) @ series
-        )
+        added = _at_phases(run, cycle.over, phases)
+        added = _with_pressure(cycle.model, nodes.ravel(), added, displacement)
+        series = chebyshev_analysis(size.panel_nodes) @ added.reshape(*nodes.shape, columns)
+        judged = _judged(cycle, checks.ravel(), phases, size).reshape(*checks.shape, -1)
+        interpolated = chebyshev_values(CHECKS, size.panel_nodes) @ series
+        apart = judged - interpolated[..., : len(phases)]
         missed = np.max(np.abs(apart), axis=(1, 2))
         if not run.converged.all():
             missed[:] = np.inf
@@ -152,6 +157,16 @@ def _panels(
         done = done.joined(fresh.where(~rough))
         starts, ends = halves(shift, starts[rough], ends[rough])
     return done.joined(fresh), cost
+
+
+def _with_pressure(
+    model: Model, starts: FloatArray, added: FloatArray, displacement: FloatArray
+) -> FloatArray:
+    """The columns of a course, from the wear added (starts, phases)."""
+    if not model.compliant:
+        return added
+    pressure = model.pressure(starts[:, None] + added, displacement)
+    return np.concatenate([added, np.log(pressure + TINY)], axis=1)
 
 
 def _resolved(cycle: Drive, starts: FloatArray, tolerance: float) -> tuple[Drive, Advance]:
@@ -206,29 +221,29 @@ def _at_phases(run: Advance, over: Mesh, phases: FloatArray) -> FloatArray:
     return result
 
 
-def wear_inside(
+def _added(
     prepared: Course, cycles: FloatArray, starts: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Bearing wear (mm) at the prepared phases of each of `cycles` (n,), shape (n, phases), and
-    what the interpolation may have missed (n,), in mm; `starts` (n,) is the wear before."""
-    wear = np.repeat(starts[:, None], len(prepared.phases), axis=1)
+    """The columns (n, columns) of a course for each of `cycles` (n,), and what the interpolation
+    may have missed (n,), in mm; `starts` (n,) is the wear before."""
+    added = np.zeros((len(cycles), prepared.first.shape[1]))
     missed = np.zeros(len(cycles))
     early = cycles < len(prepared.first)
     index = cycles[early].astype(int)
-    wear[early] += prepared.first[index]
+    added[early] = prepared.first[index]
     missed[early] = prepared.first_missed[index]
     panels, shift = prepared.panels, prepared.shift
     if len(panels.starts) == 0:
-        return wear, missed  # no cycle adds anything any more
+        return added, missed  # no cycle adds anything any more
     across = abel.widths(shift, panels.starts, panels.ends)
     panel = np.where(early, -1, abel.part_of(panels.starts, starts))
     for p in np.unique(panel[~early]):
         chosen = panel == p
         y = np.log1p((starts[chosen] - panels.starts[p]) / (panels.starts[p] + shift))
         basis = chebyshev_values(2 * y / across[p] - 1, panels.series.shape[1])
-        wear[chosen] += basis @ panels.series[p]
+        added[chosen] = basis @ panels.series[p]
         missed[chosen] = panels.missed[p]
-    return wear, missed
+    return added, missed
 
 
 def fields_inside(
@@ -262,15 +277,18 @@ def states(
     model: Model, load: Load, prepared: Course, cycles: FloatArray, chunk: int = CHUNK
 ) -> Iterator[Inside]:
     """What `fields_inside` yields, of a course that has been prepared."""
+    m = len(prepared.phases)
     displacement = load(prepared.phases)
-    rows = max(1, chunk // max(1, len(prepared.phases)))
+    rows = max(1, chunk // max(1, m))
     for begin in range(0, len(cycles), BATCH):
         batch = cycles[begin : begin + BATCH]
         starts, error = evaluate(prepared.counted, batch)
         for at in range(0, len(batch), rows):
             here = slice(at, at + rows)
-            u, missed = wear_inside(prepared, batch[here], starts[here])
-            fields = model.fields(u, displacement)
+            added, missed = _added(prepared, batch[here], starts[here])
+            u = starts[here, None] + added[:, :m]
+            near = np.exp(added[:, m:]) if model.compliant else None
+            fields = model.fields(u, displacement, near)
             wrong = error[here] * starts[here] + SAFETY * missed
             relative = wrong / (np.max(u, axis=1) + TINY)
             yield Inside(batch[here], prepared.phases, u, fields, relative)
