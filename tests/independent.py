@@ -1,13 +1,15 @@
 """An independent judge: Taylor series in fixed-point integers, some 48 digits, by hand.
 
-It integrates the condensed problem (8) with a sum of harmonics for U_a, one or two solids, rigid or
-compliant support, no cutoff. It shares no code and no method with the package: the equations are
-typed here on purpose, the arithmetic is Python's integers, and the step is chosen so that the
-truncated terms are below 1e-18 of the wear. Slow (milliseconds a cycle), and sure.
+It integrates the condensed problem (8) with a sum of harmonics or straight lines for U_a, one or
+two solids, rigid or compliant support, either contact law, no cutoff. It shares no code and no
+method with the package: the equations are typed here on purpose, the arithmetic is Python's
+integers, and the step is chosen so that the truncated terms are below 1e-18 of the wear. Slow
+(milliseconds a cycle), and sure.
 """
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 from operator import mul
 
 import mpmath
@@ -22,7 +24,8 @@ class Problem:
     """Physical data in mm, s, MPa; `pin` and the two-solid numbers are zero for one worn solid.
 
     `wear_rate` is K_c V p_max/(3 H_c) in mm/s; `kappa` is u_a/u_c; `sign` is -1 for Eq. (1) as
-    printed, +1 where pin wear opens the gap; `deflection` is p_max/k in mm, zero when rigid.
+    printed, +1 where pin wear opens the gap; `deflection` is p_max/k in mm, zero when rigid. With
+    `rows`, phases from 0 to 1 and U_a in mm, the load consists of the straight lines between.
     """
 
     wear_rate: float
@@ -38,6 +41,8 @@ class Problem:
     kappa: float = 0.0
     sign: int = -1
     deflection: float = 0.0
+    exponential: bool = False
+    rows: tuple[tuple[float, float], ...] = ()
 
 
 def fixed(value: mpmath.mpf | float) -> int:
@@ -66,10 +71,16 @@ class Judge:
             self.gap = fixed(1 + problem.sign * kappa)
             self.closure = fixed(mpmath.mpf(problem.closure) / unit)
             self.deflection = fixed(mpmath.mpf(problem.deflection) / unit)
+            rows = problem.rows or ((0.0, 0.0), (1.0, 0.0))
+            self.kinks = [(mpmath.mpf(at), mpmath.mpf(value) / unit) for at, value in rows]
+        # z = level - steep h/sigma is ln p, and with tanh logit p, in units of p_max.
+        self.level, self.steep = (0, 1) if problem.exponential else (8, 4)
         self.wear = 0
 
     def displacement(self, phase: mpmath.mpf) -> list[int]:
         """Taylor coefficients of U_a in phase."""
+        if self.data.rows:
+            return self.line(phase)
         with mpmath.workprec(BITS + 60):
             series = [mpmath.mpf(0)] * (ORDER + 1)
             series[0] = mpmath.mpf(self.data.mean)
@@ -86,8 +97,16 @@ class Judge:
                     series[k] += sign * factor * derivative[k % 2]
             return [fixed(value / self.unit) for value in series]
 
+    def line(self, phase: mpmath.mpf) -> list[int]:
+        """Taylor coefficients of U_a on the straight line that starts at the phase or before."""
+        with mpmath.workprec(BITS + 60):
+            pairs = pairwise(self.kinks)
+            (start, first), (end, last) = next(pair for pair in pairs if phase < pair[1][0])
+            speed = (last - first) / (end - start)
+            return [fixed(first + speed * (phase - start)), fixed(speed), *[0] * (ORDER - 1)]
+
     def series(self, phase: mpmath.mpf) -> tuple[list[int], int]:
-        """Taylor coefficients of the wear in phase, from the present wear; the slope of logit p."""
+        """Taylor coefficients of the wear in phase, from the present wear; the slope of z."""
         load = self.displacement(phase)
         u, one, two, square, s = [self.wear], [], [], [], []
         w: list[int] = []
@@ -103,7 +122,7 @@ class Judge:
                 s.append(int(mpmath.floor(mpmath.sqrt(mpmath.mpf(square[0]) * ONE))))
                 z0, q0 = self.start(closure, s[0])
                 z.append(z0)
-                w.append((8 * ONE - z0) // 4)
+                w.append((self.level * ONE - z0) // self.steep)
                 q.append(q0)
             else:
                 cross = sum(s[i] * s[k - i] for i in range(1, k)) >> BITS
@@ -111,19 +130,22 @@ class Judge:
                 rest = sum(j * z[j] * g[k - j] for j in range(1, k)) // k >> BITS
                 known = closure + (self.deflection * rest >> BITS)
                 known -= sum(s[j] * w[k - j] for j in range(1, k + 1)) >> BITS
-                stiff = s[0] + (4 * g[0] * self.deflection >> BITS)
+                stiff = s[0] + (self.steep * g[0] * self.deflection >> BITS)
                 w.append((known << BITS) // stiff)
-                z.append(-4 * w[k])
+                z.append(-self.steep * w[k])
                 q.append((g[0] * z[k] >> BITS) + rest)
-            g.append(q[k] - times(q, q, k))
+            g.append(q[k] - (0 if self.data.exponential else times(q, q, k)))
             u.append((self.drive * q[k] >> BITS) // (k + 1))
         return u, abs(z[1])
 
     def start(self, closure: int, s: int) -> tuple[int, int]:
-        """z = logit(p/p_max) and p/p_max: closed when rigid, else one monotone root."""
+        """z and p/p_max: closed when rigid, else one monotone root."""
         with mpmath.workprec(BITS + 60):
-            a = 8 - 4 * mpmath.mpf(closure) / s
-            b = 4 * mpmath.mpf(self.deflection) / s
+            a = self.level - self.steep * mpmath.mpf(closure) / s
+            b = self.steep * mpmath.mpf(self.deflection) / s
+            if self.data.exponential:
+                q = mpmath.lambertw(b * mpmath.exp(a)).real / b if b else mpmath.exp(a)
+                return fixed(a - b * q), fixed(q)
             low, high = a - b, a
             z = a if not b else low
             if b:
@@ -139,9 +161,15 @@ class Judge:
             return fixed(z), fixed(1 / (1 + mpmath.exp(-z)))
 
     def cycle(self) -> None:
-        """One period, in steps of 2^-e: phases are exact."""
-        e, phase = 4, mpmath.mpf(0)
-        while phase < 1:
+        """One period."""
+        with mpmath.workprec(BITS + 60):
+            for (begin, _), (end, _) in pairwise(self.kinks):
+                self.smooth(begin, end)
+
+    def smooth(self, phase: mpmath.mpf, end: mpmath.mpf) -> None:
+        """A part of a cycle without a kink, in steps of 2^-e but for the last."""
+        e = 4
+        while phase < end:
             u, slope = self.series(phase)
             while True:
                 # The radius shows in the last terms; two of them, lest one vanish.
@@ -151,11 +179,12 @@ class Judge:
                 if last <= scale >> 62 and slope >> e < 3 * ONE:
                     break
                 e += 1
-            total = 0
+            step = min(mpmath.mpf(2) ** -e, end - phase)
+            total, part = 0, fixed(step)
             for coefficient in reversed(u):
-                total = (total >> e) + coefficient
+                total = (total * part >> BITS) + coefficient
             self.wear = total
-            phase += mpmath.mpf(2) ** -e
+            phase = phase + step if step < end - phase else end
             easy = last <= scale >> 88 and slope >> e < ONE
             if e > 4 and easy and (phase * 2 ** (e - 1)) % 1 == 0:
                 e -= 1

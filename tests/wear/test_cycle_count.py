@@ -13,6 +13,7 @@ from tests.independent import wear_after as independent
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
 from wear import count
 from wear.count.collocation import FloatArray
+from wear.load import Harmonics, Sine, Table
 from wear.model import bind
 from wear.scene import Scene, scene_from_tables
 
@@ -46,22 +47,36 @@ def problem(scene: Scene) -> Problem:
     """The same scene, for the independent integrator."""
     p = scene.parameters()
     speed = math.pi * p["R"] * p["n"] / 30
-    load = scene.to_tables()["load"]
+    load = scene.periodic_load
+    rows: tuple[tuple[float, float], ...] = ()
+    mean, cosine, sine = 0.0, (), ()
+    if isinstance(load, Table):
+        rows = tuple(
+            (t / load.period, U) for t, U in zip(load.times_s, load.values_mm, strict=True)
+        )
+    elif isinstance(load, Harmonics):
+        mean, cosine, sine = load.mean_mm, load.cosine_mm, load.sine_mm
+    elif isinstance(load, Sine):
+        sine = (load.amplitude_mm,)
+    else:
+        mean = load.mean
     pin = "K_a" in p
     return Problem(
         wear_rate=p["K_c"] * speed * p["p_max"] / (3 * p["H_c"]),
         roughness=p["sigma_c0"],
         slope=p["f_c"],
         closure=p["h_0"],
-        period=load["period_s"],
-        mean=load.get("mean_mm", load.get("value_mm", 0.0)),
-        cosine=tuple(load.get("cosine_mm", ())),
-        sine=tuple(load.get("sine_mm", (load.get("amplitude_mm", 0.0),))),
+        period=load.period,
+        mean=mean,
+        cosine=cosine,
+        sine=sine,
         pin_roughness=p.get("sigma_a0", 0.0),
         pin_slope=p.get("f_a", 0.0),
         kappa=p["K_a"] * p["H_c"] / (p["K_c"] * p["H_a"]) if pin else 0.0,
         sign=1 if scene.contact.pin_wear_opens_gap else -1,
         deflection=p["p_max"] / p["k"] if "k" in p else 0.0,
+        exponential=scene.contact.law == "exponential",
+        rows=rows,
     )
 
 
