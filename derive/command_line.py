@@ -9,10 +9,12 @@ Key results
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping, Sequence
+import difflib
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from derive import terminal
+from derive import completion, terminal
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,39 @@ def main(
     expected: Mapping[type[Exception], int],
 ) -> int:
     """Execute the command that the arguments name; return the exit status."""
-    options = whole.parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    options = _parsed(whole, words)
     command: Command = options.command
     return terminal.run(f"{whole.prog} {command.name}", lambda: command.execute(options), expected)
+
+
+def _parsed(whole: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Namespace:
+    """Parse; what is mistyped is met with what was meant, by the parser of the command."""
+    branches = completion.commands(whole)
+    if not words:
+        whole.print_help(sys.stderr)
+        whole.exit(terminal.USAGE)
+    known = [*branches, *_options(whole)]
+    if words[0] not in known:
+        hint = _meant(words[0], known) or f"; `{whole.prog} --help` lists what there is"
+        whole.error(f"{words[0]}: there is no such command{hint}")
+    options, left = whole.parse_known_args(words)
+    if left:
+        branch = branches[options.command.name]
+        wrong = [word for word in left if word.startswith("-")] or left
+        hints = (f"{word}: not understood{_meant(word, _options(branch))}" for word in wrong)
+        branch.error("\n".join(hints))
+    return options
+
+
+def _options(parser: argparse.ArgumentParser) -> list[str]:
+    return [option for action in parser._actions for option in action.option_strings]
+
+
+def _meant(word: str, known: Iterable[str]) -> str:
+    """
+    >>> _meant("--cylces", ["--cycles", "--json"])
+    '; did you mean --cycles?'
+    """
+    near = difflib.get_close_matches(word, known, n=1)
+    return f"; did you mean {near[0]}?" if near else ""

@@ -42,9 +42,9 @@ _REST = """\
 
 def bash(parser: argparse.ArgumentParser) -> str:
     """Return a bash script that completes commands, options, their values, and files."""
-    commands = dict(_commands(parser))
-    cases = [case for name, command in commands.items() for case in _cases(name, command)]
-    first = " ".join([*commands, *_options(parser)])
+    known = commands(parser)
+    cases = [case for name, command in known.items() for case in _cases(name, command)]
+    first = " ".join([*known, *_options(parser)])
     return _TEMPLATE.format(name=parser.prog, cases="\n".join(cases), commands=first)
 
 
@@ -69,10 +69,10 @@ def suggest(action: argparse.Action, words: Callable[[], Sequence[str]]) -> None
     action.suggestions = words  # type: ignore[attr-defined]
 
 
-def _commands(parser: argparse.ArgumentParser) -> Iterator[tuple[str, argparse.ArgumentParser]]:
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            yield from action.choices.items()
+def commands(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    """Return the parsers of a program's commands by name."""
+    branches = (a for a in parser._actions if isinstance(a, argparse._SubParsersAction))
+    return {name: command for branch in branches for name, command in branch.choices.items()}
 
 
 def _options(parser: argparse.ArgumentParser) -> list[str]:

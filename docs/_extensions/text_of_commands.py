@@ -7,6 +7,7 @@ import os
 
 import derive.cli
 import wear.cli
+from derive.completion import commands
 
 PARSERS = {"derive": derive.cli.parser, "wear": wear.cli.parser}
 
@@ -19,14 +20,6 @@ def reference(program: str) -> str:
     for name, branch in commands(whole).items():
         parts += [f"(command-{program}-{name})=\n### `{program} {name}`", _help(branch)]
     return "\n\n".join(parts)
-
-
-def commands(whole: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
-    """The parsers of a program's commands by name."""
-    (branches,) = (
-        action for action in whole._actions if isinstance(action, argparse._SubParsersAction)
-    )
-    return dict(branches.choices)
 
 
 def _help(parser: argparse.ArgumentParser) -> str:

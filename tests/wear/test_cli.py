@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +14,7 @@ from wear import cli
 from wear.cite import REFERENCES
 from wear.scene import builtin_names, load_scene, parse_scene
 
+ROOT = Path(__file__).parents[2]
 COMMANDS = [command.name for command in cli.COMMANDS]
 
 
@@ -47,16 +49,32 @@ def test_the_version_is_shown(wear):
     assert re.fullmatch(r"wear \d+\.\d+\.\d+\n", wear("--version")[1])
 
 
-@pytest.mark.parametrize("arguments", [[], ["fly"], ["cite", "--fly"], ["cite", "nobody"]])
+@pytest.mark.parametrize("arguments", [[], ["fly"], ["cite", "--fly"]])
 def test_bad_usage_is_told_on_standard_error(wear, arguments):
     status, shown, messages = wear(*arguments)
     assert (status, shown) == (2, "")
     assert "usage:" in messages
 
 
-def test_the_installed_command_is_this_one():
-    from pathlib import Path
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["rnu", "section4"], "wear: error: rnu: there is no such command; did you mean run?"),
+        (["xyz"], "wear: error: xyz: there is no such command; `wear --help` lists what there is"),
+        (["--vesrion"], "--vesrion: there is no such command; did you mean --version?"),
+        (["run", "section4", "--cylces", "3"], "run: error: --cylces: not understood; did you "),
+        (["run", "section4", "section5"], "wear run: error: section5: not understood"),
+        (["cite", "hairer93"], 'wear cite: KEY: "hairer93" is unknown; did you mean hairer1993?'),
+        (["explore", "-o", "nowhere/x.html"], "wear explore: --output: nowhere: no such folder"),
+    ],
+)
+def test_a_slip_is_met_with_what_was_meant(wear, arguments, told):
+    status, shown, messages = wear(*arguments)
+    assert (status, shown) == (2, "")
+    assert told in messages
 
+
+def test_the_installed_command_is_this_one():
     command = Path(sys.executable).with_name("wear")
     if not command.exists():
         pytest.skip("wear is not installed beside this interpreter")
@@ -97,6 +115,15 @@ def test_cite_gives_every_entry_once(wear):
     entries = re.findall(r"^@\w+\{(.+),$", wear("cite")[1], re.MULTILINE)
     assert entries == list(REFERENCES)
     assert [entry["key"] for entry in json.loads(wear("cite", "--json")[1])] == entries
+
+
+def test_cite_has_this_version_and_every_method():
+    from wear.solver import METHODS
+
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+    assert REFERENCES["derive-wear"].fields["note"] == f"Version {version}"
+    purposes = " ".join(reference.purpose for reference in REFERENCES.values())
+    assert all(method in purposes for method in METHODS if method != "auto")
 
 
 def test_cite_is_bibtex_that_latex_takes(wear, need_tool, tmp_path):

@@ -6,10 +6,11 @@ import argparse
 
 from derive import completion, terminal
 from derive.command_line import Command
-from wear.cite import REFERENCES, Reference, bibtex
+from wear.cite import REFERENCES, bibtex
+from wear.commands.arguments import Faults
 
 EXAMPLE = """\
-  wear cite > derive-wear.bib     all entries
+  wear cite > derive-wear.bib     all entries, each with when to cite it
   wear cite note derive-wear      the note and this software
 """
 
@@ -19,22 +20,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "references",
         metavar="KEY",
         nargs="*",
-        type=reference,
-        default=tuple(REFERENCES.values()),
         help=f"one of {', '.join(REFERENCES)} (default: all)",
     )
     completion.suggest(keys, lambda: tuple(REFERENCES))
 
 
-def reference(key: str) -> Reference:
-    """Return the reference that an argument names."""
-    if key not in REFERENCES:
-        raise argparse.ArgumentTypeError(f"{key}: unknown; known are {', '.join(REFERENCES)}")
-    return REFERENCES[key]
-
-
 def execute(options: argparse.Namespace) -> int:
-    chosen: tuple[Reference, ...] = options.references
+    faults = Faults()
+    keys = [faults.choice("KEY", key, tuple(REFERENCES)) for key in options.references]
+    faults.stop_if_any()
+    chosen = [REFERENCES[key] for key in keys or REFERENCES]
     if options.json:
         terminal.print_json([entry._asdict() for entry in chosen])
     else:

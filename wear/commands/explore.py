@@ -32,6 +32,8 @@ def execute(options: argparse.Namespace) -> int:
 
     faults = Faults()
     scene = faults.scene(options)
+    if problem := files.obstacle(options.output):
+        faults.add(f"--output: {problem}")
     faults.stop_if_any()
     assert scene is not None
     seen = sys.stderr.isatty()
