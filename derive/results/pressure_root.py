@@ -6,10 +6,16 @@ Overview
     closure on an undeflected support.  Left minus right increases with p, is negative at 0 and
     positive at p_max: there is exactly one root, and it lies in between.  Stiffening the
     support moves it towards the rigid pressure, from below, by at most p_max^2/(k sigma).
+    For the share y = p/p_max it is y = phi(a + s y), with the closure a over roughness on an
+    undeflected support and its softness s.  The distance of the root from where a step of Newton's
+    iteration ends is that of the law from its tangent, which has one sign on either side of the
+    law's inflection: the iteration does not cross the root.
 Key results
     PressureRoot.equation    the equation for p
     PressureRoot.unique      the three inequalities by which its root exists and is one
     PressureRoot.softening   0 <= p_rigid - p <= p_max p/(k sigma), hence (10) as a limit
+    newton                   a step of Newton's iteration, and where it ends
+    curvature                the note's law is convex beyond h = 2 sigma, concave below
 """
 
 from __future__ import annotations
@@ -22,10 +28,10 @@ import sympy as sp
 from ..check import Check
 from ..conditions import Condition
 from ..equations import Equation
-from ..laws import TANH, ContactLaw, r
+from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import two_solids
 from ..rules import Authored, proof, sampled
-from ..rules.authored import Positive
+from ..rules.authored import Identity, Positive
 from ..rules.sign import sign
 from ..statement import Statement
 from ..symbols import symbols
@@ -38,7 +44,10 @@ undeflected = h_0 + u_c - u_a - U_a
 """The closure on an undeflected support, g."""
 
 BELOW_SATURATION = Condition("the pressure is below its largest value", sp.Lt(p, p_max))
-odds = sp.Symbol("y", positive=True)
+odds = sp.Symbol("z", positive=True)
+a = sp.Symbol("a", real=True)
+s, x, y = sp.symbols("s x y", positive=True)
+"""Softness p_max/(k sigma), a trial share of p_max, and the share at the root."""
 
 
 @dataclass(frozen=True)
@@ -120,6 +129,38 @@ class PressureRoot:
         return Statement(claim, below, (), (BELOW_SATURATION,), name="bound of the softening")
 
 
+def newton(law: ContactLaw) -> tuple[Statement, Statement]:
+    """A step from x in a form in which nothing cancels; the distance of its end from the root y.
+
+    At the root the second term of the distance vanishes.
+    """
+    steepness = 1 - s * sp.Subs(sp.diff(law.phi, r), r, a + s * x)
+    end = x - (x - law.ratio(a + s * x)) / steepness
+    summed = (law.ratio(a + s * x) + x * (steepness - 1)) / steepness
+    tangent = law.ratio(a + s * x) + (1 - steepness) * (y - x)
+    distance = y - end - (y - law.ratio(a + s * y)) / steepness
+    remark = "a curve lies on one side of its tangents where it is curved one way"
+    return (
+        Statement(sp.Eq(end, summed), Identity(), name="step of Newton's iteration"),
+        Statement(
+            sp.Eq(distance, (law.ratio(a + s * y) - tangent) / steepness),
+            Identity(),
+            remark=remark,
+            name="distance from the root",
+        ),
+    )
+
+
+def curvature() -> tuple[Statement, Statement]:
+    """The note's law is convex where h > 2 sigma, and concave where h < 2 sigma."""
+    bend = sp.diff(TANH.phi, r, 2)
+    beyond = Positive(((x, sp.atanh(odds / (1 + odds)) / 2),))
+    return (
+        Statement(sp.Ge(bend.subs(r, TANH.inflection + x), 0), beyond, name="convex"),
+        Statement(sp.Le(bend.subs(r, TANH.inflection - x), 0), beyond, name="concave"),
+    )
+
+
 def equations() -> tuple[Equation, ...]:
     """Return the results on the pressure of a compliant support."""
     root, shown = PressureRoot(), _displays()
@@ -133,6 +174,12 @@ def equations() -> tuple[Equation, ...]:
             (),
             shown["root"],
             where=shown["where"],
+        ),
+        Equation(
+            "pressure-iteration",
+            section,
+            "Newton's iteration for the pressure",
+            (*newton(GENERAL), *curvature()),
         ),
         Equation(
             "rigid-limit-error",
