@@ -1,10 +1,10 @@
 """An independent judge of the cutoff: the Taylor series of `tests.independent`, cut at the edge.
 
-Rigid support, one or two solids, harmonics or straight lines for U_a. The rate jumps where
-h = 3 sigma. Filippov's solution is followed by brute force: the cycle is cut where the load turns
-or has a kink; in contact every step of the series is looked at closely for the margin
-3 sigma - h; at the edge a pin that rises faster than the closed surfaces wear apart closes them,
-one that rises more slowly is followed along the edge. Zeros are bisected to some 40 digits.
+Rigid support; the rate jumps where h = 3 sigma. Filippov's solution is followed by brute force: the
+cycle is cut where the load turns or has a kink; in contact every step of the series is looked at
+closely for the margin 3 sigma - h; at the edge a pin that rises faster than the closed surfaces
+wear apart closes them, one that rises more slowly is followed along the edge. Zeros are bisected to
+some 40 digits.
 """
 
 from collections.abc import Callable, Iterable
@@ -13,7 +13,7 @@ from itertools import pairwise
 import mpmath
 from mpmath import mpf
 
-from tests.independent import BITS, ONE, ORDER, Judge, Problem, fixed, zip_longest
+from tests.independent import BITS, ONE, Judge, Problem, fixed, zip_longest
 
 BISECTIONS = 130
 LOOKS = 32  # at each step, or along the edge of contact, before bisection
@@ -21,22 +21,23 @@ SAMPLES = 128  # of a sum of harmonics, for its turning points
 LONGEST = mpf(1) / 32  # step
 BLUR = mpf(2) ** (40 - BITS)
 
-Rows = tuple[tuple[float, float], ...]  # phases from 0 to 1 and U_a in mm: straight lines between
 Real = Callable[[mpf], mpf]
 
 
 class CutoffJudge(Judge):
     """A `Judge` whose pressure vanishes for h > 3 sigma; lengths in units of the roughness."""
 
-    def __init__(self, problem: Problem, rows: Rows = ()) -> None:
+    def __init__(self, problem: Problem) -> None:
         super().__init__(problem)
         assert not problem.deflection
-        self.rows = [(mpf(phase), mpf(value) / self.unit) for phase, value in rows]
         with mpmath.workprec(BITS + 60):
-            self.edge_rate = mpf(self.drive) / ONE / (1 + mpmath.exp(4))
+            share = mpmath.exp(-3) if problem.exponential else 1 / (1 + mpmath.exp(4))
+            self.edge_rate = mpf(self.drive) / ONE * share
             self.steepest = 2 * max(abs(self.speed(mpf(k) / SAMPLES)) for k in range(SAMPLES))
             self.widening = mpf(abs(self.gap) + 3 * (abs(self.one[1]) + abs(self.two[1]))) / ONE
-            self.cuts = [phase for phase, _ in self.rows] or self.turning_points()
+            self.cuts = [phase for phase, _ in self.kinks]
+            if not problem.rows:
+                self.cuts = self.turning_points()
 
     def turning_points(self) -> list[mpf]:
         """Where a sum of harmonics turns, with both ends of the cycle."""
@@ -45,16 +46,10 @@ class CutoffJudge(Judge):
         turns = [k for k in range(SAMPLES) if signs[k] != signs[k + 1]]
         return [mpf(0), *(zero(self.speed, grid[k], grid[k + 1]) for k in turns), mpf(1)]
 
-    def displacement(self, phase: mpf) -> list[int]:
-        """Taylor coefficients of U_a in phase."""
-        if not self.rows:
-            return super().displacement(phase)
-        return [fixed(self.load(phase)), fixed(self.speed(phase)), *[0] * (ORDER - 1)]
-
     def load(self, phase: mpf) -> mpf:
         """U_a."""
-        if self.rows:
-            (start, value), _ = self.line(phase)
+        if self.data.rows:
+            (start, value), _ = self.ends(phase)
             return value + self.speed(phase) * (phase - start)
         total = mpf(self.data.mean)
         for n, (c, s) in enumerate(zip_longest(self.data.cosine, self.data.sine), 1):
@@ -64,8 +59,8 @@ class CutoffJudge(Judge):
 
     def speed(self, phase: mpf) -> mpf:
         """dU_a/dphase, to the right of a kink."""
-        if self.rows:
-            (start, first), (end, last) = self.line(phase)
+        if self.data.rows:
+            (start, first), (end, last) = self.ends(phase)
             return (last - first) / (end - start)
         total = mpf(0)
         for n, (c, s) in enumerate(zip_longest(self.data.cosine, self.data.sine), 1):
@@ -73,9 +68,9 @@ class CutoffJudge(Judge):
             total += turn * (s * mpmath.cos(turn * phase) - c * mpmath.sin(turn * phase))
         return total / self.unit
 
-    def line(self, phase: mpf) -> tuple[tuple[mpf, mpf], tuple[mpf, mpf]]:
+    def ends(self, phase: mpf) -> tuple[tuple[mpf, mpf], tuple[mpf, mpf]]:
         """The two rows that hold a phase."""
-        pairs = list(pairwise(self.rows))
+        pairs = list(pairwise(self.kinks))
         return next((pair for pair in pairs if pair[0][0] <= phase < pair[1][0]), pairs[-1])
 
     def reach(self, wear: mpf) -> mpf:
@@ -216,9 +211,9 @@ def evaluate(series: list[int], step: mpf) -> mpf:
     return total
 
 
-def wear_after(problem: Problem, cycles: Iterable[int], rows: Rows = ()) -> dict[int, float]:
+def wear_after(problem: Problem, cycles: Iterable[int]) -> dict[int, float]:
     """u_c in mm at the end of each of `cycles`, to double precision."""
-    judge, done, found = CutoffJudge(problem, rows), 0, {}
+    judge, done, found = CutoffJudge(problem), 0, {}
     for wanted in sorted(cycles):
         while done < wanted:
             before = judge.wear

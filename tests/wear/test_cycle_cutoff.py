@@ -1,16 +1,22 @@
 """The cutoff: arrest in the very cycle, kinks crossed, permanent contact counted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from tests import independent_cutoff
 from tests.wear.reference_scenes import reference_scene, tables
+from tests.wear.test_cycle_count import between, problem
 from wear import count, direct
 from wear.count.cutoff import one_cycle, turning_points
 from wear.count.stages import kinks
-from wear.load import Harmonics
+from wear.load import Harmonics, Load, Table
 from wear.model import bind
-from wear.scene import load_scene, scene_from_tables
+from wear.scene import Scene, load_scene, scene_from_tables
 
 
 @pytest.mark.parametrize(
@@ -40,6 +46,53 @@ def test_counted_cycles_are_integrated_ones(slope: float) -> None:
     found = count.wear_after(model, load, np.array(cycles, dtype=float), 1e-10)
     want = direct.integrate(model, load, cycles, 1e-10, "DOP853", np.inf)
     assert np.all(np.abs(found.u_c / want.u - 1) <= found.error + want.error)
+
+
+UNEVEN = {  # rise slowly, then fast, and slowly again
+    "harmonics": Harmonics(0.0, (), (5e-4, -2e-4), 0.06),
+    "table": Table((0.0, 0.125, 0.375, 0.5, 0.625, 1.0), (-5e-4, -4e-4, -3e-4, 3e-4, 4e-4, -5e-4)),
+}
+
+
+def with_load(load: Load, K: float, f_c: float, pin: bool = False) -> Scene:
+    made = tables(K=K, f_c=f_c, pin=pin, cutoff=True)
+    made["contact"].pop("closure_in_sigma", None)
+    made["contact"]["closure_mm"] = 9e-4
+    return replace(scene_from_tables(made), load=load)
+
+
+def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
+    found = count.wear_after(bind(scene), scene.periodic_load, np.array(cycles, float), rtol)
+    true = independent_cutoff.wear_after(problem(scene), cycles)
+    want = np.array([true[cycle] for cycle in cycles])
+    assert np.all(found.error <= rtol)
+    assert np.all(np.abs(found.u_c - want) <= (found.error + 3e-15) * want)
+
+
+@pytest.mark.parametrize("kind", ["harmonics", "table"])
+@pytest.mark.parametrize(("K", "f_c"), [(3e-4, 0.0), (5e-3, 0.0), (3e-3, 0.5)])
+def test_contact_lost_and_found_again_on_one_rise(kind: str, K: float, f_c: float) -> None:
+    agrees_with_the_judge(with_load(UNEVEN[kind], K, f_c), [1, 2], 1e-10)
+
+
+@st.composite
+def loads(draw: st.DrawFn) -> Load:
+    """A few harmonics, or straight lines with plateaus."""
+    swing = 3.6e-4 * 10 ** draw(between(-1, 0.6))
+    if draw(st.booleans()):
+        parts = [swing * draw(between(-1, 1)) for _ in range(5)]
+        return Harmonics(parts[0] / 2, tuple(parts[1:3]), tuple(parts[3:]), 0.06)
+    heights = [swing * draw(between(-1, 1)) for _ in range(draw(st.integers(1, 5)))]
+    times = np.linspace(0.0, 1.0, 2 * len(heights) + 1)
+    return Table(tuple(times), (*np.repeat(heights, 2), heights[0]))
+
+
+@settings(max_examples=6)
+@given(loads(), between(-8, -1), between(-0.2, 1.0), st.booleans())
+def test_drawn_scenes_agree_with_the_judge(load: Load, K: float, f_c: float, pin: bool) -> None:
+    scene = with_load(load, 10**K, f_c, pin)
+    if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
+        agrees_with_the_judge(scene, [1, 2], 1e-9)
 
 
 def test_in_permanent_contact_the_cutoff_changes_nothing() -> None:

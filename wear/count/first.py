@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.collocation import FloatArray, Mesh, mesh
+from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost, Drive, OneCycle, Settings, refined, unresolved
 from wear.count.march import growth_of, march, overlooked
 from wear.count.request import Request
@@ -124,7 +125,11 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
                 break
             rough[:] = True
         over = refined(over, rough)
-    growth = growth_of(at, start, run.inside) if isinstance(at, Drive) else np.ones(BLOCK)
+    growth = np.ones(BLOCK)
+    if isinstance(at, CutoffCycle):
+        growth = at.growth(np.append(start, wear[:-1]))
+    elif isinstance(at, Drive):
+        growth = growth_of(at, start, run.inside)
     return exact.then(run.increment, missed, growth, over, exact.cost.plus(2 * BLOCK, evaluations))
 
 

@@ -84,7 +84,7 @@ def kinks(cycle: OneCycle, shift: float) -> FloatArray:
     wear = shift * np.expm1(np.linspace(0.0, 40.0, 400))
     terms = margin_terms(cycle.model, wear)
     found = []
-    for height in np.unique(cycle.load(cycle.turns)):
+    for height in cycle.heights:
         margin = cycle.model.margin(wear, np.full_like(wear, height))
         # Where contact lasts for ever the margin may be nothing but its own rounding.
         told = np.abs(margin) > EDGE * ROUNDOFF * (terms + abs(height))
@@ -167,10 +167,11 @@ def rest_error(model: Model, load: Load, wear: float) -> float:
     """Relative error of the wear (mm) at which the peak of the load just fails to make contact:
     that of a root of the margin. Infinite if this is not such a wear."""
     peak, worn = np.array(load.maximum), np.array(wear)
-    blur = EDGE * ROUNDOFF * (float(margin_terms(model, worn)) + abs(load.maximum))
-    if wear <= 0 or abs(float(model.margin(worn, peak))) > blur:
+    blur = ROUNDOFF * (float(margin_terms(model, worn)) + abs(load.maximum))
+    left = abs(float(model.margin(worn, peak)))
+    if wear <= 0 or left > EDGE * blur:
         return np.inf
-    return blur / (abs(float(model.margin_slope(worn, peak))) + TINY) / wear
+    return (left + blur) / (abs(float(model.margin_slope(worn, peak))) + TINY) / wear
 
 
 def _ran(counted: CycleCount) -> float:
@@ -214,7 +215,7 @@ def evaluate_stages(found: Stages, cycles: FloatArray) -> tuple[FloatArray, Floa
     last = found.stages[-1]
     if found.arrest is not None:
         rests = cycles >= found.arrest.cycle + 2 * found.arrest.uncertain
-        error[rests] = np.minimum(error[rests], found.at_rest)
+        error[rests] = found.at_rest if np.isfinite(found.at_rest) else error[rests]
     else:
         error[cycles > last.begins + _ran(last.counted) + 1.0] = np.inf
     return wear, error
