@@ -3,15 +3,16 @@
 Abel's equation for the cycle count, see docs/method.md; the load repeats.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.build import cycle_count, evaluate, until
+from wear.count.build import until
 from wear.count.collocation import FloatArray
 from wear.count.cycle import Cost
 from wear.count.scan import LEAST
-from wear.count.stages import counted_stages, evaluate_stages
+from wear.count.stages import Stages, counted_stages, evaluate_stages
 from wear.load import Load
 from wear.model import Model
 
@@ -44,27 +45,20 @@ def wear_after(
     """
     cycles = np.asarray(cycles, dtype=float)
     most = float(np.max(cycles, initial=0.0))
-    if model.cutoff:
-        return _with_cutoff(model, load, cycles, rtol, start, deadline)
-    counted = cycle_count(model, load, most, rtol, start, deadline)
-    wear, error = evaluate(counted, cycles)
-    notices: tuple[str, ...] = ()
-    if np.any(wear >= (1 - 1e-9) * counted.limit):
-        notices = (f"the roughness vanishes near u_c = {counted.limit:.4g} mm: the model ends",)
-    elif counted.table is None and np.any(cycles >= len(counted.first)):
-        notices = (f"from cycle {len(counted.first) - 1} on a cycle adds less than can be told",)
-    return Wear(wear, error, counted.cost, notices)
-
-
-def _with_cutoff(
-    model: Model, load: Load, cycles: FloatArray, rtol: float, start: float, deadline: float
-) -> Wear:
-    """Wear with a cutoff, stage by stage."""
-    most = float(np.max(cycles, initial=0.0))
     found = counted_stages(model, load, most, rtol, start, deadline)
     wear, error = evaluate_stages(found, cycles)
-    notices = () if found.arrest is None else (str(found.arrest),)
-    return Wear(wear, error, found.cost, notices)
+    return Wear(wear, error, found.cost, tuple(_notices(model, found, wear)))
+
+
+def _notices(model: Model, found: Stages, wear: FloatArray) -> Iterator[str]:
+    """What there is to tell beside the wear (mm)."""
+    limit = found.stages[-1].counted.limit
+    if np.any(wear >= (1 - 1e-9) * limit):
+        yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
+    elif found.arrest is not None and model.cutoff:
+        yield str(found.arrest)
+    elif found.arrest is not None:
+        yield f"from cycle {found.arrest.cycle} on a cycle adds less than can be told"
 
 
 class Cycles(NamedTuple):

@@ -15,7 +15,7 @@ from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import one_cycle
 from wear.count.cycle import ROUNDOFF, Cost, OneCycle, Settings, refined, settings
 from wear.count.first import Opening, opening
-from wear.count.panels import NONE, SAFETY, Filled, Maps, Solved, fill, onward
+from wear.count.panels import NONE, SAFETY, Maps, Solved, fill
 from wear.count.request import Request
 from wear.count.rounding import roundoff
 from wear.count.scan import roughness_limit, roughness_scale, scan
@@ -50,6 +50,18 @@ class CycleCount(NamedTuple):
         return float(self.first[-1]) if self.table is None else self.table.last_wear
 
     @property
+    def rests(self) -> bool:
+        """Whether its last cycle adds nothing, and so no cycle after it."""
+        return self.table is None and not np.sum(np.diff(self.first[-2:])) > 0
+
+    @property
+    def reach(self) -> float:
+        """How many cycles it counts."""
+        if self.rests:
+            return np.inf
+        return len(self.first) - 1.0 if self.table is None else self.table.last_cycles
+
+    @property
     def pace(self) -> float:
         """The wear (mm) that its first cycle adds."""
         return float(np.sum(np.diff(self.first[:2])))
@@ -61,10 +73,12 @@ def cycle_count(
     cycles: float,
     rtol: float,
     start: float = 0.0,
+    begun_with: float = 0.0,
     deadline: float = np.inf,
 ) -> CycleCount:
-    """The count of cycles from wear `start` (mm), up to `cycles` at least. After the `deadline`
-    (`time.monotonic()`) nothing is refined any more: the estimated error tells what is missed.
+    """The count of cycles from wear `start` (mm), known up to an error `begun_with` (mm), up to
+    `cycles`, or as far as panels go. After the `deadline` (`time.monotonic()`) nothing is refined
+    any more: the estimated error tells what is missed.
 
     Raises
     ------
@@ -75,7 +89,7 @@ def cycle_count(
         raise UsageError("only the wear after whole cycles can be counted with a cutoff")
     limit = roughness_limit(model, 1e12 * roughness_scale(model))
     cycle = one_cycle(model, load)
-    return cycle_count_upto(cycle, model, load, cycles, rtol, start, limit, deadline)
+    return cycle_count_upto(cycle, model, load, cycles, rtol, start, limit, begun_with, deadline)
 
 
 def cycle_count_upto(
@@ -86,6 +100,7 @@ def cycle_count_upto(
     rtol: float,
     start: float,
     limit: float,
+    begun_with: float = 0.0,
     deadline: float = np.inf,
 ) -> CycleCount:
     """The count from wear `start` up to `cycles`, or up to the wear `limit` (mm)."""
@@ -96,18 +111,20 @@ def cycle_count_upto(
     size = attainable(settings(rtol), model, load, samples)
     cycle = cycle.resolved(samples, size.phase_nodes, size.phase_tolerance)
     first = opening(cycle, shift, reach, request, size)
+    error = exact_error(model, load, first, begun_with)
     if first.edges is None:
-        error = exact_error(model, load, first)
         return CycleCount(first.wear, error, None, None, NONE, first.over, limit, first.cost)
     size = attainable(size, model, load, first.edges)
     cost, over = first.cost, cycle.over
     while True:
         both = Maps(cycle.on(over), cycle.on(mesh(over.edges, size.finer_nodes)))
-        filled = _filled(both, shift, first, request, size, cost)
+        filled = fill(both, shift, first.edges, size, cost)
         cost = filled.cost
         full = len(over.lengths) >= cycle.most_intervals or cost.rhs_evaluations > MOST_EVALUATIONS
         if full or request.late or not filled.rough.any():
-            return _judged(model, load, first, filled.solved, shift, over, limit, cost)
+            table, count_error = judged(model, load, first, error[-1], filled.solved, shift)
+            panels = filled.solved.panels(shift)
+            return CycleCount(first.wear, error, table, panels, count_error, over, limit, cost)
         over = refined(over, filled.rough)
 
 
@@ -117,45 +134,22 @@ def attainable(size: Settings, model: Model, load: Load, wear: FloatArray) -> Se
     return size._replace(residual_tolerance=max(size.residual_tolerance, floor))
 
 
-def _filled(
-    both: Maps, shift: float, first: Opening, request: Request, size: Settings, cost: Cost
-) -> Filled:
-    """Panels as planned, and on from there until they reach the cycles requested."""
-    if first.edges is None:
-        raise AssertionError("the first cycles tell where panels begin")
-    filled = fill(both, shift, first.edges, size, cost)
-    while not filled.rough.any() and not request.late:
-        table = abel.count(filled.solved.panels(shift), float(first.cycles))
-        edges = onward(table, request.cycles, request.limit)
-        if edges is None:
-            break
-        more = fill(both, shift, edges, size, filled.cost)
-        filled = more._replace(solved=filled.solved.joined(more.solved))
-    return filled
-
-
-def exact_error(model: Model, load: Load, exact: Opening) -> FloatArray:
+def exact_error(model: Model, load: Load, exact: Opening, begun_with: float = 0.0) -> FloatArray:
     """Estimated error (mm) of cycles that were integrated one by one: what each has missed, by its
     mesh and by rounding, as the cycles after it change it."""
     rounding = roundoff(model, load, exact.wear)
-    lost = np.maximum(rounding[1:], rounding[:-1]) * exact.added * np.maximum(exact.growth, 1.0)
-    error = [0.0]
-    for missed, growth in zip(SAFETY * exact.missed + lost, exact.growth, strict=True):
+    lost = np.maximum(rounding[1:], rounding[:-1]) * exact.each.response
+    error = [begun_with]
+    for missed, growth in zip(SAFETY * exact.each.missed + lost, exact.each.growth, strict=True):
         error.append(error[-1] * growth + missed)
     return np.array(error) + ROUNDOFF * exact.wear
 
 
-def _judged(
-    model: Model,
-    load: Load,
-    first: Opening,
-    solved: Solved,
-    shift: float,
-    over: Mesh,
-    limit: float,
-    cost: Cost,
-) -> CycleCount:
-    """The count with its error: of the first cycles, of the density, at junctions, by rounding."""
+def judged(
+    model: Model, load: Load, first: Opening, begun_with: float, solved: Solved, shift: float
+) -> tuple[abel.Count, FloatArray]:
+    """The count on panels and its error (cycles) where each part starts and where the last ends:
+    of the wear (mm) it begins with, of the density, at junctions, by rounding."""
     panels = solved.panels(shift)
     table = abel.count(panels, float(first.cycles))
     parts = len(table.length) // len(panels.starts)
@@ -165,10 +159,8 @@ def _judged(
     rounding = roundoff(model, load, np.append(table.wear, table.last_wear))
     of_density = ROUNDOFF * np.repeat(np.abs(solved.series[:, 0]), parts)  # the logarithm is kept
     missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
-    first_error = exact_error(model, load, first)
-    begun = first_error[-1] / abel.first_pace(table)[0]
-    error = begun + np.concatenate([[0.0], np.cumsum(missed)])
-    return CycleCount(first.wear, first_error, table, panels, error, over, limit, cost)
+    begun = begun_with / abel.first_pace(table)[0]
+    return table, begun + np.concatenate([[0.0], np.cumsum(missed)])
 
 
 def evaluate(counted: CycleCount, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -184,24 +176,26 @@ def evaluate(counted: CycleCount, cycles: FloatArray) -> tuple[FloatArray, Float
         error[~early] = pace * np.interp(late, ends, counted.count_error)
     error = error / np.where(wear > 0, wear, 1.0)
     # A discretisation that has not a digit right does not tell its error either.
-    told = (wear < (1 - 1e-9) * counted.limit) & (error < NO_DIGIT)
+    told = (wear < (1 - 1e-9) * counted.limit) & (error < NO_DIGIT) & (cycles <= counted.reach)
     return np.minimum(wear, counted.limit), np.where(told, error, np.inf)
 
 
 def until(counted: CycleCount, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Whole cycles after which each wear (mm) is first reached, infinite where the count ends
     before, and the estimated error in cycles."""
-    count = np.searchsorted(counted.first * (1 + 4 * ROUNDOFF), wear, side="left").astype(float)
-    error = np.zeros(wear.shape)
-    late = wear > counted.first[-1] * (1 + 4 * ROUNDOFF)
-    count[late] = np.inf
+    # A wear that is reached at the very end of a cycle must not ask for another one.
+    told = counted.first_error <= NO_DIGIT * counted.first
+    exact = counted.first + np.where(told, counted.first_error, 0.0)
+    index = np.searchsorted(exact, wear, side="left")
+    late = index == len(exact)
+    count = np.where(late, np.inf, index)
+    error = np.where(late | np.append(told, True)[index], 0.0, np.inf)
     table = counted.table
     within = late & (wear <= counted.last_wear)
     if table is not None and within.any():
         found = abel.cycles_until(table, wear[within])
         ends = np.append(table.cycles, table.last_cycles)
         missed = np.interp(found, ends, counted.count_error)
-        # A wear that is reached at the very end of a cycle must not ask for another one.
         count[within] = np.ceil(found - missed)
         error[within] = missed
     return count, error

@@ -17,16 +17,23 @@ MOST_EXACT = 1000
 NONE: FloatArray = np.empty(0)
 
 
-class Opening(NamedTuple):
-    """The first cycles: `wear` (k + 1,) mm after 0, 1, ... k of them, the wear `added` by each (k,)
-    mm, by how much each has `missed` it (mm, estimated), and the factor `growth` (k,) by which each
-    changes a small difference in wear; the mesh that resolves them; and the ends of the panels to
-    come (mm), if any are needed."""
+class Each(NamedTuple):
+    """What each of some cycles did, (k,): the wear `added` (mm), what was `missed` of it (mm,
+    estimated), the factor `growth` by which a small difference in wear changes, and the `response`
+    (mm) to a relative error of the rate, at most."""
 
-    wear: FloatArray
     added: FloatArray
     missed: FloatArray
     growth: FloatArray
+    response: FloatArray
+
+
+class Opening(NamedTuple):
+    """The first cycles: `wear` (k + 1,) mm after 0, 1, ... k of them; what each did; the mesh that
+    resolves them; and the ends of the panels to come (mm), if any are needed."""
+
+    wear: FloatArray
+    each: Each
     over: Mesh
     edges: FloatArray | None
     cost: Cost
@@ -34,53 +41,53 @@ class Opening(NamedTuple):
     @property
     def cycles(self) -> int:
         """How many cycles were integrated."""
-        return len(self.added)
+        return len(self.each.added)
 
-    def then(
-        self, added: FloatArray, missed: FloatArray, growth: FloatArray, over: Mesh, cost: Cost
-    ) -> "Opening":
+    @property
+    def pace(self) -> float:
+        """The wear (mm) that the last of them adds."""
+        return float(self.each.added[-1])
+
+    def then(self, more: Each, over: Mesh, cost: Cost) -> "Opening":
         """Some cycles more; `cost` is that of all."""
-        wear = self.wear[-1] + np.cumsum(added)
-        return Opening(
-            np.append(self.wear, wear),
-            np.append(self.added, added),
-            np.append(self.missed, missed),
-            np.append(self.growth, growth),
-            over,
-            None,
-            cost,
-        )
+        wear = np.append(self.wear, self.wear[-1] + np.cumsum(more.added))
+        each = Each(*(np.append(*both) for both in zip(self.each, more, strict=True)))
+        return Opening(wear, each, over, None, cost)
 
 
 def fresh(cycle: OneCycle, start: float) -> Opening:
     """No cycle yet."""
-    return Opening(np.array([start]), NONE, NONE, NONE, cycle.over, None, Cost(0, 0))
+    return Opening(np.array([start]), Each(NONE, NONE, NONE, NONE), cycle.over, None, Cost(0, 0))
 
 
 def opening(
     cycle: OneCycle, shift: float, reach: FloatArray, request: Request, size: Settings
 ) -> Opening:
     """Integrate the first cycles from the wear `reach[0]` (mm), until the cycles requested or until
-    panels up to `reach[-1]` span as many cycles as they have coefficients each: then n on a panel
+    panels towards `reach[-1]` span as many cycles as they have coefficients each: then n on a panel
     cannot hide an oscillation. A cycle that adds nothing ends it too, nothing will change any
-    more; and wear beyond the limit, which has no meaning."""
+    more; and wear beyond the limit, which has no meaning. Without panels it may end early."""
     exact = fresh(cycle, float(reach[0]))
     end = float(reach[-1])
     while True:
         before = exact.cycles
         exact = more_cycles(cycle, exact, request.limit, size)
-        last = float(exact.wear[-1])
-        pace = float(exact.added[-1])
+        last, pace = float(exact.wear[-1]), exact.pace
         if exact.cycles >= request.cycles or last >= request.limit or not pace > 0:
             return exact
         if last + 10 * BLOCK * pace > end:  # wear has outrun the scan
             cycles = request.cycles - exact.cycles
             end = float(scan(cycle, shift, last, cycles, request.limit)[-1])
         edges, counts = plan_panels(cycle, shift, last, end, size.panel_nodes, size.tail_tolerance)
+        long = counts >= size.panel_nodes
+        usable = len(long) if long.all() else int(np.argmin(long))
+        left = MOST_FIRST - exact.cycles
         calm = exact.cycles - before == BLOCK
-        long = calm and np.all(counts >= size.panel_nodes)
-        if long or exact.cycles >= MOST_FIRST or request.late:
-            return exact._replace(edges=edges)
+        # Where wear gathers pace panels become short again, perhaps far ahead.
+        if calm and (long.all() or np.sum(counts[:usable]) > left):
+            return exact._replace(edges=edges[: usable + 1])
+        if left <= 0 or request.late:
+            return exact
 
 
 def exact_cycles(
@@ -89,10 +96,10 @@ def exact_cycles(
     """Integrate cycle after cycle from wear `start` (mm) until `cycles`, until the wear passes
     `limit` (mm), or until a cycle adds nothing."""
     exact = fresh(cycle, start)
-    pace = 1.0
-    while exact.cycles < min(cycles, MOST_EXACT) and exact.wear[-1] <= limit and pace > 0:
+    while exact.cycles < min(cycles, MOST_EXACT) and exact.wear[-1] <= limit:
         exact = more_cycles(cycle, exact, np.inf, size)
-        pace = float(exact.added[-1])
+        if not exact.pace > 0:
+            break
     return exact
 
 
@@ -130,7 +137,9 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
         growth = at.growth(np.append(start, wear[:-1]))
     elif isinstance(at, Drive):
         growth = growth_of(at, start, run.inside)
-    return exact.then(run.increment, missed, growth, over, exact.cost.plus(2 * BLOCK, evaluations))
+    response = run.increment * np.maximum(growth, 1.0)
+    cost = exact.cost.plus(2 * BLOCK, evaluations)
+    return exact.then(Each(run.increment, missed, growth, response), over, cost)
 
 
 def _one_cycle(
@@ -139,5 +148,4 @@ def _one_cycle(
     """One more cycle, interval by interval, after so many right-hand sides of another try."""
     one = march(cycle, float(exact.wear[-1]), limit, size)
     cost = exact.cost.plus(BLOCK + 1, evaluations + one.evaluations)
-    added, missed, growth = np.array([[one.added], [one.missed], [one.growth]])
-    return exact.then(added, missed, growth, exact.over, cost)
+    return exact.then(Each(*np.array(one[:4])[:, None]), exact.over, cost)

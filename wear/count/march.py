@@ -18,12 +18,14 @@ NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
 
 
 class Marched(NamedTuple):
-    """The wear `added` (mm) by a cycle, its estimated error `missed` (mm), the factor by which the
-    cycle changes a small difference in wear, and the number of right-hand sides."""
+    """The wear `added` (mm) by a cycle, its estimated error `missed` (mm), the factor `growth` by
+    which the cycle changes a small difference in wear, its `response` (mm) to a relative error of
+    the rate, at most, and the number of right-hand sides."""
 
     added: float
     missed: float
     growth: float
+    response: float
     evaluations: int
 
 
@@ -31,7 +33,7 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
     """Integrate one cycle from the wear `start` (mm), or up to the wear `limit` (mm) where that is
     reached before; the mesh of `cycle` says where intervals end at least."""
     todo = list(pairwise(cycle.over.edges.tolist()))[::-1]
-    done = Marched(0.0, 0.0, 1.0, 0)
+    done = Marched(0.0, 0.0, 1.0, 0.0, 0)
     while todo and start + done.added < limit:
         begin, end = todo.pop()
         edges = np.array([begin, end])
@@ -55,6 +57,7 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
             done.added + own,
             done.missed * growth + apart,
             done.growth * growth,
+            done.response * growth + own * max(growth, 1.0),
             done.evaluations + judged.evaluations,
         )
     return done

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel
-from wear.count.collocation import BoolArray, FloatArray, chebyshev_nodes, chebyshev_values
+from wear.count.collocation import BoolArray, FloatArray, chebyshev_nodes
 from wear.count.cycle import Cost, OneCycle, Settings, unresolved
 from wear.count.scan import halves
 
@@ -27,12 +27,14 @@ class Maps(NamedTuple):
 
 class Solved(NamedTuple):
     """Panels between wear `starts` and `ends` (mm) with Abel's equation solved on them: `series`
-    (panels, m) and the greatest `residual` (panels,) off the nodes."""
+    (panels, m), the greatest `residual` (panels,) off the nodes, and roughly how many `cycles`
+    (panels,) each takes."""
 
     starts: FloatArray
     ends: FloatArray
     series: FloatArray
     residual: FloatArray
+    cycles: FloatArray
 
     def where(self, chosen: BoolArray) -> "Solved":
         """Some of the panels."""
@@ -43,13 +45,6 @@ class Solved(NamedTuple):
         both = [np.concatenate(pair) for pair in zip(self, other, strict=True)]
         order = np.argsort(both[0])
         return Solved(*(array[order] for array in both))
-
-    def cycles(self, shift: float) -> FloatArray:
-        """How many cycles each of the panels takes, roughly."""
-        m = self.series.shape[1]
-        density = np.exp(self.series @ chebyshev_values(chebyshev_nodes(m), m).T)
-        cycles: FloatArray = np.mean(density, axis=1) * abel.widths(shift, self.starts, self.ends)
-        return cycles
 
     def panels(self, shift: float) -> abel.Panels:
         """The panels with their density."""
@@ -72,7 +67,8 @@ def solve_panels(
     fine = both.fine.advance(check)
     residual = np.max(np.abs(abel.residual(panels, CHECKS, fine.increment)), axis=1)
     cost = Cost(wear.size + check.size, ahead.evaluations + fine.evaluations)
-    solved = Solved(starts, ends, panels.series, residual)
+    cycles = np.mean((ends - starts)[:, None] / ahead.increment, axis=1)
+    solved = Solved(starts, ends, panels.series, residual, cycles)
     rough = ~ahead.converged
     worst = ~(residual <= size.residual_tolerance)
     if worst.any():
@@ -98,27 +94,16 @@ class Filled(NamedTuple):
 def fill(both: Maps, shift: float, edges: FloatArray, size: Settings, cost: Cost) -> Filled:
     """Solve panels between `edges` (mm), and cut those with too large a residual."""
     starts, ends = edges[:-1], edges[1:]
-    done = Solved(NONE, NONE, np.empty((0, size.panel_nodes)), NONE)
+    done = Solved(NONE, NONE, np.empty((0, size.panel_nodes)), NONE, NONE)
     for rounds in range(MOST_ROUNDS):
         fresh, rough, spent = solve_panels(both, shift, starts, ends, size)
         cost = cost.plus(*spent)
         worst = ~(fresh.residual <= size.residual_tolerance)
         # A panel of few cycles would hide an oscillation.
-        worst &= ~(fresh.cycles(shift) < 2 * size.panel_nodes)
+        worst &= ~(fresh.cycles < 2 * size.panel_nodes)
         last = rounds == MOST_ROUNDS - 1 or len(done.starts) + len(starts) > MOST_PANELS
         if rough.any() or last or not worst.any():
             break
         done = done.joined(fresh.where(~worst))
         starts, ends = halves(shift, starts[worst], ends[worst])
     return Filled(done.joined(fresh), rough, cost)
-
-
-def onward(table: abel.Count, cycles: float, limit: float) -> FloatArray | None:
-    """Ends (mm) of one more panel, if the table does not reach `cycles`; `limit` (mm) is the
-    greatest wear that has a meaning."""
-    missing, end = cycles - table.last_cycles, table.last_wear
-    if not (missing > 0 and end < 0.999999 * limit):  # not with what is no number either
-        return None
-    further = np.clip(1.2 * missing * table.length[-1] / table.gain[-1], 0.1, 1.0)
-    offset = table.offset[-1] * np.exp(table.length[-1])
-    return np.array([end, min(end + offset * np.expm1(further), limit)])

@@ -15,6 +15,7 @@ LEAST = 200.0  # the last panel reaches this count at least: panels are long aga
 STEP, STEPS = 0.2, 180  # in y = ln(u + shift)
 SPLIT = 0.4  # of a panel, in y: the density is sharper at low wear
 MOST_PLANNED = 150  # panels
+FASTER = 2.0  # than on average may be the pace at the end of a panel
 NEARLY = 0.99  # of the wear at which the roughness vanishes
 
 
@@ -44,26 +45,31 @@ def scan(cycle: OneCycle, shift: float, start: float, cycles: float, limit: floa
     y = STEP * np.arange(STEPS)
     if np.isfinite(limit):
         y = np.linspace(0.0, np.log1p((limit - start) / (start + shift)), STEPS)
-    wear = start + (start + shift) * np.expm1(y)
+    wear: FloatArray = start + (start + shift) * np.expm1(y)
     cycle = cycle.resolved(wear[::8], 10, 1e-3)
     density = np.minimum(frozen_density(cycle, shift, wear), 650.0)
     rise = np.diff(density)
     rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)
     # Between two points the density is taken as exponential in y.
-    parts = np.exp(np.maximum(density[1:], density[:-1])) * -np.expm1(-np.abs(rise)) / np.abs(rise)
-    counts = np.cumsum(parts * np.diff(y))
+    parts = np.exp(density[:-1]) * np.expm1(rise) / rise * np.diff(y)
+    counts = np.concatenate([[0.0], np.cumsum(parts)])
     wanted = 1.3 * max(cycles, LEAST)
-    if wanted < counts[0]:
-        return np.array([start, start + (wear[1] - start) * wanted / counts[0]])
-    end = np.exp(np.interp(np.log(wanted), np.log(counts), np.log(wear[1:])))
-    return np.append(wear[: np.searchsorted(wear, end)], end)
+    last = int(np.searchsorted(counts, wanted)) - 1
+    if last >= len(parts):
+        return wear
+    share = np.log1p((wanted - counts[last]) / parts[last] * np.expm1(rise[last])) / rise[last]
+    offset = wear[last] + shift
+    end = wear[last] + offset * np.expm1(share * np.log((wear[last + 1] + shift) / offset))
+    reach: FloatArray = np.append(wear[: last + 1], end)
+    return reach
 
 
 def plan_panels(
     cycle: OneCycle, shift: float, start: float, end: float, m: int, tolerance: float
 ) -> tuple[FloatArray, FloatArray]:
     """Ends (in mm of wear) of panels on which m coefficients resolve the frozen density, and
-    roughly how many cycles each takes."""
+    roughly how many cycles each takes; no more than it would at the pace of its end, since the
+    last node looks a cycle beyond."""
     nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
     done: list[tuple[float, float]] = []
     starts, ends = np.array([start]), np.array([end])
@@ -71,8 +77,11 @@ def plan_panels(
         across = widths(shift, starts, ends)
         density = frozen_density(cycle, shift, panel_wear(shift, starts, across, nodes))
         tail = np.max(np.abs(density @ analysis), axis=1)
-        rough = (tail > tolerance) & (len(done) + len(starts) < MOST_PLANNED)
-        cycles = across * np.mean(np.exp(np.minimum(density, 650.0)), axis=1)
+        density = np.exp(np.minimum(density, 650.0))
+        cycles, at_end = across * np.mean(density, axis=1), FASTER * across * density[:, -1]
+        rough = (tail > tolerance) | ((cycles > 2 * m) & (at_end < m))
+        rough &= len(done) + len(starts) < MOST_PLANNED
+        cycles = np.minimum(cycles, at_end)
         done.extend(zip(starts[~rough], cycles[~rough], strict=True))
         starts, ends = halves(shift, starts[rough], ends[rough])
     ordered = np.array(sorted(done))

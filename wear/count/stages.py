@@ -112,11 +112,10 @@ def counted_stages(
 ) -> Stages:
     """Count from the wear `start` (mm) up to `cycles`, or until wear stops.
 
-    Without a cutoff one stage does. After the `deadline` (`time.monotonic()`) no other is begun.
+    After the `deadline` (`time.monotonic()`) no other stage is begun.
     """
     if not model.cutoff:
-        counted = cycle_count(model, load, cycles, rtol, start, deadline)
-        return Stages((Stage(0.0, counted, 0.0),), False, np.inf, counted.cost)
+        return _smooth_stages(model, load, cycles, rtol, start, deadline)
     cycle = one_cycle(model, load)
     shift = roughness_scale(model)
     end = roughness_limit(model, 1e12 * shift)
@@ -142,7 +141,7 @@ def counted_stages(
             continue
         if limit > wear:
             counted = cycle_count_upto(
-                exact, model, load, cycles - begins, rtol, wear, limit, deadline
+                exact, model, load, cycles - begins, rtol, wear, limit, deadline=deadline
             )
         else:
             run = exact_cycles(exact, wear, target, cycles - begins, size)
@@ -161,6 +160,33 @@ def counted_stages(
         if time.monotonic() > deadline:
             break
     return Stages(tuple(done), False, np.inf, cost)
+
+
+def _smooth_stages(
+    model: Model, load: Load, cycles: float, rtol: float, start: float, deadline: float
+) -> Stages:
+    """Stages without a cutoff: one does, unless wear gathers pace so much that a panel would hold
+    too few cycles; these are integrated, and the count begins anew."""
+    done: list[Stage] = []
+    begins, wear, missed, cost = 0.0, start, 0.0, Cost(0, 0)
+    while True:
+        counted = cycle_count(model, load, cycles - begins, rtol, wear, missed, deadline)
+        done.append(Stage(begins, counted, 0.0))
+        cost = cost.plus(*counted.cost)
+        ran = _ran(counted)
+        ends = counted.rests or not counted.last_wear < (1 - 1e-9) * counted.limit
+        if (
+            ends
+            or begins + ran >= cycles
+            or len(done) == MOST_STAGES
+            or time.monotonic() > deadline
+        ):
+            return Stages(tuple(done), counted.rests, np.inf, cost)
+        after, relative = evaluate(counted, np.array([ran]))
+        begins, wear = begins + ran, float(after[0])
+        missed = float(relative[0]) * wear
+        if not missed < np.inf:
+            return Stages(tuple(done), False, np.inf, cost)
 
 
 def rest_error(model: Model, load: Load, wear: float) -> float:
