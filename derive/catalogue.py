@@ -13,6 +13,7 @@ import re
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
+from types import ModuleType
 
 from .check import Check
 from .equations import Equation, Status
@@ -82,27 +83,37 @@ class Verdict:
         return all(outcome.passed for outcome in self.checks)
 
 
-@cache
 def equations() -> tuple[Equation, ...]:
     """Return the note's equations in their order, then the results beyond it."""
+    return tuple(_in_order())
+
+
+def _in_order() -> Iterator[Equation]:
+    """Derive module after module, each once, and only as far as is asked for."""
+    yield from _of_the_note()
+    for module in _BEYOND:
+        yield from _beyond(module)
+
+
+@cache
+def _of_the_note() -> tuple[Equation, ...]:
     model = Model()
     note = (
         *governing.equations(model),
         *condensed.equations(model),
         *stabilised.equations(),
     )
-    beyond = (e for module in _BEYOND for e in module.equations())
-    return (*sorted(note, key=_place), *beyond)
+    return tuple(sorted(note, key=_place))
+
+
+@cache
+def _beyond(module: ModuleType) -> tuple[Equation, ...]:
+    return tuple(module.equations())
 
 
 def _place(found: Equation) -> tuple[int, str]:
     number = re.match(r"\d+", found.id)
     return (int(number.group()) if number else 10**6, found.id)
-
-
-@cache
-def _by_id() -> dict[str, Equation]:
-    return {found.id: found for found in equations()}
 
 
 def equation(identifier: str) -> Equation:
@@ -111,12 +122,13 @@ def equation(identifier: str) -> Equation:
     >>> equation("7c").relation
     Eq(U_c(t), p(t)/k)
     """
-    known = _by_id()
-    if identifier not in known:
-        near = difflib.get_close_matches(identifier, known, n=3, cutoff=0.5)
-        hint = f"; did you mean {' or '.join(near)}?" if near else "; see `derive list`"
-        raise UnknownEquationError(f"{identifier}: there is no such equation{hint}")
-    return known[identifier]
+    for found in _in_order():
+        if found.id == identifier:
+            return found
+    known = [found.id for found in _in_order()]
+    near = difflib.get_close_matches(identifier, known, n=3, cutoff=0.5)
+    hint = f"; did you mean {' or '.join(near)}?" if near else "; see `derive list`"
+    raise UnknownEquationError(f"{identifier}: there is no such equation{hint}")
 
 
 def verify(
