@@ -135,7 +135,7 @@ def asymptote(scene: Scene) -> Asymptote:
 
 def _result(case: _Case, regime: str, **found: Any) -> Asymptote:
     notices = (*case.scene.notices, *found.pop("notices", ()))
-    return Asymptote(case.scene.name, regime, notices=notices, **found)
+    return Asymptote(case.scene.title or case.scene.name, regime, notices=notices, **found)
 
 
 def _without_cutoff(case: _Case) -> Asymptote:

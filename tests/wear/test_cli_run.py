@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -16,7 +17,7 @@ from wear import cli
 from wear.commands.run_output import latex_number, text
 from wear.faults import AccuracyError, Interrupted
 from wear.scene import load_scene
-from wear.solver import solve
+from wear.solver import METHODS, solve
 
 CONTRACT = {
     "scene", "model", "method", "rtol", "cycles", "bearing_wear_mm", "pin_wear_mm",
@@ -252,3 +253,10 @@ def test_no_state_at_all_is_told_in_words(history):
     shown = text(nothing)
     assert "No requested cycle was reached." in shown
     assert "(mm)" not in shown
+
+
+def test_the_help_names_every_method(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["run", "--help"])
+    words = set(re.findall(r"[\w-]+", capsys.readouterr().out))
+    assert set(METHODS) <= words

@@ -38,7 +38,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="requested relative accuracy of the bearing wear (default: %(default)s)",
     )
     method = parser.add_argument(
-        "--method", default="auto", help="the solver, or one of SciPy's (default: %(default)s)"
+        "--method",
+        default="auto",
+        help="auto, cycle-count, or an integrator of SciPy that goes through every cycle: DOP853, "
+        "RK45, RK23, Radau, BDF, LSODA (default: %(default)s)",
     )
     completion.suggest(method, _methods)
     parser.add_argument(
