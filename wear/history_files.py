@@ -5,13 +5,16 @@ from __future__ import annotations
 import csv
 import json
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
-    from wear.history import History
+    from wear.count.inside import Inside
+    from wear.history import Column, History
 
 
 def write_csv(history: History, path: Path) -> None:
@@ -43,6 +46,70 @@ def write_netcdf(history: History, path: Path) -> None:
             variable = file.createVariable(column.name, "d", ("cycle",))
             variable[:] = column.values
             variable.units, variable.long_name = column.unit, column.meaning
+
+
+def write_inside(parts: Iterable[Inside], path: Path, attributes: Mapping[str, str]) -> None:
+    """Write the chunks of a history inside the cycles as they come, to NetCDF-3.
+
+    Variables have the dimensions `cycle` and `phase`; `cycle` is the record dimension, so that
+    memory holds one chunk at a time. SciPy writes the header and the first cycle; the records of
+    the others follow in the same layout, and their number is put in its place in the end.
+    """
+    rows = 0
+    with _replacing(path) as draft:
+        for part in parts:
+            columns = _columns_inside(part)
+            if rows == 0:
+                _write_first_cycle(part, columns, attributes, draft)
+            records = np.column_stack([part.cycles, part.error, *(c.values for c in columns)])
+            with draft.open("ab") as file:
+                file.write(records[1 if rows == 0 else 0 :].astype(">f8").tobytes())
+            rows += len(records)
+        with draft.open("r+b") as file:
+            file.seek(_NUMBER_OF_RECORDS)
+            file.write(rows.to_bytes(4, "big"))
+
+
+_NUMBER_OF_RECORDS = 4  # where it stands in a NetCDF-3 file, behind "CDF" and the version
+
+
+def _write_first_cycle(
+    part: Inside, columns: tuple[Column, ...], attributes: Mapping[str, str], path: Path
+) -> None:
+    from scipy.io import netcdf_file
+
+    with netcdf_file(path, "w", version=2) as file:  # offsets of 64 bits: files of any size
+        for key, value in attributes.items():
+            setattr(file, key, value)
+        file.createDimension("cycle", None)
+        file.createDimension("phase", len(part.phases))
+        phase = file.createVariable("phase", "d", ("phase",))
+        phase[:] = part.phases
+        phase.units, phase.long_name = "1", "time since the end of the cycle, in periods"
+        cycle = file.createVariable("cycle", "d", ("cycle",))
+        cycle.units, cycle.long_name = "1", "number of load cycles that lie behind"
+        error = file.createVariable("error_estimate", "d", ("cycle",))
+        error.units, error.long_name = "1", "estimated relative error of the bearing wear"
+        cycle[0], error[0] = part.cycles[0], part.error[0]
+        for column in columns:
+            variable = file.createVariable(column.name, "d", ("cycle", "phase"))
+            variable[0] = column.values[0]
+            variable.units, variable.long_name = column.unit, column.meaning
+
+
+def _columns_inside(part: Inside) -> tuple[Column, ...]:
+    from wear.history import Column
+
+    fields = part.fields
+    return (
+        Column("bearing_wear_mm", "mm", "wear of the bearing", part.u),
+        Column("pin_wear_mm", "mm", "wear of the pin", fields.u_a),
+        Column("bearing_roughness_mm", "mm", "roughness of the bearing", fields.sigma_c),
+        Column("pin_roughness_mm", "mm", "roughness of the pin", fields.sigma_a),
+        Column("closure_mm", "mm", "closure of the mean surfaces", fields.h),
+        Column("contact_pressure_MPa", "MPa", "contact pressure", fields.p),
+        Column("bearing_displacement_mm", "mm", "displacement of the bearing", fields.U_c),
+    )
 
 
 def _attributes(history: History) -> dict[str, str]:

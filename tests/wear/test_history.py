@@ -11,8 +11,11 @@ import pytest
 from scipy.io import netcdf_file
 
 from wear import direct
+from wear.count.inside import fields_inside
 from wear.faults import AccuracyError, Interrupted, UsageError
+from wear.history_files import write_inside
 from wear.load import Blocks, HistoryLoad, Table
+from wear.model import bind
 from wear.scene import scene_from_tables
 from wear.solver import solve
 
@@ -239,3 +242,38 @@ def test_a_measured_history_wears_like_the_table_it_repeats():
     )
     assert one.method == "DOP853"
     np.testing.assert_allclose(one.u_c, other.u_c, rtol=2e-9)
+
+
+@pytest.mark.parametrize("name", ["S2", "S8_2"])
+def test_a_history_inside_the_cycles_is_written_chunk_by_chunk(name, tmp_path):
+    scene, phases = reference_scene(name), np.linspace(0.0, 1.0, 7)
+    cycles = np.arange(0.0, 40.0, 3.0)
+
+    def parts(chunk):
+        return fields_inside(bind(scene), scene.periodic_load, cycles, phases, chunk=chunk)
+
+    (whole,) = parts(10**6)
+    write_inside(parts(21), tmp_path / "inside.nc", {"scene": scene.to_json()})
+    with netcdf_file(tmp_path / "inside.nc", mmap=False) as file:
+        assert file.dimensions == {"cycle": None, "phase": 7}
+        assert file.variables["cycle"][:].tolist() == cycles.tolist()
+        assert file.variables["phase"][:].tolist() == phases.tolist()
+        written = {key: value[:] for key, value in file.variables.items()}
+        assert scene_from_tables(json.loads(file.scene)) == scene
+        assert file.variables["bearing_wear_mm"].units == b"mm"
+    np.testing.assert_allclose(written["bearing_wear_mm"], whole.u, rtol=1e-14)
+    np.testing.assert_allclose(written["contact_pressure_MPa"], whole.fields.p, rtol=1e-11)
+    np.testing.assert_allclose(written["closure_mm"], whole.fields.h, rtol=1e-13)
+    np.testing.assert_allclose(written["error_estimate"], whole.error, rtol=1e-6)
+
+
+def test_a_history_inside_the_cycles_that_stops_leaves_nothing(tmp_path):
+    scene = reference_scene("S2")
+
+    def interrupted():
+        yield from fields_inside(bind(scene), scene.periodic_load, np.arange(3.0), np.zeros(1))
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_inside(interrupted(), tmp_path / "inside.nc", {})
+    assert list(tmp_path.iterdir()) == []
