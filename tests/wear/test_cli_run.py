@@ -260,3 +260,38 @@ def test_the_help_names_every_method(capsys):
         cli.main(["run", "--help"])
     words = set(re.findall(r"[\w-]+", capsys.readouterr().out))
     assert set(METHODS) <= words
+
+
+def test_states_inside_the_cycles_are_written(run, tmp_path):
+    from scipy.io import netcdf_file
+
+    path = tmp_path / "inside.nc"
+    request = ("section4", "--cycles", "0,10,9000", "--phases", "4", "-o", str(path))
+    status, shown, messages = run(*request, "--json")
+    document = json.loads(shown)
+    assert (status, messages) == (0, "")
+    assert (document["cycles"], document["phases"], document["file"]) == (3, 4, str(path))
+    assert document["largest_error_estimate"] <= document["rtol"]
+    whole = solve(load_scene("section4"), (0, 10, 9000))
+    with netcdf_file(path, mmap=False) as file:
+        wear = file.variables["bearing_wear_mm"][:]
+        assert file.variables["phase"][:].tolist() == [0.0, 0.25, 0.5, 0.75]
+    np.testing.assert_allclose(wear[:, 0], whole.u_c, rtol=1e-12)
+    assert np.all(np.diff(wear, axis=1) > 0.0)
+
+
+def test_everything_against_states_inside_the_cycles_is_told_at_once(run):
+    arguments = ("--phases", "2.5", "--method", "DOP853", "--until-wear", "1e-3")
+    status, _, messages = run("section4-cutoff", *arguments)
+    assert status == 2
+    for phrase in ("no whole number", "--output", "--method", "--until-wear", "cutoff"):
+        assert phrase in messages
+
+
+def test_an_accuracy_that_is_missed_inside_the_cycles_is_told(run, tmp_path):
+    path = str(tmp_path / "inside.nc")
+    request = ("deep-tail", "--cycles", "10", "--phases", "2", "--rtol", "1e-15", "-o", path)
+    status, _, messages = run(*request)
+    assert status == 3
+    assert "1.0e-15 was requested" in messages
+    assert Path(path).exists()
