@@ -9,10 +9,12 @@
 
 const WEAR_TOLERANCE = 1e-9;
 const MOST_EVALUATIONS = 1.5e6;
+const MOST_PANELS = 400;
 const PANEL_TOLERANCE = 1e-8;
 const LOOSE_TOLERANCE = 1e-5; // where the rate has corners and halving a panel helps little
 const SMALL_SLOPE = 4e-3; // of D: beyond, cycles are taken one by one
 const BEND_WIDTH = 1e-8; // phase to which a bend of the rate is located
+const JUMP_WIDTH = 1e-14; // and a jump
 const GRID = 128; // phases of a cycle at which contact is looked for
 
 // The load: displacement of the pin in mm against phase, in cycles.
@@ -128,7 +130,7 @@ function makeSolver(functions, c, load, period) {
   function ended(f, x, gained, h, u, until) {
     let low = 0;
     let high = h;
-    for (let i = 0; i < 60 && (jumps || high - low > BEND_WIDTH); i += 1) {
+    while (high - low > (jumps ? JUMP_WIDTH : BEND_WIDTH)) {
       const middle = (low + high) / 2;
       if (until(x + middle, u + step(f, x, gained, middle)[0]) < 0) high = middle;
       else low = middle;
@@ -283,76 +285,83 @@ function integrated(values) { // from the first node to each
 // Wear against cycles, up to `wanted`: points, a function for any number of cycles, notices.
 // `smooth(u)`: from this wear on, the wear of a cycle changes smoothly with wear. `rough(u)`: there
 // is roughness left, without which the model has no meaning.
+// Cycles are taken one by one where they differ much, by panels elsewhere.
 
 function wearOverCycles(solver, wanted, smooth, rough) {
   const points = [{ n: 0, u: 0 }];
   const panels = [];
-  const notices = [];
-  let u = 0;
   let n = 0;
+  let u = 0;
+  let gained = 0; // by the last cycle; errors are measured by it
   let before = NaN;
-  let gained = 0;
-  let vanished = false;
-  let coarsest = 0;
+  let width = 0; // of the next panel; none: cycles one by one
   let halvings = 0;
-  while (n < wanted) {
-    gained = solver.cycle(u, Math.abs(gained));
-    if (!Number.isFinite(gained)) break;
-    vanished = !rough(u + gained);
-    if (vanished) break;
-    const slope = (gained - before) / before; // D' = dD/du over the last cycle
-    // where contact ends for good, roundoff may leave a touch at the peak of the load
-    const stopped = smooth(u) ? gained === 0 : gained <= 1e-14 * u;
-    if (stopped) {
-      notices.push({ kind: "arrest", text: u > 0 ? `Wear stops in cycle ${n}.` : "Nothing wears." });
-      points.push({ n: wanted, u });
-      n = wanted;
-      break;
+  let coarsest = 0;
+  let ending = "";
+  while (n < wanted && !ending) {
+    if (width === 0) {
+      gained = solver.cycle(u, Math.abs(gained));
+      const slope = (gained - before) / before; // D' = dD/du over the last cycle
+      before = gained;
+      // where contact ends for good, roundoff may leave a touch at the peak of the load
+      const stopped = smooth(u) ? gained === 0 : gained <= 1e-14 * u;
+      if (!Number.isFinite(gained)) ending = "limit";
+      else if (!rough(u + gained)) ending = "vanished";
+      else if (stopped) ending = "arrest";
+      else if (n > 8 && Math.abs(slope) < SMALL_SLOPE && smooth(u)) {
+        width = gained * Math.max(8, 0.2 * n);
+      } else {
+        u += gained;
+        n += 1;
+        points.push({ n, u });
+      }
+      continue;
     }
-    if (n > 8 && Math.abs(slope) < SMALL_SLOPE && smooth(u)) break;
-    u += gained;
-    n += 1;
-    points.push({ n, u });
-    before = gained;
-  }
-  let width = gained * Math.max(8, 0.2 * n);
-  let scale = gained; // errors are measured by the wear of a cycle
-  while (n < wanted && Number.isFinite(gained) && !vanished && panels.length < 400) {
-    const panel = makePanel(solver, u, width, n, scale);
-    const meant = panel.n !== undefined && rough(panel.u[ORDER]);
-    const allowed = halvings < 4 ? PANEL_TOLERANCE : LOOSE_TOLERANCE;
-    if (!(meant && panel.error <= allowed) && width > scale) {
-      width /= 2;
+    const panel = panels.length < MOST_PANELS ? makePanel(solver, u, width, n, gained) : {};
+    const meant = panel.n !== undefined && rough(panel.u[ORDER]) && panel.slope < 2 * SMALL_SLOPE;
+    const narrow = width <= gained;
+    const allowed = halvings < 4 && !narrow ? PANEL_TOLERANCE : LOOSE_TOLERANCE;
+    if (!(meant && panel.error <= allowed)) {
+      width = narrow ? 0 : width / 2;
+      before = NaN;
       if (meant) halvings += 1;
       continue;
     }
     halvings = 0;
-    if (!meant) {
-      vanished = panel.n !== undefined;
-      break;
-    }
     coarsest = Math.max(coarsest, panel.error);
     panels.push(panel);
     for (let i = 1; i <= ORDER; i += 1) points.push({ n: panel.n[i], u: panel.u[i] });
     n = panel.n[ORDER];
     u = panel.u[ORDER];
-    scale = panel.least;
-    width *= panel.error < 1e-11 ? 2 : 1.2;
+    gained = panel.least;
+    width *= panel.error < 1e-11 ? 2 : 1.5;
   }
-  if (coarsest > PANEL_TOLERANCE) {
-    const digits = Math.max(0, Math.floor(-Math.log10(coarsest)));
-    notices.push({ kind: "accuracy", text: `Only accurate to about ${digits} digits.` });
+  const notices = noticesOf(ending, n, u, coarsest);
+  if (ending === "arrest") {
+    points.push({ n: wanted, u });
+    n = wanted;
   }
   const reached = Math.min(Math.floor(n), wanted);
-  if (reached < wanted) {
-    notices.push({
-      kind: "limit",
-      text: `Carried to ${shown(reached)} cycles only. ${vanished
-        ? "There the roughness vanishes, and with it the model."
-        : "Beyond, this page would be slow or inaccurate."}`,
-    });
-  }
   return { points, reached, notices, at: (count) => wearAt(points, panels, count) };
+}
+
+function noticesOf(ending, n, u, coarsest) {
+  const notices = [];
+  if (ending === "arrest") {
+    notices.push({ kind: "arrest", text: u > 0 ? `Wear stops in cycle ${Math.round(n)}.` : "Nothing wears." });
+  }
+  if (coarsest > PANEL_TOLERANCE) {
+    const digits = Math.floor(-Math.log10(coarsest));
+    notices.push({ kind: "accuracy", text: `Only accurate to about ${digits} digits.` });
+  }
+  const reasons = {
+    vanished: "There the roughness vanishes, and with it the model.",
+    limit: "Beyond, this page would be slow or inaccurate.",
+  };
+  if (reasons[ending]) {
+    notices.push({ kind: "limit", text: `Carried to ${shown(Math.floor(n))} cycles only. ${reasons[ending]}` });
+  }
+  return notices;
 }
 
 function makePanel(solver, start, width, from, scale) {
@@ -371,7 +380,8 @@ function makePanel(solver, start, width, from, scale) {
   const a = coefficients(inverse);
   const tail = Math.max(Math.abs(a[ORDER]), Math.abs(a[ORDER - 1])) / Math.abs(a[0]);
   const n = integrated(inverse).map((value) => from + value * width / 2);
-  return { u, n, error: tail, start, width, least };
+  const slope = Math.max(...d1.map(Math.abs));
+  return { u, n, error: tail, slope, start, width, least };
 }
 
 function wearAt(points, panels, count) {
