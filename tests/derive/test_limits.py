@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from derive.laws import ContactLaw, r
+from derive.results.steady_state import steady_state
 from derive.rules import Given, RuleError
 from derive.rules.bounds import Consequence, Grows, LogarithmicSlope, Monotone
 from derive.rules.drift import LogarithmicDrift
@@ -21,7 +23,8 @@ from derive.rules.limits import (
 )
 from derive.rules.sign import sign
 from derive.statement import Statement, check, given
-from derive.symbols import initial, rate, symbols, t
+from derive.symbols import initial, rate, symbol, symbols, t
+from derive.zero import is_zero
 
 u_c, U_a, U, h_0, sigma_c0, f_c, C = symbols("u_c U_a U h_0 sigma_c0 f_c C")
 START = sp.Eq(initial("u_c"), 0)
@@ -151,3 +154,11 @@ def test_a_consequence_must_be_its_parent_rewritten() -> None:
     other = given(sp.Eq(h_0, 2 * sigma_c0), "definition", h_0)
     assert check(Statement(sp.Ge(u_c, 2 * sigma_c0), Consequence(), (parent, other)))[1].passed
     assert not check(Statement(sp.Ge(u_c, sigma_c0), Consequence(), (parent, other)))[1].passed
+
+
+def test_a_law_of_square_roots_has_a_steady_state():
+    """Its positivity is no matter of exponentials: a root outweighs what it is of."""
+    law = ContactLaw("algebraic", (1 - r / sp.sqrt(1 + r**2)) / 2, sp.Integer(0), "a test")
+    limit = steady_state(law)
+    assert is_zero(limit.pressure.claim.rhs / symbol("p_max") - law.ratio(1 / symbol("f_c")))
+    assert all(outcome.passed for outcome in check(limit.growth))
