@@ -295,3 +295,15 @@ def test_an_accuracy_that_is_missed_inside_the_cycles_is_told(run, tmp_path):
     assert status == 3
     assert "1.0e-15 was requested" in messages
     assert Path(path).exists()
+
+
+def test_a_range_of_cycles_has_both_its_ends(run):
+    document = json.loads(run("section4", "--cycles", "7,2:4", "--rtol", "1e-6", "--json")[1])
+    assert document["cycles"] == [7, 2, 3, 4]
+
+
+@pytest.mark.parametrize("cycles", ["4:2", "1:2:3", ":3", "3:", "0:1e7", "1.5:3"])
+def test_what_is_no_range_of_cycles_is_refused(run, cycles):
+    status, shown, messages = run("section4", "--cycles", cycles)
+    assert (status, shown) == (2, "")
+    assert f'"{cycles}": no number of cycles' in messages

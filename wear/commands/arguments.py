@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from wear.scene import Scene
 
 
+MOST_IN_RANGE = 1_000_000  # numbers of cycles
+
+
 def add_scene(parser: argparse.ArgumentParser, default: str | None = None) -> None:
     """Declare the scene, which may be left out if there is a default, and `--set`."""
     about = "a built-in scene (wear scenes lists them) or a TOML file"
@@ -82,27 +85,31 @@ class Faults:
             return None
 
     def cycles(self, name: str, text: str) -> tuple[int, ...]:
-        """Return numbers of cycles, 0 being the fresh state, from a list.
+        """Return numbers of cycles, 0 being the fresh state, from a list of numbers and ranges.
 
-        >>> Faults().cycles("--cycles", "1, 10,1e8")
-        (1, 10, 100000000)
+        >>> Faults().cycles("--cycles", "1, 10:13,1e8")
+        (1, 10, 11, 12, 13, 100000000)
         """
         from wear.solver import MOST_CYCLES
 
-        numbers = [_number(entry) for entry in text.split(",")]
+        parts = text.split(",")
+        ends = [tuple(map(_number, entry.split(":"))) for entry in parts]
         wrong = [
             entry.strip()
-            for entry, number in zip(text.split(","), numbers, strict=True)
-            if not (0 <= number <= MOST_CYCLES and number.is_integer())
+            for entry, pair in zip(parts, ends, strict=True)
+            if len(pair) > 2
+            or not all(0 <= number <= MOST_CYCLES and number.is_integer() for number in pair)
+            or not 0 <= pair[-1] - pair[0] < MOST_IN_RANGE
         ]
         if wrong:
             entries = ", ".join(map(_quoted, wrong[:10])) + (", ..." if len(wrong) > 10 else "")
             self.add(
                 f"{name}: {entries}: no number of cycles; "
-                f"give whole numbers from 0 to {MOST_CYCLES:.0e}, such as 1,9000,1e8"
+                f"give whole numbers from 0 to {MOST_CYCLES:.0e} and ranges of up to "
+                f"{MOST_IN_RANGE:.0e}, such as 1,9000,1e8 or 0:9000"
             )
             return ()
-        return tuple(map(int, numbers))
+        return tuple(n for pair in ends for n in range(int(pair[0]), int(pair[-1]) + 1))
 
     def number(self, name: str, text: str, low: float, high: float) -> float:
         """Return a number within bounds.

@@ -22,7 +22,7 @@ EXAMPLE = """\
   wear run section4 --set bearing.roughness_slope=0.3  with one entry changed
   wear run section4 --until-wear 1e-3,2e-3             cycles until 1 and 2 micrometres are worn
   wear run scene.toml --method DOP853 -o wear.csv      a scene of your own, into a file
-  wear run section4 --cycles 0,10,9000 --phases 100 -o inside.nc     100 states from each on
+  wear run section4 --cycles 0:8999 --phases 100 -o inside.nc        900,000 states
 """
 
 
@@ -32,7 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--cycles",
         metavar="N,...",
         default="1,10,100,1000,10000",
-        help="numbers of cycles, 0 for the fresh state (default: %(default)s)",
+        help="numbers of cycles, 0 for the fresh state; 0:9000 for all from 0 to 9000 "
+        "(default: %(default)s)",
     )
     parser.add_argument(
         "--rtol",
