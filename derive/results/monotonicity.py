@@ -94,10 +94,6 @@ def effect(law: ContactLaw, datum: sp.Expr) -> Statement:
 def equations() -> tuple[Equation, ...]:
     """Return the directions in which the data move the wear."""
     section = "monotonicity"
-    remark = (
-        "shown are the derivatives of the wear rate with respect to each datum in turn; that "
-        "the wear follows them at every time is the comparison theorem"
-    )
     always = tuple(effect(TANH, a) for a in INCREASING if a not in WHILE_APART)
     apart = tuple(effect(TANH, a) for a in WHILE_APART)
     falling = tuple(effect(TANH, a) for a in DECREASING)
@@ -105,18 +101,15 @@ def equations() -> tuple[Equation, ...]:
         Equation(
             "wear-increases",
             section,
-            "wear increases with K_c, V, p_max and U_a",
+            "the rate increases with K_c, V, p_max and U_a",
             always,
-            remark=remark,
+            remark="that the wear follows the rate at every time is the comparison theorem",
         ),
         Equation(
             "wear-increases-apart",
             section,
-            "wear increases with sigma_c0 and f_c while h > 0",
+            "the rate increases with sigma_c0 and f_c while h > 0",
             apart,
-            remark=remark,
         ),
-        Equation(
-            "wear-decreases", section, "wear decreases with H_c and h_0", falling, remark=remark
-        ),
+        Equation("wear-decreases", section, "the rate decreases with H_c and h_0", falling),
     )

@@ -36,6 +36,7 @@ from ..rules.sign import sign
 from ..statement import Statement
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
+from ..typeset.present import presentable
 
 p, p_max, k, sigma, U_a, U_c, u_a, u_c = symbols("p p_max k sigma U_a U_c u_a u_c")
 h_0, h_rigid = symbols("h_0 h_rigid")
@@ -165,6 +166,7 @@ def equations() -> tuple[Equation, ...]:
     """Return the results on the pressure of a compliant support."""
     root, shown = PressureRoot(), _displays()
     section = "compliant support"
+    steps, names = _newton()
     return (
         Equation(
             "pressure-root",
@@ -180,6 +182,9 @@ def equations() -> tuple[Equation, ...]:
             section,
             "Newton's iteration for the pressure",
             (*newton(GENERAL), *curvature()),
+            (),
+            (*steps, *(presentable(statement.claim) for statement in curvature())),
+            where=names,
         ),
         Equation(
             "rigid-limit-error",
@@ -191,6 +196,22 @@ def equations() -> tuple[Equation, ...]:
             where=shown["where"],
         ),
     )
+
+
+def _newton() -> tuple[tuple[sp.Eq, sp.Eq], tuple[sp.Eq, sp.Eq, sp.Eq]]:
+    """Return the step of Newton's iteration to be read, and its abbreviations."""
+    below = sp.Symbol("D", positive=True)
+    near, there = GENERAL.ratio(a + s * x), GENERAL.ratio(a + s * y)
+    slope = sp.Subs(sp.diff(GENERAL.phi, r), r, a + s * x)
+    at_x, at_y = sp.symbols("phi_x phi_y", positive=True)
+    with as_written():
+        step = sp.Add(x, minus(sp.Add(x, -at_x) / below))
+        end = sp.Add(at_x, minus(s * x * slope)) / below
+        distance = sp.Add(y, -x, sp.Add(x, -at_x) / below, minus(sp.Add(y, -at_y) / below))
+        bent = sp.Add(at_y, -at_x, minus(s * sp.Add(y, -x) * slope)) / below
+        steepness = sp.Eq(below, sp.Add(1, minus(s * slope)))
+    names = (steepness, sp.Eq(at_x, near), sp.Eq(at_y, there))
+    return (sp.Eq(step, end), sp.Eq(distance, bent)), names
 
 
 def _displays() -> dict[str, tuple[sp.Basic, ...]]:

@@ -18,7 +18,7 @@ from ..symbols import QUANTITIES, Quantity
 from .reading import read
 
 #: Units that have a name.
-_UNITS = {"1": "--", "MPa mm^2": r"$\mathrm{N}$"}
+_UNITS = {"1": "", "MPa mm^2": "N"}
 
 
 def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
@@ -44,11 +44,15 @@ def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
 def nomenclature(equations: Iterable[Equation]) -> str:
     """Return a tabular of the symbols of equations; needs amsmath and booktabs."""
     rows = [
-        rf"${quantity.latex}$ & {meaning(quantity)} & {unit(quantity)} \\"
+        rf"${quantity.latex}$ & {meaning(quantity)} & {_cell(unit(quantity))} \\"
         for quantity in quantities(equations)
     ]
     head = [r"\begin{tabular}{lll}", r"\toprule", r"symbol & meaning & unit \\", r"\midrule"]
     return "\n".join([*head, *rows, r"\bottomrule", r"\end{tabular}"])
+
+
+def _cell(formula: str) -> str:
+    return f"${formula}$" if formula else "--"
 
 
 def meaning(quantity: Quantity) -> str:
@@ -65,6 +69,6 @@ def meaning(quantity: Quantity) -> str:
 
 
 def unit(quantity: Quantity) -> str:
-    """Return the unit in LaTeX, a dash for none."""
-    spaced = quantity.unit.replace(" ", r"\,")
-    return _UNITS.get(quantity.unit, rf"$\mathrm{{{spaced}}}$")
+    """Return the unit in LaTeX, empty for none."""
+    spaced = _UNITS.get(quantity.unit, quantity.unit).replace(" ", r"\,")
+    return rf"\mathrm{{{spaced}}}" if spaced else ""

@@ -54,9 +54,11 @@ class Math:
 
 @dataclass(frozen=True)
 class Reference:
-    """A link to a label, shown by its kind and number: Eq. (8), Figure 2, claim C24."""
+    """A link to a label, shown by its kind and number: Eq. (8), Figure 2, claim C24; `bare` by the
+    number alone, for the second and later of a list."""
 
     label: str
+    bare: bool = False
 
 
 @dataclass(frozen=True)

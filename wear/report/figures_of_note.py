@@ -95,7 +95,11 @@ def approach(found: Approach) -> Figure:
     with styled():
         figure, axes = canvas(WIDTH, 0.6 * WIDTH)
         axes.loglog(
-            found.cycles, found.predicted, color=GREY, linewidth=0.9, label=r"$A/(N u_{cum})$"
+            found.cycles,
+            found.predicted,
+            color=GREY,
+            linewidth=0.9,
+            label=r"$A/(N u_{\mathrm{cum}})$",
         )
         for family, (excess, name) in enumerate(
             ((found.excess, "wear per cycle"), (found.pressure_excess, "pressure"))

@@ -134,7 +134,9 @@ def _items(here: Page, items: Items) -> str:
 
 def _equation(here: Page, equation: Equation) -> str:
     name = here.marks[equation.label].number
-    title = f'<p class="title">{prose(here, equation.title)} {_badge(equation.status)}</p>'
+    named = f"{prose(here, equation.title)} {_badge(equation.status)}".strip()
+    title = f'<p class="title">{named}</p>' if named else ""
+    head = f'<div class="head">{title}{_mentions(here, equation.label)}</div>'
     printed = (
         f'<div class="printed"><p>As printed:</p><div class="formula">'
         f"{mathml.block(equation.printed)}</div></div>"
@@ -143,10 +145,10 @@ def _equation(here: Page, equation: Equation) -> str:
     )
     return (
         f'<div class="equation" id="{equation.label}" role="group" aria-label="Equation {name}">'
-        f"{title if equation.title or equation.status else ''}"
+        f"{head}"
         f'<div class="row"><div class="formula">{mathml.block(equation.latex)}</div>'
         f'<a class="number" href="#{equation.label}">({name})</a></div>'
-        f"{printed}{_mentions(here, equation.label)}</div>"
+        f"{printed}</div>"
     )
 
 
@@ -155,12 +157,15 @@ def _badge(status: str) -> str:
 
 
 def _mentions(here: Page, label: str) -> str:
-    """Links back to the derivations, claims, figures and tables that refer to a label."""
+    """Links back to the derivation, figures, tables and claims that refer to a label."""
     sources = here.mentioned_by.get(label, ())
-    if not sources:
-        return ""
-    links = " · ".join(link(here, source) for source in sources)
-    return f'<p class="mentions">See {links}</p>'
+    claims = [source for source in sources if here.marks[source].kind == "claim"]
+    links = [link(here, source) for source in sources if source not in claims]
+    if claims:
+        word = "claims" if len(claims) > 1 else "claim"
+        told = (link(here, claim, bare=True) for claim in claims)
+        links.append(f"{word}\u00a0{', '.join(told)}")
+    return f'<p class="mentions">{" · ".join(links)}</p>' if links else ""
 
 
 def _figure(here: Page, figure: Figure) -> str:
@@ -168,8 +173,7 @@ def _figure(here: Page, figure: Figure) -> str:
     return (
         f'<figure id="{figure.label}">'
         f'<div class="scroll">{svg.inline(figure.svg, figure.label, figure.description)}</div>'
-        f"<figcaption><b>{name}.</b> {prose(here, figure.caption)}"
-        f"{_mentions(here, figure.label)}</figcaption></figure>"
+        f"<figcaption><b>{name}.</b> {prose(here, figure.caption)}</figcaption></figure>"
     )
 
 
@@ -199,7 +203,7 @@ def _table_frame(
     name = here.marks[label].name
     return (
         f'<div class="scroll" id="{label}" role="region" aria-label="{name}" tabindex="0"><table>'
-        f"<caption><b>{name}.</b> {prose(here, caption)}{_mentions(here, label)}</caption>"
+        f"<caption><b>{name}.</b> {prose(here, caption)}</caption>"
         f"<thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table></div>"
     )
 
@@ -213,8 +217,7 @@ def _claims(here: Page, ledger: Claims) -> str:
     name = here.marks[ledger.label].name
     return (
         f'<div class="scroll" id="{ledger.label}"><table class="ledger" role="table">'
-        f"<caption><b>{name}.</b> {prose(here, ledger.caption)}"
-        f"{_mentions(here, ledger.label)}</caption>"
+        f"<caption><b>{name}.</b> {prose(here, ledger.caption)}</caption>"
         f'<thead role="rowgroup"><tr role="row">{heads}</tr></thead>'
         f'<tbody role="rowgroup">{rows}</tbody></table></div>'
     )

@@ -56,8 +56,8 @@ def _inline(here: Page, piece: Inline) -> str:
             return f"<code>{escape(text, quote=False)}</code>"
         case Math(latex):
             return mathml.inline(latex)
-        case Reference(label):
-            return link(here, label)
+        case Reference(label, bare):
+            return link(here, label, bare=bare)
         case Link(text, url):
             return f'<a href="{escape(url)}">{escape(text, quote=False)}</a>'
         case Number():
@@ -81,6 +81,7 @@ def _plain(value: float) -> float:
     return int(value) if isinstance(value, Integral) else float(value)
 
 
-def link(here: Page, label: str) -> str:
-    """A link to a label, named by its kind and number."""
-    return f'<a href="#{label}">{here.marks[label].name}</a>'
+def link(here: Page, label: str, *, bare: bool = False) -> str:
+    """A link to a label, named by its kind and number, or by the number alone."""
+    mark = here.marks[label]
+    return f'<a href="#{label}">{mark.bare if bare else mark.name}</a>'

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from wear.report.document import Block, Figure, Number, Paragraph, Steps
+from wear.report.document import Block, Figure, Number, Paragraph
+
+#: The relative resolution of a double, below which an error is none.
+ROUNDOFF = sys.float_info.epsilon
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawn
@@ -32,19 +36,6 @@ class Material:
     def show(self, *identifiers: str) -> tuple[Block, ...]:
         """The equations of these ids with their derivations."""
         return tuple(block for identifier in identifiers for block in self.shown[identifier])
-
-    def formulas(self, *identifiers: str) -> tuple[Block, ...]:
-        """The equations of these ids; their derivations stand elsewhere."""
-        return tuple(b for b in self.show(*identifiers) if not isinstance(b, Steps))
-
-    def derivations(self, *identifiers: str) -> tuple[Block, ...]:
-        """The derivations of these ids alone."""
-        return tuple(b for b in self.show(*identifiers) if isinstance(b, Steps))
-
-    def others(self, section: str, *identifiers: str) -> tuple[str, ...]:
-        """The ids of a section of the catalogue without those named."""
-        found = (e.id for e in self.equations if e.section == section)
-        return tuple(identifier for identifier in found if identifier not in identifiers)
 
     def verdicts(self, verdict: str) -> int:
         """How many claims have a verdict."""

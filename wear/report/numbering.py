@@ -39,6 +39,11 @@ class Mark:
     number: str
 
     @property
+    def bare(self) -> str:
+        """The number alone, as it stands in a list of references."""
+        return f"({self.number})" if self.kind == "equation" else self.number
+
+    @property
     def name(self) -> str:
         """The words of a reference, with no-break spaces.
 
@@ -104,15 +109,18 @@ def mentions(node: Labelled) -> tuple[str, ...]:
 
 
 def mentioned_by(document: Document) -> dict[str, tuple[str, ...]]:
-    """For every label, its own derivation and the claims, figures and tables that refer to it.
+    """For every equation, claim and derivation, what refers to it: of an equation its own
+    derivation, claims, figures and tables.
 
     Derivations of other equations that use it are left out: they would be most of the page.
     """
     found: dict[str, list[str]] = {}
-    for node in labelled(document):
+    nodes = tuple(labelled(document))
+    told = {node.label for node in nodes if isinstance(node, Equation | Claim | Steps)}
+    for node in nodes:
         if isinstance(node, Claims):
             continue  # its claims speak for themselves
-        for label in mentions(node):
+        for label in told.intersection(mentions(node)):
             if not isinstance(node, Steps) or node.of == label:
                 found.setdefault(label, []).append(node.label)
     return {label: tuple(sources) for label, sources in found.items()}

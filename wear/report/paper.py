@@ -43,8 +43,9 @@ TITLE = "Wear of a bearing under cyclic contact: its stabilised response re-exam
 #: Steps are shown below the first of these that needs them: what others rest on comes first.
 _FIRST = (
     "1", "2a", "2b", "3", "4", "5", "6", "7a", "7b", "7c", "7d", "7e", "7f", "7g", "8", "9",
-    "pressure-root", "10", "rigid-limit-error", "13", "deviation", "growth", "closure-ratio",
-    "general-law", "17b", "18", "14", "20", "21", "22",
+    "pressure-root", "pressure-iteration", "10", "rigid-limit-error", "13", "bearing-rate",
+    "deviation", "growth", "general-rate", "closure-ratio", "general-law",
+    "17b", "18", "14", "20", "21", "22",
 )  # fmt: skip
 
 
@@ -80,7 +81,7 @@ def paper(
             paper_speed.section(material.speed),
             paper_hard.section(material),
             paper_reproduce.section(),
-            paper_beyond.appendix(material, placed),
+            paper_reproduce.references(),
         ),
         colophon=words("Written by `wear reproduce`."),
     )
@@ -101,19 +102,19 @@ def _abstract(material: Material) -> Prose:
     return words(
         "A published note models a pin on a bearing under cyclic load by an Archard law coupled "
         "with roughness and gives formulas for the wear per cycle and the pressure in a "
-        "stabilised state. All its equations were derived anew by machine, each of "
-        "{steps} steps proved or checked at many digits, and its {claims} claims judged. The "
-        "limits [eq:17b], [eq:18], [eq:21] and [eq:22] are *confirmed*, from weaker hypotheses "
-        "and for any contact law. The step [eq:16b] that leads there in the note is *false*; the "
-        "condition "
-        "$f_c>1/8$ is a limit of resolution, not of validity; the wear has no straight asymptote "
-        "but drifts logarithmically. The printed wear per cycle, {printed}, does not follow from "
-        "the data, which give {formula}; after the {cycles} cycles said to suffice for "
-        "stabilisation the wear per cycle is still {ratio} times its limit, and the criterion "
-        "named is met after {needed} cycles. With the cutoff of the contact law, which the note "
-        "states and then drops, wear arrests in cycle {stop}. *New* are the first integral, the "
-        "closed solution under constant load, the expansion for long times, the map of regimes, "
-        "arrest, rigorous bounds, and a solver whose cost does not grow with the number of cycles.",
+        "stabilised state. All its equations were derived anew by machine, in {steps} steps each "
+        "of which was checked, and its {claims} claims judged. The limits [(eq:17b)], [(eq:18)], "
+        "[(eq:21)] and [(eq:22)] are *confirmed*, from weaker hypotheses and for any positive, "
+        "continuous, decreasing contact law. The step [(eq:16b)] that leads there in the note is "
+        "*false*; the condition $f_c>1/8$ is a limit of resolution, not of validity; the wear has "
+        "no straight asymptote but drifts logarithmically. The printed wear per cycle, {printed}, "
+        "does not follow from the data, which give {formula}; after the {cycles} cycles said to "
+        "suffice for stabilisation the wear per cycle is still {ratio} times its limit, and the "
+        "criterion named is met, on average over a cycle, after {needed} cycles. With the cutoff "
+        "of the contact law, which the note states and then drops, wear arrests in cycle {stop}. "
+        "*New* are the first integral, the closed solution under constant load, the expansion for "
+        "long times, the map of regimes, arrest, rigorous bounds, and a solver whose cost does "
+        "not grow with the number of cycles.",
         steps=count(material.verification.steps, "verification"),
         claims=count(len(material.ledger), "ledger"),
         printed=mm(PRINTED.formula_mm, 3, "printed in the note"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from wear.report.document import Block, Number, Section
 from wear.report.material import Material, mm
+from wear.report.paper_model import further_symbols
 from wear.report.runs import known
 from wear.report.words import paragraph
 
@@ -12,71 +13,89 @@ _PARTS = (
     (
         "two solids",
         "Two worn solids",
-        "If both solids are rough and wear, the equivalent roughness grows by $q$ and the gap "
-        "opens by $g$ per wear of the bearing. The limit of $h/\\bar\\sigma$ is $g/q$, for every "
-        "sign of the two slopes. With the sign of [eq:1] as printed and a pin that wears faster "
-        "than the bearing $g$ is negative: the gap closes without end, an artefact of the sign.",
+        "If both solids are rough and wear, the wear of the pin is $\\kappa$ times that of the "
+        "bearing, the equivalent roughness grows in the end by $q$ and the gap opens by $g$ per "
+        "wear of the bearing. Unless both roughnesses vanish at the same wear, the equivalent "
+        "roughness never does ([eq:two-solids-roughness]), and the limit of $h/\\bar\\sigma$ is "
+        "$g/q$, for every sign of the two slopes. With the sign of [eq:1] as printed and a pin "
+        "that wears faster than the bearing $g$ is negative: the gap closes without end, an "
+        "artefact of the sign.",
     ),
     (
         "first integral",
         "A first integral",
-        "Closure and roughness are both linear in the wear, which leaves a relation between "
-        "pressure, roughness and load that holds at every time, under any load:",
+        "Closure and roughness are both linear in the wear. This leaves a relation between "
+        "pressure, roughness and load that holds at every time, under any load, on a rigid or a "
+        "compliant support:",
     ),
     (
         "static load",
         "Constant load: the solution in closed form",
         "Under a load that does not vary the variables separate. The time to a given wear is an "
-        "exponential integral for either sign of $f_c$; for $f_c=0$ the wear itself is given by "
-        "Lambert's function; on a compliant support both are given at a pressure. The scaled form "
-        "is the one that is evaluated, without overflow.",
+        "exponential integral, $\\operatorname{Ei}$, for either sign of $f_c$; for $f_c=0$ the "
+        "wear itself is given by Lambert's function $W$; on a compliant support wear and time are "
+        "both given at a pressure. The scaled form [(eq:static-solution-scaled)] of the primitive "
+        "is the one that is evaluated.",
     ),
     (
         "long times",
         "Expansion for long times",
         "Under a sine load the roughness splits into a part $m$ that drifts and an oscillation "
-        "within the cycle, $\\bar\\sigma=m+w_1/m+w_2/m^2+\\dots$, and the number of cycles follows "
-        "as a function of $m$. The logarithmic drift is its first term.",
+        "within the cycle, $\\bar\\sigma=m+w_1/m+w_2/m^2+\\dots$ with "
+        "$\\mathrm{d}m/\\mathrm{d}\\tau=\\rho\\,(1+c_1/m+c_2/m^2+\\dots)$, $\\tau=t/T$. The "
+        "number of cycles follows as a function of $m$, up to terms of the order $m^{-4}$; $s_0$ "
+        "keeps the memory of the start. The logarithmic drift is its first term:",
     ),
     (
         "compliant support",
         "A support that gives way",
-        "A compliant support changes neither the asymptotic pressure nor the wear per cycle, only "
-        "the drift towards them:",
+        "The deflection of the support is bounded by $p_{\\max}/k$, so that a finite stiffness "
+        "changes neither the asymptotic pressure nor the wear per cycle, only the drift towards "
+        "them:",
     ),
     (
         "bounds",
         "Bounds that are proofs",
-        "The rate increases with the load, so that the solutions under its smallest and largest "
-        "value enclose the wear. Frozen within one cycle, the same argument gives an enclosure "
-        "that is evaluated in ball arithmetic, where every rounding is inside the bounds; the "
-        "quadrature error is bounded on a strip of the complex plane.",
+        "The rate increases with the load ([eq:wear-increases]), so that by the comparison "
+        "theorem the solutions under its smallest and its largest value enclose the wear; a "
+        "compliant support acts like the load $U_a-p/k$, which lies between two loads on a rigid "
+        "one [(eq:compliant-load)]. Within one cycle the same argument, with the wear frozen at "
+        "its start and Gronwall's lemma for what that neglects, gives a much tighter enclosure. "
+        "It is evaluated in ball arithmetic, where every rounding is inside the bounds. Means "
+        "over a cycle are taken at equidistant phases; their error is bounded by the size of the "
+        "law at complex closures. There $1/(1+\\mathrm{e}^{z})$ is below one in modulus as long "
+        "as the cosine of $\\operatorname{Im}z$ is positive [(eq:strip)]. The theorems and the "
+        "arithmetic are in [sec:references].",
     ),
     (
         "sensitivities",
         "Sensitivities and identification",
         "The wear per cycle is proportional to $K_c$, $V$, $T$ and $p_{\\max}$ and inversely "
-        "proportional to $H_c$; it is far more sensitive to $f_c$. Solved for a datum, the same "
-        "relations identify it from a measurement.",
+        "proportional to $H_c$; it is far more sensitive to $f_c$, and insensitive to all else. "
+        "Solved for a datum, the same relations identify it from a measurement: from the wear of "
+        "a cycle once that is steady, or from one pressure at any time.",
     ),
     (
         "monotonicity",
-        "What more wear follows from",
-        "By a comparison of the rates the wear at every time is monotone in the data:",
+        "In which direction each datum acts",
+        "Shown are the derivatives of the rate [(eq:bearing-rate)] with respect to each datum in "
+        "turn, at given wear and load. By the comparison theorem ([sec:references]) the wear at "
+        "every time follows them.",
     ),
     (
         "dimensionless groups",
         "Dimensionless groups",
-        "One worn solid has four groups, two have seven, a compliant support adds one:",
+        "Lengths are measured in the initial roughness of the bearing, $v=u_c/\\sigma_c^0$, time "
+        "in periods, $\\tau=t/T$, the load in amplitudes, $a=U_a/U$, and pressure in its largest "
+        "value, $y=p/p_{\\max}$. Besides the slopes this leaves $\\mu$, $\\eta$ and $\\nu$ for "
+        "one worn solid, four groups in all; $\\kappa$ and $\\zeta$ more for two, seven in all; "
+        "and one more, $\\lambda$, for a compliant support.",
     ),
 )
 
 
 def section(material: Material, placed: frozenset[str]) -> Section:
-    """Everything in the catalogue that has no place elsewhere in the paper.
-
-    The derivations stand in `appendix`.
-    """
+    """Everything in the catalogue that has no place elsewhere in the paper."""
     rest = [e for e in material.equations if e.id not in placed]
     known = {name for name, _, _ in _PARTS}
     parts = [
@@ -85,7 +104,7 @@ def section(material: Material, placed: frozenset[str]) -> Section:
             title,
             (
                 paragraph(text),
-                *material.formulas(*(e.id for e in rest if e.section == name)),
+                *material.show(*(e.id for e in rest if e.section == name)),
                 *_remark(material, name),
             ),
         )
@@ -93,22 +112,14 @@ def section(material: Material, placed: frozenset[str]) -> Section:
     ]
     others = [e for e in rest if e.section not in known]
     for name in dict.fromkeys(e.section for e in others):
-        shown = material.formulas(*(e.id for e in others if e.section == name))
+        shown = material.show(*(e.id for e in others if e.section == name))
         parts.append(Section(f"sec:{name.replace(' ', '-')}", name[0].upper() + name[1:], shown))
+    parts.append(_symbols(material))
     return Section("sec:beyond", "Beyond the note", tuple(parts))
 
 
-def appendix(material: Material, placed: frozenset[str]) -> Section:
-    """The derivations of these results."""
-    rest = [e.id for e in material.equations if e.id not in placed]
-    return Section(
-        "sec:derivations",
-        "Derivations of the results beyond the note",
-        (
-            paragraph("The steps that lead to the results of [sec:beyond], in their order."),
-            *material.derivations(*rest),
-        ),
-    )
+def _symbols(material: Material) -> Section:
+    return Section("sec:symbols", "Symbols of the results", (further_symbols(material),))
 
 
 def _remark(material: Material, name: str) -> tuple[Block, ...]:

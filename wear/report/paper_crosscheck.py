@@ -6,12 +6,10 @@ import numpy as np
 
 from wear.report import figures_of_note
 from wear.report.document import Block, Column, Number, Prose, Section, Table
-from wear.report.material import Material, count, drawn, mm
+from wear.report.material import ROUNDOFF, Material, count, drawn, mm
 from wear.report.reconcile import PRINTED
 from wear.report.runs import known
 from wear.report.words import paragraph, words
-
-_ROUNDOFF = float(np.finfo(float).eps)
 
 
 def section(material: Material) -> Section:
@@ -23,18 +21,33 @@ def section(material: Material) -> Section:
         (
             paragraph(
                 "Formulas and solver share the generated expressions of the model and nothing "
-                "else. Where both say something of the same quantity, they are compared here, "
-                "with the data of the note's application."
+                "else. Where both say something of the same quantity, they are compared here, with "
+                "the data of the note's application."
+            ),
+            paragraph(
+                "*The approach to the limit.* By the [der:19] the wear of a cycle exceeds its "
+                "limit by the share $A/(Nu_{\\mathrm{cum}})$ in the end. [fig:approach] and "
+                "[tab:approach] show that it does, and the pressure at the start of a cycle "
+                "likewise. At the cycle that the note calls stabilised the excess is of order "
+                "one; at the cycle that the law foretells for the note's criterion it is found to "
+                "be {excess}.",
+                excess=Number(runs.threshold_excess, 6, source="section 4 at the foretold cycle"),
             ),
             *_approach(material),
+            paragraph(
+                "*Other closed forms, and a second solver.* [tab:agreement] compares the closed "
+                "solution under a constant load, the rate at the phases of every cycle where "
+                "[eq:deviation] makes it exactly steady, wear and drift, the arrest depths; and "
+                "the cycle count of [sec:speed] with a direct integration of every cycle."
+            ),
             _agreements(material),
             paragraph(
-                "The numbers of the note remain. [eq:21] gives {formula}, and the solution gives "
-                "{step} for the cycle after the {cycle}th; the note prints {printed} and "
-                "{simulated}. Of all data that [eq:21] contains, changing $f_c$ alone, to {slope}, "
-                "reconciles them best: the formula then gives the printed value and the solution "
-                "{altered}, nearly the other. Any other datum would have to change {factor}-fold "
-                "([sec:claims]).",
+                "*The numbers of the note* remain. [eq:21] gives {formula}, and the solution "
+                "gives {step} for the cycle after cycle {cycle}; the note prints {printed} and "
+                "{simulated}. Of all data that [eq:21] contains, changing $f_c$ alone, to "
+                "{slope}, reconciles them best: the formula then gives the printed value and the "
+                "solution {altered}, nearly the other. Any other datum would have to change "
+                "{factor}-fold ([claim:C36]).",
                 factor=Number(
                     PRINTED.formula_mm / known(runs.fate("section4").wear_per_cycle_mm),
                     3,
@@ -56,10 +69,10 @@ def _approach(material: Material) -> tuple[Block, ...]:
     found = material.runs.approach
     columns = (
         Column(words("Cycles $N$"), numeric=True),
-        Column(words("Wear of a cycle (mm)"), numeric=True),
+        Column(words("Wear of cycle (mm)"), numeric=True),
         Column(words("Excess, wear"), numeric=True),
         Column(words("Excess, pressure"), numeric=True),
-        Column(words("$A/(Nu_{cum})$"), numeric=True),
+        Column(words("$A/(Nu_{\\mathrm{cum}})$"), numeric=True),
         Column(words("Ratio"), numeric=True),
     )
     rows = tuple(
@@ -76,24 +89,19 @@ def _approach(material: Material) -> tuple[Block, ...]:
     )
     caption = words(
         "Approach to [eq:21] and [eq:22]: relative excess of the wear of one cycle and of the "
-        "pressure at its start over their limits, and what the logarithmic drift predicts; the "
-        "last column is excess of wear over prediction. It tends to one."
+        "pressure at its start over their limits, what the logarithmic drift predicts, and the "
+        "ratio of the excess of wear to that, which tends to one."
     )
     return (
         drawn(
             "fig:approach",
             figures_of_note.approach(found),
             paragraph(
-                "Relative excess of wear per cycle and pressure over [eq:21] and [eq:22] against "
-                "cycles, with the law of approach. At the cycle that the note calls stabilised the "
-                "excess is of order one; at the cycle that the law foretells for its criterion, it "
-                "is found to be {excess}.",
-                excess=Number(
-                    material.runs.threshold_excess, 6, source="section 4 at the foretold cycle"
-                ),
+                "Relative excess of the wear of a cycle and of the pressure at its start over "
+                "[eq:21] and [eq:22], against cycles, with the law of approach."
             ),
-            "Two rows of points that bend towards a straight line of slope minus one and follow it "
-            "over five decades.",
+            "Two rows of points that bend towards a straight line of slope minus one and follow "
+            "it over five decades.",
             "approach",
         ),
         Table("tab:approach", caption, columns, rows),
@@ -133,7 +141,7 @@ def _agreements(material: Material) -> Table:
             Number(phases.distance, 2, source="section 4, phases of the steady rate"),
         ),
         (
-            "Wear with the drift, $u_{cum}N+A\\ln N+B$, against the solver",
+            "Wear with the drift, $u_{\\mathrm{cum}}N+A\\ln N+B$, against the solver",
             "relative difference at the last cycle of [tab:approach]",
             Number(_drift_distance(material), 2, source="drift against solver, section 4"),
         ),
@@ -159,7 +167,7 @@ def _agreements(material: Material) -> Table:
             (
                 f"Arrest depth of `{name}` with the cutoff against the solver",
                 "relative difference, or the roundoff of a double",
-                Number(max(off, _ROUNDOFF), 2, source=f"{name} with cutoff"),
+                Number(max(off, ROUNDOFF), 2, source=f"{name} with cutoff"),
             )
         )
     columns = (

@@ -17,22 +17,30 @@ def section(material: Material) -> Section:
         "Derivation of the condensed problems",
         (
             paragraph(
-                "Every equation below was derived by machine in the run that wrote this report. A "
-                "derivation is a chain of small moves (insert, solve, integrate, take a limit). "
-                "Each is checked on its own, by an exact proof and, where it can be evaluated, at "
-                "random points with many digits inside its hypotheses. The forms that the note "
-                "prints are transcribed apart and only compared with what was derived. "
-                "{equations} equations rest on {steps} distinct steps, which took {checks} checks; "
-                "{failed} failed. Each step is shown once, below the first equation that needs it. "
-                "Where nothing is said of its check, the move was made again and the result "
-                "compared, and both sides were evaluated at {points} random points with {digits} "
-                "digits. The bearing is taken to be rough, $\\sigma_c>0$, in all of it; other "
-                "hypotheses stand with the equations.",
+                "Every equation of this report was derived by machine in the run that wrote it. A "
+                "derivation is a chain of small moves (insert, solve, integrate, take a limit); "
+                "each is told once, in the derivation of the first equation that needs it. In "
+                "print the derivations stand in the appendix. The forms that the note prints are "
+                "transcribed apart and only compared with what was derived."
+            ),
+            paragraph(
+                "{equations} equations rest on {steps} distinct steps, and these on {checks} "
+                "checks: {proofs} proofs, {samples} evaluations, {dimensions} comparisons of "
+                "dimensions; {failed} failed. Each step is checked on its own. An algebraic move "
+                "is made again and compared; where a step rests on a theorem, its words say on "
+                "which, and the hypotheses of the theorem are checked; both sides are evaluated "
+                "at {points} random points inside the hypotheses of the step with {digits} "
+                "digits, limits on the way to the limit, solutions against quadrature. The "
+                "bearing is taken to be rough, $\\sigma_c>0$, in all of it; other hypotheses "
+                "stand with the equations.",
                 points=count(SAMPLES, "derivation"),
                 digits=count(DIGITS, "derivation"),
                 equations=count(checked.equations, "catalogue of equations"),
                 steps=count(checked.steps, "verification"),
                 checks=count(checked.checks, "verification"),
+                proofs=count(checked.of_kind("proof"), "verification"),
+                samples=count(checked.of_kind("sample"), "verification"),
+                dimensions=count(checked.of_kind("dimensions"), "verification"),
                 failed=count(len(checked.failures), "verification"),
             ),
             Section(
@@ -58,18 +66,30 @@ def section(material: Material) -> Section:
                     ),
                     *material.show("8", "9"),
                     paragraph(
-                        "The implicit equation is well posed. Written for the pressure, its "
-                        "residual is negative at zero pressure and positive at $p_{\\max}$ and "
-                        "increases in between, so that there is exactly one pressure; the "
-                        "generated code finds it from any start."
+                        "The implicit equation is well posed. At given wear and load it is an "
+                        "equation for the pressure, "
+                        "$p=p_{\\max}\\,\\phi((h_{\\mathrm{rigid}}+p/k)/\\bar\\sigma)$, with the "
+                        "closure $h_{\\mathrm{rigid}}$ on an undeflected support. Left minus right "
+                        "side is negative at zero pressure, positive at $p_{\\max}$ and increases "
+                        "in between: there is exactly one pressure. With the pressure over "
+                        "$p_{\\max}$ as unknown, $x=\\phi(a+sx)$, $s=p_{\\max}/(k\\bar\\sigma)$, "
+                        "Newton's iteration finds it [(eq:pressure-iteration)]: the law is curved "
+                        "one way on either side of $h=2\\bar\\sigma$."
                     ),
-                    *material.show("pressure-root", "10", "rigid-limit-error"),
+                    *material.show(
+                        "pressure-root", "pressure-iteration", "10", "rigid-limit-error"
+                    ),
                     paragraph(
-                        "[eq:10] holds for a rigid support; the pressure differs from that on "
-                        "springs by no more than [eq:rigid-limit-error] allows. For a smooth pin "
-                        "that does not wear the square root disappears:"
+                        "[eq:10] is the limit of a rigid support. At the same wear and load the "
+                        "pressure on springs lies below that on a rigid support, by no more than "
+                        "[eq:rigid-limit-error] allows; the wear itself converges on bounded times "
+                        "only, since its drift depends on $k$ ([sec:compliant-support])."
                     ),
-                    *material.show("13"),
+                    paragraph(
+                        "For a smooth pin that does not wear the square root disappears. What "
+                        "follows rests on the rate [(eq:bearing-rate)]."
+                    ),
+                    *material.show("13", "bearing-rate"),
                 ),
             ),
             Section(

@@ -24,7 +24,8 @@ def section(material: Material) -> Section:
                 "prescribed cyclic displacement. Its result is attractive, since it would replace "
                 "long simulations: after a transient the wear per cycle is constant and known in "
                 "closed form. This report derives all of it anew, solves the note's examples, "
-                "judges each claim by a computation, and adds what the model gives beyond.",
+                "judges each claim by a computation ([tab:ledger]), and adds what the model gives "
+                "beyond.",
                 note=Emphasis(NOTE),
             ),
             _findings(material),
@@ -39,38 +40,38 @@ def _findings(material: Material) -> Items:
     return Items(
         (
             words(
-                "*The formulas hold.* Wear rate, wear per cycle and pressure tend to [eq:18], "
-                "[eq:21] and [eq:22] for $f_c>0$ under any bounded load, periodic or not, and the "
-                "proof covers every positive, continuous, decreasing contact law "
+                "*The formulas hold.* Wear rate, wear per cycle and pressure tend to the values "
+                "[(eq:18)], [(eq:21)] and [(eq:22)] for $f_c>0$ under any bounded load, periodic "
+                "or not, and the proof covers every positive, continuous, decreasing contact law "
                 "([sec:sound-route])."
             ),
             words(
-                "*The argument for them does not.* In passing to the limit a denominator that "
-                "grows without bound is dropped; [eq:16b] then sets a constant that differs from "
-                "zero to zero ([sec:note-route])."
+                "*The argument for them does not.* In passing to the limit the note drops a "
+                "denominator that grows without bound; [eq:16b] then sets to zero what does not "
+                "depend on the wear and is not zero ([sec:note-route])."
             ),
             words(
                 "*One eighth is no limit of validity.* The printed condition on $\\tanh$ always "
                 "holds; the number marks a resolution ([sec:validity])."
             ),
             words(
-                "*The wear has no straight asymptote.* The distance from any line grows like the "
-                "logarithm of the cycles, and the limit is approached like one over the cycles "
-                "([sec:drift], [tab:approach])."
+                "*The wear has no straight asymptote,* but for one value of $f_c$. The distance "
+                "from any line grows like the logarithm of the cycles, and the limit is approached "
+                "like one over the cycles ([sec:drift], [tab:approach])."
             ),
             words(
                 "*The printed application is not reproducible.* With its data the wear per cycle "
-                "is {formula}, not {printed}; after {cycles} cycles it is still {ratio} times "
-                "its limit ([sec:crosscheck]).",
+                "is {formula}, not {printed}; after {cycles} cycles it is still {ratio} times its "
+                "limit ([sec:crosscheck]).",
                 formula=mm(per_cycle, 5, "Eq. (21) with the data of section 4"),
                 printed=mm(PRINTED.formula_mm, 3, "printed in the note"),
                 cycles=count(PRINTED.cycles, "the note"),
                 ratio=Number(runs.printed_increment / per_cycle, 3, source="section 4"),
             ),
             words(
-                "*The cutoff changes everything.* With the contact law as the text of the note has "
-                "it, wear stops for good, in cycle {stop} of that application; steady wear needs "
-                "$f_c\\ge 1/3$ ([sec:regimes]).",
+                "*The cutoff changes everything.* With the contact law as the text of the note "
+                "has it, wear stops for good, in cycle {stop} of that application; steady wear "
+                "needs $f_c\\ge 1/3$ ([sec:regimes]).",
                 stop=count(known(stop.arrest_cycle), "section 4 with cutoff"),
             ),
             words(

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from derive.symbols import QUANTITIES
+from derive.typeset.nomenclature import quantities, unit
 from wear.report import drawing
-from wear.report.document import Column, Math, Number, Section, Table, Text
+from wear.report.document import Column, Math, Number, Prose, Section, Table, Text
 from wear.report.material import Material, drawn
 from wear.report.plain import plain
 from wear.report.words import paragraph, words
 from wear.scene import Scene
 
-#: The quantities that the body of the paper uses, in the order of the table.
-_FIELDS = ("h", "U_a", "U_c", "u_a", "u_c", "sigma_a", "sigma_c", "sigma", "p", "R_a")
-_DATA = (
-    "h_0", "sigma_a0", "sigma_c0", "f_a", "f_c", "K_a", "K_c", "H_a", "H_c", "p_max", "k", "b", "L",
-    "R", "omega", "V", "U", "T",
-)  # fmt: skip
-_DERIVED = (
-    "kappa", "M", "u_cum", "p_inf", "x_inf", "b_0", "beta", "theta", "A", "u_stop", "N", "q", "g",
-    "p_1",
+#: The quantities of the model, in the order of the table: fields, then data.
+_MODEL = (
+    "t", "h", "U_a", "U_c", "u_a", "u_c", "sigma_a", "sigma_c", "sigma", "p", "R_a",
+    "h_0", "sigma_a0", "sigma_c0", "f_a", "f_c", "f_aa", "f_ac", "f_cc", "f_ca", "K_a", "K_c",
+    "H_a", "H_c", "p_max", "k", "b", "L", "R", "omega", "V", "U", "T",
 )  # fmt: skip
 
 
@@ -31,10 +30,12 @@ def section(material: Material) -> Section:
             paragraph(
                 "A rotating pin (index $a$) is pressed periodically against a bearing (index $c$) "
                 "that stands on springs ([fig:system]). Both are rigid; their rough surfaces "
-                "touch, wear, and change their roughness as they wear. The unknowns depend on "
-                "time only: the contact is taken as uniform along the circumference. Displacements "
-                "are counted downwards, the sense in which those of the pin close the gap and "
-                "those of the bearing open it. Lengths are in mm, pressures in MPa, times in s."
+                "touch, wear, and change their roughness as they wear. The unknowns depend on time "
+                "only: the contact is taken as uniform along the circumference. Displacements are "
+                "counted downwards, the sense in which those of the pin close the gap and those of "
+                "the bearing open it. Lengths are in mm, pressures in MPa, times in s; "
+                "[tab:nomenclature] has the symbols, [tab:symbols] those that the results add, "
+                "[tab:data] the data of the note's examples."
             ),
             drawn(
                 "fig:system",
@@ -46,11 +47,21 @@ def section(material: Material) -> Section:
                 drawing.DESCRIPTION,
                 "system",
             ),
+            paragraph(
+                "Six hypotheses make up the model: kinematics [eq:1]; equilibrium of the pin under "
+                "the force $R_a$ and of the bearing on its springs, [(eq:2a)] and [(eq:2b)]; the "
+                "equivalent roughness [(eq:3)]; a contact law [(eq:4)] between pressure and "
+                "closure over roughness; Archard's law for the wear of both solids, and "
+                "roughnesses that change in proportion to it [(eq:5)]; and the state at the start "
+                "[(eq:6)]. The slip rate is $V=R\\omega$. The word behind a title says what the "
+                "machine found: *definition* for what is taken from the note, *derived* for what "
+                "follows, *corrected* where the printed form does not hold and the form shown does."
+            ),
             *material.show("1", "2a", "2b", "3", "4", "5", "6"),
             paragraph(
                 "Two features decide the long run. The contact law [eq:4] is cut off at "
                 "$h=3\\bar\\sigma$, where the pressure jumps by {jump} of $p_{\\max}$; from "
-                "[eq:7e] on the note works without this cutoff and does not say so, and the two "
+                "[eq:7e] on, the note works without this cutoff and does not say so, and the two "
                 "readings differ in kind ([sec:regimes]). And [eq:1] lets wear of the pin *close* "
                 "the gap, although wear removes material; this does not touch the case of bearing "
                 "wear alone, for which the note has its formulas. The software has both readings "
@@ -58,7 +69,7 @@ def section(material: Material) -> Section:
                 "note: sign as printed, no cutoff.",
                 jump=Number(_jump() * 100, 3, "%", source="Eq. (4) at h = 3 sigma"),
             ),
-            _nomenclature(),
+            _symbols("tab:nomenclature", words("Symbols of the model: fields, then data."), _MODEL),
             _data(material),
         ),
     )
@@ -71,27 +82,28 @@ def _jump() -> float:
     return float(formula.share_tanh(3.0))
 
 
-def _nomenclature() -> Table:
-    rows = [
+def further_symbols(material: Material) -> Table:
+    """The symbols that the results add to those of the model."""
+    used = (quantity.name for quantity in quantities(material.equations))
+    caption = words("Symbols of the results, besides those of [tab:nomenclature].")
+    return _symbols("tab:symbols", caption, [name for name in used if name not in _MODEL])
+
+
+def _symbols(label: str, caption: Prose, names: Sequence[str]) -> Table:
+    rows = tuple(
         (
-            (Math(quantity.latex),),
-            plain(quantity.meaning, "nomenclature"),
-            (Text("–") if quantity.unit == "1" else Math(_unit(quantity.unit)),),
+            (Math(QUANTITIES[name].latex),),
+            plain(QUANTITIES[name].meaning, "nomenclature"),
+            (Math(shown) if (shown := unit(QUANTITIES[name])) else Text("–"),),
         )
-        for name in (*_FIELDS, *_DATA, *_DERIVED)
-        if (quantity := QUANTITIES[name])
-    ]
+        for name in names
+    )
     columns = (
         Column(words("Symbol")),
         Column(words("Meaning"), width=0.62),
         Column(words("Unit")),
     )
-    caption = words("Nomenclature: fields, data, and what follows from the data.")
-    return Table("tab:nomenclature", caption, columns, tuple(rows), long=True)
-
-
-def _unit(unit: str) -> str:
-    return r"\mathrm{" + unit.replace(" ", r"\,") + "}"
+    return Table(label, caption, columns, rows, long=True)
 
 
 _ROWS = (
@@ -131,8 +143,8 @@ def _data(material: Material) -> Table:
     )
     caption = words(
         "Data of the note's sections, as scenes of the software. The closure is three times the "
-        "initial equivalent roughness; the note prints it rounded. The load is "
-        "$U_a=U\\sin(2\\pi t/T)$, the speed {speed}.",
+        "initial equivalent roughness; the note prints it rounded. The load is $U_a=U\\sin(2\\pi "
+        "t/T)$, the speed {speed}.",
         speed=Number(scenes[0][1].motion.speed_rpm, 4, "rpm", source="scene section3"),
     )
     return Table("tab:data", caption, columns, (*rows, amplitude))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from wear.report.document import Column, Given, Listing, Section, Table, Text
+from wear.cite import REFERENCES, Reference
+from wear.report.document import Column, Given, Items, Listing, Prose, Section, Table, Text
 from wear.report.manifest import versions
 from wear.report.words import paragraph, words
 
@@ -42,3 +43,28 @@ def section() -> Section:
             ),
         ),
     )
+
+
+def references() -> Section:
+    """What the report rests on."""
+    return Section(
+        "sec:references",
+        "References",
+        (Items(tuple(_entry(reference) for reference in REFERENCES.values())),),
+    )
+
+
+def _entry(reference: Reference) -> Prose:
+    """Author, title, where and when; what it stands for here."""
+    fields = {name: _readable(text) for name, text in reference.fields.items()}
+    where = [fields[name] for name in ("journal", "publisher", "volume", "year") if name in fields]
+    told = ", ".join((fields["title"], *where))
+    author = f"{fields['author'].replace(' and ', ', ')}: " if "author" in fields else ""
+    return (Given(f"{author}{told} ({reference.purpose}).", "reference"),)
+
+
+def _readable(text: str) -> str:
+    """BibTeX as plain text."""
+    for mark, letter in (("{\\o}", "ø"), ("{\\'e}", "é"), ("{\\`e}", "è")):
+        text = text.replace(mark, letter)
+    return text.replace("{", "").replace("}", "").replace("--", "–")

@@ -15,7 +15,7 @@ from wear.report.document import Code, Given, Inline, Math, Number, Prose, Refer
 
 _MARK = re.compile(
     r"``(?P<code>[^`]+)``"
-    r"|(?:Eqs?\. |(?<![\w)]))\((?P<equation>\d+[a-g]?|[a-z]+(?:-[a-z]+)+)\)"
+    r"|(?:Eqs?\. |(?<![\w)]))\((?P<equation>\d+[a-g]?|[a-z]{3,}(?:-[a-z]+)*)\)"
 )
 #: The line that is meant where the number of a system is given.
 _MEANT = {"16": "16b", "17": "17b"}

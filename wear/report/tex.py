@@ -4,7 +4,7 @@ Overview
     `report` writes all files. ``equations.tex`` holds one macro for each equation that has a name,
     so that other reports may ``\input`` the same file. Equations carry their numbers as tags,
     sections, figures and tables are numbered by LaTeX itself; a test compares the outcome with
-    `wear.report.numbering`.
+    `wear.report.numbering`. What the page folds, the derivations, stands in an appendix.
 Packages
     amsmath, amssymb, booktabs, longtable, graphicx, hyperref, microtype, cleveref. Without cleveref
     (it is not in the smaller TeX installations) references fall back to those of hyperref.
@@ -12,7 +12,7 @@ Packages
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from typing import assert_never
@@ -76,6 +76,7 @@ def report(document: Document) -> Sources:
     without a LaTeX form."""
     here = Context(number(document), mentioned_by(document))
     body = "\n".join(_section(here, section, depth=0) for section in document.sections)
+    derivations = [block for block in blocks(document) if isinstance(block, Steps)]
     preamble = files("wear.report").joinpath("assets/preamble.tex").read_text(encoding="utf-8")
     source = (
         f"{preamble}\\input{{equations}}\n"
@@ -83,7 +84,8 @@ def report(document: Document) -> Sources:
         f"\\author{{{prose(here, document.subtitle)}}}\n\\date{{}}\n"
         f"\\begin{{document}}\n\\maketitle\n"
         f"\\begin{{abstract}}\\noindent {prose(here, document.abstract)}\\end{{abstract}}\n"
-        f"\\tableofcontents\n{body}\n"
+        f"\\contents\n{body}\n"
+        f"{_appendix(here, derivations)}"
         f"\\bigskip\\noindent{{\\footnotesize {prose(here, document.colophon)}\\par}}\n"
         f"\\end{{document}}\n"
     )
@@ -118,8 +120,8 @@ def _inline(here: Context, piece: Inline) -> str:
             return f"\\texttt{{{_breakable(text)}}}"
         case Math(latex):
             return f"${latex}$"
-        case Reference(label):
-            return _link(here, label)
+        case Reference(label, bare):
+            return _bare_link(here, label) if bare else _link(here, label)
         case Link(text, url):
             return f"\\href{{{_url(url)}}}{{{escape(text)}}}"
         case Number():
@@ -150,9 +152,28 @@ def _link(here: Context, label: str) -> str:
     return f"\\cref{{{label}}}"
 
 
+def _bare_link(here: Context, label: str) -> str:
+    mark = here.marks[label]
+    if mark.kind in ("claim", "derivation"):
+        return f"\\hyperlink{{{label}}}{{{mark.bare}}}"
+    return f"\\hyperref[{label}]{{{mark.bare}}}"
+
+
 def _mentions(here: Context, label: str) -> str:
+    """Where else a label is spoken of: its derivation with the page, then the rest, claims last."""
     sources = here.mentioned_by.get(label, ())
-    return f"\\seealso{{{', '.join(_link(here, s) for s in sources)}}}\n" if sources else ""
+    claims = [source for source in sources if here.marks[source].kind == "claim"]
+    told = [_mention(here, source) for source in sources if source not in claims]
+    if claims:
+        word = "claims" if len(claims) > 1 else "claim"
+        told.append(f"{word}~" + ", ".join(_bare_link(here, claim) for claim in claims))
+    return ", ".join(told)
+
+
+def _mention(here: Context, source: str) -> str:
+    if here.marks[source].kind == "derivation":
+        return f"\\hyperlink{{{source}}}{{derivation}} on p.~\\pageref{{{source}@page}}"
+    return _link(here, source)
 
 
 def _block(here: Context, block: Block, depth: int) -> str:
@@ -172,7 +193,7 @@ def _block(here: Context, block: Block, depth: int) -> str:
         case Claims():
             return _claims(here, block)
         case Steps():
-            return _steps(here, block)
+            return ""  # see `_appendix`
         case Listing(code):
             return (
                 "\n{\\footnotesize\n\\begin{verbatim}\n"
@@ -194,11 +215,13 @@ def _equation(here: Context, equation: Equation) -> str:
     status = f"\\status{{{escape(equation.status)}}}" if equation.status else ""
     title = f"{prose(here, equation.title)} {status}".strip()
     printed = f"\\printed{{{display(equation.printed)}}}\n" if equation.printed else ""
+    told = _mentions(here, equation.label)
     return (
-        (f"\n\\formulatitle{{{title}}}\n" if title else "\n")
-        + "\\begingroup\\keepwithnext\n"
+        "\n\\begingroup"
+        + (f"\\formulatitle{{{title}}}{{{told}}}\n" if title or told else "\n")
+        + ("\\keepwithnext\n" if printed else "")
         + f"\\begin{{equation}}{formula}\\tag{{{tag}}}\\label{{{equation.label}}}"
-        + f"\\end{{equation}}\n{printed}{_mentions(here, equation.label)}\\endgroup\n"
+        + f"\\end{{equation}}\n{printed}\\endgroup\n"
     )
 
 
@@ -207,7 +230,7 @@ def _figure(here: Context, figure: Figure) -> str:
         "\\begin{figure}[htbp]\\centering\n"
         f"\\includegraphics[width=\\naturalwidth]{{{figure.file}.pdf}}\n"
         f"\\caption{{{prose(here, figure.caption)}}}\\label{{{figure.label}}}\n"
-        f"{_mentions(here, figure.label)}\\end{{figure}}\n"
+        "\\end{figure}\n"
     )
 
 
@@ -224,25 +247,32 @@ def _table(here: Context, table: Table) -> str:
     head = " & ".join(prose(here, column.heading) for column in table.columns)
     body = "".join(f"{row} \\\\\n" for row in rows)
     return (
-        f"\\begin{{table}}[htbp]\\centering\\small\n"
+        f"\\begin{{table}}[htbp]\\centering\\small\\captionabove\n"
         f"\\caption{{{prose(here, table.caption)}}}\\label{{{table.label}}}\n"
         f"\\begin{{tabular}}{{{_alignment(table.columns)}}}\\toprule\n"
         f"{head} \\\\\\midrule\n{body}\\bottomrule\\end{{tabular}}\n"
-        f"{_mentions(here, table.label)}\\end{{table}}\n"
+        "\\end{table}\n"
     )
 
 
 def _long_table(
-    here: Context, label: str, caption: Prose, columns: tuple[Column, ...], rows: list[str]
+    here: Context,
+    label: str,
+    caption: Prose,
+    columns: tuple[Column, ...],
+    rows: list[str],
+    *,
+    apart: bool = False,
 ) -> str:
     head = " & ".join(prose(here, column.heading) for column in columns)
-    body = "".join(f"{row} \\\\\n" for row in rows)
+    end = "\\\\\\addlinespace\n" if apart else "\\\\\n"
+    body = "".join(f"{row} {end}" for row in rows)
     return (
         f"{{\\footnotesize\n\\begin{{longtable}}{{{_alignment(columns)}}}\n"
-        f"\\caption{{{prose(here, caption)}}}\\label{{{label}}}\\\\\\toprule\n"
+        f"\\caption{{{prose(here, caption)}}}\\label{{{label}}}\\\\[1ex]\\toprule\n"
         f"{head} \\\\\\midrule\\endfirsthead\n"
         f"\\toprule {head} \\\\\\midrule\\endhead\n"
-        f"\\bottomrule\\endfoot\n{body}\\end{{longtable}}}}\n{_mentions(here, label)}"
+        f"\\bottomrule\\endfoot\n{body}\\end{{longtable}}}}\n"
     )
 
 
@@ -256,31 +286,28 @@ def _alignment(columns: tuple[Column, ...]) -> str:
 
 
 def _claims(here: Context, ledger: Claims) -> str:
-    heads = (("Claim", 0.0), ("Where", 0.09), ("Statement", 0.27), ("Verdict", 0.15))
+    """The ledger in three columns: on paper the evidence needs the room."""
+    heads = (("Claim", 0.09), ("Statement and verdict", 0.3), ("Evidence", 0.55))
     columns = tuple(Column((Text(title),), width=width) for title, width in heads)
-    columns += (Column((Text("Evidence"),), width=0.3),)
     rows = [
-        " & ".join(
-            (
-                f"\\hypertarget{{{claim.label}}}{{{escape(claim.id)}}}",
-                prose(here, claim.where),
-                prose(here, claim.statement),
-                escape(claim.verdict),
-                prose(here, claim.evidence),
-            )
-        )
+        f"\\hypertarget{{{claim.label}}}{{{escape(claim.id)}}}\\newline "
+        f"{prose(here, claim.where)} & "
+        f"{prose(here, claim.statement)}\\newline \\verdict{{{escape(claim.verdict)}}} & "
+        f"{prose(here, claim.evidence)}"
         for claim in ledger.claims
     ]
-    return _long_table(here, ledger.label, ledger.caption, columns, rows)
+    return _long_table(here, ledger.label, ledger.caption, columns, rows, apart=True)
+
+
+def _appendix(here: Context, derivations: Sequence[Steps]) -> str:
+    told = "".join(_steps(here, steps) for steps in derivations)
+    return f"\n\\appendix\n\\section{{Derivations}}\n{told}" if told else ""
 
 
 def _steps(here: Context, steps: Steps) -> str:
     entries = "\n".join(f"\\item {_step(here, step)}" for step in steps.steps)
-    return (
-        f"\n\\medskip\\noindent\\hypertarget{{{steps.label}}}{{}}"
-        f"{{\\small\\textbf{{Derivation of {_link(here, steps.of)}}}\n"
-        f"\\begin{{enumerate}}\n{entries}\n\\end{{enumerate}}}}\n"
-    )
+    title = f"Derivation of {_link(here, steps.of)}, p.~\\pageref{{{steps.of}}}"
+    return f"\n\\begin{{derivation}}{{{steps.label}}}{{{title}}}\n{entries}\n\\end{{derivation}}\n"
 
 
 def _step(here: Context, step: Step) -> str:

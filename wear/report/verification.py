@@ -39,6 +39,10 @@ class Verification:
         """How many checks these took."""
         return sum(map(len, self.outcomes.values()))
 
+    def of_kind(self, kind: str) -> int:
+        """How many of these are of one kind."""
+        return sum(check.kind == kind for checks in self.outcomes.values() for check in checks)
+
     def of(self, step: Statement) -> tuple[Check, ...]:
         """The checks of one step."""
         return self.outcomes[identity(step)]

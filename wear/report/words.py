@@ -2,6 +2,7 @@ r"""Short marks for prose, so that a report's text can be read where it is writt
 
     $u_c$        a formula            *stress*     emphasis
     `wear run`   code                 [eq:21]      reference to a label
+    [(eq:21)]    the same by its number alone: Eqs. [(eq:18)] and [(eq:21)]
     {rate}       a value by name: a `Number`, or any other inline node
 
 There is no escape: a text that needs one of these marks as itself passes it as a named `Text`.
@@ -24,7 +25,7 @@ from wear.report.document import (
 
 _MARK = re.compile(
     r"\$(?P<math>[^$]+)\$|`(?P<code>[^`]+)`|\*(?P<stress>[^*]+)\*"
-    r"|\[(?P<label>[A-Za-z][A-Za-z0-9:.\-]*)\]|\{(?P<name>\w+)\}"
+    r"|\[(?P<bare>\()?(?P<label>[A-Za-z][A-Za-z0-9:.\-]*)(?(bare)\))\]|\{(?P<name>\w+)\}"
 )
 
 
@@ -33,7 +34,7 @@ def words(template: str, **values: Inline) -> Prose:
 
     >>> from wear.report.document import Number
     >>> words("see [eq:21]: {u}", u=Number(1.5, 2, "mm", source="run"))
-    (Text(text='see '), Reference(label='eq:21'), Text(text=': '), \
+    (Text(text='see '), Reference(label='eq:21', bare=False), Text(text=': '), \
 Number(value=1.5, digits=2, unit='mm', source='run'))
 
     Raises `ValueError` for names without a value and values without a name.
@@ -67,7 +68,7 @@ def _node(mark: re.Match[str], values: dict[str, Inline]) -> Inline:
     if mark["stress"]:
         return Emphasis(mark["stress"])
     if mark["label"]:
-        return Reference(mark["label"])
+        return Reference(mark["label"], bare=mark["bare"] is not None)
     if mark["name"] not in values:
         raise ValueError(f"the text asks for {{{mark['name']}}}, which was not passed")
     return values[mark["name"]]
