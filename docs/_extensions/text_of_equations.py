@@ -52,10 +52,9 @@ def symbols() -> str:
 
 
 def _entry(found: Equation) -> str:
-    name = f"({found.id})" if found.id[0].isdigit() else found.id
     section = f"section {found.section}" if found.section[0].isdigit() else found.section
     parts = [
-        f"({anchor(found.id)})=\n### {name} {_capitalised(found.title)}",
+        f"({anchor(found.id)})=\n### {_heading(found)}",
         f"*{found.status.value}*, {section}, {_rests_on(found)}; in LaTeX `\\{macro_name(found)}`",
         _block(found.latex),
     ]
@@ -68,6 +67,13 @@ def _entry(found: Equation) -> str:
     return "\n\n".join(parts)
 
 
+def _heading(found: Equation) -> str:
+    """The number in the note and the title; a result beyond it has its id behind its title."""
+    if found.id[0].isdigit():
+        return f"({found.id}) {_capitalised(found.title)}"
+    return f"{_capitalised(found.title)} (`{found.id}`)"
+
+
 def _rests_on(found: Equation) -> str:
     others = len(found.steps) - len(found.statements)
     if others == 0:
@@ -76,7 +82,8 @@ def _rests_on(found: Equation) -> str:
 
 
 def _capitalised(text: str) -> str:
-    return text[0].upper() + text[1:]
+    """The text with a capital, unless it begins with a symbol."""
+    return text[0].upper() + text[1:] if text[1:2].isalpha() else text
 
 
 def _formula(found: Equation) -> str:

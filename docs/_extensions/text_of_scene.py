@@ -40,26 +40,24 @@ def _listed(names: tuple[str, ...], word: str) -> str:
 
 
 def _keys(keys: tuple[schema.Key, ...]) -> str:
-    rows = ["| key | value | unit | default | meaning |", "| --- | --- | --- | --- | --- |"]
-    rows += [
-        f"| `{key.name}` | {_value(key)} | {key.unit} | {_default(key)} | {key.meaning} |"
-        for key in keys
-    ]
+    rows = ["| key | value | meaning |", "| --- | --- | --- |"]
+    rows += [f"| `{key.name}` | {_value(key)}{_default(key)} | {key.meaning} |" for key in keys]
     return "\n".join(rows)
 
 
 def _value(key: schema.Key) -> str:
     if key.choices:
         return ", ".join(f'`"{name}"`' for name in key.choices)
+    unit = f" {key.unit}" if key.unit else ""
     if key.kind is schema.Kind.NUMBER and key.domain is not schema.Domain.REAL:
-        return f"{key.kind.value} {key.domain.value}"
-    return key.kind.value
+        return f"{key.kind.value} {key.domain.value}{unit}"
+    return f"{key.kind.value}{unit and ','}{unit}"
 
 
 def _default(key: schema.Key) -> str:
     if key.required:
-        return "required"
-    if key.default is None or key.default == ():
         return ""
+    if key.default is None or key.default == ():
+        return "; may be left out"
     shown = str(key.default).lower() if isinstance(key.default, bool) else repr(key.default)
-    return f"`{shown}`".replace("'", '"')
+    return f"; default `{shown}`".replace("'", '"')
