@@ -293,14 +293,18 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
-    """The cycle in which wear stops, from the cycle count."""
+    """The cycle in which wear stops, from the cycle count, as far as its error lets it be told."""
     from wear.count import MOST_CYCLES
-    from wear.count.stages import counted_stages
+    from wear.count.stages import counted_stages, evaluate_stages
 
-    found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0).arrest
-    if found is None:
+    found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0)
+    arrest = found.arrest
+    if arrest is not None:
+        return arrest.cycle, (str(arrest),) if arrest.uncertain else ()
+    _, error = evaluate_stages(found, np.array([MOST_CYCLES]))
+    if np.isfinite(error).all():
         return None, (f"wear goes on for more than {MOST_CYCLES:.0e} cycles",)
-    return found.cycle, (str(found),) if found.uncertain else ()
+    return None, ("the cycle in which wear stops cannot be counted",)
 
 
 def _at_one_third(case: _Case) -> Asymptote:

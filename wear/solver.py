@@ -184,19 +184,30 @@ def _worst(wear: Wear) -> float:
 
 
 def _cycle_count(
-    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, _: float
+    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
     from wear.count.blocks import wear_after
 
     cycles = tuple(sorted(set(wanted)))
     try:
-        found = wear_after(model, scene.load, np.array(cycles, dtype=float), rtol)
+        found = wear_after(model, scene.load, np.array(cycles, dtype=float), rtol, deadline)
     except KeyboardInterrupt:
         return _nothing(name, "interrupted", interrupted=True)
     except (AccuracyError, ArithmeticError, ValueError) as fault:  # LinAlgError is a ValueError
         return _nothing(name, f"the cycles could not be counted ({fault})", interrupted=False)
     cost = {name: int(number) for name, number in found.cost._asdict().items()}
-    return Wear(name, cycles, found.u_c, found.error, cost, found.notices, None, False)
+    wear = Wear(name, cycles, found.u_c, found.error, cost, found.notices, None, False)
+    late = _worst(wear) > rtol and time.monotonic() > deadline
+    reached = np.isfinite(found.error if late else found.u_c)
+    if not late and reached.all():
+        return wear
+    return wear._replace(
+        cycles=tuple(cycle for cycle, told in zip(cycles, reached, strict=True) if told),
+        u=found.u_c[reached],
+        error=found.error[reached],
+        stopped="the time limit has passed" if late else "the cycles beyond could not be counted",
+        interrupted=late,
+    )
 
 
 def _nothing(name: str, stopped: str, interrupted: bool) -> Wear:

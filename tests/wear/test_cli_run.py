@@ -307,3 +307,17 @@ def test_what_is_no_range_of_cycles_is_refused(run, cycles):
     status, shown, messages = run("section4", "--cycles", cycles)
     assert (status, shown) == (2, "")
     assert f'"{cycles}": no number of cycles' in messages
+
+
+def test_until_wear_is_the_inverse_of_the_count(run):
+    """Wear that the references give after 1000 and after 9000 cycles, and one never reached."""
+    wears = "2.0235737896319597e-03,4.4133292056883764e-03"
+    status, shown, _ = run("section4", "--until-wear", wears, "--rtol", "1e-10", "--json")
+    found = json.loads(shown)["cycles_until"]
+    assert status == 0
+    assert found["cycles"] == [1000, 9000]
+    assert max(found["error_estimate"]) < 1e-9
+    status, shown, _ = run("roughness-vanishing", "--until-wear", "1.0", "--rtol", "1e-8", "--json")
+    assert json.loads(shown)["cycles_until"]["cycles"] == [None]
+    _, shown, _ = run("section4", "--until-wear", "1e-3")
+    assert re.search(r"1e-3|0\.001", shown)

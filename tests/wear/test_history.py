@@ -163,6 +163,40 @@ def test_a_time_limit_keeps_what_was_computed():
     assert history.as_json()["cycles"] == [1, 2]
 
 
+def test_a_count_out_of_time_keeps_its_first_cycles():
+    """No time at all: the first cycles are integrated, and no panel is refined."""
+    with pytest.raises(Interrupted, match="time limit has passed; cycle 3 was") as stop:
+        solve(reference_scene("S2"), [1, 3, 10**9], 1e-12, time_limit=1e-9)
+    history = stop.value.history
+    assert history.method == "cycle-count"
+    assert history.cycles.tolist() == [1, 3]
+    assert np.abs(history.u_c[0] / REFERENCE["S2"][1] - 1) <= history.error[0] <= 1e-12
+
+
+@pytest.mark.parametrize("cutoff", [False, True])
+def test_blocks_out_of_time_keep_the_first_one(cutoff):
+    small = {"kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06, "cycles": 3}
+    large = {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.03, "cycles": 5}
+    load = {"kind": "blocks", "blocks": [small, large], "repeat": 100}
+    scene = scene_from_tables(tables(K=1e-5, load=load, cutoff=cutoff))
+    with pytest.raises(Interrupted, match="time limit") as stop:
+        solve(scene, [1, 3, 4, 700], 1e-15, "cycle-count", time_limit=1e-9)
+    assert stop.value.history.cycles.tolist() == [1, 3]
+
+
+@pytest.mark.parametrize("fault", [np.linalg.LinAlgError("singular"), FloatingPointError("lost")])
+def test_a_count_that_breaks_down_is_told_and_auto_goes_on(monkeypatch, fault):
+    def broken(*_):
+        raise fault
+
+    monkeypatch.setattr("wear.count.blocks.wear_after", broken)
+    with pytest.raises(AccuracyError, match="could not be counted"):
+        solve(reference_scene("S2"), [1], 1e-8, "cycle-count")
+    history = solve(reference_scene("S2"), [1], 1e-8)
+    assert history.method == "DOP853"
+    assert np.abs(history.u_c[0] / REFERENCE["S2"][1] - 1) <= history.error[0] <= 1e-8
+
+
 def test_an_interrupt_keeps_what_was_computed(monkeypatch):
     def interrupted(*arguments):
         yield from itertools.islice(march(*arguments), 1)

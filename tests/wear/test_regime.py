@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 import mpmath
 import numpy as np
@@ -13,6 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from wear.count import stages
 from wear.generated import asymptotics as formula
 from wear.regime import Asymptote, asymptote
 from wear.scene import load_scene
@@ -72,6 +74,22 @@ def test_arrest(name: str, overrides: tuple[str, ...], depth: float, cycle: int)
     assert found.arrest_cycle == cycle
     (wear,) = solve(load_scene(name, overrides), [cycle + 100], rtol=1e-9).u_c
     assert wear == pytest.approx(depth, rel=1e-9)
+
+
+def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A count whose error is infinite says neither when wear stops nor that it goes on."""
+    count = stages.counted_stages
+
+    def missed(*arguments: Any) -> stages.Stages:
+        found = count(*arguments)
+        last = found.stages[-1]._replace(inherited=np.inf)
+        return found._replace(stages=(*found.stages[:-1], last))
+
+    monkeypatch.setattr(stages, "counted_stages", missed)
+    found = _asymptote("section4-cutoff")
+    assert found.arrest_cycle is None
+    assert found.arrest_wear_mm == pytest.approx(0.002, rel=1e-14)
+    assert any("cannot be counted" in text for text in found.notices)
 
 
 def test_one_third_with_cutoff() -> None:

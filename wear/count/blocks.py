@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 
 from wear.count import MOST_CYCLES, Cycles, Wear
@@ -16,22 +18,31 @@ from wear.model import Model
 PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 
 
-def wear_after(model: Model, load: Load | AperiodicLoad, cycles: FloatArray, rtol: float) -> Wear:
+def wear_after(
+    model: Model,
+    load: Load | AperiodicLoad,
+    cycles: FloatArray,
+    rtol: float,
+    deadline: float = np.inf,
+) -> Wear:
     """Wear u_c after whole numbers of cycles (n,) of a load that repeats or consists of blocks.
 
     An error that a block starts with is carried on, in proportion to the wear rate where that
-    grows: two solutions of one equation keep their distance in time.
+    grows: two solutions of one equation keep their distance in time. After the `deadline`
+    (`time.monotonic()`) nothing is refined and no other block begun; wear in a block that was not
+    begun is no number, with an infinite error.
     """
     cycles = np.asarray(cycles, dtype=float)
     last = float(np.max(cycles, initial=0.0))
-    u, error = np.zeros(cycles.shape), np.zeros(cycles.shape)
+    u, error = np.full(cycles.shape, np.nan), np.full(cycles.shape, np.inf)
     start, missed, done, cost = 0.0, 0.0, 0, Cost(0, 0)
     notices: list[str] = []
     while True:
         acting, until = span(load, done)
         end = min(float(until), last)
-        here = (cycles >= done) & ((cycles < until) | (end == last))
-        found = wear_of_one(model, acting, np.append(cycles[here], end) - done, rtol, start)
+        here = (cycles >= done) & (cycles <= end)
+        wanted = np.append(cycles[here], end) - done
+        found = wear_of_one(model, acting, wanted, rtol, start, deadline)
         absolute = found.error * found.u_c
         absolute += missed * _growth(model, acting, start, float(found.u_c[-1]))
         u[here] = found.u_c[:-1]
@@ -39,7 +50,7 @@ def wear_after(model: Model, load: Load | AperiodicLoad, cycles: FloatArray, rto
         start, missed = float(found.u_c[-1]), float(absolute[-1])
         cost = cost.plus(*found.cost)
         notices += [_since(text, done) for text in found.notices]
-        if end >= last:
+        if end >= last or not missed < np.inf or time.monotonic() > deadline:
             return Wear(u, error, cost, tuple(dict.fromkeys(notices)))
         done = until
 

@@ -69,10 +69,11 @@ class Stages(NamedTuple):
 
     @property
     def arrest(self) -> Arrest | None:
-        """When wear stops, if it does within the cycles counted."""
-        if not self.arrested:
-            return None
+        """When wear stops, if it does within the cycles counted and their error is known."""
         last = self.stages[-1]
+        known = np.isfinite(last.blur) and np.isfinite(last.counted.first_error).all()
+        if not (self.arrested and known):
+            return None
         idle = int(np.argmax(np.diff(last.counted.first) <= 0))
         return Arrest(int(last.begins) + idle, round(last.blur))
 
