@@ -20,8 +20,10 @@ from wear.scene import Scene, scene_from_tables
 ROUNDING = 3e-15  # below, an error needs no estimate
 
 
-def counted(scene: Scene, cycles: FloatArray, rtol: float, start: float = 0.0) -> count.Wear:
-    return count.wear_after(bind(scene), scene.periodic_load, cycles, rtol, start)
+def counted(
+    scene: Scene, cycles: FloatArray, rtol: float, start: float = 0.0, deadline: float = np.inf
+) -> count.Wear:
+    return count.wear_after(bind(scene), scene.periodic_load, cycles, rtol, start, deadline)
 
 
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-12, 1e-13])

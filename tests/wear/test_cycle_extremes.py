@@ -1,0 +1,177 @@
+"""The cycle count where it once failed: violent wear, sudden wear, wear far out of contact.
+
+Each scene is one on which a part of the method, or of its error estimate, was wrong.
+"""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.independent import wear_after as independent
+from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
+from tests.wear.test_cycle_count import ROUNDING, between, counted, problem, scenes
+from wear.count.collocation import FloatArray
+from wear.load import Table
+from wear.scene import Scene, load_scene, scene_from_tables
+from wear.static import static_solution
+
+TO_THE_END = np.array([1.0, 30.0, 1e3, 1e6, 1e12])
+
+
+def made(changes: dict[str, dict[str, Any]], **arguments: Any) -> Scene:
+    """The scene of `tables`, with keys changed."""
+    scene = tables(**arguments)
+    for name, keys in changes.items():
+        if "closure_mm" in keys:
+            scene["contact"].pop("closure_in_sigma", None)
+        scene[name] |= keys
+    return scene_from_tables(scene, "made")
+
+
+def constant(value_mm: float) -> dict[str, Any]:
+    return CONSTANT | {"value_mm": value_mm}
+
+
+SATURATED_AT_FIRST = made(  # Picard iteration jumped between no wear and full wear, and "converged"
+    {
+        "bearing": {"roughness_mm": 1.19e-4},
+        "pin": {"wear_coefficient": 2.2e-3, "roughness_mm": 1.06e-4, "roughness_slope": 0.0},
+        "contact": {"closure_mm": 9.1e-5},
+    },
+    K=3.2e-3,
+    f_c=-0.05,
+    pin=True,
+    load=constant(-5.4e-5),
+)
+OVER_BEFORE_THE_FIRST_NODE = made(  # the gap opens before the first node: no mesh saw it
+    {
+        "bearing": {"roughness_mm": 2.16e-4},
+        "pin": {"wear_coefficient": 0.806, "roughness_mm": 2.11e-4, "roughness_slope": 0.0},
+        "contact": {"closure_mm": 1.01e-3},
+    },
+    K=0.226,
+    f_c=0.4955,
+    pin=True,
+    load=constant(1.57e-5),
+)
+DENSE_WITHIN_A_CYCLE = made(  # the density changes by e^2 within a cycle
+    {
+        "bearing": {"roughness_mm": 6.545e-4},
+        "contact": {"closure_mm": 9.676e-4, "law": "exponential"},
+    },
+    K=2.88e-4,
+    f_c=-0.2988,
+    load={"kind": "sine", "amplitude_mm": 2.08e-5, "period_s": 0.06},
+)
+BEYOND_THE_MODEL = made({}, K=0.3, f_c=-0.05)  # a solution with negative roughness was found
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize(
+    "scene",
+    [SATURATED_AT_FIRST, OVER_BEFORE_THE_FIRST_NODE, DENSE_WITHIN_A_CYCLE, BEYOND_THE_MODEL],
+    ids=["saturated at first", "over before the first node", "dense in a cycle", "beyond"],
+)
+def test_first_cycles_that_were_once_wrong(scene: Scene, rtol: float) -> None:
+    cycles = [1, 4, 12]
+    want = np.array(list(independent(problem(scene), cycles).values()))
+    found = counted(scene, np.array(cycles, dtype=float), rtol)
+    true = np.abs(found.u_c / want - 1)
+    assert np.all((true <= found.error) | (true < ROUNDING))
+    assert np.all(found.error <= rtol)
+
+
+@pytest.mark.parametrize("f_c", [0.25, 0.0, -0.05])
+@pytest.mark.parametrize("K", [1e-3, 1e-2, 0.1])
+def test_very_fast_wear_for_any_number_of_cycles(K: float, f_c: float) -> None:
+    """From 1 to 1e12 cycles; going on from the wear after some gives what going through does."""
+    scene = made({}, K=K, f_c=f_c)
+    found = counted(scene, TO_THE_END, 1e-11)
+    assert np.all(found.error <= 1e-11)
+    assert found.cost.rhs_evaluations < 300_000
+    on = counted(scene, np.array([1e3 - 30.0]), 1e-11, start=float(found.u_c[1]))
+    assert on.u_c[0] == pytest.approx(found.u_c[2], rel=1e-11)
+
+
+@pytest.mark.parametrize("K", [1e-6, 3e-4, 0.03])
+def test_wear_that_gathers_pace(K: float) -> None:
+    """Far out of contact at first, roughness grows until contact sets in, within few cycles."""
+    changes = {"contact": {"closure_mm": 7.3 * 3.6e-4}}
+    scene = made(changes, K=K, f_c=0.55, load=constant(0.0))
+    want = static_solution(scene).wear(TO_THE_END)
+    found = counted(scene, TO_THE_END, 1e-9)
+    true = np.abs(found.u_c / want - 1)
+    assert np.all((true <= found.error) | (true < ROUNDING))
+    assert np.all(found.error <= 1e-9)
+
+
+@pytest.mark.parametrize(("rtol", "reached"), [(1e-8, True), (1e-12, True), (1e-13, False)])
+def test_deep_in_the_tail_rounding_is_told(rtol: float, reached: bool) -> None:
+    """The exponent is -632: a roundoff of the closure is 1e-13 of the wear, whatever is done."""
+    scene = load_scene("deep-tail")
+    cycles = np.array([1.0, 30.0, 1e12])
+    found = counted(scene, cycles, rtol)
+    exact = 2.082968587323067e-277 * cycles
+    true = np.abs(found.u_c / exact - 1)
+    assert np.all(true <= found.error)
+    assert bool(np.all(found.error <= rtol)) is reached
+    assert np.all(found.error < 1e-8)
+    assert found.cost.rhs_evaluations < 20_000
+
+
+@pytest.mark.parametrize("rtol", [1e-9, 1e-13])
+def test_first_cycles_of_wear_that_hardly_begins(rtol: float) -> None:
+    """A panel may hold a billion cycles of which the first few are asked for."""
+    scene = made({"contact": {"closure_mm": 24 * 3.6e-4}}, K=1e-8, f_c=0.5, load=constant(0.0))
+    cycles = np.array([6.0, 12.0, 300.0, 1e5, 1e9])
+    found = counted(scene, cycles, rtol)
+    true = np.abs(found.u_c / static_solution(scene).wear(cycles) - 1)
+    assert np.all(true <= found.error)
+    assert np.all(found.error <= 2e-13)
+
+
+def test_beyond_what_was_counted_nothing_is_told() -> None:
+    """No time for panels: the cycles that were integrated are known, no other."""
+    late = counted(reference_scene("S2"), np.array([1.0, 5.0, 1e9]), 1e-12, deadline=-np.inf)
+    assert np.all(late.error[:2] <= 1e-12)
+    assert late.error[2] == np.inf
+
+
+@st.composite
+def tabled(draw: st.DrawFn) -> Scene:
+    """A drawn scene under a drawn load of straight lines."""
+    scene = draw(scenes())
+    swing = scene.periodic_load.maximum - scene.periodic_load.minimum
+    inner = draw(st.lists(st.integers(1, 99), min_size=1, max_size=5, unique=True))
+    times = (0.0, *(0.06 * k / 100 for k in sorted(inner)), 0.06)
+    values = [swing * draw(between(-0.5, 0.5)) for _ in times[:-1]]
+    return replace(scene, load=Table(times, (*values, values[0])))
+
+
+@settings(max_examples=12)
+@given(scene=tabled(), rtol=st.sampled_from([1e-6, 1e-9, 1e-12]))
+def test_straight_lines_against_an_independent_integrator(scene: Scene, rtol: float) -> None:
+    cycles = [1, 3]
+    want = np.array(list(independent(problem(scene), cycles).values()))
+    found = counted(scene, np.array(cycles, dtype=float), rtol)
+    true = np.abs(found.u_c / want - 1)
+    assert np.all((true <= found.error) | (true < ROUNDING))
+
+
+def test_the_estimate_is_within_a_factor_of_a_thousand_nine_times_of_ten() -> None:
+    """Over all reference scenes, cycles and tolerances. True errors below 1e-15, the rounding of
+    the result, count as that: how much smaller they are is chance."""
+    ratios: list[FloatArray] = []
+    for name in TABLES:
+        cycles = np.array(sorted(REFERENCE[name]), dtype=float)
+        want = np.array([REFERENCE[name][int(n)] for n in cycles])
+        for rtol in 10.0 ** -np.arange(6, 14):
+            found = counted(reference_scene(name), cycles, float(rtol))
+            ratios.append(found.error / np.maximum(np.abs(found.u_c / want - 1), 1e-15))
+    ratio = np.concatenate(ratios)
+    assert np.mean(ratio <= 1000) >= 0.9
+    assert np.median(ratio) <= 100
