@@ -116,25 +116,17 @@ class Model:
             made = made._replace(p=np.where(self.margin(u, U_a) >= 0.0, made.p, 0.0))
         return made
 
-    @property
-    def linear_margin(self) -> bool:
-        """Whether the margin is linear in the wear: with one rough surface it is."""
-        return "sigma_a0" not in self.module.PARAMETERS
-
     def margin(self, u: Real, U_a: Real) -> Real:
-        """3 sigma - h with an undeflected support, in mm; with cutoff, contact where >= 0.
-
-        A margin that is linear in the wear is taken as start and slope: roughness and closure
-        grow with the wear, and near a roughness slope of 1/3 their difference would be lost.
-        """
-        if not self.linear_margin:
-            return self.module.margin(u, U_a, self.constants)
-        start = self.module.margin(0.0, U_a, self.constants)
-        return start + self.module.margin_slope(u, self.constants) * u
+        """3 sigma - h with an undeflected support, in mm; with cutoff, contact where >= 0."""
+        return self.module.margin(u, U_a, self.constants)
 
     def margin_slope(self, u: Real, U_a: Real) -> Real:
         """Derivative of the margin with respect to u_c; with respect to U_a it is 1."""
         return self.module.margin_slope(u, self.constants) + np.zeros_like(U_a)
+
+    def margin_terms(self, u: Real, U_a: Real) -> Real:
+        """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
+        return self.module.margin_terms(u, U_a, self.constants)
 
 
 def _module(scene: Scene) -> ModuleType:

@@ -24,6 +24,10 @@ _CONSTANTS = {
     "gain": "closure per wear of the bearing at a fixed pin",
     "slope_a": "roughness of the pin per wear of the bearing",
     "compliance": "deflection of the support per pressure, mm/MPa",
+    "most_of_margin": "fresh_margin less one roughness, mm",
+    "fresh_margin": "3 sigma - h before any wear or load, mm",
+    "most_of_gain": "margin_gain less one roughness slope",
+    "margin_gain": "3 sigma - h per wear of the bearing, undeflected",
 }
 
 _INTERMEDIATES = {

@@ -21,7 +21,7 @@ from ..symbols import QUANTITIES
 from ..variant import Variant
 from . import cutoff, fields, rate, root
 from .function import Assignment, Function
-from .relations import Relations, groups, kappa
+from .relations import Relations, groups
 
 
 @dataclass(frozen=True)
@@ -51,11 +51,17 @@ class Program:
 def program(variant: Variant) -> Program:
     """Return the program of a variant."""
     functions = _functions(variant)
-    hoisted = groups(variant)
+    hoisted = _hoisted(variant)
     constants = _constants(hoisted, functions)
     used = set().union(*(expr.free_symbols for _, expr in constants))
     parameters = sorted(used - {name for name, _ in hoisted}, key=_order)
     return Program(variant, tuple(parameters), constants, functions, fields.names(variant))
+
+
+def _hoisted(variant: Variant) -> tuple[Assignment, ...]:
+    """Return all that may be computed once, by ``bind``."""
+    limits = cutoff.constants(Relations(variant)) if variant.cutoff else ()
+    return (*groups(variant), *limits)
 
 
 def _functions(variant: Variant) -> tuple[Function, ...]:
@@ -81,7 +87,7 @@ def _constants(
     needed = used & named
     for name, value in reversed(hoisted):
         if name in needed:
-            needed |= value.free_symbols & {kappa}
+            needed |= value.free_symbols & named
     plain = sorted(used - named, key=_order)
     kept = ((name, value) for name, value in hoisted if name in needed)
     return (*((name, name) for name in plain), *kept)

@@ -20,3 +20,8 @@ largest_rate, wear_per_pressure, gain, slope_a, compliance = map(
     number, ("largest_rate", "wear_per_pressure", "gain", "slope_a", "compliance")
 )
 """What is hoisted out of a run."""
+
+most_of_margin, fresh_margin, most_of_gain, margin_gain = map(
+    number, ("most_of_margin", "fresh_margin", "most_of_gain", "margin_gain")
+)
+"""A margin of contact that is linear in the wear: where it starts and how it grows."""

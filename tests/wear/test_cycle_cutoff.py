@@ -1,6 +1,7 @@
 """The cutoff: arrest in the very cycle, kinks crossed, permanent contact counted."""
 
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -106,6 +107,16 @@ def test_in_permanent_contact_the_cutoff_changes_nothing() -> None:
         count.wear_after(bind(one), one.periodic_load, cycles, 1e-11) for one in (scene, without)
     )
     assert_allclose(found.u_c, want.u_c, rtol=1e-11)
+
+
+@pytest.mark.parametrize("f_c", [1 / 3, 0.25])
+def test_the_margin_of_one_solid_keeps_its_digits(f_c: float) -> None:
+    """Near f = 1/3 roughness and closure outgrow their difference by orders of magnitude."""
+    scene = scene_from_tables(tables(f_c=f_c, cutoff=True))
+    p, u = scene.parameters(), 1e3
+    start = 3 * Fraction(p["sigma_c0"]) - Fraction(p["h_0"])
+    true = start + (3 * Fraction(f_c) - 1) * Fraction(u)
+    assert float(bind(scene).margin(u, 0.0)) == pytest.approx(float(true), rel=4e-16)
 
 
 def test_kinks_are_where_contact_grazes() -> None:

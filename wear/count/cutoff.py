@@ -174,16 +174,6 @@ def edge_of(model: Model, wear: FloatArray) -> FloatArray:
     return edge
 
 
-def margin_terms(model: Model, wear: FloatArray) -> FloatArray:
-    """Sum of the absolute terms (mm) of which the margin at `wear` is made, but for the load's:
-    it is known to as many roundoffs."""
-    still = np.zeros_like(wear)
-    slope = np.abs(model.margin_slope(wear, still)) if model.linear_margin else 2.0
-    fresh = 2 * np.abs(model.fields(still, still).h)
-    terms: FloatArray = np.abs(model.margin(wear, still)) + slope * wear + fresh
-    return terms
-
-
 def crest_of_edge(model: Model) -> float:
     """The wear (mm) at which the displacement that just makes contact is largest: zero if it falls
     from the start, infinite if it always rises."""
@@ -315,7 +305,8 @@ def _contact(
     the wear stays as it is."""
     model, heights = cycle.model, piece.heights
     needed = edge_of(model, wear)
-    touching = EDGE * ROUNDOFF * (margin_terms(model, wear) + abs(cycle.load.maximum))
+    peak = np.full_like(wear, cycle.load.maximum)
+    touching = EDGE * ROUNDOFF * model.margin_terms(wear, peak)
     active = max(heights[0], heights[-1]) - needed > touching
     edge = _phase_of(cycle.load, piece, needed[active])
     if piece.rising:

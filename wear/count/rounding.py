@@ -3,7 +3,6 @@
 import numpy as np
 
 from wear.count.collocation import FloatArray
-from wear.count.cutoff import margin_terms
 from wear.count.cycle import ROUNDOFF, TINY
 from wear.load import Load
 from wear.model import Model
@@ -17,7 +16,7 @@ def roundoff(model: Model, load: Load, wear: FloatArray) -> FloatArray:
     peak = np.full_like(wear, load.maximum)
     error = roundoff_of(model, peak, wear)
     if model.cutoff and not model.compliant:
-        terms = margin_terms(model, wear) + abs(load.maximum)
+        terms = model.margin_terms(wear, peak)
         error += np.minimum(ROUNDOFF * terms / (np.abs(model.margin(wear, peak)) + TINY), 1e-9)
     return error
 

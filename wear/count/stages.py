@@ -13,7 +13,7 @@ import numpy as np
 
 from wear.count.build import CycleCount, cycle_count, cycle_count_upto, evaluate, exact_error
 from wear.count.collocation import FloatArray
-from wear.count.cutoff import EDGE, CutoffCycle, margin_terms, one_cycle
+from wear.count.cutoff import EDGE, CutoffCycle, one_cycle
 from wear.count.cycle import ROUNDOFF, TINY, Cost, OneCycle, settings
 from wear.count.first import exact_cycles
 from wear.count.panels import NONE
@@ -79,20 +79,23 @@ class Stages(NamedTuple):
 
 
 def kinks(cycle: OneCycle, shift: float) -> FloatArray:
-    """Wear (mm) at which the edge of contact passes a turning point of the load, rising."""
+    """Wear (mm) at which the edge of contact passes an end of a piece, rising.
+
+    Where the margin is hardly more than its own rounding, the map does not feel the kink.
+    """
     if not isinstance(cycle, CutoffCycle):
         return NONE
     wear = shift * np.expm1(np.linspace(0.0, 40.0, 400))
-    terms = margin_terms(cycle.model, wear)
+    peak = np.full_like(wear, cycle.load.maximum)
+    blur = EDGE * ROUNDOFF * cycle.model.margin_terms(wear, peak)
     found = []
     for height in cycle.heights:
         margin = cycle.model.margin(wear, np.full_like(wear, height))
-        # Where contact lasts for ever the margin may be nothing but its own rounding.
-        told = np.abs(margin) > EDGE * ROUNDOFF * (terms + abs(height))
+        told = np.abs(margin) > blur
         crossed = np.sign(margin[:-1]) * np.sign(margin[1:]) < 0
         for i in np.flatnonzero(crossed & (told[:-1] | told[1:])):
             found.append(_root(cycle, wear[i], wear[i + 1], float(height)))
-    return np.array(sorted(found))
+    return np.array(sorted(kink for kink in found if kink > EDGE * ROUNDOFF * shift))
 
 
 def _root(cycle: CutoffCycle, low: float, high: float, height: float) -> float:
@@ -194,7 +197,7 @@ def rest_error(model: Model, load: Load, wear: float) -> float:
     """Relative error of the wear (mm) at which the peak of the load just fails to make contact:
     that of a root of the margin. Infinite if this is not such a wear."""
     peak, worn = np.array(load.maximum), np.array(wear)
-    blur = ROUNDOFF * (float(margin_terms(model, worn)) + abs(load.maximum))
+    blur = ROUNDOFF * float(model.margin_terms(worn, peak))
     left = abs(float(model.margin(worn, peak)))
     if wear <= 0 or left > EDGE * blur:
         return np.inf

@@ -25,10 +25,11 @@ OPERATIONS = {
     "newton": 18,
     "rate": 1,
     "slope": 30,
-    "margin": 7,
-    "margin_slope": 2,
-    "limited": 10,
-    "limited_slope": 4,
+    "margin": 3,
+    "margin_slope": 0,
+    "margin_terms": 6,
+    "limited": 6,
+    "limited_slope": 2,
     "fields": 9,
 }
 PARAMETERS = (
@@ -57,6 +58,10 @@ class Constants(NamedTuple):
     gain: Array  # closure per wear of the bearing at a fixed pin
     compliance: Array  # deflection of the support per pressure, mm/MPa
     wear_per_pressure: Array  # wear rate per contact pressure, mm/(s MPa)
+    most_of_margin: Array  # fresh_margin less one roughness, mm
+    fresh_margin: Array  # 3 sigma - h before any wear or load, mm
+    most_of_gain: Array  # margin_gain less one roughness slope
+    margin_gain: Array  # 3 sigma - h per wear of the bearing, undeflected
 
 
 def bind(
@@ -78,6 +83,10 @@ def bind(
     gain = 1 - kappa
     compliance = 1 / k
     wear_per_pressure = np.pi * K_c * R * n / (90 * H_c)
+    most_of_margin = 2 * sigma_c0 - h_0
+    fresh_margin = most_of_margin + sigma_c0
+    most_of_gain = 2 * f_c - gain
+    margin_gain = f_c + most_of_gain
     return Constants(
         h_0=h_0,
         sigma_c0=sigma_c0,
@@ -87,6 +96,10 @@ def bind(
         gain=gain,
         compliance=compliance,
         wear_per_pressure=wear_per_pressure,
+        most_of_margin=most_of_margin,
+        fresh_margin=fresh_margin,
+        most_of_gain=most_of_gain,
+        margin_gain=margin_gain,
     )
 
 
@@ -172,26 +185,27 @@ def slope(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
 
 def margin(u: Array, U_a: Array, c: Constants) -> Array:
     """3 sigma - h with an undeflected support, in mm: contact where it is not negative."""
-    sigma = c.sigma_c0 + c.f_c * u
-    h = c.h_0 + c.gain * u - U_a
-    return 3 * sigma - h
+    return U_a + c.fresh_margin + c.margin_gain * u
 
 
 def margin_slope(u: Array, c: Constants) -> Array:
     """Derivative of the margin with respect to u_c; with respect to U_a it is 1."""
-    return 3 * c.f_c - c.gain
+    return c.margin_gain
+
+
+def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
+    """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
+    return np.abs(U_a) + np.abs(c.fresh_margin) + np.abs(c.margin_gain * u)
 
 
 def limited(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
     """Contact pressure with cutoff, from the root of the residual, in MPa."""
-    sigma = c.sigma_c0 + c.f_c * u
-    h = c.h_0 + c.gain * u - U_a
-    return np.minimum(p, np.maximum((3 * sigma - h) / c.compliance, 0))
+    return np.minimum(p, np.maximum((U_a + c.fresh_margin + c.margin_gain * u) / c.compliance, 0))
 
 
 def limited_slope(u: Array, c: Constants) -> Array:
     """Derivative of the wear rate with respect to u_c while h stays at 3 sigma, in 1/s."""
-    return c.wear_per_pressure * (3 * c.f_c - c.gain) / c.compliance
+    return c.margin_gain * c.wear_per_pressure / c.compliance
 
 
 def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:

@@ -20,6 +20,7 @@ OPERATIONS = {
     "slope": 27,
     "margin": 11,
     "margin_slope": 11,
+    "margin_terms": 14,
     "fields": 17,
 }
 PARAMETERS = (
@@ -119,6 +120,13 @@ def margin_slope(u: Array, c: Constants) -> Array:
     sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
     sigma_u = c.f_c * sigma_c / sigma
     return 3 * sigma_u - 1
+
+
+def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
+    """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
+    return c.h_0 + np.abs(U_a) + np.abs(u) + 3 * np.abs(sigma)
 
 
 def fields(u: Array, U_a: Array, c: Constants) -> Fields:

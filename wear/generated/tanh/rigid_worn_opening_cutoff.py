@@ -19,8 +19,9 @@ EQUATIONS = ("1", "2b", "3", "4", "5", "6", "10")
 OPERATIONS = {
     "rate": 13,
     "slope": 21,
-    "margin": 7,
-    "margin_slope": 2,
+    "margin": 3,
+    "margin_slope": 0,
+    "margin_terms": 6,
     "fields": 14,
 }
 PARAMETERS = (
@@ -47,6 +48,10 @@ class Constants(NamedTuple):
     kappa: Array  # wear of the pin per wear of the bearing, dimensionless
     gain: Array  # closure per wear of the bearing at a fixed pin
     largest_rate: Array  # wear rate at the largest pressure, mm/s
+    most_of_margin: Array  # fresh_margin less one roughness, mm
+    fresh_margin: Array  # 3 sigma - h before any wear or load, mm
+    most_of_gain: Array  # margin_gain less one roughness slope
+    margin_gain: Array  # 3 sigma - h per wear of the bearing, undeflected
 
 
 def bind(
@@ -66,6 +71,10 @@ def bind(
     kappa = H_c * K_a / (H_a * K_c)
     gain = 1 + kappa
     largest_rate = np.pi * K_c * R * n * p_max / (90 * H_c)
+    most_of_margin = 2 * sigma_c0 - h_0
+    fresh_margin = most_of_margin + sigma_c0
+    most_of_gain = 2 * f_c - gain
+    margin_gain = f_c + most_of_gain
     return Constants(
         h_0=h_0,
         sigma_c0=sigma_c0,
@@ -74,6 +83,10 @@ def bind(
         kappa=kappa,
         gain=gain,
         largest_rate=largest_rate,
+        most_of_margin=most_of_margin,
+        fresh_margin=fresh_margin,
+        most_of_gain=most_of_gain,
+        margin_gain=margin_gain,
     )
 
 
@@ -111,14 +124,17 @@ def slope(u: Array, U_a: Array, c: Constants) -> Array:
 
 def margin(u: Array, U_a: Array, c: Constants) -> Array:
     """3 sigma - h with an undeflected support, in mm: contact where it is not negative."""
-    sigma = c.sigma_c0 + c.f_c * u
-    h = c.h_0 + c.gain * u - U_a
-    return 3 * sigma - h
+    return U_a + c.fresh_margin + c.margin_gain * u
 
 
 def margin_slope(u: Array, c: Constants) -> Array:
     """Derivative of the margin with respect to u_c; with respect to U_a it is 1."""
-    return 3 * c.f_c - c.gain
+    return c.margin_gain
+
+
+def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
+    """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
+    return np.abs(U_a) + np.abs(c.fresh_margin) + np.abs(c.margin_gain * u)
 
 
 def fields(u: Array, U_a: Array, c: Constants) -> Fields:

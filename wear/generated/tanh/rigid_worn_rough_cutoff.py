@@ -20,6 +20,7 @@ OPERATIONS = {
     "slope": 32,
     "margin": 14,
     "margin_slope": 15,
+    "margin_terms": 17,
     "fields": 21,
 }
 PARAMETERS = (
@@ -139,6 +140,14 @@ def margin_slope(u: Array, c: Constants) -> Array:
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
     sigma_u = (c.f_c * sigma_c + c.slope_a * sigma_a) / sigma
     return 3 * sigma_u - c.gain
+
+
+def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
+    """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
+    sigma_a = c.sigma_a0 + c.slope_a * u
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
+    return c.h_0 + np.abs(U_a) + np.abs(c.gain * u) + 3 * np.abs(sigma)
 
 
 def fields(u: Array, U_a: Array, c: Constants) -> Fields:
