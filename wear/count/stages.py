@@ -71,11 +71,14 @@ class Stages(NamedTuple):
     def arrest(self) -> Arrest | None:
         """When wear stops, if it does within the cycles counted and their error is known."""
         last = self.stages[-1]
-        known = np.isfinite(last.blur) and np.isfinite(last.counted.first_error).all()
-        if not (self.arrested and known):
+        known = np.isfinite(last.inherited) and np.isfinite(last.counted.first_error).all()
+        # A stage that begins at rest does not tell how long it took to get there.
+        moving = [stage.blur for stage in self.stages if stage.counted.pace > 0]
+        blur = max([last.blur, *moving[-1:]])
+        if not (self.arrested and known and np.isfinite(blur)):
             return None
         idle = int(np.argmax(np.diff(last.counted.first) <= 0))
-        return Arrest(int(last.begins) + idle, round(last.blur))
+        return Arrest(int(last.begins) + idle, round(blur))
 
 
 def kinks(cycle: OneCycle, shift: float) -> FloatArray:
