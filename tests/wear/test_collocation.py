@@ -38,6 +38,39 @@ def test_running_integral_goes_on_across_intervals() -> None:
     assert_allclose(c.integral(np.cos(5 * over.phases), over), np.sin(5.0) / 5, rtol=1e-14)
 
 
+def test_running_integral_by_one_product_is_that_by_intervals(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    over = c.mesh(np.array([0.0, 0.3, 0.35, 1.0]), 16)
+    values = np.exp(np.arange(5.0)[:, None, None] * over.phases)
+    by_one = c.running_integral(values, over)
+    monkeypatch.setattr(c, "ONE_PRODUCT", 0)
+    assert_allclose(c.running_integral(values, over), by_one, rtol=1e-14)
+
+
+def test_a_product_in_pieces_is_the_product(monkeypatch: pytest.MonkeyPatch) -> None:
+    left, right = np.arange(21.0).reshape(7, 3), np.arange(12.0).reshape(3, 4)
+    monkeypatch.setattr(c, "ONE_THREAD", 24)  # two rows at once
+    assert_allclose(c.product(left, right), left @ right, rtol=1e-15)
+
+
+def test_many_meshes_at_once_are_each_its_own() -> None:
+    edges = np.array([[[0.0, 0.3, 1.0]], [[0.0, 0.6, 1.0]]])
+    together = c.mesh(edges, 7)
+    values = np.cos(together.phases)
+    for i in range(2):
+        alone = c.mesh(edges[i, 0], 7)
+        assert_allclose(together.phases[i, 0], alone.phases)
+        got = c.running_integral(values, together)[i, 0]
+        assert_allclose(got, c.running_integral(values[i, 0], alone), rtol=1e-15)
+        assert_allclose(c.integral(values, together)[i, 0], c.integral(values[i, 0], alone))
+
+
+def test_values_at_finer_nodes() -> None:
+    coarse, fine = c.gauss(5).nodes, c.gauss(8).nodes
+    assert_allclose(coarse**4 @ c.between_nodes(5, 8), fine**4, atol=1e-15)
+
+
 def test_an_interval_of_a_mesh_is_a_mesh() -> None:
     over = c.mesh(np.array([0.0, 0.3, 1.0]), 5)
     part = over.interval(1)

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from tests.wear.reference_scenes import REFERENCE, reference_scene, tables
 from wear.count import inside
 from wear.count.collocation import FloatArray, mesh
-from wear.count.cycle import advance, drive
+from wear.count.cycle import drive
 from wear.count.inside import Inside, fields_inside
 from wear.model import bind
 from wear.scene import Scene, builtin_names, load_scene, scene_from_tables
@@ -42,7 +42,7 @@ def integrated(scene: Scene, start: float) -> FloatArray:
     """Wear (mm) at PHASES of one cycle by collocation between every two of them."""
     edges = np.unique(np.concatenate([PHASES, np.linspace(0.0, 1.0, 241)]))
     over = mesh(edges, 12)
-    run = advance(drive(bind(scene), scene.periodic_load, over), np.array(start))
+    run = drive(bind(scene), scene.periodic_load, over).advance(np.array(start))
     added = np.cumsum(run.rate @ over.rule.weights * over.lengths)
     at = np.searchsorted(edges, PHASES[1:] - 1e-9) - 1
     return start + np.concatenate([[0.0], added[at]])

@@ -60,6 +60,31 @@ def test_a_scene_does_not_feel_its_neighbours(drawn: list[tuple[int, int, int]])
     assert np.all(np.abs(found.u_c / alone - 1) <= found.error + 1e-12)
 
 
+def test_loads_of_all_kinds_go_together() -> None:
+    """Their meshes of phase differ, in the number of intervals too."""
+    loads = [
+        {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.06},
+        {"kind": "constant", "value_mm": 4e-4, "period_s": 0.02},
+        {"kind": "harmonics", "sine_mm": [4e-4, 0.0, 2e-4], "period_s": 0.1},
+        {"kind": "sine", "amplitude_mm": -6e-4, "period_s": 0.06},
+    ]
+    scenes = [scene_from_tables(tables(load=load), "drawn") for load in loads]
+    found = sweep(scenes, CYCLES, 1e-9)
+    alone = [wear_after(bind(scene), scene.periodic_load, CYCLES, 1e-13).u_c for scene in scenes]
+    assert not found.alone.any()
+    assert np.all(np.abs(found.u_c / np.array(alone) - 1) <= found.error)
+
+
+def test_what_the_first_plan_misses_the_second_finds() -> None:
+    """1e12 cycles take more panels than two."""
+    scenes = [scene_from_tables(tables(f_c=f), "drawn") for f in (0.05, 0.2, 0.35)]
+    cycles = np.array([1e3, 1e12])
+    found = sweep(scenes, cycles, 1e-8)
+    alone = [wear_after(bind(scene), scene.periodic_load, cycles, 1e-12).u_c for scene in scenes]
+    assert not found.alone.any()
+    assert np.all(np.abs(found.u_c / np.array(alone) - 1) <= found.error + 1e-12)
+
+
 def test_what_does_not_fit_is_solved_alone() -> None:
     narrow = tables(load={"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06})
     found = sweep([reference_scene("S2"), scene_from_tables(narrow, "narrow")], CYCLES, 1e-10)

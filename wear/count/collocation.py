@@ -15,6 +15,9 @@ FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 
+ONE_PRODUCT = 192  # nodes of a mesh up to which one matrix product is the quickest
+ONE_THREAD = 250_000  # multiplications that OpenBLAS leaves to one thread
+
 
 class Gauss(NamedTuple):
     """Gauss-Legendre collocation with m nodes on [0, 1].
@@ -56,7 +59,7 @@ class Mesh(NamedTuple):
     """A cycle cut into intervals of phase, each with the nodes of one Gauss-Legendre rule.
 
     `edges` has shape (q + 1,), rising from the first phase to the last; `lengths` (q,);
-    `phases` (q, m): all nodes.
+    `phases` (q, m): all nodes. Leading axes, if any, are those of many scenes.
     """
 
     edges: FloatArray
@@ -67,7 +70,10 @@ class Mesh(NamedTuple):
     def interval(self, i: int) -> "Mesh":
         """One interval alone."""
         return Mesh(
-            self.edges[i : i + 2], self.lengths[i : i + 1], self.phases[i : i + 1], self.rule
+            self.edges[..., i : i + 2],
+            self.lengths[..., i : i + 1],
+            self.phases[..., i : i + 1, :],
+            self.rule,
         )
 
 
@@ -75,23 +81,61 @@ def mesh(edges: FloatArray, m: int) -> Mesh:
     """The mesh with these edges and m nodes on each interval."""
     rule = gauss(m)
     lengths = np.diff(edges)
-    return Mesh(edges, lengths, edges[:-1, None] + lengths[:, None] * rule.nodes, rule)
+    return Mesh(edges, lengths, edges[..., :-1, None] + lengths[..., None] * rule.nodes, rule)
+
+
+@lru_cache(maxsize=64)
+def _running_matrix(q: int, m: int) -> FloatArray:
+    """Matrix (q m, q m) of `running` for q intervals with m nodes each."""
+    rule = gauss(m)
+    before = np.kron(np.triu(np.ones((q, q)), 1), np.outer(rule.weights, np.ones(m)))
+    matrix: FloatArray = before + np.kron(np.eye(q), rule.integrate.T)
+    return matrix
+
+
+def product(values: FloatArray, matrix: FloatArray) -> FloatArray:
+    """The rows `values` (k, m) times a `matrix` (m, n), in pieces that BLAS leaves to one thread:
+    several would wait for each other longer than they work."""
+    rows = max(1, ONE_THREAD // matrix.size)
+    if len(values) <= rows:
+        return values @ matrix
+    result = np.empty((len(values), matrix.shape[1]))
+    for at in range(0, len(values), rows):
+        np.matmul(values[at : at + rows], matrix, out=result[at : at + rows])
+    return result
+
+
+def running(values: FloatArray) -> FloatArray:
+    """Integral of `values` (..., q, m), per interval of a mesh, from the first edge to each node,
+    in the same shape."""
+    q, m = values.shape[-2:]
+    if q * m <= ONE_PRODUCT:
+        return product(values.reshape(-1, q * m), _running_matrix(q, m)).reshape(values.shape)
+    rule, flat = gauss(m), values.reshape(-1, m)
+    local = product(flat, rule.integrate.T).reshape(values.shape)
+    whole = (flat @ rule.weights).reshape(values.shape[:-1])
+    local[..., 1:, :] += np.cumsum(whole[..., :-1], axis=-1)[..., None]
+    return local
 
 
 def running_integral(values: FloatArray, over: Mesh) -> FloatArray:
     """Integral of `values` (..., q, m) from the first edge to each node, in the same shape."""
-    scaled = values * over.lengths[:, None]
-    local = scaled @ over.rule.integrate.T
-    if len(over.lengths) == 1:
-        return local
-    before = np.zeros(scaled.shape[:-1])
-    np.cumsum((scaled @ over.rule.weights)[..., :-1], axis=-1, out=before[..., 1:])
-    return local + before[..., None]
+    return running(values * over.lengths[..., None])
 
 
 def integral(values: FloatArray, over: Mesh) -> FloatArray:
     """Integral of `values` (..., q, m) over the whole mesh, shape (...)."""
-    return (values @ over.rule.weights) @ over.lengths
+    whole = (values.reshape(-1, values.shape[-1]) @ over.rule.weights).reshape(values.shape[:-1])
+    total: FloatArray = np.sum(whole * over.lengths, axis=-1)
+    return total
+
+
+@lru_cache(maxsize=32)
+def between_nodes(m: int, finer: int) -> FloatArray:
+    """Matrix (m, finer) from values at the m nodes of an interval to those at `finer` nodes."""
+    basis = np.polynomial.legendre.legvander(2 * gauss(finer).nodes - 1, m - 1)
+    matrix: FloatArray = (basis @ gauss(m).coefficients).T
+    return matrix
 
 
 def chebyshev_nodes(m: int) -> FloatArray:
@@ -104,12 +148,14 @@ def chebyshev_values(t: FloatArray, m: int) -> FloatArray:
     """T_0 ... T_{m-1} at `t` (...), shape (..., m). By recurrence: also right outside [-1, 1]."""
     values = np.empty((m, *t.shape))
     values[0] = 1.0
-    if m > 1:
-        values[1] = t
-    double = 2 * t
-    for k in range(2, m):
-        np.multiply(double, values[k - 1], out=values[k])
-        values[k] -= values[k - 2]
+    values[1:2] = t
+    n = 1
+    while n + 1 < m:  # T_{n + j} = 2 T_n T_j - T_{n - j} for j = 1 ... n
+        more = min(n, m - 1 - n)
+        fresh = values[n + 1 : n + 1 + more]
+        np.multiply(2 * values[n], values[1 : more + 1], out=fresh)
+        fresh -= values[n - more : n][::-1]
+        n += more
     return np.moveaxis(values, 0, -1)
 
 

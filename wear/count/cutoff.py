@@ -21,7 +21,17 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.collocation import BoolArray, FloatArray, Mesh, mesh
-from wear.count.cycle import NOISE, PATIENCE, ROUNDOFF, TINY, Advance, OneCycle, drive, first_edges
+from wear.count.cycle import (
+    NOISE,
+    PATIENCE,
+    ROUNDOFF,
+    TINY,
+    Advance,
+    Near,
+    OneCycle,
+    drive,
+    first_edges,
+)
 from wear.load import Load
 from wear.model import Model
 
@@ -97,8 +107,8 @@ class CutoffCycle(NamedTuple):
         """On a mesh of m nodes an interval."""
         return self._replace(over=mesh(np.array([0.0, 1.0]), m), tolerance=tolerance)
 
-    def advance(self, starts: FloatArray) -> Advance:
-        """Wear added by one cycle from each start, shape (...)."""
+    def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
+        """Wear added by one cycle from each start, shape (...); guesses are of no use."""
         flat = starts.ravel()
         added = np.zeros(len(flat))
         sound, evaluations = True, 0
@@ -109,7 +119,8 @@ class CutoffCycle(NamedTuple):
             evaluations += run.evaluations
         nothing = np.zeros((*starts.shape, *self.over.phases.shape))
         converged = np.full(len(self.over.lengths), sound)
-        return Advance(added.reshape(starts.shape), nothing, nothing, evaluations, converged)
+        left = np.zeros(starts.shape)
+        return Advance(added.reshape(starts.shape), nothing, nothing, evaluations, converged, left)
 
     def frozen(self, wear: FloatArray) -> FloatArray:
         """Wear added by one cycle if the rate did not feel it, any shape."""
@@ -147,6 +158,7 @@ class CutoffCycle(NamedTuple):
             np.concatenate([run.rate for run in runs]),
             sum(run.evaluations for run in runs),
             np.all([run.converged for run in runs], axis=0),
+            np.concatenate([run.left for run in runs]),
         )
 
 

@@ -114,6 +114,7 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
         run = at.several(start, BLOCK)
         evaluations += run.evaluations
         wear = start + np.cumsum(run.increment)
+        starts = np.append(start, wear[:-1])
         sound = run.converged.all() and wear[-1] < limit
         if isinstance(at, Drive) and not sound:
             return _one_cycle(at, exact, limit, size, evaluations)
@@ -123,7 +124,7 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
             rough |= overlooked(at, start, run, size.phase_tolerance)
         if full or not rough.any():
             finer = at.on(mesh(over.edges, size.finer_nodes))
-            judged = finer.advance(np.append(start, wear[:-1]))
+            judged = finer.advance(starts, run.near(size.finer_nodes))
             evaluations += judged.evaluations
             missed = np.abs(judged.increment - run.increment)
             if not (sound and judged.converged.all()):
@@ -134,9 +135,9 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
         over = refined(over, rough)
     growth = np.ones(BLOCK)
     if isinstance(at, CutoffCycle):
-        growth = at.growth(np.append(start, wear[:-1]))
+        growth = at.growth(starts)
     elif isinstance(at, Drive):
-        growth = growth_of(at, start, run.inside)
+        growth = growth_of(at, starts[:, None, None], run.inside)
     response = run.increment * np.maximum(growth, 1.0)
     cost = exact.cost.plus(2 * BLOCK, evaluations)
     return exact.then(Each(run.increment, missed, growth, response), over, cost)

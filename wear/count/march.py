@@ -11,10 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.collocation import BoolArray, FloatArray, integral, mesh
-from wear.count.cycle import TINY, Advance, Drive, Settings, unresolved
+from wear.count.cycle import TINY, Advance, Drive, Settings, hidden, unresolved
 
 SHORTEST = 1e-12  # of a cycle
-NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
 
 
 class Marched(NamedTuple):
@@ -63,7 +62,7 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
     return done
 
 
-def growth_of(cycle: Drive, start: float, inside: FloatArray) -> FloatArray:
+def growth_of(cycle: Drive, start: float | FloatArray, inside: FloatArray) -> FloatArray:
     """By how much a small difference in the wear `start + inside` (..., q, m) changes over the
     mesh of `cycle`: the solution of the linearised equation."""
     slope = cycle.load.period * cycle.model.slope(start + inside, cycle.displacement)
@@ -73,11 +72,7 @@ def growth_of(cycle: Drive, start: float, inside: FloatArray) -> FloatArray:
 
 def overlooked(cycle: Drive, start: float, run: Advance, tolerance: float) -> BoolArray:
     """Which intervals (q,) of phase hide a change of the rate between an end and the nodes, over
-    the cycles of `run` on end (..., q, m) from wear `start` (mm).
-
-    Fast wear may have opened the gap before the first node: then nothing but the rate at the start
-    of the interval tells. The measure is that of `unresolved`.
-    """
+    the cycles of `run` on end (..., q, m) from wear `start` (mm)."""
     over = cycle.over
     q, m = over.phases.shape
     rate = run.rate.reshape(-1, q, m)
@@ -85,12 +80,5 @@ def overlooked(cycle: Drive, start: float, run: Advance, tolerance: float) -> Bo
     wear = start + np.concatenate([[0.0], np.cumsum(added)])
     phases = np.append(np.tile(over.edges[:-1], len(rate)), over.edges[-1])
     at_edges = cycle.load.period * cycle.model.rate(wear, cycle.load(phases))
-    series = rate @ over.rule.coefficients.T
-    left = np.abs(series @ (-1.0) ** np.arange(m) - at_edges[:-1].reshape(-1, q))
-    right = np.abs(np.sum(series, axis=-1) - at_edges[1:].reshape(-1, q))
-    largest = np.max(np.abs(series), axis=-1) + TINY
-    apart = np.maximum(left, right)
-    missed = apart * (apart / largest) * over.lengths
-    missed[apart < NOISE_AT_ENDS * largest] = 0.0
-    rough: BoolArray = np.any(missed > tolerance * integral(rate, over)[:, None], axis=0)
-    return rough
+    left, right = at_edges[:-1].reshape(-1, q), at_edges[1:].reshape(-1, q)
+    return hidden(rate, left, right, over, tolerance)

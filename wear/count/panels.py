@@ -7,8 +7,14 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel
-from wear.count.collocation import BoolArray, FloatArray, chebyshev_nodes
-from wear.count.cycle import Cost, OneCycle, Settings, unresolved
+from wear.count.collocation import (
+    BoolArray,
+    FloatArray,
+    chebyshev_analysis,
+    chebyshev_nodes,
+    chebyshev_values,
+)
+from wear.count.cycle import Advance, Cost, OneCycle, Settings, unresolved
 from wear.count.scan import halves
 
 CHECKS = np.array([-1.0, -0.38, 0.93])  # positions off the nodes of a panel, where T_m is large
@@ -64,7 +70,7 @@ def solve_panels(
     ahead = both.coarse.advance(wear)
     panels = abel.solve(shift, starts, across, ahead.increment)
     check = abel.panel_wear(shift, starts, across, CHECKS)
-    fine = both.fine.advance(check)
+    fine = both.fine.advance(check, _at_checks(ahead).near(size.finer_nodes))
     residual = np.max(np.abs(abel.residual(panels, CHECKS, fine.increment)), axis=1)
     cost = Cost(wear.size + check.size, ahead.evaluations + fine.evaluations)
     cycles = np.mean((ends - starts)[:, None] / ahead.increment, axis=1)
@@ -80,6 +86,17 @@ def solve_panels(
             rough |= unresolved(rates, both.coarse.over, size.phase_tolerance)
             rough |= ~rough.any()
     return solved, rough, cost
+
+
+def _at_checks(ahead: Advance) -> Advance:
+    """What the cycles do that begin at the checks, interpolated between the nodes (panels, m)."""
+    m = ahead.increment.shape[1]
+    to_checks = chebyshev_values(CHECKS, m) @ chebyshev_analysis(m)
+    inside, rate = (
+        (to_checks @ x.reshape(*x.shape[:2], -1)).reshape(-1, *x.shape[2:])
+        for x in (ahead.inside, ahead.rate)
+    )
+    return ahead._replace(inside=inside, rate=rate)
 
 
 class Filled(NamedTuple):

@@ -1,0 +1,182 @@
+"""One cycle of many scenes at once: the one-cycle map with the scenes as the first axis.
+
+Every scene has a load and a mesh of phase of its own; scenes go together whose meshes have as many
+intervals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.count.collocation import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
+from wear.count.cycle import (
+    NOISE,
+    Advance,
+    Near,
+    first_edges,
+    hidden,
+    iterate,
+    pace,
+    unresolved,
+)
+from wear.load import Load
+from wear.model import Model
+
+IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
+MOST_INTERVALS = 16  # of phase: what needs more is solved by itself
+
+Which = slice | IntArray
+
+
+class Many(NamedTuple):
+    """Scenes of one variant: the `model` of all, its constants of shape (scenes, 1), and the load
+    of each."""
+
+    model: Model
+    loads: Sequence[Load]
+
+    def take(self, which: IntArray) -> Many:
+        """Some of the scenes."""
+        return Many(_taken(self.model, which), [self.loads[i] for i in which.tolist()])
+
+    def on(self, edges: FloatArray, m: int, tolerance: float = NOISE) -> ManyDrives:
+        """A cycle of each scene on its mesh, with edges (scenes, q + 1)."""
+        over = mesh(edges[:, None], m)
+        phases = np.concatenate([over.phases.reshape(len(edges), -1), edges], axis=1)
+        displacement = np.stack([load(x) for load, x in zip(self.loads, phases, strict=True)])
+        at_edges = displacement[:, None, -edges.shape[1] :]
+        displacement = displacement[:, : -edges.shape[1]].reshape(over.phases.shape)
+        period = np.array([load.period for load in self.loads])[:, None, None, None]
+        model = _shaped(self.model, (-1, 1, 1, 1))
+        return ManyDrives(model, period, over, displacement, at_edges, tolerance)
+
+
+class ManyDrives(NamedTuple):
+    """A cycle of many scenes; the constants of the model have the shape (scenes, 1, 1, 1), the
+    edges of the meshes (scenes, 1, q + 1)."""
+
+    model: Model
+    period: FloatArray  # (scenes, 1, 1, 1), s
+    over: Mesh
+    displacement: FloatArray  # (scenes, 1, q, m), mm
+    at_edges: FloatArray  # (scenes, 1, q + 1), mm: the displacement there
+    tolerance: float
+
+    def rate(self, u: FloatArray) -> FloatArray:
+        """Wear rate in mm per cycle at wear `u` (scenes, k, q, m) or (scenes, k, 1, 1)."""
+        rate: FloatArray = self.model.rate(u, self.displacement)
+        return self.period * rate
+
+    def pace(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+        """Wear rate in mm per interval at wear `u` (scenes, k, q, m), sought from one `near` by."""
+        return pace(self.model, u, self.displacement, self.period, self.over, near)
+
+    def take(self, which: Which) -> ManyDrives:
+        """Some of the scenes."""
+        edges, lengths, phases, rule = self.over
+        over = Mesh(edges[which], lengths[which], phases[which], rule)
+        return ManyDrives(
+            _taken(self.model, which),
+            self.period[which],
+            over,
+            self.displacement[which],
+            self.at_edges[which],
+            self.tolerance,
+        )
+
+    def interval(self, i: int) -> ManyDrives:
+        """The part over one interval of the meshes."""
+        return self._replace(
+            over=self.over.interval(i),
+            displacement=self.displacement[:, :, i : i + 1],
+            at_edges=self.at_edges[:, :, i : i + 2],
+        )
+
+    def overlooked(self, starts: FloatArray, run: Advance, tolerance: float) -> BoolArray:
+        """In which scenes (scenes,) an interval hides a change of the rate between an end and the
+        nodes, over the cycles of `run` from the `starts` (scenes, k)."""
+        added = run.rate @ self.over.rule.weights * self.over.lengths
+        wear = starts[..., None] + np.cumsum(np.insert(added, 0, 0.0, axis=-1), axis=-1)
+        model = _shaped(self.model, (-1, 1, 1))
+        rate = self.period[..., 0] * model.rate(wear, self.at_edges)
+        rough = hidden(run.rate, rate[..., :-1], rate[..., 1:], self.over, tolerance)
+        told: BoolArray = np.any(rough, axis=-1)
+        return told
+
+    def in_cache(self, starts: int) -> Iterator[slice]:
+        """Scenes a few at a time, with so many starts each."""
+        scenes = max(1, IN_CACHE // (starts * self.displacement[0].size))
+        for at in range(0, len(self.displacement), scenes):
+            yield slice(at, at + scenes)
+
+    def frozen(self, wear: FloatArray) -> FloatArray:
+        """Wear (mm) that a cycle would add to each `wear` (scenes, k) without feedback."""
+        parts = []
+        for some in self.in_cache(wear.shape[1]):
+            part = self.take(some)
+            parts.append(integral(part.rate(wear[some, :, None, None]), part.over))
+        return np.concatenate(parts)
+
+    def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
+        """Wear added by a cycle from each start (scenes, k)."""
+        runs = []
+        for some in self.in_cache(starts.shape[1]):
+            guess = None if near is None else Near(*(array[some] for array in near))
+            runs.append(iterate(self.take(some), starts[some], guess))
+        return Advance(
+            np.concatenate([run.increment for run in runs]),
+            np.concatenate([run.inside for run in runs]),
+            np.concatenate([run.rate for run in runs]),
+            sum(run.evaluations for run in runs),
+            np.concatenate([run.converged for run in runs]),
+            np.concatenate([run.left for run in runs]),
+        )
+
+
+def _taken(model: Model, which: Which) -> Model:
+    """The model of some of the scenes."""
+    constants = model.constants
+    return Model(model.module, type(constants)(*(value[which] for value in constants)))
+
+
+def _shaped(model: Model, shape: tuple[int, ...]) -> Model:
+    """The model with its constants in this shape."""
+    constants = model.constants
+    return Model(model.module, type(constants)(*(value.reshape(shape) for value in constants)))
+
+
+def plain_edges(many: Many) -> Iterator[tuple[IntArray, FloatArray]]:
+    """The scenes, together those with as many intervals, and the edges at kinks and peaks."""
+    edges = [first_edges(load) for load in many.loads]
+    sizes = np.array([len(ends) for ends in edges])
+    for size in np.unique(sizes):
+        which = np.flatnonzero(sizes == size)
+        yield which, np.stack([edges[i] for i in which.tolist()])
+
+
+def resolved_edges(
+    many: Many, wear: FloatArray, m: int, tolerance: float
+) -> Iterator[tuple[IntArray, FloatArray]]:
+    """The scenes, together those with as many intervals, and edges (scenes, q + 1) between which m
+    nodes resolve the rate at the `wear` (scenes, k), mm."""
+    todo = list(plain_edges(many))
+    done: dict[int, list[tuple[IntArray, FloatArray]]] = {}
+    while todo:
+        which, edges = todo.pop()
+        cycle = many.take(which).on(edges, m)
+        rough = unresolved(cycle.rate(wear[which, :, None, None]), cycle.over, tolerance)
+        number = rough.shape[1]
+        cuts = np.sum(rough, axis=1) * (number < MOST_INTERVALS)
+        middles = np.where(rough, (edges[:, 1:] + edges[:, :-1]) / 2, np.inf)
+        finer = np.sort(np.concatenate([edges, middles], axis=1), axis=1)
+        for more in np.unique(cuts).tolist():
+            same = cuts == more
+            if more:
+                todo.append((which[same], finer[same, : number + 1 + more]))
+            else:
+                done.setdefault(number, []).append((which[same], edges[same]))
+    for parts in done.values():
+        yield np.concatenate([which for which, _ in parts]), np.concatenate([e for _, e in parts])
