@@ -103,7 +103,12 @@ class Equation:
     @property
     def typeset_agrees(self) -> bool:
         """Return whether what is typeset is what was derived."""
-        return _agree(tuple(self._in_full(part) for part in self.shown), self.claims)
+        return _agree(self.shown_in_full, self.claims)
+
+    @property
+    def shown_in_full(self) -> tuple[sp.Basic, ...]:
+        """Return what is typeset, without abbreviations."""
+        return tuple(self._in_full(part) for part in self.shown)
 
     def _in_full(self, written: sp.Basic) -> sp.Basic:
         """Return a relation of the display form without its abbreviations."""
