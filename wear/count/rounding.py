@@ -32,5 +32,5 @@ def roundoff_of(model: Model, displacement: FloatArray, wear: FloatArray) -> Flo
     more, less = (model.rate(wear, displacement + sign * apart) for sign in (1.0, -1.0))
     steepness = np.abs(more - less) / (2 * apart * (np.minimum(more, less) + TINY))
     lost = SMALLEST / np.maximum(less, SMALLEST)
-    result: FloatArray = ROUNDOFF * (4 + steepness * terms) + lost
+    result: FloatArray = ROUNDOFF * (8 + steepness * terms) + lost
     return result
