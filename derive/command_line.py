@@ -75,9 +75,13 @@ def main(
 ) -> int:
     """Execute the command that the arguments name; return the exit status."""
     words = sys.argv[1:] if arguments is None else list(arguments)
-    options = _parsed(whole, words)
-    command: Command = options.command
-    return terminal.run(f"{whole.prog} {command.name}", lambda: command.execute(options), expected)
+
+    def execute() -> int:
+        options = _parsed(whole, words)
+        command: Command = options.command
+        return command.execute(options)
+
+    return terminal.run(" ".join([whole.prog, *words[:1]]), execute, expected)
 
 
 def _parsed(whole: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Namespace:

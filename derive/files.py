@@ -111,6 +111,21 @@ def obstacle(path: str | os.PathLike[str]) -> str | None:
     return None
 
 
+def obstacle_to_folder(path: str | os.PathLike[str]) -> str | None:
+    """Return why files cannot be written into a folder, which is made if need be; None as above.
+
+    >>> obstacle_to_folder(__file__ + "/report").endswith("files.py: is not a folder")
+    True
+    """
+    target = Path(path)
+    nearest = next(place for place in (target, *target.absolute().parents) if place.exists())
+    if not nearest.is_dir():
+        return f"{nearest}: is not a folder"
+    if not os.access(nearest, os.W_OK):
+        return f"{nearest}: may not be written"
+    return None
+
+
 def _flush_to_disk(file: Path) -> None:
     with file.open("rb") as handle:
         os.fsync(handle.fileno())

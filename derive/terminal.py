@@ -9,8 +9,10 @@ import argparse
 import json
 import math
 import os
+import shutil
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from derive import completion
@@ -39,7 +41,7 @@ def run(
         Exceptions that are the user's to mend, with the exit status of each. Their text is
         printed without a traceback. An `OSError` is always among them.
     """
-    _print_any_character()
+    _prepare_output()
     status = DONE
     try:
         status = main()
@@ -55,13 +57,31 @@ def run(
     except tuple(expected) as fault:
         complain(name, str(fault))
         status = next(code for kind, code in expected.items() if isinstance(fault, kind))
-    _let_go_of_output()
+    finally:
+        _let_go_of_output()
     return status
 
 
 def complain(name: str, message: str) -> None:
     """Print an error, which may have several lines, to standard error."""
+    progress("")
     print(f"{name}: {message}", file=sys.stderr)
+
+
+def progress(what: str) -> None:
+    """Show what is being done, on one line of a terminal; nothing elsewhere. '' clears the line."""
+    if sys.stderr.isatty() and os.environ.get("TERM") != "dumb":
+        width = shutil.get_terminal_size().columns - 1
+        print(f"\r\033[K{what[:width]}", end="", file=sys.stderr, flush=True)
+
+
+def shows_formulas() -> bool:
+    """Return whether standard output has the characters that formulas are drawn with."""
+    try:
+        "\u239b\u2500\u03c3\u221e".encode(sys.stdout.encoding or "ascii")
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def print_json(document: object) -> None:
@@ -174,8 +194,11 @@ def _describe(fault: OSError) -> str:
     return f"{fault.filename}: {fault.strerror}"
 
 
-def _print_any_character() -> None:
-    """Let no title or path fail to print where the terminal's encoding lacks a character."""
+def _prepare_output() -> None:
+    """Let nothing fail to print: neither where the terminal's encoding lacks a character, nor where
+    the command was started with its output closed."""
+    sys.stdout = sys.stdout or Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
+    sys.stderr = sys.stderr or Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:

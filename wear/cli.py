@@ -18,7 +18,7 @@ from wear.commands import (
     run,
     scenes,
 )
-from wear.faults import AccuracyError, SceneError, UsageError
+from wear.faults import AccuracyError, Interrupted, SceneError, UsageError
 
 # In the order in which a newcomer needs them.
 COMMANDS = (
@@ -44,6 +44,7 @@ EXPECTED = {
     UsageError: terminal.USAGE,
     SceneError: terminal.USAGE,
     AccuracyError: terminal.INACCURATE,
+    Interrupted: terminal.INTERRUPTED,
 }
 
 

@@ -36,5 +36,7 @@ def print_or_write(text: str, output: str | None) -> None:
     """Print a text, or write it whole to a file."""
     if output is None:
         print(text, end="" if text.endswith("\n") else "\n")
+    elif problem := files.obstacle(output):
+        raise UsageError(f"--output: {problem}")
     else:
         files.write_atomically(output, text)

@@ -50,13 +50,14 @@ def document(found: Equation) -> dict[str, Any]:
 def _text(found: Equation) -> str:
     import sympy as sp
 
+    style = {"use_unicode": terminal.shows_formulas(), "wrap_line": False}
     lines = [f"({found.id})  {found.title}  [{found.status.value}]", ""]
     for claim in found.claims:
-        lines += [sp.pretty(claim, use_unicode=True, wrap_line=False), ""]
+        lines += [sp.pretty(claim, **style), ""]
     lines += [f"if {condition.text}" for condition in found.conditions]
     if found.printed and not found.agrees:
         lines += ["", "as printed in the note (does not hold):", ""]
-        lines += [sp.pretty(claim, use_unicode=True, wrap_line=False) for claim in found.printed]
+        lines += [sp.pretty(claim, **style) for claim in found.printed]
     if found.remark:
         lines += ["", found.remark]
     return "\n".join(lines).rstrip()

@@ -75,7 +75,8 @@ def _text(row: Mapping[str, Any], step: Statement) -> str:
 
     origin = f" from {', '.join(map(str, row['parents']))}" if row["parents"] else ""
     status = "" if row["status"] == "given" else f": {row['status']}"
-    lines = ["", *sp.pretty(step.claim, use_unicode=True, wrap_line=False).splitlines(), ""]
+    claim = sp.pretty(step.claim, use_unicode=terminal.shows_formulas(), wrap_line=False)
+    lines = ["", *claim.splitlines(), ""]
     lines += [f"if {condition}" for condition in row["assumptions"]]
     if row["remark"]:
         lines.append(row["remark"])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from derive import terminal
 from derive.command_line import Command
@@ -20,9 +19,10 @@ def execute(options: argparse.Namespace) -> int:
     from derive import catalogue
 
     arguments.equations(options.ids)
-    verdicts = catalogue.verify(options.ids, _progress if sys.stderr.isatty() else None)
-    if sys.stderr.isatty():
-        print("\r\033[K", end="", file=sys.stderr)
+    verdicts = catalogue.verify(
+        options.ids, lambda done, total, name: terminal.progress(f"{done}/{total} {name}")
+    )
+    terminal.progress("")
     failed = [verdict for verdict in verdicts if not verdict.passed]
     if options.json:
         terminal.print_json(
@@ -51,10 +51,6 @@ def execute(options: argparse.Namespace) -> int:
         outcome = f"{len(failed)} of the equations fail" if failed else "all hold"
         print(f"{', '.join(counted)}: {outcome}")
     return terminal.FAILED if failed else terminal.DONE
-
-
-def _progress(done: int, total: int, identifier: str) -> None:
-    print(f"\r\033[K{done}/{total} {identifier}", end="", file=sys.stderr, flush=True)
 
 
 COMMAND = Command(

@@ -1,6 +1,7 @@
 """Exit status, messages and JSON, as every command has them."""
 
 import argparse
+import io
 import json
 import math
 import subprocess
@@ -92,6 +93,64 @@ terminal.run("wear run", lambda: print("palier \u00e0 \u03c3") or 0, {})
         [sys.executable, "-c", code], capture_output=True, env=ascii_only, check=True
     )
     assert run.stdout == b"palier \\xe0 \\u03c3\n"
+
+
+@pytest.mark.parametrize("closed", [">&-", ">&- 2>&-", "2>&-"])
+def test_a_closed_output_is_no_fault(closed):
+    code = """
+from derive import terminal
+raise SystemExit(terminal.run("derive list", lambda: print("one") or 0, {}))
+"""
+    run = subprocess.run(
+        ["sh", "-c", f'"$0" -c "$1" {closed}', sys.executable, code],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (run.returncode, run.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(("encoding", "drawn"), [("utf-8", True), ("ascii", False)])
+def test_formulas_are_drawn_with_what_the_terminal_has(encoding, drawn):
+    code = "from derive import terminal; print(terminal.shows_formulas())"
+    run = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        env={"PYTHONIOENCODING": encoding},
+        check=True,
+    )
+    assert run.stdout == f"{drawn}\n"
+
+
+class Terminal(io.StringIO):
+    """Stands for a terminal under standard error."""
+
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize(
+    ("screen", "kind", "shown"),
+    [
+        (Terminal, "xterm", "\r\033[Kverifying"),
+        (Terminal, "dumb", ""),
+        (io.StringIO, "xterm", ""),
+    ],
+)
+def test_progress_is_for_a_terminal_that_can_take_it_back(monkeypatch, screen, kind, shown):
+    monkeypatch.setenv("TERM", kind)
+    monkeypatch.setattr(sys, "stderr", screen())
+    terminal.progress("verifying")
+    assert sys.stderr.getvalue() == shown
+
+
+def test_progress_stays_on_one_line(monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "20")
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    terminal.progress("x" * 50)
+    assert sys.stderr.getvalue().count("x") == 19
 
 
 DOCUMENTS = st.recursive(

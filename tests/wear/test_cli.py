@@ -12,6 +12,7 @@ import pytest
 
 from wear import cli
 from wear.cite import REFERENCES
+from wear.faults import Interrupted
 from wear.scene import builtin_names, load_scene, parse_scene
 
 ROOT = Path(__file__).parents[2]
@@ -66,12 +67,50 @@ def test_bad_usage_is_told_on_standard_error(wear, arguments):
         (["run", "section4", "section5"], "wear run: error: section5: not understood"),
         (["cite", "hairer93"], 'wear cite: KEY: "hairer93" is unknown; did you mean hairer1993?'),
         (["explore", "-o", "nowhere/x.html"], "wear explore: --output: nowhere: no such folder"),
+        (["bench", "-o", f"{__file__}/speed"], "test_cli.py: is not a folder"),
+        (["reproduce", "-o", f"{__file__}/report"], "test_cli.py: is not a folder"),
     ],
 )
 def test_a_slip_is_met_with_what_was_meant(wear, arguments, told):
     status, shown, messages = wear(*arguments)
     assert (status, shown) == (2, "")
     assert told in messages
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="/dev/full is Linux's")
+@pytest.mark.parametrize("arguments", [["--version"], ["scenes"]])
+def test_a_full_disk_is_told_whatever_is_printed(arguments):
+    with Path("/dev/full").open("wb") as full:
+        run = subprocess.run(
+            [sys.executable, "-m", "wear.cli", *arguments],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert run.stderr == f"wear {arguments[0]}: No space left on device\n"
+    assert run.returncode == 2
+
+
+def interrupted(*_, **__):
+    """Stands for `solve` when Ctrl-C is pressed."""
+    raise Interrupted("DOP853: interrupted; no requested cycle was reached", None)
+
+
+def test_ctrl_c_ends_any_command_that_solves(wear, monkeypatch, tmp_path):
+    monkeypatch.setattr("wear.solver.solve", interrupted)
+    status, shown, messages = wear("figure", "section4", "-o", str(tmp_path / "wear.svg"))
+    assert (status, shown) == (130, "")
+    assert messages.startswith("wear figure: DOP853: interrupted")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_ctrl_c_ends_a_benchmark_and_not_one_run_of_it(wear, monkeypatch, tmp_path):
+    monkeypatch.setattr("wear.solver.solve", interrupted)
+    folder = tmp_path / "hard"
+    status, shown, messages = wear("bench", "--hard", "--quick", "-o", str(folder))
+    assert (status, shown, messages) == (130, "", "wear bench: interrupted\n")
+    assert not folder.exists()
 
 
 def test_the_installed_command_is_this_one():

@@ -114,11 +114,12 @@ amplitude_mm = [1.0]
         ("load.value_mm", "1.0", "unknown key", 'it belongs to kind = "constant"'),
         ("load.kind", "sinus", "unknown", "did you mean sine?"),
         ("load.kind", "constant", "missing", "add value_mm"),
-        ("motion", "3", "not a table", "[motion]"),
+        ("motion", "3", "motion is a table with several entries", "--set motion.radius_mm=VALUE"),
+        ("load", "sine", "load is a table with several entries", "--set load.kind=VALUE"),
         ("title", "3", "is a number", 'title = "..."'),
         ("title", '"a\\u0007b"', "control characters", "printable"),
         ("title", '"' + "a" * 201 + '"', "201 characters", "at most 200"),
-        ("zzz.key", "3", "unknown key", "known here: title, description, bearing"),
+        ("zzz.key", "3", "unknown table", "known here: title, description, bearing"),
         ("bearing.zzz", "3", "unknown key", "known here: hardness_MPa"),
     ],
 )
@@ -128,6 +129,12 @@ def test_one_bad_value(entry: str, value: str, problem: str, remedy: str) -> Non
     assert remedy in fault.remedy
     if fault.line is None:
         assert fault.file.startswith(f"--set {entry}=")
+
+
+def test_a_table_that_is_none_in_a_file() -> None:
+    rest = GOOD.replace("[motion]\nradius_mm = 22.0\nspeed_rpm = 2000.0\n", "")
+    fault = only_fault("motion = 3\n" + rest)
+    assert (fault.line, fault.problem) == (1, "is not a table")
 
 
 def test_what_is_missing() -> None:
@@ -250,6 +257,9 @@ HEAD = "t_s,U_a_mm\n"
     [
         ("", "the columns are missing", "begin with t_s,U_a_mm"),
         ("t,U\n0,0\n1,0\n", "the columns are t,U", "begin with t_s,U_a_mm"),
+        ("0.0,0.0\n1,0\n", "the columns have no names", "put the line t_s,U_a_mm above"),
+        ("t_s;U_a_mm\n0,0;0,0\n", "the columns are t_s;U_a_mm", "commas between the columns"),
+        ("t_s\tU_a_mm\n0\t0\n", "the columns are t_s\\x09U_a_mm", "points in the numbers"),
         (HEAD, "there are 0 rows", "from 2 to 1000000"),
         (HEAD + "0,0\n", "there are 1 rows", "from 2 to 1000000"),
         (HEAD + "0,0\n1,a\n", 'line 3: "1,a" is no row', "two finite numbers"),

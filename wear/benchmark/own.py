@@ -7,6 +7,7 @@ estimate and computing the fields.
 from __future__ import annotations
 
 import math
+import time
 from typing import TYPE_CHECKING
 
 from wear.benchmark.method import Answer, Method, Run, UnsuitableError
@@ -26,12 +27,14 @@ def solver(scene: Scene, method: str, time_limit: float = LONGEST_RUN) -> Run:
     from wear.solver import solve
 
     def run(cycles: int, tolerance: float) -> Answer:
-        complaint, stopped = "", False
+        complaint, stopped, start = "", False, time.monotonic()
         try:
             history = solve(scene, [cycles], tolerance, method, time_limit)
         except UsageError as fault:
             raise UnsuitableError(str(fault)) from fault
         except Interrupted as stop:
+            if time.monotonic() - start < time_limit:
+                raise KeyboardInterrupt from stop  # by a person: the whole benchmark ends
             history, complaint, stopped = stop.history, str(stop), True
         except AccuracyError as miss:
             if miss.best is None:

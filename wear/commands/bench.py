@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -51,8 +50,8 @@ def execute(options: argparse.Namespace) -> int:
     if options.hard and options.peers:
         faults.add("--peers: the hard cases are for the package's own methods and SciPy's")
     if options.output is not None:
-        problem = files.obstacle(Path(options.output) / "speed.csv")
-        if problem is not None and Path(options.output).exists():
+        problem = files.obstacle_to_folder(options.output)
+        if problem is not None:
             faults.add(f"--output: {problem}")
     faults.stop_if_any()
     return _hard(options) if options.hard else _speed(options)
@@ -83,7 +82,7 @@ def _measure(options: argparse.Namespace) -> Result:
 
     methods, absent = _methods(peers=options.peers)
     facts = machine(options.peers)
-    _progress("imports")
+    terminal.progress("imports")
     timed = [] if options.quick else methods
     imports = {method.name: import_seconds(method.imports) for method in timed}
     if options.quick:
@@ -92,8 +91,8 @@ def _measure(options: argparse.Namespace) -> Result:
         chosen, effort = cases("speed", names("speed"), CYCLES), benchmark.FULL
     else:
         chosen, effort = cases("speed", FEW, CYCLES), benchmark.DEFAULT
-    runs, starts = benchmark.benchmark(methods, chosen, effort, _progress)
-    _progress("")
+    runs, starts = benchmark.benchmark(methods, chosen, effort, terminal.progress)
+    terminal.progress("")
     return Result(runs, starts, imports, absent, facts)
 
 
@@ -146,8 +145,8 @@ def _hard(options: argparse.Namespace) -> int:
     chosen = [case for case in catalogue() if not options.quick or case.cycles <= 10]
     limit = HARD_SECONDS_QUICK if options.quick else HARD_SECONDS
     facts = machine()
-    found = hard_cases(chosen, limit, _progress)
-    _progress("")
+    found = hard_cases(chosen, limit, terminal.progress)
+    terminal.progress("")
     if options.output is not None:
         _write_hard(found, footer(facts), Path(options.output))
     if options.json:
@@ -183,12 +182,6 @@ def _json(document: object) -> str:
     import json
 
     return json.dumps(terminal.plain(document), indent=1, allow_nan=False) + "\n"
-
-
-def _progress(line: str) -> None:
-    """Say what is being done where somebody can see it pass."""
-    if sys.stderr.isatty():
-        print(f"\r\x1b[K{line}", end="", file=sys.stderr, flush=True)
 
 
 COMMAND = Command(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import difflib
-import sys
 import textwrap
 from collections import Counter
 from collections.abc import Sequence
@@ -30,10 +29,10 @@ def execute(options: argparse.Namespace) -> int:
     from wear.report.claims import as_json, ledger
 
     _check(options.ids)
-    seen = sys.stderr.isatty()
-    entries = ledger(_progress if seen else None, options.ids)
-    if seen:
-        print("\r\033[K", end="", file=sys.stderr)
+    entries = ledger(
+        lambda done, total, claim: terminal.progress(f"{done}/{total} {claim}"), options.ids
+    )
+    terminal.progress("")
     if options.json:
         terminal.print_json(as_json(entries))
         return terminal.DONE
@@ -69,10 +68,6 @@ def _check(ids: list[str]) -> None:
             faults.append(f"{identifier}: no such claim; did you mean {near[0]}?")
     if faults:
         raise UsageError("\n".join(faults))
-
-
-def _progress(done: int, total: int, identifier: str) -> None:
-    print(f"\r\033[K{done}/{total} {identifier}", end="", file=sys.stderr, flush=True)
 
 
 COMMAND = Command(

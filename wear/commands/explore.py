@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from derive import files, terminal
@@ -13,6 +12,7 @@ from wear.commands.arguments import Faults, add_scene
 EXAMPLE = """\
   wear explore                          section4 of the note, into explorer.html
   wear explore scene.toml -o mine.html  a scene of your own, beside the built-in ones
+  wear explore section4 --set contact.cutoff=true
 """
 
 
@@ -36,12 +36,9 @@ def execute(options: argparse.Namespace) -> int:
         faults.add(f"--output: {problem}")
     faults.stop_if_any()
     assert scene is not None
-    seen = sys.stderr.isatty()
-    if seen:
-        print("deriving the model and its equations ...", end="", file=sys.stderr, flush=True)
+    terminal.progress("deriving the model and its equations ...")
     text = page(scene)
-    if seen:
-        print("\r\033[K", end="", file=sys.stderr)
+    terminal.progress("")
     files.write_atomically(options.output, text)
     if options.json:
         terminal.print_json({"page": options.output, "bytes": len(text.encode())})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -37,8 +36,8 @@ def execute(options: argparse.Namespace) -> int:
     from wear.faults import UsageError
 
     folder = Path(options.output)
-    if folder.exists() and not folder.is_dir():
-        raise UsageError(f"--output: {folder}: is not a folder")
+    if problem := files.obstacle_to_folder(folder):
+        raise UsageError(f"--output: {problem}")
     start = time.monotonic()
     progress = _progress(start)
     verification, ledger, published = _reproduce(folder, progress)
@@ -93,13 +92,10 @@ def _json(document: object) -> str:
 
 
 def _progress(start: float) -> Progress:
-    """Show what is being done, on one line of a terminal; nothing elsewhere."""
-    if not sys.stderr.isatty():
-        return lambda _: None
+    """Show what is being done, and since when."""
 
     def show(what: str) -> None:
-        line = f"{time.monotonic() - start:4.0f} s  {what}" if what else ""
-        print(f"\r\033[K{line[:100]}", end="", file=sys.stderr, flush=True)
+        terminal.progress(f"{time.monotonic() - start:4.0f} s  {what}" if what else "")
 
     return show
 

@@ -54,10 +54,11 @@ def _unknown_keys(
     for name in unknown[:MOST_UNKNOWN_KEYS]:
         remedy = _home_of(name, path)
         if not remedy and (meant := did_you_mean(name, known)):
-            remedy = f"did you mean {meant}{', which is given too' if meant in raw else ''}?"
+            remedy = f"did you mean {meant}?"
             meant_keys.add(meant)
         remedy = remedy or f"known here: {', '.join(known)}"
-        problems.append(Problem((*path, name), "unknown key", remedy))
+        what = "table" if isinstance(raw[name], Mapping) else "key"
+        problems.append(Problem((*path, name), f"unknown {what}", remedy))
     if len(unknown) > MOST_UNKNOWN_KEYS:
         more = f"{len(unknown) - MOST_UNKNOWN_KEYS} more unknown keys"
         problems.append(Problem(path, more, f"known here: {', '.join(known)}"))

@@ -66,8 +66,7 @@ def _parse(text: str) -> tuple[list[float], list[float], list[tuple[int, Wrong]]
     lines = [(n, line) for n, line in enumerate(text.split("\n"), start=1) if line.strip()]
     header = [column.strip() for column in lines[0][1].split(",")] if lines else []
     if header != COLUMNS:
-        problem = f"the columns are {shown(','.join(header)) or 'missing'}"
-        return [], [], [(1, Wrong(problem, f"begin with {','.join(COLUMNS)}"))]
+        return [], [], [(1, _header_fault(lines[0][1].strip() if lines else ""))]
     if not 2 <= len(lines) - 1 <= MOST_ROWS:
         count = f"there are {len(lines) - 1} rows"
         return [], [], [(1, Wrong(count, f"give from 2 to {MOST_ROWS}"))]
@@ -85,6 +84,17 @@ def _parse(text: str) -> tuple[list[float], list[float], list[tuple[int, Wrong]]
             times.append(row[0])
             displacements.append(row[1])
     return times, displacements, wrong
+
+
+def _header_fault(header: str) -> Wrong:
+    wanted = ",".join(COLUMNS)
+    if isinstance(_parse_row(header), tuple):
+        return Wrong("the columns have no names", f"put the line {wanted} above the numbers")
+    if ";" in header or "\t" in header:
+        remedy = f"begin with {wanted}, put commas between the columns and points in the numbers"
+    else:
+        remedy = f"begin with {wanted}"
+    return Wrong(f"the columns are {shown(header) or 'missing'}", remedy)
 
 
 def _parse_row(line: str) -> tuple[float, float] | Wrong:

@@ -197,7 +197,13 @@ def _read_override(option: str) -> tuple[Path, object] | Fault:
     if not equals or not all(path) or not 1 <= len(path) <= 2:
         remedy = "write --set TABLE.KEY=VALUE, such as --set bearing.hardness_MPa=200"
         return Fault(f"--set {shown(option)}", None, "", "", "is no TABLE.KEY=VALUE", remedy)
-    return path, _override_value(raw.strip())
+    value = _override_value(raw.strip())
+    if path in _TABLE_PATHS and not isinstance(value, dict):
+        known = next((table.names for table in TABLES if table.name == path[0]), ("kind",))
+        problem = f"{path[0]} is a table with several entries"
+        remedy = f"set one of them, such as --set {path[0]}.{known[0]}=VALUE"
+        return Fault(f"--set {shown(option)}", None, "", "", problem, remedy)
+    return path, value
 
 
 def _override_value(raw: str) -> object:
