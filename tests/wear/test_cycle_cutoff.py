@@ -13,9 +13,10 @@ from tests import independent_cutoff
 from tests.wear.reference_scenes import reference_scene, tables
 from tests.wear.test_cycle_count import between, problem
 from wear import count, direct
-from wear.count.cutoff import one_cycle, turning_points
+from wear.count.cutoff import one_cycle
+from wear.count.edge import turning_points
 from wear.count.stages import kinks
-from wear.load import Harmonics, Load, Table
+from wear.load import Harmonics, Load, Sine, Table
 from wear.model import bind
 from wear.scene import Scene, load_scene, scene_from_tables
 
@@ -158,3 +159,14 @@ def test_cycles_until_a_wear_with_a_cutoff() -> None:
     wanted = np.array([*wear, 0.002, 0.0021])
     found = count.cycles_until(model, load, wanted, 1e-11)
     assert found.cycles.tolist() == [7.0, 500.0, 2045.0, np.inf]
+
+
+def test_the_last_cycles_before_arrest_are_known_as_well_as_rounding_permits() -> None:
+    """Two solids and slow wear: contact ends where its margin is hardly more than its rounding."""
+    scene = with_load(
+        Sine(1.7387680687168289e-4, 0.06), 3.678394561303414e-8, 0.15051080555767343, True
+    )
+    model, load = bind(scene), scene.periodic_load
+    found = count.wear_after(model, load, np.array([1e6, 1e12]), 1e-11)
+    assert np.all(found.error <= 1e-11)
+    assert found.notices[0].startswith("wear stops for good in cycle")

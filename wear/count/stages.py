@@ -13,7 +13,7 @@ import numpy as np
 
 from wear.count.build import CycleCount, cycle_count, cycle_count_upto, evaluate, exact_error
 from wear.count.collocation import FloatArray
-from wear.count.cutoff import EDGE, CutoffCycle, one_cycle
+from wear.count.cutoff import TOUCH, CutoffCycle, one_cycle, touch
 from wear.count.cycle import ROUNDOFF, TINY, Cost, OneCycle, settings
 from wear.count.first import exact_cycles
 from wear.count.panels import NONE
@@ -89,16 +89,15 @@ def kinks(cycle: OneCycle, shift: float) -> FloatArray:
     if not isinstance(cycle, CutoffCycle):
         return NONE
     wear = shift * np.expm1(np.linspace(0.0, 40.0, 400))
-    peak = np.full_like(wear, cycle.load.maximum)
-    blur = EDGE * ROUNDOFF * cycle.model.margin_terms(wear, peak)
+    blur = touch(cycle.model, cycle.load, wear)
     found = []
-    for height in cycle.heights:
+    for height in cycle.edge.heights:
         margin = cycle.model.margin(wear, np.full_like(wear, height))
         told = np.abs(margin) > blur
         crossed = np.sign(margin[:-1]) * np.sign(margin[1:]) < 0
         for i in np.flatnonzero(crossed & (told[:-1] | told[1:])):
             found.append(_root(cycle, wear[i], wear[i + 1], float(height)))
-    return np.array(sorted(kink for kink in found if kink > EDGE * ROUNDOFF * shift))
+    return np.array(sorted(kink for kink in found if kink > TOUCH * ROUNDOFF * shift))
 
 
 def _root(cycle: CutoffCycle, low: float, high: float, height: float) -> float:
@@ -202,7 +201,7 @@ def rest_error(model: Model, load: Load, wear: float) -> float:
     peak, worn = np.array(load.maximum), np.array(wear)
     blur = ROUNDOFF * float(model.margin_terms(worn, peak))
     left = abs(float(model.margin(worn, peak)))
-    if wear <= 0 or left > EDGE * blur:
+    if wear <= 0 or left > TOUCH * blur:
         return np.inf
     return (left + blur) / (abs(float(model.margin_slope(worn, peak))) + TINY) / wear
 

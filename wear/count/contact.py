@@ -1,0 +1,182 @@
+"""Wear in contact over a part of the cycle: collocation on the contact alone, up to its end.
+
+Within contact the rate is smooth. Where contact ends, or changes its kind, the margin of contact
+has come to a known level; the phase at which it does so is found along with the wear, so that no
+node lies beyond and the collocation stays spectral.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.count.collocation import BoolArray, FloatArray, Gauss
+from wear.count.cycle import NOISE, PATIENCE, ROUNDOFF, TINY
+from wear.load import Load
+from wear.model import Model
+
+MOST_ITERATIONS = 60  # of Picard
+SHORTEST = 1e-12  # part of a stretch
+MOST_PARTS = 1000  # of a stretch, then it is not sound
+LEAST = 0.1  # of the length of contact, that may be left from one iteration to the next
+STALLED = 1e-7  # what rounding may change from one iteration to the next, at the very most
+BLUR = 4 * ROUNDOFF  # of the margin's terms and of the phase: what the end of contact is known to
+LAYER = 0.25  # of the roughness: wear that changes the pressure by a factor of order one
+FLAT = 1e-30  # mm per cycle: a margin that does not change
+
+
+class Contact(NamedTuple):
+    """Contact of one kind under a load: its wear `rate` (mm per cycle) at any wear and displacement
+    (mm), and the `level` (mm) of the margin at which it ends, which comes from above if it `falls`;
+    no level if it lasts."""
+
+    model: Model
+    load: Load
+    rate: Callable[[FloatArray, FloatArray], FloatArray]
+    level: float | None = None
+    falls: bool = True
+
+    def to_its_end(self, u: FloatArray, phase: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """How far it is to the end of contact (cycles) from wears and phases (k,), by a tangent;
+        and what of that is rounding."""
+        assert self.level is not None
+        sign = 1.0 if self.falls else -1.0
+        U_a = self.load(phase)
+        left = sign * (self.model.margin(u, U_a) - self.level)
+        widens = self.model.margin_slope(u, U_a) * self.rate(u, U_a)
+        change = sign * (self.load.slope(phase) + widens)
+        falls = np.minimum(change, -FLAT)
+        blur = BLUR * (1.0 - self.model.margin_terms(u, U_a) / falls)
+        return -left / falls, np.where(change < -FLAT, blur, 0.0)
+
+
+class Stretch(NamedTuple):
+    """Stretches of phase of a cycle, (k,): where each begins, `whole` lengths, and where contact is
+    `expected` to end, as lengths."""
+
+    begin: FloatArray
+    whole: FloatArray
+    expected: FloatArray
+
+
+class Worn(NamedTuple):
+    """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is sound; the
+    number of right-hand sides evaluated."""
+
+    added: FloatArray
+    length: FloatArray
+    sound: bool
+    evaluations: int
+
+
+def worn(
+    contact: Contact,
+    rule: Gauss,
+    tolerance: float,
+    u: FloatArray,
+    over: Stretch,
+    before: FloatArray,
+) -> Worn:
+    """Wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm so far.
+
+    Stretches are cut in two until the rate is resolved to `tolerance` of what the cycle adds.
+    """
+    added, length, going = np.zeros(len(u)), np.zeros(len(u)), np.full(len(u), True)
+    done, todo = 0.0, [1.0]
+    evaluations, parts, sound = 0, 0, True
+    while todo and going.any():
+        span = todo[-1] - done
+        at = (over.begin + done * over.whole)[going]
+        whole = span * over.whole[going]
+        left = (over.expected - done * over.whole)[going]
+        start = (u + added)[going]
+        part = _part(contact, rule, start, Stretch(at, whole, np.clip(left, LEAST * whole, whole)))
+        evaluations, parts = evaluations + part.evaluations, parts + 1
+        fine = part.sound and _is_fine(
+            contact, rule, part, start, tolerance, (before + added)[going]
+        )
+        if not fine and span > SHORTEST and parts < MOST_PARTS:
+            todo.append(done + span / 2)
+            continue
+        sound &= fine
+        added[going] += part.added
+        length[going] += part.length
+        going[going] = part.length >= whole
+        done = todo.pop()
+    return Worn(added, length, sound, evaluations)
+
+
+class _Part(NamedTuple):
+    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes."""
+
+    added: FloatArray
+    length: FloatArray
+    rate: FloatArray
+    sound: bool
+    evaluations: int
+
+
+def _is_fine(
+    contact: Contact,
+    rule: Gauss,
+    part: _Part,
+    u: FloatArray,
+    tolerance: float,
+    before: FloatArray,
+) -> bool:
+    """Whether the nodes resolve the rate, as measured by what this cycle has added (k,).
+
+    Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
+    foretells. No node sees a layer before the first, where wear opens the gap: up to there wear
+    must be small against the roughness.
+    """
+    series = np.abs(part.rate @ rule.coefficients.T)
+    half = series.shape[1] // 2
+    middle, tail = (np.max(series[:, k - 3 : k], axis=1) for k in (half, 2 * half))
+    left = tail * np.minimum(tail / (middle + TINY), 1.0) ** 2 * part.length
+    left[tail < 100 * ROUNDOFF * np.max(series, axis=1)] = 0.0
+    roughness = contact.model.fields(u, np.zeros_like(u)).sigma
+    skipped = part.length * rule.nodes[0] * np.max(part.rate, axis=1)
+    seen = skipped <= LAYER * roughness
+    return bool(np.all(seen & (left <= tolerance * (before + part.added))))
+
+
+def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
+    """Picard iteration on contact; where it has a level Newton's method finds its end along with
+    the iteration."""
+    length = over.expected if contact.level is not None else over.whole
+    inside = np.zeros((len(u), len(rule.nodes)))
+    last, done, evaluations = np.ones(len(u)), np.full(len(u), False), 0
+    for iteration in range(MOST_ITERATIONS):
+        U_a = contact.load(over.begin[:, None] + length[:, None] * rule.nodes)
+        rate = contact.rate(u[:, None] + inside, U_a)
+        evaluations += rate.size
+        added = length * (rate @ rule.weights)
+        fresh = length[:, None] * (rate @ rule.integrate.T)
+        apart = np.max(np.abs(fresh - inside), axis=1) / (np.abs(added) + TINY)
+        noise = np.full(len(u), NOISE)
+        if contact.level is not None:
+            change, blur = contact.to_its_end(u + added, over.begin + length)
+            change = np.clip(length + change, LEAST * length, over.whole) - length
+            apart = np.maximum(apart, np.abs(change) / length)
+            fresh += rate * rule.nodes * change[:, None]
+            length = length + change
+            noise += np.where(length < over.whole, blur / length, 0.0)
+        inside = fresh
+        done |= _has_settled(apart, last, noise)
+        grows = bool(np.any((apart > last) & ~done)) and iteration > PATIENCE
+        if done.all() or grows or not np.max(apart) < 1e30:
+            break
+        last = apart
+    return _Part(added, length, rate, bool(done.all()), evaluations)
+
+
+def _has_settled(apart: FloatArray, last: FloatArray, noise: FloatArray) -> BoolArray:
+    """Whether an iteration that has changed by `apart`, after `last`, has come to its end."""
+    # A change that was large foretells nothing; one that is small and grows is rounding.
+    foretold = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
+    stalled = (last < STALLED) & (apart >= last)
+    settled: BoolArray = (foretold <= ROUNDOFF) | (apart <= noise) | stalled
+    return settled

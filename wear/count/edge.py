@@ -1,0 +1,215 @@
+"""The edge of contact of a rigid support with cutoff: where the load begins and ends contact.
+
+The contact ends where h = 3 sigma: the `margin` 3 sigma - h = U_a - B(u) vanishes. There, closed
+contact would change the margin at the rate q = U_a' - B'(u) r, a function of the phase alone, since
+u = B^-1(U_a). The cycle is cut where the load turns or has a kink, and where q rises through zero.
+On a piece, then, contact reaches its edge in one direction only, and the smooth solution that is
+continued beyond the edge does not come back: the sign of the margin at the end of a piece, or of
+any part of it, tells for certain whether contact has been lost on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.count.collocation import BoolArray, FloatArray
+from wear.count.cycle import ROUNDOFF
+from wear.load import Load
+from wear.model import Model
+
+SAMPLES = 2048  # of a cycle, to look for where q rises through zero
+PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
+NEARLY = 1e-13  # of a stretch: how near to its ends one looks
+BISECTIONS = 60  # to roundoff
+FEW_BISECTIONS = 30  # where a small error has no effect of first order
+MOST_NEWTON = 60  # for the wear at the edge, which may be far off
+PHASE_NEWTON = 12  # from a secant of the samples of a piece
+FAR = 1e6  # times the roughness: wear at which the margin is as good as linear
+Function = Callable[[FloatArray], FloatArray]
+
+
+class Piece(NamedTuple):
+    """A part of the cycle on which the load is smooth and does not turn: `phases` from its begin to
+    its end, and the load's `heights` (mm) there."""
+
+    phases: FloatArray
+    heights: FloatArray
+
+    @property
+    def begin(self) -> float:
+        """Its first phase."""
+        return float(self.phases[0])
+
+    @property
+    def end(self) -> float:
+        """Its last phase."""
+        return float(self.phases[-1])
+
+    @property
+    def rising(self) -> bool:
+        """Or level."""
+        return bool(self.heights[-1] >= self.heights[0])
+
+
+class Edge(NamedTuple):
+    """The edge of contact of a model under a load, and the cycle cut into `pieces`.
+
+    The margin falls with wear up to the wear `crest` (mm), and rises beyond; under displacements
+    above `highest` (mm) contact has no edge.
+    """
+
+    pieces: tuple[Piece, ...]
+    crest: float
+    highest: float
+
+    @property
+    def heights(self) -> FloatArray:
+        """Displacements (mm) at the ends of pieces."""
+        return np.unique([piece.heights[i] for piece in self.pieces for i in (0, -1)])
+
+    def is_over(self, start: FloatArray, wear: FloatArray, U_a: FloatArray) -> BoolArray:
+        """Whether contact from the wear `start` has come to wear at which it closes anew, on the
+        other side of the crest."""
+        over: BoolArray = (start < self.crest) & (wear >= self.crest) & (U_a < self.highest)
+        return over
+
+
+def edge_of_contact(model: Model, load: Load) -> Edge:
+    """The edge of contact of a model with cutoff on a rigid support."""
+    crest = _crest(model)
+    turns = turning_points(load)
+    highest = float(displacement_at(model, np.array(crest))) if np.isfinite(crest) else np.inf
+    low, high = turns[:-1], turns[1:]
+    over = (load(low) < highest) != (load(high) < highest)
+    appears = _bisected(lambda phase: load(phase) - highest, low[over], high[over])
+    cuts = np.unique(np.concatenate([turns, appears, _closings(model, load, crest, turns)]))
+    inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
+    phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
+    return Edge(tuple(map(Piece, phases, load(phases))), crest, highest)
+
+
+def turning_points(load: Load) -> FloatArray:
+    """Phases from 0 to 1 between which the load is smooth and rises or falls throughout."""
+    cuts = np.unique([0.0, *load.kinks, *load.peaks, 1.0])
+    # Between two peaks or kinks there is a trough at most.
+    low, high = cuts[:-1] + NEARLY * np.diff(cuts), cuts[1:] - NEARLY * np.diff(cuts)
+    turns = (load.slope(low) < 0.0) & (load.slope(high) > 0.0)
+    return np.unique(np.concatenate([cuts, _bisected(load.slope, low[turns], high[turns])]))
+
+
+def _closings(model: Model, load: Load, crest: float, turns: FloatArray) -> FloatArray:
+    """The phases at which the load starts to close contact at its edge, between two turns."""
+
+    def pull(phase: FloatArray) -> FloatArray:
+        U_a, speed = load(phase), load.slope(phase)
+        wear = wear_at(model, U_a, np.zeros_like(U_a), 0.0, crest)
+        if np.isfinite(crest):
+            scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
+            worn = wear_at(model, U_a, np.full_like(U_a, FAR * scale), crest, np.inf)
+            wear = np.where(speed < 0.0, worn, wear)
+        opening = model.margin_slope(wear, U_a) * load.period * model.rate(wear, U_a)
+        result: FloatArray = speed + opening
+        return result
+
+    number = max(2, SAMPLES // len(turns))
+    inside = (1 - np.cos(np.pi * np.arange(number + 1) / number)) / 2
+    inside[0], inside[-1] = NEARLY, 1 - NEARLY
+    phases = (turns[:-1, None] + np.diff(turns)[:, None] * inside).ravel()
+    phases = np.unique(np.concatenate([phases, _extremes(pull, phases)]))
+    value = pull(phases)
+    same = np.diff(np.searchsorted(turns, phases)) == 0
+    rises = (value[:-1] < 0.0) & (value[1:] >= 0.0) & same
+    return _bisected(pull, phases[:-1][rises], phases[1:][rises], FEW_BISECTIONS)
+
+
+def _extremes(function: Function, x: FloatArray) -> FloatArray:
+    """Where a function comes nearest to zero between samples at `x` of one sign."""
+    value = function(x)
+    sign, size = np.sign(value[1:-1]), np.abs(value)
+    nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:])
+    at = 1 + np.flatnonzero(nearest & (sign == np.sign(value[:-2])) & (sign == np.sign(value[2:])))
+    low, high, sign = x[at - 1], x[at + 1], np.sign(value[at])
+    for _ in range(FEW_BISECTIONS if len(at) else 0):
+        third = (high - low) / 3
+        falls = sign * function(low + third) > sign * function(high - third)
+        low, high = np.where(falls, low + third, low), np.where(falls, high, high - third)
+    return (low + high) / 2
+
+
+def _bisected(
+    function: Function, low: FloatArray, high: FloatArray, steps: int = BISECTIONS
+) -> FloatArray:
+    """Where a function changes its sign, in each of many intervals at whose ends it differs."""
+    sign = np.sign(function(low))
+    for _ in range(steps):
+        middle = (low + high) / 2
+        before = np.sign(function(middle)) == sign
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return high
+
+
+def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
+    """The displacement (mm) that just makes contact at each wear: the margin rises with it by as
+    much."""
+    edge: FloatArray = -model.margin(wear, np.zeros_like(wear))
+    return edge
+
+
+def _crest(model: Model) -> float:
+    """The wear (mm) at which the displacement that just makes contact is largest: zero if it falls
+    from the start, infinite if it always rises."""
+    scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
+
+    def slope(y: FloatArray) -> FloatArray:
+        wear = scale * np.expm1(y)
+        result: FloatArray = model.margin_slope(wear, np.zeros_like(wear))
+        return result
+
+    ends = np.array([0.0, np.log(FAR)])
+    first, last = slope(ends)
+    if first >= 0.0:
+        return 0.0
+    if last <= 0.0:
+        return np.inf
+    return float(scale * np.expm1(_bisected(slope, ends[:1], ends[1:])[0]))
+
+
+def wear_at(
+    model: Model, displacement: FloatArray, guess: FloatArray, least: float, most: float
+) -> FloatArray:
+    """The wear (mm) at which contact ends under a displacement, by Newton's method; the nearest of
+    `least` and `most` if there is none between.
+
+    The margin is convex in the wear, so that from the side of contact no step goes too far.
+    """
+    wear = guess
+    for _ in range(MOST_NEWTON):
+        slope = model.margin_slope(wear, displacement)
+        fresh = np.clip(wear - model.margin(wear, displacement) / slope, least, most)
+        change = np.abs(fresh - wear)
+        wear = fresh
+        if not np.any(change > 2 * ROUNDOFF * np.abs(wear)):
+            break
+    return wear
+
+
+def phase_of(load: Load, piece: Piece, height: FloatArray) -> FloatArray:
+    """Where the load reaches each height (k,) on a piece; the nearest end if it does not."""
+    direction = 1.0 if piece.rising else -1.0
+    height = np.clip(height, np.min(piece.heights), np.max(piece.heights))
+    rising = direction * piece.heights
+    at = np.clip(np.searchsorted(rising, direction * height), 1, len(rising) - 1)
+    low, high = piece.phases[at - 1], piece.phases[at]
+    share = (height - piece.heights[at - 1]) / (piece.heights[at] - piece.heights[at - 1])
+    phase = low + (high - low) * np.clip(np.nan_to_num(share), 0.0, 1.0)
+    for _ in range(PHASE_NEWTON):
+        slope = load.slope(phase)
+        step = (height - load(phase)) / np.where(slope == 0.0, np.inf, slope)
+        fresh = np.clip(phase + step, low, high)
+        change, phase = np.max(np.abs(fresh - phase), initial=0.0), fresh
+        if change <= ROUNDOFF:
+            break
+    return phase
