@@ -16,7 +16,7 @@ from tests.derive.exact import variant_of
 from tests.wear.browser import browser
 from wear.cli import main
 from wear.report import explorer, explorer_data
-from wear.scene import builtin_names, load_scene
+from wear.scene import builtin_names, load_scene, parse_scene
 
 READY = "document.documentElement?.dataset.ready >= 1"
 UPDATES = "Number(document.documentElement.dataset.ready)"
@@ -458,6 +458,77 @@ def test_page_says_when_it_does_not_carry_so_far(page):
     assert 1 < number(reached) < 1e9
     said = text(page, "notices")
     assert f"Carried to {reached} cycles only. There the roughness vanishes" in said
+
+
+@pytest.mark.parametrize(
+    "name", ["section3", "section3-cutoff", "section4", "soft-support", "section3-physical"]
+)
+def test_the_scene_file_is_the_scene(page, name):
+    put(page, "scene", name)
+    scene = load_scene(name)
+    shown = parse_scene(text(page, "scene-file"))
+    assert (shown.variant, shown.load) == (scene.variant, scene.load)
+    assert shown.parameters() == pytest.approx(scene.parameters(), rel=1e-15)
+
+
+@pytest.mark.parametrize("pin", ["bearing", "rough", "worn", "worn_rough"])
+def test_the_scene_file_gives_what_is_shown(page, pin):
+    """Every choice but the usual one, and a slider moved; read and solved by Python."""
+    put(page, "pin", pin)
+    for choice in ("compliant", "opening", "cutoff"):
+        if not page.run(f"document.getElementById({choice!r}).disabled"):
+            click(page, choice)
+    put(page, "law", "exponential")
+    put(page, "slider-f_c", "0.31")
+    put(page, "cycles", "1")
+    scene = parse_scene(text(page, "scene-file"))
+    assert text(page, "value-variant") == f"{scene.variant.law}/{scene.variant.module}"
+    assert scene.bearing.roughness_slope == 0.31
+    expected = wear.solve(scene, [10], rtol=1e-6).u_c[0]
+    assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
+    saved = page.run("decodeURIComponent(document.getElementById('save').href.split(',')[1])")
+    assert parse_scene(saved) == scene
+
+
+@pytest.mark.parametrize("kind", LOADS)
+def test_the_scene_file_has_any_load(kind, window, tmp_path):
+    (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.03,1e-4\n0.06,0\n")
+    scene = own_scene(tmp_path, LOADS[kind])
+    file = tmp_path / "page.html"
+    file.write_text(explorer.page(scene), encoding="utf-8")
+    window.open(file, READY)
+    assert parse_scene(text(window, "scene-file"), folder=tmp_path).load(0.3) == scene.load(0.3)
+    put(window, "number-U", "2e-4" if kind == "sine" else "2", event="change")
+    doubled = text(window, "scene-file")
+    if kind == "table":
+        assert "# to be multiplied in that file: its displacements by 2, its times by 1" in doubled
+    else:
+        size = 0.4 if kind == "sine" else 2.0
+        shown = parse_scene(doubled).load(0.3)
+        assert shown == pytest.approx(size * scene.load(0.3), rel=1e-14)
+
+
+def test_a_printed_page_says_what_it_shows(page):
+    page.command("Emulation.setEmulatedMedia", media="print")
+    try:
+        shown = "document.getElementById({!r}).offsetHeight > 0"
+        assert page.run(shown.format("scene-file"))
+        assert not page.run(shown.format("slider-f_c"))
+    finally:
+        page.command("Emulation.setEmulatedMedia", media="")
+
+
+def test_on_a_tablet_four_plots_stay_in_sight(page):
+    page.size(768, 1024)
+    try:
+        page.run("document.getElementById('slider-n').focus()")
+        place = "document.getElementById({!r}).getBoundingClientRect()"
+        lowest = page.run(place.format("legend-inside") + ".bottom")
+        slider = page.run(place.format("slider-n") + ".top")
+        assert 0 < lowest < slider < 1024
+        assert page.run("document.documentElement.scrollWidth") <= 768
+    finally:
+        page.size(1280, 1000)
 
 
 def test_axis_is_logarithmic_or_linear(page):

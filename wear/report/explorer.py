@@ -44,7 +44,7 @@ _PINS = {
 _VALUES = {
     "regime": "Regime",
     "wear-now": "Wear after <span data-cycles></span> cycles",
-    "cycle-now": "Wear of one cycle there",
+    "cycle-now": "Wear of the cycle after",
     "limit-cycle": "Asymptotic wear per cycle",
     "limit-pressure": "Asymptotic pressure",
     "limit-ratio": "Limit of closure over roughness",
@@ -53,6 +53,12 @@ _VALUES = {
     "variant": "Generated variant",
     "time": "Time of this page",
 }
+_SCENE_FILE = """<section aria-labelledby="setting">
+<h2 id="setting">This setting as a scene file</h2>
+<p class="lead"><a id="save" download="scene.toml">Save it</a> as <code>scene.toml</code>:
+<code>wear run scene.toml</code> computes it to ten digits, with an estimate of the error.</p>
+<pre id="scene-file" tabindex="0" aria-labelledby="setting"></pre>
+</section>"""
 
 
 def page(scene: Scene) -> str:
@@ -95,6 +101,7 @@ cycles, by this page alone. The model on it is generated from the derivation.</p
 </div>
 <div class="details">
 {_values()}
+{_SCENE_FILE}
 <section class="equations" aria-labelledby="equations">
 <h2 id="equations">Equations</h2>
 {explorer_equations.rows()}
@@ -120,6 +127,7 @@ def _data(first: Scene) -> dict[str, Any]:
         "first": first.name,
         "scenes": [explorer_data.scene_data(scene) for scene in scenes.values()],
         "parameters": explorer_data.parameter_rows(),
+        "keys": explorer_data.KEYS,
         "checks": explorer_data.checked([*(scenes[name] for name in CHECKED), *own]),
         "agreement": AGREEMENT,
         "cutoff": int(LAWS["tanh"].cutoff),
@@ -163,7 +171,7 @@ def _plots() -> str:
     return (
         '<section class="results" aria-label="Plots">\n'
         f'<div class="choice" role="radiogroup" aria-label="Plot shown">\n{choices}\n</div>\n'
-        '<p id="summary"></p>\n<ul id="notices" role="status"></ul>\n'
+        '<p id="summary" role="status"></p>\n<ul id="notices" role="status"></ul>\n'
         f'<div class="plots" id="plots">\n{plots}\n</div>\n</section>'
     )
 
@@ -187,7 +195,7 @@ def _controls(rows: Sequence[Mapping[str, Any]]) -> str:
         '<select id="scene"></select></div><p class="lead" id="description"></p>'
         '<button type="button" id="reset">Back to the scene</button></fieldset>',
         '<fieldset><legend>Cycles</legend><div class="control">'
-        '<label for="cycles">Number of cycles: <output id="cycles-shown" for="cycles"></output>'
+        '<label for="cycles">Number of cycles <output id="cycles-shown" for="cycles"></output>'
         '</label><input type="range" id="cycles" min="0" max="9" step="0.05" value="4"></div>'
         '<div class="tick"><input type="radio" name="axis" id="logarithmic" checked>'
         '<label for="logarithmic">logarithmic axis</label><input type="radio" name="axis" '

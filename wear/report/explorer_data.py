@@ -29,6 +29,23 @@ GROUPS: Mapping[str, tuple[str, ...]] = {
     "Load and motion": ("U", "T", "R", "n"),
 }
 
+KEYS: Mapping[str, tuple[str, str]] = {
+    "K_c": ("bearing", "wear_coefficient"),
+    "H_c": ("bearing", "hardness_MPa"),
+    "sigma_c0": ("bearing", "roughness_mm"),
+    "f_c": ("bearing", "roughness_slope"),
+    "K_a": ("pin", "wear_coefficient"),
+    "H_a": ("pin", "hardness_MPa"),
+    "sigma_a0": ("pin", "roughness_mm"),
+    "f_a": ("pin", "roughness_slope"),
+    "p_max": ("contact", "max_pressure_MPa"),
+    "h_0": ("contact", "closure_mm"),
+    "k": ("support", "stiffness_MPa_per_mm"),
+    "R": ("motion", "radius_mm"),
+    "n": ("motion", "speed_rpm"),
+}
+"""Where a number stands in a scene file; the load is written by its kind."""
+
 
 def scene_data(scene: Scene) -> dict[str, Any]:
     """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
@@ -71,7 +88,14 @@ def _load_data(load: Load) -> dict[str, Any]:
         raise TypeError(f"the explorer has no load of kind {type(load).__name__}")
     phases = sorted({0.0, 1.0, *load.kinks})
     values = [float(load(phase)) for phase in phases]
-    return {"kind": "table", "phase": phases, "value": values, "stops": list(load.kinks)}
+    return {
+        "kind": "table",
+        "file": load.file,
+        "period_s": load.period,
+        "phase": phases,
+        "value": values,
+        "stops": list(load.kinks),
+    }
 
 
 def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
