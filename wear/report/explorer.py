@@ -27,7 +27,7 @@ CHECKED = ("section3", "section4", "section5", "section4-cutoff", "soft-support"
 AGREEMENT = {"wear": 1e-7, "rate": 1e-12}
 """Largest relative distances from Python: the page's own tolerance, and roundoff."""
 
-SCRIPTS = ("explorer.solve.js", "explorer.plot.js", "explorer.page.js")
+SCRIPTS = ("explorer.solve.js", "explorer.plot.js", "explorer.scene.js", "explorer.page.js")
 
 _PLOTS = {
     "wear": ("Wear", "Wear"),
