@@ -75,8 +75,8 @@ def test_loads_of_all_kinds_go_together() -> None:
     assert np.all(np.abs(found.u_c / np.array(alone) - 1) <= found.error)
 
 
-def test_what_the_first_plan_misses_the_second_finds() -> None:
-    """1e12 cycles take more panels than two."""
+def test_panels_are_as_many_as_a_scene_needs() -> None:
+    """1e12 cycles take more of them than the two that every scene begins with."""
     scenes = [scene_from_tables(tables(f_c=f), "drawn") for f in (0.05, 0.2, 0.35)]
     cycles = np.array([1e3, 1e12])
     found = sweep(scenes, cycles, 1e-8)
@@ -85,10 +85,52 @@ def test_what_the_first_plan_misses_the_second_finds() -> None:
     assert np.all(np.abs(found.u_c / np.array(alone) - 1) <= found.error + 1e-12)
 
 
+@pytest.mark.parametrize(
+    ("K", "f_c", "load"),
+    [
+        (0.1784, 0.4116, {"kind": "harmonics", "cosine_mm": [3.194e-4], "period_s": 0.5186}),
+        (0.1678, 0.4846, {"kind": "constant", "value_mm": 3.338e-4, "period_s": 0.5337}),
+    ],
+)
+def test_wear_that_opens_the_gap_before_the_first_node_is_not_overlooked(
+    K: float, f_c: float, load: dict[str, object]
+) -> None:
+    """The two maps agree there, for neither sees it."""
+    scene = scene_from_tables(tables(K=K, f_c=f_c, load=load), "fast")
+    found = sweep([scene], CYCLES, 1e-4)
+    alone = wear_after(bind(scene), scene.periodic_load, CYCLES, 1e-12)
+    assert np.all(np.abs(found.u_c[0] / alone.u_c - 1) <= found.error[0] + alone.error)
+
+
+@pytest.mark.parametrize("k", [None, 1e4])
+def test_few_scenes_of_a_wide_range_are_solved_alone(k: float | None) -> None:
+    """Wear coefficients over three decades, swings over one, up to a hundred million cycles."""
+    drawn = np.random.default_rng(7).uniform(size=(40, 3))
+    scenes = [
+        scene_from_tables(
+            tables(
+                K=10 ** (-8 + 3 * K),
+                f_c=0.05 + 0.35 * f,
+                k=k,
+                load={"kind": "sine", "amplitude_mm": 2e-4 * 10**U, "period_s": 0.06},
+            ),
+            "wide",
+        )
+        for K, f, U in drawn
+    ]
+    cycles = np.array([1.0, 1e3, 1e8])
+    found = sweep(scenes, cycles, 1e-7)
+    alone = [wear_after(bind(scene), scene.periodic_load, cycles, 1e-12).u_c for scene in scenes]
+    assert np.mean(found.alone) <= 0.05
+    assert np.all(found.error <= 1e-7)
+    assert np.all(np.abs(found.u_c / np.array(alone) - 1) <= found.error + 1e-12)
+
+
 def test_what_does_not_fit_is_solved_alone() -> None:
-    narrow = tables(load={"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06})
+    """Pulses of a hundredth of a period and fast wear."""
+    narrow = tables(K=1e-2, load={"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06})
     found = sweep([reference_scene("S2"), scene_from_tables(narrow, "narrow")], CYCLES, 1e-10)
-    assert found.alone[1]
+    assert found.alone.tolist() == [False, True]
     assert np.all(found.error <= 1e-10)
     assert_allclose(found.u_c[0], [REFERENCE["S2"][int(n)] for n in CYCLES], rtol=1e-10)
 

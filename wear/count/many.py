@@ -16,6 +16,7 @@ from wear.count.cycle import (
     NOISE,
     Advance,
     Near,
+    Settings,
     first_edges,
     hidden,
     iterate,
@@ -26,7 +27,7 @@ from wear.load import Load
 from wear.model import Model
 
 IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
-MOST_INTERVALS = 16  # of phase: what needs more is solved by itself
+MOST_INTERVALS = 32  # of phase: what needs more is solved by itself
 
 Which = slice | IntArray
 
@@ -96,15 +97,41 @@ class ManyDrives(NamedTuple):
         )
 
     def overlooked(self, starts: FloatArray, run: Advance, tolerance: float) -> BoolArray:
-        """In which scenes (scenes,) an interval hides a change of the rate between an end and the
-        nodes, over the cycles of `run` from the `starts` (scenes, k)."""
+        """Which intervals (scenes, q) hide a change of the rate between an end and the nodes, over
+        the cycles of `run` from the `starts` (scenes, k)."""
         added = run.rate @ self.over.rule.weights * self.over.lengths
         wear = starts[..., None] + np.cumsum(np.insert(added, 0, 0.0, axis=-1), axis=-1)
         model = _shaped(self.model, (-1, 1, 1))
         rate = self.period[..., 0] * model.rate(wear, self.at_edges)
-        rough = hidden(run.rate, rate[..., :-1], rate[..., 1:], self.over, tolerance)
-        told: BoolArray = np.any(rough, axis=-1)
-        return told
+        return hidden(run.rate, rate[..., :-1], rate[..., 1:], self.over, tolerance)
+
+    def several(self, number: int) -> Advance:
+        """Some cycles on end from no wear: the guess for one is where those before lead."""
+        start = np.zeros((len(self.displacement), 1))
+        runs = [self.advance(start)]
+        grown = np.zeros_like(runs[0].inside)
+        while len(runs) < number:
+            last = runs[-1]
+            start = start + last.increment
+            apart = last.increment[..., None, None] + grown
+            runs.append(self.advance(start, Near(last.inside + grown, last.rate, apart)))
+            grown = runs[-1].inside - last.inside
+        return Advance(
+            np.concatenate([run.increment for run in runs], axis=1),
+            np.concatenate([run.inside for run in runs], axis=1),
+            np.concatenate([run.rate for run in runs], axis=1),
+            sum(run.evaluations for run in runs),
+            np.logical_and.reduce([run.converged for run in runs]),
+            np.concatenate([run.left for run in runs], axis=1),
+        )
+
+    def rough_first(self, number: int, tolerance: float, strict: float) -> BoolArray:
+        """Which intervals (scenes, q) do not resolve the rate in the first cycles, or hide a change
+        of it at an end, which must hold to the `strict` tolerance: no error estimate tells it."""
+        run = self.several(number)
+        rough = unresolved(run.rate, self.over, tolerance)
+        rough |= self.overlooked(np.cumsum(run.increment, axis=1) - run.increment, run, strict)
+        return rough & run.converged
 
     def in_cache(self, starts: int) -> Iterator[slice]:
         """Scenes a few at a time, with so many starts each."""
@@ -158,16 +185,20 @@ def plain_edges(many: Many) -> Iterator[tuple[IntArray, FloatArray]]:
 
 
 def resolved_edges(
-    many: Many, wear: FloatArray, m: int, tolerance: float
+    many: Many, wear: FloatArray, size: Settings, tolerance: float, first: int
 ) -> Iterator[tuple[IntArray, FloatArray]]:
-    """The scenes, together those with as many intervals, and edges (scenes, q + 1) between which m
-    nodes resolve the rate at the `wear` (scenes, k), mm."""
+    """The scenes, together those with as many intervals, and edges (scenes, q + 1) between which
+    the nodes resolve the rate at the frozen `wear` (scenes, k), mm, and in the `first` cycles."""
     todo = list(plain_edges(many))
     done: dict[int, list[tuple[IntArray, FloatArray]]] = {}
     while todo:
         which, edges = todo.pop()
-        cycle = many.take(which).on(edges, m)
+        cycle = many.take(which).on(edges, size.phase_nodes, tolerance)
         rough = unresolved(cycle.rate(wear[which, :, None, None]), cycle.over, tolerance)
+        calm = np.flatnonzero(~rough.any(axis=1))
+        if len(calm):
+            strict = size.phase_tolerance
+            rough[calm] = cycle.take(calm).rough_first(first, tolerance, strict)
         number = rough.shape[1]
         cuts = np.sum(rough, axis=1) * (number < MOST_INTERVALS)
         middles = np.where(rough, (edges[:, 1:] + edges[:, :-1]) / 2, np.inf)

@@ -6,7 +6,7 @@ good enough for a plan; what the plan misses, the residual of Abel's equation fi
 
 import numpy as np
 
-from wear.count.abel import panel_wear, widths
+from wear.count.abel import Shift, panel_wear, widths
 from wear.count.collocation import FloatArray, chebyshev_analysis, chebyshev_nodes
 from wear.count.cycle import TINY, OneCycle
 from wear.model import Model
@@ -88,7 +88,7 @@ def plan_panels(
     return np.append(ordered[:, 0], end), ordered[:, 1]
 
 
-def halves(shift: float, starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray]:
+def halves(shift: Shift, starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Every panel cut in two."""
     middles = starts + (starts + shift) * np.expm1(SPLIT * widths(shift, starts, ends))
     return np.concatenate([starts, middles]), np.concatenate([middles, ends])

@@ -1,52 +1,35 @@
 """Many scenes at once: the cycle count of `wear.count` with the scenes as one more axis.
 
-Every scene has a mesh of phase and panels of its own; all have the same number of panels. A scene
-that this does not resolve, by the same estimate as for one scene, is solved by itself.
+Every scene has a mesh of phase and panels of its own. A scene that this does not resolve, by the
+same estimate as for one scene, is solved by itself.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from wear.count import abel, wear_after
-from wear.count.collocation import (
-    BoolArray,
-    FloatArray,
-    chebyshev_analysis,
-    chebyshev_nodes,
-    chebyshev_values,
-)
-from wear.count.cycle import TINY, Advance, Near, Settings, settings
-from wear.count.first import BLOCK
-from wear.count.many import Many, ManyDrives, plain_edges, resolved_edges
-from wear.count.panels import CHECKS, SAFETY
+from wear.count.collocation import BoolArray, FloatArray, IntArray
+from wear.count.cycle import TINY, settings
+from wear.count.many import Many, plain_edges, resolved_edges
+from wear.count.many_panels import ManyPanels, fill
+from wear.count.panels import SAFETY
 from wear.count.rounding import roundoff_of
-from wear.count.scan import LEAST
+from wear.count.scan import LEAST, halves
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
-TOGETHER = 256  # scenes
-SPLIT = 0.55  # of the wear that is left, in y, to each panel but the first
+TOGETHER = 1024  # scenes
+FIRST = 10  # cycles that are integrated one by one
+MARGIN = 4.0  # of a rough look ahead
 ITERATED = 0.1  # of the error asked for: what the iteration over a cycle may leave
 JUDGED = 0.01  # of that: what the iteration of the judge may leave
+SAMPLES = np.array([0.0, 0.35, 0.5, 0.65, 1.0])  # of the way in y: there a mesh must suit
 SCAN = np.linspace(0.0, 30.0, 61)  # ln(1 + u/shift) of the look ahead
-
-
-class Plan(NamedTuple):
-    """How finely scenes are resolved: `panels` of each, the `tolerance` of its mesh of phase
-    relative to the error that is asked for, and the `margin` of cycles of a rough look ahead."""
-
-    panels: int
-    tolerance: float
-    margin: float
-
-
-# For all scenes, and for those that this does not resolve.
-PLANS = (Plan(2, 10.0, 2.0), Plan(5, 0.01, 4.0))
 
 
 class Sweep(NamedTuple):
@@ -89,131 +72,104 @@ def _together(scenes: Sequence[Scene], cycles: FloatArray, rtol: float) -> Sweep
 
     many = Many(bind_many(scenes), [scene.periodic_load for scene in scenes])
     wear, error = np.empty((len(scenes), len(cycles))), np.full((len(scenes), len(cycles)), np.inf)
-    alone = np.full(len(scenes), True)
-    for plan in PLANS:
-        left = np.flatnonzero(alone)
-        if many.model.cutoff or len(left) == 0:
-            break
+    if not many.model.cutoff:
         with np.errstate(all="ignore"):  # a scene that overflows here is solved by itself
-            wear[left], error[left] = _solve(many.take(left), cycles, rtol, plan)
-        alone = ~np.all(error <= rtol, axis=1)
+            wear, error = _solve(many, cycles, rtol)
+    alone = ~np.all(error <= rtol, axis=1)
     for i in np.flatnonzero(alone):
         single = wear_after(bind(scenes[int(i)]), many.loads[int(i)], cycles, rtol)
         wear[i], error[i] = single.u_c, single.error
     return Sweep(wear, error, alone)
 
 
-def _solve(
-    many: Many, cycles: FloatArray, rtol: float, plan: Plan
-) -> tuple[FloatArray, FloatArray]:
+def _solve(many: Many, cycles: FloatArray, rtol: float) -> tuple[FloatArray, FloatArray]:
     """Wear (scenes, cycles) and its estimated relative error, infinite where out of reach."""
     shape = (len(many.loads), len(cycles))
-    wear, error = np.empty(shape), np.empty(shape)
+    wear, error = np.full(shape, np.nan), np.full(shape, np.inf)
     fresh = np.zeros((len(many.loads), 1))
     shift = many.model.fields(fresh, fresh).sigma[:, 0] / 4
-    end, pace = _scan(many, shift, plan.margin * max(float(np.max(cycles)), LEAST))
-    samples = np.stack([np.zeros_like(end), end], axis=1)
-    nodes, tolerance = settings(rtol).phase_nodes, plan.tolerance * rtol
-    for which, edges in resolved_edges(many, samples, nodes, tolerance):
+    end, pace = _scan(many, shift, MARGIN * max(float(np.max(cycles)), LEAST))
+    samples = shift[:, None] * np.expm1(np.log1p(end / shift)[:, None] * SAMPLES)
+    for which, edges in resolved_edges(many, samples, settings(rtol), rtol, FIRST):
         # Scenes that wear alike take as many iterations.
         order = np.argsort(pace[which])
         which, edges = which[order], edges[order]
-        group = Group(many.take(which), edges, shift[which], end[which], plan.panels, tolerance)
+        group = Group(many.take(which), edges, shift[which], end[which])
         wear[which], error[which] = _solve_group(group, cycles, rtol)
     return wear, error
 
 
 class Group(NamedTuple):
     """Scenes whose meshes of phase have as many intervals, with edges (scenes, q + 1); the `shift`
-    (scenes,) of the panels, where they `end` (scenes,), mm, and how many each scene has; the
-    `tolerance` of the meshes."""
+    (scenes,) of the panels and where they `end` (scenes,), mm."""
 
     many: Many
     edges: FloatArray
     shift: FloatArray
     end: FloatArray
-    panels: int
-    tolerance: float
 
 
 def _solve_group(group: Group, cycles: FloatArray, rtol: float) -> tuple[FloatArray, FloatArray]:
     """Wear (scenes, cycles) and its estimated relative error."""
     size = settings(rtol)
-    many, scenes = group.many, len(group.shift)
-    coarse = many.on(group.edges, size.phase_nodes, ITERATED * rtol)
-    first = _first_cycles(coarse)
-    wear_before = np.cumsum(first.increment, axis=1) - first.increment
-    begun = wear_before[:, -1] + first.increment[:, -1]
-
-    starts, ends = _panel_ends(begun, group)
-    shift = np.repeat(group.shift, group.panels)
-    across = abel.widths(shift, starts, ends)
-    nodes = abel.panel_wear(shift, starts, across, chebyshev_nodes(size.panel_nodes))
-    ahead = coarse.advance(nodes.reshape(scenes, -1))
-    panels = abel.solve(shift, starts, across, ahead.increment.reshape(nodes.shape))
-
-    checks = abel.panel_wear(shift, starts, across, CHECKS)
-    fine = many.on(group.edges, size.finer_nodes, JUDGED * ITERATED * rtol)
-    judged = fine.advance(
-        np.concatenate([wear_before, checks.reshape(scenes, -1)], axis=1),
-        _near(first, ahead, size),
-    )
+    coarse = group.many.on(group.edges, size.phase_nodes, ITERATED * rtol)
+    fine = group.many.on(group.edges, size.finer_nodes, JUDGED * ITERATED * rtol)
+    first = coarse.several(FIRST)
+    before = np.cumsum(first.increment, axis=1) - first.increment
+    judged = fine.advance(before, first.near(size.finer_nodes))
     # What the iterations of the judge may have left, nothing else tells.
-    missed = np.abs(judged.increment[:, :BLOCK] - first.increment)
-    missed += judged.left[:, :BLOCK] * first.increment
-    residual = np.abs(
-        abel.residual(panels, CHECKS, judged.increment[:, BLOCK:].reshape(checks.shape))
-    )
-    residual += judged.left[:, BLOCK:].reshape(checks.shape)
-    residual += np.max(ahead.left.reshape(nodes.shape), axis=1, keepdims=True)
+    missed = np.abs(judged.increment - first.increment) + judged.left * first.increment
+    begun = _Begun(first.increment, _carried(SAFETY * missed, first.increment))
 
-    wear, error = _evaluate(
-        panels, np.max(residual, axis=1), first.increment, SAFETY * missed, cycles
-    )
-    peak = np.array([[load.maximum] for load in many.loads])
+    sound = np.all(first.converged & judged.converged, axis=1)
+    sound &= ~np.any(coarse.overlooked(before, first, size.phase_tolerance), axis=1)
+    sound &= np.all(begun.error <= rtol * begun.wear, axis=1)
+    wear, error = np.full((2, len(sound), len(cycles)), np.inf)
+    scene = np.flatnonzero(sound)
+    if len(scene) == 0:
+        return wear, error
+    blank = _first_panels(group, scene, begun.wear[scene, -1], size.panel_nodes)
+    for panels in _alike(fill(coarse, fine, blank, size)):
+        which = np.unique(panels.scene)
+        wear[which], error[which] = _evaluate(panels, begun.take(which), cycles)
+    peak = np.array([[load.maximum] for load in group.many.loads])
     told = np.where(np.isfinite(wear), wear, 0.0)
-    error += roundoff_of(many.model, np.broadcast_to(peak, wear.shape), told)
-    sound = np.all(first.converged & ahead.converged & judged.converged, axis=1)
-    sound &= ~coarse.overlooked(wear_before, first, group.tolerance)
-    return wear, np.where(sound[:, None] & np.isfinite(error), error, np.inf)
+    error += roundoff_of(group.many.model, np.broadcast_to(peak, wear.shape), told)
+    return wear, np.where(np.isfinite(error), error, np.inf)
 
 
-def _first_cycles(cycle: ManyDrives) -> Advance:
-    """BLOCK cycles on end: the guess for one is where those before lead."""
-    start = np.zeros((len(cycle.displacement), 1))
-    runs = [cycle.advance(start)]
-    grown = np.zeros_like(runs[0].inside)
-    while len(runs) < BLOCK:
-        last = runs[-1]
-        start = start + last.increment
-        apart = last.increment[..., None, None] + grown
-        runs.append(cycle.advance(start, Near(last.inside + grown, last.rate, apart)))
-        grown = runs[-1].inside - last.inside
-    return Advance(
-        np.concatenate([run.increment for run in runs], axis=1),
-        np.concatenate([run.inside for run in runs], axis=1),
-        np.concatenate([run.rate for run in runs], axis=1),
-        sum(run.evaluations for run in runs),
-        np.logical_and.reduce([run.converged for run in runs]),
-        np.concatenate([run.left for run in runs], axis=1),
-    )
+class _Begun(NamedTuple):
+    """The wear `added` by each of the first cycles (scenes, k), and the estimated `error` of the
+    wear after each, mm."""
+
+    added: FloatArray
+    error: FloatArray
+
+    @property
+    def wear(self) -> FloatArray:
+        """The wear (scenes, k) after each, mm."""
+        return np.cumsum(self.added, axis=1)
+
+    def take(self, which: IntArray) -> _Begun:
+        """Those of some scenes."""
+        return _Begun(self.added[which], self.error[which])
 
 
-def _near(first: Advance, ahead: Advance, size: Settings) -> Near:
-    """What the first cycles do and, by interpolation, those that start at the checks, as a guess
-    for the finer mesh."""
-    m = size.panel_nodes
-    to_checks = chebyshev_values(CHECKS, m) @ chebyshev_analysis(m)
+def _first_panels(group: Group, scene: IntArray, starts: FloatArray, m: int) -> ManyPanels:
+    """Two panels for each `scene` from its wear `starts` (mm) on, the first one shorter."""
+    shift, end = group.shift[scene], group.end[scene]
+    end = starts + (starts + shift) * np.maximum((end - starts) / (starts + shift), 0.05)
+    starts, ends = halves(shift, starts, end)
+    n = len(starts)
+    twice = np.concatenate([scene, scene])
+    return ManyPanels(twice, group.shift[twice], starts, ends, np.zeros((n, m)), np.full(n, np.inf))
 
-    def joined(exact: FloatArray, nodes: FloatArray) -> FloatArray:
-        scenes, _, q, phases = nodes.shape
-        checks = to_checks @ nodes.reshape(scenes, -1, m, q * phases)
-        return np.concatenate([exact, checks.reshape(scenes, -1, q, phases)], axis=1)
 
-    both = first._replace(
-        inside=joined(first.inside, ahead.inside), rate=joined(first.rate, ahead.rate)
-    )
-    return both.near(size.finer_nodes)
+def _alike(panels: ManyPanels) -> Iterator[ManyPanels]:
+    """The panels, together those of scenes with as many of them."""
+    _, inverse, counts = np.unique(panels.scene, return_inverse=True, return_counts=True)
+    for number in np.unique(counts):
+        yield panels.where(counts[inverse] == number)
 
 
 def _scan(many: Many, shift: FloatArray, cycles: float) -> tuple[FloatArray, FloatArray]:
@@ -236,33 +192,19 @@ def _scan(many: Many, shift: FloatArray, cycles: float) -> tuple[FloatArray, Flo
     return shift * np.expm1(y), np.exp(-density[:, 0])
 
 
-def _panel_ends(start: FloatArray, group: Group) -> tuple[FloatArray, FloatArray]:
-    """Starts and ends (scenes * panels,) of panels in wear (mm) from the `start` (scenes,) on, the
-    first ones shorter."""
-    offset = start + group.shift
-    share = np.append(0.0, SPLIT ** np.arange(group.panels - 1, -1, -1.0))
-    y = np.log1p(np.maximum((group.end - start) / offset, 0.05))[:, None] * share
-    edges = start[:, None] + offset[:, None] * np.expm1(y)
-    return edges[:, :-1].ravel(), edges[:, 1:].ravel()
-
-
 def _evaluate(
-    panels: abel.Panels,
-    residual: FloatArray,
-    added: FloatArray,
-    missed: FloatArray,
-    cycles: FloatArray,
+    panels: ManyPanels, begun: _Begun, cycles: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Wear of each scene after `cycles`, and its relative error but for rounding; `added`
-    (scenes, BLOCK) is that of the first cycles, and `missed` what they are wrong by, mm."""
-    scenes = len(added)
-    first, first_error = np.cumsum(added, axis=1), _carried(missed, added)
-    table = abel.count(panels, 0.0)
+    """Wear (scenes, cycles) and its relative error but for rounding, of scenes with as many panels
+    each."""
+    scenes = len(begun.added)
+    density = panels.density
+    table = abel.count(density, 0.0)
     gain = table.gain.reshape(scenes, -1)
-    begins = BLOCK + np.concatenate([np.zeros((scenes, 1)), np.cumsum(gain, axis=1)], axis=1)
+    begins = FIRST + np.concatenate([np.zeros((scenes, 1)), np.cumsum(gain, axis=1)], axis=1)
     table = table._replace(cycles=begins[:, :-1].ravel())
 
-    late = np.maximum(cycles, float(BLOCK))
+    late = np.maximum(cycles, float(FIRST))
     part = np.sum(begins[:, 1:, None] <= late, axis=1)
     out_of_reach = part >= gain.shape[1]
     part = np.minimum(part, gain.shape[1] - 1)
@@ -270,20 +212,20 @@ def _evaluate(
     wear, pace = abel.wear_after(table, np.tile(late, scenes), flat)
     wear, pace = wear.reshape(part.shape), pace.reshape(part.shape)
 
-    parts = gain.size // len(residual)
-    lost = np.repeat(residual, parts).reshape(gain.shape) * gain
-    each = len(residual) // scenes
+    parts = gain.size // len(panels.scene)
+    lost = np.repeat(panels.residual, parts).reshape(gain.shape) * gain
+    each = len(panels.scene) // scenes
     for k in range(1, each):
-        before, after = (panels.take(slice(i, None, each)) for i in (k - 1, k))
+        before, after = (density.take(slice(i, None, each)) for i in (k - 1, k))
         lost[:, k * parts] += abel.junctions(before, after)
-    begun = first_error[:, -1] / abel.first_pace(table).reshape(gain.shape)[:, 0]
-    lost = SAFETY * np.cumsum(lost, axis=1) + begun[:, None]
+    missed = begun.error[:, -1] / abel.first_pace(table).reshape(gain.shape)[:, 0]
+    lost = SAFETY * np.cumsum(lost, axis=1) + missed[:, None]
     error = pace * np.take_along_axis(lost, part, axis=1)
     error[out_of_reach] = np.inf
 
-    early = cycles <= BLOCK
+    early = cycles <= FIRST
     index = cycles[early].astype(int) - 1
-    wear[:, early], error[:, early] = first[:, index], first_error[:, index]
+    wear[:, early], error[:, early] = begun.wear[:, index], begun.error[:, index]
     return wear, error / wear
 
 

@@ -1,0 +1,105 @@
+"""Abel's equation for many scenes: panels of all of them in one array, each cut in two where the
+residual off its nodes asks for it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.count import abel
+from wear.count.collocation import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+    chebyshev_analysis,
+    chebyshev_nodes,
+    chebyshev_values,
+)
+from wear.count.cycle import Advance, Near, Settings
+from wear.count.many import ManyDrives
+from wear.count.panels import CHECKS
+from wear.count.scan import halves
+
+MOST_ROUNDS = 6  # of cutting panels
+
+
+class ManyPanels(NamedTuple):
+    """Panels of many scenes, in rising order scene by scene: the `scene` (panels,) of each, its
+    `shift`, where it `starts` and `ends` (mm), the density's `series` (panels, m) and the greatest
+    `residual` (panels,) of Abel's equation off the nodes."""
+
+    scene: IntArray
+    shift: FloatArray
+    starts: FloatArray
+    ends: FloatArray
+    series: FloatArray
+    residual: FloatArray
+
+    def where(self, chosen: BoolArray | IntArray) -> ManyPanels:
+        """Some of the panels."""
+        return ManyPanels._make(array[chosen] for array in self)
+
+    def joined(self, other: ManyPanels) -> ManyPanels:
+        """Both, in order."""
+        both = ManyPanels._make(np.concatenate(pair) for pair in zip(self, other, strict=True))
+        return both.where(np.lexsort((both.starts, both.scene)))
+
+    @property
+    def density(self) -> abel.Panels:
+        """The panels alone."""
+        across = abel.widths(self.shift, self.starts, self.ends)
+        return abel.Panels(self.shift, self.starts, across, self.series)
+
+
+def fill(coarse: ManyDrives, fine: ManyDrives, blank: ManyPanels, size: Settings) -> ManyPanels:
+    """Solve Abel's equation on panels with the coarse map, test it with the fine one, and cut those
+    with too large a residual in two; scenes that this does not cure keep it."""
+    found = blank.where(np.zeros(len(blank.scene), dtype=bool))
+    for rounds in range(MOST_ROUNDS):
+        fresh, cycles = _solved(coarse, fine, blank, size)
+        rough = ~(fresh.residual <= size.residual_tolerance)
+        # A panel of few cycles would hide an oscillation; nor is there a cure for no number.
+        lost = rough & ~(cycles >= 2 * size.panel_nodes)
+        rough &= ~np.isin(fresh.scene, fresh.scene[lost])
+        if rounds == MOST_ROUNDS - 1 or not rough.any():
+            break
+        found = found.joined(fresh.where(~rough))
+        worst = fresh.where(rough)
+        starts, ends = halves(worst.shift, worst.starts, worst.ends)
+        blank = worst.where(np.tile(np.arange(len(worst.scene)), 2))
+        blank = blank._replace(starts=starts, ends=ends)
+    return found.joined(fresh)
+
+
+def _solved(
+    coarse: ManyDrives, fine: ManyDrives, blank: ManyPanels, size: Settings
+) -> tuple[ManyPanels, FloatArray]:
+    """The panels with series and residual, and roughly how many cycles (panels,) each takes."""
+    shift, starts, m = blank.shift, blank.starts, size.panel_nodes
+    across = abel.widths(shift, starts, blank.ends)
+    nodes = abel.panel_wear(shift, starts, across, chebyshev_nodes(m))
+    ahead = coarse.take(blank.scene).advance(nodes)
+    panels = abel.solve(shift, starts, across, ahead.increment)
+    checks = abel.panel_wear(shift, starts, across, CHECKS)
+    judged = fine.take(blank.scene).advance(checks, _near(ahead, size))
+    residual = np.abs(abel.residual(panels, CHECKS, judged.increment))
+    # What the iterations may have left, nothing else tells.
+    residual = np.max(residual + judged.left, axis=1) + np.max(ahead.left, axis=1)
+    sound = np.all(ahead.converged & judged.converged, axis=1)
+    residual = np.where(sound, residual, np.inf)
+    cycles = np.where(sound, np.mean((blank.ends - starts)[:, None] / ahead.increment, axis=1), 0.0)
+    return blank._replace(series=panels.series, residual=residual), cycles
+
+
+def _near(ahead: Advance, size: Settings) -> Near:
+    """What the cycles do that start at the checks, by interpolation, as a guess for the finer
+    mesh."""
+    m = size.panel_nodes
+    to_checks = chebyshev_values(CHECKS, m) @ chebyshev_analysis(m)
+    inside, rate = (
+        (to_checks @ x.reshape(*x.shape[:2], -1)).reshape(len(x), -1, *x.shape[2:])
+        for x in (ahead.inside, ahead.rate)
+    )
+    return ahead._replace(inside=inside, rate=rate).near(size.finer_nodes)
