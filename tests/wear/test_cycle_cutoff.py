@@ -15,7 +15,7 @@ from tests.wear.test_cycle_count import between, problem
 from wear import count, direct
 from wear.count.cutoff import one_cycle
 from wear.count.edge import turning_points
-from wear.count.stages import kinks
+from wear.count.kinks import kinks
 from wear.load import Harmonics, Load, Sine, Table
 from wear.model import bind
 from wear.scene import Scene, load_scene, scene_from_tables
@@ -56,10 +56,10 @@ UNEVEN = {  # rise slowly, then fast, and slowly again
 }
 
 
-def with_load(load: Load, K: float, f_c: float, pin: bool = False) -> Scene:
+def with_load(load: Load, K: float, f_c: float, pin: bool = False, closure: float = 9e-4) -> Scene:
     made = tables(K=K, f_c=f_c, pin=pin, cutoff=True)
     made["contact"].pop("closure_in_sigma", None)
-    made["contact"]["closure_mm"] = 9e-4
+    made["contact"]["closure_mm"] = closure
     return replace(scene_from_tables(made), load=load)
 
 
@@ -163,10 +163,34 @@ def test_cycles_until_a_wear_with_a_cutoff() -> None:
 
 def test_the_last_cycles_before_arrest_are_known_as_well_as_rounding_permits() -> None:
     """Two solids and slow wear: contact ends where its margin is hardly more than its rounding."""
-    scene = with_load(
-        Sine(1.7387680687168289e-4, 0.06), 3.678394561303414e-8, 0.15051080555767343, True
-    )
-    model, load = bind(scene), scene.periodic_load
-    found = count.wear_after(model, load, np.array([1e6, 1e12]), 1e-11)
+    load = Sine(1.7387680687168289e-4, 0.06)
+    scene = with_load(load, 3.678394561303414e-8, 0.15051080555767343, True, 9.391617219250994e-4)
+    found = count.wear_after(bind(scene), load, np.array([1e6, 1e12]), 1e-11)
     assert np.all(found.error <= 1e-11)
     assert found.notices[0].startswith("wear stops for good in cycle")
+
+
+@pytest.mark.parametrize(
+    ("K", "f_c", "cycles"),
+    [(1e-5, -0.1, [5, 12, 60]), (1e-6, 0.1, [3, 40]), (3e-5, 0.1, [4, 12, 40])],
+)
+def test_at_a_sharp_peak_wear_fades(K: float, f_c: float, cycles: list[int]) -> None:
+    """Each cycle takes the same part of the distance that is left: no cycle is the last."""
+    load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
+    scene = with_load(load, K, f_c)
+    agrees_with_the_judge(scene, cycles, 1e-12)
+    last = count.wear_after(bind(scene), load, np.array([1e12]), 1e-12)
+    assert last.notices[0].startswith("wear fades: from cycle")
+    assert last.cost.cycles_integrated <= 1000
+    # B(u) = (1 - 3 f) u + h_0 - 3 sigma_0 has come to the peak.
+    assert_allclose(last.u_c, (3 * 3.6e-4 - 9e-4 + 3e-4) / (1 - 3 * f_c), rtol=4e-15)
+    assert last.error[0] < 1e-14
+
+
+def test_cycles_until_a_wear_that_fades() -> None:
+    load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
+    model = bind(with_load(load, 3e-6, 0.1))
+    wear = count.wear_after(model, load, np.array([30.0, 60.0, 90.0]), 1e-11).u_c
+    rest = count.wear_after(model, load, np.array([1e6]), 1e-11).u_c
+    found = count.cycles_until(model, load, np.array([*(wear - 1e-16), *(rest * 1.01)]), 1e-11)
+    assert found.cycles.tolist() == [30.0, 60.0, 90.0, np.inf]

@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.build import until
 from wear.count.collocation import FloatArray
 from wear.count.cycle import Cost
 from wear.count.scan import LEAST
-from wear.count.stages import Stages, counted_stages, evaluate_stages
+from wear.count.stage import Stages, evaluate_stages
+from wear.count.stages import counted_stages
 from wear.load import Load
 from wear.model import Model
 
@@ -91,8 +91,8 @@ def cycles_until(
         reach = min(reach * 1e3, most)
     count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
     for stage in reversed(found.stages):
-        after, missed = until(stage.counted, wear)
-        here = np.isfinite(after) & (stage.begins + after <= most)
-        count[here] = stage.begins + after[here]
-        error[here] = (missed[here] + stage.blur) / np.maximum(count[here], 1.0)
+        after, missed = stage.cycles_until(wear)
+        here = after <= most
+        count[here] = after[here]
+        error[here] = missed[here] / np.maximum(count[here], 1.0)
     return Cycles(count, error, cost)

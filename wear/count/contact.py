@@ -92,7 +92,8 @@ def worn(
         whole = span * over.whole[going]
         left = (over.expected - done * over.whole)[going]
         start = (u + added)[going]
-        part = _part(contact, rule, start, Stretch(at, whole, np.clip(left, LEAST * whole, whole)))
+        expected = np.minimum(np.where(left > 0.0, left, LEAST * whole), whole)
+        part = _part(contact, rule, start, Stretch(at, whole, expected))
         evaluations, parts = evaluations + part.evaluations, parts + 1
         fine = part.sound and _is_fine(
             contact, rule, part, start, tolerance, (before + added)[going]

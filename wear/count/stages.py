@@ -1,9 +1,9 @@
-"""The cycle count with a cutoff: stages between the wears at which contact grazes.
+"""The cycle count in stages: with a cutoff between the wears at which contact grazes.
 
 Where the edge of contact passes a turning point of the load, or the phase at which cycles begin,
-the one-cycle map has a kink, and where it passes the highest point wear stops for good. No panel
-may hold a kink: panels end shortly before it, a few exact cycles lead across, and the count begins
-anew. A stage counts from its own start.
+the one-cycle map has a kink, and where it passes the highest point wear ends. No panel may hold a
+kink: panels end shortly before it, a few exact cycles lead across, and the count begins anew. A
+stage counts from its own start.
 """
 
 import time
@@ -12,160 +12,148 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.build import CycleCount, cycle_count, cycle_count_upto, evaluate, exact_error
-from wear.count.collocation import FloatArray
-from wear.count.cutoff import TOUCH, CutoffCycle, one_cycle, touch
-from wear.count.cycle import ROUNDOFF, TINY, Cost, OneCycle, settings
+from wear.count.collocation import FloatArray, mesh
+from wear.count.cutoff import CutoffCycle, one_cycle
+from wear.count.cycle import ROUNDOFF, TINY, Cost, OneCycle, Settings, settings
 from wear.count.first import exact_cycles
-from wear.count.panels import NONE
+from wear.count.kinks import fades, kinks, rest_of
+from wear.count.panels import NONE, Maps
 from wear.count.scan import roughness_limit, roughness_scale
+from wear.count.stage import Leap, Stage, Stages
+from wear.count.tail import Rest, Tail, begins_at, tail
 from wear.load import Load
 from wear.model import Model
 
 AHEAD = 30.0  # cycles before a kink that are integrated one by one
 GRAIN = 1e6  # roundoffs of the wear that the way to a kink may shrink to
+NEAR_REST = 0.1  # of the wear that changes the pressure: where a tail may begin
 MOST_STAGES = 40
-
-
-class Stage(NamedTuple):
-    """A count from `begins` cycles on, give or take `adrift`, with the error (mm) of the wear that
-    it begins with."""
-
-    begins: float
-    counted: CycleCount
-    inherited: float
-    adrift: float = 0.0
-
-    @property
-    def blur(self) -> float:
-        """By how many cycles its count may be out."""
-        pace = self.counted.pace
-        return self.adrift + (self.inherited / pace if pace > 0 else 0.0)
-
-
-class Arrest(NamedTuple):
-    """The `cycle`, counted from 1, in which wear stops for good, give or take some."""
-
-    cycle: int
-    uncertain: int
-
-    def __str__(self) -> str:
-        spread = f", give or take {self.uncertain}" if self.uncertain else ""
-        return f"wear stops for good in cycle {self.cycle}{spread}"
-
-
-class Stages(NamedTuple):
-    """All stages, in order, and whether wear has stopped for good after the last one; it is then
-    known up to the relative error `at_rest`, whatever the error of the cycles before."""
-
-    stages: tuple[Stage, ...]
-    arrested: bool
-    at_rest: float
-    cost: Cost
-
-    @property
-    def last_wear(self) -> float:
-        """The wear (mm) up to which it counts."""
-        return self.stages[-1].counted.last_wear
-
-    @property
-    def arrest(self) -> Arrest | None:
-        """When wear stops, if it does within the cycles counted and their error is known."""
-        last = self.stages[-1]
-        known = np.isfinite(last.inherited) and np.isfinite(last.counted.first_error).all()
-        # A stage that begins at rest does not tell how long it took to get there.
-        moving = [stage.blur for stage in self.stages if stage.counted.pace > 0]
-        blur = max([last.blur, *moving[-1:]])
-        if not (self.arrested and known and np.isfinite(blur)):
-            return None
-        idle = int(np.argmax(np.diff(last.counted.first) <= 0))
-        return Arrest(int(last.begins) + idle, round(blur))
-
-
-def kinks(cycle: OneCycle, shift: float) -> FloatArray:
-    """Wear (mm) at which the edge of contact passes an end of a piece, rising.
-
-    Where the margin is hardly more than its own rounding, the map does not feel the kink.
-    """
-    if not isinstance(cycle, CutoffCycle):
-        return NONE
-    wear = shift * np.expm1(np.linspace(0.0, 40.0, 400))
-    blur = touch(cycle.model, cycle.load, wear)
-    found = []
-    for height in cycle.edge.heights:
-        margin = cycle.model.margin(wear, np.full_like(wear, height))
-        told = np.abs(margin) > blur
-        crossed = np.sign(margin[:-1]) * np.sign(margin[1:]) < 0
-        for i in np.flatnonzero(crossed & (told[:-1] | told[1:])):
-            found.append(_root(cycle, wear[i], wear[i + 1], float(height)))
-    return np.array(sorted(kink for kink in found if kink > TOUCH * ROUNDOFF * shift))
-
-
-def _root(cycle: CutoffCycle, low: float, high: float, height: float) -> float:
-    """The wear between `low` and `high` at which the margin vanishes, by bisection."""
-
-    def inside(wear: float) -> bool:
-        return bool(cycle.model.margin(np.array(wear), np.array(height)) > 0.0)
-
-    contact = inside(low)
-    while low < (middle := (low + high) / 2) < high:
-        low, high = (middle, high) if inside(middle) == contact else (low, middle)
-    return low if contact else high
 
 
 @np.errstate(all="ignore")
 def counted_stages(
     model: Model, load: Load, cycles: float, rtol: float, start: float, deadline: float = np.inf
 ) -> Stages:
-    """Count from the wear `start` (mm) up to `cycles`, or until wear stops.
+    """Count from the wear `start` (mm) up to `cycles`, or until wear ends.
 
     After the `deadline` (`time.monotonic()`) no other stage is begun.
     """
-    if not model.cutoff:
-        return _smooth_stages(model, load, cycles, rtol, start, deadline)
     cycle = one_cycle(model, load)
-    shift = roughness_scale(model)
-    end = roughness_limit(model, 1e12 * shift)
-    targets = kinks(cycle, shift)
-    size = settings(rtol)
-    exact = cycle.resolved(NONE, size.phase_nodes, size.phase_tolerance)
+    if not isinstance(cycle, CutoffCycle):
+        return _smooth_stages(model, load, cycles, rtol, start, deadline)
+    way, cost = _way(cycle, rtol, deadline), Cost(0, 0)
     done: list[Stage] = []
-    begins, wear, inherited, adrift, cost = 0.0, start, 0.0, 0.0, Cost(0, 0)
-    while len(done) < MOST_STAGES:
-        target = min((kink for kink in targets if kink > wear * (1 + 8 * ROUNDOFF)), default=end)
-        limit = _panels_until(exact, wear, target) if target < end else end
-        left = _too_near(exact, wear, target)
-        if left > AHEAD:
-            # Double precision cannot tell the steps that are left to the kink.
-            counted = CycleCount(
-                np.array([wear]), np.zeros(1), None, None, NONE, exact.over, end, Cost(0, 0)
-            )
-            inherited, adrift = inherited + target - wear, adrift + left
-            done.append(Stage(begins, counted, inherited, adrift))
-            begins, wear = begins + np.floor(left), float(target)
-            if begins >= cycles:
-                break
-            continue
-        if limit > wear:
-            counted = cycle_count_upto(
-                exact, model, load, cycles - begins, rtol, wear, limit, deadline=deadline
-            )
-        else:
-            run = exact_cycles(exact, wear, target, cycles - begins, size)
-            error = exact_error(model, load, run)
-            counted = CycleCount(run.wear, error, None, None, NONE, run.over, end, run.cost)
-        counted = counted._replace(limit=end)
-        done.append(Stage(begins, counted, inherited, adrift))
-        cost = cost.plus(*counted.cost)
-        ran = _ran(counted)
-        arrested = counted.table is None and not np.sum(np.diff(counted.first)[-1:]) > 0
-        if arrested or begins + ran >= cycles:
-            return Stages(tuple(done), arrested, rest_error(model, load, counted.last_wear), cost)
-        after, relative = evaluate(counted, np.array([ran]))
-        begins, wear = begins + ran, float(after[0])
-        inherited += float(relative[0]) * wear
-        if time.monotonic() > deadline:
-            break
+    now = Now(0.0, start, 0.0, 0.0)
+    while len(done) < MOST_STAGES and time.monotonic() <= deadline:
+        stage = _next_stage(way, now, cycles - now.cycles)
+        done.append(stage)
+        cost = cost.plus(*stage.counted.cost)
+        beyond = stage.begins + stage.ran
+        last = stage.counted.last_wear
+        if stage.ends or beyond >= cycles:
+            # A tail is known to its very end, whether or not that is asked for.
+            ended = stage.ends and not (isinstance(stage.counted, Tail) and beyond > cycles)
+            rest = rest_of(model, load, last)
+            at_rest = rest.blur / last if rest else np.inf
+            return Stages(tuple(done), ended, at_rest, cost)
+        after, relative = stage.wear_after(np.array([beyond]))
+        now = Now(beyond, float(after[0]), float(relative[0] * after[0]), stage.drift)
     return Stages(tuple(done), False, np.inf, cost)
+
+
+class Now(NamedTuple):
+    """How far the count has come: after `cycles`, give or take `adrift`, with the `wear` known up
+    to `missed`, in mm."""
+
+    cycles: float
+    wear: float
+    missed: float
+    adrift: float
+
+    def stage(self, counted: CycleCount | Tail | Leap) -> Stage:
+        """The stage from here on."""
+        return Stage(self.cycles, counted, self.missed, self.adrift)
+
+
+class Way(NamedTuple):
+    """What is ahead of a count with cutoff: the `kinks` (mm), rising; the `rest`, the last of them,
+    if wear fades there; the wear `end` (mm) beyond which nothing has a meaning."""
+
+    exact: CutoffCycle
+    kinks: FloatArray
+    rest: Rest | None
+    end: float
+    shift: float
+    rtol: float
+    deadline: float
+
+    @property
+    def size(self) -> Settings:
+        return settings(self.rtol)
+
+
+def _way(cycle: CutoffCycle, rtol: float, deadline: float) -> Way:
+    """What is ahead, with a map of a cycle that suits the accuracy `rtol`."""
+    model, load, size = cycle.model, cycle.load, settings(rtol)
+    shift = roughness_scale(model)
+    grazing = kinks(cycle, shift)
+    rest = rest_of(model, load, float(grazing[-1])) if len(grazing) else None
+    if rest is not None and not fades(cycle, rest.wear):
+        rest = None
+    end = roughness_limit(model, 1e12 * shift)
+    exact = cycle.resolved(NONE, size.phase_nodes, size.phase_tolerance)
+    return Way(exact, grazing, rest, end, shift, rtol, deadline)
+
+
+def _next_stage(way: Way, now: Now, cycles: float) -> Stage:
+    """The stage from `now` on, for `cycles` more: on panels towards the next kink, or near it."""
+    wear = now.wear
+    target = min((kink for kink in way.kinks if kink > wear * (1 + 8 * ROUNDOFF)), default=way.end)
+    if way.rest is not None and target == way.rest.wear:
+        limit = way.rest.wear - NEAR_REST * way.shift
+        if wear >= limit:
+            return now.stage(_towards(way, way.rest, wear, cycles))
+        target = limit
+    else:
+        limit = _panels_until(way.exact, wear, target) if target < way.end else way.end
+        left = _too_near(way.exact, wear, target)
+        if left > AHEAD:
+            return now.stage(Leap(wear, float(target), float(np.floor(left))))
+    counted = _on_panels(way, wear, limit, cycles) if limit > wear else None
+    return now.stage(counted or _one_by_one(way, wear, target, cycles))
+
+
+def _on_panels(way: Way, wear: float, limit: float, cycles: float) -> CycleCount | None:
+    """The count on panels up to the wear `limit` (mm); None if cycles are too long for them."""
+    model, load = way.exact.model, way.exact.load
+    counted = cycle_count_upto(
+        way.exact, model, load, cycles, way.rtol, wear, limit, deadline=way.deadline
+    )
+    if counted.table is None:
+        # What passes the limit is not counted.
+        known = int(np.sum(np.isfinite(counted.first_error)))
+        if known < 2:
+            return None
+        first, error = counted.first[:known], counted.first_error[:known]
+        counted = counted._replace(first=first, first_error=error)
+    return counted._replace(limit=way.end)
+
+
+def _one_by_one(way: Way, wear: float, target: float, cycles: float) -> CycleCount:
+    """Cycle after cycle until the wear passes the `target` (mm)."""
+    run = exact_cycles(way.exact, wear, target, cycles, way.size)
+    error = exact_error(way.exact.model, way.exact.load, run)
+    return CycleCount(run.wear, error, None, None, NONE, run.over, way.end, run.cost)
+
+
+def _towards(way: Way, rest: Rest, wear: float, cycles: float) -> CycleCount | Tail:
+    """The count near the `rest`: a tail, or the cycles before it."""
+    begin = begins_at(way.exact, rest, wear)
+    if begin > wear * (1 + 8 * ROUNDOFF):
+        return _one_by_one(way, wear, begin, cycles)
+    finer = way.exact.on(mesh(way.exact.over.edges, way.size.finer_nodes))
+    both = Maps(way.exact, finer)
+    return tail(both, way.exact.model, way.exact.load, rest, wear, way.size)
 
 
 def _smooth_stages(
@@ -179,7 +167,7 @@ def _smooth_stages(
         counted = cycle_count(model, load, cycles - begins, rtol, wear, missed, deadline)
         done.append(Stage(begins, counted, 0.0))
         cost = cost.plus(*counted.cost)
-        ran = _ran(counted)
+        ran = done[-1].ran
         ends = counted.rests or not counted.last_wear < (1 - 1e-9) * counted.limit
         if (
             ends
@@ -193,24 +181,6 @@ def _smooth_stages(
         missed = float(relative[0]) * wear
         if not missed < np.inf:
             return Stages(tuple(done), False, np.inf, cost)
-
-
-def rest_error(model: Model, load: Load, wear: float) -> float:
-    """Relative error of the wear (mm) at which the peak of the load just fails to make contact:
-    that of a root of the margin. Infinite if this is not such a wear."""
-    peak, worn = np.array(load.maximum), np.array(wear)
-    blur = ROUNDOFF * float(model.margin_terms(worn, peak))
-    left = abs(float(model.margin(worn, peak)))
-    if wear <= 0 or left > TOUCH * blur:
-        return np.inf
-    return (left + blur) / (abs(float(model.margin_slope(worn, peak))) + TINY) / wear
-
-
-def _ran(counted: CycleCount) -> float:
-    """How many whole cycles a count covers."""
-    if counted.table is None:
-        return float(len(counted.first) - 1)
-    return float(np.floor(counted.table.last_cycles))
 
 
 def _panels_until(cycle: OneCycle, wear: float, target: float) -> float:
@@ -231,23 +201,3 @@ def _too_near(cycle: OneCycle, wear: float, target: float) -> float:
     if not 0.0 < target - wear < 4 * GRAIN * ROUNDOFF * target:
         return 0.0
     return float(2 * (target - wear) / (cycle.frozen(np.array([wear]))[0] + TINY))
-
-
-def evaluate_stages(found: Stages, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Wear (mm) after `cycles` and its estimated relative error, infinite where out of reach."""
-    wear, error = np.zeros(cycles.shape), np.zeros(cycles.shape)
-    begins = np.array([stage.begins for stage in found.stages])
-    which = np.maximum(np.searchsorted(begins, cycles, side="right") - 1, 0)
-    for i, stage in enumerate(found.stages):
-        mine = which == i
-        if mine.any():
-            u, relative = evaluate(stage.counted, cycles[mine] - stage.begins)
-            wear[mine] = u
-            error[mine] = relative + stage.inherited / (u + TINY)
-    last = found.stages[-1]
-    if found.arrest is not None:
-        rests = cycles >= found.arrest.cycle + 2 * found.arrest.uncertain
-        error[rests] = found.at_rest if np.isfinite(found.at_rest) else error[rests]
-    else:
-        error[cycles > last.begins + _ran(last.counted) + 1.0] = np.inf
-    return wear, error
