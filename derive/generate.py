@@ -1,6 +1,7 @@
 """Writing the generated modules of wear, and telling whether they are up to date.
 
 Key results
+    faults_of   why no code is written for a contact law
     sources     every generated file, as text
     write       write what differs
     outdated    the files that differ from what would be written
@@ -13,19 +14,54 @@ from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
+import sympy as sp
+
 from .codegen import reaction
 from .codegen.numpy_module import module_text
+from .faults import UsageError
 from .files import write_atomically
-from .laws import LAWS
+from .laws import LAWS, ContactLaw, r
 from .results import asymptotics, static_scaled
+from .rules.sign import sign
 from .variant import VARIANTS
 
+_DISTANCES = (-8.0, -1.0, -0.125, 0.125, 1.0, 8.0)
+"""From the inflection, in h/sigma: where the curvature of a law is looked at."""
 _PACKAGE = '"""Generated code{of}, one module a variant; not to be edited."""\n'
+
+
+def faults_of(law: ContactLaw) -> tuple[str, ...]:
+    """Return what is not proved of a law that must be positive and decreasing, and curved as told.
+
+    >>> from derive.laws import TANH
+    >>> faults_of(TANH)
+    ()
+    """
+    slope = sp.diff(law.phi, r)
+    found = [
+        f"{law.name}: {expression} is not proved to be {wanted}; if it is, write phi otherwise"
+        for expression, wanted, expected in ((law.phi, "positive", 1), (slope, "negative", -1))
+        if sign(expression) != expected
+    ]
+    everywhere = not law.inflection.is_finite
+    place = sp.Integer(0) if everywhere else law.inflection
+    convex = [bool(sp.diff(slope, r).subs(r, place + d).evalf(30) > 0) for d in _DISTANCES]
+    if convex != [everywhere or d > 0 for d in _DISTANCES]:
+        found.append(f"{law.name}: phi does not turn from concave to convex at {law.inflection}")
+    return tuple(found)
 
 
 @cache
 def sources() -> Mapping[str, str]:
-    """Return the text of every generated file by its path within ``wear/generated``."""
+    """Return the text of every generated file by its path within ``wear/generated``.
+
+    Raises
+    ------
+    UsageError
+        with all faults of the contact laws.
+    """
+    if faults := [fault for law in LAWS.values() for fault in faults_of(law)]:
+        raise UsageError("\n".join(faults))
     files = {"__init__.py": _PACKAGE.format(of="")}
     for law in LAWS:
         files[f"{law}/__init__.py"] = _PACKAGE.format(of=f" of the {law} contact law")
@@ -46,7 +82,7 @@ def outdated(folder: Path) -> tuple[str, ...]:
         if not (folder / name).is_file() or (folder / name).read_text(encoding="utf-8") != text
     ]
     present = (p.relative_to(folder).as_posix() for p in folder.rglob("*.py"))
-    return (*differing, *(name for name in present if name not in wanted))
+    return (*differing, *sorted(name for name in present if name not in wanted))
 
 
 def write(folder: Path) -> tuple[str, ...]:

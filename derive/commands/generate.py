@@ -34,8 +34,10 @@ def execute(options: argparse.Namespace) -> int:
     if options.json:
         terminal.print_json({"changed": list(changed), "written": not options.check})
     else:
-        verb = "out of date" if options.check else "written"
-        print("\n".join(f"{verb}: {name}" for name in changed) or "up to date")
+        wanted = generate.sources()
+        done = {name: "written" if name in wanted else "removed" for name in changed}
+        lines = [f"{'out of date' if options.check else done[name]}: {name}" for name in changed]
+        print("\n".join(lines) or "up to date")
     return terminal.FAILED if options.check and changed else terminal.DONE
 
 

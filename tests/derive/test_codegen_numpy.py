@@ -22,6 +22,7 @@ import wear.generated
 import wear.root
 from derive import generate
 from derive.codegen.numpy_module import module_text
+from derive.faults import UsageError
 from derive.laws import LAWS, ContactLaw, r
 from derive.note.condensed import Condensed
 from derive.program.root import tail
@@ -64,6 +65,34 @@ def in_parameters(variant: Variant, name: str) -> sp.Expr:
 
 
 # What the code computes
+
+
+@pytest.mark.parametrize(
+    ("phi", "inflection", "told"),
+    [
+        (1 / (1 + sp.exp(-2 * r)), 0, ["is not proved to be negative", "concave to convex at 0"]),
+        (-sp.exp(r), -sp.oo, ["-exp(r) is not proved to be positive", "concave to convex at -oo"]),
+        (1 / (1 + sp.exp(2 * r - 4)), 1, ["phi does not turn from concave to convex at 1"]),
+        (1 / (1 + sp.exp(2 * r - 4)), -sp.oo, ["concave to convex at -oo"]),
+        (1 / (1 + sp.exp(2 * r - 4)), 2, []),
+        ((1 - r / sp.sqrt(1 + r**2)) / 2, 0, []),
+    ],
+)
+def test_a_law_is_refused_unless_it_is_proved(phi, inflection, told):
+    faults = generate.faults_of(ContactLaw("own", phi, sp.sympify(inflection), "a test"))
+    assert "\n".join(faults).count("own: ") == len(told)
+    assert all(words in "\n".join(faults) for words in told)
+
+
+def test_no_code_is_written_for_a_law_that_is_refused(monkeypatch, tmp_path):
+    rising = ContactLaw("rising", 1 / (1 + sp.exp(-r)), sp.Integer(0), "a test")
+    monkeypatch.setattr(generate, "LAWS", {**LAWS, "rising": rising})
+    generate.sources.cache_clear()
+    with pytest.raises(UsageError, match="rising: "):
+        generate.write(tmp_path)
+    assert list(tmp_path.iterdir()) == []
+    monkeypatch.undo()
+    generate.sources.cache_clear()
 
 
 def test_generated_files_are_up_to_date():
