@@ -129,10 +129,15 @@ def _attributes(history: History) -> dict[str, str]:
 
 @contextmanager
 def _replacing(path: Path) -> Iterator[Path]:
-    """Give a name beside `path` to write to; it takes its place if nothing goes wrong."""
+    """Give a name beside `path` to write to; it takes its place if nothing goes wrong.
+
+    An `OSError` names `path`, whatever name was written to.
+    """
     draft = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
     try:
         yield draft
         draft.replace(path)
+    except OSError as fault:
+        raise OSError(fault.errno, fault.strerror, str(path)) from fault
     finally:
         draft.unlink(missing_ok=True)

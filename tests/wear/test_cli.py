@@ -92,6 +92,33 @@ def test_a_full_disk_is_told_whatever_is_printed(arguments):
     assert run.returncode == 2
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "run section4 --cycles 0:2000 -o wear.csv",
+        "run section4 --cycles 0:2000 -o wear.nc",
+        "run section4 --cycles 0:2000 --phases 9 -o wear.nc",
+        "figure section4 -o wear.svg",
+    ],
+)
+def test_a_disk_that_fills_up_is_told_and_nothing_is_left(line, tmp_path):
+    """A limit on the size of files stands for the disk; what was there before stays."""
+    file = tmp_path / line.split()[-1]
+    file.write_text("before")
+    run = subprocess.run(
+        ["sh", "-c", f'ulimit -f 8; exec "$0" -m wear.cli {line}', sys.executable],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
+    command = line.split()[0]
+    assert (run.returncode, run.stderr) == (2, f"wear {command}: {file.name}: File too large\n")
+    assert [path.name for path in tmp_path.iterdir()] == [file.name]
+    assert file.read_text() == "before"
+
+
 def interrupted(*_, **__):
     """Stands for `solve` when Ctrl-C is pressed."""
     raise Interrupted("DOP853: interrupted; no requested cycle was reached", None)
