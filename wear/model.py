@@ -103,18 +103,18 @@ class Model:
         followed = self.module.limited_slope(u, self.constants)
         return np.where(limited, np.where(margin > 0.0, followed, 0.0), smooth)
 
-    def fields(self, u: Real, U_a: Real, near: Real | None = None) -> Fields:
-        """Every field at given wear and load; on a compliant support from a pressure `near` by."""
+    def fields(self, u: Real, U_a: Real) -> Fields:
+        """Every field at given wear and load."""
         if self.compliant:
-            p = self.pressure(u, U_a, near)
-            found = self.module.fields(p, u, U_a, self.constants)
-        else:
-            found = self.module.fields(u, U_a, self.constants)
-        zero = np.zeros(np.broadcast(u, U_a).shape)
-        made = Fields(**(dict.fromkeys(Fields._fields, zero) | found._asdict()))
-        if self.cutoff and not self.compliant:
+            return self.fields_under(self.pressure(u, U_a), u, U_a)
+        made = _made(self.module.fields(u, U_a, self.constants), u, U_a)
+        if self.cutoff:
             made = made._replace(p=np.where(self.margin(u, U_a) >= 0.0, made.p, 0.0))
         return made
+
+    def fields_under(self, p: Real, u: Real, U_a: Real) -> Fields:
+        """Every field on a compliant support, whose contact pressure `p` (MPa) is known."""
+        return _made(self.module.fields(p, u, U_a, self.constants), u, U_a)
 
     def margin(self, u: Real, U_a: Real) -> Real:
         """3 sigma - h with an undeflected support, in mm; with cutoff, contact where >= 0."""
@@ -127,6 +127,12 @@ class Model:
     def margin_terms(self, u: Real, U_a: Real) -> Real:
         """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
         return self.module.margin_terms(u, U_a, self.constants)
+
+
+def _made(found: Any, u: Real, U_a: Real) -> Fields:
+    """The fields that a generated module gives, and zero for those that it does not model."""
+    zero = np.zeros(np.broadcast(u, U_a).shape)
+    return Fields(**(dict.fromkeys(Fields._fields, zero) | found._asdict()))
 
 
 def _module(scene: Scene) -> ModuleType:

@@ -22,16 +22,17 @@ def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) 
     """Fields at the ends of cycles; at the edge of contact with the share of pressure that acts."""
     loads = [_displacement(scene, cycle) for cycle in cycles]
     U_a = np.array([value for value, _ in loads], dtype=float)
+    return fields_under_load(model, u, U_a, np.array([rise for _, rise in loads]))
+
+
+def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatArray) -> Fields:
+    """Fields under displacements (mm) that rise by `rise` (mm/s), all of which broadcast; at the
+    edge of contact with the share of pressure that acts."""
     fields = model.fields(u, U_a)
     if not model.cutoff or model.compliant:
         return fields
-    edge = [roundoff(model, *state) for state in zip(u, U_a, strict=True)]
-    closed = model.fields(u, U_a + np.array(edge)).p
-    share = [
-        pressure_share(model, wear, value, rise)
-        for wear, (value, rise) in zip(u, loads, strict=True)
-    ]
-    return fields._replace(p=closed * np.array(share))
+    closed = model.fields(u, U_a + roundoff(model, u, U_a)).p
+    return fields._replace(p=closed * pressure_share(model, u, U_a, rise))
 
 
 def _displacement(scene: Scene, cycle: int) -> tuple[float, float]:

@@ -1,18 +1,24 @@
 """Inside the cycles: what interpolation gives is what integration gives."""
 
 import tracemalloc
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from tests.wear.reference_scenes import REFERENCE, reference_scene, tables
+from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
 from wear.count import inside
 from wear.count.collocation import FloatArray, mesh
 from wear.count.cycle import drive
 from wear.count.inside import Inside, fields_inside
+from wear.count.stages import counted_stages
+from wear.faults import UsageError
+from wear.load import Table
 from wear.model import bind
 from wear.scene import Scene, builtin_names, load_scene, scene_from_tables
+from wear.solver import solve
+from wear.static import static_solution
 
 PHASES = np.linspace(0.0, 1.0, 21)
 SCENES = [name for name in builtin_names() if not load_scene(name).contact.cutoff]
@@ -25,7 +31,7 @@ def scene_of(name: str) -> Scene:
 
 def history(scene: Scene, cycles: FloatArray, phases: FloatArray = PHASES) -> Inside:
     """All chunks as one."""
-    parts = list(fields_inside(bind(scene), scene.periodic_load, cycles, phases))
+    parts = list(fields_inside(bind(scene), scene.load, cycles, phases))
     fields = [
         np.concatenate(column) for column in zip(*(part.fields for part in parts), strict=True)
     ]
@@ -84,22 +90,109 @@ def test_memory_is_bounded_by_the_chunk(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(inside, "BATCH", 200)
     scene = reference_scene("S2")
     model, load, phases = bind(scene), scene.periodic_load, np.linspace(0.0, 1.0, 50)
-    prepared = inside.course(model, load, 5_000.0, phases)
     peaks = []
     for number in (500, 500, 5_000):  # the first fills what is kept for good
+        cycles = np.append(np.arange(number - 1.0), 5_000.0)  # as much to prepare
         tracemalloc.start()
-        for part in inside.states(model, load, prepared, np.arange(float(number)), chunk=1000):
+        for part in fields_inside(model, load, cycles, phases, chunk=1000):
             assert part.u.shape == (20, 50)
         peaks.append(tracemalloc.get_traced_memory()[1] - 8 * number)
         tracemalloc.stop()
     assert peaks[2] <= 2.0 * peaks[1]
 
 
-def test_few_cycles_and_any_order() -> None:
-    wear = history(reference_scene("S2"), np.array([2.0, 0.0, 1.0])).u
-    assert_allclose(wear[1, -1], REFERENCE["S2"][1], rtol=1e-13)
-    assert_allclose(wear[2, -1], wear[0, 0], rtol=1e-13)
-    assert_allclose(wear[1, -1], wear[2, 0], rtol=1e-13)
+def test_few_cycles_come_in_order() -> None:
+    found = history(reference_scene("S2"), np.array([2.0, 0.0, 1.0]))
+    assert found.cycles.tolist() == [0.0, 1.0, 2.0]
+    assert_allclose(found.u[0, -1], REFERENCE["S2"][1], rtol=1e-13)
+    assert_allclose(found.u[:-1, -1], found.u[1:, 0], rtol=1e-13)
+
+
+def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
+    """Out of contact at first, roughness grows until contact sets in: the count begins anew."""
+    made = tables(K=0.03, f_c=0.55, load=CONSTANT | {"value_mm": 0.0})
+    made["contact"]["closure_mm"] = 7.3 * 3.6e-4
+    scene = scene_from_tables(made, "faster")
+    cycles = np.array([0.0, 100.0, 12_823.0, 12_824.0, 12_830.0, 1e5, 1e7])
+    assert len(counted_stages(bind(scene), scene.periodic_load, 1e7, 1e-12, 0.0).stages) > 1
+    phases = np.array([0.0, 0.4, 1.0])
+    found = history(scene, cycles, phases)
+    exact = static_solution(scene).wear((cycles[:, None] + phases).ravel()).reshape(found.u.shape)
+    true = np.max(np.abs(found.u - exact), axis=1) / exact[:, -1]
+    assert np.all(true <= found.error)
+    assert np.all(found.error <= 1e-9)
+
+
+ZIGZAG = Table((0.0, 0.01, 0.03, 0.06), (0.0, 5e-4, 1e-4, 0.0))
+BLOCKS = {
+    "kind": "blocks",
+    "blocks": [
+        {"kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06, "cycles": 20},
+        {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.03, "cycles": 300},
+    ],
+    "repeat": 3,
+}
+
+
+@pytest.mark.parametrize("cutoff", [False, True])
+def test_blocks_of_loads_go_on_from_each_other(cutoff: bool) -> None:
+    scene = scene_from_tables(tables(K=1e-5, f_c=0.5, load=BLOCKS, cutoff=cutoff), "blocks")
+    cycles = np.array([0.0, 19.0, 20.0, 100.0, 319.0, 320.0, 959.0])
+    found = history(scene, cycles)
+    ends = solve(scene, [*cycles, *(cycles + 1)], 1e-12)
+    assert_allclose(found.u[:, 0], ends.u_c[:7], rtol=1e-12)
+    assert_allclose(found.u[:, -1], ends.u_c[7:], rtol=1e-12)
+    assert_allclose(found.fields.p[:, 0], ends.p[:7], rtol=1e-10)
+    assert np.all(np.diff(found.u, axis=1) >= 0)
+    assert np.all(found.error <= 1e-11)
+
+
+CUTOFF = [load_scene(name) for name in builtin_names() if load_scene(name).contact.cutoff]
+CUTOFF += [
+    scene_from_tables(tables(K=1e-3, cutoff=True), "slides along the edge of contact"),
+    replace(scene_from_tables(tables(K=1e-4, cutoff=True), "kinks"), load=ZIGZAG),
+]
+
+
+# Short steps tell nothing of contact that is but a touch.
+LONGER = [scene for scene in CUTOFF if scene.name != "grazing"]
+
+
+@pytest.mark.parametrize("scene", LONGER, ids=lambda scene: scene.name)
+def test_cycles_with_a_cutoff_go_through_open_closed_and_sliding_contact(scene: Scene) -> None:
+    """Against very many short steps of the equation as it stands, which need no event."""
+    cycles = np.array([0.0, 1.0, 7.0, 40.0])
+    found = history(scene, cycles)
+    assert np.all(found.error <= 1e-9)
+    assert np.all(np.diff(found.u, axis=1) >= 0)
+    model, load = bind(scene), scene.periodic_load
+    steps = 20_000
+    middles = load((np.arange(steps) + 0.5) / steps).tolist()
+    u = found.u[:, 0].copy()
+    largest = np.max(found.u[:, -1] - found.u[:, 0]) + 1e-30
+    for step, U_a in enumerate(middles):
+        if step % (steps // 20) == 0:
+            assert_allclose(found.u[:, step // (steps // 20)], u, atol=1e-3 * largest, rtol=1e-12)
+        speed = np.where(model.margin(u, U_a) >= 0.0, model.rate(u, U_a), 0.0)
+        u += speed * load.period / steps
+
+
+@pytest.mark.parametrize("scene", CUTOFF, ids=lambda scene: scene.name)
+def test_other_phases_do_not_change_a_cycle_with_a_cutoff(scene: Scene) -> None:
+    cycles = np.array([0.0, 3.0, 60.0])
+    found = history(scene, cycles, np.array([0.0, 0.2, 0.35, 1.0]))
+    alone = history(scene, cycles, np.array([0.2]))
+    assert_allclose(found.u[:, 1], alone.u[:, 0], rtol=1e-14)
+    ends = solve(scene, [*cycles, *(cycles + 1)], 1e-8)
+    apart = np.abs(found.u[:, [0, -1]] - ends.u_c.reshape(2, 3).T)
+    assert np.all(apart <= (found.error[:, None] + ends.error.reshape(2, 3).T) * found.u[:, -1:])
+    assert_allclose(found.fields.p[:, 0], ends.p[:3], rtol=1e-7)
+
+
+def test_what_cannot_be_counted_has_no_history_inside() -> None:
+    scene = scene_from_tables(tables(k=1e5, cutoff=True), "compliant, cutoff")
+    with pytest.raises(UsageError, match="counted"):
+        history(scene, np.array([1.0]))
 
 
 def test_no_wear_inside_cycles_without_pressure() -> None:

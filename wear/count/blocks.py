@@ -44,7 +44,7 @@ def wear_after(
         wanted = np.append(cycles[here], end) - done
         found = wear_of_one(model, acting, wanted, rtol, start, deadline)
         absolute = found.error * found.u_c
-        absolute += missed * _growth(model, acting, start, float(found.u_c[-1]))
+        absolute += missed * growth(model, acting, start, float(found.u_c[-1]))
         u[here] = found.u_c[:-1]
         error[here] = (absolute / np.where(found.u_c > 0, found.u_c, 1.0))[:-1]
         start, missed = float(found.u_c[-1]), float(absolute[-1])
@@ -75,7 +75,7 @@ def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rto
     return Cycles(count, error, cost)
 
 
-def _growth(model: Model, load: Load, start: float, end: float) -> float:
+def growth(model: Model, load: Load, start: float, end: float) -> float:
     """By how much a small difference in wear grows between `start` and `end`; at least 1."""
     U_a = load(PHASES)
     before, after = (float(np.mean(model.rate(u, U_a))) for u in (start, end))

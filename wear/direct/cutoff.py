@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from wear.load import Load
     from wear.model import Model
 
+TINY = float(np.finfo(float).tiny)
 SLIDING_LOOKS = 64  # phases of a piece at which the end of sliding is looked for
 MOST_LEGS = 1000  # in one piece: more is chatter between modes, not contact
 
@@ -76,23 +77,22 @@ def is_arrested(of: Problem, u: float, mode: Mode, maximum: float) -> bool:
     return mode is not Mode.CLOSED and _threshold(of, u) >= maximum - _slack(of, u)
 
 
-def pressure_share(model: Model, u: float, U_a: float, rise: float) -> float:
+def pressure_share(model: Model, u: Real, U_a: Real, rise: Real) -> Real:
     """The share of the closed contact's pressure that acts: 1 closed, 0 open, between when sliding.
 
     At the edge of contact a rigid support leaves the pressure undetermined; it is the share that
-    lets wear keep up with the load, which rises by `rise` mm/s.
+    lets wear keep up with the load, which rises by `rise` mm/s. All broadcast.
     """
-    margin = float(model.margin(u, U_a))
-    if abs(margin) > roundoff(model, u, U_a):
-        return float(margin > 0.0)
-    opening = -float(model.margin_slope(u, U_a) * model.rate(u, U_a))
-    return 1.0 if opening <= 0.0 else float(np.clip(rise / opening, 0.0, 1.0))
+    margin = model.margin(u, U_a)
+    opening = np.maximum(-model.margin_slope(u, U_a) * model.rate(u, U_a), TINY)
+    sliding = np.where(opening > TINY, np.clip(rise / opening, 0.0, 1.0), 1.0)
+    return np.where(np.abs(margin) > roundoff(model, u, U_a), margin > 0.0, sliding)
 
 
-def roundoff(model: Model, u: float, U_a: float) -> float:
+def roundoff(model: Model, u: Real, U_a: Real) -> Real:
     """The uncertainty of the margin (mm)."""
     now = model.fields(u, U_a)
-    return 16 * EPS * float(now.sigma + abs(now.h) + abs(U_a))
+    return 16 * EPS * (now.sigma + np.abs(now.h) + np.abs(U_a))
 
 
 def cycle(
@@ -217,7 +217,7 @@ def _threshold(of: Problem, u: float) -> float:
 
 def _slack(of: Problem, u: float) -> float:
     """The uncertainty of the margin over the cycle (mm)."""
-    return max(roundoff(of.model, u, U_a) for U_a in (of.load.minimum, of.load.maximum))
+    return max(float(roundoff(of.model, u, U_a)) for U_a in (of.load.minimum, of.load.maximum))
 
 
 def _troughs(load: Load) -> tuple[float, ...]:

@@ -1,0 +1,64 @@
+"""What a cycle with the cutoff adds up to given phases.
+
+Contact begins and ends where the wear lets it, so that what is added up to a phase has kinks in the
+wear. It is not interpolated: the wanted cycles are integrated, all at once, from the wear that the
+count gives for their starts. The pieces of the cycle are cut at the phases.
+"""
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.count.collocation import FloatArray, mesh
+from wear.count.course import Added
+from wear.count.cutoff import CutoffCycle, one_cycle
+from wear.count.cycle import settings
+from wear.count.edge import PIECE_SAMPLES, Piece
+from wear.count.panels import NONE
+from wear.load import Load
+from wear.model import Model
+
+NODES = 8  # on each part of a piece, most of which are short
+NEARLY = 1e-12  # of a cycle: phases that are one
+
+
+class CutoffCourse(NamedTuple):
+    """A cycle in `parts`: as many as `upto` (m,) lie before each phase. The one-cycle maps are for
+    the result and to judge it."""
+
+    upto: tuple[int, ...]
+    parts: tuple[Piece, ...]
+    both: tuple[CutoffCycle, CutoffCycle]
+
+    @np.errstate(all="ignore")  # of trial states; what is no number fails the estimate of error
+    def added(self, cycles: FloatArray, starts: FloatArray) -> Added:
+        """What a cycle adds from each of the `starts` (n,), mm."""
+        coarse, fine = (self._wear(cycle, starts) for cycle in self.both)
+        missed = np.max(np.abs(coarse - fine), axis=1, initial=0.0)
+        return Added(coarse, missed, None, np.zeros(len(cycles)))
+
+    def _wear(self, cycle: CutoffCycle, starts: FloatArray) -> FloatArray:
+        """Wear added (n, m) up to each phase, mm; no number where it was not found."""
+        added = [np.zeros(len(starts))]
+        for part in self.parts:
+            alone = cycle._replace(edge=cycle.edge._replace(pieces=(part,)))
+            run = alone.advance(starts + added[-1])
+            added.append(added[-1] + np.where(run.converged.all(), run.increment, np.nan))
+        return np.stack([added[i] for i in self.upto], axis=1)
+
+
+def cutoff_course(model: Model, load: Load, phases: FloatArray, rtol: float) -> CutoffCourse:
+    """Prepare for any cycles and for `phases` (m,) in [0, 1]."""
+    cycle = one_cycle(model, load)
+    assert isinstance(cycle, CutoffCycle)
+    ends = [piece.begin for piece in cycle.edge.pieces] + [1.0]
+    inner = phases[np.min(np.abs(phases[:, None] - ends), axis=1) > NEARLY]
+    cuts = np.unique(np.concatenate([ends, inner]))
+    inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
+    parts = [begin + (end - begin) * inside for begin, end in pairwise(cuts)]
+    upto = tuple(np.argmin(np.abs(phases[:, None] - cuts), axis=1).tolist())
+    tolerance = settings(rtol).phase_tolerance
+    coarse = cycle.resolved(NONE, NODES, tolerance)
+    fine = coarse.on(mesh(coarse.over.edges, NODES + 4))
+    return CutoffCourse(upto, tuple(Piece(x, load(x)) for x in parts), (coarse, fine))
