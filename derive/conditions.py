@@ -6,11 +6,16 @@ says it, is a guard that can be asked with numbers.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+
+_MODULUS = re.compile(r"Abs\((\w+)\)")
+#: Characters up to which a relation is easier to read than words.
+_SHORT = 30
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,28 @@ class Condition:
             return None
         numbers = {u: sp.Float(values[str(u.func) if u.args else str(u)]) for u in self._unknowns}
         return bool(self.relation.xreplace(numbers))
+
+    def met_by(self, values: Mapping[sp.Expr, sp.Expr]) -> bool:
+        """Return whether these values of quantities make the relation true.
+
+        >>> from derive.results.steady_state import ROUGHENING
+        >>> from derive.symbols import symbol
+        >>> ROUGHENING.met_by({symbol("f_c"): sp.Integer(1)}), ROUGHENING.met_by({})
+        (True, False)
+        """
+        return self.relation is not sp.true and self.relation.subs(values) == sp.true
+
+    @property
+    def typed(self) -> str:
+        """Return the relation as one types it; the words where there is none, or a long one.
+
+        >>> from derive.results.steady_state import BOUNDED_LOAD, ROUGHENING
+        >>> ROUGHENING.typed, BOUNDED_LOAD.typed
+        ('f_c > 0', '|U_a| <= U')
+        """
+        parts = self.relation.args if isinstance(self.relation, sp.And) else (self.relation,)
+        said = ", ".join(_MODULUS.sub(r"|\1|", str(part).replace("(t)", "")) for part in parts)
+        return self.text if self.relation is sp.true or len(said) > _SHORT else said
 
     @property
     def latex(self) -> str:

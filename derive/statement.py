@@ -65,12 +65,14 @@ class Statement:
         return _step(TakeLimit(variable, point), (self,), remark)
 
     def specialise(self, values: Mapping[sp.Expr, sp.Expr | int], remark: str = "") -> Statement:
-        """Give parameters particular values."""
+        """Give parameters particular values; a condition that these meet is none any more."""
         pairs = tuple(
             (key, sp.Integer(value) if isinstance(value, int) else value)
             for key, value in values.items()
         )
-        return _step(Specialise(pairs), (self,), remark)
+        made = _step(Specialise(pairs), (self,), remark)
+        needed = (c for c in made.conditions if not c.met_by(dict(pairs)))
+        return replace(made, conditions=tuple(needed))
 
     def restrict(self, condition: Condition, remark: str = "") -> Statement:
         """Keep the branch of a piecewise claim, or of a modulus, on which ``condition`` holds."""

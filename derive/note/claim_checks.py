@@ -21,6 +21,7 @@ from ..laws import TANH, r
 from ..results import validity
 from ..rules.sign import sign
 from ..symbols import symbols
+from ..typeset.present import presentable
 from ..zero import is_zero
 from .claims import Finding, Verdict
 from .governing import ROUGH_BEARING, Model
@@ -38,9 +39,9 @@ def _holds(*ids: str) -> tuple[bool, str, bool]:
     good = all(v.passed and v.status in (Status.DERIVED, Status.DEFINITION) for v in verdicts)
     count = sum(len(v.checks) for v in verdicts)
     found = (c for i in ids for c in catalogue.equation(i).conditions if c != ROUGH_BEARING)
-    conditions = dict.fromkeys(c.text for c in found)  # a rough bearing is what the model is about
+    conditions = dict.fromkeys(c.typed for c in found)  # a rough bearing is what the model is about
     shown = ", ".join(f"({i}) {v.status}" for i, v in zip(ids, verdicts, strict=True))
-    needed = f"; needs: {', '.join(conditions)}" if conditions else ""
+    needed = f"; needs {', '.join(conditions)}" if conditions else ""
     return (
         good,
         f"{shown}; {count} checks{' hold' if good else ', some fail'}{needed}",
@@ -97,11 +98,11 @@ def increasing() -> Finding:
 
 def positive_roughness() -> Finding:
     """C7: where the roughness of the bearing vanishes."""
-    decline = sp.Symbol("f", positive=True)
+    decline = sp.Symbol("|f_c|", positive=True)
     value = Model().roughness_of_bearing.claim.rhs.subs(f_c, -decline)
     (zero,) = sp.solve(value, u_c)
     good = not zero.is_positive
-    evidence = f"for f_c = -f the roughness of (5), (6) vanishes at u_c = {zero}"
+    evidence = f"for f_c < 0 the roughness of (5), (6) vanishes at u_c = {zero}"
     return Finding(Verdict.CONFIRMED if good else Verdict.INCONSISTENT, evidence)
 
 
@@ -129,7 +130,7 @@ def given_force() -> Finding:
         return Finding(Verdict.REFUTED, evidence)
     return Finding(
         Verdict.CONDITIONAL,
-        f"{evidence}; needs {least} < R_a/(p_max b L) < {most}, the range of (4)",
+        f"{evidence}: the range of (4) is {least} < p/p_max < {most}",
     )
 
 
@@ -138,7 +139,8 @@ def recovered() -> Finding:
     missing = undetermined(given_motion())
     good, evidence, _ = _holds("problem-ii")
     verdict = Verdict.CONFIRMED if good and not missing else Verdict.REFUTED
-    return Finding(verdict, f"{len(missing)} unknowns undetermined; {evidence}")
+    left = ", ".join(map(str, missing)) or "none"
+    return Finding(verdict, f"unknowns left undetermined: {left}; {evidence}")
 
 
 def stiff_limit() -> Finding:
@@ -204,11 +206,13 @@ def bracket() -> Finding:
 def affine_asymptote() -> Finding:
     """C27: the coefficient of ln t."""
     drift = Stabilised().asymptote.claim.rhs
-    free = sp.solve(sp.numer(sp.together(drift)).subs(f_c, sp.Symbol("f", positive=True)), sigma_c0)
+    (free,) = sp.solve(sp.numer(sp.together(drift)), sigma_c0)
     status = catalogue.equation("19").status
+    only = sp.sstr(presentable(free), order="none")
     verdict = Verdict.CONFIRMED if is_zero(drift) else Verdict.REFUTED
     return Finding(
-        verdict, f"(19) {status}: u_c - R t grows like A ln t; A = 0 only for sigma_c0 = {free[0]}"
+        verdict,
+        f"(19) {status}: u_c - u_cum t/T grows like A ln t; A = 0 only for sigma_c0 = {only}",
     )
 
 

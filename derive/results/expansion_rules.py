@@ -211,4 +211,6 @@ class LogarithmicCoefficient(Authored):
             d < sp.Float(10) ** (4 - e) for d, e in zip(distances, (10, 20, 30), strict=True)
         )
         shown = ", ".join(f"{float(d):.0e}" for d in distances)
-        return Check("sample", passed, f"distance at sigma = 1e10, 1e20, 1e30: {shown}")
+        return Check(
+            "sample", passed, f"at sigma = 1e10, 1e20, 1e30 mm the relative difference is {shown}"
+        )

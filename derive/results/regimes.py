@@ -77,7 +77,7 @@ class Separated(Authored):
         separable = not growth.has(wear) and is_zero(growth / base - sp.exp(4 * load / sigma_c0))
         claimed = sp.exp(4 * statement.claim.rhs / sigma_c0).subs(size.lhs, size.rhs)
         grows = is_zero(sp.powsimp(sp.expand_log(claimed)) - (1 + N * T * mean))
-        detail = "e^(4 u/sigma_c0) grows by the same amount in every cycle"
+        detail = "e^(4 u_c/sigma_c0) grows by the same amount in every cycle"
         return proof(bool(separable and grows), detail), _bessel_mean()
 
 
@@ -116,7 +116,9 @@ class Asymptotic(Authored):
         slope = sp.diff(claimed.subs({sigma_c: s, f_c: -decline}), s)
         quotient = _cancelled(-slope * decline * T * exact_rate)
         value = sp.limit(quotient, s, 0, "+")
-        return (proof(value == 1, f"the quotient of claimed and exact dN/ds tends to {value}"),)
+        return (
+            proof(value == 1, f"the quotient of claimed and exact dN/d sigma_c tends to {value}"),
+        )
 
 
 def _cancelled(expr: sp.Expr) -> sp.Expr:

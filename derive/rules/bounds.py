@@ -47,7 +47,7 @@ class Grows(Theorem):
     """From ``du/dt >= c`` with a positive constant c, and u(0) = 0: ``u >= c t``."""
 
     positive: tuple[sp.Symbol, ...] = ()
-    theorem = "mean value theorem: u(t) - u(0) = t du/dt somewhere in between"
+    theorem = "mean value theorem: u_c(t) - u_c(0) is t times the rate at some time in between"
 
     def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
         bound, start = parents
@@ -79,7 +79,7 @@ class LogarithmicSlope(Authored):
         held = sign(value) == 1 and sign(self.bound - slope) == 1 and sign(self.bound + slope) == 1
         ratio = self.function(self.a) / self.function(self.b)
         said = sp.Le(sp.Abs(sp.log(ratio)), self.bound * sp.Abs(self.a - self.b))
-        detail = "mean value theorem for ln F, whose slope stays within the bound"
+        detail = "mean value theorem for ln phi, whose slope stays within the bound"
         return proof(held and said == statement.claim, detail), sampled(statement)
 
 

@@ -17,7 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from .. import sample
 from ..check import Check
-from ..symbols import t
+from ..symbols import QUANTITIES, t
 from ..zero import is_zero, same
 from . import Rule, RuleError, proof
 
@@ -125,11 +125,12 @@ class TakeLimit(Rule):
         (parent,) = (p.claim for p in statement.parents)
         claim = statement.claim
         values = sample.world((), sp.Tuple(parent, claim), seed=1)
-        distances = []
+        distances, reached = [], []
         for exponent in (20, 30, 40):
             near = sp.Float(10) ** (exponent if self.point == sp.oo else -exponent)
             at = near if self.point == sp.oo else self.point + near
             there = {**values, self.variable: at}
+            reached.append(f"{float(at):.0e}")
             gaps = [
                 abs(sample.evaluate(a, there) - sample.evaluate(b, values))
                 / max(abs(sample.evaluate(b, values)), sp.Float(10) ** -300)
@@ -140,7 +141,10 @@ class TakeLimit(Rule):
             gap < sp.Float(10) ** (-e + 15) for gap, e in zip(distances, (20, 30, 40), strict=True)
         )
         shown = ", ".join(f"{float(gap):.0e}" for gap in distances)
-        return Check("sample", passed, f"distance at 1e20, 1e30, 1e40: {shown}")
+        known = QUANTITIES.get(self.variable.name)
+        unit = f" {known.unit}" if known and known.unit != "1" else ""
+        where = f"at {self.variable} = {', '.join(reached)}{unit}"
+        return Check("sample", passed, f"{where} the relative distance from the limit is {shown}")
 
 
 def _continuous(expr: sp.Expr) -> bool:

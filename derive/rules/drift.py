@@ -27,7 +27,10 @@ class LinearApproach(Theorem):
     ``t (du/dt - R) + F'(l) e/(f R) -> 0``.
     """
 
-    theorem = "F is differentiable at the limit, and sigma/t tends to f R"
+    theorem = (
+        "the contact law is differentiable at the limit, and sigma/t tends to f_c times the limit "
+        "of du_c/dt"
+    )
 
     def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
         law, deviation, ratio, limit = parents
@@ -52,7 +55,9 @@ class FirstOrder(Theorem):
     ``t (du/dt - R) - F'(l) a/R -> 0``.
     """
 
-    theorem = "F is differentiable at the limit, and u/t tends to R"
+    theorem = (
+        "the contact law is differentiable at the limit, and u_c/t tends to the limit of du_c/dt"
+    )
 
     def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
         law, deviation, ratio, limit = parents
@@ -73,7 +78,7 @@ class LogarithmicDrift(Theorem):
     """From ``t (du/dt - R) - a(t) -> 0`` with periodic a: ``(u - R t)/ln(t/T) -> mean of a``."""
 
     mean: tuple[sp.Expr, sp.Expr]
-    theorem = "the integral of a(t)/t over n periods is (mean of a) ln n + O(1)"
+    theorem = "a periodic function over t integrates to its mean times ln N and a bounded rest"
 
     def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
         (limit,) = parents

@@ -62,7 +62,7 @@ class Diverges(Theorem):
 
     expr: sp.Expr
     positive: tuple[sp.Symbol, ...] = ()
-    theorem = "it increases with u, and already its value at the lower bound of u diverges"
+    theorem = "it increases with u_c, and already its value at the lower bound of u_c diverges"
 
     def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
         (growth,) = parents
@@ -81,7 +81,9 @@ class Unbounded(Theorem):
     """
 
     positive: tuple[sp.Expr, ...] = ()
-    theorem = "were u bounded, F would have a positive minimum, and u would exceed any bound"
+    theorem = (
+        "were u_c bounded, the rate would have a positive minimum, and u_c would exceed any bound"
+    )
 
     def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
         (law,) = parents
@@ -241,7 +243,9 @@ def approached(statement: Statement) -> Check:
     gaps = [_gap(statement, exponent) for exponent in _DEPTHS]
     passed = all(gap < 10.0 ** (15 - depth) for gap, depth in zip(gaps, _DEPTHS, strict=True))
     shown = ", ".join(f"{gap:.0e}" for gap in gaps)
-    return Check("sample", passed, f"distance at a wear of 1e{_DEPTHS} mm: {shown}")
+    depths = ", ".join(f"1e{depth}" for depth in _DEPTHS)
+    detail = f"at u_c = {depths} mm the sides differ by {shown} (relative if above 1)"
+    return Check("sample", passed, detail)
 
 
 def _gap(statement: Statement, exponent: int) -> float:

@@ -77,6 +77,13 @@ def test_an_equation_whose_step_fails_refutes_its_claim(monkeypatch: pytest.Monk
     assert claim_checks.vacuous().verdict is Verdict.CONFIRMED
 
 
+def test_hypotheses_are_told_in_symbols() -> None:
+    for identifier in ("C22", "C26", "C29", "C31"):
+        assert SYMBOLIC[identifier]().evidence.endswith("needs f_c > 0, |U_a| <= U")
+    assert "needs p < p_max" in claim_checks.stiff_limit().evidence
+    assert "epsilon" not in claim_checks.one_eighth().evidence
+
+
 def test_thresholds_are_in_the_evidence_of_c32() -> None:
     evidence = claim_checks.one_eighth().evidence
     for figure in ("3.7751e-11", "0.123411", "0.086724", "0.153717"):

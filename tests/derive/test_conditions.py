@@ -9,6 +9,7 @@ import sympy as sp
 
 from derive import catalogue
 from derive.conditions import Condition
+from derive.results import static_solution, validity
 from derive.rules import Given, sources
 from derive.sample import atoms, holds, satisfying
 from derive.statement import Statement
@@ -41,6 +42,19 @@ def test_a_condition_can_be_met_and_its_guard_says_so(condition: Condition) -> N
     names = {str(a.func) if a.args else str(a): float(world[a]) for a in atoms(condition.relation)}
     assert holds(condition.relation, world)
     assert condition.guard(names) is True
+
+
+def test_a_value_that_meets_a_condition_leaves_none() -> None:
+    threshold, special = (catalogue.equation(i).conditions for i in ("threshold", "one-eighth"))
+    assert set(threshold) - set(special) == {validity.RESOLVED}
+    assert set(special) < set(threshold)
+
+
+def test_words_are_kept_where_a_relation_is_long_or_missing() -> None:
+    assert static_solution.CONSTANT_LOAD.typed == "the load does not vary"
+    assert not static_solution.CONSTANT_LOAD.met_by({})
+    long = Condition("the roughness is real", sp.Gt(sum(sp.symbols("a:z")), 0))
+    assert long.typed == "the roughness is real"
 
 
 def test_a_guard_says_no() -> None:
