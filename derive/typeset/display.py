@@ -4,7 +4,7 @@ Overview
     SymPy sorts terms and moves signs.  A display form is therefore authored: a relation built
     inside ``as_written()``, which keeps the order of terms, and a test asserts that it equals
     the derived claim.  The printer here follows the order of the arguments, writes fields
-    without their "(t)" and derivatives upright.
+    without their "(t)", derivatives upright, those with respect to a datum as partial ones.
 Key results
     as_written    context in which SymPy evaluates nothing
     minus, over   terms and factors that keep their sign and their fraction
@@ -185,8 +185,9 @@ class _Printer(LatexPrinter):
     def _print_Derivative(self, expr: sp.Derivative) -> str:
         (variable, order), *_ = expr.variable_count
         power = "" if order == 1 else f"^{{{order}}}"
-        above = rf"\mathrm{{d}}{power}{self._print(expr.expr)}"
-        below = rf"\mathrm{{d}}{self._print(variable)}{power}"
+        sign = r"\mathrm{d}" if variable in (t, symbol("tau")) else r"\partial "
+        above = rf"{sign}{power}{self._print(expr.expr)}"
+        below = rf"{sign}{self._print(variable)}{power}"
         return f"{above} / {below}" if self._small else rf"\frac{{{above}}}{{{below}}}"
 
 

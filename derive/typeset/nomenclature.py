@@ -1,7 +1,8 @@
 r"""Nomenclature: what the symbols of some equations mean, as a LaTeX table.
 
 Key results
-    quantities      the quantities that occur in equations, in the order of the vocabulary
+    occurring       the quantities that occur in expressions, in the order of the vocabulary
+    quantities      those of equations as they are typeset
     nomenclature    a tabular with their symbols, meanings and units
     meaning, unit   of one quantity, in LaTeX
 """
@@ -28,11 +29,17 @@ def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
     >>> [quantity.name for quantity in quantities([derive.equation("7c")])]
     ['t', 'U_c', 'p', 'k']
     """
-    atoms = (
-        e.atoms(sp.Symbol, AppliedUndef)
-        for found in equations
-        for e in (*found.shown, *found.where)
-    )
+    return occurring(e for found in equations for e in (*found.shown, *found.where))
+
+
+def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
+    """Return the quantities that occur in expressions.
+
+    >>> from derive.symbols import symbol
+    >>> [quantity.name for quantity in occurring([symbol("U_c") - symbol("p") / symbol("k")])]
+    ['U_c', 'p', 'k']
+    """
+    atoms = (e.atoms(sp.Symbol, AppliedUndef) for e in expressions)
     used = {
         atom.func.__name__ if isinstance(atom, AppliedUndef) else atom.name
         for some in atoms

@@ -56,7 +56,7 @@ def _increments(name: str, cycles: tuple[int, ...]) -> tuple[float, ...]:
 
 
 def _limit(name: str) -> float:
-    """Return the wear per cycle that (21) gives."""
+    """Return the wear per cycle in the limit: (21), or its form for two worn solids."""
     value = _asymptote(name).wear_per_cycle_mm
     if value is None:
         raise ValueError(f"{name} has no steady wear")
@@ -118,9 +118,9 @@ def stabilised_after() -> Finding:
     met = abs(distance) < PRINTED.criterion
     return Finding(
         Verdict.CONFIRMED if met else Verdict.NOT_REPRODUCIBLE,
-        f"after {PRINTED.cycles} cycles the mean rate is off its limit by {distance:.4g} of it, "
-        f"not {PRINTED.criterion:g}; that takes {mean:.3g} cycles on average over a cycle, "
-        f"{everywhere:.3g} all through one",
+        f"after {PRINTED.cycles} cycles the mean rate exceeds its limit by {distance:.4g} times "
+        f"the limit; an excess of {PRINTED.criterion:g} takes {mean:.3g} cycles on average over a "
+        f"cycle, {everywhere:.3g} all through one",
     )
 
 
@@ -136,8 +136,8 @@ def simulated_wear() -> Finding:
     evidence = f"the solution gives {found:.6e} mm, printed {PRINTED.simulated_mm:.2e} mm"
     if met:
         return Finding(Verdict.CONFIRMED, evidence)
-    slope = f"the simulation needs f_c = {slope_for_simulation():.8g} for it"
-    return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}; {slope}; {_reconciled()}")
+    slope = f"which it would with f_c = {slope_for_simulation():.8g} (see C36)"
+    return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}, {slope}")
 
 
 def formula_wear() -> Finding:
@@ -150,12 +150,11 @@ def formula_wear() -> Finding:
     )
     if met:
         return Finding(Verdict.CONFIRMED, evidence)
-    return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}; {_reconciled()}")
-
-
-def _reconciled() -> str:
-    """Say which change of one datum would give the printed numbers, the best first."""
-    return "; ".join(change.sentence for change in reconciliations()[:2])
+    changes = "; ".join(change.sentence for change in reconciliations()[:2])
+    return Finding(
+        Verdict.NOT_REPRODUCIBLE,
+        f"{evidence}; {changes}; the note has the two agree within {PRINTED.criterion:g}",
+    )
 
 
 def efficiency() -> Finding:
@@ -202,8 +201,9 @@ def data_and_condition() -> Finding:
     shown = ", ".join(f"f_c = {slope} in {name}" for name, slope in slopes.items())
     return Finding(
         Verdict.CONFIRMED if met else Verdict.INCONSISTENT,
-        f"{shown}; the note asks for f_c > {LEAST_SLOPE}; (21) would give "
-        f"{_limit('section3'):.2e} and {_limit('section5'):.2e} mm a cycle",
+        f"{shown}; the note asks for f_c > {LEAST_SLOPE}; the limit of two solids, "
+        f"(two-solids-rate), is {_limit('section3'):.2e} and {_limit('section5'):.2e} mm a "
+        "cycle",
     )
 
 

@@ -4,7 +4,7 @@ Contents
     lines_of                wear, roughness and pressure of any history, as lines
     wear_of_both            Fig. 2a: wear of bearing and pin, section 3
     roughness_of_both       Fig. 2b: their roughness
-    wear_and_asymptote      Fig. 3a: section 4 with the line (19) and what replaces it
+    wear_and_asymptote      Fig. 3a: section 4 with a line of the slope (21)
     wear_coefficients       Fig. 3b: section 5 for four wear coefficients
     approach                how rate and pressure approach (21) and (22)
     regimes                 the asymptotic pressure over f_c, with the regimes
@@ -64,7 +64,7 @@ def _both(runs: Runs, bearing: str, pin: str) -> list[Line]:
 
 
 def wear_and_asymptote(runs: Runs) -> Figure:
-    """Fig. 3a: the solution, that with the cutoff, and the line (19) through its last point."""
+    """Fig. 3a: the solution, that with the cutoff, and a line of the slope (21) through the end."""
     wear = [
         _wear(runs, "section4", "solution", 0, 0),
         _wear(runs, "section4" + CUTOFF, "with cutoff", 0, 1),
@@ -72,7 +72,7 @@ def wear_and_asymptote(runs: Runs) -> Figure:
     last = wear[0]
     per_cycle = known(runs.fate("section4").wear_per_cycle_mm)
     line = last.y[-1] + per_cycle * (last.x - last.x[-1])
-    return figures.wear_with_asymptote(wear, [Line("line (19)", last.x, line, 1, 2)], width=WIDTH)
+    return figures.wear_with_asymptote(wear, [Line("slope (21)", last.x, line, 1, 2)], width=WIDTH)
 
 
 def wear_coefficients(runs: Runs) -> Figure:

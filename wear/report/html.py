@@ -153,7 +153,9 @@ def _equation(here: Page, equation: Equation) -> str:
 
 
 def _badge(status: str) -> str:
-    return f'<span class="badge {escape(status)}">{escape(status)}</span>' if status else ""
+    if not status:
+        return ""
+    return f'<span class="badge {escape(status)}">{escape(status.replace("-", " "))}</span>'
 
 
 def _mentions(here: Page, label: str) -> str:
@@ -191,7 +193,9 @@ def _row(here: Page, columns: tuple[Column, ...], row: tuple[Prose, ...]) -> str
 
 
 def _kind(column: Column) -> str:
-    return ' class="numeric"' if column.numeric else ""
+    if column.numeric:
+        return ' class="numeric"'
+    return ' class="text"' if column.width else ""
 
 
 def _table_frame(
@@ -203,7 +207,7 @@ def _table_frame(
     name = here.marks[label].name
     return (
         f'<div class="scroll" id="{label}" role="region" aria-label="{name}" tabindex="0"><table>'
-        f"<caption><b>{name}.</b> {prose(here, caption)}</caption>"
+        f"<caption><div><b>{name}.</b> {prose(here, caption)}</div></caption>"
         f"<thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table></div>"
     )
 
@@ -217,7 +221,7 @@ def _claims(here: Page, ledger: Claims) -> str:
     name = here.marks[ledger.label].name
     return (
         f'<div class="scroll" id="{ledger.label}"><table class="ledger" role="table">'
-        f"<caption><b>{name}.</b> {prose(here, ledger.caption)}</caption>"
+        f"<caption><div><b>{name}.</b> {prose(here, ledger.caption)}</div></caption>"
         f'<thead role="rowgroup"><tr role="row">{heads}</tr></thead>'
         f'<tbody role="rowgroup">{rows}</tbody></table></div>'
     )

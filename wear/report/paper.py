@@ -102,7 +102,7 @@ def _abstract(material: Material) -> Prose:
     return words(
         "A published note models a pin on a bearing under cyclic load by an Archard law coupled "
         "with roughness and gives formulas for the wear per cycle and the pressure in a "
-        "stabilised state. All its equations were derived anew by machine, in {steps} steps each "
+        "stabilised state. All its equations were derived anew by machine, in {steps} steps, each "
         "of which was checked, and its {claims} claims judged. The limits [(eq:17b)], [(eq:18)], "
         "[(eq:21)] and [(eq:22)] are *confirmed*, from weaker hypotheses and for any positive, "
         "continuous, decreasing contact law. The step [(eq:16b)] that leads there in the note is "
@@ -110,11 +110,11 @@ def _abstract(material: Material) -> Prose:
         "no straight asymptote but drifts logarithmically. The printed wear per cycle, {printed}, "
         "does not follow from the data, which give {formula}; after the {cycles} cycles said to "
         "suffice for stabilisation the wear per cycle is still {ratio} times its limit, and the "
-        "criterion named is met, on average over a cycle, after {needed} cycles. With the cutoff "
-        "of the contact law, which the note states and then drops, wear arrests in cycle {stop}. "
-        "*New* are the first integral, the closed solution under constant load, the expansion for "
-        "long times, the map of regimes, arrest, rigorous bounds, and a solver whose cost does "
-        "not grow with the number of cycles.",
+        "criterion of the note is met, on average over a cycle, after {needed} cycles. With the "
+        "cutoff of the contact law, which the note states and then drops, wear arrests in cycle "
+        "{stop}. *New* are the first integral, the closed solution under constant load, the "
+        "expansion for long times, the map of regimes, arrest, rigorous bounds, and a solver "
+        "whose cost does not grow with the number of cycles.",
         steps=count(material.verification.steps, "verification"),
         claims=count(len(material.ledger), "ledger"),
         printed=mm(PRINTED.formula_mm, 3, "printed in the note"),

@@ -44,14 +44,15 @@ _PARTS = (
         "within the cycle, $\\bar\\sigma=m+w_1/m+w_2/m^2+\\dots$ with "
         "$\\mathrm{d}m/\\mathrm{d}\\tau=\\rho\\,(1+c_1/m+c_2/m^2+\\dots)$, $\\tau=t/T$. The "
         "number of cycles follows as a function of $m$, up to terms of the order $m^{-4}$; $s_0$ "
-        "keeps the memory of the start. The logarithmic drift is its first term:",
+        "keeps the memory of the start. The logarithmic drift [(eq:19)] is its first term, here "
+        "once more:",
     ),
     (
         "compliant support",
         "A support that gives way",
         "The deflection of the support is bounded by $p_{\\max}/k$, so that a finite stiffness "
         "changes neither the asymptotic pressure nor the wear per cycle, only the drift towards "
-        "them:",
+        "them. Where $\\phi$ stands, any positive, continuous, decreasing law will do:",
     ),
     (
         "bounds",
@@ -64,7 +65,8 @@ _PARTS = (
         "It is evaluated in ball arithmetic, where every rounding is inside the bounds. Means "
         "over a cycle are taken at equidistant phases; their error is bounded by the size of the "
         "law at complex closures. There $1/(1+\\mathrm{e}^{z})$ is below one in modulus as long "
-        "as the cosine of $\\operatorname{Im}z$ is positive [(eq:strip)]. The theorems and the "
+        "as $c>0$: with $a=\\operatorname{Re}z$ and $c=\\cos\\operatorname{Im}z$, [eq:strip] has "
+        "$|1+\\mathrm{e}^{z}|^2$ on its left. The theorems and the "
         "arithmetic are in [sec:references].",
     ),
     (
@@ -78,9 +80,8 @@ _PARTS = (
     (
         "monotonicity",
         "In which direction each datum acts",
-        "Shown are the derivatives of the rate [(eq:bearing-rate)] with respect to each datum in "
-        "turn, at given wear and load. By the comparison theorem ([sec:references]) the wear at "
-        "every time follows them.",
+        "Shown are the derivatives of the rate [(eq:bearing-rate)] with respect to each datum that "
+        "a title names, in that order, at given wear and load.",
     ),
     (
         "dimensionless groups",
@@ -119,7 +120,11 @@ def section(material: Material, placed: frozenset[str]) -> Section:
 
 
 def _symbols(material: Material) -> Section:
-    return Section("sec:symbols", "Symbols of the results", (further_symbols(material),))
+    told = paragraph(
+        "[tab:symbols] has the symbols that are used in several places; the others are defined "
+        "where they stand."
+    )
+    return Section("sec:symbols", "Symbols of the results", (told, further_symbols(material)))
 
 
 def _remark(material: Material, name: str) -> tuple[Block, ...]:

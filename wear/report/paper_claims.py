@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+import re
 
 from wear.report.document import Claim, Claims, Number, Section, Text
 from wear.report.material import Material, count
 from wear.report.plain import plain
 from wear.report.words import paragraph, words
 
-if TYPE_CHECKING:
-    from wear.report.claims import Entry
+_SEVERAL = re.compile(r"\d+(?:, \d+)+")
 
 VERDICTS = (
     "confirmed",
@@ -43,18 +41,36 @@ def section(material: Material) -> Section:
             ),
             Claims(
                 "tab:ledger",
-                words("The claims of the note, with verdict and evidence."),
-                _claims(material.ledger, frozenset(f"eq:{e.id}" for e in material.equations)),
+                words(
+                    "The claims of the note, where it makes them, with verdict and evidence. "
+                    "Checks are those of [sec:derivation]."
+                ),
+                _claims(material),
             ),
         ),
     )
 
 
-def _claims(ledger: Sequence[Entry], labels: frozenset[str]) -> tuple[Claim, ...]:
+def _place(where: str) -> str:
+    """Where a claim stands in the note; a section is called one.
+
+    >>> _place("2.5, (6)"), _place("3, 5"), _place("after (21)")
+    ('section 2.5, (6)', 'sections 3, 5', 'after (21)')
+    """
+    if not where[0].isdigit():
+        return where
+    several = _SEVERAL.fullmatch(where) is not None
+    return f"{'sections' if several else 'section'} {where}"
+
+
+def _claims(material: Material) -> tuple[Claim, ...]:
+    ledger = material.ledger
+    labels = {f"eq:{equation.id}" for equation in material.equations}
+    labels |= {f"claim:{entry.claim.id}" for entry in ledger}
     return tuple(
         Claim(
             entry.claim.id,
-            plain(entry.claim.where, "place in the note", labels),
+            plain(_place(entry.claim.where), "place in the note", labels),
             plain(entry.claim.statement, "claim of the note", labels),
             str(entry.finding.verdict),
             plain(entry.finding.evidence, f"check of claim {entry.claim.id}", labels),

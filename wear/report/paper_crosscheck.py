@@ -28,17 +28,23 @@ def section(material: Material) -> Section:
                 "*The approach to the limit.* By the [der:19] the wear of a cycle exceeds its "
                 "limit by the share $A/(Nu_{\\mathrm{cum}})$ in the end. [fig:approach] and "
                 "[tab:approach] show that it does, and the pressure at the start of a cycle "
-                "likewise. At the cycle that the note calls stabilised the excess is of order "
-                "one; at the cycle that the law foretells for the note's criterion it is found to "
-                "be {excess}.",
+                "likewise. At the cycle that the note calls stabilised the wear of a cycle exceeds "
+                "its limit by {early} times the limit; at the cycle that the law foretells for the "
+                "note's criterion, by {excess} times.",
+                early=Number(
+                    runs.printed_increment / known(runs.fate("section4").wear_per_cycle_mm) - 1.0,
+                    3,
+                    source="section 4 at the note's cycle",
+                ),
                 excess=Number(runs.threshold_excess, 6, source="section 4 at the foretold cycle"),
             ),
             *_approach(material),
             paragraph(
-                "*Other closed forms, and a second solver.* [tab:agreement] compares the closed "
-                "solution under a constant load, the rate at the phases of every cycle where "
-                "[eq:deviation] makes it exactly steady, wear and drift, the arrest depths; and "
-                "the cycle count of [sec:speed] with a direct integration of every cycle."
+                "*Other closed forms, and a second solver.* [tab:agreement] compares four closed "
+                "forms with the solver: the wear under a constant load, the rate at the phases of "
+                "every cycle at which [eq:deviation] makes it exactly steady, the wear with its "
+                "drift ($A$ and $B$ of [sec:drift]), and the arrest depths. It also compares the "
+                "cycle count of [sec:speed] with a direct integration of every cycle."
             ),
             _agreements(material),
             paragraph(
@@ -47,7 +53,7 @@ def section(material: Material) -> Section:
                 "{simulated}. Of all data that [eq:21] contains, changing $f_c$ alone, to "
                 "{slope}, reconciles them best: the formula then gives the printed value and the "
                 "solution {altered}, nearly the other. Any other datum would have to change "
-                "{factor}-fold ([claim:C36]).",
+                "{factor}-fold ([claim:C35], [(claim:C36)]).",
                 factor=Number(
                     PRINTED.formula_mm / known(runs.fate("section4").wear_per_cycle_mm),
                     3,
@@ -69,9 +75,9 @@ def _approach(material: Material) -> tuple[Block, ...]:
     found = material.runs.approach
     columns = (
         Column(words("Cycles $N$"), numeric=True),
-        Column(words("Wear of cycle (mm)"), numeric=True),
-        Column(words("Excess, wear"), numeric=True),
-        Column(words("Excess, pressure"), numeric=True),
+        Column(words("Wear (mm)"), numeric=True),
+        Column(words("Its excess"), numeric=True),
+        Column(words("Of pressure"), numeric=True),
         Column(words("$A/(Nu_{\\mathrm{cum}})$"), numeric=True),
         Column(words("Ratio"), numeric=True),
     )
@@ -88,9 +94,9 @@ def _approach(material: Material) -> tuple[Block, ...]:
         if values[0] >= 1e3
     )
     caption = words(
-        "Approach to [eq:21] and [eq:22]: relative excess of the wear of one cycle and of the "
-        "pressure at its start over their limits, what the logarithmic drift predicts, and the "
-        "ratio of the excess of wear to that, which tends to one."
+        "Approach to [eq:21] and [eq:22]: wear of one cycle, its relative excess over its limit "
+        "and that of the pressure at the start of the cycle, what the logarithmic drift predicts "
+        "for both, and the ratio of the excess of the wear to that, which tends to one."
     )
     return (
         drawn(
@@ -114,7 +120,7 @@ def _approach_row(
     source = "approach, section 4"
     return (
         (Number(cycle, 1, source=source),),
-        (Number(step, 7, source=source),),
+        (Number(step, 5, source=source),),
         (Number(excess, 4, source=source),),
         (Number(pressure, 4, source=source),),
         (Number(predicted, 4, source=source),),

@@ -25,13 +25,13 @@ def section(material: Material) -> Section:
             ),
             paragraph(
                 "{equations} equations rest on {steps} distinct steps, and these on {checks} "
-                "checks: {proofs} proofs, {samples} evaluations, {dimensions} comparisons of "
-                "dimensions; {failed} failed. Each step is checked on its own. An algebraic move "
-                "is made again and compared; where a step rests on a theorem, its words say on "
-                "which, and the hypotheses of the theorem are checked; both sides are evaluated "
-                "at {points} random points inside the hypotheses of the step with {digits} "
-                "digits, limits on the way to the limit, solutions against quadrature. The "
-                "bearing is taken to be rough, $\\sigma_c>0$, in all of it; other hypotheses "
+                "checks: {proofs} proofs, {samples} numerical evaluations, {dimensions} "
+                "comparisons of dimensions; {failed} failed. Each step is checked on its own. An "
+                "algebraic move is made again and compared; where a step rests on a theorem, its "
+                "words say on which, and the hypotheses of the theorem are checked; both sides "
+                "are evaluated at {points} random points inside the hypotheses of the step with "
+                "{digits} digits, limits on the way to the limit, solutions against quadrature. "
+                "The bearing is taken to be rough, $\\sigma_c>0$, in all of it; other hypotheses "
                 "stand with the equations.",
                 points=count(SAMPLES, "derivation"),
                 digits=count(DIGITS, "derivation"),
@@ -71,19 +71,27 @@ def section(material: Material) -> Section:
                         "$p=p_{\\max}\\,\\phi((h_{\\mathrm{rigid}}+p/k)/\\bar\\sigma)$, with the "
                         "closure $h_{\\mathrm{rigid}}$ on an undeflected support. Left minus right "
                         "side is negative at zero pressure, positive at $p_{\\max}$ and increases "
-                        "in between: there is exactly one pressure. With the pressure over "
-                        "$p_{\\max}$ as unknown, $x=\\phi(a+sx)$, $s=p_{\\max}/(k\\bar\\sigma)$, "
-                        "Newton's iteration finds it [(eq:pressure-iteration)]: the law is curved "
-                        "one way on either side of $h=2\\bar\\sigma$."
+                        "in between: there is exactly one pressure."
                     ),
-                    *material.show(
-                        "pressure-root", "pressure-iteration", "10", "rigid-limit-error"
-                    ),
+                    *material.show("pressure-root"),
                     paragraph(
-                        "[eq:10] is the limit of a rigid support. At the same wear and load the "
-                        "pressure on springs lies below that on a rigid support, by no more than "
-                        "[eq:rigid-limit-error] allows; the wear itself converges on bounded times "
-                        "only, since its drift depends on $k$ ([sec:compliant-support])."
+                        "Newton's iteration finds it. The unknown is the share $x=p/p_{\\max}$, "
+                        "which solves $x=\\phi(a+sx)$ with $a=h_{\\mathrm{rigid}}/\\bar\\sigma$ "
+                        "and $s=p_{\\max}/(k\\bar\\sigma)$; let $y$ be the root. The first line of "
+                        "[eq:pressure-iteration] has the step from $x$, the second how far it ends "
+                        "from the root, where $y=\\phi_y$: this has the sign of the distance of "
+                        "the law from its tangent. The last two lines are the curvature of the law "
+                        "at $h/\\bar\\sigma=2\\pm x$ for any $x>0$: on either side of "
+                        "$h=2\\bar\\sigma$ it has one sign, and the iteration does not cross the "
+                        "root."
+                    ),
+                    *material.show("pressure-iteration", "10", "rigid-limit-error"),
+                    paragraph(
+                        "[eq:10] is the limit of a rigid support, which does not move "
+                        "([claim:C15]). At the same wear and load the pressure on springs lies "
+                        "below that on a rigid support, by no more than [eq:rigid-limit-error] "
+                        "allows; the wear itself converges on bounded times only, since its drift "
+                        "depends on $k$ ([sec:compliant-support])."
                     ),
                     paragraph(
                         "For a smooth pin that does not wear the square root disappears. What "

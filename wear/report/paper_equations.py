@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 _NOTE = re.compile(r"\d+[a-g]?")
 #: Width in em up to which a hypothesis is told as a formula.
 _SHORT = 12.0
-_POWERS = re.compile(r"1e\(([\d, ]+)\)")
 _USUAL = (
     "again",
     "points",
@@ -128,7 +127,7 @@ def _title(equation: Equation, shown: _Shown) -> Prose:
     prose = list(plain(_capital(equation.title), "title", shown.labels))
     needed = [c for c in equation.conditions if c != ROUGH_BEARING]
     short = [c for c in needed if c.relation is not sp.true and width(c.latex) < _SHORT]
-    formulas = [(Math(c.latex),) for c in short]
+    formulas = [(Math(part),) for c in short for part in c.latex.split(r", \quad ")]
     said = [plain(c.text, "hypothesis", shown.labels) for c in needed if c not in short]
     for word, hypotheses in ((", for ", formulas), (", if ", said)):
         if hypotheses:
@@ -173,5 +172,4 @@ def _check(step: Statement, shown: _Shown) -> Prose:
         for outcome in shown.verification.of(step)
         if outcome.kind != "dimensions" and not any(usual in outcome.detail for usual in _USUAL)
     )
-    said = _POWERS.sub(lambda m: ", ".join(f"1e{n}" for n in m[1].split(", ")), "; ".join(details))
-    return plain(said, "check of this step", shown.labels)
+    return plain("; ".join(details), "check of this step", shown.labels)

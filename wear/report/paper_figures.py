@@ -36,11 +36,11 @@ def _section_3(material: Material) -> tuple[Block, ...]:
         paragraph(
             "*Two worn solids* ([fig:2a], [fig:2b]). A fast start is followed by ever slower "
             "growth, to {wear} after {cycles} cycles. The note speaks of a transient and a "
-            "stabilised evolution; no stage of constant rate appears, since the rate tends to "
-            "{limit} per cycle. With the cutoff the wear stops for good in cycle {stop}, at "
-            "{depth}. Both roughnesses are straight images of the wear: that of the bearing falls "
-            "from {before} to {after}, that of the pin rises. Continued, the model would let the "
-            "roughness of the bearing change its sign, which the note excludes.",
+            "stabilised evolution; no stage of constant rate appears ([claim:C17]), since the "
+            "rate tends to {limit} per cycle. With the cutoff the wear stops for good in cycle "
+            "{stop}, at {depth}. Both roughnesses are linear in the wear: that of the bearing "
+            "falls from {before} to {after}, that of the pin rises. Continued, the model would "
+            "let the roughness of the bearing change its sign, which the note excludes.",
             wear=mm(plain.u_c[-1], 5, "section 3, last cycle of the figure"),
             cycles=count(plain.cycles[-1], "section 3"),
             limit=mm(known(runs.fate("section3").wear_per_cycle_mm), 2, "section 3, limit"),
@@ -52,14 +52,20 @@ def _section_3(material: Material) -> tuple[Block, ...]:
         drawn(
             "fig:2a",
             figures_of_note.wear_of_both(runs),
-            paragraph("The note's Fig. {a}: wear of bearing and pin.", a=_printed("2a")),
+            paragraph(
+                "The note's Fig. {a}: wear of bearing and pin, with and without the cutoff.",
+                a=_printed("2a"),
+            ),
             _WEAR,
             "figure-2a",
         ),
         drawn(
             "fig:2b",
             figures_of_note.roughness_of_both(runs),
-            paragraph("The note's Fig. {b}: roughness of bearing and pin.", b=_printed("2b")),
+            paragraph(
+                "The note's Fig. {b}: roughness of bearing and pin, with and without the cutoff.",
+                b=_printed("2b"),
+            ),
             "The roughness of the bearing decreases slightly, that of the pin increases slightly.",
             "figure-2b",
         ),
@@ -74,12 +80,12 @@ def _section_4(material: Material) -> tuple[Block, ...]:
         paragraph(
             "*Bearing wear alone* ([fig:3a]). The dotted line has the slope of [eq:21] and passes "
             "through the last point, where the wear of one cycle is {step}, still {ratio} times "
-            "that of the line: nothing is stabilised yet. The note's criterion (relative distance "
-            "of the rate from its limit below {criterion}) is met on average over a cycle after "
-            "{mean} cycles, and all through a cycle after {instant}. At single phases it is met "
-            "from the first cycle on, since the rate equals its limit whenever $\\beta=0$ "
-            "([eq:deviation]). With the cutoff wear arrests at {depth} in cycle {stop}, before the "
-            "note calls it stabilised.",
+            "that of the line: nothing is stabilised yet ([claim:C34], [(claim:C37)]). The note's "
+            "criterion (relative distance of the rate from its limit below {criterion}) is met on "
+            "average over a cycle after {mean} cycles, and all through a cycle after {instant}. "
+            "At single phases it is met from the first cycle on, since the rate equals its limit "
+            "whenever $\\beta=0$ ([eq:deviation]). With the cutoff wear arrests at {depth} in "
+            "cycle {stop}, before the note calls it stabilised.",
             step=mm(runs.printed_increment, 5, "section 4, increment at the note's cycle"),
             ratio=Number(
                 runs.printed_increment / known(fate.wear_per_cycle_mm), 3, source="section 4"
@@ -94,8 +100,8 @@ def _section_4(material: Material) -> tuple[Block, ...]:
             "fig:3a",
             figures_of_note.wear_and_asymptote(runs),
             paragraph(
-                "The note's Fig. {a}: bearing wear, and a line with the slope of [eq:21] through "
-                "the last point.",
+                "The note's Fig. {a}: bearing wear, with and without the cutoff, and a line with "
+                "the slope of [eq:21] through the last point.",
                 a=_printed("3a"),
             ),
             "A concave curve below a nearly horizontal straight line that it reaches at the end; "
@@ -110,12 +116,13 @@ def _section_5(material: Material) -> tuple[Block, ...]:
     lowest, highest = (runs.history(name) for name in (SECTION_5[0], SECTION_5[-1]))
     return (
         paragraph(
-            "*The wear coefficient* ([fig:3b]). The text of the note does not list its values of "
-            "$K$; shown are the decades around that of its other examples, on an axis that shows "
-            "them all. A thousandfold $K$ gives only {factor} times the wear after {cycles} "
-            "cycles, and the curves become parallel: on this axis a change of $K$ shifts them "
-            "sideways. With the cutoff all arrest at the same depth, {depth}, which does not "
-            "depend on $K$; one is shown.",
+            "*The wear coefficient* ([fig:3b]), the same for both solids, $K=K_a=K_c$. The text "
+            "of the note does not list its values; shown are the decades around that of its other "
+            "examples, on an axis that shows them all. A thousandfold $K$ gives only {factor} "
+            "times the wear after {cycles} cycles, and the curves become parallel: on this axis a "
+            "change of $K$ shifts them sideways. By the note's criterion the higher $K$ "
+            "stabilises in fewer cycles, not the lower ([claim:C38]). With the cutoff all arrest "
+            "at the same depth, {depth}, which does not depend on $K$; one is shown.",
             factor=Number(highest.u_c[-1] / lowest.u_c[-1], 3, source="section 5"),
             cycles=count(highest.cycles[-1], "section 5"),
             depth=mm(
@@ -126,7 +133,8 @@ def _section_5(material: Material) -> tuple[Block, ...]:
             "fig:3b",
             figures_of_note.wear_coefficients(runs),
             paragraph(
-                "The note's Fig. {b}: bearing wear for four wear coefficients.", b=_printed("3b")
+                "The note's Fig. {b}: bearing wear for four wear coefficients $K=K_a=K_c$.",
+                b=_printed("3b"),
             ),
             "Four rising curves, each shifted to the left of the one for a tenth of the wear "
             "coefficient; a dashed curve that becomes constant.",

@@ -22,7 +22,7 @@ def section(material: Material) -> Section:
                 "the edge of contact, pressures so small that $1+\\tanh$ rounds to zero, lengths "
                 "scaled by a million. The cycle count solves all of [tab:hard] to the requested "
                 "relative error {rtol}; the true error is known from references of far higher "
-                "precision. How every method fares there is a page of the documentation.",
+                "precision. The documentation of the software tells how every method fares there.",
                 rtol=Number(HARD_RTOL, 1, source="request"),
             ),
             _table(material),
@@ -49,7 +49,7 @@ def _table(material: Material) -> Table:
         Column(words("Wear (mm)"), numeric=True),
         Column(words("True error"), numeric=True),
         Column(words("Estimate"), numeric=True),
-        Column(words("Rates"), numeric=True),
+        Column(words("Evaluations"), numeric=True),
     )
     caption = words(
         "Bearing wear after {cycles} cycles, its relative error and the estimate of it, and the "

@@ -61,8 +61,8 @@ def _findings(material: Material) -> Items:
             ),
             words(
                 "*The printed application is not reproducible.* With its data the wear per cycle "
-                "is {formula}, not {printed}; after {cycles} cycles it is still {ratio} times its "
-                "limit ([sec:crosscheck]).",
+                "tends to {formula}, not {printed}; after {cycles} cycles it is still {ratio} "
+                "times its limit ([sec:crosscheck]).",
                 formula=mm(per_cycle, 5, "Eq. (21) with the data of section 4"),
                 printed=mm(PRINTED.formula_mm, 3, "printed in the note"),
                 cycles=count(PRINTED.cycles, "the note"),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+
+import sympy as sp
 
 from derive.symbols import QUANTITIES
-from derive.typeset.nomenclature import quantities, unit
+from derive.typeset.nomenclature import occurring, unit
 from wear.report import drawing
 from wear.report.document import Column, Math, Number, Prose, Section, Table, Text
 from wear.report.material import Material, drawn
@@ -84,9 +86,19 @@ def _jump() -> float:
 
 def further_symbols(material: Material) -> Table:
     """The symbols that the results add to those of the model."""
-    used = (quantity.name for quantity in quantities(material.equations))
+    used = (quantity.name for quantity in occurring(_shown(material)))
     caption = words("Symbols of the results, besides those of [tab:nomenclature].")
     return _symbols("tab:symbols", caption, [name for name in used if name not in _MODEL])
+
+
+def _shown(material: Material) -> Iterator[sp.Basic]:
+    """What the paper shows: equations, the printed forms of those corrected, hypotheses, steps."""
+    for equation in material.equations:
+        yield from (*equation.shown, *equation.where)
+        if not equation.agrees:
+            yield from equation.printed
+        yield from (condition.relation for condition in equation.conditions)
+        yield from (step.claim for step in equation.steps)
 
 
 def _symbols(label: str, caption: Prose, names: Sequence[str]) -> Table:
@@ -143,8 +155,9 @@ def _data(material: Material) -> Table:
     )
     caption = words(
         "Data of the note's sections, as scenes of the software. The closure is three times the "
-        "initial equivalent roughness; the note prints it rounded. The load is $U_a=U\\sin(2\\pi "
-        "t/T)$, the speed {speed}.",
+        "initial equivalent roughness; the note prints it rounded ([claim:C16], [(claim:C33)], "
+        "[(claim:C39)]). The load is $U_a=U\\sin(2\\pi "
+        "t/T)$, the speed {speed}. Without a value for the pin: it is smooth and does not wear.",
         speed=Number(scenes[0][1].motion.speed_rpm, 4, "rpm", source="scene section3"),
     )
     return Table("tab:data", caption, columns, (*rows, amplitude))

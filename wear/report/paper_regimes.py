@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from derive.results.regime_map import REGIMES
+import sympy as sp
+
+from derive.results.regime_map import OPEN, REGIMES
 from derive.results.validity import RESOLUTIONS
 from derive.typeset.display import latex
 from derive.typeset.present import presentable
@@ -42,7 +44,9 @@ def validity(material: Material) -> Section:
                 "$1/f_c$ must lie within contact, $f_c\\ge 1/3$: below, wear stops "
                 "([sec:regimes]). Of the note's examples, that of [fig:2a] has a slope of {first} "
                 "and fails both conditions, and the note's own; that of [fig:3b], {last}, meets "
-                "the first alone.",
+                "the first alone; that of [fig:3a], {middle}, meets the first and the note's own, "
+                "but not that with the cutoff ([claim:C40]).",
+                middle=Number(_slope(material, "section4"), 2, source="scene section4"),
                 first=Number(_slope(material, "section3"), 1, source="scene section3"),
                 last=Number(_slope(material, "section5"), 1, source="scene section5"),
             ),
@@ -73,10 +77,18 @@ def _thresholds() -> Table:
         Column(words("Least $f_c$"), numeric=True),
     )
     caption = words(
-        "The least $f_c$ whose asymptotic pressure $1+\\tanh$ does not round to zero, by "
-        "[eq:threshold]. The generated code does not form $1+\\tanh$ and has no such threshold."
+        "The least $f_c$ for which $1+\\tanh(4-2/f_c)$ does not round to zero, by [eq:threshold]; "
+        "sums below $2\\varepsilon$ do. The generated code does not form "
+        "this sum and has no such threshold."
     )
     return Table("tab:thresholds", caption, columns, rows)
+
+
+def _hypothesis(relation: sp.Basic) -> Math:
+    """A hypothesis of the map, with the gap at the vanishing roughness by its name."""
+    gap = sp.Symbol("h_star", real=True)  # of either sign here
+    named = relation.xreplace({OPEN.relation.lhs: gap})
+    return Math(latex(presentable(named)))
 
 
 def _map() -> Table:
@@ -84,7 +96,7 @@ def _map() -> Table:
     rows = tuple(
         (
             (Text("with" if regime.cutoff else "without"),),
-            tuple(listed([(Math(latex(presentable(c.relation))),) for c in regime.conditions])),
+            tuple(listed([(_hypothesis(c.relation),) for c in regime.conditions])),
             (Text(regime.name),),
             tuple(listed([(Reference(label(name), bare=True),) for name in regime.equations])),
         )
@@ -92,13 +104,15 @@ def _map() -> Table:
     )
     columns = (
         Column(words("Cutoff")),
-        Column(words("Where"), width=0.42),
+        Column(words("Where"), width=0.4),
         Column(words("Regime")),
-        Column(words("Equations"), width=0.22),
+        Column(words("Equations"), width=0.25),
     )
     caption = words(
         "The map of regimes of one worn solid; it covers all data with $\\sigma_c^0>0$, each once. "
-        "*Finite-time*: the roughness vanishes, and the model ends."
+        "The gap at the peak of the load where the roughness would vanish is "
+        "$h^*=h_0-\\sigma_c^0/f_c-\\max U_a$. *Finite-time*: the roughness vanishes, and the model "
+        "ends."
     )
     return Table("tab:regimes", caption, columns, rows)
 
@@ -110,6 +124,10 @@ def regimes(material: Material) -> Section:
         "sec:regimes",
         "Map of regimes",
         (
+            paragraph(
+                "What becomes of the wear depends on $f_c$, and with the cutoff on $1/3$ in the "
+                "place of zero ([fig:regimes], [tab:regimes])."
+            ),
             _map(),
             drawn(
                 "fig:regimes",
@@ -125,26 +143,26 @@ def regimes(material: Material) -> Section:
                 "regimes",
             ),
             paragraph(
-                "What becomes of the wear depends on $f_c$, and with the cutoff on $1/3$ in the "
-                "place of zero ([fig:regimes], [tab:regimes]). *Without the cutoff* wear is steady "
-                "for $f_c>0$ ([sec:sound-route]). For any slope the rate stays below an "
-                "exponential tail, which it approaches as $h/\\bar\\sigma$ grows:"
+                "*Without the cutoff* wear is steady for $f_c>0$ ([sec:sound-route]). For any "
+                "slope the rate stays below an exponential tail, which it approaches as "
+                "$h/\\bar\\sigma$ grows:"
             ),
             *material.show("tail"),
             paragraph(
-                "For $f_c=0$ it does so for ever. Wear along the tail grows like the logarithm of "
-                "the cycles; under a sine load it is [eq:logarithmic-wear], which bounds the wear "
-                "from above ($I_0$ is a modified Bessel function)."
+                "For $f_c=0$ that ratio grows for ever. Wear along the tail grows like the "
+                "logarithm of the cycles; under a sine load it is [eq:logarithmic-wear], which "
+                "bounds the wear from above. $I_0$ is a modified Bessel function, and "
+                "$M=K_cVTp_{\\max}/(3H_c)$ the wear of a cycle under the largest pressure."
             ),
             *material.show("logarithmic-wear"),
             paragraph(
                 "For $f_c<0$ the roughness would vanish at the wear $\\sigma_c^0/|f_c|$. There the "
-                "gap at the peak of the load is $h^*=h_0+\\sigma_c^0/|f_c|-\\max U_a$. If it is "
+                "gap at the peak of the load is $h^*=h_0-\\sigma_c^0/f_c-\\max U_a$. If it is "
                 "open, $h^*>0$, the ratio $h/\\bar\\sigma$ grows without bound as the roughness "
-                "falls, and wear saturates at that depth, logarithmically slowly: under a constant "
-                "load [eq:saturating-wear] has the cycles that it takes to a small roughness, in "
-                "the sense that the quotient of the two sides' exponentials tends to one. If it is "
-                "closed, $h^*<0$, part of every period has a rate above the bound "
+                "falls, and the wear saturates at that depth, logarithmically slowly: under a "
+                "constant load [eq:saturating-wear] has the cycles that it takes to a small "
+                "roughness, in the sense that the quotient of the two sides' exponentials tends to "
+                "one. If it is closed, $h^*<0$, part of every period has a rate above the bound "
                 "[(eq:closed-gap)], and the roughness vanishes in finite time; there the model "
                 "ends."
             ),
@@ -181,7 +199,8 @@ def regimes(material: Material) -> Section:
             *material.show("one-third", "permanent-contact", "always-contact"),
             paragraph(
                 "For two worn solids ([sec:two-solids] has $q$, $g$ and $p_1$) the margin is "
-                "convex in the wear, so that it is lost at its first zero, the root of a quadratic "
+                "convex in the wear, which [eq:margin-curvature] calls $u_{\\mathrm{stop}}$ "
+                "throughout, so that contact is lost at its first zero, the root of a quadratic "
                 "equation. On a compliant support the pressure does not jump: where the smooth law "
                 "would have $h>3\\bar\\sigma$, the bearing rests at $h=3\\bar\\sigma$ with the "
                 "pressure that its springs give, and wear approaches the same depth without "

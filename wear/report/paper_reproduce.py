@@ -8,12 +8,18 @@ from wear.report.manifest import versions
 from wear.report.words import paragraph, words
 
 COMMANDS = """\
-make reproduce                        # this report, from a fresh clone
-make test                             # every check of the software
-derive steps 21                       # how an equation follows, step by step
-wear run section4 --cycles 9000,9001  # the cycle that the note calls stabilised
-wear asymptote section4               # regime and constants of a scene
-wear claims                           # the ledger above
+# this report, from a fresh clone
+make reproduce
+# every check of the software
+make test
+# how an equation follows, step by step
+derive steps 21
+# the cycle that the note calls stabilised
+wear run section4 --cycles 9000,9001
+# regime and constants of a scene
+wear asymptote section4
+# the ledger of the claims
+wear claims
 """
 
 
@@ -29,10 +35,12 @@ def section() -> Section:
         (
             paragraph(
                 "Every number in the text, the tables and the figures was computed by the run that "
-                "wrote this file; on the page, the tooltip of a number names its computation. The "
-                "file `manifest.json` beside the report lists versions, scenes and the checksum of "
-                "every file. `equations.tex` has every equation as a macro for a report of one's "
-                "own, `claims.json` the ledger as data."
+                "wrote this file, but for those that are quoted from the note; on the page, the "
+                "tooltip of a number names its computation. True errors are distances from stored "
+                "references of far higher precision. [tab:versions] has the versions of the "
+                "packages; the file `manifest.json` beside the report adds the scenes and the "
+                "checksum of every file. `equations.tex` has every equation as a macro for a "
+                "report of one's own, `claims.json` the ledger as data."
             ),
             Listing(COMMANDS, "Commands that reproduce the results"),
             Table(

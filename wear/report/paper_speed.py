@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from wear.benchmark import QUICK, Measurement, benchmark
 from wear.benchmark.cases import CYCLES, ONE, cases
@@ -11,7 +12,7 @@ from wear.benchmark.machine import footer, machine
 from wear.benchmark.output import DIGITS, speed_table
 from wear.benchmark.own import OWN
 from wear.benchmark.summary import at, best, cycles_of, duration
-from wear.report.document import Block, Column, Given, Inline, Number, Paragraph, Section, Table
+from wear.report.document import Block, Column, Given, Number, Paragraph, Prose, Section, Table
 from wear.report.material import count, drawn
 from wear.report.plain import plain
 from wear.report.words import paragraph, words
@@ -47,8 +48,8 @@ def section(runs: Sequence[Measurement]) -> Section:
             ),
             paragraph(
                 "This is a quick measurement of the run that wrote the report, in which other "
-                "programs may have taken part of the machine; the documentation has a longer one, "
-                "with other programs for the same task. "
+                "programs may have taken part of the machine; the documentation of the software "
+                "has a longer one, with other programs for the same task. "
                 + ", ".join(f"[tab:speed-{digits}]" for digits in DIGITS)
                 + f" and [fig:speed-{drawn_at}] show the time that so many correct digits take."
             ),
@@ -93,21 +94,24 @@ def _table(runs: Sequence[Measurement], digits: int) -> Table:
     first, *others = (plain(heading.capitalize(), "number of cycles") for heading in found.header)
     columns = (Column(first), *(Column(heading, numeric=True) for heading in others))
     rows = tuple(
-        (words("{name}", name=Given(_short(name), _MEASURED)), *((_cell(cell),) for cell in rest))
+        (words("{name}", name=Given(_short(name), _MEASURED)), *(_cell(cell) for cell in rest))
         for name, *rest in found.rows
     )
     caption = words(
         "Time to {digits} correct digits of the wear after $N$ cycles, with its ratio to the "
-        "fastest; after a tilde what it would have taken; where the accuracy was not reached, the "
-        "best true error.",
+        "fastest. A tilde marks an estimate for the loosest tolerance, at which the run was not "
+        "made for want of time, whatever its accuracy would have been; *off by* is the best true "
+        "error of runs that missed the accuracy.",
         digits=count(digits, "request"),
     )
     return Table(f"tab:speed-{digits}", caption, columns, rows)
 
 
-def _cell(text: str) -> Inline:
+def _cell(text: str) -> Prose:
     """A time with its ratio, or an error."""
-    return Given(text.replace("x)", "\u00d7)").replace("~ ", "~\u2009"), _MEASURED)
+    if text.startswith("off by"):
+        return plain(text, _MEASURED)
+    return (Given(text.replace("x)", "\u00d7)").replace("~ ", "~\u2009"), _MEASURED),)
 
 
 def _short(method: str) -> str:
@@ -126,12 +130,15 @@ def _figure(runs: Sequence[Measurement], cycles: int) -> Block:
 
     return drawn(
         f"fig:speed-{cycles}",
-        speed_against_error(curves(at(runs, _SCENE, cycles))),
+        speed_against_error(
+            [replace(curve, name=_short(curve.name)) for curve in curves(at(runs, _SCENE, cycles))]
+        ),
         paragraph(
             "Time against true error of the wear after {cycles} cycles of the note's application; "
             "accuracy grows to the right. Hollow marks missed the requested tolerance.",
             cycles=count(cycles, "benchmark"),
         ),
-        "Times of several methods against their errors on logarithmic axes.",
+        "Times of several methods against their errors on logarithmic axes: the cycle count is at "
+        "the lower right, fast and accurate; the others need more time for fewer digits.",
         f"speed-{cycles}",
     )

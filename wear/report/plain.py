@@ -16,6 +16,7 @@ from wear.report.document import Code, Given, Inline, Math, Number, Prose, Refer
 _MARK = re.compile(
     r"``(?P<code>[^`]+)``"
     r"|(?:Eqs?\. |(?<![\w)]))\((?P<equation>\d+[a-g]?|[a-z]{3,}(?:-[a-z]+)*)\)"
+    r"|\b(?P<claim>C\d+)\b"
 )
 #: The line that is meant where the number of a system is given.
 _MEANT = {"16": "16b", "17": "17b"}
@@ -24,7 +25,8 @@ _MEANT = {"16": "16b", "17": "17b"}
 def plain(text: str, source: str, labels: Container[str] = ()) -> Prose:
     """The text as prose; `source` says where its numbers come from.
 
-    An equation's number or id in brackets becomes a link if its label is among `labels`.
+    An equation's number or id in brackets and a claim's id become links if their labels are among
+    `labels`.
 
     >>> plain("u_cum is 2.5e-5 mm", "the note")[1:]
     (Text(text=' is '), Number(value=2.5e-05, digits=2, unit='', source='the note'), \
@@ -43,6 +45,9 @@ def _marked(mark: re.Match[str], source: str, labels: Container[str]) -> Inline:
     """Code, a link, or what stands in brackets as it is."""
     if mark["code"]:
         return Code(mark["code"])
+    if mark["claim"]:
+        label = f"claim:{mark['claim']}"
+        return Reference(label) if label in labels else _words(mark[0], source)
     named = mark["equation"]
     for label in (f"eq:{_MEANT.get(named, named)}", f"eq:{named}a"):
         if label in labels:

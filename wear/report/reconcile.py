@@ -54,9 +54,9 @@ class Reconciliation:
         distance = self.simulated_mm / PRINTED.formula_mm - 1.0
         return (
             f"{self.datum} = {self.value:.8g} instead of {self.was:g} would give "
-            f"{PRINTED.formula_mm:.2e} mm by (21) and {self.simulated_mm:.4e} mm simulated, "
-            f"{100 * self.misfit:+.2f} % off the printed one and {100 * distance:+.2f} % off "
-            f"(21), not {PRINTED.criterion:g}"
+            f"{PRINTED.formula_mm:.2e} mm by (21) and {self.simulated_mm:.4e} mm by the solution, "
+            f"{100 * self.misfit:+.2f} % from the printed one and {100 * distance:+.2f} % from "
+            "(21)"
         )
 
 

@@ -15,6 +15,8 @@ _ID = re.compile(r'\bid="([^"]+)"')
 _USE = re.compile(r'((?:xlink:)?href="#|url\(#)([^")]+)')
 #: Pixels of the page for a point of the figure: drawn for paper, a screen is read from further off.
 _PIXELS_PER_POINT = 1.7
+#: What letters of eight points need to be read: on a phone a figure is scrolled, not made smaller.
+_LEAST_PIXELS_PER_POINT = 1.15
 #: (What has no colour in the file is black: the root's fill takes care of that.)
 #: Ink and paper of the figures follow the colours of the page, so that dark mode works.
 _INK = {"#000000": "currentColor", "#ffffff": "var(--paper)"}
@@ -37,6 +39,12 @@ def inline(svg: str, label: str, description: str) -> str:
     for colour, meaning in _INK.items():
         body = re.sub(colour, meaning, body, flags=re.IGNORECASE)
     width = _WIDTH.search(root[1])
-    natural = f' style="width:{float(width[1]) * _PIXELS_PER_POINT:.0f}px"' if width else ""
-    attributes = f'role="img" fill="currentColor" aria-label="{escape(description)}"{natural}'
+    size = _style(float(width[1])) if width else ""
+    attributes = f'role="img" fill="currentColor" aria-label="{escape(description)}"{size}'
     return _ROOT.sub(lambda match: f"<svg {attributes}{_SIZE.sub('', match[1])}>", body, count=1)
+
+
+def _style(points: float) -> str:
+    """The width on the page of a figure so wide on paper, and the least."""
+    natural, least = points * _PIXELS_PER_POINT, points * _LEAST_PIXELS_PER_POINT
+    return f' style="width:{natural:.0f}px;min-width:{least:.0f}px"'

@@ -6,8 +6,8 @@ Overview
     sections, figures and tables are numbered by LaTeX itself; a test compares the outcome with
     `wear.report.numbering`. What the page folds, the derivations, stands in an appendix.
 Packages
-    amsmath, amssymb, booktabs, longtable, graphicx, hyperref, microtype, cleveref. Without cleveref
-    (it is not in the smaller TeX installations) references fall back to those of hyperref.
+    amsmath, amssymb, booktabs, longtable, caption, graphicx, hyperref, microtype, cleveref. Without
+    cleveref (it is not in the smaller TeX installations) references fall back to those of hyperref.
 """
 
 from __future__ import annotations
@@ -212,7 +212,7 @@ def _section(here: Context, section: Section, depth: int) -> str:
 def _equation(here: Context, equation: Equation) -> str:
     formula = f"\\{equation.macro}" if equation.macro else display(equation.latex)
     tag = here.marks[equation.label].number
-    status = f"\\status{{{escape(equation.status)}}}" if equation.status else ""
+    status = f"\\status{{{_spoken(equation.status)}}}" if equation.status else ""
     title = f"{prose(here, equation.title)} {status}".strip()
     printed = f"\\printed{{{display(equation.printed)}}}\n" if equation.printed else ""
     told = _mentions(here, equation.label)
@@ -247,7 +247,7 @@ def _table(here: Context, table: Table) -> str:
     head = " & ".join(prose(here, column.heading) for column in table.columns)
     body = "".join(f"{row} \\\\\n" for row in rows)
     return (
-        f"\\begin{{table}}[htbp]\\centering\\small\\captionabove\n"
+        f"\\begin{{table}}[htbp]\\centering\\small\n"
         f"\\caption{{{prose(here, table.caption)}}}\\label{{{table.label}}}\n"
         f"\\begin{{tabular}}{{{_alignment(table.columns)}}}\\toprule\n"
         f"{head} \\\\\\midrule\n{body}\\bottomrule\\end{{tabular}}\n"
@@ -269,7 +269,7 @@ def _long_table(
     body = "".join(f"{row} {end}" for row in rows)
     return (
         f"{{\\footnotesize\n\\begin{{longtable}}{{{_alignment(columns)}}}\n"
-        f"\\caption{{{prose(here, caption)}}}\\label{{{label}}}\\\\[1ex]\\toprule\n"
+        f"\\caption{{{prose(here, caption)}}}\\label{{{label}}}\\\\\\toprule\n"
         f"{head} \\\\\\midrule\\endfirsthead\n"
         f"\\toprule {head} \\\\\\midrule\\endhead\n"
         f"\\bottomrule\\endfoot\n{body}\\end{{longtable}}}}\n"
@@ -285,14 +285,19 @@ def _alignment(columns: tuple[Column, ...]) -> str:
     return "@{}" + "".join(one(column) for column in columns) + "@{}"
 
 
+def _spoken(status: str) -> str:
+    """A status or verdict as words."""
+    return escape(status.replace("-", " "))
+
+
 def _claims(here: Context, ledger: Claims) -> str:
     """The ledger in three columns: on paper the evidence needs the room."""
-    heads = (("Claim", 0.09), ("Statement and verdict", 0.3), ("Evidence", 0.55))
+    heads = (("Claim", 0.11), ("Statement and verdict", 0.3), ("Evidence", 0.53))
     columns = tuple(Column((Text(title),), width=width) for title, width in heads)
     rows = [
         f"\\hypertarget{{{claim.label}}}{{{escape(claim.id)}}}\\newline "
         f"{prose(here, claim.where)} & "
-        f"{prose(here, claim.statement)}\\newline \\verdict{{{escape(claim.verdict)}}} & "
+        f"{prose(here, claim.statement)}\\newline \\verdict{{{_spoken(claim.verdict)}}} & "
         f"{prose(here, claim.evidence)}"
         for claim in ledger.claims
     ]
