@@ -194,3 +194,11 @@ def test_cycles_until_a_wear_that_fades() -> None:
     rest = count.wear_after(model, load, np.array([1e6]), 1e-11).u_c
     found = count.cycles_until(model, load, np.array([*(wear - 1e-16), *(rest * 1.01)]), 1e-11)
     assert found.cycles.tolist() == [30.0, 60.0, 90.0, np.inf]
+
+
+def test_a_loose_request_has_an_estimate_too() -> None:
+    """The map that judges once took longer stretches than the map it judged: both missed alike."""
+    heights = np.array([6.827e-4, 6.7253e-4, 1.4235e-4])
+    load = Table(tuple(np.linspace(0.0, 1.0, 7)), (*np.repeat(heights, 2), heights[0]))
+    scene = with_load(load, 7.660896067204755e-05, 0.8818842290643083, closure=5.879284e-4)
+    agrees_with_the_judge(scene, [1], 1e-6)

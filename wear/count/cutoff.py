@@ -39,8 +39,10 @@ class CutoffCycle(NamedTuple):
         return 1
 
     def on(self, over: Mesh) -> CutoffCycle:
-        """The same on another mesh."""
-        return self._replace(over=over)
+        """The same on another mesh; one of more nodes is to judge the other, and cuts stretches
+        until nothing but rounding is left."""
+        judges = len(over.rule.nodes) > len(self.over.rule.nodes)
+        return self._replace(over=over, tolerance=ROUNDOFF if judges else self.tolerance)
 
     def resolved(self, wear: FloatArray, m: int, tolerance: float) -> CutoffCycle:
         """On a mesh of m nodes an interval."""
