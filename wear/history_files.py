@@ -49,25 +49,52 @@ def write_netcdf(history: History, path: Path) -> None:
 
 
 def write_inside(parts: Iterable[Inside], path: Path, attributes: Mapping[str, str]) -> None:
-    """Write the chunks of a history inside the cycles as they come, to NetCDF-3.
-
-    Variables have the dimensions `cycle` and `phase`; `cycle` is the record dimension, so that
-    memory holds one chunk at a time. SciPy writes the header and the first cycle; the records of
-    the others follow in the same layout, and their number is put in its place in the end.
-    """
-    rows = 0
+    """Write the chunks of a history inside the cycles as they come, so that memory holds one at a
+    time: to NetCDF-3, or to CSV if the name ends so."""
     with _replacing(path) as draft:
+        if path.suffix == ".csv":
+            _write_lines(parts, draft, attributes)
+        else:
+            _write_records(parts, draft, attributes)
+
+
+def _write_lines(parts: Iterable[Inside], path: Path, attributes: Mapping[str, str]) -> None:
+    """Comments (`# key: value`), a header and a line a state."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        file.writelines(f"# {key}: {value}\n" for key, value in attributes.items())
+        writer = csv.writer(file, lineterminator="\n")
+        begun = False
         for part in parts:
             columns = _columns_inside(part)
-            if rows == 0:
-                _write_first_cycle(part, columns, attributes, draft)
-            records = np.column_stack([part.cycles, part.error, *(c.values for c in columns)])
-            with draft.open("ab") as file:
-                file.write(records[1 if rows == 0 else 0 :].astype(">f8").tobytes())
-            rows += len(records)
-        with draft.open("r+b") as file:
-            file.seek(_NUMBER_OF_RECORDS)
-            file.write(rows.to_bytes(4, "big"))
+            if not begun:
+                names = (column.name for column in columns)
+                writer.writerow(["cycle", "phase", *names, "error_estimate"])
+            begun, m = True, len(part.phases)
+            cycles = np.repeat(part.cycles.astype(np.int64), m).tolist()
+            phases = np.tile(part.phases, len(part.cycles)).tolist()
+            errors = np.repeat(part.error, m).tolist()
+            values = (column.values.ravel().tolist() for column in columns)
+            writer.writerows(zip(cycles, phases, *values, errors, strict=True))
+
+
+def _write_records(parts: Iterable[Inside], path: Path, attributes: Mapping[str, str]) -> None:
+    """Variables with the dimensions `cycle` and `phase`; `cycle` is the record dimension.
+
+    SciPy writes the header and the first cycle; the records of the others follow in the same
+    layout, and their number is put in its place in the end.
+    """
+    rows = 0
+    for part in parts:
+        columns = _columns_inside(part)
+        if rows == 0:
+            _write_first_cycle(part, columns, attributes, path)
+        records = np.column_stack([part.cycles, part.error, *(c.values for c in columns)])
+        with path.open("ab") as file:
+            file.write(records[1 if rows == 0 else 0 :].astype(">f8").tobytes())
+        rows += len(records)
+    with path.open("r+b") as file:
+        file.seek(_NUMBER_OF_RECORDS)
+        file.write(rows.to_bytes(4, "big"))
 
 
 _NUMBER_OF_RECORDS = 4  # where it stands in a NetCDF-3 file, behind "CDF" and the version

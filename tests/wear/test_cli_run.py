@@ -5,8 +5,10 @@ import json
 import math
 import os
 import re
+import signal
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,6 +17,7 @@ import pytest
 
 from wear import cli
 from wear.commands.run_output import latex_number, text
+from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, Interrupted
 from wear.scene import load_scene
 from wear.solver import METHODS, solve
@@ -281,11 +284,72 @@ def test_states_inside_the_cycles_are_written(run, tmp_path):
 
 
 def test_everything_against_states_inside_the_cycles_is_told_at_once(run):
-    arguments = ("--phases", "2.5", "--method", "DOP853", "--until-wear", "1e-3")
-    status, _, messages = run("section4-cutoff", *arguments)
+    arguments = ("--phases", "2.5", "--method", "DOP853", "--time-limit", "3")
+    changed = ("--set", "support.stiffness_MPa_per_mm=1e5")
+    status, _, messages = run("section4-cutoff", *changed, *arguments)
     assert status == 2
-    for phrase in ("no whole number", "--output", "--method", "--until-wear", "cutoff"):
+    for phrase in ("no whole number", "--output", "--method", "--time-limit", "compliant support"):
         assert phrase in messages
+
+
+def test_states_inside_the_cycles_are_the_same_in_both_kinds_of_file(run, tmp_path):
+    from scipy.io import netcdf_file
+
+    paths = [tmp_path / "inside.csv", tmp_path / "inside.nc"]
+    for path in paths:
+        request = ("section4-cutoff", "--cycles", "30,0:9", "--phases", "7", "-o", str(path))
+        assert run(*request)[0] == 0
+    lines = (line for line in paths[0].read_text().splitlines() if not line.startswith("#"))
+    rows = list(csv.DictReader(lines))
+    assert [int(row["cycle"]) for row in rows[::7]] == [*range(10), 30]
+    with netcdf_file(paths[1], mmap=False) as file:
+        for name, variable in file.variables.items():
+            if variable.dimensions == ("cycle", "phase"):
+                assert [float(row[name]) for row in rows] == variable[:].ravel().tolist()
+        assert [float(row["phase"]) for row in rows[:7]] == file.variables["phase"][:].tolist()
+
+
+def test_states_inside_the_cycles_of_blocks(run, tmp_path):
+    scene = str(Path(__file__).parents[2] / "docs" / "examples" / "blocks.toml")
+    path = tmp_path / "inside.csv"
+    most = most_cycles(load_scene(scene).load)
+    request = ("--phases", "2", "-o", str(path))
+    assert run(scene, "--cycles", f"0,{most - 1}", *request)[0] == 0
+    last = list(csv.reader(path.read_text().splitlines()))[-2]
+    assert float(last[2]) == pytest.approx(solve(load_scene(scene), [most - 1]).u_c[0], rel=1e-9)
+    status, _, messages = run(scene, "--cycles", f"0,{most}", *request)
+    assert status == 2
+    assert f"begins after {most - 1}" in messages
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".csv"])
+def test_ctrl_c_while_states_are_written_leaves_what_was_there(suffix, tmp_path):
+    """The signal itself, as soon as there is a draft beside the file."""
+    path = tmp_path / f"inside{suffix}"
+    path.write_text("before")
+    request = ("section4", "--cycles", "0:50000", "--phases", "100", "-o", str(path))
+    process = subprocess.Popen(
+        [sys.executable, "-c", LISTENING, "run", *request], stderr=subprocess.PIPE, text=True
+    )
+    while process.poll() is None and len(list(tmp_path.iterdir())) == 1:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    messages = process.communicate()[1]
+    assert process.returncode == 130
+    assert re.fullmatch(
+        r"wear run: interrupted after \d+ of 50001 cycles; .* was not written\n", messages
+    )
+    assert list(tmp_path.iterdir()) == [path]
+    assert path.read_text() == "before"
+
+
+# A process that was started in the background ignores the signal.
+LISTENING = """\
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from wear import cli
+sys.exit(cli.main(sys.argv[1:]))
+"""
 
 
 def test_an_accuracy_that_is_missed_inside_the_cycles_is_told(run, tmp_path):

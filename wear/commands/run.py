@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import completion, files, terminal
 from derive.command_line import Command
-from wear.commands import run_output
+from wear.commands import run_inside, run_output
 from wear.commands.arguments import Faults, add_scene
 
 if TYPE_CHECKING:
-    from wear.count.inside import Inside
     from wear.scene import Scene
 
 EXAMPLE = """\
@@ -57,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--phases",
         metavar="M",
         help="write the state at M phases of the cycle that begins after each of the numbers of "
-        "cycles, to a .nc file, a part at a time",
+        "cycles, to a .nc or .csv file, a part at a time",
     )
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="write the states to a .csv, .nc or .tex file"
@@ -80,12 +79,14 @@ def execute(options: argparse.Namespace) -> int:
     if wears is not None and scene is not None and (against := obstacle(scene)) is not None:
         faults.add(f"--until-wear: cycles cannot be counted: {against}")
     output = None if options.output is None else _read_output(options.output, faults)
-    phases = None if options.phases is None else _read_phases(options, scene, faults)
+    phases = None
+    if options.phases is not None:
+        phases = run_inside.read_phases(options, scene, cycles, faults)
     faults.stop_if_any()
     assert scene is not None
     if phases is not None:
         assert output is not None
-        return _inside(scene, cycles, phases, rtol, output, as_json=options.json)
+        return run_inside.execute(scene, cycles, phases, rtol, output, as_json=options.json)
 
     status, fault = terminal.DONE, ""
     try:
@@ -108,78 +109,6 @@ def execute(options: argparse.Namespace) -> int:
     for notice in (*run_output.worth_telling(history), *([fault] if fault else [])):
         terminal.complain("wear run", notice)
     return status
-
-
-def _read_phases(options: argparse.Namespace, scene: Scene | None, faults: Faults) -> int:
-    """How many phases; everything that stands against states inside the cycles."""
-    from wear.load import Blocks, HistoryLoad
-
-    number = faults.number("--phases", options.phases, 1, 1e6)
-    if not number.is_integer():
-        faults.add(f"--phases: {options.phases} is no whole number")
-    if options.output is None or Path(options.output).suffix != ".nc":
-        faults.add("--phases: name a .nc file with --output; the states are too many to print")
-    if options.method.lower() not in ("auto", "cycle-count"):
-        faults.add("--phases: only the cycle count knows the states inside; leave --method out")
-    for option, value in (
-        ("--until-wear", options.until_wear),
-        ("--time-limit", options.time_limit),
-    ):
-        if value is not None:
-            faults.add(f"--phases: does not go with {option}; leave one of them out")
-    if scene is not None and isinstance(scene.load, Blocks | HistoryLoad):
-        faults.add("--phases: the load does not repeat; take a scene with one periodic load")
-    if scene is not None and scene.contact.cutoff:
-        faults.add("--phases: not with a cutoff; set contact.cutoff=false or leave --phases out")
-    return int(number) if number.is_integer() else 1
-
-
-def _inside(
-    scene: Scene, cycles: Sequence[int], phases: int, rtol: float, output: Path, *, as_json: bool
-) -> int:
-    """Write the states inside the cycles, and tell how many they are and how accurate."""
-    import numpy as np
-
-    from wear.count.inside import fields_inside
-    from wear.history_files import write_inside
-    from wear.model import bind
-
-    worst = 0.0
-
-    def parts() -> Iterator[Inside]:
-        nonlocal worst
-        at, wanted = np.arange(phases) / phases, np.array(cycles, dtype=float)
-        for part in fields_inside(bind(scene), scene.periodic_load, wanted, at, rtol):
-            worst = max(worst, float(np.max(part.error)))
-            yield part
-
-    attributes = {
-        "title": scene.title or scene.name or "untitled",
-        "scene": scene.to_json(),
-        "method": "cycle-count",
-        "rtol": repr(rtol),
-    }
-    write_inside(parts(), output, attributes)
-    told = {
-        "scene": scene.title or scene.name,
-        "file": str(output),
-        "cycles": len(cycles),
-        "phases": phases,
-        "method": "cycle-count",
-        "rtol": rtol,
-        "largest_error_estimate": worst,
-        "notices": list(scene.notices),
-    }
-    if as_json:
-        terminal.print_json(told)
-    for notice in scene.notices:
-        terminal.complain("wear run", notice)
-    if not worst <= rtol:
-        terminal.complain(
-            "wear run", f"the estimated error is {worst:.1e}, {rtol:.1e} was requested"
-        )
-        return terminal.INACCURATE
-    return terminal.DONE
 
 
 def _read_wears(text: str, faults: Faults) -> tuple[float, ...]:

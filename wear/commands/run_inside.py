@@ -1,0 +1,104 @@
+"""`wear run --phases`: the states inside the cycles, into a file, a part at a time."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derive import files, terminal
+from wear.commands.arguments import Faults
+
+if TYPE_CHECKING:
+    from wear.count.inside import Inside
+    from wear.scene import Scene
+
+SUFFIXES = (".csv", ".nc")
+
+
+def read_phases(
+    options: argparse.Namespace, scene: Scene | None, cycles: Sequence[int], faults: Faults
+) -> int:
+    """How many phases; everything that stands against states inside the cycles."""
+    number = faults.number("--phases", options.phases, 1, 1e6)
+    if not number.is_integer():
+        faults.add(f"--phases: {options.phases} is no whole number")
+    if options.output is None or Path(options.output).suffix not in SUFFIXES:
+        faults.add("--phases: name a .nc or .csv file with --output; there are too many states")
+    if options.method.lower() not in ("auto", "cycle-count"):
+        faults.add("--phases: only the cycle count knows the states inside; leave --method out")
+    for option, value in (
+        ("--until-wear", options.until_wear),
+        ("--time-limit", options.time_limit),
+    ):
+        if value is not None:
+            faults.add(f"--phases: does not go with {option}; leave one of them out")
+    if scene is not None:
+        _check(scene, cycles, faults)
+    return int(number) if number.is_integer() else 1
+
+
+def _check(scene: Scene, cycles: Sequence[int], faults: Faults) -> None:
+    from wear.direct.sequence import most_cycles
+    from wear.solver import obstacle
+
+    against, most = obstacle(scene), most_cycles(scene.load)
+    if against is not None:
+        faults.add(f"--phases: cycles cannot be counted: {against}; leave --phases out")
+    elif max(cycles, default=0) >= most:
+        faults.add(f"--cycles: the last cycle with phases begins after {most - 1}; the load ends")
+
+
+def execute(
+    scene: Scene, cycles: Sequence[int], phases: int, rtol: float, output: Path, *, as_json: bool
+) -> int:
+    """Write the states inside the cycles, and tell how many they are and how accurate."""
+    import numpy as np
+
+    from wear.count.inside import fields_inside
+    from wear.history_files import write_inside
+    from wear.model import bind
+
+    worst, done = 0.0, 0
+
+    def parts() -> Iterator[Inside]:
+        nonlocal worst, done
+        at, wanted = np.arange(phases) / phases, np.array(cycles, dtype=float)
+        for part in fields_inside(bind(scene), scene.load, wanted, at, rtol):
+            yield part
+            worst, done = max(worst, float(np.max(part.error))), done + len(part.cycles)
+
+    attributes = {
+        "title": " ".join((scene.title or scene.name).split()) or "untitled",
+        "scene": scene.to_json(),
+        "method": "cycle-count",
+        "rtol": repr(rtol),
+    }
+    try:
+        with files.replacing(output) as draft:
+            write_inside(parts(), draft, attributes)
+    except KeyboardInterrupt:
+        told = f"interrupted after {done} of {len(cycles)} cycles; {output} was not written"
+        terminal.complain("wear run", told)
+        return terminal.INTERRUPTED
+    if as_json:
+        terminal.print_json(
+            {
+                "scene": scene.title or scene.name,
+                "file": str(output),
+                "cycles": len(cycles),
+                "phases": phases,
+                "method": "cycle-count",
+                "rtol": rtol,
+                "largest_error_estimate": worst,
+                "notices": list(scene.notices),
+            }
+        )
+    for notice in scene.notices:
+        terminal.complain("wear run", notice)
+    if not worst <= rtol:
+        missed = f"the estimated error is {worst:.1e}, {rtol:.1e} was requested"
+        terminal.complain("wear run", missed)
+        return terminal.INACCURATE
+    return terminal.DONE
