@@ -148,14 +148,14 @@ def _number(node: Number) -> str:
 def _link(here: Context, label: str) -> str:
     mark = here.marks[label]
     if mark.kind in ("claim", "derivation"):
-        return f"\\hyperlink{{{label}}}{{{escape(mark.name)}}}"
+        return f"\\linkto{{{label}}}{{{escape(mark.name)}}}"
     return f"\\cref{{{label}}}"
 
 
 def _bare_link(here: Context, label: str) -> str:
     mark = here.marks[label]
     if mark.kind in ("claim", "derivation"):
-        return f"\\hyperlink{{{label}}}{{{mark.bare}}}"
+        return f"\\linkto{{{label}}}{{{mark.bare}}}"
     return f"\\hyperref[{label}]{{{mark.bare}}}"
 
 
@@ -172,7 +172,7 @@ def _mentions(here: Context, label: str) -> str:
 
 def _mention(here: Context, source: str) -> str:
     if here.marks[source].kind == "derivation":
-        return f"\\hyperlink{{{source}}}{{derivation}} on p.~\\pageref{{{source}@page}}"
+        return f"\\linkto{{{source}}}{{derivation}} on p.~\\pageref{{{source}@page}}"
     return _link(here, source)
 
 

@@ -10,10 +10,20 @@ from pathlib import Path
 import pytest
 
 from wear.report import tex
-from wear.report.document import Document, Equation, Listing, Paragraph, Section, Text
+from wear.report.document import (
+    Column,
+    Document,
+    Equation,
+    Listing,
+    Paragraph,
+    Section,
+    Table,
+    Text,
+)
 from wear.report.numbering import number
 from wear.report.tex_text import escape, verbatim
 from wear.report.typeset import Typeset, typeset, warnings
+from wear.report.words import words
 
 
 def _write(folder: Path, sources: tex.Sources) -> Path:
@@ -108,6 +118,18 @@ def test_every_special_compiles(
     text = "\\ { } $ & # % _ ^ ~ < > | \" ' ` é ü Ł ő – — “ ” ‘ ’ … − · × ± ° µ → ≤ ≥ ≈ ∞ ² ³"
     blocks = (Paragraph((Text(text),)), Listing("a" * 250 + "\n\\%{}_^", "code"))
     document = replace(sample, sections=(Section("sec:a", text, blocks),), abstract=())
+    outcome = typeset(_write(tmp_path, tex.report(document)))
+    assert (outcome.notice, outcome.warnings) == ("", ())
+
+
+def test_a_caption_may_name_anything(
+    sample: Document, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    need_tool("pdflatex")
+    caption = words("Seen in [claim:C24], [(claim:C29)], [der:8], [eq:21] and [tab:names].")
+    table = Table("tab:one", caption, (Column(()),), (((Text("a"),),),))
+    blocks = (table, replace(table, label="tab:two", long=True))
+    document = replace(sample, sections=(*sample.sections, Section("sec:a", "A", blocks)))
     outcome = typeset(_write(tmp_path, tex.report(document)))
     assert (outcome.notice, outcome.warnings) == ("", ())
 
