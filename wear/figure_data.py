@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+if TYPE_CHECKING:
+    from wear.scene import Scene
+
 FloatArray = NDArray[np.float64]
+PHASES = 800  # of a cycle, besides the peaks of the load
 
 
 @dataclass(frozen=True)
@@ -30,6 +36,42 @@ class Line:
                 f"line {self.name!r}: x and y must be of one shape (n,) with n > 0, "
                 f"got {np.shape(self.x)} and {np.shape(self.y)}"
             )
+
+    def positive(self) -> Line:
+        """The part that a logarithmic axis can show."""
+        shown = self.x > 0.0
+        return replace(self, x=self.x[shown], y=self.y[shown])
+
+
+def spans_decades(lines: Sequence[Line]) -> bool:
+    """Whether all values after the fresh state are positive and span two decades or more."""
+    values = np.concatenate([line.positive().y for line in lines])
+    return bool(values.min() > 0.0 and values.max() >= 100.0 * values.min())
+
+
+def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> list[Line]:
+    """Contact pressure (MPa) over the phase of the cycles that begin after so many `cycles`, a line
+    each, by rising numbers.
+
+    Raises
+    ------
+    UsageError
+        if the load does not repeat, or the scene's cycles cannot be counted.
+    """
+    from wear.count.inside import fields_inside
+    from wear.model import bind
+
+    load = scene.periodic_load
+    phases = np.union1d(np.linspace(0.0, 1.0, PHASES + 1), load.peaks)
+    rows = [
+        row
+        for part in fields_inside(bind(scene), load, np.unique(cycles), phases, rtol)
+        for row in zip(part.cycles, part.fields.p, strict=True)
+    ]
+    return [
+        Line(f"$N = {int(cycle)}$", phases, pressure, family)
+        for family, (cycle, pressure) in enumerate(rows)
+    ]
 
 
 @dataclass(frozen=True)

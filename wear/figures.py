@@ -24,7 +24,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from wear.figure_data import Line, Method, Regime, Threshold
+from wear.figure_data import Line, Method, Regime, Threshold, spans_decades
 from wear.figure_style import (
     COLUMN,
     GREY,
@@ -69,7 +69,7 @@ def history(
             (middle, roughness, _ROUGHNESS, _MICROMETRES_PER_MM),
             (bottom, pressure, _PRESSURE, 1.0),
         ):
-            if logarithmic and _spans_decades(lines):
+            if logarithmic and spans_decades(lines):
                 axes.set_yscale("log")
             _panel(axes, lines, quantity, scale, logarithmic)
         bottom.set_xlabel(_CYCLES)
@@ -220,27 +220,15 @@ def _panel(
 ) -> None:
     if logarithmic:
         axes.set_xscale("log")
-        lines = [_positive(line) for line in lines]
+        lines = [line.positive() for line in lines]
     _draw(axes, lines, scale)
     axes.set_ylabel(quantity)
     _frame(axes, lines, scale)
     _name(axes, lines, scale)
 
 
-def _spans_decades(lines: Sequence[Line]) -> bool:
-    """Whether all values after the fresh state are positive and span two decades or more."""
-    values = np.concatenate([_positive(line).y for line in lines])
-    return bool(values.min() > 0.0 and values.max() >= 100.0 * values.min())
-
-
 def _look(line: Line) -> Stroke:
     return stroke(line.family, line.variant)
-
-
-def _positive(line: Line) -> Line:
-    """The part of a line that a logarithmic axis can show."""
-    shown = line.x > 0.0
-    return replace(line, x=line.x[shown], y=line.y[shown])
 
 
 def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:

@@ -151,6 +151,20 @@ def test_a_logarithmic_figure_begins_with_the_first_cycle(call: Call, tmp_path: 
     assert json.loads(shown)["cycles"] == [1, 10**8]
 
 
+def test_a_figure_of_the_pressure_inside_cycles(call: Call, tmp_path: Path) -> None:
+    file = tmp_path / "pulses.svg"
+    request = ("figure", "section4-cutoff", "-o", str(file), "--inside", "10,0", "--json")
+    status, shown, _ = call(*request)
+    assert status == 0
+    assert json.loads(shown)["cycles"] == [0, 10]
+    assert file.read_text().startswith("<?xml")
+    changed = ("--set", "support.stiffness_MPa_per_mm=1e5")
+    status, _, messages = call(*request, "--inside", "0:9", *changed)
+    assert status == 2
+    assert "10 cycles in one figure" in messages
+    assert "compliant support" in messages
+
+
 def test_all_faults_of_a_figure_are_told_at_once(call: Call) -> None:
     status, _, messages = call("figure", "nowhere", "-o", "wear.gif", "--cycles", "1,2")
     assert status == 2

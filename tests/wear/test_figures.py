@@ -15,8 +15,10 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from wear import figure_style, figures
-from wear.figure_data import Line, Method, Regime, Threshold
+from wear.figure_data import Line, Method, Regime, Threshold, pressure_inside
 from wear.report import drawing
+from wear.scene import load_scene
+from wear.solver import solve
 
 CYCLES = np.linspace(0.0, 100.0, 201)
 WEAR = 1e-4 * np.log1p(CYCLES)
@@ -181,6 +183,27 @@ def test_names_stay_apart_in_order_and_inside(heights: list[float], gap: float) 
     assert placed[-1] <= 1.0 + 1e-12
     if np.all(np.diff(ends) >= gap):
         np.testing.assert_allclose(placed, ends, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["section4", "section4-cutoff"])
+def test_the_pressure_inside_cycles_is_that_of_the_equations(name: str) -> None:
+    """At phase 0 the state of `solve`, and at the peak of the first cycle the law at its wear."""
+    scene, cycles = load_scene(name), [50, 0, 10]
+    lines = pressure_inside(scene, cycles)
+    assert [line.name for line in lines] == ["$N = 0$", "$N = 10$", "$N = 50$"]
+    starts = solve(scene, sorted(cycles), 1e-8).p
+    np.testing.assert_allclose([line.y[0] for line in lines], starts, rtol=1e-4)
+    for line in lines:
+        assert line.x[np.argmax(line.y)] == pytest.approx(0.25, abs=0.01)
+        assert line.y[-1] <= line.y[0] < line.y.max()  # wear has opened the gap
+    assert (lines[-1].y == 0.0).any() == scene.contact.cutoff
+
+
+def test_many_cycles_have_a_line_each() -> None:
+    """More than fit a chunk of the history."""
+    lines = pressure_inside(load_scene("section4"), range(100))
+    assert [line.family for line in lines] == list(range(100))
+    assert np.all(np.diff([line.y.max() for line in lines]) < 0.0)
 
 
 def test_what_grows_by_decades_has_a_logarithmic_axis() -> None:

@@ -1,4 +1,4 @@
-"""`wear figure`: wear, roughness and pressure of a scene against cycles."""
+"""`wear figure`: wear, roughness and pressure of a scene against cycles, or inside them."""
 
 from __future__ import annotations
 
@@ -13,15 +13,17 @@ from wear.commands import run_output
 from wear.commands.arguments import Faults, add_scene
 
 if TYPE_CHECKING:
-    from wear.history import History
+    from wear.scene import Scene
 
 SUFFIXES = (".pdf", ".png", ".svg")
 POINTS = 160
+MOST_INSIDE = 7  # cycles in one figure: as many as there are colours
 
 EXAMPLE = """\
   wear figure section4 -o wear.pdf                          9000 cycles
   wear figure section4 -o wear.svg --cycles 1e8 --log       on a logarithmic axis
   wear figure scene.toml -o wear.png --set contact.cutoff=true
+  wear figure section4 -o pulses.svg --inside 0,10,100      the pressure within three cycles
 """
 
 
@@ -39,17 +41,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="logarithmic axes: of cycles, and of wear or roughness that span decades",
     )
+    parser.add_argument(
+        "--inside",
+        metavar="N,...",
+        help="instead: the contact pressure within the cycles that begin after these numbers of "
+        "cycles, 0 for the first",
+    )
 
 
 def execute(options: argparse.Namespace) -> int:
     """Solve the scene and draw it."""
-    from wear.figures import history
-    from wear.report.figures_of_note import lines_of
-    from wear.solver import solve
-
     faults = Faults()
     scene = faults.scene(options)
     last = faults.cycles("--cycles", options.cycles)
+    inside = None if options.inside is None else faults.cycles("--inside", options.inside)
     output = Path(options.output)
     if output.suffix.lower() not in SUFFIXES:
         faults.add(f"--output: {options.output}: end it in {', '.join(SUFFIXES)}")
@@ -57,13 +62,25 @@ def execute(options: argparse.Namespace) -> int:
         faults.add(f"--output: {problem}")
     if len(last) > 1 or last == (0,):
         faults.add(f"--cycles: {options.cycles}: give one number of cycles, from 1 on")
+    if inside is not None:
+        _check_inside(inside, scene, faults)
     faults.stop_if_any()
     assert scene is not None
-    found = solve(scene, shown_cycles(last[0], logarithmic=options.log), rtol=1e-6)
+    if inside is not None:
+        return _pressure_inside(scene, inside, output, as_json=options.json)
+    return _against_cycles(scene, last[0], output, options)
+
+
+def _against_cycles(scene: Scene, last: int, output: Path, options: argparse.Namespace) -> int:
+    from wear.figures import history
+    from wear.report.figures_of_note import lines_of
+    from wear.solver import solve
+
+    found = solve(scene, shown_cycles(last, logarithmic=options.log), rtol=1e-6)
     drawn = history(*lines_of(found), logarithmic=options.log)
     _write(drawn, output)
     if options.json:
-        terminal.print_json(_summary(found, output))
+        terminal.print_json(_summary(found.scene, found.cycles.tolist(), output))
     for notice in run_output.worth_telling(found):
         terminal.complain("wear figure", notice)
     return terminal.DONE
@@ -85,12 +102,33 @@ def _write(drawn: object, output: Path) -> None:
     files.write_atomically(output, encoded(drawn, output.suffix))  # type: ignore[arg-type]
 
 
-def _summary(found: History, output: Path) -> dict[str, object]:
-    return {"scene": found.scene, "file": str(output), "cycles": _ends(found.cycles.tolist())}
+def _check_inside(inside: Sequence[int], scene: Scene | None, faults: Faults) -> None:
+    from wear.load import Blocks
+    from wear.solver import obstacle
+
+    if len(inside) > MOST_INSIDE:
+        faults.add(f"--inside: {len(inside)} cycles in one figure; name up to {MOST_INSIDE}")
+    if scene is None:
+        return
+    against = "the load does not repeat" if isinstance(scene.load, Blocks) else obstacle(scene)
+    if against is not None:
+        faults.add(f"--inside: {against}; leave --inside out")
 
 
-def _ends(cycles: Sequence[int]) -> list[int]:
-    return [cycles[0], cycles[-1]]
+def _pressure_inside(scene: Scene, inside: Sequence[int], output: Path, *, as_json: bool) -> int:
+    from wear.figure_data import pressure_inside
+    from wear.figures import pressure_in_cycles
+
+    _write(pressure_in_cycles(pressure_inside(scene, inside)), output)
+    if as_json:
+        terminal.print_json(_summary(scene.title or scene.name, sorted(inside), output))
+    for notice in scene.notices:
+        terminal.complain("wear figure", notice)
+    return terminal.DONE
+
+
+def _summary(scene: str, cycles: Sequence[int], output: Path) -> dict[str, object]:
+    return {"scene": scene, "file": str(output), "cycles": [cycles[0], cycles[-1]]}
 
 
 COMMAND = Command(
