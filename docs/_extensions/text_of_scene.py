@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 from wear.scene import schema
+
+_SYMBOL = re.compile(r"\b(sigma|phi|[UHKfhpRu])_(\w+)\b|\b(sigma|phi)\b")
+_WORDS = {"max": r"\max"}
 
 
 def reference() -> str:
@@ -27,7 +32,7 @@ def reference() -> str:
 
 
 def _sentence(table: schema.Table) -> str:
-    said = [f"{table.meaning[0].upper()}{table.meaning[1:]}."]
+    said = [_typeset(f"{table.meaning[0].upper()}{table.meaning[1:]}.")]
     if table.one_of:
         said.append(f"Exactly one of {_listed(table.one_of, 'and')} is given.")
     if table.together:
@@ -41,8 +46,28 @@ def _listed(names: tuple[str, ...], word: str) -> str:
 
 def _keys(keys: tuple[schema.Key, ...]) -> str:
     rows = ["| key | value | meaning |", "| --- | --- | --- |"]
-    rows += [f"| `{key.name}` | {_value(key)}{_default(key)} | {key.meaning} |" for key in keys]
+    rows += [
+        f"| `{key.name}` | {_value(key)}{_default(key)} | {_typeset(key.meaning)} |" for key in keys
+    ]
     return "\n".join(rows)
+
+
+def _typeset(meaning: str) -> str:
+    r"""Symbols of a plain sentence in mathematics, options as code; names of columns stay.
+
+    >>> _typeset("roughness sigma_c0, columns t_s,U_a_mm, R_a = p b L")
+    'roughness $\\sigma_{c0}$, columns t_s,U_a_mm, $R_{a}$ = p b L'
+    """
+
+    def symbol(found: re.Match[str]) -> str:
+        name, index, alone = found.groups()
+        if index is not None and index.endswith("_mm"):
+            return found[0]
+        letter = name or alone
+        greek = rf"\{letter}" if len(letter) > 1 else letter
+        return f"${greek}_{{{_WORDS.get(index, index)}}}$" if index else f"${greek}$"
+
+    return _SYMBOL.sub(symbol, re.sub(r"(--\w+)", r"`\1`", meaning))
 
 
 def _value(key: schema.Key) -> str:
