@@ -25,6 +25,7 @@ extensions = [
 ]
 source_suffix = {".md": "markdown", ".ipynb": "notebook"}
 exclude_patterns = ["_build", "_extensions", "_static", "bench", "examples"]
+default_role = "code"  # what docstrings have in single backticks
 nitpicky = True
 nitpick_ignore_regex = [("py:.*", r".*")]  # types in signatures name what these pages do not list
 
