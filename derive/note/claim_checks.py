@@ -242,8 +242,8 @@ def one_eighth() -> Finding:
     verdict = Verdict.REFUTED if good and counter else Verdict.CONFIRMED
     return Finding(
         verdict,
-        f"tanh(4 - 2/f_c) > -1 always, by {float(margin):.3e} at f_c = 0.1; f_c > 1/8 is "
-        f"p_inf/p_max > {level:.4e}, a resolution; thresholds: {limits}; {evidence}",
+        f"tanh(4 - 2/f_c) > -1 always, by {float(margin):.3e} at f_c = {float(slope)}; f_c > 1/8 "
+        f"is p_inf/p_max > {level:.4e}, a resolution; thresholds: {limits}; {evidence}",
     )
 
 

@@ -99,9 +99,9 @@ def two_stages() -> Finding:
     shown = ", ".join(f"{step:.3e}" for step in steps)
     evidence = (
         f"wear of one cycle after {', '.join(map(str, cycles))} cycles: {shown} mm; a doubling "
-        f"from 4500 changes it by a factor {still:.3f}, and the limit is {_limit('section3'):.2e} "
-        f"mm: no stabilised stage. With the cutoff wear stops at {stop.arrest_wear_mm:.4e} mm, in "
-        f"cycle {stop.arrest_cycle}"
+        f"from {cycles[2]} changes it by a factor {still:.3f}, and the limit is "
+        f"{_limit('section3'):.2e} mm: no stabilised stage. With the cutoff wear stops at "
+        f"{stop.arrest_wear_mm:.4e} mm, in cycle {stop.arrest_cycle}"
     )
     levelled = still > 0.99
     return Finding(Verdict.CONFIRMED if levelled else Verdict.NOT_REPRODUCIBLE, evidence)
@@ -181,7 +181,7 @@ def quicker_for_lower_wear() -> Finding:
         (step,) = _increments(name, (PRINTED.cycles,))
         relative.append(step / _limit(name) - 1.0)
         wear = solve(_scene(name), [int(n) for n in cycles], rtol=1e-10).u_c
-        absolute.append(int(cycles[1:][np.diff(wear) < 1e-6][0]) - 1)
+        absolute.append(int(cycles[1:][np.diff(wear) < PRINTED.criterion][0]) - 1)
     growing = all(np.diff(relative) > 0)
     coefficients = ", ".join(f"{_scene(name).bearing.wear_coefficient:g}" for name in FIGURE_3B)
     distances = ", ".join(f"{value:.3g}" for value in relative)
@@ -189,8 +189,8 @@ def quicker_for_lower_wear() -> Finding:
     return Finding(
         Verdict.CONFIRMED if growing else Verdict.REFUTED,
         f"for K = {coefficients} the relative distance from the limit after {PRINTED.cycles} "
-        f"cycles is {distances}: the higher K, the nearer; less than 1e-6 mm a cycle is reached "
-        f"after {counts} cycles, in which sense it holds weakly",
+        f"cycles is {distances}: the higher K, the nearer; less than {PRINTED.criterion:g} mm a "
+        f"cycle is reached after {counts} cycles, in which sense it holds weakly",
     )
 
 

@@ -9,7 +9,7 @@ from wear.report.reconcile import PRINTED
 from wear.report.runs import SECTION_5, known
 from wear.report.words import paragraph
 
-_WEAR = "Curves that rise steeply in the first few hundred cycles and then ever more slowly."
+_WEAR = "Curves that rise steeply at first and then ever more slowly."
 
 
 def section(material: Material) -> Section:
@@ -114,15 +114,17 @@ def _section_4(material: Material) -> tuple[Block, ...]:
 def _section_5(material: Material) -> tuple[Block, ...]:
     runs = material.runs
     lowest, highest = (runs.history(name) for name in (SECTION_5[0], SECTION_5[-1]))
+    coefficients = [runs.cases[name].scene.bearing.wear_coefficient for name in SECTION_5]
     return (
         paragraph(
             "*The wear coefficient* ([fig:3b]), the same for both solids, $K=K_a=K_c$. The text "
             "of the note does not list its values; shown are the decades around that of its other "
-            "examples, on an axis that shows them all. A thousandfold $K$ gives only {factor} "
-            "times the wear after {cycles} cycles, and the curves become parallel: on this axis a "
-            "change of $K$ shifts them sideways. By the note's criterion the higher $K$ "
-            "stabilises in fewer cycles, not the lower ([claim:C38]). With the cutoff all arrest "
-            "at the same depth, {depth}, which does not depend on $K$; one is shown.",
+            "examples, on an axis that shows them all. A $K$ that is {more} times as large gives "
+            "only {factor} times the wear after {cycles} cycles, and the curves become parallel: "
+            "on this axis a change of $K$ shifts them sideways. By the note's criterion the "
+            "higher $K$ stabilises in fewer cycles, not the lower ([claim:C38]). With the cutoff "
+            "all arrest at the same depth, {depth}, which does not depend on $K$; one is shown.",
+            more=count(round(coefficients[-1] / coefficients[0]), "scenes of section 5"),
             factor=Number(highest.u_c[-1] / lowest.u_c[-1], 3, source="section 5"),
             cycles=count(highest.cycles[-1], "section 5"),
             depth=mm(

@@ -20,7 +20,7 @@ def section(material: Material) -> Section:
                 "Scenes at the edges of the model, each built to break a method: slopes next to "
                 "the limits between regimes, contact that only grazes, states that slide along "
                 "the edge of contact, pressures so small that $1+\\tanh$ rounds to zero, lengths "
-                "scaled by a million. The cycle count solves all of [tab:hard] to the requested "
+                "scaled up and down. The cycle count solves all of [tab:hard] to the requested "
                 "relative error {rtol}; the true error is known from references of far higher "
                 "precision. The documentation of the software tells how every method fares there.",
                 rtol=Number(HARD_RTOL, 1, source="request"),

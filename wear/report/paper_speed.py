@@ -40,7 +40,7 @@ def section(runs: Sequence[Measurement]) -> Section:
             paragraph(
                 "The wear of a cycle depends on the wear at its start alone. The number of cycles "
                 "$n(u)$ as a function of the wear therefore solves Abel's functional equation, "
-                "$n(u+D(u))=n(u)+1$ with the wear $D(u)$ of a cycle, which a few dozen cycles "
+                "$n(u+D(u))=n(u)+1$ with the wear $D(u)$ of a cycle, which few cycles "
                 "determine; the cost of this method, the cycle count, does not grow with the "
                 "number of cycles. The other methods integrate every cycle: those of the software "
                 "with steps that cannot jump over a contact pulse, those called defaults as SciPy "

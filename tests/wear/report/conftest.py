@@ -48,7 +48,7 @@ def sample() -> Document:
     """Three sections, two figures, two tables, four equations."""
     return Document(
         title="Wear of a bearing & its limit – é",
-        subtitle=words("A sample, with {year}", year=Given("2026", "year of the run")),
+        subtitle=words("A sample, with {year}", year=Given("2026", "reference")),
         abstract=words(
             "The wear per cycle tends to {rate}, see [eq:21] and [fig:wear]. *Nothing* else.",
             rate=Number(4.63554742752e-8, 6, "mm", source="equation 21 with the data of section 4"),

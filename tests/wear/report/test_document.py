@@ -13,16 +13,19 @@ from wear.report.document import (
     Code,
     Column,
     Document,
+    Emphasis,
     Equation,
     Figure,
     Given,
     Inline,
     Link,
+    Listing,
     Math,
     Number,
     Paragraph,
     Reference,
     Section,
+    Step,
     Steps,
     Table,
     Text,
@@ -94,7 +97,29 @@ def test_numbering_lists_all_faults_at_once() -> None:
 
 @pytest.mark.parametrize(
     "piece",
-    [Text("after 9000 cycles"), Math(r"u = 2.35"), Math(r"10^{-8}"), Math("N = 9000")],
+    [
+        Text("after 9000 cycles"),
+        Text("half of it, ½ mm"),
+        Text("after ٩ cycles"),
+        Text("a hundredfold wear"),
+        Text("after sixty cycles"),
+        Emphasis("2 mm"),
+        Link("4.6e-8 mm", "https://example.org"),
+        Code("4.6e-8"),
+        Code("~ 9000 cycles"),
+        Given("4.6e-8 mm", "as is well known"),
+        Given("9000 cycles", "source"),
+        Given("50 %", "source"),
+        Number(1, 1, "mm, that is 4.6 nm", source="run"),
+        Math(r"u = 2.35"),
+        Math(r"u = 2,35"),
+        Math(r"u = 2{,}35"),
+        Math(r"10^{-8}"),
+        Math("N = 9000"),
+        Math(r"N = 9\,0"),
+        Math("u = 2e-5"),
+        Math(r"50\%"),
+    ],
 )
 def test_audit_finds_typed_numbers(sample: Document, piece: Inline) -> None:
     assert audit(sample) == ()
@@ -103,20 +128,36 @@ def test_audit_finds_typed_numbers(sample: Document, piece: Inline) -> None:
     assert len(audit(replace(sample, sections=(dirty, *sample.sections[1:])))) == 1
 
 
-def test_audit_looks_into_titles_captions_cells_and_steps() -> None:
+def test_audit_looks_everywhere() -> None:
     cell = (Text("cell 1"),)
-    table = Table("tab:a", (Text("caption 2"),), (Column((Text("head 3"),)),), ((cell,),))
-    document = replace(_document(table), abstract=(Text("abstract 4"),), title="title 5")
-    assert set(audit(document)) == {"cell 1", "caption 2", "head 3", "abstract 4", "title 5"}
+    blocks = (
+        Table("tab:a", (Text("caption 2"),), (Column((Text("head 3"),)),), ((cell,),)),
+        Figure("fig:a", (), "description 4", "", b"", "a"),
+        Equation("eq:a", "a = 5.5", printed="a = 6.6", title=(Text("name 7"),)),
+        Steps("der:a", "eq:a", (Step((Text("move 8"),), "b = 9.9", (Text("check 10"),)),)),
+        Listing("wear run --cycles 1e8", "what 11"),
+        Section("sec:b", "section 12", ()),
+    )
+    document = replace(_document(*blocks), abstract=(Text("abstract 13"),), title="title 14")
+    document = replace(document, subtitle=(Text("by 15"),), colophon=(Text("at 16"),))
+    assert set(audit(document)) == {
+        "cell 1", "caption 2", "head 3", "description 4", "a = 5.5", "a = 6.6", "name 7", "move 8",
+        "b = 9.9", "check 10", "what 11", "section 12", "abstract 13", "title 14", "by 15", "at 16",
+    }  # fmt: skip
 
 
 @pytest.mark.parametrize(
     "piece",
     [
         Number(9000, 4, source="run"),
+        Number(9, 1, "mm^2", source="run"),
         Math("f_c > 1/8"),
-        Given("Python 3.11", "version"),
+        Math(r"\phi(r), 1"),
+        Text("often, of the same weight, eight-sided"),
+        Given("Python 3.11", "version of a package"),
+        Given("step 12", "number of a step"),
         Code("wear run --cycles 1e8"),
+        Code("section4"),
         Link("here", "https://example.org/1"),
     ],
 )
