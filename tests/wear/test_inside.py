@@ -2,6 +2,7 @@
 
 import tracemalloc
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -10,8 +11,9 @@ from numpy.testing import assert_allclose
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
 from wear.count import inside
 from wear.count.collocation import FloatArray, mesh
-from wear.count.cycle import drive
+from wear.count.cycle import drive, settings
 from wear.count.inside import Inside, fields_inside
+from wear.count.march import march
 from wear.count.stages import counted_stages
 from wear.faults import UsageError
 from wear.load import Table
@@ -86,6 +88,15 @@ def test_chunks_do_not_change_the_history() -> None:
     assert np.array_equal(whole.fields.p, model.fields(whole.u, load(PHASES)).p)
 
 
+@pytest.mark.parametrize("name", ["S8_1", "S8_2"])
+def test_the_interpolated_pressure_is_the_root(name: str) -> None:
+    scene = reference_scene(name)
+    found = history(scene, np.array([0.0, 5.0, 60.0, 700.0, 8999.0]))
+    expected = bind(scene).fields(found.u, scene.periodic_load(PHASES))
+    assert_allclose(found.fields.p, expected.p, rtol=1e-11)
+    assert_allclose(found.fields.h, expected.h, rtol=1e-13)
+
+
 def test_memory_is_bounded_by_the_chunk(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(inside, "BATCH", 200)
     scene = reference_scene("S2")
@@ -106,6 +117,32 @@ def test_few_cycles_come_in_order() -> None:
     assert found.cycles.tolist() == [0.0, 1.0, 2.0]
     assert_allclose(found.u[0, -1], REFERENCE["S2"][1], rtol=1e-13)
     assert_allclose(found.u[:-1, -1], found.u[1:, 0], rtol=1e-13)
+
+
+def marched(scene: Scene, start: float) -> FloatArray:
+    """Wear (mm) at PHASES of one cycle, taken interval by interval, cut in two until sound."""
+    load, size, wear = scene.periodic_load, settings(1e-14), [start]
+    for begin, end in pairwise(PHASES.tolist()):
+        cuts = [phase for phase in load.peaks if begin < phase < end]
+        cycle = drive(bind(scene), load, mesh(np.array([begin, *cuts, end]), size.phase_nodes))
+        wear.append(wear[-1] + march(cycle, wear[-1], np.inf, size).added)
+    return np.array(wear)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-12])
+@pytest.mark.parametrize("K", [3.3e-3, 4e-2])
+@pytest.mark.parametrize("kind", ["sine_mm", "cosine_mm"])
+def test_very_fast_wear_inside_its_first_cycles(rtol: float, K: float, kind: str) -> None:
+    """An error that the wear forgets within a cycle makes no negative estimate."""
+    load = {"kind": "harmonics", kind: [1.4e-3, 0.0, 7e-4], "period_s": 0.06}
+    scene = scene_from_tables(tables(K=K, f_c=0.16, load=load), "fast")
+    cycles = np.array([0.0, 1.0, 2.0, 4.0, 5.0, 1e3])
+    parts = fields_inside(bind(scene), scene.load, cycles, PHASES, rtol)
+    for part in parts:
+        for row, error in zip(part.u, part.error, strict=True):
+            true = np.max(np.abs(row - marched(scene, row[0]))) / row[-1]
+            assert true <= error + 5e-14  # to which the two ways agree in double precision
+            assert 0 <= error <= rtol
 
 
 def test_wear_that_gathers_pace_is_counted_in_stages() -> None:

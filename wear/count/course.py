@@ -32,6 +32,7 @@ from wear.count.cycle import (
     settings,
 )
 from wear.count.panels import CHECKS, NONE, SAFETY
+from wear.count.rounding import roundoff
 from wear.count.scan import halves, roughness_scale
 from wear.load import Load
 from wear.model import Model
@@ -124,7 +125,7 @@ def course(
     cycle = drive(model, load, mesh(counted.over.edges, size.finer_nodes))
     cycle, added = _resolved(cycle, first, phases, rtol)
     missed = np.max(np.abs(_judged(cycle, first, phases, size) - added), axis=1)
-    missed += np.diff(counted.first_error, append=counted.first_error[-1])[: len(first)]
+    missed += roundoff(model, load, first) * np.max(added, axis=1, initial=0.0)
     columns = _with_pressure(model, first, added, load(phases))
     panels = _panels(cycle, counted, shift, phases, rtol)
     return Course(columns, missed, shift, panels, model.compliant)
