@@ -165,12 +165,15 @@ def test_a_time_limit_keeps_what_was_computed():
 
 def test_a_count_out_of_time_keeps_its_first_cycles():
     """No time at all: the first cycles are integrated, and no panel is refined."""
+    swing = {"kind": "sine", "amplitude_mm": 5e-3, "period_s": 0.06}
+    scene = scene_from_tables(tables(load=swing))
     with pytest.raises(Interrupted, match="time limit has passed; cycle 3 was") as stop:
-        solve(reference_scene("S2"), [1, 3, 10**9], 1e-12, time_limit=1e-9)
+        solve(scene, [1, 3, 10**9], 1e-12, time_limit=1e-9)
     history = stop.value.history
     assert history.method == "cycle-count"
     assert history.cycles.tolist() == [1, 3]
-    assert np.abs(history.u_c[0] / REFERENCE["S2"][1] - 1) <= history.error[0] <= 1e-12
+    in_time = solve(scene, [1], 1e-12)
+    assert np.abs(history.u_c[0] / in_time.u_c[0] - 1) <= history.error[0] <= 1e-12
 
 
 @pytest.mark.parametrize("cutoff", [False, True])

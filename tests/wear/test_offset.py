@@ -79,7 +79,7 @@ def test_every_cycle_gives_the_same_offset(scene: Scene) -> None:
     cycles = (10_000, 30_000, 100_000, 300_000)
     expansion = expand(scene)
     assert expansion is not None
-    wear = solve(scene, cycles, 1e-12).u_c
+    wear = solve(scene, cycles, 1e-13).u_c
     found = [expansion.offset(float(u), n)[0] for u, n in zip(wear, cycles, strict=True)]
     assert np.ptp(found) <= 1e-12
     best = offset(scene)

@@ -1,11 +1,13 @@
 """Abel's equation n(P(u)) = n(u) + 1: the number of cycles n as a function of the wear u.
 
-The unknown is the logarithm of the density dn/dy in y = ln(u + c), a Chebyshev series on each
-panel of y. Where a cycle takes y to y + d, the equation is: the integral of the density from y to
-y + d is 1. Collocated at the Chebyshev nodes it is solved by Newton's method, all panels at once.
+The unknown is the logarithm of the density dn/du, a Chebyshev series in u/(u + c) on each panel
+of wear: one panel may reach as far as wear ever goes. Where a cycle adds d to u, the equation is:
+the integral of the density from u to u + d is 1. Collocated at the Chebyshev nodes it is solved by
+Newton's method, all panels at once.
 See docs/method.md.
 """
 
+import math
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -13,7 +15,6 @@ import numpy as np
 
 from wear.count.collocation import (
     FloatArray,
-    Gauss,
     IntArray,
     chebyshev_analysis,
     chebyshev_nodes,
@@ -26,15 +27,20 @@ ACROSS_A_FAST_CYCLE = 12  # good to rounding for a factor of 1e3
 MOST_ITERATIONS = 30
 STEADY = 0.3  # change of ln(density) after which Newton's method goes on with the same slope
 PART_NODES = 16  # for n(u) and its inverse, on each part of a panel
-PROBES = 32  # of the density on a panel, to choose its parts
+PART_SERIES = 4  # coefficients of the panel's series to each part, at most
 PART_GROWTH = 1.2  # of the logarithm of the density within a part, at most
+MOST_PARTS = 400
+
+WHOLE = np.ones(1)  # a cycle
 
 Shift = float | FloatArray
 
 
 class Panels(NamedTuple):
-    """Panels of y = ln(u + shift) from wear `starts` (mm) over `widths` (in y); `series`
-    (panels, m) holds the Chebyshev coefficients of ln(dn/dy).
+    """Panels of wear from `starts` (mm) over `widths` in y = ln(u + shift); `series` (panels, m)
+    holds the Chebyshev coefficients of ln(dn/du) in x = (u - start)/(u + shift), which is
+    1 - exp(-y) with y from the start; or in y itself where the shift is zero: then wear has no
+    scale.
 
     The `shift` (mm) is one for all or one a panel, so that panels of many scenes go together.
     """
@@ -58,38 +64,53 @@ def widths(shift: Shift, starts: FloatArray, ends: FloatArray) -> FloatArray:
 def panel_wear(shift: Shift, starts: FloatArray, across: FloatArray, t: FloatArray) -> FloatArray:
     """Wear (mm) at the positions `t` in [-1, 1] of panels `across` wide, (panels, len(t)).
 
-    Written so that wear much smaller than the shift keeps its digits.
+    Written so that wear much smaller than the shift keeps its digits. Of wear much larger only the
+    position is exact, which is all that a series in x feels.
     """
-    y = across[:, None] * ((t + 1) / 2)
+    y = _way(shift, across, t)
     wear: FloatArray = starts[:, None] + (starts + shift)[:, None] * np.expm1(y)
     return wear
 
 
-def _steps(
-    shift: Shift, starts: FloatArray, across: FloatArray, t: FloatArray, increments: FloatArray
-) -> FloatArray:
-    """How far a cycle goes in y, from the positions `t` of each panel."""
-    y = across[:, None] * ((t + 1) / 2)
-    return np.log1p(increments / ((starts + shift)[:, None] * np.exp(y)))
+def _folded(shift: Shift, y: FloatArray) -> FloatArray:
+    """The coordinate x of y."""
+    return y if _without_scale(shift) else -np.expm1(-y)
+
+
+def _way(shift: Shift, across: FloatArray, t: FloatArray) -> FloatArray:
+    """The y from the start of each panel at the positions `t` (k,), (panels, k)."""
+    x = _folded(shift, across)[:, None] * ((t + 1) / 2)
+    y: FloatArray = x if _without_scale(shift) else -np.log1p(-x)
+    return y
+
+
+def _without_scale(shift: Shift) -> bool:
+    return isinstance(shift, float) and shift == 0.0
+
+
+def positions(shift: Shift, start: FloatArray, across: FloatArray, wear: FloatArray) -> FloatArray:
+    """The positions t in [-1, 1] of `wear` (mm) on one panel, or each on its own."""
+    y = np.log1p((wear - start) / (start + shift))
+    result: FloatArray = 2 * _folded(shift, y) / _folded(shift, across) - 1
+    return result
 
 
 def solve(shift: Shift, starts: FloatArray, across: FloatArray, increments: FloatArray) -> Panels:
     """The density on every panel, from the wear that a cycle adds at its Chebyshev nodes.
 
-    `increments` (panels, m) in mm. Newton's method, from the density 1/d, which is exact when the
-    density does not change within a cycle; near the solution its slope hardly changes.
+    `increments` (panels, m) in mm. Newton's method, from the density 1/increment, which is exact
+    when the density does not change within a cycle; near the solution its slope hardly changes.
     """
     m = increments.shape[1]
     nodes = chebyshev_nodes(m)
-    steps = _steps(shift, starts, across, nodes, increments)
-    reach = (2 / across)[:, None] * steps
-    change = np.diff(np.log(steps), axis=1) / np.diff(nodes)
-    change *= np.maximum(reach[:, 1:], reach[:, :-1])
-    rule = gauss(ACROSS_A_CYCLE if np.max(np.abs(change)) < 0.5 else ACROSS_A_FAST_CYCLE)
-    basis = _within(nodes, reach, rule, m)
-    weights = steps[..., None] * rule.weights
-    series = -np.log(steps) @ chebyshev_analysis(m).T
-    inverse = None
+    step = reach(shift, starts, across, nodes, increments)[..., 0]
+    gentle = np.max(change_in_a_cycle(np.log(increments), step)) < 0.5
+    rule = gauss(ACROSS_A_CYCLE if gentle else ACROSS_A_FAST_CYCLE)
+    basis = _within(nodes, reach(shift, starts, across, nodes, increments, rule.nodes), m)
+    pace = increments[:, -1:]
+    weights = (increments / pace)[..., None] * rule.weights
+    series = -np.log(increments / pace) @ chebyshev_analysis(m).T
+    change, inverse = np.zeros_like(series), None
     with np.errstate(all="ignore"):  # far too wide a panel: its series is no number
         for _ in range(MOST_ITERATIONS):
             density, cycles = _density(series, basis, weights)
@@ -99,21 +120,50 @@ def solve(shift: Shift, starts: FloatArray, across: FloatArray, increments: Floa
             series = series + change
             if not np.any(np.abs(change) >= 1e-13):
                 break
+    series[:, :1] -= np.log(pace)
     return Panels(shift, starts, across, series)
 
 
-def _within(t: FloatArray, reach: FloatArray, rule: Gauss, m: int) -> FloatArray:
-    """The Chebyshev polynomials within cycles that start at the positions `t` (k,) of each panel
-    and `reach` so far beyond (panels, k), at the nodes of a rule: shape (panels, m, k, nodes)."""
-    return np.moveaxis(chebyshev_values(t[:, None] + reach[..., None] * rule.nodes, m), -1, 1)
+def change_in_a_cycle(density: FloatArray, step: FloatArray) -> FloatArray:
+    """By how much the logarithm of the `density` (panels, m) at the Chebyshev nodes of panels
+    changes within a cycle that takes a `step` in t (panels, m), at most, (panels,)."""
+    slope = np.abs(np.diff(density, axis=1)) / np.diff(chebyshev_nodes(density.shape[1]))
+    change: FloatArray = np.max(slope * np.maximum(step[:, 1:], step[:, :-1]), axis=1)
+    return change
+
+
+def reach(
+    shift: Shift,
+    starts: FloatArray,
+    across: FloatArray,
+    t: FloatArray,
+    increments: FloatArray,
+    within: FloatArray = WHOLE,
+) -> FloatArray:
+    """How far in t the parts `within` (n,) of a cycle go from the positions `t` (k,) of each panel,
+    (panels, k, n), if the cycle adds `increments` (panels, k) mm."""
+    left = np.exp(-_way(shift, across, t))
+    part = (left * increments / (starts + shift)[:, None])[..., None] * within
+    step = _folded(shift, np.log1p(part)) * (2 / _folded(shift, across))[:, None, None]
+    if _without_scale(shift):
+        return step
+    step *= left[..., None]
+    return step
+
+
+def _within(t: FloatArray, steps: FloatArray, m: int) -> FloatArray:
+    """The Chebyshev polynomials within cycles that start at the positions `t` (k,) of each panel,
+    the `steps` (panels, k, nodes) beyond: shape (panels, m, k, nodes)."""
+    return np.moveaxis(chebyshev_values(t[:, None] + steps, m), -1, 1)
 
 
 def _density(
     series: FloatArray, basis: FloatArray, weights: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """The density dn/dy times `weights` (panels, k, nodes) and its sums, the cycles (panels, k)."""
-    flat = basis.reshape(*series.shape, -1)
-    density = np.exp((series[:, None] @ flat).reshape(weights.shape)) * weights
+    """The density dn/du times `weights` (panels, k, nodes) and its sums, the cycles (panels, k)."""
+    panels, m, *rest = basis.shape
+    logarithm = (series[:, None] @ basis.reshape(panels, m, math.prod(rest))).reshape(panels, *rest)
+    density = np.exp(logarithm) * weights
     return density, np.sum(density, axis=-1)
 
 
@@ -134,12 +184,12 @@ def residual(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArra
     `increments` (panels, len(t)) in mm, as found for these positions by a finer one-cycle map.
     A residual r means that the density is wrong by a factor 1 - r, about.
     """
-    steps = _steps(panels.shift, panels.starts, panels.widths, t, increments)
     rule = gauss(ACROSS_A_FAST_CYCLE)
-    reach = (2 / panels.widths)[:, None] * steps
-    basis = _within(t, reach, rule, panels.series.shape[1])
+    steps = reach(panels.shift, panels.starts, panels.widths, t, increments, rule.nodes)
+    basis = _within(t, steps, panels.series.shape[1])
     with np.errstate(all="ignore"):  # of a panel far too wide: infinite or no number
-        cycles = _density(panels.series, basis, steps[..., None] * rule.weights)[1]
+        level, shape = _level_and_shape(panels.series)
+        cycles = _density(shape, basis, (level * increments)[..., None] * rule.weights)[1]
         result: FloatArray = np.log(cycles)
     return result
 
@@ -153,23 +203,25 @@ def junctions(before: Panels, after: Panels) -> FloatArray:
     """
     m = before.series.shape[1]
     rule = gauss(ACROSS_A_FAST_CYCLE)
-    steps = np.exp(-after.series @ chebyshev_values(np.array([-1.0]), m)[0])
-    within = 2 * steps[:, None] * rule.nodes
-    beyond = chebyshev_values(1 + within / before.widths[:, None], m)
-    inside = chebyshev_values(-1 + within / after.widths[:, None], m)
-    left = np.exp((beyond @ before.series[..., None])[..., 0])
-    right = np.exp((inside @ after.series[..., None])[..., 0])
-    apart = ((left - right) * steps[:, None]) @ rule.integrate.T
-    result: FloatArray = np.max(np.abs(apart), axis=1)
+    level, shape = _level_and_shape(after.series)
+    steps = np.exp(-shape @ chebyshev_values(np.array([-1.0]), m).T) / level
+    apart = np.zeros((len(steps), len(rule.nodes)))
+    for side, t in ((before, 1.0), (after, -1.0)):
+        at = np.array([t])
+        basis = _within(at, reach(side.shift, side.starts, side.widths, at, steps, rule.nodes), m)
+        level, shape = _level_and_shape(side.series)
+        apart += t * _density(shape, basis, (level * steps)[..., None])[0][:, 0]
+    result: FloatArray = np.max(np.abs(apart @ rule.integrate.T), axis=1)
     return result
 
 
 class Count(NamedTuple):
     """n(u) and its inverse on consecutive parts of panels; all arrays run along the parts.
 
-    `wear` u (mm), `offset` u + shift (mm) and `cycles` n where a part starts; its `length` in y and
-    its `gain` in n; `series` (q, 2, parts): coefficients of the powers of z of dn/dx and of the
-    bend of n, see `_part_values`, x = (z + 1)/2 from 0 to 1 on the part.
+    `wear` u (mm), `offset` u + shift (mm) and `cycles` n where a part starts; its `length` in
+    y = ln(u + shift), its `gain` in n, and what n may have `missed` within; `series` (q, 2, parts):
+    coefficients of the powers of z of dn/dx and of the bend of n, see `_part_values`, where x goes
+    from 0 to 1 on the part and x = (z + 1)/2.
     Every part counts from its own start, so that neither n nor u loses digits to a difference.
     """
 
@@ -178,6 +230,7 @@ class Count(NamedTuple):
     cycles: FloatArray
     length: FloatArray
     gain: FloatArray
+    missed: FloatArray
     series: FloatArray
 
     @property
@@ -193,29 +246,58 @@ class Count(NamedTuple):
 
 def count(panels: Panels, first: float) -> Count:
     """Integrate the density; n is `first` at the start of the first panel."""
-    m = panels.series.shape[1]
-    growth = np.diff(panels.series @ _positions(1, PROBES, m), axis=1)
-    parts = int(max(6.0, np.ceil(np.max(np.abs(growth)) * growth.shape[1] / PART_GROWTH)))
-    rule = gauss(PART_NODES)
-    length = np.repeat(panels.widths / parts, parts)
-    density = np.exp(panels.series @ _positions(parts, PART_NODES, m)).reshape(len(length), -1)
-    density *= length[:, None]
+    rule, edges = gauss(PART_NODES), _part_edges(panels)
+    length = np.diff(edges, axis=1)
+    y = (edges[:, :-1, None] + length[..., None] * rule.nodes).reshape(len(edges), -1)
+    whole = _folded(panels.shift, panels.widths)[:, None]
+    t = 2 * _folded(panels.shift, y) / whole - 1
+    level, shape = _level_and_shape(panels.series)
+    basis = chebyshev_values(t, panels.series.shape[1])
+    offset = (panels.starts + panels.shift)[:, None]
+    density = level * offset * np.exp((basis @ shape[..., None])[..., 0] + y)
+    density = density.reshape(-1, PART_NODES) * length.reshape(-1, 1)
     gain = density @ rule.weights
     cycles = first + np.concatenate([[0.0], np.cumsum(gain[:-1])])
-    y = panels.widths[:, None] * (np.arange(parts) / parts)
-    start = (panels.starts + panels.shift)[:, None]
-    wear = panels.starts[:, None] + start * np.expm1(y)
-    offset = start * np.exp(y)
+    y = edges[:, :-1]
+    wear, offset = panels.starts[:, None] + offset * np.expm1(y), offset * np.exp(y)
     # By Legendre coefficients: the high ones are small, and so are the powers they turn to.
-    series = np.moveaxis(_powers(PART_NODES) @ (rule.coefficients @ density.T), 0, 1)
-    return Count(wear.ravel(), offset.ravel(), cycles, length, gain, series)
+    legendre = rule.coefficients @ density.T
+    missed = np.max(np.abs(legendre[-2:]), axis=0)
+    series = np.moveaxis(_powers(PART_NODES) @ legendre, 0, 1)
+    return Count(wear.ravel(), offset.ravel(), cycles, length.ravel(), gain, missed, series)
 
 
-@lru_cache(maxsize=32)
-def _positions(parts: int, nodes: int, m: int) -> FloatArray:
-    """The Chebyshev polynomials (m, parts * nodes) at Gauss nodes of equal parts of a panel."""
-    at = (np.arange(parts)[:, None] + gauss(nodes).nodes) * (2 / parts) - 1
-    return np.ascontiguousarray(chebyshev_values(at.ravel(), m).T)
+def _part_edges(panels: Panels) -> FloatArray:
+    """Where to cut every panel, in y from its start, (panels, parts + 1): into parts on which few
+    coefficients of its series count and the density dn/dy grows little."""
+    m = panels.series.shape[1]
+    t, taken, basis = _with_ends(m)
+    y = _way(panels.shift, panels.widths, t)
+    y[:, -1] = panels.widths
+    growth = np.abs(np.diff(panels.series @ basis.T + y, axis=1)) / PART_GROWTH
+    growth = np.nan_to_num(np.minimum(growth, MOST_PARTS), nan=0.0)
+    wanted = np.concatenate([np.zeros((len(y), 1)), np.cumsum(growth, axis=1)], axis=1)
+    wanted += taken / PART_SERIES
+    parts = min(int(np.ceil(np.max(wanted[:, -1]))), MOST_PARTS)
+    share = np.arange(parts + 1) / parts
+    rows = [np.interp(share * row[-1], row, at) for row, at in zip(wanted, y, strict=True)]
+    return np.array(rows)
+
+
+@lru_cache(maxsize=4)
+def _with_ends(m: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The Chebyshev nodes and the ends of a panel (m + 2,), how many of m coefficients it takes to
+    resolve a function from the start up to there, and the polynomials there (m + 2, m)."""
+    t = np.concatenate([[-1.0], chebyshev_nodes(m), [1.0]])
+    return t, np.concatenate([[0.0], np.arange(m) + 0.5, [float(m)]]), chebyshev_values(t, m)
+
+
+def _level_and_shape(series: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The mean level of the density (panels, 1) and the series of the logarithm less it: a large
+    constant would cost the logarithm its last digits."""
+    shape = series.copy()
+    shape[:, 0] = 0.0
+    return np.exp(series[:, :1]), shape
 
 
 @lru_cache(maxsize=4)

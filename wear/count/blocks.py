@@ -44,7 +44,8 @@ def wear_after(
         wanted = np.append(cycles[here], end) - done
         found = wear_of_one(model, acting, wanted, rtol, start, deadline)
         absolute = found.error * found.u_c
-        absolute += missed * growth(model, acting, start, float(found.u_c[-1]))
+        if missed:
+            absolute += missed * growth(model, acting, start, float(found.u_c[-1]))
         u[here] = found.u_c[:-1]
         error[here] = (absolute / np.where(found.u_c > 0, found.u_c, 1.0))[:-1]
         start, missed = float(found.u_c[-1]), float(absolute[-1])

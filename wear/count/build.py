@@ -18,7 +18,7 @@ from wear.count.first import Opening, opening
 from wear.count.panels import NONE, SAFETY, Maps, Solved, fill
 from wear.count.request import Request
 from wear.count.rounding import roundoff
-from wear.count.scan import roughness_limit, roughness_scale, scan
+from wear.count.scan import SHIFT, roughness_limit, roughness_scale, scan
 from wear.faults import UsageError
 from wear.load import Load
 from wear.model import Model
@@ -105,8 +105,9 @@ def cycle_count_upto(
 ) -> CycleCount:
     """The count from wear `start` up to `cycles`, or up to the wear `limit` (mm)."""
     request = Request(cycles, rtol, start, limit, deadline)
-    shift = roughness_scale(model)
-    reach = scan(cycle, shift, start, cycles, limit)
+    scale = roughness_scale(model)
+    shift = SHIFT * scale
+    reach = scan(cycle, scale, start, cycles, limit)
     samples = reach[:: max(1, len(reach) // 6)]
     size = attainable(settings(rtol), model, load, samples)
     cycle = cycle.resolved(samples, size.phase_nodes, size.phase_tolerance)
@@ -114,7 +115,6 @@ def cycle_count_upto(
     error = exact_error(model, load, first, begun_with)
     if first.edges is None:
         return CycleCount(first.wear, error, None, None, NONE, first.over, limit, first.cost)
-    size = attainable(size, model, load, first.edges)
     cost, over = first.cost, cycle.over
     while True:
         both = Maps(cycle.on(over), cycle.on(mesh(over.edges, size.finer_nodes)))
@@ -153,11 +153,13 @@ def judged(
     panels = solved.panels(shift)
     table = abel.count(panels, float(first.cycles))
     parts = len(table.length) // len(panels.starts)
-    at_junctions = abel.junctions(panels.take(slice(-1)), panels.take(slice(1, None)))
-    missed = SAFETY * np.repeat(solved.residual, parts) * table.gain
-    missed[::parts] += SAFETY * np.concatenate([[0.0], at_junctions])
+    missed = SAFETY * np.repeat(solved.residual, parts) * table.gain + table.missed
+    if len(panels.starts) > 1:
+        at_junctions = abel.junctions(panels.take(slice(-1)), panels.take(slice(1, None)))
+        missed[parts::parts] += SAFETY * at_junctions
     rounding = roundoff(model, load, np.append(table.wear, table.last_wear))
-    of_density = ROUNDOFF * np.repeat(np.abs(solved.series[:, 0]), parts)  # the logarithm is kept
+    terms = np.sum(np.abs(solved.series), axis=1)  # of the logarithm of the density
+    of_density = ROUNDOFF * np.repeat(terms, parts)
     missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
     begun = begun_with / abel.first_pace(table)[0]
     return table, begun + np.concatenate([[0.0], np.cumsum(missed)])

@@ -33,7 +33,7 @@ from wear.count.cycle import (
 )
 from wear.count.panels import CHECKS, NONE, SAFETY
 from wear.count.rounding import roundoff
-from wear.count.scan import halves, roughness_scale
+from wear.count.scan import SHIFT, halves, roughness_scale
 from wear.load import Load
 from wear.model import Model
 
@@ -53,7 +53,7 @@ class Added(NamedTuple):
 
 class Panels(NamedTuple):
     """What cycles add that start between the wears `starts` and `ends` (panels,), mm: Chebyshev
-    coefficients `series` (panels, m, columns) in y = ln(u + shift), what these may have `missed`
+    coefficients `series` (panels, m, columns) at their positions, what these may have `missed`
     (panels,), mm, and by how much the pressure may be `off` (panels,).
 
     There is a column for the wear (mm) at each phase, and with a compliant support another for the
@@ -105,8 +105,8 @@ class Course(NamedTuple):
             panel = np.where(early, -1, abel.part_of(panels.starts, starts))
             for p in np.unique(panel[~early]):
                 chosen = panel == p
-                y = np.log1p((starts[chosen] - panels.starts[p]) / (panels.starts[p] + self.shift))
-                basis = chebyshev_values(2 * y / across[p] - 1, panels.series.shape[1])
+                t = abel.positions(self.shift, panels.starts[p], across[p], starts[chosen])
+                basis = chebyshev_values(t, panels.series.shape[1])
                 columns[chosen] = basis @ panels.series[p]
                 missed[chosen], off[chosen] = panels.missed[p], panels.off[p]
         if not self.compliant:
@@ -120,7 +120,7 @@ def course(
     model: Model, load: Load, counted: CycleCount, phases: FloatArray, rtol: float
 ) -> Course:
     """Prepare for the cycles that are `counted` and for `phases` (m,) in [0, 1]."""
-    size, shift = settings(rtol), roughness_scale(model)
+    size, shift = settings(rtol), SHIFT * roughness_scale(model)
     first = counted.first[:-1] if counted.table else counted.first
     cycle = drive(model, load, mesh(counted.over.edges, size.finer_nodes))
     cycle, added = _resolved(cycle, first, phases, rtol)

@@ -60,12 +60,12 @@ class Settings(NamedTuple):
 
 def settings(rtol: float) -> Settings:
     """Few nodes for few digits: what is cheapest for `rtol` on smooth loads."""
-    phase_nodes, panel_nodes = (24, 24) if rtol < 1e-9 else (14, 16)
+    phase_nodes, panel_nodes = (24, 48) if rtol < 1e-8 else (14, 32)
     return Settings(
         phase_nodes,
         phase_tolerance=max(1e-2 * rtol, ROUNDOFF),
         panel_nodes=panel_nodes,
-        tail_tolerance=max(2 * rtol, 1e-12),
+        tail_tolerance=max(rtol / 4, 1e-12),
         residual_tolerance=max(rtol / 4, 30 * ROUNDOFF),
     )
 

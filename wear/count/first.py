@@ -9,7 +9,7 @@ from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost, Drive, OneCycle, Settings, refined, unresolved
 from wear.count.march import growth_of, march, overlooked
 from wear.count.request import Request
-from wear.count.scan import plan_panels, scan
+from wear.count.scan import SHIFT, plan_panels, scan
 
 BLOCK = 5  # cycles integrated at once
 MOST_FIRST = 120
@@ -77,7 +77,7 @@ def opening(
             return exact
         if last + 10 * BLOCK * pace > end:  # wear has outrun the scan
             cycles = request.cycles - exact.cycles
-            end = float(scan(cycle, shift, last, cycles, request.limit)[-1])
+            end = float(scan(cycle, shift / SHIFT, last, cycles, request.limit)[-1])
         edges, counts = plan_panels(cycle, shift, last, end, size.panel_nodes, size.tail_tolerance)
         long = counts >= size.panel_nodes
         usable = len(long) if long.all() else int(np.argmin(long))

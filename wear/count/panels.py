@@ -15,9 +15,9 @@ from wear.count.collocation import (
     chebyshev_values,
 )
 from wear.count.cycle import Advance, Cost, OneCycle, Settings, unresolved
-from wear.count.scan import halves
+from wear.count.scan import cycles_if_cut, halves
 
-CHECKS = np.array([-1.0, -0.38, 0.93])  # positions off the nodes of a panel, where T_m is large
+CHECKS = np.array([-1.0, -0.8, -0.38, 0.5, 0.93])  # positions off the nodes, where T_m is large
 SAFETY = 3.0  # on measured discrepancies
 MOST_ROUNDS = 12  # of refinement
 MOST_PANELS = 200
@@ -33,14 +33,14 @@ class Maps(NamedTuple):
 
 class Solved(NamedTuple):
     """Panels between wear `starts` and `ends` (mm) with Abel's equation solved on them: `series`
-    (panels, m), the greatest `residual` (panels,) off the nodes, and roughly how many `cycles`
-    (panels,) each takes."""
+    (panels, m), the greatest `residual` (panels,) off the nodes, and roughly how many cycles the
+    first part of each would take `if_cut` (panels,)."""
 
     starts: FloatArray
     ends: FloatArray
     series: FloatArray
     residual: FloatArray
-    cycles: FloatArray
+    if_cut: FloatArray
 
     def where(self, chosen: BoolArray) -> "Solved":
         """Some of the panels."""
@@ -73,8 +73,9 @@ def solve_panels(
     fine = both.fine.advance(check, _at_checks(ahead).near(size.finer_nodes))
     residual = np.max(np.abs(abel.residual(panels, CHECKS, fine.increment)), axis=1)
     cost = Cost(wear.size + check.size, ahead.evaluations + fine.evaluations)
-    cycles = np.mean((ends - starts)[:, None] / ahead.increment, axis=1)
-    solved = Solved(starts, ends, panels.series, residual, cycles)
+    step = abel.reach(shift, starts, across, chebyshev_nodes(size.panel_nodes), ahead.increment)
+    if_cut = cycles_if_cut(2 / step[..., 0])
+    solved = Solved(starts, ends, panels.series, residual, if_cut)
     rough = ~ahead.converged
     worst = ~(residual <= size.residual_tolerance)
     if worst.any():
@@ -117,7 +118,7 @@ def fill(both: Maps, shift: float, edges: FloatArray, size: Settings, cost: Cost
         cost = cost.plus(*spent)
         worst = ~(fresh.residual <= size.residual_tolerance)
         # A panel of few cycles would hide an oscillation.
-        worst &= ~(fresh.cycles < 2 * size.panel_nodes)
+        worst &= ~(fresh.if_cut < size.panel_nodes)
         last = rounds == MOST_ROUNDS - 1 or len(done.starts) + len(starts) > MOST_PANELS
         if rough.any() or last or not worst.any():
             break

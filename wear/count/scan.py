@@ -6,16 +6,18 @@ good enough for a plan; what the plan misses, the residual of Abel's equation fi
 
 import numpy as np
 
-from wear.count.abel import Shift, panel_wear, widths
+from wear.count.abel import Shift, change_in_a_cycle, panel_wear, reach, widths
 from wear.count.collocation import FloatArray, chebyshev_analysis, chebyshev_nodes
 from wear.count.cycle import TINY, OneCycle
 from wear.model import Model
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
-STEP, STEPS = 0.2, 180  # in y = ln(u + shift)
-SPLIT = 0.4  # of a panel, in y: the density is sharper at low wear
+STEP, STEPS = 0.2, 180  # in ln(u + scale)
+SPLIT = 0.4  # of a panel, in its coordinate: the density is sharper at low wear
+SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
 MOST_PLANNED = 150  # panels
 FASTER = 2.0  # than on average may be the pace at the end of a panel
+SHARP = 2.0  # change of the logarithm of the density within a cycle
 NEARLY = 0.99  # of the wear at which the roughness vanishes
 
 
@@ -33,35 +35,34 @@ def roughness_limit(model: Model, upto: float) -> float:
     return float(NEARLY * upto * start / (start - end)) if end <= 0 else np.inf
 
 
-def frozen_density(cycle: OneCycle, shift: float, wear: FloatArray) -> FloatArray:
-    """ln dn/dy with the wear (mm, any shape) frozen over a cycle."""
-    result: FloatArray = -np.log(np.log1p(cycle.frozen(wear) / (wear + shift)) + TINY)
+def frozen_density(cycle: OneCycle, wear: FloatArray) -> FloatArray:
+    """ln dn/du with the wear (mm, any shape) frozen over a cycle."""
+    result: FloatArray = -np.log(cycle.frozen(wear) + TINY)
     return result
 
 
-def scan(cycle: OneCycle, shift: float, start: float, cycles: float, limit: float) -> FloatArray:
+def scan(cycle: OneCycle, scale: float, start: float, cycles: float, limit: float) -> FloatArray:
     """Wear (k,) in mm, rising from `start` to where the frozen rate puts `cycles`, roughly, and no
-    higher than `limit`."""
+    higher than `limit`; the rate changes over wear of the `scale` (mm)."""
     y = STEP * np.arange(STEPS)
     if np.isfinite(limit):
-        y = np.linspace(0.0, np.log1p((limit - start) / (start + shift)), STEPS)
-    wear: FloatArray = start + (start + shift) * np.expm1(y)
+        y = np.linspace(0.0, np.log1p((limit - start) / (start + scale)), STEPS)
+    wear: FloatArray = start + (start + scale) * np.expm1(y)
     cycle = cycle.resolved(wear[::8], 10, 1e-3)
-    density = np.minimum(frozen_density(cycle, shift, wear), 650.0)
+    density = np.minimum(frozen_density(cycle, wear), 650.0)
     rise = np.diff(density)
     rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)
-    # Between two points the density is taken as exponential in y.
-    parts = np.exp(density[:-1]) * np.expm1(rise) / rise * np.diff(y)
+    # Between two points the density is taken as exponential in the wear.
+    parts = np.exp(density[:-1]) * np.expm1(rise) / rise * np.diff(wear)
     counts = np.concatenate([[0.0], np.cumsum(parts)])
     wanted = 1.3 * max(cycles, LEAST)
     last = int(np.searchsorted(counts, wanted)) - 1
     if last >= len(parts):
         return wear
     share = np.log1p((wanted - counts[last]) / parts[last] * np.expm1(rise[last])) / rise[last]
-    offset = wear[last] + shift
-    end = wear[last] + offset * np.expm1(share * np.log((wear[last + 1] + shift) / offset))
-    reach: FloatArray = np.append(wear[: last + 1], end)
-    return reach
+    end = wear[last] + share * (wear[last + 1] - wear[last])
+    ahead: FloatArray = np.append(wear[: last + 1], end)
+    return ahead
 
 
 def plan_panels(
@@ -69,26 +70,38 @@ def plan_panels(
 ) -> tuple[FloatArray, FloatArray]:
     """Ends (in mm of wear) of panels on which m coefficients resolve the frozen density, and
     roughly how many cycles each takes; no more than it would at the pace of its end, since the
-    last node looks a cycle beyond."""
+    last node looks a cycle beyond, and none where a cycle changes its own pace much."""
     nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
     done: list[tuple[float, float]] = []
     starts, ends = np.array([start]), np.array([end])
     while len(starts):
         across = widths(shift, starts, ends)
-        density = frozen_density(cycle, shift, panel_wear(shift, starts, across, nodes))
-        tail = np.max(np.abs(density @ analysis), axis=1)
-        density = np.exp(np.minimum(density, 650.0))
-        cycles, at_end = across * np.mean(density, axis=1), FASTER * across * density[:, -1]
-        rough = (tail > tolerance) | ((cycles > 2 * m) & (at_end < m))
+        density = frozen_density(cycle, panel_wear(shift, starts, across, nodes))
+        # Less a constant, whose rounding would look like a tail.
+        tail = np.max(np.abs((density - density[:, :1]) @ analysis), axis=1)
+        step = reach(shift, starts, across, nodes, np.exp(-np.minimum(density, 650.0)))[..., 0]
+        taken = 2 / step
+        cycles, at_end = np.mean(taken, axis=1), FASTER * taken[:, -1]
+        sharp = change_in_a_cycle(density, step) > SHARP
+        rough = (tail > tolerance) | ((cycles > 2 * m) & ((at_end < m) | sharp))
         rough &= len(done) + len(starts) < MOST_PLANNED
-        cycles = np.minimum(cycles, at_end)
+        cycles = np.where(sharp, 0.0, np.minimum(cycles, at_end))
         done.extend(zip(starts[~rough], cycles[~rough], strict=True))
         starts, ends = halves(shift, starts[rough], ends[rough])
     ordered = np.array(sorted(done))
     return np.append(ordered[:, 0], end), ordered[:, 1]
 
 
+def cycles_if_cut(taken: FloatArray) -> FloatArray:
+    """How many cycles the first part of each panel would take if it were cut in two, and no more
+    than at the pace of its end, from `taken` (panels, m) cycles at the pace of its nodes."""
+    inside = int(np.searchsorted(chebyshev_nodes(taken.shape[1]), 2 * SPLIT - 1))
+    fewer: FloatArray = np.minimum(np.mean(taken[:, :inside], axis=1), FASTER * taken[:, inside])
+    return SPLIT * fewer
+
+
 def halves(shift: Shift, starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Every panel cut in two."""
-    middles = starts + (starts + shift) * np.expm1(SPLIT * widths(shift, starts, ends))
+    """Every panel cut in two, the first part SPLIT of it."""
+    across = widths(shift, starts, ends)
+    middles = panel_wear(shift, starts, across, np.array([2 * SPLIT - 1]))[:, 0]
     return np.concatenate([starts, middles]), np.concatenate([middles, ends])

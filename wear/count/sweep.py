@@ -18,7 +18,7 @@ from wear.count.many import Many, plain_edges, resolved_edges
 from wear.count.many_panels import ManyPanels, fill
 from wear.count.panels import SAFETY
 from wear.count.rounding import roundoff_of
-from wear.count.scan import LEAST, halves
+from wear.count.scan import LEAST, SHIFT, halves
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -29,7 +29,7 @@ MARGIN = 4.0  # of a rough look ahead
 ITERATED = 0.1  # of the error asked for: what the iteration over a cycle may leave
 JUDGED = 0.01  # of that: what the iteration of the judge may leave
 SAMPLES = np.array([0.0, 0.35, 0.5, 0.65, 1.0])  # of the way in y: there a mesh must suit
-SCAN = np.linspace(0.0, 30.0, 61)  # ln(1 + u/shift) of the look ahead
+SCAN = np.linspace(0.0, 30.0, 61)  # ln(1 + u/scale) of the look ahead
 
 
 class Sweep(NamedTuple):
@@ -87,14 +87,14 @@ def _solve(many: Many, cycles: FloatArray, rtol: float) -> tuple[FloatArray, Flo
     shape = (len(many.loads), len(cycles))
     wear, error = np.full(shape, np.nan), np.full(shape, np.inf)
     fresh = np.zeros((len(many.loads), 1))
-    shift = many.model.fields(fresh, fresh).sigma[:, 0] / 4
-    end, pace = _scan(many, shift, MARGIN * max(float(np.max(cycles)), LEAST))
-    samples = shift[:, None] * np.expm1(np.log1p(end / shift)[:, None] * SAMPLES)
+    scale = many.model.fields(fresh, fresh).sigma[:, 0] / 4
+    end, pace = _scan(many, scale, MARGIN * max(float(np.max(cycles)), LEAST))
+    samples = scale[:, None] * np.expm1(np.log1p(end / scale)[:, None] * SAMPLES)
     for which, edges in resolved_edges(many, samples, settings(rtol), rtol, FIRST):
         # Scenes that wear alike take as many iterations.
         order = np.argsort(pace[which])
         which, edges = which[order], edges[order]
-        group = Group(many.take(which), edges, shift[which], end[which])
+        group = Group(many.take(which), edges, SHIFT * scale[which], end[which])
         wear[which], error[which] = _solve_group(group, cycles, rtol)
     return wear, error
 

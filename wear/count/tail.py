@@ -148,9 +148,9 @@ def _solved(
         cost = cost.plus(nodes.size + checks.size, evaluations + more)
         residual = np.max(np.abs(abel.residual(panels, CHECKS, judged)), axis=1)
         cycles = across * np.mean(nodes / steps, axis=1)
-        fresh = Solved(starts, ends, panels.series, residual, cycles)
+        fresh = Solved(starts, ends, panels.series, residual, cycles / 2)
         rough = ~(residual <= size.residual_tolerance + GRAIN * rest.blur * ends)
-        rough &= fresh.cycles > 2 * size.panel_nodes
+        rough &= fresh.if_cut > size.panel_nodes
         if not rough.any() or rounds == MOST_ROUNDS - 1:
             done = done.joined(fresh)
             break
@@ -177,14 +177,15 @@ def _line(
     if len(solved.starts):
         last = solved.panels(0.0).take(slice(-1, None))
         t = 1 - 2 / last.widths * np.array([1.0, 0.0])
-        before, level = chebyshev_values(t, last.series.shape[1]) @ last.series[0]
+        before, level = chebyshev_values(t, last.series.shape[1]) @ last.series[0] + np.log(at)
     else:
         steps, _ = _steps(cycle, rest, at)
         before, level = -np.log(np.log1p(steps / at))
     slope = np.clip(round(2 * float(level - before)) / 2, 0.0, 1.0)
     width = np.log(distance / (TO_ROUNDOFF * rest.wear))
     series = np.zeros((1, max(2, solved.series.shape[1])))
-    series[0, :2] = level + slope * width / 2, slope * width / 2
+    # The series is that of ln(dn/dU), U = 1/d.
+    series[0, :2] = level + np.log(distance) + (slope - 1) * width / 2, (slope - 1) * width / 2
     panel = abel.Panels(0.0, np.array([1 / distance]), np.array([width]), series)
     return panel, abs(float(level - before) - slope)
 

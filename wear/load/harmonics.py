@@ -87,11 +87,12 @@ def _zeros(terms: FloatArray) -> FloatArray:
     Multiple roots leave the circle by a root of the roundoff, so a wide ring is kept: a phase too
     many does no harm where extremes are looked for.
     """
-    half = terms[1] - 1j * terms[2]
-    size = np.max(np.abs(half), initial=0.0)
+    size = np.max(np.abs(terms[1:]), initial=0.0)
     if size == 0.0:
         return np.zeros(1)
-    alpha, beta = _roots(np.concatenate([half[::-1], [0.0], half.conj()]) / size)
+    cosine, sine = terms[1:] / size  # while real: a subnormal size would overflow complex ones
+    half = cosine - 1j * sine
+    alpha, beta = _roots(np.concatenate([half[::-1], [0.0], half.conj()]))
     ring = np.abs(np.abs(alpha) - np.abs(beta)) < 0.2 * np.abs(alpha)
     phases = np.angle(alpha[ring] * beta[ring].conj()) / (2.0 * math.pi)
     slopes = _derivative(terms)
