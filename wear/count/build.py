@@ -14,7 +14,7 @@ from wear.count import abel
 from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import one_cycle
 from wear.count.cycle import ROUNDOFF, Cost, OneCycle, Settings, refined, settings
-from wear.count.first import Opening, opening
+from wear.count.first import Opening, fresh, opening
 from wear.count.panels import NONE, SAFETY, Maps, Solved, fill
 from wear.count.request import Request
 from wear.count.rounding import roundoff
@@ -24,6 +24,7 @@ from wear.load import Load
 from wear.model import Model
 
 MOST_EVALUATIONS = 20_000_000  # then no finer mesh is tried: the estimate tells what is missed
+NEARLY = 10.0  # times the residual that is asked for
 NO_DIGIT = 0.1  # relative error
 
 
@@ -111,21 +112,31 @@ def cycle_count_upto(
     samples = reach[:: max(1, len(reach) // 6)]
     size = attainable(settings(rtol), model, load, samples)
     cycle = cycle.resolved(samples, size.phase_nodes, size.phase_tolerance)
-    first = opening(cycle, shift, reach, request, size)
+    first = opening(fresh(cycle, start), cycle, shift, reach, request, size)
+    over, before = cycle.over, np.inf
+    while first.edges is not None:
+        both = Maps(cycle.on(over), cycle.on(mesh(over.edges, size.finer_nodes)))
+        filled = fill(both, shift, first.edges, size, first.cost)
+        first = first._replace(cost=filled.cost)
+        worst = float(np.max(filled.solved.residual, initial=0.0))
+        good = worst <= size.residual_tolerance and not filled.rough.any()
+        # What rounding leaves no refinement cures.
+        stalled = before <= NEARLY * size.residual_tolerance and not worst < before / 2
+        full = len(over.lengths) >= cycle.most_intervals
+        full |= first.cost.rhs_evaluations > MOST_EVALUATIONS
+        if good or stalled or full or request.late:
+            break
+        before = worst
+        if filled.rough.any():
+            over = refined(over, filled.rough)
+        else:  # panels that can be cut no more: too few cycles lie behind them
+            first = opening(first, cycle, shift, reach, request, size)
     error = exact_error(model, load, first, begun_with)
     if first.edges is None:
         return CycleCount(first.wear, error, None, None, NONE, first.over, limit, first.cost)
-    cost, over = first.cost, cycle.over
-    while True:
-        both = Maps(cycle.on(over), cycle.on(mesh(over.edges, size.finer_nodes)))
-        filled = fill(both, shift, first.edges, size, cost)
-        cost = filled.cost
-        full = len(over.lengths) >= cycle.most_intervals or cost.rhs_evaluations > MOST_EVALUATIONS
-        if full or request.late or not filled.rough.any():
-            table, count_error = judged(model, load, first, error[-1], filled.solved, shift)
-            panels = filled.solved.panels(shift)
-            return CycleCount(first.wear, error, table, panels, count_error, over, limit, cost)
-        over = refined(over, filled.rough)
+    table, count_error = judged(model, load, first, error[-1], filled.solved, shift)
+    panels = filled.solved.panels(shift)
+    return CycleCount(first.wear, error, table, panels, count_error, over, limit, first.cost)
 
 
 def attainable(size: Settings, model: Model, load: Load, wear: FloatArray) -> Settings:

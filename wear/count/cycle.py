@@ -60,7 +60,7 @@ class Settings(NamedTuple):
 
 def settings(rtol: float) -> Settings:
     """Few nodes for few digits: what is cheapest for `rtol` on smooth loads."""
-    phase_nodes, panel_nodes = (24, 48) if rtol < 1e-8 else (14, 32)
+    phase_nodes, panel_nodes = (24, 48) if rtol < 1e-8 else (14, 24)
     return Settings(
         phase_nodes,
         phase_tolerance=max(1e-2 * rtol, ROUNDOFF),
@@ -343,7 +343,7 @@ def iterate(cycle: Cycle, starts: FloatArray, near: Near | None = None) -> Advan
         if last is not None:
             contraction = change / last
         elif near is None:
-            contraction = np.where(contraction > 0.0, contraction, change)
+            contraction = np.maximum(contraction, change)  # what is foretold may be too good
         next_change = change * np.minimum(contraction, 1.0)
         done = next_change <= cycle.tolerance
         if iteration > PATIENCE:

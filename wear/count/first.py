@@ -61,20 +61,25 @@ def fresh(cycle: OneCycle, start: float) -> Opening:
 
 
 def opening(
-    cycle: OneCycle, shift: float, reach: FloatArray, request: Request, size: Settings
+    begun: Opening,
+    cycle: OneCycle,
+    shift: float,
+    reach: FloatArray,
+    request: Request,
+    size: Settings,
 ) -> Opening:
-    """Integrate the first cycles from the wear `reach[0]` (mm), until the cycles requested or until
-    panels towards `reach[-1]` span as many cycles as they have coefficients each: then n on a panel
-    cannot hide an oscillation. A cycle that adds nothing ends it too, nothing will change any
-    more; and wear beyond the limit, which has no meaning. Without panels it may end early."""
-    exact = fresh(cycle, float(reach[0]))
-    end = float(reach[-1])
+    """Integrate first cycles on from those `begun`, twice as many at least, until the cycles
+    requested or until panels towards `reach[-1]` (mm) span as many cycles as they have coefficients
+    each: then n on a panel cannot hide an oscillation. A cycle that adds nothing ends it too,
+    nothing will change any more; and wear beyond the limit, which has no meaning. Without panels it
+    may end early."""
+    exact, end = begun, float(reach[-1])
     while True:
         before = exact.cycles
         exact = more_cycles(cycle, exact, request.limit, size)
         last, pace = float(exact.wear[-1]), exact.pace
         if exact.cycles >= request.cycles or last >= request.limit or not pace > 0:
-            return exact
+            return exact._replace(edges=None)
         if last + 10 * BLOCK * pace > end:  # wear has outrun the scan
             cycles = request.cycles - exact.cycles
             end = float(scan(cycle, shift / SHIFT, last, cycles, request.limit)[-1])
@@ -84,10 +89,11 @@ def opening(
         left = MOST_FIRST - exact.cycles
         calm = exact.cycles - before == BLOCK
         # Where wear gathers pace panels become short again, perhaps far ahead.
-        if calm and (long.all() or np.sum(counts[:usable]) > left):
+        enough = exact.cycles >= 2 * begun.cycles
+        if enough and calm and (long.all() or np.sum(counts[:usable]) > left):
             return exact._replace(edges=edges[: usable + 1])
         if left <= 0 or request.late:
-            return exact
+            return exact._replace(edges=None)
 
 
 def exact_cycles(

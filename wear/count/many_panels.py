@@ -20,7 +20,7 @@ from wear.count.collocation import (
 from wear.count.cycle import Advance, Near, Settings
 from wear.count.many import ManyDrives
 from wear.count.panels import CHECKS
-from wear.count.scan import halves
+from wear.count.scan import cycles_if_cut, halves
 
 MOST_ROUNDS = 6  # of cutting panels
 
@@ -58,10 +58,10 @@ def fill(coarse: ManyDrives, fine: ManyDrives, blank: ManyPanels, size: Settings
     with too large a residual in two; scenes that this does not cure keep it."""
     found = blank.where(np.zeros(len(blank.scene), dtype=bool))
     for rounds in range(MOST_ROUNDS):
-        fresh, cycles = _solved(coarse, fine, blank, size)
+        fresh, if_cut = _solved(coarse, fine, blank, size)
         rough = ~(fresh.residual <= size.residual_tolerance)
         # A panel of few cycles would hide an oscillation; nor is there a cure for no number.
-        lost = rough & ~(cycles >= 2 * size.panel_nodes)
+        lost = rough & ~(if_cut >= size.panel_nodes)
         rough &= ~np.isin(fresh.scene, fresh.scene[lost])
         if rounds == MOST_ROUNDS - 1 or not rough.any():
             break
@@ -76,7 +76,8 @@ def fill(coarse: ManyDrives, fine: ManyDrives, blank: ManyPanels, size: Settings
 def _solved(
     coarse: ManyDrives, fine: ManyDrives, blank: ManyPanels, size: Settings
 ) -> tuple[ManyPanels, FloatArray]:
-    """The panels with series and residual, and roughly how many cycles (panels,) each takes."""
+    """The panels with series and residual, and roughly how many cycles (panels,) the first part of
+    each would take if it were cut."""
     shift, starts, m = blank.shift, blank.starts, size.panel_nodes
     across = abel.widths(shift, starts, blank.ends)
     nodes = abel.panel_wear(shift, starts, across, chebyshev_nodes(m))
@@ -89,8 +90,9 @@ def _solved(
     residual = np.max(residual + judged.left, axis=1) + np.max(ahead.left, axis=1)
     sound = np.all(ahead.converged & judged.converged, axis=1)
     residual = np.where(sound, residual, np.inf)
-    cycles = np.where(sound, np.mean((blank.ends - starts)[:, None] / ahead.increment, axis=1), 0.0)
-    return blank._replace(series=panels.series, residual=residual), cycles
+    step = abel.reach(shift, starts, across, chebyshev_nodes(m), ahead.increment)
+    if_cut = np.where(sound, cycles_if_cut(2 / step[..., 0]), 0.0)
+    return blank._replace(series=panels.series, residual=residual), if_cut
 
 
 def _near(ahead: Advance, size: Settings) -> Near:

@@ -82,7 +82,8 @@ def solve_panels(
         again = both.coarse.advance(check[worst])
         cost = cost.plus(again.increment.size, again.evaluations)
         apart = np.max(np.abs(again.increment / fine.increment[worst] - 1.0))
-        if not apart < size.residual_tolerance / 4:
+        # Only what the two maps differ by is a fault of the phase.
+        if not apart < max(size.residual_tolerance / 4, np.max(residual[worst]) / 10):
             rates = again.rate.reshape(-1, *again.rate.shape[-2:])
             rough |= unresolved(rates, both.coarse.over, size.phase_tolerance)
             rough |= ~rough.any()

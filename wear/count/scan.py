@@ -17,7 +17,7 @@ SPLIT = 0.4  # of a panel, in its coordinate: the density is sharper at low wear
 SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
 MOST_PLANNED = 150  # panels
 FASTER = 2.0  # than on average may be the pace at the end of a panel
-SHARP = 2.0  # change of the logarithm of the density within a cycle
+SHARP = 0.3  # change of the logarithm of the density within a cycle
 NEARLY = 0.99  # of the wear at which the roughness vanishes
 
 

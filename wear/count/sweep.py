@@ -18,7 +18,7 @@ from wear.count.many import Many, plain_edges, resolved_edges
 from wear.count.many_panels import ManyPanels, fill
 from wear.count.panels import SAFETY
 from wear.count.rounding import roundoff_of
-from wear.count.scan import LEAST, SHIFT, halves
+from wear.count.scan import LEAST, SHIFT
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -156,13 +156,11 @@ class _Begun(NamedTuple):
 
 
 def _first_panels(group: Group, scene: IntArray, starts: FloatArray, m: int) -> ManyPanels:
-    """Two panels for each `scene` from its wear `starts` (mm) on, the first one shorter."""
-    shift, end = group.shift[scene], group.end[scene]
-    end = starts + (starts + shift) * np.maximum((end - starts) / (starts + shift), 0.05)
-    starts, ends = halves(shift, starts, end)
-    n = len(starts)
-    twice = np.concatenate([scene, scene])
-    return ManyPanels(twice, group.shift[twice], starts, ends, np.zeros((n, m)), np.full(n, np.inf))
+    """A panel for each `scene` from its wear `starts` (mm) on."""
+    shift = group.shift[scene]
+    ends = np.maximum(group.end[scene], starts + 0.05 * (starts + shift))
+    n = len(scene)
+    return ManyPanels(scene, shift, starts, ends, np.zeros((n, m)), np.full(n, np.inf))
 
 
 def _alike(panels: ManyPanels) -> Iterator[ManyPanels]:
