@@ -16,7 +16,7 @@ from wear.count.inside import Inside, fields_inside
 from wear.count.march import march
 from wear.count.stages import counted_stages
 from wear.faults import UsageError
-from wear.load import Table
+from wear.load import HistoryLoad, Table
 from wear.model import bind
 from wear.scene import Scene, builtin_names, load_scene, scene_from_tables
 from wear.solver import solve
@@ -227,9 +227,9 @@ def test_other_phases_do_not_change_a_cycle_with_a_cutoff(scene: Scene) -> None:
 
 
 def test_what_cannot_be_counted_has_no_history_inside() -> None:
-    scene = scene_from_tables(tables(k=1e5, cutoff=True), "compliant, cutoff")
+    measured = replace(reference_scene("S2"), load=HistoryLoad((0.0, 1.0), (0.0, 1e-4), 0.5))
     with pytest.raises(UsageError, match="counted"):
-        history(scene, np.array([1.0]))
+        history(measured, np.array([1.0]))
 
 
 def test_no_wear_inside_cycles_without_pressure() -> None:

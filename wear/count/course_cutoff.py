@@ -5,6 +5,7 @@ wear. It is not interpolated: the wanted cycles are integrated, all at once, fro
 count gives for their starts. The pieces of the cycle are cut at the phases.
 """
 
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ from wear.count.cutoff import CutoffCycle, one_cycle
 from wear.count.cycle import settings
 from wear.count.edge import PIECE_SAMPLES, Piece
 from wear.count.panels import NONE
+from wear.faults import UsageError
 from wear.load import Load
 from wear.model import Model
 
@@ -49,16 +51,29 @@ class CutoffCourse(NamedTuple):
 
 
 def cutoff_course(model: Model, load: Load, phases: FloatArray, rtol: float) -> CutoffCourse:
-    """Prepare for any cycles and for `phases` (m,) in [0, 1]."""
+    """Prepare for any cycles and for `phases` (m,) in [0, 1].
+
+    Raises
+    ------
+    UsageError
+        if there is no one-cycle map of the model in pieces.
+    """
     cycle = one_cycle(model, load)
-    assert isinstance(cycle, CutoffCycle)
-    ends = [piece.begin for piece in cycle.edge.pieces] + [1.0]
-    inner = phases[np.min(np.abs(phases[:, None] - ends), axis=1) > NEARLY]
-    cuts = np.unique(np.concatenate([ends, inner]))
-    inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
-    parts = [begin + (end - begin) * inside for begin, end in pairwise(cuts)]
-    upto = tuple(np.argmin(np.abs(phases[:, None] - cuts), axis=1).tolist())
+    if not isinstance(cycle, CutoffCycle):
+        raise UsageError("cycles with a cutoff and a compliant support cannot be counted")
+    parts = tuple(part for piece in cycle.edge.pieces for part in _cut(piece, load, phases))
+    ends = np.array([part.end for part in parts])
+    upto = tuple(np.sum(ends <= phases[:, None] + NEARLY, axis=1).tolist())
     tolerance = settings(rtol).phase_tolerance
     coarse = cycle.resolved(NONE, NODES, tolerance)
     fine = coarse.on(mesh(coarse.over.edges, NODES + 4))
-    return CutoffCourse(upto, tuple(Piece(x, load(x)) for x in parts), (coarse, fine))
+    return CutoffCourse(upto, parts, (coarse, fine))
+
+
+def _cut(piece: Piece, load: Load, phases: FloatArray) -> Iterator[Piece]:
+    """The piece, cut at those of the phases that lie within."""
+    within = (phases > piece.begin + NEARLY) & (phases < piece.end - NEARLY)
+    for begin, end in pairwise([piece.begin, *np.unique(phases[within]).tolist(), piece.end]):
+        inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
+        at = begin + (end - begin) * inside
+        yield piece._replace(phases=at, heights=load(at))

@@ -65,11 +65,10 @@ def fields_inside(
     AccuracyError
         if the wear that a block begins with could not be found.
     UsageError
-        for a load that does not repeat, and for a cutoff with a compliant support: their cycles
-        cannot be counted.
+        if the cycles cannot be counted.
     """
-    if isinstance(load, HistoryLoad) or (model.cutoff and model.compliant):
-        raise UsageError("only cycles that can be counted have a history inside")
+    if isinstance(load, HistoryLoad):
+        raise UsageError("the load does not repeat: its cycles cannot be counted")
     cycles, phases = np.sort(np.asarray(cycles, dtype=float)), np.asarray(phases, dtype=float)
     rows = max(1, chunk // max(1, len(phases)))
     for stretch in _stretches(model, load, float(cycles[-1]), rtol):
