@@ -531,6 +531,18 @@ def test_on_a_tablet_four_plots_stay_in_sight(page):
         page.size(1280, 1000)
 
 
+def test_indices_are_lowered_and_names_are_not(page):
+    shown = "symbols('K_a = 1e-6, bearing, σ_c and closure_mm').innerHTML.replace(/<.?i>/g, '')"
+    assert page.run(shown) == "K<sub>a</sub> = 1e-6, bearing, σ<sub>c</sub> and closure_mm"
+
+
+def test_the_plot_shows_whether_wear_has_settled(page):
+    """Beside the wear, what the asymptotic wear per cycle would make from the first cycle on."""
+    assert len(curves(page)["wear"]) == 2
+    click(page, "cutoff")  # wear stops: there is nothing to settle to
+    assert len(curves(page)["wear"]) == 1
+
+
 def test_axis_is_logarithmic_or_linear(page):
     logarithmic = curves(page)["wear"]
     click(page, "linear")
@@ -545,7 +557,7 @@ def test_axis_is_logarithmic_or_linear(page):
 def test_plots_are_told_to_those_who_do_not_see_them(page):
     said = page.run("document.getElementById('plot-wear').getAttribute('aria-label')")
     assert said.startswith("wear in mm against number of cycles: bearing, u_c goes from ")
-    assert said.endswith("to 0.004597 at 10000.")
+    assert "to 0.004597 at 10000; as if steady from the start goes from 4.6355 × 10⁻⁸" in said
     labelled = page.run(
         "[...document.querySelectorAll('input, select')].every((e) => e.labels.length"
         " || e.getAttribute('aria-label'))"

@@ -66,7 +66,7 @@ function useScene(name) {
   }
   for (const key of ["law", "pin"]) $(key).value = chosen[key];
   for (const key of ["compliant", "opening", "cutoff"]) $(key).checked = chosen[key];
-  $("description").textContent = chosen.description;
+  $("description").replaceChildren(symbols(chosen.description));
 }
 
 function enableWhatActs(state) {
@@ -116,7 +116,7 @@ function insideCycle({ solver, load, fields }, u) {
   return points;
 }
 
-function draw(state, solved) {
+function draw(state, solved, inTheEnd) {
   const { history, load, fields } = solved;
   const points = history.points.filter((point) => point.n <= history.reached);
   const end = { n: history.reached, u: history.at(history.reached) };
@@ -127,6 +127,8 @@ function draw(state, solved) {
   const axis = { x: "number of cycles", logarithmic: state.logarithmic };
   const wear = [{ name: "bearing, u_c", points: over((u) => u) }];
   if (has.includes("u_a")) wear.push({ name: "pin, u_a", points: over((u) => start(u).u_a) });
+  const { perCycle } = inTheEnd;
+  if (perCycle) wear.push({ name: "as if steady from the start", points: points.map(({ n }) => [n, n * perCycle]) });
   show("wear", wear, { ...axis, y: "wear in mm", zero: true });
   const rough = [{ name: "bearing, σ_c", points: over((u) => start(u).sigma_c) }];
   if (has.includes("sigma_a")) {
@@ -160,7 +162,7 @@ function show(name, curves, options) {
 // "u_c" in words becomes u with a lowered c.
 function symbols(text) {
   const made = document.createElement("span");
-  for (const [index, part] of text.split(/(\S_\S|σ$)/).entries()) {
+  for (const [index, part] of text.split(/((?<!\w)\p{L}_\w(?!\w)|σ$)/u).entries()) {
     if (index % 2 === 0) made.append(part);
     else {
       const letter = document.createElement("i");
@@ -245,8 +247,7 @@ function constantRoughness(data) {
   return { kind: "closing", pressure: data.p_max, perCycle };
 }
 
-function tell(state, solved, end) {
-  const found = longRun(state, solved);
+function tell(state, solved, end, found) {
   const number = (value, unit) => (value === undefined ? "does not apply" : `${shown(value)} ${unit}`.trim());
   const rate = solved.solver.cycle(end.u, 0);
   const values = {
@@ -304,7 +305,8 @@ function update() {
   const started = performance.now();
   try {
     const solved = solveState(state);
-    tell(state, solved, draw(state, solved));
+    const inTheEnd = longRun(state, solved);
+    tell(state, solved, draw(state, solved, inTheEnd), inTheEnd);
     $("value-time").textContent = `${Math.round(performance.now() - started)} ms, `
       + `${shown(solved.solver.cost())} right-hand sides`;
   } catch (fault) {
