@@ -3,6 +3,7 @@ r"""LaTeX macros: one per equation, to \input into a report.
 Key results
     macro_name    \EqWearPerCycle for (21)
     macros        the text of a file that defines them, and the table of their symbols
+    WIDTH         how wide they are at most
 """
 
 from __future__ import annotations
@@ -11,9 +12,13 @@ import re
 from collections.abc import Sequence
 
 from ..equations import Equation
+from .breaking import broken
 from .nomenclature import nomenclature
 
 _DIGITS = ("Zero", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine")
+
+WIDTH = 29.0
+"""In em: a line of ``article`` has 34.5, of which a number takes some."""
 
 NAMES = {
     "1": "Closure",
@@ -50,7 +55,7 @@ def macro_name(equation: Equation) -> str:
 def macros(equations: Sequence[Equation]) -> str:
     r"""Return LaTeX that defines a macro for each equation, and \WearNomenclature.
 
-    Needs amsmath, and booktabs for the nomenclature: what the symbols of these equations mean.
+    Formulas wider than `WIDTH` are broken. Needs amsmath, and booktabs for the nomenclature: what the symbols of these equations mean.
     """
     lines = [
         "% Equations of wear under cyclic contact, derived and checked by machine.",
@@ -60,7 +65,7 @@ def macros(equations: Sequence[Equation]) -> str:
     for equation in equations:
         lines += [
             f"% ({equation.id}) {equation.title}: {equation.status.value}",
-            rf"\newcommand{{\{macro_name(equation)}}}{{{equation.latex}}}",
+            rf"\newcommand{{\{macro_name(equation)}}}{{{broken(equation.latex, WIDTH)}}}",
         ]
     lines.append(rf"\newcommand{{\WearNomenclature}}{{{nomenclature(equations)}}}")
     return "\n".join(lines) + "\n"

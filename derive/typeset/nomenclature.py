@@ -54,7 +54,12 @@ def nomenclature(equations: Iterable[Equation]) -> str:
         rf"${quantity.latex}$ & {meaning(quantity)} & {_cell(unit(quantity))} \\"
         for quantity in quantities(equations)
     ]
-    head = [r"\begin{tabular}{lll}", r"\toprule", r"symbol & meaning & unit \\", r"\midrule"]
+    head = [
+        r"\begin{tabular}{lp{0.62\linewidth}l}",
+        r"\toprule",
+        r"symbol & meaning & unit \\",
+        r"\midrule",
+    ]
     return "\n".join([*head, *rows, r"\bottomrule", r"\end{tabular}"])
 
 

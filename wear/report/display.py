@@ -14,7 +14,7 @@ Long formulas
     Break them yourself, after about 60 characters of output: ``\\`` and ``&`` at the top level are
     taken as rows of ``aligned`` (``\begin{aligned}`` may be written out, ``split`` becomes it).
     A ``\left ... \right`` pair cannot span a break: use ``\bigl[ ... \bigr]``.
-    What is still too wide is broken by `wear.report.breaking`, correctly but without taste.
+    What is still too wide is broken by `derive.typeset.breaking`, correctly but without taste.
 Avoid
     ``\label \tag \nonumber`` and the numbered environments (``align``, ``equation``, ``multline``):
     numbers are the document's. ``\intertext \mleft``: unknown to the page.
@@ -25,7 +25,7 @@ from __future__ import annotations
 
 import re
 
-from wear.report.breaking import broken
+from derive.typeset.breaking import broken
 
 _OWNED = re.compile(
     r"\\(?:label|tag|nonumber|notag|eqref)\b|\\begin\{(?:align|equation|gather|multline)\*?\}"

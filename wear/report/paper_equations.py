@@ -16,11 +16,11 @@ import sympy as sp
 
 from derive.note.governing import ROUGH_BEARING
 from derive.typeset.display import latex
+from derive.typeset.formula import width
 from derive.typeset.macros import macro_name
 from derive.typeset.present import presentable
 from wear.report import document as tree
 from wear.report.document import Block, Given, Math, Prose, Reference, Text
-from wear.report.formula import width
 from wear.report.moves import listed, sentence
 from wear.report.plain import plain
 from wear.report.verification import Verification, identity

@@ -268,7 +268,7 @@ def _long_table(
     end = "\\\\\\addlinespace\n" if apart else "\\\\\n"
     body = "".join(f"{row} {end}" for row in rows)
     return (
-        f"{{\\footnotesize\n\\begin{{longtable}}{{{_alignment(columns)}}}\n"
+        f"\n{{\\footnotesize\n\\begin{{longtable}}{{{_alignment(columns)}}}\n"
         f"\\caption{{{prose(here, caption)}}}\\label{{{label}}}\\\\\\toprule\n"
         f"{head} \\\\\\midrule\\endfirsthead\n"
         f"\\toprule {head} \\\\\\midrule\\endhead\n"

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from derive.typeset.breaking import LIMIT, broken
+from derive.typeset.formula import parse, rows, source, width
 from wear.report import mathml
-from wear.report.breaking import LIMIT, broken
-from wear.report.formula import parse, rows, source, width
 from wear.report.typeset import typeset
 
 S = r"\left(\sigma_c^0 + f_c u_c\right)"

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
-from wear.report.formula import Piece, fence, parse, rows, source, total
+from .formula import Piece, fence, parse, rows, source, total
 
 #: Room for a formula beside its number, in em of the text: 160 mm of 11 pt type are 41 em.
 LIMIT = 34.0

@@ -1,0 +1,72 @@
+"""Macros in documents of other people: they compile there, and stay in the column of an article."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from derive import catalogue
+from derive.typeset.macros import macro_name, macros
+
+_HEAD = {
+    "article": r"\documentclass{article}",
+    "two columns": r"\documentclass[twocolumn]{article}\usepackage[margin=18mm]{geometry}",
+}
+_WIDE = re.compile(r"Overfull \\hbox \((\d+\.?\d*)pt")
+_CHOSEN = ("7c", "8", "21", "22")
+
+
+def _log(folder: Path, engine: str, head: str, body: str) -> str:
+    source = f"{head}\\usepackage{{amsmath,booktabs}}\\input{{equations}}\\begin{{document}}{body}"
+    (folder / "other.tex").write_text(source + "\\end{document}\n", encoding="utf-8")
+    done = subprocess.run(
+        [engine, "-interaction=nonstopmode", "-halt-on-error", "other.tex"],
+        cwd=folder, capture_output=True, text=True, check=False,
+        env={**os.environ, "max_print_line": "1000"},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-2000:]
+    return done.stdout
+
+
+def _too_wide(log: str) -> list[float]:
+    return [width for width in map(float, _WIDE.findall(log)) if width > 5.0]
+
+
+@pytest.mark.parametrize("head", _HEAD.values(), ids=_HEAD.keys())
+def test_all_macros_compile_elsewhere(
+    head: str, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    engine = need_tool("pdflatex")
+    equations = catalogue.equations()
+    (tmp_path / "equations.tex").write_text(macros(equations), encoding="utf-8")
+    shown = (rf"\begin{{equation}}\{macro_name(e)}\end{{equation}}" for e in equations)
+    log = _log(tmp_path, engine, head, "\n".join(shown))
+    if "twocolumn" not in head:
+        assert _too_wide(log) == []
+
+
+@pytest.mark.parametrize("head", _HEAD.values(), ids=_HEAD.keys())
+def test_what_is_quoted_most_fits_with_its_symbols(
+    head: str, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    engine = need_tool("pdflatex")
+    chosen = [catalogue.equation(identifier) for identifier in _CHOSEN]
+    (tmp_path / "equations.tex").write_text(macros(chosen), encoding="utf-8")
+    shown = "".join(rf"\begin{{equation}}\{macro_name(e)}\end{{equation}}" for e in chosen)
+    log = _log(tmp_path, engine, head, shown + r"\begin{table*}\WearNomenclature\end{table*}")
+    assert _too_wide(log) == []
+
+
+def test_names_can_be_guessed() -> None:
+    """Words of the id, the number spelled out, or the word for an equation that is quoted most."""
+    assert macro_name(catalogue.equation("7c")) == "EqSevenC"
+    assert macro_name(catalogue.equation("static-solution")) == "EqStaticSolution"
+    for equation in catalogue.equations():
+        words = [word for word in equation.id.split("-") if word.isalpha()]
+        if not equation.id[0].isdigit():
+            assert macro_name(equation).lower() == "eq" + "".join(words)
