@@ -55,7 +55,8 @@ def macro_name(equation: Equation) -> str:
 def macros(equations: Sequence[Equation]) -> str:
     r"""Return LaTeX that defines a macro for each equation, and \WearNomenclature.
 
-    Formulas wider than `WIDTH` are broken. Needs amsmath, and booktabs for the nomenclature: what the symbols of these equations mean.
+    Formulas wider than `WIDTH` are broken. Needs amsmath, and booktabs for the nomenclature: what
+    the symbols of these equations mean.
     """
     lines = [
         "% Equations of wear under cyclic contact, derived and checked by machine.",

@@ -36,8 +36,8 @@ def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
     """Return the quantities that occur in expressions.
 
     >>> from derive.symbols import symbol
-    >>> [quantity.name for quantity in occurring([symbol("U_c") - symbol("p") / symbol("k")])]
-    ['U_c', 'p', 'k']
+    >>> [quantity.name for quantity in occurring([symbol("p_max") / symbol("k")])]
+    ['p_max', 'k']
     """
     atoms = (e.atoms(sp.Symbol, AppliedUndef) for e in expressions)
     used = {
