@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 
 MOST_IN_RANGE = 1_000_000  # numbers of cycles
+_THOUSANDS = re.compile(r"0\d+")  # what a comma leaves of 9,000: not to be read as 9 and 0
 
 
 def add_scene(parser: argparse.ArgumentParser, default: str | None = None) -> None:
@@ -98,6 +100,7 @@ class Faults:
             entry.strip()
             for entry, pair in zip(parts, ends, strict=True)
             if len(pair) > 2
+            or _THOUSANDS.fullmatch(entry.strip())
             or not all(0 <= number <= MOST_CYCLES and number.is_integer() for number in pair)
             or not 0 <= pair[-1] - pair[0] < MOST_IN_RANGE
         ]
