@@ -4,9 +4,10 @@ Overview
     Figures are matplotlib `Figure` objects without pyplot: nothing global is opened or changed.
     The settings hold only inside `styled`, which every drawing function enters by itself.
 Legibility
-    Colours are those of Okabe and Ito, which the colour-blind tell apart; lines also differ in
-    marker and dash, so that they survive grey print. Ink is pure black and paper pure white or
-    transparent: the page replaces both in dark mode.
+    Colours are those of Okabe and Ito, which the colour-blind tell apart, orange and sky blue
+    darker: every line has a contrast of at least three to white and to the page in dark mode. Lines
+    also differ in marker and dash, so that they survive grey print. Ink is pure black and paper
+    pure white or transparent: the page replaces both in dark mode.
 Files
     SVG has its text as paths, since no reader can be expected to have the fonts; PDF embeds them.
     Both are the same to the byte from run to run.
@@ -28,8 +29,9 @@ from matplotlib.typing import ColorType, LineStyleType
 
 from wear.figure_data import FloatArray
 
-#: Widths of a journal's single and double column, in mm.
+#: Widths of a journal's single, one and a half, and double column, in mm.
 COLUMN = 90.0
+COLUMN_AND_HALF = 140.0
 PAGE = 190.0
 
 INK = "#000000"
@@ -88,8 +90,8 @@ _FAMILIES: tuple[tuple[str, str], ...] = (
     ("#D55E00", "s"),
     ("#009E73", "^"),
     ("#CC79A7", "D"),
-    ("#E69F00", "v"),
-    ("#56B4E9", "P"),
+    ("#BD8300", "v"),
+    ("#3A95CB", "P"),
     (INK, "X"),
 )
 _DASHES: tuple[LineStyleType, ...] = ("-", (0, (5.0, 2.0)), (0, (1.0, 1.5)))

@@ -17,14 +17,13 @@ from matplotlib.figure import Figure
 
 from wear import figures
 from wear.figure_data import Line, Regime, Threshold
-from wear.figure_style import COLUMN, GREY, INK, PAGE, canvas, stroke, styled
+from wear.figure_style import COLUMN_AND_HALF, GREY, INK, PAGE, canvas, stroke, styled
 from wear.generated import asymptotics as formula
 from wear.history import FloatArray, History
 from wear.report.reconcile import PRINTED
 from wear.report.runs import CUTOFF, SECTION_5, Approach, Runs, known
 
-#: Half a page of a report: between a journal's single and double column.
-WIDTH = 125.0
+WIDTH = COLUMN_AND_HALF
 _ONE_EIGHTH = 1.0 / 8.0
 _ONE_THIRD = 1.0 / 3.0
 
@@ -148,7 +147,7 @@ def regimes() -> Figure:
             Threshold(r"$f_c = 1/8$", _ONE_EIGHTH),
             Threshold(r"$f_c = 1/3$", _ONE_THIRD),
         ],
-        width=min(PAGE, 2 * COLUMN),
+        width=PAGE,
     )
 
 
