@@ -22,7 +22,7 @@ from wear.count.many import ManyDrives
 from wear.count.panels import CHECKS
 from wear.count.scan import cycles_if_cut, halves
 
-MOST_ROUNDS = 6  # of cutting panels
+MOST_ROUNDS = 12  # of cutting panels
 
 
 class ManyPanels(NamedTuple):

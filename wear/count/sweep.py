@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from wear.scene import Scene
 
 TOGETHER = 1024  # scenes
-FIRST = 10  # cycles that are integrated one by one
+FIRST = (6, 30)  # cycles integrated one by one: more for scenes that this does not resolve
 MARGIN = 4.0  # of a rough look ahead
 ITERATED = 0.1  # of the error asked for: what the iteration over a cycle may leave
 JUDGED = 0.01  # of that: what the iteration of the judge may leave
@@ -72,30 +72,37 @@ def _together(scenes: Sequence[Scene], cycles: FloatArray, rtol: float) -> Sweep
 
     many = Many(bind_many(scenes), [scene.periodic_load for scene in scenes])
     wear, error = np.empty((len(scenes), len(cycles))), np.full((len(scenes), len(cycles)), np.inf)
-    if not many.model.cutoff:
+    alone = np.full(len(scenes), True)
+    for first in FIRST:
+        left = np.flatnonzero(alone)
+        if many.model.cutoff or len(left) == 0:
+            break
         with np.errstate(all="ignore"):  # a scene that overflows here is solved by itself
-            wear, error = _solve(many, cycles, rtol)
-    alone = ~np.all(error <= rtol, axis=1)
+            wear[left], error[left] = _solve(many.take(left), cycles, rtol, first)
+        alone = ~np.all(error <= rtol, axis=1)
     for i in np.flatnonzero(alone):
         single = wear_after(bind(scenes[int(i)]), many.loads[int(i)], cycles, rtol)
         wear[i], error[i] = single.u_c, single.error
     return Sweep(wear, error, alone)
 
 
-def _solve(many: Many, cycles: FloatArray, rtol: float) -> tuple[FloatArray, FloatArray]:
-    """Wear (scenes, cycles) and its estimated relative error, infinite where out of reach."""
+def _solve(
+    many: Many, cycles: FloatArray, rtol: float, first: int
+) -> tuple[FloatArray, FloatArray]:
+    """Wear (scenes, cycles) and its estimated relative error, infinite where out of reach; panels
+    follow after the `first` cycles."""
     shape = (len(many.loads), len(cycles))
     wear, error = np.full(shape, np.nan), np.full(shape, np.inf)
     fresh = np.zeros((len(many.loads), 1))
     scale = many.model.fields(fresh, fresh).sigma[:, 0] / 4
     end, pace = _scan(many, scale, MARGIN * max(float(np.max(cycles)), LEAST))
     samples = scale[:, None] * np.expm1(np.log1p(end / scale)[:, None] * SAMPLES)
-    for which, edges in resolved_edges(many, samples, settings(rtol), rtol, FIRST):
+    for which, edges in resolved_edges(many, samples, settings(rtol), rtol, first):
         # Scenes that wear alike take as many iterations.
         order = np.argsort(pace[which])
         which, edges = which[order], edges[order]
         group = Group(many.take(which), edges, SHIFT * scale[which], end[which])
-        wear[which], error[which] = _solve_group(group, cycles, rtol)
+        wear[which], error[which] = _solve_group(group, cycles, rtol, first)
     return wear, error
 
 
@@ -109,12 +116,14 @@ class Group(NamedTuple):
     end: FloatArray
 
 
-def _solve_group(group: Group, cycles: FloatArray, rtol: float) -> tuple[FloatArray, FloatArray]:
-    """Wear (scenes, cycles) and its estimated relative error."""
+def _solve_group(
+    group: Group, cycles: FloatArray, rtol: float, number: int
+) -> tuple[FloatArray, FloatArray]:
+    """Wear (scenes, cycles) and its estimated relative error, with a `number` of first cycles."""
     size = settings(rtol)
     coarse = group.many.on(group.edges, size.phase_nodes, ITERATED * rtol)
     fine = group.many.on(group.edges, size.finer_nodes, JUDGED * ITERATED * rtol)
-    first = coarse.several(FIRST)
+    first = coarse.several(number)
     before = np.cumsum(first.increment, axis=1) - first.increment
     judged = fine.advance(before, first.near(size.finer_nodes))
     # What the iterations of the judge may have left, nothing else tells.
@@ -195,14 +204,14 @@ def _evaluate(
 ) -> tuple[FloatArray, FloatArray]:
     """Wear (scenes, cycles) and its relative error but for rounding, of scenes with as many panels
     each."""
-    scenes = len(begun.added)
+    scenes, number = begun.added.shape
     density = panels.density
     table = abel.count(density, 0.0)
     gain = table.gain.reshape(scenes, -1)
-    begins = FIRST + np.concatenate([np.zeros((scenes, 1)), np.cumsum(gain, axis=1)], axis=1)
+    begins = number + np.concatenate([np.zeros((scenes, 1)), np.cumsum(gain, axis=1)], axis=1)
     table = table._replace(cycles=begins[:, :-1].ravel())
 
-    late = np.maximum(cycles, float(FIRST))
+    late = np.maximum(cycles, float(number))
     part = np.sum(begins[:, 1:, None] <= late, axis=1)
     out_of_reach = part >= gain.shape[1]
     part = np.minimum(part, gain.shape[1] - 1)
@@ -221,7 +230,7 @@ def _evaluate(
     error = pace * np.take_along_axis(lost, part, axis=1)
     error[out_of_reach] = np.inf
 
-    early = cycles <= FIRST
+    early = cycles <= number
     index = cycles[early].astype(int) - 1
     wear[:, early], error[:, early] = begun.wear[:, index], begun.error[:, index]
     return wear, error / wear
