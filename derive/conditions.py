@@ -79,8 +79,8 @@ class Condition:
     @property
     def latex(self) -> str:
         """Return the condition in LaTeX; in words where no relation says it."""
-        from .typeset.display import latex
+        from .typeset.display import inline
 
         if self.relation is not sp.true:
-            return latex(self.relation)
+            return inline(self.relation)
         return self.typeset or rf"\text{{{self.text}}}"

@@ -10,6 +10,7 @@ Key results
     minus, over   terms and factors that keep their sign and their fraction
     evaluated     the same relation, evaluated again
     latex         LaTeX of a relation or of a system of them
+    inline        LaTeX of a relation in a line of text
 """
 
 from __future__ import annotations
@@ -79,9 +80,9 @@ class _Printer(LatexPrinter):
     fractions and exponents, where they would be tiny, are written on the line.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, small: bool = False) -> None:
         super().__init__(_SETTINGS)
-        self._small = False
+        self._small = small
 
     @contextmanager
     def _in_small(self) -> Iterator[None]:
@@ -229,3 +230,13 @@ def latex(expr: sp.Basic | Sequence[sp.Basic], where: Sequence[sp.Basic] = ()) -
     if where:
         lines[len(expr)] = r"\text{with}\quad " + lines[len(expr)]
     return r"\left\{\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}\right."
+
+
+def inline(relation: sp.Basic) -> str:
+    r"""Return LaTeX of a relation for a line of text: its fractions are written on the line.
+
+    >>> from derive.symbols import symbol
+    >>> inline(symbol("f_c") < sp.Rational(1, 3))
+    'f_c < 1 / 3'
+    """
+    return str(_Printer(small=True).doprint(relation))

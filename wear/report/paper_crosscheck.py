@@ -53,7 +53,7 @@ def section(material: Material) -> Section:
                 "{simulated}. Of all data that [eq:21] contains, changing $f_c$ alone, to "
                 "{slope}, reconciles them best: the formula then gives the printed value and the "
                 "solution {altered}, nearly the other. Any other datum would have to change "
-                "{factor}-fold ([claim:C35], [(claim:C36)]).",
+                "{factor}-fold (claims [(claim:C35)] and [(claim:C36)]).",
                 factor=Number(
                     PRINTED.formula_mm / known(runs.fate("section4").wear_per_cycle_mm),
                     3,

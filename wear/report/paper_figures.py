@@ -9,7 +9,10 @@ from wear.report.reconcile import PRINTED
 from wear.report.runs import SECTION_5, known
 from wear.report.words import paragraph
 
-_WEAR = "Curves that rise steeply at first and then ever more slowly."
+_WEAR = (
+    "Wear over cycles, that of the bearing above that of the pin: both rise steeply at first and "
+    "then ever more slowly; with the cutoff both become constant early, at a lower wear."
+)
 
 
 def section(material: Material) -> Section:
@@ -66,7 +69,8 @@ def _section_3(material: Material) -> tuple[Block, ...]:
                 "The note's Fig. {b}: roughness of bearing and pin, with and without the cutoff.",
                 b=_printed("2b"),
             ),
-            "The roughness of the bearing decreases slightly, that of the pin increases slightly.",
+            "Roughness over cycles: that of the bearing falls a little, that of the pin, far "
+            "below, rises a little; with the cutoff both become constant early.",
             "figure-2b",
         ),
     )
@@ -80,12 +84,12 @@ def _section_4(material: Material) -> tuple[Block, ...]:
         paragraph(
             "*Bearing wear alone* ([fig:3a]). The dotted line has the slope of [eq:21] and passes "
             "through the last point, where the wear of one cycle is {step}, still {ratio} times "
-            "that of the line: nothing is stabilised yet ([claim:C34], [(claim:C37)]). The note's "
-            "criterion (relative distance of the rate from its limit below {criterion}) is met on "
-            "average over a cycle after {mean} cycles, and all through a cycle after {instant}. "
-            "At single phases it is met from the first cycle on, since the rate equals its limit "
-            "whenever $\\beta=0$ ([eq:deviation]). With the cutoff wear arrests at {depth} in "
-            "cycle {stop}, before the note calls it stabilised.",
+            "that of the line: nothing is stabilised yet (claims [(claim:C34)] and "
+            "[(claim:C37)]). The note's criterion (relative distance of the rate from its limit "
+            "below {criterion}) is met on average over a cycle after {mean} cycles, and all "
+            "through a cycle after {instant}. At single phases it is met from the first cycle on, "
+            "since the rate equals its limit whenever $\\beta=0$ ([eq:deviation]). With the "
+            "cutoff wear arrests at {depth} in cycle {stop}, before the note calls it stabilised.",
             step=mm(runs.printed_increment, 5, "section 4, increment at the note's cycle"),
             ratio=Number(
                 runs.printed_increment / known(fate.wear_per_cycle_mm), 3, source="section 4"

@@ -155,9 +155,9 @@ def _data(material: Material) -> Table:
     )
     caption = words(
         "Data of the note's sections, as scenes of the software. The closure is three times the "
-        "initial equivalent roughness; the note prints it rounded ([claim:C16], [(claim:C33)], "
-        "[(claim:C39)]). The load is $U_a=U\\sin(2\\pi "
-        "t/T)$, the speed {speed}. Without a value for the pin: it is smooth and does not wear.",
+        "initial equivalent roughness; the note prints it rounded (claims [(claim:C16)], "
+        "[(claim:C33)] and [(claim:C39)]). The load is $U_a=U\\sin(2\\pi t/T)$, the speed "
+        "{speed}. Without a value for the pin: it is smooth and does not wear.",
         speed=Number(scenes[0][1].motion.speed_rpm, 4, "rpm", source="scene section3"),
     )
     return Table("tab:data", caption, columns, (*rows, amplitude))

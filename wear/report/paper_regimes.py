@@ -6,7 +6,7 @@ import sympy as sp
 
 from derive.results.regime_map import OPEN, REGIMES
 from derive.results.validity import RESOLUTIONS
-from derive.typeset.display import latex
+from derive.typeset.display import inline
 from derive.typeset.present import presentable
 from wear.generated import asymptotics as formula
 from wear.report import figures_of_note
@@ -88,7 +88,7 @@ def _hypothesis(relation: sp.Basic) -> Math:
     """A hypothesis of the map, with the gap at the vanishing roughness by its name."""
     gap = sp.Symbol("h_star", real=True)  # of either sign here
     named = relation.xreplace({OPEN.relation.lhs: gap})
-    return Math(latex(presentable(named)))
+    return Math(inline(presentable(named)))
 
 
 def _map() -> Table:

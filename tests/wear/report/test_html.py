@@ -23,7 +23,7 @@ from wear.report.numbering import mentioned_by, number
 _VOID = {"meta", "link", "br", "img", "hr", "mspace", "path", "use", "rect", "stop", "circle"}
 
 
-class _Outline(HTMLParser):
+class Outline(HTMLParser):
     """Tags in order with their attributes; fails on tags that do not nest."""
 
     def __init__(self, page: str) -> None:
@@ -55,17 +55,17 @@ def page(sample: Document) -> str:
 
 
 @pytest.fixture(scope="module")
-def outline(page: str) -> _Outline:
-    return _Outline(page)
+def outline(page: str) -> Outline:
+    return Outline(page)
 
 
-def test_the_page_needs_nothing_but_itself(page: str, outline: _Outline) -> None:
+def test_the_page_needs_nothing_but_itself(page: str, outline: Outline) -> None:
     assert not outline.of("script", "link", "img", "iframe", "object")
     assert not re.search(r"url\((?!data:|#)|@import|javascript:|\son\w+=", page)
     assert "default-src 'none'" in page
 
 
-def test_ids_are_unique_and_every_link_arrives(outline: _Outline) -> None:
+def test_ids_are_unique_and_every_link_arrives(outline: Outline) -> None:
     ids = Counter(a["id"] for _, a in outline.tags if "id" in a)
     assert [i for i, times in ids.items() if times > 1] == []
     inner = {a[k][1:] for _, a in outline.tags for k in ("href", "xlink:href")
@@ -95,7 +95,7 @@ def test_links_lead_both_ways(sample: Document, page: str) -> None:
             assert f'href="#{label}"' in page.split(f'id="{source}"', 1)[1]
 
 
-def test_screen_readers_find_their_way(outline: _Outline) -> None:
+def test_screen_readers_find_their_way(outline: Outline) -> None:
     assert outline.of("html")[0]["lang"] == "en"
     assert all(len(outline.of(landmark)) == 1 for landmark in ("header", "nav", "main", "footer"))
     assert next(a for a in outline.of("a"))["href"] == "#content"

@@ -6,12 +6,16 @@ import dataclasses
 import json
 import re
 from collections import Counter
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from derive.catalogue import equations
 from tests.wear.report import quick
+from tests.wear.report.test_html import Outline
 from wear.report import paper_introduction
 from wear.report.audit import audit
 from wear.report.document import (
@@ -31,6 +35,7 @@ from wear.report.material import Material
 from wear.report.numbering import number
 from wear.report.runs import CUTOFF, Runs, known
 from wear.report.tex import report
+from wear.report.typeset import typeset
 from wear.report.verification import verified
 from wear.report.walk import all_prose, blocks
 
@@ -193,3 +198,38 @@ def test_the_rate_is_at_its_limit_at_two_phases_of_every_cycle(runs: Runs) -> No
 
 def test_runs_have_a_place_in_json(runs: Runs) -> None:
     assert json.dumps({name: case.scene.to_tables() for name, case in runs.cases.items()})
+
+
+def test_the_paper_compiles_and_numbers_as_the_page_does(
+    paper: Document, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    """No warning: references undefined, boxes too wide. Equations, figures, tables, sections."""
+    need_tool("pdflatex")
+    sources = report(paper)
+    for name, content in sources.figures.items():
+        (tmp_path / name).write_bytes(content)
+    (tmp_path / "equations.tex").write_text(sources.equations, encoding="utf-8")
+    (tmp_path / "report.tex").write_text(sources.report, encoding="utf-8")
+    outcome = typeset(tmp_path / "report.tex")
+    assert (outcome.notice, outcome.warnings) == ("", ())
+    auxiliary = (tmp_path / "report.aux").read_text(encoding="utf-8")
+    numbers = dict(re.findall(r"\\newlabel\{([^}@]+)\}\{\{\{?([^}]*)\}", auxiliary))
+    marks = {k: m for k, m in number(paper).items() if m.kind not in ("claim", "derivation")}
+    assert numbers == {label: mark.number for label, mark in marks.items()}
+    assert {mark.kind for mark in marks.values()} == {"section", "equation", "figure", "table"}
+
+
+def test_screen_readers_find_their_way_in_it(paper: Document) -> None:
+    outline = Outline(page(paper))
+    levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h[1-6]", tag)]
+    assert levels[0] == 1
+    assert all(b <= a + 1 for a, b in pairwise(levels))
+    assert all(a.get("scope") in {"row", "col"} for a in outline.of("th"))
+    described = [a["aria-label"] or "" for a in outline.of("svg")]
+    assert all(len(text.split()) >= 8 for text in described)
+    assert len(set(described)) == len(described)
+
+
+def test_links_have_names(paper: Document) -> None:
+    links = re.findall(r"<a\b[^>]*>(.*?)</a>", page(paper), flags=re.DOTALL)
+    assert all(re.sub(r"<[^>]*>", "", name).strip() for name in links)
