@@ -132,14 +132,16 @@ def equation(identifier: str) -> Equation:
 
 
 def verify(
-    identifiers: Iterable[str] = (), progress: Callable[[int, int, str], None] | None = None
+    identifiers: str | Iterable[str] = (), progress: Callable[[int, int, str], None] | None = None
 ) -> tuple[Verdict, ...]:
-    """Re-run every check on which the named equations rest (all of them if none is named).
+    """Re-run every check on which the named equations rest (all of them if none is named); a text
+    is one identifier.
 
     A statement on which several equations rest is checked once.  ``progress`` is told how many
     of how many equations are done, and which is next.
     """
-    chosen = [equation(identifier) for identifier in identifiers] or list(equations())
+    named = (identifiers,) if isinstance(identifiers, str) else identifiers
+    chosen = [equation(identifier) for identifier in named] or list(equations())
     numbers: dict[Hashable, int] = {}
     done: dict[int, tuple[Check, ...]] = {}
     verdicts = []

@@ -140,7 +140,9 @@ def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Fi
     with styled():
         figure, axes = canvas(width, 0.5 * width)
         for family, method in enumerate(methods):
-            _draw_method(axes, method, stroke(family, family // 7))
+            again = family // 7  # colours come again, with another marker
+            look = replace(stroke(family, again), marker=stroke(family + 2 * again).marker)
+            _draw_method(axes, method, look)
         if any(method.failed.any() for method in methods):
             axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label="missed its tolerance")
         axes.set(xlabel="True relative error of the wear", ylabel="Time (s)")

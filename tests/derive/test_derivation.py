@@ -51,6 +51,10 @@ def test_every_check_holds(identifier: str) -> None:
     assert {c.kind for c in verdict.checks} >= {"dimensions", "typeset"}
 
 
+def test_one_identifier_may_be_given_as_it_is() -> None:
+    assert [verdict.id for verdict in catalogue.verify("21")] == ["21"]
+
+
 @pytest.mark.parametrize("step", STEPS, ids=lambda s: type(s.rule).__name__)
 def test_every_step_is_proved_and_dimensions_are_checked(step: Statement) -> None:
     kinds = {outcome.kind for outcome in check(step)}

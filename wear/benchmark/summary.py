@@ -11,7 +11,7 @@ from wear.benchmark import Measurement, Status
 FEWEST_DRAWN = 4  # methods in a figure
 YEAR = 3.15576e7  # s
 UNITS = (
-    (1e-3, 1e-6, "us"),
+    (1e-3, 1e-6, "µs"),
     (1.0, 1e-3, "ms"),
     (120.0, 1.0, "s"),
     (7200.0, 60.0, "min"),
