@@ -181,7 +181,7 @@ def _figure(here: Page, figure: Figure) -> str:
 
 def _table(here: Page, table: Table) -> str:
     rows = "".join(_row(here, table.columns, row) for row in table.rows)
-    return _table_frame(here, table.label, table.caption, table.columns, rows)
+    return _table_frame(here, table, rows)
 
 
 def _row(here: Page, columns: tuple[Column, ...], row: tuple[Prose, ...]) -> str:
@@ -198,16 +198,16 @@ def _kind(column: Column) -> str:
     return ' class="text"' if column.width else ""
 
 
-def _table_frame(
-    here: Page, label: str, caption: Prose, columns: tuple[Column, ...], rows: str
-) -> str:
+def _table_frame(here: Page, table: Table, rows: str) -> str:
     heads = "".join(
-        f'<th scope="col"{_kind(column)}>{prose(here, column.heading)}</th>' for column in columns
+        f'<th scope="col"{_kind(column)}>{prose(here, column.heading)}</th>'
+        for column in table.columns
     )
-    name = here.marks[label].name
+    name = here.marks[table.label].name
+    kind = ' class="long"' if table.long else ""
     return (
-        f'<div class="scroll" id="{label}" role="region" aria-label="{name}" tabindex="0"><table>'
-        f"<caption><div><b>{name}.</b> {prose(here, caption)}</div></caption>"
+        f'<div class="scroll" id="{table.label}" role="region" aria-label="{name}" tabindex="0">'
+        f"<table{kind}><caption><div><b>{name}.</b> {prose(here, table.caption)}</div></caption>"
         f"<thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table></div>"
     )
 

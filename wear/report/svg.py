@@ -13,10 +13,6 @@ _SIZE = re.compile(r'\s(?:width|height)="[^"]*"')
 _WIDTH = re.compile(r'\bwidth="([\d.]+)pt"')
 _ID = re.compile(r'\bid="([^"]+)"')
 _USE = re.compile(r'((?:xlink:)?href="#|url\(#)([^")]+)')
-#: Pixels of the page for a point of the figure: drawn for paper, a screen is read from further off.
-_PIXELS_PER_POINT = 1.7
-#: What letters of eight points need to be read: on a phone a figure is scrolled, not made smaller.
-_LEAST_PIXELS_PER_POINT = 1.15
 #: (What has no colour in the file is black: the root's fill takes care of that.)
 #: Ink and paper of the figures follow the colours of the page, so that dark mode works.
 _INK = {"#000000": "currentColor", "#ffffff": "var(--paper)"}
@@ -26,8 +22,8 @@ def inline(svg: str, label: str, description: str) -> str:
     """The figure as an element of the page.
 
     Its ids begin with `label` (two figures may use the same ids), black and white become the ink
-    and paper of the page, it scales with the column, and it is announced as one image with
-    `description`.
+    and paper of the page, its width on paper is told to the style sheet as ``--points``, and it is
+    announced as one image with `description`.
     """
     body = _NOT_FOR_A_PAGE.sub("", svg).strip()
     root = _ROOT.search(body)
@@ -39,12 +35,6 @@ def inline(svg: str, label: str, description: str) -> str:
     for colour, meaning in _INK.items():
         body = re.sub(colour, meaning, body, flags=re.IGNORECASE)
     width = _WIDTH.search(root[1])
-    size = _style(float(width[1])) if width else ""
+    size = f' style="--points:{float(width[1]):.0f}"' if width else ""
     attributes = f'role="img" fill="currentColor" aria-label="{escape(description)}"{size}'
     return _ROOT.sub(lambda match: f"<svg {attributes}{_SIZE.sub('', match[1])}>", body, count=1)
-
-
-def _style(points: float) -> str:
-    """The width on the page of a figure so wide on paper, and the least."""
-    natural, least = points * _PIXELS_PER_POINT, points * _LEAST_PIXELS_PER_POINT
-    return f' style="width:{natural:.0f}px;min-width:{least:.0f}px"'
