@@ -68,14 +68,48 @@ DENSE_WITHIN_A_CYCLE = made(  # the density changes by e^2 within a cycle
     f_c=-0.2988,
     load={"kind": "sine", "amplitude_mm": 2.08e-5, "period_s": 0.06},
 )
+GROWS_ALONG_THE_CYCLE = made(  # small differences early in a cycle told no slope
+    {
+        "bearing": {"roughness_mm": 0.00020653801558105292},
+        "contact": {"closure_mm": 0.0006658785622333147},
+    },
+    K=0.0009332543007969905,
+    f_c=0.38489999999999996,
+    load={
+        "kind": "harmonics",
+        "mean_mm": 3.9032055846021245e-06,
+        "cosine_mm": [-4.362406241614138e-06],
+        "sine_mm": [1.2755573805889294e-05, -1.3393352496183757e-06],
+        "period_s": 0.06,
+    },
+)
+LARGE_STEADY_SWING = made(
+    {},
+    K=1.562e-4,
+    f_c=0.2466,
+    load={
+        "kind": "harmonics",
+        "mean_mm": 0.0,
+        "cosine_mm": [7.257e-3],
+        "sine_mm": [],
+        "period_s": 0.3448,
+    },
+)
 BEYOND_THE_MODEL = made({}, K=0.3, f_c=-0.05)  # a solution with negative roughness was found
 
 
-@pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-9, 1e-12])
 @pytest.mark.parametrize(
     "scene",
-    [SATURATED_AT_FIRST, OVER_BEFORE_THE_FIRST_NODE, DENSE_WITHIN_A_CYCLE, BEYOND_THE_MODEL],
-    ids=["saturated at first", "over before the first node", "dense in a cycle", "beyond"],
+    [
+        SATURATED_AT_FIRST,
+        OVER_BEFORE_THE_FIRST_NODE,
+        DENSE_WITHIN_A_CYCLE,
+        GROWS_ALONG_THE_CYCLE,
+        LARGE_STEADY_SWING,
+        BEYOND_THE_MODEL,
+    ],
+    ids=["saturated at first", "over before a node", "dense", "grows", "large swing", "beyond"],
 )
 def test_first_cycles_that_were_once_wrong(scene: Scene, rtol: float) -> None:
     cycles = [1, 4, 12]

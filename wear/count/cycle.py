@@ -27,7 +27,7 @@ TINY = float(np.finfo(float).tiny)
 MOST_INTERVALS = 256  # of one cycle
 NOISE = 8 * ROUNDOFF  # what rounding alone changes from one iteration to the next
 NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
-GRAIN = 1e-11  # of the wear: changes below tell no slope, for they drown in its rounding
+GRAIN = 4 * ROUNDOFF  # of the wear: changes below tell no slope, for they drown in its rounding
 MOST_ITERATIONS = 60
 PATIENCE = 8  # iterations that may diverge at first
 
