@@ -136,7 +136,7 @@ def simulated_wear() -> Finding:
     evidence = f"the solution gives {found:.6e} mm, printed {PRINTED.simulated_mm:.2e} mm"
     if met:
         return Finding(Verdict.CONFIRMED, evidence)
-    slope = f"which it would with f_c = {slope_for_simulation():.8g} (see C36)"
+    slope = f"which it would give with f_c = {slope_for_simulation():.8g} (see C36)"
     return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}, {slope}")
 
 
