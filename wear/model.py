@@ -90,6 +90,34 @@ class Model:
         p = root.pressure(self.module, u, U_a, self.constants, near).p
         return self.module.limited(p, u, U_a, self.constants) if self.cutoff else p
 
+    def law_rate(self, u: Real, U_a: Real) -> Real:
+        """Wear rate in mm/s by the contact law, whatever the cutoff makes of it."""
+        if not self.compliant:
+            return self.module.rate(u, U_a, self.constants)
+        return self.module.rate(
+            root.pressure(self.module, u, U_a, self.constants).p, self.constants
+        )
+
+    def held_rate(self, u: Real, U_a: Real) -> Real:
+        """Wear rate in mm/s while a compliant support holds the contact at its edge; that at the
+        ends of this range beyond them."""
+        p = self.module.limited(self._edge_pressure, u, U_a, self.constants)
+        return self.module.rate(p, self.constants)
+
+    @property
+    def held(self) -> float:
+        """The margin (mm) up to which a compliant support holds the contact at its edge; none with
+        a rigid one."""
+        if not self.compliant:
+            return 0.0
+        unit = self.module.limited(np.inf, 0.0, 1.0 - self.margin(0.0, 0.0), self.constants)
+        return float(self._edge_pressure / unit)
+
+    @property
+    def _edge_pressure(self) -> Real:
+        """The pressure of the contact law at its edge, MPa: all that is missing at no pressure."""
+        return -self.module.residual(0.0, 0.0, -self.margin(0.0, 0.0), self.constants)
+
     def slope(self, u: Real, U_a: Real) -> Real:
         """Derivative of the wear rate with respect to u_c, in 1/s."""
         if not self.compliant:

@@ -137,8 +137,6 @@ def obstacle(scene: Scene) -> str | None:
     """Why cycles of this scene cannot be counted, None if they can."""
     if isinstance(scene.load, HistoryLoad):
         return "the load does not repeat"
-    if scene.contact.cutoff and scene.support is not None:
-        return "the contact has a cutoff and a compliant support"
     return None
 
 

@@ -202,3 +202,80 @@ def test_a_loose_request_has_an_estimate_too() -> None:
     load = Table(tuple(np.linspace(0.0, 1.0, 7)), (*np.repeat(heights, 2), heights[0]))
     scene = with_load(load, 7.660896067204755e-05, 0.8818842290643083, closure=5.879284e-4)
     agrees_with_the_judge(scene, [1], 1e-6)
+
+
+def supported(K: float, f_c: float, pin: bool, k: float, load: Load | None = None) -> Scene:
+    """Contact with cutoff on a compliant support."""
+    scene = scene_from_tables(tables(K=K, f_c=f_c, pin=pin, k=k, cutoff=True))
+    return scene if load is None else replace(scene, load=load)
+
+
+def agrees_with_direct_integration(scene: Scene, cycles: list[int], rtol: float) -> None:
+    model, load = bind(scene), scene.periodic_load
+    found = count.wear_after(model, load, np.array(cycles, dtype=float), rtol)
+    want = direct.integrate(model, load, cycles, 1e-9, "DOP853", np.inf)
+    assert np.all(found.error <= rtol)
+    assert np.all(np.abs(found.u_c / want.u - 1) <= found.error + want.error)
+
+
+@pytest.mark.parametrize(
+    ("K", "f_c", "pin", "k"),
+    [
+        (1e-6, 0.25, False, 1e5),
+        (1e-5, 0.25, False, 1e4),  # the contact law is never reached
+        (1e-4, 0.1, False, 1e6),
+        (1e-3, -0.05, False, 1e5),
+        (1e-6, 0.5, False, 1e5),  # contact becomes permanent
+        (1e-5, 0.05, True, 1e5),
+    ],
+)
+def test_on_a_compliant_support_counted_cycles_are_integrated_ones(
+    K: float, f_c: float, pin: bool, k: float
+) -> None:
+    agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 7, 20], 1e-11)
+
+
+@settings(max_examples=5)
+@given(loads(), between(-7, -3), between(-0.2, 1.0), st.booleans(), between(3, 6))
+def test_drawn_compliant_supports_agree_with_direct_integration(
+    load: Load, K: float, f_c: float, pin: bool, k: float
+) -> None:
+    scene = supported(10**K, f_c, pin, 10**k, load)
+    if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
+        agrees_with_direct_integration(scene, [1, 2], 1e-9)
+
+
+@pytest.mark.parametrize("load", [None, Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))])
+def test_on_a_compliant_support_wear_fades(load: Load | None) -> None:
+    """The pressure vanishes with the distance that is left: as d^(3/2) in a cycle at a smooth peak,
+    as d^2 at a sharp one."""
+    scene = supported(1e-5, 0.25, False, 1e5, load)
+    model, acting = bind(scene), scene.periodic_load
+    cycles = np.array([1e4, 4e4, 1e5, 4e5, 1e8, 1e12])
+    found = count.wear_after(model, acting, cycles, 1e-11)
+    assert np.all(found.error <= 1e-11)
+    left = 4 * acting.maximum - found.u_c[:4]
+    power = 2 if load is None else 1
+    assert_allclose(left[::2] / left[1::2], 4.0**power, rtol=0.05)
+    assert found.cost.cycles_integrated <= 1000
+
+
+def test_a_count_on_a_compliant_support_goes_on_from_any_cycle() -> None:
+    """Two hundred cycles, counted and one by one."""
+    scene = supported(1e-5, 0.25, True, 1e5)
+    model, load = bind(scene), scene.periodic_load
+    found = count.wear_after(model, load, np.array([40.0, 240.0]), 1e-12)
+    fine = one_cycle(model, load).resolved(np.empty(0), 30, 1e-16)
+    wear = found.u_c[0]
+    with np.errstate(all="ignore"):  # of a load that does not rise on a stretch
+        for _ in range(200):
+            wear += float(fine.advance(np.array([wear])).increment[0])
+    assert abs(found.u_c[1] / wear - 1) <= found.error[1] + found.error[0] + 1e-14
+
+
+def test_a_trial_state_far_beyond_the_edge_ends_no_iteration() -> None:
+    """Under a falling load the first guess is worn so much that its margin hardly changes."""
+    cosine, sine = (-8.890226218723552e-5, 1.1996065136084995e-4), (7.6918511e-5, -2.62846186e-5)
+    load = Harmonics(3.965692608849733e-5, cosine, sine, 0.06)
+    scene = with_load(load, 4.846613339856077e-4, -0.15365579871590224, closure=6.12588782e-4)
+    agrees_with_the_judge(scene, [1, 2], 1e-6)

@@ -27,16 +27,38 @@ LAYER = 0.25  # of the roughness: wear that changes the pressure by a factor of 
 FLAT = 1e-30  # mm per cycle: a margin that does not change
 
 
+class Stretch(NamedTuple):
+    """Stretches of phase of a cycle, (k,): where each begins, `whole` lengths, and where contact is
+    `expected` to end, as lengths."""
+
+    begin: FloatArray
+    whole: FloatArray
+    expected: FloatArray
+
+
 class Contact(NamedTuple):
     """Contact of one kind under a load: its wear `rate` (mm per cycle) at any wear and displacement
     (mm), and the `level` (mm) of the margin at which it ends, which comes from above if it `falls`;
-    no level if it lasts."""
+    no level if it lasts. The rate may be `proportional` to the margin, and so as inexact."""
 
     model: Model
     load: Load
     rate: Callable[[FloatArray, FloatArray], FloatArray]
     level: float | None = None
     falls: bool = True
+    proportional: bool = False
+
+    def rounding(self, u: FloatArray, over: Stretch) -> FloatArray:
+        """The relative rounding of the largest rate on stretches from wears u (k,)."""
+        if not self.proportional:
+            return np.full(len(u), ROUNDOFF)
+        phase = over.begin[:, None] + over.expected[:, None] * np.array([0.0, 0.5, 1.0])
+        U_a = self.load(phase)
+        terms = self.model.margin_terms(u[:, None], U_a) + np.abs(self.load.slope(phase))
+        terms += max(abs(self.load.minimum), abs(self.load.maximum))
+        terms /= np.abs(self.model.margin(u[:, None], U_a))
+        result: FloatArray = ROUNDOFF * (1.0 + np.min(terms, axis=1))
+        return result
 
     def to_its_end(self, u: FloatArray, phase: FloatArray) -> tuple[FloatArray, FloatArray]:
         """How far it is to the end of contact (cycles) from wears and phases (k,), by a tangent;
@@ -46,19 +68,10 @@ class Contact(NamedTuple):
         U_a = self.load(phase)
         left = sign * (self.model.margin(u, U_a) - self.level)
         widens = self.model.margin_slope(u, U_a) * self.rate(u, U_a)
-        change = sign * (self.load.slope(phase) + widens)
-        falls = np.minimum(change, -FLAT)
-        blur = BLUR * (1.0 - self.model.margin_terms(u, U_a) / falls)
-        return -left / falls, np.where(change < -FLAT, blur, 0.0)
-
-
-class Stretch(NamedTuple):
-    """Stretches of phase of a cycle, (k,): where each begins, `whole` lengths, and where contact is
-    `expected` to end, as lengths."""
-
-    begin: FloatArray
-    whole: FloatArray
-    expected: FloatArray
+        falls = np.minimum(sign * (self.load.slope(phase) + widens), -FLAT)
+        uncertain = BLUR * (self.model.margin_terms(u, U_a) - falls)
+        # Only a margin that is rounding makes the end uncertain: trial states may be far off.
+        return -left / falls, np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
 
 
 class Worn(NamedTuple):
@@ -110,11 +123,13 @@ def worn(
 
 
 class _Part(NamedTuple):
-    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes."""
+    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes and its relative `rounding`
+    (k,)."""
 
     added: FloatArray
     length: FloatArray
     rate: FloatArray
+    rounding: FloatArray
     sound: bool
     evaluations: int
 
@@ -137,7 +152,7 @@ def _is_fine(
     half = series.shape[1] // 2
     middle, tail = (np.max(series[:, k - 3 : k], axis=1) for k in (half, 2 * half))
     left = tail * np.minimum(tail / (middle + TINY), 1.0) ** 2 * part.length
-    left[tail < 100 * ROUNDOFF * np.max(series, axis=1)] = 0.0
+    left[tail < 100 * part.rounding * np.max(series, axis=1)] = 0.0
     roughness = contact.model.fields(u, np.zeros_like(u)).sigma
     skipped = part.length * rule.nodes[0] * np.max(part.rate, axis=1)
     seen = skipped <= LAYER * roughness
@@ -157,7 +172,8 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
         added = length * (rate @ rule.weights)
         fresh = length[:, None] * (rate @ rule.integrate.T)
         apart = np.max(np.abs(fresh - inside), axis=1) / (np.abs(added) + TINY)
-        noise = np.full(len(u), NOISE)
+        rounding = contact.rounding(u, over._replace(expected=length))
+        noise = NOISE / ROUNDOFF * rounding
         if contact.level is not None:
             change, blur = contact.to_its_end(u + added, over.begin + length)
             change = np.clip(length + change, LEAST * length, over.whole) - length
@@ -171,7 +187,7 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
         if done.all() or grows or not np.max(apart) < 1e30:
             break
         last = apart
-    return _Part(added, length, rate, bool(done.all()), evaluations)
+    return _Part(added, length, rate, rounding, bool(done.all()), evaluations)
 
 
 def _has_settled(apart: FloatArray, last: FloatArray, noise: FloatArray) -> BoolArray:

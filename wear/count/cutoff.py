@@ -1,4 +1,4 @@
-"""The one-cycle map with the cutoff and a rigid support.
+"""The one-cycle map with the cutoff. On a compliant support see `wear.count.held`; a rigid one:
 
 Where the load rises, contact starts at a root of U_a = B(u) that is known beforehand; if it is
 lost, the solids slide along the edge (Filippov) to the end of the piece, where the wear is
@@ -16,6 +16,7 @@ from wear.count.collocation import BoolArray, FloatArray, Mesh, mesh
 from wear.count.contact import Contact, Stretch, Worn, worn
 from wear.count.cycle import ROUNDOFF, Advance, Near, OneCycle, drive, first_edges
 from wear.count.edge import Edge, Piece, displacement_at, edge_of_contact, phase_of, wear_at
+from wear.count.held import Support, on_support
 from wear.load import Load
 from wear.model import Model
 
@@ -53,8 +54,9 @@ class CutoffCycle(NamedTuple):
         flat = starts.ravel()
         added = np.zeros(len(flat))
         sound, evaluations = True, 0
+        run_piece = _on_support if self.model.compliant else _run
         for piece in self.edge.pieces:
-            run = _run(self, piece, flat + added, added)
+            run = run_piece(self, piece, flat + added, added)
             added = added + run.added
             sound &= run.sound
             evaluations += run.evaluations
@@ -70,10 +72,10 @@ class CutoffCycle(NamedTuple):
         x = self.over.phases.ravel()
         weights = (self.over.lengths[:, None] * self.over.rule.weights).ravel()
         for piece in self.edge.pieces:
-            active, begin, end = _contact(self, piece, flat)
-            length = end - begin
-            U_a = self.load(begin[:, None] + length[:, None] * x)
-            added[active] += length * (self.rate(flat[active, None], U_a) @ weights)
+            for begin, end in _frozen_contact(self, piece, flat):
+                length = end - begin
+                U_a = self.load(begin[:, None] + length[:, None] * x)
+                added += length * (self.rate(flat[:, None], U_a) @ weights)
         return added.reshape(wear.shape)
 
     def rate(self, u: FloatArray, U_a: FloatArray) -> FloatArray:
@@ -89,6 +91,14 @@ class CutoffCycle(NamedTuple):
         added = self.advance(np.stack([starts, beside])).increment
         factor: FloatArray = np.abs(1 + (added[1] - added[0]) / (beside - starts))
         return factor
+
+    def response(self, added: FloatArray, growth: FloatArray) -> FloatArray:
+        """The response (mm), at most, of cycles that have `added` so much (k,) to a relative error
+        of the rate: what is made early grows by the factor `growth`, but once the wear exceeds the
+        roughness the rate hardly grows any more."""
+        roughness = float(self.model.fields(np.array(0.0), np.array(0.0)).sigma)
+        response: FloatArray = added + np.minimum(added, roughness) * growth
+        return response
 
     def several(self, start: float, number: int) -> Advance:
         """Some cycles on end from wear `start`; increments have shape (number,)."""
@@ -109,7 +119,7 @@ class CutoffCycle(NamedTuple):
 
 def one_cycle(model: Model, load: Load) -> OneCycle:
     """The map of one cycle that a model needs, on a mesh yet to be resolved."""
-    if not model.cutoff or model.compliant:
+    if not model.cutoff:
         return drive(model, load, mesh(first_edges(load), 8))
     whole = mesh(np.array([0.0, 1.0]), 8)
     return CutoffCycle(model, load, edge_of_contact(model, load), whole, 1.0)
@@ -157,3 +167,22 @@ def _contact(
     if piece.rising:
         return active, edge, np.full_like(edge, piece.end)
     return active, np.full_like(edge, piece.begin), edge
+
+
+def _frozen_contact(
+    cycle: CutoffCycle, piece: Piece, wear: FloatArray
+) -> list[tuple[FloatArray, FloatArray]]:
+    """The phases between which each wear (k,), if it stays as it is, makes contact of one kind on a
+    piece: on a compliant support there are two kinds."""
+    begin, end = (np.full_like(wear, phase) for phase in (piece.begin, piece.end))
+    needed = displacement_at(cycle.model, wear)
+    opens, bends = (phase_of(cycle.load, piece, needed + at) for at in (0.0, cycle.edge.held))
+    if piece.rising:
+        return [(opens, bends), (bends, end)]
+    return [(begin, bends), (bends, opens)]
+
+
+def _on_support(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray) -> Worn:
+    """A piece on a compliant support, from each wear (k,)."""
+    support = Support(cycle.model, cycle.load, cycle.edge, cycle.over.rule, cycle.tolerance)
+    return on_support(support, piece, wear, before, touch(cycle.model, cycle.load, wear))

@@ -33,10 +33,12 @@ Function = Callable[[FloatArray], FloatArray]
 
 class Piece(NamedTuple):
     """A part of the cycle on which the load is smooth and does not turn: `phases` from its begin to
-    its end, and the load's `heights` (mm) there."""
+    its end, the load's `heights` (mm) there, and whether load and wear together close contact that
+    is at its edge in the middle of the piece."""
 
     phases: FloatArray
     heights: FloatArray
+    closes: bool
 
     @property
     def begin(self) -> float:
@@ -58,17 +60,16 @@ class Edge(NamedTuple):
     """The edge of contact of a model under a load, and the cycle cut into `pieces`.
 
     The margin falls with wear up to the wear `crest` (mm), and rises beyond; under displacements
-    above `highest` (mm) contact has no edge.
+    above `highest` (mm) contact has no edge. A compliant support holds the contact at its edge
+    until the margin is as large as `held` (mm), zero for a rigid one. Where the displacement that
+    just makes contact is one of those `grazing` (mm), the one-cycle map has a kink.
     """
 
     pieces: tuple[Piece, ...]
     crest: float
     highest: float
-
-    @property
-    def heights(self) -> FloatArray:
-        """Displacements (mm) at the ends of pieces."""
-        return np.unique([piece.heights[i] for piece in self.pieces for i in (0, -1)])
+    held: float
+    grazing: FloatArray
 
     def is_over(self, start: FloatArray, wear: FloatArray, U_a: FloatArray) -> BoolArray:
         """Whether contact from the wear `start` has come to wear at which it closes anew, on the
@@ -78,17 +79,22 @@ class Edge(NamedTuple):
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
-    """The edge of contact of a model with cutoff on a rigid support."""
-    crest = _crest(model)
+    """The edge of contact of a model with cutoff."""
+    crest, held = _crest(model), model.held
     turns = turning_points(load)
     highest = float(displacement_at(model, np.array(crest))) if np.isfinite(crest) else np.inf
     low, high = turns[:-1], turns[1:]
-    over = (load(low) < highest) != (load(high) < highest)
-    appears = _bisected(lambda phase: load(phase) - highest, low[over], high[over])
-    cuts = np.unique(np.concatenate([turns, appears, _closings(model, load, crest, turns)]))
+    top = highest + held
+    over = (load(low) < top) != (load(high) < top)
+    appears = _bisected(lambda phase: load(phase) - top, low[over], high[over])
+    pull = _pull(model, load, crest, held)
+    cuts = np.unique(np.concatenate([turns, appears, _closings(pull, turns, model.compliant)]))
     inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
     phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
-    return Edge(tuple(map(Piece, phases, load(phases))), crest, highest)
+    closes = pull(phases[:, PIECE_SAMPLES // 2]) >= 0.0
+    pieces = tuple(map(Piece, phases, load(phases), closes.tolist()))
+    grazing = np.unique(np.concatenate([load(cuts) - held, load(turns)]))
+    return Edge(pieces, crest, highest, held, grazing)
 
 
 def turning_points(load: Load) -> FloatArray:
@@ -100,20 +106,26 @@ def turning_points(load: Load) -> FloatArray:
     return np.unique(np.concatenate([cuts, _bisected(load.slope, low[turns], high[turns])]))
 
 
-def _closings(model: Model, load: Load, crest: float, turns: FloatArray) -> FloatArray:
-    """The phases at which the load starts to close contact at its edge, between two turns."""
+def _pull(model: Model, load: Load, crest: float, held: float) -> Function:
+    """How fast contact at its edge closes at each phase, in mm per cycle."""
 
     def pull(phase: FloatArray) -> FloatArray:
         U_a, speed = load(phase), load.slope(phase)
-        wear = wear_at(model, U_a, np.zeros_like(U_a), 0.0, crest)
+        wear = wear_at(model, U_a - held, np.zeros_like(U_a), 0.0, crest)
         if np.isfinite(crest):
             scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
-            worn = wear_at(model, U_a, np.full_like(U_a, FAR * scale), crest, np.inf)
+            worn = wear_at(model, U_a - held, np.full_like(U_a, FAR * scale), crest, np.inf)
             wear = np.where(speed < 0.0, worn, wear)
-        opening = model.margin_slope(wear, U_a) * load.period * model.rate(wear, U_a)
+        opening = model.margin_slope(wear, U_a) * load.period * model.law_rate(wear, U_a)
         result: FloatArray = speed + opening
         return result
 
+    return pull
+
+
+def _closings(pull: Function, turns: FloatArray, both: bool) -> FloatArray:
+    """The phases at which the load starts to close contact at its edge, between two turns; if
+    `both`, also those at which it ceases to."""
     number = max(2, SAMPLES // len(turns))
     inside = (1 - np.cos(np.pi * np.arange(number + 1) / number)) / 2
     inside[0], inside[-1] = NEARLY, 1 - NEARLY
@@ -121,8 +133,11 @@ def _closings(model: Model, load: Load, crest: float, turns: FloatArray) -> Floa
     phases = np.unique(np.concatenate([phases, _extremes(pull, phases)]))
     value = pull(phases)
     same = np.diff(np.searchsorted(turns, phases)) == 0
-    rises = (value[:-1] < 0.0) & (value[1:] >= 0.0) & same
-    return _bisected(pull, phases[:-1][rises], phases[1:][rises], FEW_BISECTIONS)
+    turned = (value[:-1] < 0.0) & (value[1:] >= 0.0)
+    if both:
+        turned |= (value[:-1] >= 0.0) & (value[1:] < 0.0)
+    turned &= same
+    return _bisected(pull, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)
 
 
 def _extremes(function: Function, x: FloatArray) -> FloatArray:

@@ -13,14 +13,15 @@ from wear.model import Model
 
 
 def kinks(cycle: CutoffCycle, shift: float) -> FloatArray:
-    """Wear (mm) at which the edge of contact passes an end of a piece, rising.
+    """Wear (mm), rising, at which the edge of contact passes an end of a piece; on a compliant
+    support also that at which the bend of the rate does.
 
     Where the margin is hardly more than its own rounding, the map does not feel the kink.
     """
     wear = shift * np.expm1(np.linspace(0.0, 40.0, 400))
     blur = touch(cycle.model, cycle.load, wear)
     found = []
-    for height in cycle.edge.heights:
+    for height in cycle.edge.grazing:
         margin = cycle.model.margin(wear, np.full_like(wear, height))
         told = np.abs(margin) > blur
         crossed = np.sign(margin[:-1]) * np.sign(margin[1:]) < 0
@@ -55,8 +56,10 @@ def rest_of(model: Model, load: Load, wear: float) -> Rest | None:
 def fades(cycle: CutoffCycle, rest: float) -> bool:
     """Whether wear only tends to `rest` (mm), at which the peak of the load just fails to make
     contact: each cycle leaves a part of the distance if the peak is so sharp that contact does not
-    slide along its edge."""
+    slide along its edge, or if the pressure vanishes along with the distance."""
     model, load = cycle.model, cycle.load
+    if model.compliant:
+        return True
     worn, peak = np.array(rest), np.array(load.maximum)
     opens = -float(model.margin_slope(worn, peak) * cycle.rate(worn, peak))
     top = load.maximum - float(touch(model, load, worn))

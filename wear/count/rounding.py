@@ -15,9 +15,13 @@ def roundoff(model: Model, load: Load, wear: FloatArray) -> FloatArray:
     """Relative error by rounding of the rate at the peak of the load, and of where contact ends."""
     peak = np.full_like(wear, load.maximum)
     error = roundoff_of(model, peak, wear)
-    if model.cutoff and not model.compliant:
-        terms = model.margin_terms(wear, peak)
-        error += np.minimum(ROUNDOFF * terms / (np.abs(model.margin(wear, peak)) + TINY), 1e-9)
+    if model.cutoff:
+        margin, terms = model.margin(wear, peak), model.margin_terms(wear, peak)
+        if model.compliant:
+            # The pressure vanishes with the margin, and no steepness can be taken there.
+            told = margin > 2 * APART * model.fields(wear, peak).sigma
+            error = np.where(told, error, 8 * ROUNDOFF)
+        error += np.minimum(ROUNDOFF * terms / (np.abs(margin) + TINY), 1e-9)
     return error
 
 

@@ -46,6 +46,8 @@ def counted_stages(
     now = Now(0.0, start, 0.0, 0.0)
     while len(done) < MOST_STAGES and time.monotonic() <= deadline:
         stage = _next_stage(way, now, cycles - now.cycles)
+        if stage is None:
+            break
         done.append(stage)
         cost = cost.plus(*stage.counted.cost)
         beyond = stage.begins + stage.ran
@@ -58,6 +60,8 @@ def counted_stages(
             return Stages(tuple(done), ended, at_rest, cost)
         after, relative = stage.wear_after(np.array([beyond]))
         now = Now(beyond, float(after[0]), float(relative[0] * after[0]), stage.drift)
+        if not now.missed < np.inf:
+            break
     return Stages(tuple(done), False, np.inf, cost)
 
 
@@ -105,14 +109,16 @@ def _way(cycle: CutoffCycle, rtol: float, deadline: float) -> Way:
     return Way(exact, grazing, rest, end, shift, rtol, deadline)
 
 
-def _next_stage(way: Way, now: Now, cycles: float) -> Stage:
-    """The stage from `now` on, for `cycles` more: on panels towards the next kink, or near it."""
+def _next_stage(way: Way, now: Now, cycles: float) -> Stage | None:
+    """The stage from `now` on, for `cycles` more: on panels towards the next kink, or near it;
+    None if nothing more can be told."""
     wear = now.wear
     target = min((kink for kink in way.kinks if kink > wear * (1 + 8 * ROUNDOFF)), default=way.end)
     if way.rest is not None and target == way.rest.wear:
         limit = way.rest.wear - NEAR_REST * way.shift
         if wear >= limit:
-            return now.stage(_towards(way, way.rest, wear, cycles))
+            towards = _towards(way, way.rest, wear, cycles)
+            return now.stage(towards) if towards else None
         target = limit
     else:
         limit = _panels_until(way.exact, wear, target) if target < way.end else way.end
@@ -146,8 +152,8 @@ def _one_by_one(way: Way, wear: float, target: float, cycles: float) -> CycleCou
     return CycleCount(run.wear, error, None, None, NONE, run.over, way.end, run.cost)
 
 
-def _towards(way: Way, rest: Rest, wear: float, cycles: float) -> CycleCount | Tail:
-    """The count near the `rest`: a tail, or the cycles before it."""
+def _towards(way: Way, rest: Rest, wear: float, cycles: float) -> CycleCount | Tail | None:
+    """The count near the `rest`: a tail, or the cycles before it; None if it cannot be solved."""
     begin = begins_at(way.exact, rest, wear)
     if begin > wear * (1 + 8 * ROUNDOFF):
         return _one_by_one(way, wear, begin, cycles)

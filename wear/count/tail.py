@@ -115,13 +115,17 @@ def begins_at(cycle: OneCycle, rest: Rest, wear: float) -> float:
     return rest.wear - float(distance[np.argmax(calm) if calm.any() else -1])
 
 
-def tail(both: Maps, model: Model, load: Load, rest: Rest, wear: float, size: Settings) -> Tail:
-    """Count from `wear` (mm) towards the rest."""
+def tail(
+    both: Maps, model: Model, load: Load, rest: Rest, wear: float, size: Settings
+) -> Tail | None:
+    """Count from `wear` (mm) towards the rest; None if a cycle could not be solved on the way."""
     distance = rest.wear - wear
     number = int(np.ceil(np.log(distance / rest.nearest) / WIDEST))
     ends = np.geomspace(1 / distance, 1 / rest.nearest, max(number, 0) + 1)
     solved, cost = _solved(both, rest, ends[:-1], ends[1:], size)
     line, bend = _line(both.coarse, rest, solved, min(distance, rest.nearest))
+    if not np.isfinite(bend):
+        return None
     panels = _joined(solved, line)
     table = abel.count(panels, 0.0)
     parts = len(table.length) // len(panels.starts)
@@ -181,13 +185,13 @@ def _line(
     else:
         steps, _ = _steps(cycle, rest, at)
         before, level = -np.log(np.log1p(steps / at))
-    slope = np.clip(round(2 * float(level - before)) / 2, 0.0, 1.0)
+    slope = np.clip(np.round(2 * (level - before)) / 2, 0.0, 1.0)
     width = np.log(distance / (TO_ROUNDOFF * rest.wear))
     series = np.zeros((1, max(2, solved.series.shape[1])))
     # The series is that of ln(dn/dU), U = 1/d.
     series[0, :2] = level + np.log(distance) + (slope - 1) * width / 2, (slope - 1) * width / 2
     panel = abel.Panels(0.0, np.array([1 / distance]), np.array([width]), series)
-    return panel, abs(float(level - before) - slope)
+    return panel, float(abs(level - before - slope))
 
 
 def _joined(solved: Solved, line: abel.Panels) -> abel.Panels:
