@@ -145,6 +145,8 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
     elif isinstance(at, Drive):
         growth = growth_of(at, starts[:, None, None], run.inside)
     response = run.increment * np.maximum(growth, 1.0)
+    if isinstance(at, CutoffCycle):
+        response = at.response(run.increment, growth)
     cost = exact.cost.plus(2 * BLOCK, evaluations)
     return exact.then(Each(run.increment, missed, growth, response), over, cost)
 
