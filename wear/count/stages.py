@@ -44,10 +44,8 @@ def counted_stages(
     way, cost = _way(cycle, rtol, deadline), Cost(0, 0)
     done: list[Stage] = []
     now = Now(0.0, start, 0.0, 0.0)
-    while len(done) < MOST_STAGES and time.monotonic() <= deadline:
+    while len(done) < MOST_STAGES:
         stage = _next_stage(way, now, cycles - now.cycles)
-        if stage is None:
-            break
         done.append(stage)
         cost = cost.plus(*stage.counted.cost)
         beyond = stage.begins + stage.ran
@@ -60,7 +58,7 @@ def counted_stages(
             return Stages(tuple(done), ended, at_rest, cost)
         after, relative = stage.wear_after(np.array([beyond]))
         now = Now(beyond, float(after[0]), float(relative[0] * after[0]), stage.drift)
-        if not now.missed < np.inf:
+        if not now.missed < np.inf or time.monotonic() > deadline:
             break
     return Stages(tuple(done), False, np.inf, cost)
 
@@ -109,16 +107,15 @@ def _way(cycle: CutoffCycle, rtol: float, deadline: float) -> Way:
     return Way(exact, grazing, rest, end, shift, rtol, deadline)
 
 
-def _next_stage(way: Way, now: Now, cycles: float) -> Stage | None:
-    """The stage from `now` on, for `cycles` more: on panels towards the next kink, or near it;
-    None if nothing more can be told."""
+def _next_stage(way: Way, now: Now, cycles: float) -> Stage:
+    """The stage from `now` on, for `cycles` more: on panels towards the next kink, or near it."""
     wear = now.wear
     target = min((kink for kink in way.kinks if kink > wear * (1 + 8 * ROUNDOFF)), default=way.end)
     if way.rest is not None and target == way.rest.wear:
         limit = way.rest.wear - NEAR_REST * way.shift
         if wear >= limit:
             towards = _towards(way, way.rest, wear, cycles)
-            return now.stage(towards) if towards else None
+            return now.stage(towards or _one_by_one(way, wear, wear, cycles))
         target = limit
     else:
         limit = _panels_until(way.exact, wear, target) if target < way.end else way.end
