@@ -37,6 +37,11 @@ class Material:
         """The equations of these ids with their derivations."""
         return tuple(block for identifier in identifiers for block in self.shown[identifier])
 
+    def value(self, identifier: str, **data: float) -> float:
+        """The right-hand side of an equation for numbers, by the names of its symbols."""
+        formula = next(one for one in self.equations if one.id == identifier).relation.rhs
+        return float(formula.subs({symbol: data[symbol.name] for symbol in formula.free_symbols}))
+
     def verdicts(self, verdict: str) -> int:
         """How many claims have a verdict."""
         return sum(str(entry.finding.verdict) == verdict for entry in self.ledger)

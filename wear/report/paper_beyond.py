@@ -132,15 +132,17 @@ def _remark(material: Material, name: str) -> tuple[Block, ...]:
     runs = material.runs
     if name == "sensitivities":
         fate, scene = runs.fate("section4"), runs.cases["section4"].scene
-        slope = scene.bearing.roughness_slope
-        share = known(fate.pressure_MPa) / scene.contact.max_pressure_MPa
+        elasticity = material.value(
+            "elasticity-slope",
+            f_c=scene.bearing.roughness_slope,
+            p_inf=known(fate.pressure_MPa),
+            p_max=scene.contact.max_pressure_MPa,
+        )
         return (
             paragraph(
                 "With the data of the note's application a small relative change of $f_c$ changes "
                 "the wear per cycle {elasticity} times as much ([eq:elasticity-slope]).",
-                elasticity=Number(
-                    4.0 / slope * (1.0 - share), 5, source="elasticity of u_cum in f_c, section 4"
-                ),
+                elasticity=Number(elasticity, 5, source="elasticity of u_cum in f_c, section 4"),
             ),
         )
     if name == "bounds":
