@@ -193,6 +193,29 @@ def test_first_cycles_of_wear_that_hardly_begins(rtol: float) -> None:
     assert np.all(found.error <= 2e-13)
 
 
+def test_wear_that_takes_off_is_counted_at_any_tolerance() -> None:
+    """At 1e-7 the count misses some cycles out of 1e10, in which wear grows by orders."""
+    made_of = tables(K=5.096972882898533e-06, f_c=1.056636711408052, pin=True, k=35224.4)
+    made_of["bearing"]["roughness_mm"] = 2.8539698403150086e-4
+    made_of["contact"] = {
+        "max_pressure_MPa": 300.0,
+        "closure_mm": 2.5526657220867523e-3,
+        "cutoff": False,
+    }
+    made_of["load"] = {
+        "kind": "harmonics",
+        "mean_mm": 5.55e-08,
+        "cosine_mm": [4.0584e-06],
+        "sine_mm": [1.07589e-05, 1.11523e-06],
+        "period_s": 0.06,
+    }
+    scene = scene_from_tables(made_of, "takes off")
+    cycles = np.array([9.0, 1e6, 1e12])
+    loose, tight = (counted(scene, cycles, rtol) for rtol in (1e-7, 1e-12))
+    assert np.all(loose.error <= 1e-7)
+    assert np.all(np.abs(loose.u_c / tight.u_c - 1) <= loose.error + tight.error)
+
+
 LARGE_SWING = made({}, load={"kind": "sine", "amplitude_mm": 5e-3, "period_s": 0.06})
 
 

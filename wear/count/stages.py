@@ -28,6 +28,7 @@ AHEAD = 30.0  # cycles before a kink that are integrated one by one
 GRAIN = 1e6  # roundoffs of the wear that the way to a kink may shrink to
 NEAR_REST = 0.1  # of the wear that changes the pressure: where a tail may begin
 MOST_STAGES = 40
+TIGHT = 1e-12
 
 
 @np.errstate(all="ignore")
@@ -182,6 +183,10 @@ def _smooth_stages(
         after, relative = evaluate(counted, np.array([ran]))
         begins, wear = begins + ran, float(after[0])
         missed = float(relative[0]) * wear
+        if not missed < np.inf and rtol > TIGHT:
+            # Where wear takes off, a small error of the count is a large one of the wear.
+            again = _smooth_stages(model, load, cycles, TIGHT, start, deadline)
+            return again._replace(cost=again.cost.plus(*cost))
         if not missed < np.inf:
             return Stages(tuple(done), False, np.inf, cost)
 
