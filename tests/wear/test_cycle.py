@@ -6,7 +6,8 @@ from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import REFERENCE, reference_scene
 from wear.count.collocation import mesh
-from wear.count.cycle import Drive, Near, drive, resolve
+from wear.count.cycle import Drive, drive, resolve
+from wear.count.iteration import Near
 from wear.model import bind
 
 

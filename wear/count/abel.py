@@ -8,14 +8,12 @@ See docs/method.md.
 """
 
 import math
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from wear.count.collocation import (
     FloatArray,
-    IntArray,
     chebyshev_analysis,
     chebyshev_nodes,
     chebyshev_values,
@@ -26,10 +24,6 @@ ACROSS_A_CYCLE = 6  # Gauss nodes where the density changes by less than a facto
 ACROSS_A_FAST_CYCLE = 12  # good to rounding for a factor of 1e3
 MOST_ITERATIONS = 30
 STEADY = 0.3  # change of ln(density) after which Newton's method goes on with the same slope
-PART_NODES = 16  # for n(u) and its inverse, on each part of a panel
-PART_SERIES = 4  # coefficients of the panel's series to each part, at most
-PART_GROWTH = 1.2  # of the logarithm of the density within a part, at most
-MOST_PARTS = 400
 
 WHOLE = np.ones(1)  # a cycle
 
@@ -67,19 +61,19 @@ def panel_wear(shift: Shift, starts: FloatArray, across: FloatArray, t: FloatArr
     Written so that wear much smaller than the shift keeps its digits. Of wear much larger only the
     position is exact, which is all that a series in x feels.
     """
-    y = _way(shift, across, t)
+    y = way(shift, across, t)
     wear: FloatArray = starts[:, None] + (starts + shift)[:, None] * np.expm1(y)
     return wear
 
 
-def _folded(shift: Shift, y: FloatArray) -> FloatArray:
+def folded(shift: Shift, y: FloatArray) -> FloatArray:
     """The coordinate x of y."""
     return y if _without_scale(shift) else -np.expm1(-y)
 
 
-def _way(shift: Shift, across: FloatArray, t: FloatArray) -> FloatArray:
+def way(shift: Shift, across: FloatArray, t: FloatArray) -> FloatArray:
     """The y from the start of each panel at the positions `t` (k,), (panels, k)."""
-    x = _folded(shift, across)[:, None] * ((t + 1) / 2)
+    x = folded(shift, across)[:, None] * ((t + 1) / 2)
     y: FloatArray = x if _without_scale(shift) else -np.log1p(-x)
     return y
 
@@ -91,7 +85,7 @@ def _without_scale(shift: Shift) -> bool:
 def positions(shift: Shift, start: FloatArray, across: FloatArray, wear: FloatArray) -> FloatArray:
     """The positions t in [-1, 1] of `wear` (mm) on one panel, or each on its own."""
     y = np.log1p((wear - start) / (start + shift))
-    result: FloatArray = 2 * _folded(shift, y) / _folded(shift, across) - 1
+    result: FloatArray = 2 * folded(shift, y) / folded(shift, across) - 1
     return result
 
 
@@ -142,9 +136,9 @@ def reach(
 ) -> FloatArray:
     """How far in t the parts `within` (n,) of a cycle go from the positions `t` (k,) of each panel,
     (panels, k, n), if the cycle adds `increments` (panels, k) mm."""
-    left = np.exp(-_way(shift, across, t))
+    left = np.exp(-way(shift, across, t))
     part = (left * increments / (starts + shift)[:, None])[..., None] * within
-    step = _folded(shift, np.log1p(part)) * (2 / _folded(shift, across))[:, None, None]
+    step = folded(shift, np.log1p(part)) * (2 / folded(shift, across))[:, None, None]
     if _without_scale(shift):
         return step
     step *= left[..., None]
@@ -188,7 +182,7 @@ def residual(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArra
     steps = reach(panels.shift, panels.starts, panels.widths, t, increments, rule.nodes)
     basis = _within(t, steps, panels.series.shape[1])
     with np.errstate(all="ignore"):  # of a panel far too wide: infinite or no number
-        level, shape = _level_and_shape(panels.series)
+        level, shape = level_and_shape(panels.series)
         cycles = _density(shape, basis, (level * increments)[..., None] * rule.weights)[1]
         result: FloatArray = np.log(cycles)
     return result
@@ -203,171 +197,21 @@ def junctions(before: Panels, after: Panels) -> FloatArray:
     """
     m = before.series.shape[1]
     rule = gauss(ACROSS_A_FAST_CYCLE)
-    level, shape = _level_and_shape(after.series)
+    level, shape = level_and_shape(after.series)
     steps = np.exp(-shape @ chebyshev_values(np.array([-1.0]), m).T) / level
     apart = np.zeros((len(steps), len(rule.nodes)))
     for side, t in ((before, 1.0), (after, -1.0)):
         at = np.array([t])
         basis = _within(at, reach(side.shift, side.starts, side.widths, at, steps, rule.nodes), m)
-        level, shape = _level_and_shape(side.series)
+        level, shape = level_and_shape(side.series)
         apart += t * _density(shape, basis, (level * steps)[..., None])[0][:, 0]
     result: FloatArray = np.max(np.abs(apart @ rule.integrate.T), axis=1)
     return result
 
 
-class Count(NamedTuple):
-    """n(u) and its inverse on consecutive parts of panels; all arrays run along the parts.
-
-    `wear` u (mm), `offset` u + shift (mm) and `cycles` n where a part starts; its `length` in
-    y = ln(u + shift), its `gain` in n, and what n may have `missed` within; `series` (q, 2, parts):
-    coefficients of the powers of z of dn/dx and of the bend of n, see `_part_values`, where x goes
-    from 0 to 1 on the part and x = (z + 1)/2.
-    Every part counts from its own start, so that neither n nor u loses digits to a difference.
-    """
-
-    wear: FloatArray
-    offset: FloatArray
-    cycles: FloatArray
-    length: FloatArray
-    gain: FloatArray
-    missed: FloatArray
-    series: FloatArray
-
-    @property
-    def last_cycles(self) -> float:
-        """n where the last part ends."""
-        return float(self.cycles[-1] + self.gain[-1])
-
-    @property
-    def last_wear(self) -> float:
-        """u (mm) where the last part ends."""
-        return float(self.wear[-1] + self.offset[-1] * np.expm1(self.length[-1]))
-
-
-def count(panels: Panels, first: float) -> Count:
-    """Integrate the density; n is `first` at the start of the first panel."""
-    rule, edges = gauss(PART_NODES), _part_edges(panels)
-    length = np.diff(edges, axis=1)
-    y = (edges[:, :-1, None] + length[..., None] * rule.nodes).reshape(len(edges), -1)
-    whole = _folded(panels.shift, panels.widths)[:, None]
-    t = 2 * _folded(panels.shift, y) / whole - 1
-    level, shape = _level_and_shape(panels.series)
-    basis = chebyshev_values(t, panels.series.shape[1])
-    offset = (panels.starts + panels.shift)[:, None]
-    density = level * offset * np.exp((basis @ shape[..., None])[..., 0] + y)
-    density = density.reshape(-1, PART_NODES) * length.reshape(-1, 1)
-    gain = density @ rule.weights
-    cycles = first + np.concatenate([[0.0], np.cumsum(gain[:-1])])
-    y = edges[:, :-1]
-    wear, offset = panels.starts[:, None] + offset * np.expm1(y), offset * np.exp(y)
-    # By Legendre coefficients: the high ones are small, and so are the powers they turn to.
-    legendre = rule.coefficients @ density.T
-    missed = np.max(np.abs(legendre[-2:]), axis=0)
-    series = np.moveaxis(_powers(PART_NODES) @ legendre, 0, 1)
-    return Count(wear.ravel(), offset.ravel(), cycles, length.ravel(), gain, missed, series)
-
-
-def _part_edges(panels: Panels) -> FloatArray:
-    """Where to cut every panel, in y from its start, (panels, parts + 1): into parts on which few
-    coefficients of its series count and the density dn/dy grows little."""
-    m = panels.series.shape[1]
-    t, taken, basis = _with_ends(m)
-    y = _way(panels.shift, panels.widths, t)
-    y[:, -1] = panels.widths
-    growth = np.abs(np.diff(panels.series @ basis.T + y, axis=1)) / PART_GROWTH
-    growth = np.nan_to_num(np.minimum(growth, MOST_PARTS), nan=0.0)
-    wanted = np.concatenate([np.zeros((len(y), 1)), np.cumsum(growth, axis=1)], axis=1)
-    wanted += taken / PART_SERIES
-    parts = min(int(np.ceil(np.max(wanted[:, -1]))), MOST_PARTS)
-    share = np.arange(parts + 1) / parts
-    rows = [np.interp(share * row[-1], row, at) for row, at in zip(wanted, y, strict=True)]
-    return np.array(rows)
-
-
-@lru_cache(maxsize=4)
-def _with_ends(m: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The Chebyshev nodes and the ends of a panel (m + 2,), how many of m coefficients it takes to
-    resolve a function from the start up to there, and the polynomials there (m + 2, m)."""
-    t = np.concatenate([[-1.0], chebyshev_nodes(m), [1.0]])
-    return t, np.concatenate([[0.0], np.arange(m) + 0.5, [float(m)]]), chebyshev_values(t, m)
-
-
-def _level_and_shape(series: FloatArray) -> tuple[FloatArray, FloatArray]:
+def level_and_shape(series: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The mean level of the density (panels, 1) and the series of the logarithm less it: a large
     constant would cost the logarithm its last digits."""
     shape = series.copy()
     shape[:, 0] = 0.0
     return np.exp(series[:, :1]), shape
-
-
-@lru_cache(maxsize=4)
-def _powers(m: int) -> FloatArray:
-    """From Legendre coefficients of a density to coefficients of powers, of the density and of its
-    bend: shape (2, m, m)."""
-    legendre = np.polynomial.legendre
-    matrix = np.zeros((2, m, m))
-    for k, unit in enumerate(np.eye(m)):
-        matrix[0, : k + 1, k] = legendre.leg2poly(unit[: k + 1])
-        if k > 0:
-            matrix[1, :k, k] = legendre.leg2poly(legendre.legder(unit[: k + 1])) / (k * (k + 1))
-    return matrix
-
-
-def _part_values(
-    series: FloatArray, gain: FloatArray, x: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Density dn/dx and its integral from 0, at `x` (n,) in [0, 1] of parts with these series.
-
-    The integral of P_k from -1 is (z^2 - 1) P_k'(z)/(k (k + 1)), here with z^2 - 1 = -4 x (1 - x):
-    a part may hold 1e9 cycles, of which the first few are to keep their digits. The bend is the sum
-    of the coefficients times P_k'/(k (k + 1)).
-    """
-    z = 2 * x - 1
-    values = series[-1] * z
-    for coefficients in series[-2:0:-1]:
-        values += coefficients
-        values *= z
-    density, bend = values + series[0]
-    return density, x * (gain - 2 * (1 - x) * bend)
-
-
-def part_of(begins: FloatArray, at: FloatArray) -> IntArray:
-    """The part that each value lies in, or the nearest."""
-    return np.clip(np.searchsorted(begins, at, side="right") - 1, 0, len(begins) - 1)
-
-
-def wear_after(table: Count, cycles: FloatArray, part: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Wear u (mm) after `cycles`, each inside its `part`, and du/dn (mm per cycle)."""
-    series = table.series[..., part]
-    wanted = cycles - table.cycles[part]
-    # A density that grows exponentially from one end of the part to the other is close.
-    gain = table.gain[part]
-    growth = 2 * series[1, 0] / gain
-    growth = np.where(np.abs(growth) < 1e-6, 1e-6, growth)
-    x = np.log1p(np.clip(wanted / gain, 0.0, 1.0) * np.expm1(growth)) / growth
-    for _ in range(20):
-        density, total = _part_values(series, gain, x)
-        change = (wanted - total) / density
-        x = np.clip(x + change, 0.0, 1.0)
-        if not np.any(np.abs(change) > 1e-8 * x):  # Newton: the next change would be its square
-            break
-    offset, length = table.offset[part], table.length[part]
-    wear = table.wear[part] + offset * np.expm1(length * x)
-    return wear, length * offset * np.exp(length * x) / density
-
-
-def first_pace(table: Count) -> FloatArray:
-    """du/dn (mm per cycle) where each part starts."""
-    even, odd = table.series[::2, 0], table.series[1::2, 0]
-    density = np.sum(even, axis=0) - np.sum(odd, axis=0)  # at z = -1
-    pace: FloatArray = table.length * table.offset / density
-    return pace
-
-
-def cycles_until(table: Count, wear: FloatArray) -> FloatArray:
-    """The count n(u), a real number, for wear (mm) inside the range of the table."""
-    part = part_of(table.wear, wear)
-    x = np.log1p((wear - table.wear[part]) / table.offset[part]) / table.length[part]
-    _, total = _part_values(table.series[..., part], table.gain[part], x)
-    result: FloatArray = table.cycles[part] + total
-    return result

@@ -10,13 +10,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count import abel
+from wear.count import abel, tabulated
+from wear.count.arithmetic import ROUNDOFF
 from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import one_cycle
-from wear.count.cycle import ROUNDOFF, Cost, OneCycle, Settings, refined, settings
+from wear.count.cycle import Cost, OneCycle, Settings, settings
 from wear.count.first import Opening, fresh, opening
 from wear.count.panels import NONE, SAFETY, Maps, Solved, fill
 from wear.count.request import Request
+from wear.count.resolution import refined
 from wear.count.rounding import roundoff
 from wear.count.scan import SHIFT, roughness_limit, roughness_scale, scan
 from wear.faults import UsageError
@@ -38,7 +40,7 @@ class CycleCount(NamedTuple):
 
     first: FloatArray
     first_error: FloatArray
-    table: abel.Count | None
+    table: tabulated.Count | None
     panels: abel.Panels | None
     count_error: FloatArray
     over: Mesh  # of phase, on which all this was found
@@ -158,11 +160,11 @@ def exact_error(model: Model, load: Load, exact: Opening, begun_with: float = 0.
 
 def judged(
     model: Model, load: Load, first: Opening, begun_with: float, solved: Solved, shift: float
-) -> tuple[abel.Count, FloatArray]:
+) -> tuple[tabulated.Count, FloatArray]:
     """The count on panels and its error (cycles) where each part starts and where the last ends:
     of the wear (mm) it begins with, of the density, at junctions, by rounding."""
     panels = solved.panels(shift)
-    table = abel.count(panels, float(first.cycles))
+    table = tabulated.count(panels, float(first.cycles))
     parts = len(table.length) // len(panels.starts)
     missed = SAFETY * np.repeat(solved.residual, parts) * table.gain + table.missed
     if len(panels.starts) > 1:
@@ -172,7 +174,7 @@ def judged(
     terms = np.sum(np.abs(solved.series), axis=1)  # of the logarithm of the density
     of_density = ROUNDOFF * np.repeat(terms, parts)
     missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
-    begun = begun_with / abel.first_pace(table)[0]
+    begun = begun_with / tabulated.first_pace(table)[0]
     return table, begun + np.concatenate([[0.0], np.cumsum(missed)])
 
 
@@ -184,7 +186,7 @@ def evaluate(counted: CycleCount, cycles: FloatArray) -> tuple[FloatArray, Float
     table = counted.table
     if table is not None and not early.all():
         late = cycles[~early]
-        wear[~early], pace = abel.wear_after(table, late, abel.part_of(table.cycles, late))
+        wear[~early], pace = tabulated.wear_after(table, late)
         ends = np.append(table.cycles, table.last_cycles)
         error[~early] = pace * np.interp(late, ends, counted.count_error)
     error = error / np.where(wear > 0, wear, 1.0)
@@ -206,7 +208,7 @@ def until(counted: CycleCount, wear: FloatArray) -> tuple[FloatArray, FloatArray
     table = counted.table
     within = late & (wear <= counted.last_wear)
     if table is not None and within.any():
-        found = abel.cycles_until(table, wear[within])
+        found = tabulated.cycles_until(table, wear[within])
         ends = np.append(table.cycles, table.last_cycles)
         missed = np.interp(found, ends, counted.count_error)
         count[within] = np.ceil(found - missed)

@@ -12,8 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.collocation import BoolArray, FloatArray, Gauss
-from wear.count.cycle import NOISE, PATIENCE, ROUNDOFF, TINY
+from wear.count.iteration import NOISE, PATIENCE
 from wear.load import Load
 from wear.model import Model
 

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count import abel
+from wear.count import abel, tabulated
+from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.build import CycleCount
 from wear.count.collocation import (
     BoolArray,
@@ -20,18 +21,10 @@ from wear.count.collocation import (
     integral,
     mesh,
 )
-from wear.count.cycle import (
-    MOST_INTERVALS,
-    ROUNDOFF,
-    TINY,
-    Advance,
-    Drive,
-    Settings,
-    drive,
-    refined,
-    settings,
-)
+from wear.count.cycle import MOST_INTERVALS, Drive, Settings, drive, settings
+from wear.count.iteration import Advance
 from wear.count.panels import CHECKS, NONE, SAFETY
+from wear.count.resolution import refined
 from wear.count.rounding import roundoff
 from wear.count.scan import SHIFT, halves, roughness_scale
 from wear.load import Load
@@ -102,7 +95,7 @@ class Course(NamedTuple):
         panels = self.panels
         if len(panels.starts):  # else no cycle adds anything any more
             across = abel.widths(self.shift, panels.starts, panels.ends)
-            panel = np.where(early, -1, abel.part_of(panels.starts, starts))
+            panel = np.where(early, -1, tabulated.part_of(panels.starts, starts))
             for p in np.unique(panel[~early]):
                 chosen = panel == p
                 t = abel.positions(self.shift, panels.starts[p], across[p], starts[chosen])

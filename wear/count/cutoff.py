@@ -12,11 +12,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.count.arithmetic import ROUNDOFF
 from wear.count.collocation import BoolArray, FloatArray, Mesh, mesh
 from wear.count.contact import Contact, Stretch, Worn, worn
-from wear.count.cycle import ROUNDOFF, Advance, Near, OneCycle, drive, first_edges
+from wear.count.cycle import OneCycle, drive
 from wear.count.edge import Edge, Piece, displacement_at, edge_of_contact, phase_of, wear_at
 from wear.count.held import Support, on_support
+from wear.count.iteration import Advance, Near
+from wear.count.resolution import first_edges
 from wear.load import Load
 from wear.model import Model
 

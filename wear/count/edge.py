@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.count.arithmetic import ROUNDOFF
 from wear.count.collocation import BoolArray, FloatArray
-from wear.count.cycle import ROUNDOFF
 from wear.load import Load
 from wear.model import Model
 

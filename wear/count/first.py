@@ -6,9 +6,10 @@ import numpy as np
 
 from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import CutoffCycle
-from wear.count.cycle import Cost, Drive, OneCycle, Settings, refined, unresolved
+from wear.count.cycle import Cost, Drive, OneCycle, Settings
 from wear.count.march import growth_of, march, overlooked
 from wear.count.request import Request
+from wear.count.resolution import refined, unresolved
 from wear.count.scan import SHIFT, plan_panels, scan
 
 BLOCK = 5  # cycles integrated at once

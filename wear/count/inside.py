@@ -5,12 +5,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wear.count.arithmetic import TINY
 from wear.count.blocks import growth
 from wear.count.build import CycleCount
 from wear.count.collocation import FloatArray
 from wear.count.course import Added, Course, course
 from wear.count.course_cutoff import CutoffCourse, cutoff_course
-from wear.count.cycle import TINY
 from wear.count.panels import SAFETY
 from wear.count.stage import Stage, Stages, evaluate_stages
 from wear.count.stages import counted_stages

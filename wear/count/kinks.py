@@ -3,9 +3,9 @@ wear ends or fades."""
 
 import numpy as np
 
+from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.collocation import FloatArray
 from wear.count.cutoff import TOUCH, CutoffCycle, touch
-from wear.count.cycle import ROUNDOFF, TINY
 from wear.count.edge import NEARLY, Piece
 from wear.count.tail import Rest
 from wear.load import Load

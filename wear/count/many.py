@@ -12,17 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.collocation import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
-from wear.count.cycle import (
-    NOISE,
-    Advance,
-    Near,
-    Settings,
-    first_edges,
-    hidden,
-    iterate,
-    pace,
-    unresolved,
-)
+from wear.count.cycle import Settings, pace
+from wear.count.iteration import NOISE, Advance, Near, iterate
+from wear.count.resolution import first_edges, hidden, unresolved
 from wear.load import Load
 from wear.model import Model
 

@@ -17,7 +17,8 @@ from wear.count.collocation import (
     chebyshev_nodes,
     chebyshev_values,
 )
-from wear.count.cycle import Advance, Near, Settings
+from wear.count.cycle import Settings
+from wear.count.iteration import Advance, Near
 from wear.count.many import ManyDrives
 from wear.count.panels import CHECKS
 from wear.count.scan import cycles_if_cut, halves

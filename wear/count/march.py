@@ -10,8 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.count.arithmetic import TINY
 from wear.count.collocation import BoolArray, FloatArray, integral, mesh
-from wear.count.cycle import TINY, Advance, Drive, Settings, hidden, unresolved
+from wear.count.cycle import Drive, Settings
+from wear.count.iteration import Advance
+from wear.count.resolution import hidden, unresolved
 
 SHORTEST = 1e-12  # of a cycle
 

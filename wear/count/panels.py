@@ -14,7 +14,9 @@ from wear.count.collocation import (
     chebyshev_nodes,
     chebyshev_values,
 )
-from wear.count.cycle import Advance, Cost, OneCycle, Settings, unresolved
+from wear.count.cycle import Cost, OneCycle, Settings
+from wear.count.iteration import Advance
+from wear.count.resolution import unresolved
 from wear.count.scan import cycles_if_cut, halves
 
 CHECKS = np.array([-1.0, -0.8, -0.38, 0.5, 0.93])  # positions off the nodes, where T_m is large

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.collocation import FloatArray
-from wear.count.cycle import ROUNDOFF, TINY
 from wear.load import Load
 from wear.model import Model
 

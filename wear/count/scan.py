@@ -7,8 +7,9 @@ good enough for a plan; what the plan misses, the residual of Abel's equation fi
 import numpy as np
 
 from wear.count.abel import Shift, change_in_a_cycle, panel_wear, reach, widths
+from wear.count.arithmetic import TINY
 from wear.count.collocation import FloatArray, chebyshev_analysis, chebyshev_nodes
-from wear.count.cycle import TINY, OneCycle
+from wear.count.cycle import OneCycle
 from wear.model import Model
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle

@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.build import CycleCount, cycle_count, cycle_count_upto, evaluate, exact_error
 from wear.count.collocation import FloatArray, mesh
 from wear.count.cutoff import CutoffCycle, one_cycle
-from wear.count.cycle import ROUNDOFF, TINY, Cost, OneCycle, Settings, settings
+from wear.count.cycle import Cost, OneCycle, Settings, settings
 from wear.count.first import exact_cycles
 from wear.count.kinks import fades, kinks, rest_of
 from wear.count.panels import NONE, Maps

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wear.count import abel, wear_after
+from wear.count import abel, tabulated, wear_after
+from wear.count.arithmetic import TINY
 from wear.count.collocation import BoolArray, FloatArray, IntArray
-from wear.count.cycle import TINY, settings
+from wear.count.cycle import settings
 from wear.count.many import Many, plain_edges, resolved_edges
 from wear.count.many_panels import ManyPanels, fill
 from wear.count.panels import SAFETY
@@ -206,7 +207,7 @@ def _evaluate(
     each."""
     scenes, number = begun.added.shape
     density = panels.density
-    table = abel.count(density, 0.0)
+    table = tabulated.count(density, 0.0)
     gain = table.gain.reshape(scenes, -1)
     begins = number + np.concatenate([np.zeros((scenes, 1)), np.cumsum(gain, axis=1)], axis=1)
     table = table._replace(cycles=begins[:, :-1].ravel())
@@ -216,7 +217,7 @@ def _evaluate(
     out_of_reach = part >= gain.shape[1]
     part = np.minimum(part, gain.shape[1] - 1)
     flat = (part + gain.shape[1] * np.arange(scenes)[:, None]).ravel()
-    wear, pace = abel.wear_after(table, np.tile(late, scenes), flat)
+    wear, pace = tabulated.wear_after(table, np.tile(late, scenes), flat)
     wear, pace = wear.reshape(part.shape), pace.reshape(part.shape)
 
     parts = gain.size // len(panels.scene)
@@ -225,7 +226,7 @@ def _evaluate(
     for k in range(1, each):
         before, after = (density.take(slice(i, None, each)) for i in (k - 1, k))
         lost[:, k * parts] += abel.junctions(before, after)
-    missed = begun.error[:, -1] / abel.first_pace(table).reshape(gain.shape)[:, 0]
+    missed = begun.error[:, -1] / tabulated.first_pace(table).reshape(gain.shape)[:, 0]
     lost = SAFETY * np.cumsum(lost, axis=1) + missed[:, None]
     error = pace * np.take_along_axis(lost, part, axis=1)
     error[out_of_reach] = np.inf

@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count import abel
+from wear.count import abel, tabulated
+from wear.count.arithmetic import ROUNDOFF
 from wear.count.collocation import FloatArray, chebyshev_nodes, chebyshev_values
-from wear.count.cycle import ROUNDOFF, Cost, OneCycle, Settings
+from wear.count.cycle import Cost, OneCycle, Settings
 from wear.count.panels import CHECKS, NONE, SAFETY, Maps, Solved
 from wear.count.rounding import roundoff
 from wear.load import Load
@@ -46,7 +47,7 @@ class Tail(NamedTuple):
     estimated error in cycles where each part of the `table` starts and where the last one ends."""
 
     rest: Rest
-    table: abel.Count
+    table: tabulated.Count
     count_error: FloatArray
     cost: Cost
 
@@ -63,7 +64,7 @@ class Tail(NamedTuple):
     @property
     def pace(self) -> float:
         """The wear (mm) that its first cycle adds."""
-        return float(abel.first_pace(self.table)[0] / self.table.wear[0] ** 2)
+        return float(tabulated.first_pace(self.table)[0] / self.table.wear[0] ** 2)
 
     @property
     def last_wear(self) -> float:
@@ -82,7 +83,7 @@ class Tail(NamedTuple):
 
     def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Wear (mm) after `cycles`, and its estimated relative error."""
-        inverse, pace = abel.wear_after(self.table, cycles, abel.part_of(self.table.cycles, cycles))
+        inverse, pace = tabulated.wear_after(self.table, cycles)
         ends = np.append(self.table.cycles, self.table.last_cycles)
         distance = np.where(cycles < self.reach, 1 / inverse, 0.0)
         missed = pace * np.interp(cycles, ends, self.count_error) * distance  # relative, of d
@@ -97,8 +98,8 @@ class Tail(NamedTuple):
         ahead = distance > TO_ROUNDOFF * self.rest.wear
         count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
         inverse = np.minimum(1 / distance[ahead], self.table.last_wear)
-        found = abel.cycles_until(self.table, inverse)
-        _, pace = abel.wear_after(self.table, found, abel.part_of(self.table.cycles, found))
+        found = tabulated.cycles_until(self.table, inverse)
+        _, pace = tabulated.wear_after(self.table, found)
         ends = np.append(self.table.cycles, self.table.last_cycles)
         count[ahead] = np.ceil(found)
         error[ahead] = np.interp(found, ends, self.count_error)
@@ -127,7 +128,7 @@ def tail(
     if not np.isfinite(bend):
         return None
     panels = _joined(solved, line)
-    table = abel.count(panels, 0.0)
+    table = tabulated.count(panels, 0.0)
     parts = len(table.length) // len(panels.starts)
     missed = SAFETY * np.repeat(np.append(solved.residual, bend), parts) * table.gain
     apart = abel.junctions(panels.take(slice(-1)), panels.take(slice(1, None)))

@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.bounds import Enclosure, static_bounds, wear_bounds
-from wear.count.cycle import advance, drive, resolve, settings
+from wear.count.cycle import drive, resolve, settings
+from wear.count.iteration import advance
 from wear.history import History
 from wear.load import Constant
 from wear.model import bind
