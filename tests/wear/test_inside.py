@@ -214,7 +214,10 @@ def test_cycles_with_a_cutoff_go_through_open_closed_and_sliding_contact(scene: 
         u += speed * load.period / steps
 
 
-@pytest.mark.parametrize("scene", CUTOFF, ids=lambda scene: scene.name)
+HELD = scene_from_tables(tables(k=1e4, cutoff=True), "compliant")
+
+
+@pytest.mark.parametrize("scene", [*CUTOFF, HELD], ids=lambda scene: scene.name)
 def test_other_phases_do_not_change_a_cycle_with_a_cutoff(scene: Scene) -> None:
     cycles = np.array([0.0, 3.0, 60.0])
     found = history(scene, cycles, np.array([0.0, 0.2, 0.35, 1.0]))

@@ -13,11 +13,10 @@ import numpy as np
 
 from wear.count.collocation import FloatArray, mesh
 from wear.count.course import Added
-from wear.count.cutoff import CutoffCycle, one_cycle
+from wear.count.cutoff import CutoffCycle, cutoff_cycle
 from wear.count.cycle import settings
 from wear.count.edge import PIECE_SAMPLES, Piece
 from wear.count.panels import NONE
-from wear.faults import UsageError
 from wear.load import Load
 from wear.model import Model
 
@@ -51,16 +50,8 @@ class CutoffCourse(NamedTuple):
 
 
 def cutoff_course(model: Model, load: Load, phases: FloatArray, rtol: float) -> CutoffCourse:
-    """Prepare for any cycles and for `phases` (m,) in [0, 1].
-
-    Raises
-    ------
-    UsageError
-        if there is no one-cycle map of the model in pieces.
-    """
-    cycle = one_cycle(model, load)
-    if not isinstance(cycle, CutoffCycle):
-        raise UsageError("cycles with a cutoff and a compliant support cannot be counted")
+    """Prepare for any cycles and for `phases` (m,) in [0, 1]."""
+    cycle = cutoff_cycle(model, load)
     parts = tuple(part for piece in cycle.edge.pieces for part in _cut(piece, load, phases))
     ends = np.array([part.end for part in parts])
     upto = tuple(np.sum(ends <= phases[:, None] + NEARLY, axis=1).tolist())

@@ -124,6 +124,11 @@ def one_cycle(model: Model, load: Load) -> OneCycle:
     """The map of one cycle that a model needs, on a mesh yet to be resolved."""
     if not model.cutoff:
         return drive(model, load, mesh(first_edges(load), 8))
+    return cutoff_cycle(model, load)
+
+
+def cutoff_cycle(model: Model, load: Load) -> CutoffCycle:
+    """The map of one cycle with a cutoff."""
     whole = mesh(np.array([0.0, 1.0]), 8)
     return CutoffCycle(model, load, edge_of_contact(model, load), whole, 1.0)
 
