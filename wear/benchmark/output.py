@@ -43,6 +43,9 @@ EXPLANATION = (
 )
 
 
+WORDS = ("scene", "method", "what happened")  # headings of columns of words
+
+
 class Table(NamedTuple):
     """A caption, a heading a column and rows of text."""
 
@@ -94,8 +97,8 @@ def tables(result: Result) -> tuple[Table, ...]:
 
 
 def markdown_table(table: Table) -> str:
-    """A table of Markdown, its first column left-aligned."""
-    rule = ["---", *["---:"] * (len(table.header) - 1)]
+    """A table of Markdown, its columns of words left-aligned."""
+    rule = ["---" if name in WORDS else "---:" for name in table.header]
     lines = [table.header, rule, *table.rows]
     return "\n".join("| " + " | ".join(entries) + " |" for entries in lines)
 
