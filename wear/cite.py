@@ -55,6 +55,20 @@ _ENTRIES = (
         },
     ),
     Reference(
+        "archard1953",
+        "article",
+        "the law of wear",
+        {
+            "author": "Archard, J. F.",
+            "title": "Contact and rubbing of flat surfaces",
+            "journal": "Journal of Applied Physics",
+            "volume": "24",
+            "pages": "981--988",
+            "year": "1953",
+            "doi": "10.1063/1.1721448",
+        },
+    ),
+    Reference(
         "kuczma1990",
         "book",
         "method cycle-count: Abel's functional equation",
