@@ -20,6 +20,7 @@ from wear.model import Model
 
 IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
 MOST_INTERVALS = 32  # of phase: what needs more is solved by itself
+NUMBERS = (2, 3, 4, 6, 8, 12, *range(16, 2 * MOST_INTERVALS + 1, 8))  # of intervals
 
 Which = slice | IntArray
 
@@ -181,25 +182,42 @@ def resolved_edges(
 ) -> Iterator[tuple[IntArray, FloatArray]]:
     """The scenes, together those with as many intervals, and edges (scenes, q + 1) between which
     the nodes resolve the rate at the frozen `wear` (scenes, k), mm, and in the `first` cycles."""
-    todo = list(plain_edges(many))
-    done: dict[int, list[tuple[IntArray, FloatArray]]] = {}
+    todo: dict[int, list[tuple[IntArray, FloatArray]]] = {}
+    for which, edges in plain_edges(many):
+        todo[edges.shape[1] - 1] = [(which, edges)]
     while todo:
-        which, edges = todo.pop()
+        number = min(todo)  # cutting only adds intervals: no scene comes back to this number
+        groups = todo.pop(number)
+        which, edges = (np.concatenate(arrays) for arrays in zip(*groups, strict=True))
         cycle = many.take(which).on(edges, size.phase_nodes, tolerance)
         rough = unresolved(cycle.rate(wear[which, :, None, None]), cycle.over, tolerance)
         calm = np.flatnonzero(~rough.any(axis=1))
         if len(calm):
             strict = size.phase_tolerance
             rough[calm] = cycle.take(calm).rough_first(first, tolerance, strict)
-        number = rough.shape[1]
         cuts = np.sum(rough, axis=1) * (number < MOST_INTERVALS)
-        middles = np.where(rough, (edges[:, 1:] + edges[:, :-1]) / 2, np.inf)
-        finer = np.sort(np.concatenate([edges, middles], axis=1), axis=1)
-        for more in np.unique(cuts).tolist():
+        if np.any(cuts == 0):
+            yield which[cuts == 0], edges[cuts == 0]
+        for more in np.unique(cuts[cuts > 0]).tolist():
             same = cuts == more
-            if more:
-                todo.append((which[same], finer[same, : number + 1 + more]))
-            else:
-                done.setdefault(number, []).append((which[same], edges[same]))
-    for parts in done.values():
-        yield np.concatenate([which for which, _ in parts]), np.concatenate([e for _, e in parts])
+            finer = _cut(edges[same], rough[same])
+            finer = _cut_longest(finer, next(n for n in NUMBERS if n >= number + more))
+            todo.setdefault(finer.shape[1] - 1, []).append((which[same], finer))
+
+
+def _cut(edges: FloatArray, rough: BoolArray) -> FloatArray:
+    """The edges (scenes, q + 1) with the intervals `rough` (scenes, q) cut in two, as many of each
+    scene."""
+    middles = np.where(rough, (edges[:, 1:] + edges[:, :-1]) / 2, np.inf)
+    finer = np.sort(np.concatenate([edges, middles], axis=1), axis=1)
+    return finer[:, : edges.shape[1] + int(np.sum(rough[0]))]
+
+
+def _cut_longest(edges: FloatArray, number: int) -> FloatArray:
+    """The edges with the longest intervals cut in two until there are so many: scenes of few
+    different numbers of intervals go together."""
+    while edges.shape[1] - 1 < number:
+        lengths = np.diff(edges, axis=1)
+        longest = np.arange(lengths.shape[1]) == np.argmax(lengths, axis=1)[:, None]
+        edges = _cut(edges, longest)
+    return edges
