@@ -100,7 +100,7 @@ class Equation:
         """Return whether the printed form, if there is one, is what was derived."""
         return not self.printed or _agree(self.printed, self.claims)
 
-    @property
+    @cached_property
     def typeset_agrees(self) -> bool:
         """Return whether what is typeset is what was derived."""
         return _agree(self.shown_in_full, self.claims)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import sympy as sp
 
@@ -39,6 +40,13 @@ class Statement:
     conditions: tuple[Condition, ...] = ()
     remark: str = ""
     name: str = field(default="")
+
+    @cached_property
+    def checks(self) -> tuple[Check, ...]:
+        """Return the outcome of all checks; what cannot change is checked once."""
+        fault = homogeneous(self.claim)
+        dimensions = Check("dimensions", fault is None, fault or "both sides agree")
+        return (dimensions, *self.rule.check(self))
 
     def substitute(self, *definitions: Statement, remark: str = "") -> Statement:
         """Insert ``left = right`` of each definition, in order."""
@@ -103,9 +111,7 @@ def given(
 
 def check(statement: Statement) -> tuple[Check, ...]:
     """Check one statement: dimensions, its rule's proof, and samples at 50 digits."""
-    fault = homogeneous(statement.claim)
-    dimensions = Check("dimensions", fault is None, fault or "both sides agree")
-    return (dimensions, *statement.rule.check(statement))
+    return statement.checks
 
 
 def chain(*statements: Statement) -> tuple[Statement, ...]:
