@@ -38,7 +38,7 @@ from .results import (
     two_solids,
     validity,
 )
-from .statement import Statement, check
+from .statement import Statement
 
 _BEYOND = (
     problems,
@@ -151,7 +151,7 @@ def verify(
         outcomes: list[Check] = []
         for step, place in _numbered(found.steps, numbers):
             if place not in done:
-                done[place] = check(step)
+                done[place] = step.checks
             outcomes += done[place]
         shown = Check("typeset", found.typeset_agrees, "the display form equals the claim")
         verdicts.append(Verdict(found.id, found.status, (*outcomes, shown)))

@@ -18,7 +18,7 @@ from sympy.core.function import AppliedUndef
 from .check import Check
 from .conditions import Condition
 from .rules import Given
-from .statement import Statement, chain, check
+from .statement import Statement, chain
 from .typeset.display import evaluated, latex
 from .typeset.present import presentable
 from .zero import same
@@ -152,6 +152,6 @@ def system(claims: tuple[sp.Basic, ...]) -> sp.Basic:
 
 def verify(equation: Equation) -> tuple[Check, ...]:
     """Re-run every check on which an equation rests, and compare what is typeset."""
-    outcomes = [outcome for step in equation.steps for outcome in check(step)]
+    outcomes = [outcome for step in equation.steps for outcome in step.checks]
     typeset = Check("typeset", equation.typeset_agrees, "the display form equals the claim")
     return (*outcomes, typeset)

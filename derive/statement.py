@@ -6,7 +6,6 @@ Overview
     proves the claim anew whenever it is checked; nothing is believed because it was built.
 Key results
     Statement    one node, with the moves that make the next one
-    check        all checks of one statement
     chain        a statement and all it rests on, parents first
 """
 
@@ -43,7 +42,8 @@ class Statement:
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
-        """Return the outcome of all checks; what cannot change is checked once."""
+        """Dimensions, the rule's proof, and samples at 50 digits; what cannot change is checked
+        once."""
         fault = homogeneous(self.claim)
         dimensions = Check("dimensions", fault is None, fault or "both sides agree")
         return (dimensions, *self.rule.check(self))
@@ -107,11 +107,6 @@ def given(
 ) -> Statement:
     """State a hypothesis of the model; ``pivot`` is the unknown that samples compute from it."""
     return Statement(claim, Given(source, pivot), remark=remark, name=name)
-
-
-def check(statement: Statement) -> tuple[Check, ...]:
-    """Check one statement: dimensions, its rule's proof, and samples at 50 digits."""
-    return statement.checks
 
 
 def chain(*statements: Statement) -> tuple[Statement, ...]:

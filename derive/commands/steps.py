@@ -43,10 +43,8 @@ def _row(step: Statement, numbers: Mapping[int, int]) -> dict[str, Any]:
     import sympy as sp
 
     from derive.rules import describe
-    from derive.statement import check
     from derive.typeset.display import latex
 
-    outcomes = check(step)
     return {
         "step": numbers[id(step)],
         "name": step.name or None,
@@ -55,9 +53,9 @@ def _row(step: Statement, numbers: Mapping[int, int]) -> dict[str, Any]:
         "rule": describe(step.rule),
         "parents": [numbers[id(parent)] for parent in step.parents],
         "assumptions": [condition.text for condition in step.conditions],
-        "status": _status(step, all(outcome.passed for outcome in outcomes)),
+        "status": _status(step, all(check.passed for check in step.checks)),
         "remark": step.remark or None,
-        "checks": [{"kind": c.kind, "passed": c.passed, "detail": c.detail} for c in outcomes],
+        "checks": [{"kind": c.kind, "passed": c.passed, "detail": c.detail} for c in step.checks],
     }
 
 

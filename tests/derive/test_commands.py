@@ -92,8 +92,10 @@ def test_a_failing_check_is_status_1(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     from derive.check import Check
+    from derive.statement import Statement
 
-    monkeypatch.setattr(catalogue, "check", lambda _: (Check("proof", False, "planted"),))
+    planted = (Check("proof", False, "planted"),)
+    monkeypatch.setattr(Statement, "checks", property(lambda _: planted))
     assert main(["verify", "21"]) == 1
     assert "planted" in capsys.readouterr().out
 

@@ -15,7 +15,7 @@ from derive.note.governing import Model, Pin
 from derive.note.problems import given_load, given_motion, undetermined
 from derive.rules import Given
 from derive.sample import UnsatisfiableError
-from derive.statement import Statement, chain, check
+from derive.statement import Statement, chain
 from derive.symbols import symbols
 from derive.zero import same
 from tests.derive.mutation import mutants
@@ -57,13 +57,13 @@ def test_one_identifier_may_be_given_as_it_is() -> None:
 
 @pytest.mark.parametrize("step", STEPS, ids=lambda s: type(s.rule).__name__)
 def test_every_step_is_proved_and_dimensions_are_checked(step: Statement) -> None:
-    kinds = {outcome.kind for outcome in check(step)}
+    kinds = {outcome.kind for outcome in step.checks}
     assert {"dimensions", "proof"} <= kinds
 
 
 def _caught(step: Statement, wrong: sp.Basic) -> bool:
     try:
-        return not all(outcome.passed for outcome in check(replace(step, claim=wrong)))
+        return not all(outcome.passed for outcome in replace(step, claim=wrong).checks)
     except (UnsatisfiableError, ValueError, TypeError, AttributeError, LookupError):
         return True  # the claim is not even of the form that the rule makes
 
@@ -128,7 +128,7 @@ def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening) 
         return
     problem = condensed.Condensed(Model(law, opening, pin))
     for step in chain(problem.scalar, problem.rigid):
-        assert all(outcome.passed for outcome in check(step)), step.claim
+        assert all(outcome.passed for outcome in step.checks), step.claim
 
 
 def test_a_law_is_written_once() -> None:

@@ -14,7 +14,7 @@ from derive.results.dimensionless import (
     one_solid,
     two_solids,
 )
-from derive.statement import Statement, check
+from derive.statement import Statement
 from derive.symbols import symbols
 
 k, U_a, u_c, T, sigma_c0 = symbols("k U_a u_c T sigma_c0")
@@ -25,7 +25,7 @@ k, U_a, u_c, T, sigma_c0 = symbols("k U_a u_c T sigma_c0")
 )
 def test_the_number_of_groups(statement: Statement, groups: int) -> None:
     assert len(statement.rule.groups) == groups
-    (proof,) = [c for c in check(statement) if c.kind == "proof"]
+    (proof,) = [c for c in statement.checks if c.kind == "proof"]
     assert proof.passed
 
 

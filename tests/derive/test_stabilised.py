@@ -18,7 +18,7 @@ from derive.laws import EXPONENTIAL, GENERAL, TANH
 from derive.note import stabilised
 from derive.results import cutoff, cutoff_two_solids, regimes, two_solids, validity
 from derive.results.steady_state import SteadyState
-from derive.statement import chain, check
+from derive.statement import chain
 from derive.symbols import symbol
 
 VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
@@ -81,7 +81,7 @@ def test_the_status_of_each_equation_of_section_4(identifier: str, status: Statu
 def test_the_limit_is_proved_for_every_law(law) -> None:  # type: ignore[no-untyped-def]
     steady = SteadyState(law)
     for step in chain(steady.pressure, steady.wear_per_cycle):
-        assert all(outcome.passed for outcome in check(step)), step.claim
+        assert all(outcome.passed for outcome in step.checks), step.claim
 
 
 def test_wear_per_cycle_and_pressure_of_section_4() -> None:
