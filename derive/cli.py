@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Sequence
 
 from derive import command_line, terminal
@@ -37,7 +36,3 @@ def parser() -> argparse.ArgumentParser:
     """Return the parser of the whole command line."""
     description = "The equations of wear under cyclic contact, derived and checked by machine."
     return command_line.parser("derive", description, EXAMPLES, COMMANDS)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -56,6 +56,20 @@ def test_importing_is_light(package):
     assert not imported_by(f"import {package}") & HEAVY
 
 
+@pytest.mark.parametrize("script", PROJECT["scripts"].values())
+def test_an_interrupt_while_a_command_is_imported_is_silent(script, tmp_path):
+    """The first module that a command imports stands for all during which Ctrl-C may come."""
+    (tmp_path / "argparse.py").write_text("raise KeyboardInterrupt")
+    module, function = script.split(":")
+    code = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import {module} as start"
+    run = subprocess.run(
+        [sys.executable, "-c", f"{code}; sys.exit(start.{function}())"],
+        capture_output=True,
+        check=False,
+    )
+    assert (run.returncode, run.stdout, run.stderr) == (130, b"", b"")
+
+
 @pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["scenes"], ["cite"]])
 def test_commands_without_mathematics_import_none(arguments):
     code = f"""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Sequence
 
 from derive import command_line, terminal
@@ -57,7 +56,3 @@ def parser() -> argparse.ArgumentParser:
     """Return the parser of the whole command line."""
     description = "Wear of bearings under cyclic contact, for any number of cycles."
     return command_line.parser("wear", description, EXAMPLES, COMMANDS)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

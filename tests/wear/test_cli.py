@@ -83,7 +83,7 @@ def test_a_slip_is_met_with_what_was_meant(wear, arguments, told):
 def test_a_full_disk_is_told_whatever_is_printed(arguments):
     with Path("/dev/full").open("wb") as full:
         run = subprocess.run(
-            [sys.executable, "-m", "wear.cli", *arguments],
+            [sys.executable, "-m", "wear", *arguments],
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
@@ -107,7 +107,7 @@ def test_a_disk_that_fills_up_is_told_and_nothing_is_left(line, tmp_path):
     file = tmp_path / line.split()[-1]
     file.write_text("before")
     run = subprocess.run(
-        ["sh", "-c", f'ulimit -f 8; exec "$0" -m wear.cli {line}', sys.executable],
+        ["sh", "-c", f'ulimit -f 8; exec "$0" -m wear {line}', sys.executable],
         cwd=tmp_path,
         capture_output=True,
         text=True,

@@ -173,7 +173,7 @@ def test_a_number_in_latex_is_that_number(number):
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="/dev/full is Linux's")
 def test_a_full_disk_under_the_output_is_told():
-    command = [sys.executable, "-m", "wear.cli", "run", "section4", "--cycles", "1", "--json"]
+    command = [sys.executable, "-m", "wear", "run", "section4", "--cycles", "1", "--json"]
     with Path("/dev/full").open("wb") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 2
@@ -225,7 +225,7 @@ def test_notices_go_to_standard_error(run):
 
 
 def test_a_reader_may_stop_reading():
-    command = [sys.executable, "-m", "wear.cli", "run", "section4", "--cycles", "1"]
+    command = [sys.executable, "-m", "wear", "run", "section4", "--cycles", "1"]
     reader, writer = os.pipe()
     os.close(reader)
     done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, check=False)
