@@ -162,6 +162,14 @@ def test_the_pressure_at_the_edge_is_what_keeps_up_with_the_load():
     assert pressure_share(model, u, edge, 2.0 * opening) == 1.0
 
 
+@pytest.mark.parametrize(("rise", "share"), [(-1e6, 0.0), (0.0, 0.0), (1e-9, 1.0), (1e6, 1.0)])
+def test_at_an_edge_that_wear_does_not_open_the_load_decides(rise, share):
+    """Roughness outgrows wear: no pressure is too large, however fast the load rises."""
+    model = bind(scene_from_tables(tables(f_c=0.5, cutoff=True)))
+    edge = -float(model.margin(3e-4, 0.0))
+    assert pressure_share(model, 3e-4, edge, rise) == share
+
+
 def test_a_gap_that_no_load_closes_never_wears():
     scene = scene_from_tables(tables(cutoff=True, load=CONSTANT | {"value_mm": -1e-4}))
     of = problem(bind(scene), scene.load)

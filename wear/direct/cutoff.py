@@ -85,7 +85,7 @@ def pressure_share(model: Model, u: Real, U_a: Real, rise: Real) -> Real:
     """
     margin = model.margin(u, U_a)
     opening = np.maximum(-model.margin_slope(u, U_a) * model.rate(u, U_a), TINY)
-    sliding = np.where(opening > TINY, np.clip(rise / opening, 0.0, 1.0), 1.0)
+    sliding = np.clip(rise, 0.0, opening) / opening
     return np.where(np.abs(margin) > roundoff(model, u, U_a), margin > 0.0, sliding)
 
 
