@@ -1,9 +1,8 @@
 """A scene's model: the generated variant that it needs, with its numbers bound.
 
-Overview
-    What a scene leaves out has no symbol, no state and no operation in the code that runs.  The
-    model gives solvers one interface to all variants: wear rate, its slope, the fields, and
-    with cutoff the margin of contact.
+What a scene leaves out has no symbol, no state and no operation in the code that runs. The model
+gives solvers one interface to all variants: wear rate, its slope, the fields, and with cutoff the
+margin of contact.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ class Fields(NamedTuple):
 class Model:
     """A generated variant with its constants bound.
 
-    ``u`` is the wear u_c of the bearing and ``U_a`` the displacement of the pin, both in mm;
+    `u` is the wear u_c of the bearing and `U_a` the displacement of the pin, both in mm;
     they broadcast with each other and, for a model of many scenes, with shape (scenes, 1).
     """
 
@@ -173,13 +172,13 @@ def _constants(module: ModuleType, values: Mapping[str, Real]) -> Any:
 
 
 def bind(scene: Scene) -> Model:
-    """Return the model of one scene."""
+    """The model of one scene."""
     module = _module(scene)
     return Model(module, _constants(module, scene.parameters()))
 
 
 def bind_many(scenes: Sequence[Scene]) -> Model:
-    """Return one model of many scenes; its constants have shape (scenes, 1).
+    """One model of many scenes; its constants have shape (scenes, 1).
 
     Raises
     ------

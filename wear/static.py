@@ -1,15 +1,11 @@
 """Static load: wear and number of cycles in closed form, for any number of cycles.
 
-Overview
-    Under a constant displacement of the pin the number of cycles to a given wear is an integral
-    that is known in closed form (``derive show static-solution``).  On a rigid support it is
-    evaluated by the exponential integral, scaled so that nothing overflows; where the two ends
-    lie so close that their difference would cancel, and on a compliant support, by
-    Gauss-Legendre quadrature of the same integrand, which is smooth there.  A cycle is one
-    period of the scene's load, which only serves to count.
-Key results
-    StaticSolution      one scene: ``cycles(u)`` and its inverse ``wear(cycles)``
-    static_solution     the closed solution of a scene with a constant load
+Under a constant displacement of the pin the number of cycles to a given wear is an integral that is
+known in closed form (`derive show static-solution`). On a rigid support it is evaluated by the
+exponential integral, scaled so that nothing overflows; where the two ends lie so close that their
+difference would cancel, and on a compliant support, by Gauss-Legendre quadrature of the same
+integrand, which is smooth there. A cycle is one period of the scene's load, which only serves to
+count.
 """
 
 from __future__ import annotations
@@ -31,25 +27,19 @@ from wear.special import ei_remainder
 
 FloatArray = NDArray[np.float64]
 
-_NODES = 24
-"""Gauss-Legendre nodes for a factor of at most e in the integrand: exact to rounding."""
-
-_NEAR = 1.0
-"""Change of the integrand's logarithm over which one panel of quadrature is exact to rounding."""
-
-_UNREACHED = 700.0
-"""Fall of ln p beyond which no number of cycles is a finite double."""
-
-_ITERATIONS = 200
-_REFINEMENTS = 8
+NODES = 24  # Gauss-Legendre: exact to rounding where the integrand changes by a factor e at most
+NEAR = 1.0  # change of the integrand's logarithm over which one panel is exact to rounding
+UNREACHED = 700.0  # fall of ln p beyond which no number of cycles is a finite double
+MOST_ITERATIONS = 200
+MOST_REFINEMENTS = 8
 
 
 @dataclass(frozen=True)
 class StaticSolution:
     """The closed solution of one scene with a constant load.
 
-    ``data`` are the physical parameters by symbol, ``load`` is U_a in mm.  ``model`` gives the
-    pressure on a compliant support; it is None for a rigid one.
+    `data` are the physical parameters by symbol, `load` is U_a in mm. `model` gives the pressure on
+    a compliant support; it is None for a rigid one.
     """
 
     data: Mapping[str, float]
@@ -69,7 +59,7 @@ class StaticSolution:
         return -self.data["sigma_c0"] / slope if slope < 0.0 else math.inf
 
     def cycles(self, u: ArrayLike) -> FloatArray:
-        """Return the number of cycles to a wear of u mm; infinite if that is never reached.
+        """The number of cycles to a wear of u mm; infinite if that is never reached.
 
         Relative error: a few units of roundoff times 4 h/sigma, the condition of the problem.
         """
@@ -83,7 +73,7 @@ class StaticSolution:
         return np.where(u < self.limit, found, np.inf)
 
     def wear(self, cycles: ArrayLike) -> FloatArray:
-        """Return the wear in mm after numbers of cycles."""
+        """The wear in mm after numbers of cycles."""
         wanted = np.atleast_1d(np.asarray(cycles, dtype=np.float64))
         if np.any(wanted < 0.0):
             raise UsageError("a number of cycles is not negative")
@@ -91,12 +81,12 @@ class StaticSolution:
         return found.reshape(np.shape(cycles))
 
     def _wear(self, cycles: float) -> float:
-        """Invert ``cycles(u)``, which increases, by Newton's method inside a bracket."""
+        """Invert `cycles(u)`, which increases, by Newton's method inside a bracket."""
         low, high = 0.0, min(self.largest_wear * cycles, math.nextafter(self.limit, 0.0))
         if cycles == 0.0 or float(self.cycles(high)) <= cycles:
             return high
         u = high
-        for _ in range(_ITERATIONS):
+        for _ in range(MOST_ITERATIONS):
             reached = float(self.cycles(u))
             low, high = (u, high) if reached < cycles else (low, u)
             new = u + self._step(u, reached, cycles)
@@ -108,11 +98,11 @@ class StaticSolution:
         return u
 
     def _step(self, u: float, reached: float, wanted: float) -> float:
-        """Return Newton's step towards the wanted cycles, in their logarithm while far away."""
+        """Newton's step towards the wanted cycles, in their logarithm while far away."""
         if not 0.0 < reached < math.inf:
             return math.nan
         if self.model is None:
-            slowness = 1.0 + math.exp(min(float(self._exponent(u)), _UNREACHED))
+            slowness = 1.0 + math.exp(min(float(self._exponent(u)), UNREACHED))
         else:
             slowness = float(self._slowness(self.model, np.asarray(u)))
         near = 0.5 * wanted < reached < 2.0 * wanted
@@ -123,16 +113,16 @@ class StaticSolution:
         return {name: self.data[name] for name in names}
 
     def _exponent(self, u: ArrayLike) -> FloatArray:
-        """Return ln(p_max/p - 1) at a wear, on a rigid support."""
+        """The exponent ln(p_max/p - 1) at a wear, on a rigid support."""
         shape = self._named("h_0", "sigma_c0", "f_c")
         return np.asarray(formula.exponent(np.asarray(u), self.load, **shape))
 
     def _gap_rigid(self, u: FloatArray) -> FloatArray:
-        """Return the integral of exp(exponent) from 0 to u."""
+        """The integral of exp(exponent) from 0 to u."""
         start, end = self._exponent(0.0), self._exponent(u)
         closed = self._primitive(u, end) - self._primitive(np.zeros_like(u), start)
         growth = np.log(self._roughness(u) / self._roughness(0.0))
-        near = np.abs(end - start) + np.abs(growth) < _NEAR
+        near = np.abs(end - start) + np.abs(growth) < NEAR
         nodes, weights = _gauss_legendre()
         inside = np.exp(self._exponent(u[..., np.newaxis] * nodes))
         return np.asarray(np.where(near, u * (inside @ weights), closed))
@@ -141,7 +131,7 @@ class StaticSolution:
         return np.asarray(formula.roughness(np.asarray(u), **self._named("sigma_c0", "f_c")))
 
     def _primitive(self, u: FloatArray, exponent: FloatArray) -> FloatArray:
-        """Return a primitive of exp(exponent), by the form that suits the argument of Ei."""
+        """A primitive of exp(exponent), by the form that suits the argument of Ei."""
         slope = self.data["f_c"]
         shape = self._named("h_0", "sigma_c0", "f_c")
         offset = np.asarray(formula.offset(u, self.load, **shape))
@@ -155,7 +145,7 @@ class StaticSolution:
         return np.asarray(np.where(np.abs(z) > 1.0, far, close))
 
     def _gap_compliant(self, model: Model, u: FloatArray) -> FloatArray:
-        """Return the integral of p_max/p - 1 from 0 to u, for each u on panels of its own."""
+        """The integral of p_max/p - 1 from 0 to u, for each u on panels of its own."""
         over = np.vectorize(lambda end: self._over_panels(model, end), otypes=[float])
         return np.asarray(over(u))
 
@@ -175,11 +165,11 @@ class StaticSolution:
         scale = self.data["sigma_c0"]
         count = 1 + math.ceil(2.0 * math.log1p(end / scale))
         edges = scale * np.expm1(np.linspace(0.0, math.log1p(end / scale), count + 1))
-        for _ in range(_REFINEMENTS):
+        for _ in range(MOST_REFINEMENTS):
             falls = np.abs(np.diff(np.log(self._slowness(model, edges))))
-            if not falls.sum() < _UNREACHED:
+            if not falls.sum() < UNREACHED:
                 return None
-            parts = np.maximum(1, np.ceil(falls / _NEAR)).astype(int)
+            parts = np.maximum(1, np.ceil(falls / NEAR)).astype(int)
             if np.all(parts == 1):
                 break
             cut = [
@@ -190,19 +180,19 @@ class StaticSolution:
         return edges
 
     def _slowness(self, model: Model, u: FloatArray) -> FloatArray:
-        """Return p_max/p on a compliant support."""
+        """The ratio p_max/p on a compliant support."""
         return np.asarray(self.data["p_max"] / model.pressure(u, self.load))
 
 
 @cache
 def _gauss_legendre() -> tuple[FloatArray, FloatArray]:
-    """Return nodes and weights on [0, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+    """Nodes and weights on [0, 1]."""
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
     return 0.5 * (1.0 + nodes), 0.5 * weights
 
 
 def static_solution(scene: Scene) -> StaticSolution:
-    """Return the closed solution of a scene with a constant load.
+    """The closed solution of a scene with a constant load.
 
     Raises
     ------
