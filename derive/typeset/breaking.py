@@ -129,11 +129,11 @@ def _fill(pieces: tuple[Piece, ...], limit: float) -> list[tuple[Piece, ...]]:
     """Lines that fit, full but broken as little inside brackets as can be."""
     lines, rest, room = [], pieces, limit
     while total(rest) > room:
-        possible = list(_breaks(rest))
-        fitting = [i for i in possible if total(rest[:i]) <= room] or possible[:1]
+        possible = dict(_breaks(rest))
+        fitting = [i for i in possible if total(rest[:i]) <= room] or list(possible)[:1]
         if not fitting:
             break
-        cost = {i: _cost(rest[i], total(rest[:i]) / room) for i in fitting}
+        cost = {i: _cost(possible[i], total(rest[:i]) / room) for i in fitting}
         best = min(fitting, key=lambda i: (cost[i], -i))
         lines.append(rest[:best])
         rest, room = rest[best:], limit - _INDENT
@@ -150,8 +150,10 @@ def _emptiness(filled: float) -> int:
     return 0 if filled > 0.5 else 2 if filled > 0.25 else 4
 
 
-def _breaks(pieces: tuple[Piece, ...]) -> Iterator[int]:
-    """Where a line may start."""
+def _breaks(pieces: tuple[Piece, ...]) -> Iterator[tuple[int, Piece]]:
+    """Where a line may start, with the relation or sign that it starts with; the point of
+    alignment goes with its relation."""
     for index, piece in enumerate(pieces):
-        if index > 0 and piece.kind in ("relation", "sign") and pieces[index - 1].tex != "&":
-            yield index
+        start = index - (index > 0 and pieces[index - 1].tex == "&")
+        if start > 0 and piece.kind in ("relation", "sign"):
+            yield start, piece

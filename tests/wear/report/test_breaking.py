@@ -60,6 +60,14 @@ def test_every_line_fits(latex: str) -> None:
     assert all(line.count("&") == 1 for line in lines)
 
 
+@pytest.mark.parametrize("align", ["", "&"])
+def test_a_line_starts_at_the_relation_rather_than_inside_brackets(align: str) -> None:
+    right = rf"\frac{{u_c \left(4 f_c {S} - f_c \left({LATER} - 2 U_a\right)\right)}}{{{S}}}"
+    shown = broken(rf"\begin{{aligned}}{ARGUMENT} - u_c {align}= {right}\end{{aligned}}")
+    assert len(re.findall(r"\\\\", shown)) == 1
+    assert rf"\\&\qquad = {right}" in shown
+
+
 @pytest.mark.parametrize("latex", LONG.values(), ids=LONG.keys())
 def test_the_page_shows_it(latex: str) -> None:
     assert mathml.block(latex).count("<mtr>") >= 2
