@@ -17,9 +17,10 @@ from wear.count.collocation import (
 from wear.count.cycle import Cost, OneCycle, Settings
 from wear.count.iteration import Advance
 from wear.count.resolution import unresolved
-from wear.count.scan import cycles_if_cut, halves
+from wear.count.scan import SPLIT, cut_far_out, cycles_if_cut, halves
 
-CHECKS = np.array([-1.0, -0.8, -0.38, 0.5, 0.93])  # positions off the nodes, where T_m is large
+CHECKS = np.array([-1.0, -0.8, 0.0, 0.7, 1.0])  # off the nodes, where T_m is large, and the ends
+FAR_OUT = 10.0  # times the residual elsewhere: then the fault lies at the end of the panel
 SAFETY = 3.0  # on measured discrepancies
 MOST_ROUNDS = 12  # of refinement
 MOST_PANELS = 200
@@ -35,13 +36,15 @@ class Maps(NamedTuple):
 
 class Solved(NamedTuple):
     """Panels between wear `starts` and `ends` (mm) with Abel's equation solved on them: `series`
-    (panels, m), the greatest `residual` (panels,) off the nodes, and roughly how many cycles the
-    first part of each would take `if_cut` (panels,)."""
+    (panels, m), the greatest `residual` (panels,) off the nodes, the `share` (panels,) of each up
+    to where it would be cut in two, and roughly how many cycles that part would take `if_cut`
+    (panels,)."""
 
     starts: FloatArray
     ends: FloatArray
     series: FloatArray
     residual: FloatArray
+    share: FloatArray
     if_cut: FloatArray
 
     def where(self, chosen: BoolArray) -> "Solved":
@@ -73,11 +76,14 @@ def solve_panels(
     panels = abel.solve(shift, starts, across, ahead.increment)
     check = abel.panel_wear(shift, starts, across, CHECKS)
     fine = both.fine.advance(check, _at_checks(ahead).near(size.finer_nodes))
-    residual = np.max(np.abs(abel.residual(panels, CHECKS, fine.increment)), axis=1)
+    residuals = np.abs(abel.residual(panels, CHECKS, fine.increment))
+    residual = np.max(residuals, axis=1)
+    far = residuals[:, -1] > FAR_OUT * np.max(residuals[:, :-1], axis=1)
     cost = Cost(wear.size + check.size, ahead.evaluations + fine.evaluations)
     step = abel.reach(shift, starts, across, chebyshev_nodes(size.panel_nodes), ahead.increment)
-    if_cut = cycles_if_cut(2 / step[..., 0])
-    solved = Solved(starts, ends, panels.series, residual, if_cut)
+    share = np.where(far, cut_far_out(shift, across), SPLIT)
+    if_cut = cycles_if_cut(2 / step[..., 0], share)
+    solved = Solved(starts, ends, panels.series, residual, share, if_cut)
     rough = ~ahead.converged
     worst = ~(residual <= size.residual_tolerance)
     if worst.any():
@@ -115,7 +121,7 @@ class Filled(NamedTuple):
 def fill(both: Maps, shift: float, edges: FloatArray, size: Settings, cost: Cost) -> Filled:
     """Solve panels between `edges` (mm), and cut those with too large a residual."""
     starts, ends = edges[:-1], edges[1:]
-    done = Solved(NONE, NONE, np.empty((0, size.panel_nodes)), NONE, NONE)
+    done = Solved(NONE, NONE, np.empty((0, size.panel_nodes)), NONE, NONE, NONE)
     for rounds in range(MOST_ROUNDS):
         fresh, rough, spent = solve_panels(both, shift, starts, ends, size)
         cost = cost.plus(*spent)
@@ -126,5 +132,5 @@ def fill(both: Maps, shift: float, edges: FloatArray, size: Settings, cost: Cost
         if rough.any() or last or not worst.any():
             break
         done = done.joined(fresh.where(~worst))
-        starts, ends = halves(shift, starts[worst], ends[worst])
+        starts, ends = halves(shift, starts[worst], ends[worst], fresh.share[worst])
     return Filled(done.joined(fresh), rough, cost)

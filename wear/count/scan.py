@@ -6,7 +6,7 @@ good enough for a plan; what the plan misses, the residual of Abel's equation fi
 
 import numpy as np
 
-from wear.count.abel import Shift, change_in_a_cycle, panel_wear, reach, widths
+from wear.count.abel import Shift, change_in_a_cycle, folded, panel_wear, reach, widths
 from wear.count.arithmetic import TINY
 from wear.count.collocation import FloatArray, chebyshev_analysis, chebyshev_nodes
 from wear.count.cycle import OneCycle
@@ -93,16 +93,28 @@ def plan_panels(
     return np.append(ordered[:, 0], end), ordered[:, 1]
 
 
-def cycles_if_cut(taken: FloatArray) -> FloatArray:
-    """How many cycles the first part of each panel would take if it were cut in two, and no more
-    than at the pace of its end, from `taken` (panels, m) cycles at the pace of its nodes."""
-    inside = int(np.searchsorted(chebyshev_nodes(taken.shape[1]), 2 * SPLIT - 1))
-    fewer: FloatArray = np.minimum(np.mean(taken[:, :inside], axis=1), FASTER * taken[:, inside])
-    return SPLIT * fewer
+def cycles_if_cut(taken: FloatArray, share: Shift = SPLIT) -> FloatArray:
+    """How many cycles the first part of each panel, a `share` of it, would take if it were cut in
+    two, and no more than at the pace of its end, from `taken` (panels, m) cycles at the pace of its
+    nodes."""
+    rows, m = np.arange(len(taken)), taken.shape[1]
+    t = np.broadcast_to(2 * np.asarray(share) - 1, rows.shape)
+    inside = np.minimum(np.searchsorted(chebyshev_nodes(m), t), m - 1)
+    mean = np.cumsum(taken, axis=1)[rows, inside - 1] / inside
+    fewer: FloatArray = share * np.minimum(mean, FASTER * taken[rows, inside])
+    return fewer
 
 
-def halves(shift: Shift, starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Every panel cut in two, the first part SPLIT of it."""
-    across = widths(shift, starts, ends)
-    middles = panel_wear(shift, starts, across, np.array([2 * SPLIT - 1]))[:, 0]
+def halves(
+    shift: Shift, starts: FloatArray, ends: FloatArray, share: Shift = SPLIT
+) -> tuple[FloatArray, FloatArray]:
+    """Every panel cut in two, the first part a `share` of it."""
+    way = -np.log1p(-share * folded(shift, widths(shift, starts, ends)))
+    middles = starts + (starts + shift) * np.expm1(way)
     return np.concatenate([starts, middles]), np.concatenate([middles, ends])
+
+
+def cut_far_out(shift: Shift, across: FloatArray) -> FloatArray:
+    """The share of panels up to their middle in y, which is much nearer to their end."""
+    share: FloatArray = folded(shift, across / 2) / folded(shift, across)
+    return share

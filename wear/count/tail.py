@@ -141,7 +141,7 @@ def _solved(
     both: Maps, rest: Rest, starts: FloatArray, ends: FloatArray, size: Settings
 ) -> tuple[Solved, Cost]:
     """Abel's equation on panels of 1/d, cut in two until it holds off the nodes as well."""
-    done = Solved(NONE, NONE, np.empty((0, size.panel_nodes)), NONE, NONE)
+    done = Solved(NONE, NONE, np.empty((0, size.panel_nodes)), NONE, NONE, NONE)
     cost = Cost(0, 0)
     for rounds in range(MOST_ROUNDS if len(starts) else 0):
         across = np.log(ends / starts)
@@ -153,7 +153,7 @@ def _solved(
         cost = cost.plus(nodes.size + checks.size, evaluations + more)
         residual = np.max(np.abs(abel.residual(panels, CHECKS, judged)), axis=1)
         cycles = across * np.mean(nodes / steps, axis=1)
-        fresh = Solved(starts, ends, panels.series, residual, cycles / 2)
+        fresh = Solved(starts, ends, panels.series, residual, np.full(len(starts), 0.5), cycles / 2)
         rough = ~(residual <= size.residual_tolerance + GRAIN * rest.blur * ends)
         rough &= fresh.if_cut > size.panel_nodes
         if not rough.any() or rounds == MOST_ROUNDS - 1:

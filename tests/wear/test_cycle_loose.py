@@ -1,0 +1,43 @@
+"""Few digits asked for, an estimate that holds: where coarse meshes once agreed by chance.
+
+Each scene is one on which the estimate was below the true error.
+"""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.wear.reference_scenes import CONSTANT, tables
+from tests.wear.test_cycle_count import counted
+from wear.scene import Scene, scene_from_tables
+
+CYCLES = np.array([1.0, 2.0, 6.0, 20.0, 1e3, 1e5, 1e8, 1e12])
+
+
+def made(
+    K: float, f_c: float, roughness: float, closure: float, load: dict[str, Any], **others: Any
+) -> Scene:
+    """A scene of one worn solid, in the units of scene files."""
+    scene = tables(K=K, f_c=f_c, load=load, **others)
+    scene["bearing"]["roughness_mm"] = roughness
+    scene["contact"]["closure_mm"] = closure
+    return scene_from_tables(scene, "loose")
+
+
+def constant(value_mm: float) -> dict[str, Any]:
+    return CONSTANT | {"value_mm": value_mm}
+
+
+SOFT = made(1.4e-9, 0.3275, 3.88e-4, 1.165e-3, constant(5e-6), k=278.0)
+LATE = made(5.62e-7, 1 / 3, 7.75e-4, 5.72e-3, constant(1.22e-3), k=544.0)
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3])
+@pytest.mark.parametrize("scene", [SOFT, LATE], ids=["soft", "late"])
+def test_the_end_of_the_last_panel_is_looked_at(scene: Scene, rtol: float) -> None:
+    """Most cycles of a long run lie there."""
+    exact, found = counted(scene, CYCLES, 1e-13), counted(scene, CYCLES, rtol)
+    true = np.abs(found.u_c / exact.u_c - 1)
+    assert np.all(true <= found.error + exact.error)
+    assert np.all(found.error <= rtol)
