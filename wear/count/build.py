@@ -113,7 +113,7 @@ def cycle_count_upto(
     reach = scan(cycle, scale, start, cycles, limit)
     samples = reach[:: max(1, len(reach) // 6)]
     size = attainable(settings(rtol), model, load, samples)
-    cycle = cycle.resolved(samples, size.phase_nodes, size.phase_tolerance)
+    cycle = cycle.resolved(samples, size)
     first = opening(fresh(cycle, start), cycle, shift, reach, request, size)
     over, before = cycle.over, np.inf
     while first.edges is not None:

@@ -55,8 +55,7 @@ def cutoff_course(model: Model, load: Load, phases: FloatArray, rtol: float) -> 
     parts = tuple(part for piece in cycle.edge.pieces for part in _cut(piece, load, phases))
     ends = np.array([part.end for part in parts])
     upto = tuple(np.sum(ends <= phases[:, None] + NEARLY, axis=1).tolist())
-    tolerance = settings(rtol).phase_tolerance
-    coarse = cycle.resolved(NONE, NODES, tolerance)
+    coarse = cycle.resolved(NONE, settings(rtol)._replace(phase_nodes=NODES))
     fine = coarse.on(mesh(coarse.over.edges, NODES + 4))
     return CutoffCourse(upto, parts, (coarse, fine))
 

@@ -15,7 +15,7 @@ import numpy as np
 from wear.count.arithmetic import ROUNDOFF
 from wear.count.collocation import BoolArray, FloatArray, Mesh, mesh
 from wear.count.contact import Contact, Stretch, Worn, worn
-from wear.count.cycle import OneCycle, drive
+from wear.count.cycle import OneCycle, Settings, drive
 from wear.count.edge import Edge, Piece, displacement_at, edge_of_contact, phase_of, wear_at
 from wear.count.held import Support, on_support
 from wear.count.iteration import Advance, Near
@@ -48,9 +48,10 @@ class CutoffCycle(NamedTuple):
         judges = len(over.rule.nodes) > len(self.over.rule.nodes)
         return self._replace(over=over, tolerance=ROUNDOFF if judges else self.tolerance)
 
-    def resolved(self, wear: FloatArray, m: int, tolerance: float) -> CutoffCycle:
-        """On a mesh of m nodes an interval."""
-        return self._replace(over=mesh(np.array([0.0, 1.0]), m), tolerance=tolerance)
+    def resolved(self, wear: FloatArray, size: Settings) -> CutoffCycle:
+        """With so many nodes an interval, resolved to its strict tolerance."""
+        over = mesh(np.array([0.0, 1.0]), size.phase_nodes)
+        return self._replace(over=over, tolerance=size.strict_tolerance)
 
     def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
         """Wear added by one cycle from each start, shape (...); guesses are of no use."""

@@ -33,7 +33,8 @@ class Settings(NamedTuple):
     """Sizes of the discretisation for a requested relative error."""
 
     phase_nodes: int  # on each interval of phase
-    phase_tolerance: float
+    phase_tolerance: float  # what `unresolved` may tell, mostly twenty times the error and more
+    strict_tolerance: float  # of what nothing else would tell, or mend
     panel_nodes: int  # on each panel of wear
     tail_tolerance: float  # of the frozen density on a panel
     residual_tolerance: float  # of Abel's equation
@@ -46,10 +47,11 @@ class Settings(NamedTuple):
 
 def settings(rtol: float) -> Settings:
     """Few nodes for few digits: what is cheapest for `rtol` on smooth loads."""
-    phase_nodes, panel_nodes = (24, 48) if rtol < 1e-8 else (14, 24)
+    phase_nodes, panel_nodes = (24, 48) if rtol < 1e-8 else (16, 24)
     return Settings(
-        phase_nodes,
-        phase_tolerance=max(1e-2 * rtol, ROUNDOFF),
+        phase_nodes=phase_nodes,
+        phase_tolerance=max(2 * rtol, ROUNDOFF),
+        strict_tolerance=max(1e-2 * rtol, ROUNDOFF),
         panel_nodes=panel_nodes,
         tail_tolerance=max(rtol / 4, 1e-12),
         residual_tolerance=max(rtol / 4, 30 * ROUNDOFF),
@@ -69,8 +71,8 @@ class OneCycle(Protocol):
     def on(self, over: Mesh) -> "OneCycle":
         """The same on another mesh."""
 
-    def resolved(self, wear: FloatArray, m: int, tolerance: float) -> "OneCycle":
-        """On a mesh of m nodes an interval that suits the wear values (k,), mm."""
+    def resolved(self, wear: FloatArray, size: Settings) -> "OneCycle":
+        """On a mesh that suits the wear values (k,), mm."""
 
     def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
         """Wear added by one cycle from each start, mm, any shape; from a guess with the shape
@@ -111,9 +113,10 @@ class Drive(NamedTuple):
         """The same on another mesh."""
         return self._replace(over=over, displacement=self.load(over.phases))
 
-    def resolved(self, wear: FloatArray, m: int, tolerance: float) -> "Drive":
-        """On a mesh of m nodes an interval that resolves the rate at each wear (k,)."""
-        return self.on(resolve(self.model, self.load, wear, m, tolerance))
+    def resolved(self, wear: FloatArray, size: Settings) -> "Drive":
+        """On a mesh that resolves the rate at each wear (k,)."""
+        nodes, tolerance = size.phase_nodes, size.phase_tolerance
+        return self.on(resolve(self.model, self.load, wear, nodes, tolerance))
 
     def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
         """Wear added over the mesh from each start, any shape."""

@@ -128,7 +128,7 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
         full = len(over.lengths) >= cycle.most_intervals
         rough = unresolved(run.rate, over, size.phase_tolerance) | ~run.converged
         if isinstance(at, Drive):
-            rough |= overlooked(at, start, run, size.phase_tolerance)
+            rough |= overlooked(at, start, run, size.strict_tolerance)
         if full or not rough.any():
             finer = at.on(mesh(over.edges, size.finer_nodes))
             judged = finer.advance(starts, run.near(size.finer_nodes))

@@ -13,6 +13,7 @@ from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.collocation import (
     BoolArray,
     FloatArray,
+    IntArray,
     Mesh,
     between_nodes,
     integral,
@@ -64,6 +65,13 @@ class Advance(NamedTuple):
     evaluations: int
     converged: BoolArray
     left: FloatArray
+
+    def take(self, which: IntArray) -> "Advance":
+        """What those of some scenes did."""
+        increment, inside, rate, evaluations, converged, left = self
+        return Advance(
+            increment[which], inside[which], rate[which], evaluations, converged[which], left[which]
+        )
 
     def near(self, m: int) -> Near:
         """The same as a guess for a mesh with `m` nodes on each interval."""

@@ -14,33 +14,33 @@ import numpy as np
 from wear.count.collocation import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
 from wear.count.cycle import Settings, pace
 from wear.count.iteration import NOISE, Advance, Near, iterate
-from wear.count.resolution import first_edges, hidden, unresolved
-from wear.load import Load
+from wear.count.resolution import hidden, unresolved
+from wear.load import Load, sampled
 from wear.model import Model
 
 IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
-MOST_INTERVALS = 32  # of phase: what needs more is solved by itself
-NUMBERS = (2, 3, 4, 6, 8, 12, *range(16, 2 * MOST_INTERVALS + 1, 8))  # of intervals
 
 Which = slice | IntArray
 
 
 class Many(NamedTuple):
-    """Scenes of one variant: the `model` of all, its constants of shape (scenes, 1), and the load
-    of each."""
+    """Scenes of one variant: the `model` of all, its constants of shape (scenes, 1), the load of
+    each and where that cuts its cycle, `plain_edges`."""
 
     model: Model
     loads: Sequence[Load]
+    plain_edges: Sequence[FloatArray]
 
     def take(self, which: IntArray) -> Many:
         """Some of the scenes."""
-        return Many(_taken(self.model, which), [self.loads[i] for i in which.tolist()])
+        loads, edges = ([own[i] for i in which.tolist()] for own in (self.loads, self.plain_edges))
+        return Many(_taken(self.model, which), loads, edges)
 
     def on(self, edges: FloatArray, m: int, tolerance: float = NOISE) -> ManyDrives:
         """A cycle of each scene on its mesh, with edges (scenes, q + 1)."""
         over = mesh(edges[:, None], m)
         phases = np.concatenate([over.phases.reshape(len(edges), -1), edges], axis=1)
-        displacement = np.stack([load(x) for load, x in zip(self.loads, phases, strict=True)])
+        displacement = sampled(self.loads, phases)
         at_edges = displacement[:, None, -edges.shape[1] :]
         displacement = displacement[:, : -edges.shape[1]].reshape(over.phases.shape)
         period = np.array([load.period for load in self.loads])[:, None, None, None]
@@ -118,12 +118,12 @@ class ManyDrives(NamedTuple):
             np.concatenate([run.left for run in runs], axis=1),
         )
 
-    def rough_first(self, number: int, tolerance: float, strict: float) -> BoolArray:
+    def rough(self, run: Advance, size: Settings) -> BoolArray:
         """Which intervals (scenes, q) do not resolve the rate in the first cycles, or hide a change
-        of it at an end, which must hold to the `strict` tolerance: no error estimate tells it."""
-        run = self.several(number)
-        rough = unresolved(run.rate, self.over, tolerance)
-        rough |= self.overlooked(np.cumsum(run.increment, axis=1) - run.increment, run, strict)
+        of it at an end."""
+        rough = unresolved(run.rate, self.over, size.phase_tolerance)
+        starts = np.cumsum(run.increment, axis=1) - run.increment
+        rough |= self.overlooked(starts, run, size.strict_tolerance)
         return rough & run.converged
 
     def in_cache(self, starts: int) -> Iterator[slice]:
@@ -166,58 +166,3 @@ def _shaped(model: Model, shape: tuple[int, ...]) -> Model:
     """The model with its constants in this shape."""
     constants = model.constants
     return Model(model.module, type(constants)(*(value.reshape(shape) for value in constants)))
-
-
-def plain_edges(many: Many) -> Iterator[tuple[IntArray, FloatArray]]:
-    """The scenes, together those with as many intervals, and the edges at kinks and peaks."""
-    edges = [first_edges(load) for load in many.loads]
-    sizes = np.array([len(ends) for ends in edges])
-    for size in np.unique(sizes):
-        which = np.flatnonzero(sizes == size)
-        yield which, np.stack([edges[i] for i in which.tolist()])
-
-
-def resolved_edges(
-    many: Many, wear: FloatArray, size: Settings, tolerance: float, first: int
-) -> Iterator[tuple[IntArray, FloatArray]]:
-    """The scenes, together those with as many intervals, and edges (scenes, q + 1) between which
-    the nodes resolve the rate at the frozen `wear` (scenes, k), mm, and in the `first` cycles."""
-    todo: dict[int, list[tuple[IntArray, FloatArray]]] = {}
-    for which, edges in plain_edges(many):
-        todo[edges.shape[1] - 1] = [(which, edges)]
-    while todo:
-        number = min(todo)  # cutting only adds intervals: no scene comes back to this number
-        groups = todo.pop(number)
-        which, edges = (np.concatenate(arrays) for arrays in zip(*groups, strict=True))
-        cycle = many.take(which).on(edges, size.phase_nodes, tolerance)
-        rough = unresolved(cycle.rate(wear[which, :, None, None]), cycle.over, tolerance)
-        calm = np.flatnonzero(~rough.any(axis=1))
-        if len(calm):
-            strict = size.phase_tolerance
-            rough[calm] = cycle.take(calm).rough_first(first, tolerance, strict)
-        cuts = np.sum(rough, axis=1) * (number < MOST_INTERVALS)
-        if np.any(cuts == 0):
-            yield which[cuts == 0], edges[cuts == 0]
-        for more in np.unique(cuts[cuts > 0]).tolist():
-            same = cuts == more
-            finer = _cut(edges[same], rough[same])
-            finer = _cut_longest(finer, next(n for n in NUMBERS if n >= number + more))
-            todo.setdefault(finer.shape[1] - 1, []).append((which[same], finer))
-
-
-def _cut(edges: FloatArray, rough: BoolArray) -> FloatArray:
-    """The edges (scenes, q + 1) with the intervals `rough` (scenes, q) cut in two, as many of each
-    scene."""
-    middles = np.where(rough, (edges[:, 1:] + edges[:, :-1]) / 2, np.inf)
-    finer = np.sort(np.concatenate([edges, middles], axis=1), axis=1)
-    return finer[:, : edges.shape[1] + int(np.sum(rough[0]))]
-
-
-def _cut_longest(edges: FloatArray, number: int) -> FloatArray:
-    """The edges with the longest intervals cut in two until there are so many: scenes of few
-    different numbers of intervals go together."""
-    while edges.shape[1] - 1 < number:
-        lengths = np.diff(edges, axis=1)
-        longest = np.arange(lengths.shape[1]) == np.argmax(lengths, axis=1)[:, None]
-        edges = _cut(edges, longest)
-    return edges

@@ -44,10 +44,11 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
         run = part.advance(at)
         done = done._replace(evaluations=done.evaluations + run.evaluations)
         own = float(run.increment)
-        tolerance = size.phase_tolerance * (1.0 + done.added / (own + TINY))
+        share = 1.0 + done.added / (own + TINY)
+        loose, strict = share * size.phase_tolerance, share * size.strict_tolerance
         sound = run.converged.all() and float(at) + own < limit
-        sound = sound and not unresolved(run.rate[None], part.over, tolerance).any()
-        sound = sound and not overlooked(part, float(at), run, tolerance).any()
+        sound = sound and not unresolved(run.rate[None], part.over, loose).any()
+        sound = sound and not overlooked(part, float(at), run, strict).any()
         if not sound and end - begin > SHORTEST:
             middle = (begin + end) / 2
             todo += [(middle, end), (begin, middle)]

@@ -4,6 +4,8 @@ Gauss collocation converges at twice the order of its interpolant: the square of
 coefficients counts.
 """
 
+from itertools import pairwise
+
 import numpy as np
 
 from wear.count.arithmetic import ROUNDOFF, TINY
@@ -14,9 +16,14 @@ NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
 
 
 def first_edges(load: Load) -> FloatArray:
-    """Ends of intervals that no node may straddle (kinks) or should cluster at (peaks)."""
-    inner = {phase for phase in (*load.kinks, *load.peaks) if 1e-9 < phase < 1.0 - 1e-9}
-    return np.array([0.0, *sorted(inner), 1.0])
+    """Ends of intervals that no node may straddle (kinks), should cluster at (peaks), or where a
+    smooth pulse ends, about: a quarter of the way to the next peak."""
+    inner = {*load.kinks, *load.peaks}
+    if not load.kinks and load.minimum < load.maximum:
+        for peak, after in pairwise([*load.peaks, load.peaks[0] + 1.0]):
+            quarter = (after - peak) / 4
+            inner |= {(peak + quarter) % 1.0, (after - quarter) % 1.0}
+    return np.array([0.0, *sorted(x for x in inner if 1e-9 < x < 1.0 - 1e-9), 1.0])
 
 
 def unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
@@ -28,7 +35,7 @@ def unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
     flat = rate.reshape(-1, rate.shape[-1])
     series = np.abs(flat @ over.rule.coefficients.T).reshape(rate.shape)
     largest = np.max(series, axis=-1) + TINY
-    last = np.max(series[..., -3:], axis=-1)
+    last = np.max(series[..., -2:], axis=-1)
     left = last**2 / largest * over.lengths
     # Rounding of the largest coefficients looks like a tail: it is none.
     left[largest * ROUNDOFF * 100 > last] = 0.0

@@ -9,7 +9,7 @@ import numpy as np
 from wear.count.abel import Shift, change_in_a_cycle, folded, panel_wear, reach, widths
 from wear.count.arithmetic import TINY
 from wear.count.collocation import FloatArray, chebyshev_analysis, chebyshev_nodes
-from wear.count.cycle import OneCycle
+from wear.count.cycle import OneCycle, settings
 from wear.model import Model
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
@@ -19,6 +19,7 @@ SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the e
 MOST_PLANNED = 150  # panels
 FASTER = 2.0  # than on average may be the pace at the end of a panel
 SHARP = 0.3  # change of the logarithm of the density within a cycle
+ROUGH = settings(1e-3)._replace(phase_nodes=10)
 NEARLY = 0.99  # of the wear at which the roughness vanishes
 
 
@@ -28,12 +29,18 @@ def roughness_scale(model: Model) -> float:
 
 
 def roughness_limit(model: Model, upto: float) -> float:
-    """Nearly the wear (mm) at which the equivalent roughness vanishes; infinite if it does not.
+    """Nearly the wear (mm) at which the equivalent roughness vanishes; infinite if it does not."""
+    return float(roughness_limits(model, np.array([upto]))[0])
+
+
+def roughness_limits(model: Model, upto: FloatArray) -> FloatArray:
+    """The same of each of many scenes (scenes, 1).
 
     The roughness of one solid is linear in the wear; that of two never vanishes.
     """
-    start, end = model.fields(np.array([0.0, upto]), np.zeros(2)).sigma
-    return float(NEARLY * upto * start / (start - end)) if end <= 0 else np.inf
+    start, end = (model.fields(wear, np.zeros_like(wear)).sigma for wear in (0.0 * upto, upto))
+    lost = np.where(end <= 0, start - end, 1.0)
+    return np.where(end <= 0, NEARLY * upto * start / lost, np.inf)
 
 
 def frozen_density(cycle: OneCycle, wear: FloatArray) -> FloatArray:
@@ -49,7 +56,7 @@ def scan(cycle: OneCycle, scale: float, start: float, cycles: float, limit: floa
     if np.isfinite(limit):
         y = np.linspace(0.0, np.log1p((limit - start) / (start + scale)), STEPS)
     wear: FloatArray = start + (start + scale) * np.expm1(y)
-    cycle = cycle.resolved(wear[::8], 10, 1e-3)
+    cycle = cycle.resolved(wear[::8], ROUGH)
     density = np.minimum(frozen_density(cycle, wear), 650.0)
     rise = np.diff(density)
     rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)

@@ -105,7 +105,7 @@ def _way(cycle: CutoffCycle, rtol: float, deadline: float) -> Way:
     if rest is not None and not fades(cycle, rest.wear):
         rest = None
     end = roughness_limit(model, 1e12 * shift)
-    exact = cycle.resolved(NONE, size.phase_nodes, size.phase_tolerance)
+    exact = cycle.resolved(NONE, size)
     return Way(exact, grazing, rest, end, shift, rtol, deadline)
 
 

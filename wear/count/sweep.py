@@ -14,23 +14,26 @@ import numpy as np
 from wear.count import abel, tabulated, wear_after
 from wear.count.arithmetic import TINY
 from wear.count.collocation import BoolArray, FloatArray, IntArray
-from wear.count.cycle import settings
-from wear.count.many import Many, plain_edges, resolved_edges
+from wear.count.cycle import Settings, settings
+from wear.count.iteration import Advance
+from wear.count.many import Many, ManyDrives
+from wear.count.many_meshes import plain, resolved
 from wear.count.many_panels import ManyPanels, fill
 from wear.count.panels import SAFETY
+from wear.count.resolution import first_edges
 from wear.count.rounding import roundoff_of
-from wear.count.scan import LEAST, SHIFT
+from wear.count.scan import LEAST, SHARP, SHIFT, roughness_limits
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
 TOGETHER = 1024  # scenes
-FIRST = (6, 30)  # cycles integrated one by one: more for scenes that this does not resolve
+FIRST = (0, 3, 30)  # cycles integrated one by one: none where they change the density little
 MARGIN = 4.0  # of a rough look ahead
 ITERATED = 0.1  # of the error asked for: what the iteration over a cycle may leave
 JUDGED = 0.01  # of that: what the iteration of the judge may leave
 SAMPLES = np.array([0.0, 0.35, 0.5, 0.65, 1.0])  # of the way in y: there a mesh must suit
-SCAN = np.linspace(0.0, 30.0, 61)  # ln(1 + u/scale) of the look ahead
+LONGEST, STEPS = 30.0, 60  # of the look ahead, in ln(1 + u/scale)
 
 
 class Sweep(NamedTuple):
@@ -71,7 +74,8 @@ def _together(scenes: Sequence[Scene], cycles: FloatArray, rtol: float) -> Sweep
     """Some scenes in one set of arrays; what they miss, one by one."""
     from wear.model import bind, bind_many
 
-    many = Many(bind_many(scenes), [scene.periodic_load for scene in scenes])
+    loads = [scene.periodic_load for scene in scenes]
+    many = Many(bind_many(scenes), loads, [first_edges(load) for load in loads])
     wear, error = np.empty((len(scenes), len(cycles))), np.full((len(scenes), len(cycles)), np.inf)
     alone = np.full(len(scenes), True)
     for first in FIRST:
@@ -81,10 +85,25 @@ def _together(scenes: Sequence[Scene], cycles: FloatArray, rtol: float) -> Sweep
         with np.errstate(all="ignore"):  # a scene that overflows here is solved by itself
             wear[left], error[left] = _solve(many.take(left), cycles, rtol, first)
         alone = ~np.all(error <= rtol, axis=1)
-    for i in np.flatnonzero(alone):
-        single = wear_after(bind(scenes[int(i)]), many.loads[int(i)], cycles, rtol)
+    for i in np.flatnonzero(alone).tolist():
+        single = wear_after(bind(scenes[i]), loads[i], cycles, rtol)
         wear[i], error[i] = single.u_c, single.error
     return Sweep(wear, error, alone)
+
+
+class Plan(NamedTuple):
+    """For each of some scenes (scenes,): the wear `end` (mm) that its panels must reach and their
+    `shift` (mm), the `pace` of the first cycle, the step it makes in ln(u + scale), and the
+    `change` of the density that it makes."""
+
+    shift: FloatArray
+    end: FloatArray
+    pace: FloatArray
+    change: FloatArray
+
+    def take(self, which: IntArray) -> Plan:
+        """That for some of the scenes."""
+        return Plan(*(array[which] for array in self))
 
 
 def _solve(
@@ -94,63 +113,39 @@ def _solve(
     follow after the `first` cycles."""
     shape = (len(many.loads), len(cycles))
     wear, error = np.full(shape, np.nan), np.full(shape, np.inf)
-    fresh = np.zeros((len(many.loads), 1))
-    scale = many.model.fields(fresh, fresh).sigma[:, 0] / 4
-    end, pace = _scan(many, scale, MARGIN * max(float(np.max(cycles)), LEAST))
-    samples = scale[:, None] * np.expm1(np.log1p(end / scale)[:, None] * SAMPLES)
-    for which, edges in resolved_edges(many, samples, settings(rtol), rtol, first):
-        # Scenes that wear alike take as many iterations.
-        order = np.argsort(pace[which])
-        which, edges = which[order], edges[order]
-        group = Group(many.take(which), edges, SHIFT * scale[which], end[which])
-        wear[which], error[which] = _solve_group(group, cycles, rtol, first)
-    return wear, error
-
-
-class Group(NamedTuple):
-    """Scenes whose meshes of phase have as many intervals, with edges (scenes, q + 1); the `shift`
-    (scenes,) of the panels and where they `end` (scenes,), mm."""
-
-    many: Many
-    edges: FloatArray
-    shift: FloatArray
-    end: FloatArray
-
-
-def _solve_group(
-    group: Group, cycles: FloatArray, rtol: float, number: int
-) -> tuple[FloatArray, FloatArray]:
-    """Wear (scenes, cycles) and its estimated relative error, with a `number` of first cycles."""
-    size = settings(rtol)
-    coarse = group.many.on(group.edges, size.phase_nodes, ITERATED * rtol)
-    fine = group.many.on(group.edges, size.finer_nodes, JUDGED * ITERATED * rtol)
-    first = coarse.several(number)
-    before = np.cumsum(first.increment, axis=1) - first.increment
-    judged = fine.advance(before, first.near(size.finer_nodes))
-    # What the iterations of the judge may have left, nothing else tells.
-    missed = np.abs(judged.increment - first.increment) + judged.left * first.increment
-    begun = _Begun(first.increment, _carried(SAFETY * missed, first.increment))
-
-    sound = np.all(first.converged & judged.converged, axis=1)
-    sound &= ~np.any(coarse.overlooked(before, first, size.phase_tolerance), axis=1)
-    sound &= np.all(begun.error <= rtol * begun.wear, axis=1)
-    wear, error = np.full((2, len(sound), len(cycles)), np.inf)
-    scene = np.flatnonzero(sound)
-    if len(scene) == 0:
-        return wear, error
-    blank = _first_panels(group, scene, begun.wear[scene, -1], size.panel_nodes)
-    for panels in _alike(fill(coarse, fine, blank, size)):
-        which = np.unique(panels.scene)
-        wear[which], error[which] = _evaluate(panels, begun.take(which), cycles)
-    peak = np.array([[load.maximum] for load in group.many.loads])
-    told = np.where(np.isfinite(wear), wear, 0.0)
-    error += roundoff_of(group.many.model, np.broadcast_to(peak, wear.shape), told)
+    plan = _scan(many, MARGIN * max(float(np.max(cycles)), LEAST))
+    # Scenes that wear alike take as many iterations.
+    chosen = np.argsort(plan.pace)
+    if first == 0:
+        chosen = chosen[plan.change[chosen] <= SHARP]
+    many, plan, size = many.take(chosen), plan.take(chosen), settings(rtol)
+    scale = plan.shift / SHIFT
+    samples = scale[:, None] * np.expm1(np.log1p(plan.end / scale)[:, None] * SAMPLES)
+    for which, edges, run in resolved(many, samples, first, size, ITERATED * rtol):
+        some = many.take(which)
+        maps = Maps(
+            some.on(edges, size.phase_nodes, ITERATED * rtol),
+            some.on(edges, size.finer_nodes, JUDGED * ITERATED * rtol),
+        )
+        begun = _begun(maps, run) if run else _fresh(len(which))
+        found = _solve_group(maps, plan.take(which), begun, cycles, size)
+        peak = np.array([[load.maximum] for load in some.loads])
+        told = np.where(np.isfinite(found[0]), found[0], 0.0)
+        rounding = roundoff_of(some.model, np.broadcast_to(peak, told.shape), told)
+        wear[chosen[which]], error[chosen[which]] = found[0], found[1] + rounding
     return wear, np.where(np.isfinite(error), error, np.inf)
 
 
-class _Begun(NamedTuple):
+class Maps(NamedTuple):
+    """The one-cycle map twice: `coarse` gives the result, `fine` judges it."""
+
+    coarse: ManyDrives
+    fine: ManyDrives
+
+
+class Begun(NamedTuple):
     """The wear `added` by each of the first cycles (scenes, k), and the estimated `error` of the
-    wear after each, mm."""
+    wear after each, mm: infinite if they cannot be trusted."""
 
     added: FloatArray
     error: FloatArray
@@ -160,17 +155,43 @@ class _Begun(NamedTuple):
         """The wear (scenes, k) after each, mm."""
         return np.cumsum(self.added, axis=1)
 
-    def take(self, which: IntArray) -> _Begun:
+    def take(self, which: IntArray) -> Begun:
         """Those of some scenes."""
-        return _Begun(self.added[which], self.error[which])
+        return Begun(self.added[which], self.error[which])
 
 
-def _first_panels(group: Group, scene: IntArray, starts: FloatArray, m: int) -> ManyPanels:
-    """A panel for each `scene` from its wear `starts` (mm) on."""
-    shift = group.shift[scene]
-    ends = np.maximum(group.end[scene], starts + 0.05 * (starts + shift))
-    n = len(scene)
-    return ManyPanels(scene, shift, starts, ends, np.zeros((n, m)), np.full(n, np.inf))
+def _fresh(scenes: int) -> Begun:
+    """No cycle yet."""
+    return Begun(np.empty((scenes, 0)), np.empty((scenes, 0)))
+
+
+def _begun(maps: Maps, run: Advance) -> Begun:
+    """The first cycles `run` by the coarse map, judged by the fine one."""
+    before = np.cumsum(run.increment, axis=1) - run.increment
+    judged = maps.fine.advance(before, run.near(maps.fine.over.phases.shape[-1]))
+    # What the iterations of the judge may have left, nothing else tells.
+    missed = np.abs(judged.increment - run.increment) + judged.left * run.increment
+    missed[~np.all(run.converged & judged.converged, axis=1)] = np.inf
+    return Begun(run.increment, _carried(SAFETY * missed, run.increment))
+
+
+def _solve_group(
+    maps: Maps, plan: Plan, begun: Begun, cycles: FloatArray, size: Settings
+) -> tuple[FloatArray, FloatArray]:
+    """Wear (scenes, cycles) and its estimated relative error but for rounding, of scenes whose
+    meshes of phase have as many intervals."""
+    wear, error = np.full((2, len(plan.end), len(cycles)), np.inf)
+    scene = np.flatnonzero(np.isfinite(begun.error).all(axis=1))
+    if len(scene) == 0:
+        return wear, error
+    starts = np.sum(begun.added[scene], axis=1)
+    ends = np.maximum(plan.end[scene], 2 * starts)
+    blank = np.zeros((len(scene), size.panel_nodes)), np.full(len(scene), np.inf)
+    panels = fill(*maps, ManyPanels(scene, plan.shift[scene], starts, ends, *blank), size)
+    for some in _alike(panels):
+        which = np.unique(some.scene)
+        wear[which], error[which] = _evaluate(some, begun.take(which), cycles)
+    return wear, error
 
 
 def _alike(panels: ManyPanels) -> Iterator[ManyPanels]:
@@ -180,28 +201,35 @@ def _alike(panels: ManyPanels) -> Iterator[ManyPanels]:
         yield panels.where(counts[inverse] == number)
 
 
-def _scan(many: Many, shift: FloatArray, cycles: float) -> tuple[FloatArray, FloatArray]:
-    """The wear (scenes,) at which the frozen rate puts `cycles`, roughly, and the step in y of the
-    first cycle."""
-    wear = shift[:, None] * np.expm1(SCAN)
+def _scan(many: Many, cycles: float) -> Plan:
+    """How far panels must reach: to where the frozen rate puts `cycles`, roughly."""
+    fresh = np.zeros((len(many.loads), 1))
+    scale = many.model.fields(fresh, fresh).sigma / 4
+    limit = roughness_limits(many.model, 1e12 * scale)
+    step = np.minimum(LONGEST, np.log1p(limit / scale)) / STEPS
+    ahead = step * np.arange(STEPS + 1)
+    wear = scale * np.expm1(ahead)
     added = np.empty_like(wear)
-    for which, edges in plain_edges(many):
+    for which, edges in plain(many):
         added[which] = many.take(which).on(edges, 10).frozen(wear[which])
-    density = -np.log(np.log1p(added / (wear + shift[:, None])) + TINY)
+    density = -np.log(np.log1p(added / (wear + scale)) + TINY)
     # Between two points the density is taken as exponential in y.
     rise = np.diff(density, axis=1)
     rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)
-    begin = np.exp(density[:, :-1]) * np.diff(SCAN) / rise
+    begin = np.exp(density[:, :-1]) * step / rise
     counts = np.cumsum(begin * np.expm1(rise), axis=1)
-    part = np.minimum(np.sum(counts < cycles, axis=1), len(SCAN) - 2)
-    at = (np.arange(len(shift)), part)
+    part = np.minimum(np.sum(counts < cycles, axis=1), STEPS - 1)
+    at = (np.arange(len(scale)), part)
     missing = cycles - np.where(part > 0, counts[at[0], part - 1], 0.0)
-    y = SCAN[part] + np.log1p(missing / begin[at]) / rise[at] * (SCAN[part + 1] - SCAN[part])
-    return shift * np.expm1(y), np.exp(-density[:, 0])
+    share = np.log1p(missing / begin[at]) / rise[at]
+    y = np.minimum(ahead[at] + share * step[:, 0], ahead[:, -1])
+    pace = np.exp(-density[:, 0])
+    change = pace * np.abs(rise[:, 0]) / step[:, 0]
+    return Plan(SHIFT * scale[:, 0], scale[:, 0] * np.expm1(y), pace, change)
 
 
 def _evaluate(
-    panels: ManyPanels, begun: _Begun, cycles: FloatArray
+    panels: ManyPanels, begun: Begun, cycles: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Wear (scenes, cycles) and its relative error but for rounding, of scenes with as many panels
     each."""
@@ -226,8 +254,9 @@ def _evaluate(
     for k in range(1, each):
         before, after = (density.take(slice(i, None, each)) for i in (k - 1, k))
         lost[:, k * parts] += abel.junctions(before, after)
-    missed = begun.error[:, -1] / tabulated.first_pace(table).reshape(gain.shape)[:, 0]
-    lost = SAFETY * np.cumsum(lost, axis=1) + missed[:, None]
+    lost = SAFETY * np.cumsum(lost, axis=1)
+    if number > 0:
+        lost += begun.error[:, -1:] / tabulated.first_pace(table).reshape(gain.shape)[:, :1]
     error = pace * np.take_along_axis(lost, part, axis=1)
     error[out_of_reach] = np.inf
 

@@ -8,6 +8,7 @@ All are frozen; values, slopes and extremes are exact to rounding.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -29,6 +30,7 @@ __all__ = [
     "Load",
     "Sine",
     "Table",
+    "sampled",
 ]
 
 
@@ -172,3 +174,12 @@ class Constant:
     @property
     def mean(self) -> float:
         return self.value_mm
+
+
+def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:
+    """U_a in mm of many loads, each at phases (loads, ...) of its own; sines all at once."""
+    amplitudes = [load.amplitude_mm for load in loads if isinstance(load, Sine)]
+    if len(amplitudes) == len(loads):
+        unit = Sine(1.0, 1.0)(phases)
+        return np.array(amplitudes).reshape(-1, *[1] * (phases.ndim - 1)) * unit
+    return np.stack([load(x) for load, x in zip(loads, phases, strict=True)])

@@ -214,7 +214,7 @@ def increments(scene: Scene, wear: FloatArray) -> FloatArray:
     """Wear (mm) that one more cycle adds to each wear (mm): integrated, not subtracted."""
     model, load = bind(scene), scene.periodic_load
     size = settings(RTOL)
-    over = resolve(model, load, wear, size.finer_nodes, size.phase_tolerance)
+    over = resolve(model, load, wear, size.finer_nodes, size.strict_tolerance)
     return advance(drive(model, load, over), wear).increment
 
 
