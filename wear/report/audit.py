@@ -82,8 +82,10 @@ def _has_number(text: str) -> bool:
 
 def _is_typed(piece: Inline) -> bool:
     match piece:
-        case Text(text) | Emphasis(text) | Link(text):
+        case Text(text) | Emphasis(text):
             return _has_number(text)
+        case Link(text, url):
+            return _has_number(text) and not url.endswith(text)  # an address is no result
         case Math(latex):
             return _RESULT.search(latex) is not None
         case Code(text):

@@ -7,7 +7,7 @@ Overview
     into a page and into LaTeX.
 Rules
     A label is unique in the document, made of letters, digits and ``: . -``, and starts with a
-    letter: ``eq:21``, ``fig:wear``, ``claim:C24``.
+    letter: ``eq:21``, ``fig:wear``, ``claim:C24``, ``ref:archard1953``.
     A number in running text is a `Number` with the name of the computation that it came from.
     Digits that are no result (a version, a year, a unit) are a `Given` with the reason.
     LaTeX of formulas keeps to the subset described in `wear.report.display`.
@@ -54,8 +54,8 @@ class Math:
 
 @dataclass(frozen=True)
 class Reference:
-    """A link to a label, shown by its kind and number: Eq. (8), Figure 2, claim C24; `bare` by the
-    number alone, for the second and later of a list."""
+    """A link to a label, shown by its kind and number: Eq. (8), Figure 2, claim C24, [3]; `bare` by
+    the number alone, for the second and later of a list."""
 
     label: str
     bare: bool = False
@@ -252,6 +252,21 @@ class Steps:
 
 
 @dataclass(frozen=True)
+class Work:
+    """A work that the text cites: author, title, where and when it appeared."""
+
+    label: str
+    entry: Prose
+
+
+@dataclass(frozen=True)
+class Bibliography:
+    """The works that the text cites; each is numbered by its place."""
+
+    works: tuple[Work, ...]
+
+
+@dataclass(frozen=True)
 class Listing:
     """Commands or code, verbatim. `description` is its accessible name."""
 
@@ -269,9 +284,18 @@ class Section:
 
 
 Block: TypeAlias = (
-    Paragraph | Items | Equation | Figure | Table | Claims | Steps | Listing | Section
+    Paragraph
+    | Items
+    | Equation
+    | Figure
+    | Table
+    | Claims
+    | Steps
+    | Bibliography
+    | Listing
+    | Section
 )
-Labelled: TypeAlias = Equation | Figure | Table | Claims | Claim | Steps | Section
+Labelled: TypeAlias = Equation | Figure | Table | Claims | Claim | Steps | Work | Section
 
 
 @dataclass(frozen=True)

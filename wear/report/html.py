@@ -18,6 +18,7 @@ from typing import assert_never
 
 from wear.report import mathml, svg
 from wear.report.document import (
+    Bibliography,
     Block,
     Claim,
     Claims,
@@ -33,6 +34,7 @@ from wear.report.document import (
     Step,
     Steps,
     Table,
+    Work,
 )
 from wear.report.html_prose import Page, link, prose
 from wear.report.numbering import mentioned_by, number
@@ -97,6 +99,8 @@ def _block(here: Page, block: Block, level: int) -> str:
             return _claims(here, block)
         case Steps():
             return _steps(here, block)
+        case Bibliography(works):
+            return f'<ol class="works">{"".join(_work(here, work) for work in works)}</ol>'
         case Listing(code, description):
             name = escape(description)
             return f'<pre role="region" aria-label="{name}" tabindex="0">{escape(code)}</pre>'
@@ -257,6 +261,11 @@ def _step(here: Page, step: Step) -> str:
     formula = f'<div class="formula">{mathml.block(step.latex)}</div>' if step.latex else ""
     check = f'<p class="check">{prose(here, step.check)}</p>' if step.check else ""
     return f"<li><p>{prose(here, step.text)}</p>{formula}{check}</li>"
+
+
+def _work(here: Page, work: Work) -> str:
+    number = here.marks[work.label].name
+    return f'<li id="{work.label}"><b>{number}</b> <span>{prose(here, work.entry)}</span></li>'
 
 
 def style() -> str:

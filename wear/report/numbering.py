@@ -21,11 +21,12 @@ from wear.report.document import (
     Section,
     Steps,
     Table,
+    Work,
     is_label,
 )
 from wear.report.walk import all_prose, labelled, prose
 
-Kind = Literal["section", "equation", "figure", "table", "claim", "derivation"]
+Kind = Literal["section", "equation", "figure", "table", "claim", "derivation", "work"]
 
 #: Number of an equation that the note does not have.
 OWN_EQUATION = "D.{}"
@@ -41,7 +42,12 @@ class Mark:
     @property
     def bare(self) -> str:
         """The number alone, as it stands in a list of references."""
-        return f"({self.number})" if self.kind == "equation" else self.number
+        match self.kind:
+            case "equation":
+                return f"({self.number})"
+            case "work":
+                return f"[{self.number}]"
+        return self.number
 
     @property
     def name(self) -> str:
@@ -63,6 +69,8 @@ class Mark:
                 return f"claim\u00a0{self.number}"
             case "derivation":
                 return f"derivation of\u00a0({self.number})"
+            case "work":
+                return self.bare
         assert_never(self.kind)
 
 
@@ -86,6 +94,8 @@ def number(document: Document) -> dict[str, Mark]:
                 marks[node.label] = Mark("table", _next(counts, "table"))
             case Claim(id=identity):
                 marks[node.label] = Mark("claim", identity)
+            case Work():
+                marks[node.label] = Mark("work", _next(counts, "work"))
             case Section() | Steps():
                 pass
             case _:

@@ -9,6 +9,7 @@ Overview
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from wear.report import (
@@ -24,11 +25,12 @@ from wear.report import (
     paper_reproduce,
     paper_speed,
 )
-from wear.report.document import Block, Document, Equation, Number, Prose, Section
+from wear.report.document import Block, Document, Equation, Number, Prose, Reference, Section
 from wear.report.material import Material, count, mm
 from wear.report.paper_equations import blocks_of
 from wear.report.reconcile import PRINTED
 from wear.report.runs import known
+from wear.report.walk import all_prose
 from wear.report.words import words
 
 if TYPE_CHECKING:
@@ -67,7 +69,7 @@ def paper(
         paper_asymptotics.section(material),
     )
     placed = frozenset(block.label.removeprefix("eq:") for block in _equations(before))
-    return Document(
+    written = Document(
         title=TITLE,
         subtitle=words("A machine-checked reading of a note on stabilised wear"),
         abstract=_abstract(material),
@@ -81,10 +83,19 @@ def paper(
             paper_speed.section(material.speed),
             paper_hard.section(material),
             paper_reproduce.section(),
-            paper_reproduce.references(),
         ),
         colophon=words("Written by `wear reproduce`."),
     )
+    references = paper_reproduce.references(dict.fromkeys(_cited(written)))
+    return replace(written, sections=(*written.sections, references))
+
+
+def _cited(document: Document) -> Iterator[str]:
+    """The keys of the works that the text cites, in reading order."""
+    for text in all_prose(document):
+        for piece in text:
+            if isinstance(piece, Reference) and piece.label.startswith("ref:"):
+                yield piece.label.removeprefix("ref:")
 
 
 def _equations(blocks: Sequence[Block]) -> Iterator[Equation]:

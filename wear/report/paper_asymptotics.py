@@ -79,7 +79,8 @@ def _sound_route(material: Material) -> Section:
                 "positive number; wear and roughness grow without bound ([eq:growth]), and the "
                 "ratio tends to $1/f_c$. Nothing in this is special to $\\tanh$: it holds for "
                 "every law $p=p_{\\max}\\,\\phi(h/\\bar\\sigma)$ with a positive, continuous and "
-                "decreasing $\\phi$."
+                "decreasing $\\phi$, such as the exponential law of rough surfaces "
+                "[ref:greenwood1966]."
             ),
             *material.show("growth", "general-rate", "closure-ratio", "general-law"),
             paragraph(

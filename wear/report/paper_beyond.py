@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+from typing import TYPE_CHECKING
+
 from wear.report.document import Block, Number, Section
 from wear.report.material import Material, mm
 from wear.report.paper_model import further_symbols
 from wear.report.runs import known
 from wear.report.words import paragraph
+
+if TYPE_CHECKING:
+    from derive.equations import Equation
 
 #: Sections of the catalogue that belong here, each with its heading and its sentences.
 _PARTS = (
@@ -33,9 +39,9 @@ _PARTS = (
         "Constant load: the solution in closed form",
         "Under a load that does not vary the variables separate. The time to a given wear is an "
         "exponential integral, $\\operatorname{Ei}$, for either sign of $f_c$; for $f_c=0$ the "
-        "wear itself is given by Lambert's function $W$; on a compliant support wear and time are "
-        "both given at a pressure. The scaled form [(eq:static-solution-scaled)] of the primitive "
-        "is the one that is evaluated.",
+        "wear itself is given by Lambert's function $W$ [ref:corless1996]; on a compliant support "
+        "wear and time are both given at a pressure. The scaled form "
+        "[(eq:static-solution-scaled)] of the primitive is the one that is evaluated.",
     ),
     (
         "long times",
@@ -44,8 +50,7 @@ _PARTS = (
         "within the cycle, $\\bar\\sigma=m+w_1/m+w_2/m^2+\\dots$ with "
         "$\\mathrm{d}m/\\mathrm{d}\\tau=\\rho\\,(1+c_1/m+c_2/m^2+\\dots)$, $\\tau=t/T$. The "
         "number of cycles follows as a function of $m$, up to terms of the order $m^{-4}$; $s_0$ "
-        "keeps the memory of the start. The logarithmic drift [(eq:19)] is its first term, here "
-        "once more:",
+        "keeps the memory of the start. The logarithmic drift [(eq:19)] is its first term.",
     ),
     (
         "compliant support",
@@ -58,16 +63,16 @@ _PARTS = (
         "bounds",
         "Bounds that are proofs",
         "The rate increases with the load ([eq:wear-increases]), so that by the comparison "
-        "theorem the solutions under its smallest and its largest value enclose the wear; a "
-        "compliant support acts like the load $U_a-p/k$, which lies between two loads on a rigid "
-        "one [(eq:compliant-load)]. Within one cycle the same argument, with the wear frozen at "
-        "its start and Gronwall's lemma for what that neglects, gives a much tighter enclosure. "
-        "It is evaluated in ball arithmetic, where every rounding is inside the bounds. Means "
-        "over a cycle are taken at equidistant phases; their error is bounded by the size of the "
-        "law at complex closures. There $1/(1+\\mathrm{e}^{z})$ is below one in modulus as long "
-        "as $c>0$: with $a=\\operatorname{Re}z$ and $c=\\cos\\operatorname{Im}z$, [eq:strip] has "
-        "$|1+\\mathrm{e}^{z}|^2$ on its left. The theorems and the "
-        "arithmetic are in [sec:references].",
+        "theorem [ref:walter1998] the solutions under its smallest and its largest value enclose "
+        "the wear; a compliant support acts like the load $U_a-p/k$, which lies between two loads "
+        "on a rigid one [(eq:compliant-load)]. Within one cycle the same argument, with the wear "
+        "frozen at its start and Gronwall's lemma for what that neglects, gives a much tighter "
+        "enclosure. It is evaluated in ball arithmetic [ref:johansson2017], where every rounding "
+        "is inside the bounds. Means over a cycle are taken at equidistant phases; their error is "
+        "bounded by the size of the law at complex closures [ref:trefethen2014]. There "
+        "$1/(1+\\mathrm{e}^{z})$ is below one in modulus as long as $c>0$: with "
+        "$a=\\operatorname{Re}z$ and $c=\\cos\\operatorname{Im}z$, [eq:strip] has "
+        "$|1+\\mathrm{e}^{z}|^2$ on its left.",
     ),
     (
         "sensitivities",
@@ -96,8 +101,10 @@ _PARTS = (
 
 
 def section(material: Material, placed: frozenset[str]) -> Section:
-    """Everything in the catalogue that has no place elsewhere in the paper."""
-    rest = [e for e in material.equations if e.id not in placed]
+    """Everything in the catalogue that has no place elsewhere in the paper, and does not repeat
+    what has."""
+    before = {_content(e) for e in material.equations if e.id in placed}
+    rest = [e for e in material.equations if e.id not in placed and _content(e) not in before]
     known = {name for name, _, _ in _PARTS}
     parts = [
         Section(
@@ -117,6 +124,12 @@ def section(material: Material, placed: frozenset[str]) -> Section:
         parts.append(Section(f"sec:{name.replace(' ', '-')}", name[0].upper() + name[1:], shown))
     parts.append(_symbols(material))
     return Section("sec:beyond", "Beyond the note", tuple(parts))
+
+
+def _content(equation: Equation) -> Hashable:
+    """What an equation says, and when."""
+    claims = tuple(statement.claim for statement in equation.statements)
+    return claims, frozenset(equation.conditions)
 
 
 def _symbols(material: Material) -> Section:

@@ -17,12 +17,12 @@ def section(material: Material) -> Section:
         "Derivation of the condensed problems",
         (
             paragraph(
-                "Every equation of this report was derived by machine in the run that wrote it. A "
-                "derivation is a chain of small moves (insert, solve, integrate, take a limit); "
-                "each is told once, in the derivation of the first equation that needs it. The "
-                "derivations are folded below their equations on the page and stand in the "
-                "appendix of the PDF. The forms that the note prints are "
-                "transcribed apart and only compared with what was derived."
+                "Every equation of this report was derived by machine, with SymPy "
+                "[ref:meurer2017], in the run that wrote it. A derivation is a chain of small "
+                "moves (insert, solve, integrate, take a limit); each is told once, in the "
+                "derivation of the first equation that needs it. The derivations are folded below "
+                "their equations on the page and stand in the appendix of the PDF. The forms that "
+                "the note prints are transcribed apart and only compared with what was derived."
             ),
             paragraph(
                 "{equations} equations rest on {steps} distinct steps, and these on {checks} "

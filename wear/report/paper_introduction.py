@@ -18,14 +18,14 @@ def section(material: Material) -> Section:
         "What was examined, and what was found",
         (
             paragraph(
-                "The note {note} models the wear of journal bearings in the simplest setting that "
-                "keeps the coupling of contact, wear and roughness: two rigid, rough solids, an "
-                "Archard law, a contact pressure that depends on closure over roughness, and a "
-                "prescribed cyclic displacement. Its result is attractive, since it would replace "
-                "long simulations: after a transient the wear per cycle is constant and known in "
-                "closed form. This report derives all of it anew, solves the note's examples, "
-                "judges each claim by a computation ([tab:ledger]), and adds what the model gives "
-                "beyond.",
+                "The note {note} [ref:note] models the wear of journal bearings in the simplest "
+                "setting that keeps the coupling of contact, wear and roughness: two rigid, rough "
+                "solids, Archard's law of wear [ref:archard1953], a contact pressure that depends "
+                "on closure over roughness, and a prescribed cyclic displacement. Its result is "
+                "attractive, since it would replace long simulations: after a transient the wear "
+                "per cycle is constant and known in closed form. This report derives all of it "
+                "anew, solves the note's examples, judges each claim by a computation "
+                "([tab:ledger]), and adds what the model gives beyond.",
                 note=Emphasis(NOTE),
             ),
             _findings(material),

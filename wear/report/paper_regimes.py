@@ -185,7 +185,7 @@ def regimes(material: Material) -> Section:
                 "cycle adds a fixed amount. Near the peak the load hardly rises: there wear in "
                 "contact would use up the margin faster than the load restores it "
                 "([eq:margin-rate]). Neither state can last then, and the solids slide along "
-                "$h=3\\bar\\sigma$ in Filippov's sense ([sec:references]), wear following the "
+                "$h=3\\bar\\sigma$ in Filippov's sense [ref:filippov1988], wear following the "
                 "load [(eq:sliding-rate)] up to the peak, where it has the arrest depth. With the "
                 "data of the note's application this is {depth}, reached in cycle {cycle}.",
                 depth=mm(known(stop.arrest_wear_mm), 4, "arrest depth, section 4 with cutoff"),

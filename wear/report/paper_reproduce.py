@@ -2,8 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from wear.cite import REFERENCES, Reference
-from wear.report.document import Column, Given, Items, Listing, Prose, Section, Table, Text
+from wear.report.document import (
+    Bibliography,
+    Column,
+    Given,
+    Link,
+    Listing,
+    Prose,
+    Section,
+    Table,
+    Text,
+    Work,
+)
 from wear.report.manifest import versions
 from wear.report.words import paragraph, words
 
@@ -34,13 +47,15 @@ def section() -> Section:
         "How to reproduce this report",
         (
             paragraph(
-                "Every number in the text, the tables and the figures was computed by the run that "
+                "This report was written by the software `derive-wear` [ref:derive-wear]. Every "
+                "number in the text, the tables and the figures was computed by the run that "
                 "wrote this file, but for those that are quoted from the note; on the page, the "
                 "tooltip of a number names its computation. True errors are distances from stored "
-                "references of far higher precision. [tab:versions] has the versions of the "
-                "packages; the file `manifest.json` beside the report adds the scenes and the "
-                "checksum of every file. `equations.tex` has every equation as a macro for a "
-                "report of one's own, `claims.json` the ledger as data."
+                "references of far higher precision. The numerics rest on NumPy [ref:harris2020]; "
+                "[tab:versions] has the versions of the packages; the file `manifest.json` beside "
+                "the report adds the scenes and the checksum of every file. `equations.tex` has "
+                "every equation as a macro for a report of one's own, `claims.json` the ledger as "
+                "data."
             ),
             Listing(COMMANDS, "Commands that reproduce the results"),
             Table(
@@ -53,22 +68,23 @@ def section() -> Section:
     )
 
 
-def references() -> Section:
-    """What the report rests on."""
-    return Section(
-        "sec:references",
-        "References",
-        (Items(tuple(_entry(reference) for reference in REFERENCES.values())),),
-    )
+def references(keys: Iterable[str]) -> Section:
+    """The works of these keys, in this order."""
+    works = tuple(Work(f"ref:{key}", _entry(REFERENCES[key])) for key in keys)
+    return Section("sec:references", "References", (Bibliography(works),))
 
 
 def _entry(reference: Reference) -> Prose:
     """Author, title, where and when; what it stands for here."""
     fields = {name: _readable(text) for name, text in reference.fields.items()}
-    where = [fields[name] for name in ("journal", "publisher", "volume", "year") if name in fields]
-    told = ", ".join((fields["title"], *where))
-    author = f"{fields['author'].replace(' and ', ', ')}: " if "author" in fields else ""
-    return (Given(f"{author}{told} ({reference.purpose}).", "reference"),)
+    parts = ("title", "journal", "publisher", "volume", "pages", "year")
+    told = ", ".join(fields[name] for name in parts if name in fields)
+    authors = fields.get("author", "").replace(" and others", " et al.").replace(" and ", ", ")
+    author = f"{authors}: " if authors else ""
+    entry = Given(f"{author}{told} ({reference.purpose}).", "reference")
+    if "doi" not in fields:
+        return (entry,)
+    return (entry, Text(" doi:"), Link(fields["doi"], f"https://doi.org/{fields['doi']}"))
 
 
 def _readable(text: str) -> str:

@@ -39,12 +39,15 @@ def section(runs: Sequence[Measurement]) -> Section:
         (
             paragraph(
                 "The wear of a cycle depends on the wear at its start alone. The number of cycles "
-                "$n(u)$ as a function of the wear therefore solves Abel's functional equation, "
-                "$n(u+D(u))=n(u)+1$ with the wear $D(u)$ of a cycle, which few cycles "
-                "determine; the cost of this method, the cycle count, does not grow with the "
-                "number of cycles. The other methods integrate every cycle: those of the software "
-                "with steps that cannot jump over a contact pulse, those called defaults as SciPy "
-                "comes. The true error is known from references of far higher precision."
+                "$n(u)$ as a function of the wear therefore solves Abel's functional equation "
+                "[ref:kuczma1990], $n(u+D(u))=n(u)+1$ with the wear $D(u)$ of a cycle, which few "
+                "cycles determine; the cost of this method, the cycle count, does not grow with "
+                "the number of cycles. The other methods integrate every cycle by the solvers of "
+                "SciPy [ref:virtanen2020], `DOP853` [ref:hairer1993], `Radau` [ref:hairer1996], "
+                "`BDF` [ref:shampine1997], `LSODA` [ref:petzold1983] and `RK45` "
+                "[ref:dormand1980]: those of the software with steps that cannot jump over a "
+                "contact pulse, those called defaults as SciPy comes. The true error is known "
+                "from references of far higher precision."
             ),
             paragraph(
                 "This is a quick measurement of the run that wrote the report, in which other "

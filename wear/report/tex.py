@@ -19,6 +19,7 @@ from typing import assert_never
 
 from wear.report.display import display
 from wear.report.document import (
+    Bibliography,
     Block,
     Claims,
     Code,
@@ -42,6 +43,7 @@ from wear.report.document import (
     Steps,
     Table,
     Text,
+    Work,
     grouped,
 )
 from wear.report.numbering import Mark, mentioned_by, number
@@ -49,6 +51,8 @@ from wear.report.tex_text import escape, heading, verbatim
 from wear.report.walk import blocks
 
 _HEADINGS = ("section", "subsection", "subsubsection")
+#: What is not numbered by LaTeX, but named where it stands.
+_NAMED = ("claim", "derivation", "work")
 _THIN_SPACE = r"\,"
 #: Characters of ``\footnotesize\ttfamily`` in a line of text.
 _LISTING_WIDTH = 96
@@ -147,14 +151,14 @@ def _number(node: Number) -> str:
 
 def _link(here: Context, label: str) -> str:
     mark = here.marks[label]
-    if mark.kind in ("claim", "derivation"):
+    if mark.kind in _NAMED:
         return f"\\linkto{{{label}}}{{{escape(mark.name)}}}"
     return f"\\cref{{{label}}}"
 
 
 def _bare_link(here: Context, label: str) -> str:
     mark = here.marks[label]
-    if mark.kind in ("claim", "derivation"):
+    if mark.kind in _NAMED:
         return f"\\linkto{{{label}}}{{{mark.bare}}}"
     return f"\\hyperref[{label}]{{{mark.bare}}}"
 
@@ -194,6 +198,9 @@ def _block(here: Context, block: Block, depth: int) -> str:
             return _claims(here, block)
         case Steps():
             return ""  # see `_appendix`
+        case Bibliography(works):
+            cited = "\n".join(_work(here, work) for work in works)
+            return f"\\begin{{itemize}}\n{cited}\n\\end{{itemize}}\n"
         case Listing(code):
             return (
                 "\n{\\footnotesize\n\\begin{verbatim}\n"
@@ -302,6 +309,11 @@ def _claims(here: Context, ledger: Claims) -> str:
         for claim in ledger.claims
     ]
     return _long_table(here, ledger.label, ledger.caption, columns, rows, apart=True)
+
+
+def _work(here: Context, work: Work) -> str:
+    mark = here.marks[work.label]
+    return f"\\item[{{\\hypertarget{{{work.label}}}{{{mark.name}}}}}] {prose(here, work.entry)}"
 
 
 def _appendix(here: Context, derivations: Sequence[Steps]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from wear.report.document import (
+    Bibliography,
     Block,
     Claim,
     Claims,
@@ -19,6 +20,7 @@ from wear.report.document import (
     Section,
     Steps,
     Table,
+    Work,
 )
 
 
@@ -38,13 +40,15 @@ def blocks(document: Document) -> Iterator[Block]:
 def labelled(document: Document) -> Iterator[Labelled]:
     """Everything that has a label, in reading order."""
     for block in blocks(document):
-        if not isinstance(block, Paragraph | Items | Listing):
+        if not isinstance(block, Paragraph | Items | Bibliography | Listing):
             yield block
         if isinstance(block, Claims):
             yield from block.claims
+        if isinstance(block, Bibliography):
+            yield from block.works
 
 
-def prose(block: Block | Claim) -> Iterator[Prose]:
+def prose(block: Block | Claim | Work) -> Iterator[Prose]:
     """All prose of a block, without that of the blocks inside it."""
     match block:
         case Paragraph(content):
@@ -68,6 +72,11 @@ def prose(block: Block | Claim) -> Iterator[Prose]:
                 yield from (step.text, step.check)
         case Equation(title=title):
             yield title
+        case Bibliography(works):
+            for work in works:
+                yield from prose(work)
+        case Work(entry=entry):
+            yield entry
         case Listing() | Section():
             pass
 

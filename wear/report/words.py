@@ -3,6 +3,7 @@ r"""Short marks for prose, so that a report's text can be read where it is writt
     $u_c$        a formula            *stress*     emphasis
     `wear run`   code                 [eq:21]      reference to a label
     [(eq:21)]    the same by its number alone: Eqs. [(eq:18)] and [(eq:21)]
+    [ref:note]   the number of a work that is cited
     {rate}       a value by name: a `Number`, or any other inline node
 
 There is no escape: a text that needs one of these marks as itself passes it as a named `Text`.

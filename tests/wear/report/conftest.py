@@ -10,6 +10,7 @@ from wear import figure_style, figures
 from wear.figure_data import Line
 from wear.report import drawing
 from wear.report.document import (
+    Bibliography,
     Claim,
     Claims,
     Column,
@@ -26,6 +27,7 @@ from wear.report.document import (
     Steps,
     Table,
     Text,
+    Work,
 )
 from wear.report.words import paragraph, words
 
@@ -185,11 +187,12 @@ def _ledger() -> Section:
         "Claims",
         (
             paragraph(
-                "Each claim of {note} has < its verdict >, {all} % of them.",
+                "Each claim of {note} has < its verdict >, {all} % of them; see [ref:b].",
                 note=link,
                 all=Number(100, 3, source="count"),
             ),
             Claims("tab:ledger", words("The ledger"), claims),
+            Bibliography((Work("ref:a", words("One & Other: A")), Work("ref:b", words("B")))),
         ),
     )
 

@@ -56,6 +56,8 @@ def test_every_label_has_the_number_of_its_place(sample: Document) -> None:
         "claim:C24": "claim C24",
         "claim:C29": "claim C29",
         "der:8": "derivation of (8)",
+        "ref:a": "[1]",
+        "ref:b": "[2]",
     }
 
 
@@ -159,6 +161,7 @@ def test_audit_looks_everywhere() -> None:
         Code("wear run --cycles 1e8"),
         Code("section4"),
         Link("here", "https://example.org/1"),
+        Link("10.1063/1.1721448", "https://doi.org/10.1063/1.1721448"),
     ],
 )
 def test_audit_lets_computed_and_declared_numbers_pass(piece: Inline) -> None:

@@ -83,6 +83,7 @@ def test_every_label_is_on_the_page_under_its_number(sample: Document, page: str
             "table": f"<b>{mark.name}.</b>",
             "claim": f">{mark.number}</th>",
             "derivation": f"({mark.number})",
+            "work": f"<b>[{mark.number}]</b>",
         }[mark.kind]
         assert shown in after, label
 
