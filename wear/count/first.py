@@ -7,7 +7,7 @@ import numpy as np
 from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost, Drive, OneCycle, Settings
-from wear.count.march import growth_of, march, overlooked
+from wear.count.march import growth_of, march, overlooked, overlooked_wear
 from wear.count.request import Request
 from wear.count.resolution import refined, unresolved
 from wear.count.scan import SHIFT, plan_panels, scan
@@ -134,6 +134,8 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
             judged = finer.advance(starts, run.near(size.finer_nodes))
             evaluations += judged.evaluations
             missed = np.abs(judged.increment - run.increment)
+            if isinstance(finer, Drive):  # what both meshes miss
+                missed += overlooked_wear(finer, start, judged)
             if not (sound and judged.converged.all()):
                 missed[:] = np.inf
             if full or not np.any(missed > size.residual_tolerance * wear):

@@ -14,7 +14,7 @@ from wear.count.arithmetic import TINY
 from wear.count.collocation import BoolArray, FloatArray, integral, mesh
 from wear.count.cycle import Drive, Settings
 from wear.count.iteration import Advance
-from wear.count.resolution import hidden, unresolved
+from wear.count.resolution import concealed, hidden, unresolved
 
 SHORTEST = 1e-12  # of a cycle
 
@@ -53,8 +53,10 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
             middle = (begin + end) / 2
             todo += [(middle, end), (begin, middle)]
             continue
-        judged = cycle.on(mesh(edges, size.finer_nodes)).advance(at)
+        finer = cycle.on(mesh(edges, size.finer_nodes))
+        judged = finer.advance(at)
         apart = abs(float(judged.increment) - own) if sound else np.inf
+        apart += float(overlooked_wear(finer, float(at), judged)[0])
         growth = float(growth_of(part, float(at), run.inside))
         done = Marched(
             done.added + own,
@@ -77,6 +79,20 @@ def growth_of(cycle: Drive, start: float | FloatArray, inside: FloatArray) -> Fl
 def overlooked(cycle: Drive, start: float, run: Advance, tolerance: float) -> BoolArray:
     """Which intervals (q,) of phase hide a change of the rate between an end and the nodes, over
     the cycles of `run` on end (..., q, m) from wear `start` (mm)."""
+    return hidden(*_with_ends(cycle, start, run), cycle.over, tolerance)
+
+
+def overlooked_wear(cycle: Drive, start: float, run: Advance) -> FloatArray:
+    """What such changes may make of the wear (mm) that each of the cycles adds, (k,)."""
+    missed: FloatArray = np.sum(concealed(*_with_ends(cycle, start, run), cycle.over), axis=-1)
+    return missed
+
+
+def _with_ends(
+    cycle: Drive, start: float, run: Advance
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The rates (k, q, m) of cycles on end, and those where their intervals begin and end (k, q),
+    in mm per cycle."""
     over = cycle.over
     q, m = over.phases.shape
     rate = run.rate.reshape(-1, q, m)
@@ -84,5 +100,4 @@ def overlooked(cycle: Drive, start: float, run: Advance, tolerance: float) -> Bo
     wear = start + np.concatenate([[0.0], np.cumsum(added)])
     phases = np.append(np.tile(over.edges[:-1], len(rate)), over.edges[-1])
     at_edges = cycle.load.period * cycle.model.rate(wear, cycle.load(phases))
-    left, right = at_edges[:-1].reshape(-1, q), at_edges[1:].reshape(-1, q)
-    return hidden(rate, left, right, over, tolerance)
+    return rate, at_edges[:-1].reshape(-1, q), at_edges[1:].reshape(-1, q)

@@ -43,11 +43,10 @@ def unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
     return rough
 
 
-def hidden(
-    rate: FloatArray, left: FloatArray, right: FloatArray, over: Mesh, tolerance: float
-) -> BoolArray:
-    """Which intervals (..., q) hide a change of the rate (..., k, q, m) between an end and the
-    nodes; `left` and `right` (..., k, q) are the rates at their ends.
+def concealed(rate: FloatArray, left: FloatArray, right: FloatArray, over: Mesh) -> FloatArray:
+    """What intervals (..., q) may miss of the integral of the rate (..., k, q, m) by a change of it
+    between an end and the nodes, (..., k, q); `left` and `right` (..., k, q) are the rates at their
+    ends.
 
     Fast wear may have opened the gap before the first node: then nothing but the rate at the start
     of the interval tells. The measure is that of `unresolved`.
@@ -58,8 +57,16 @@ def hidden(
         np.abs(series @ (-1.0) ** np.arange(m) - left), np.abs(np.sum(series, axis=-1) - right)
     )
     largest = np.max(np.abs(series), axis=-1) + TINY
-    missed = apart * (apart / largest) * over.lengths
+    missed: FloatArray = apart * (apart / largest) * over.lengths
     missed[apart < NOISE_AT_ENDS * largest] = 0.0
+    return missed
+
+
+def hidden(
+    rate: FloatArray, left: FloatArray, right: FloatArray, over: Mesh, tolerance: float
+) -> BoolArray:
+    """Which intervals (..., q) conceal more than the tolerance permits."""
+    missed = concealed(rate, left, right, over)
     rough: BoolArray = np.any(missed > tolerance * integral(rate, over)[..., None], axis=-2)
     return rough
 
