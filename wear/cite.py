@@ -82,7 +82,7 @@ _ENTRIES = (
     Reference(
         "hairer1993",
         "book",
-        "method DOP853",
+        "methods DOP853 and collocation",
         {
             "author": "Hairer, E. and N{\\o}rsett, S. P. and Wanner, G.",
             "title": "Solving Ordinary Differential Equations {I}: Nonstiff Problems",

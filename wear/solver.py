@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["METHODS", "MOST_CYCLES", "solve"]
 
 FloatArray = NDArray[np.float64]
-METHODS = ("auto", "cycle-count", *direct.METHODS)
+METHODS = ("auto", "cycle-count", "collocation", *direct.METHODS)
 MOST_CYCLES = 10**12
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
@@ -62,8 +62,9 @@ def solve(
     rtol
         Requested relative error of the bearing's wear.
     method
-        "auto", "cycle-count" (any number of cycles from a few; the load must repeat) or one of
-        SciPy's integrators, which go through every cycle.
+        "auto", "cycle-count" (any number of cycles from a few; the load must repeat),
+        "collocation" (a measured history, many of its rows at once) or one of SciPy's integrators,
+        which go through every cycle.
     time_limit
         Seconds after which to stop with what there is.
 
@@ -116,6 +117,8 @@ def _check(
         faults.append(f"method: {method!r} is none of {', '.join(METHODS)}")
     elif method == "cycle-count" and obstacle(scene) is not None:
         faults.append(f"method: cycle-count is not for this scene: {obstacle(scene)}; take auto")
+    elif method == "collocation" and not _is_smooth_history(scene):
+        faults.append("method: collocation is for a measured history without cutoff; take auto")
     if time_limit is not None and not time_limit > 0.0:
         faults.append(f"time_limit: {time_limit!r} is no positive number of seconds")
     if max(wanted, default=0) > most_cycles(scene.load):
@@ -140,6 +143,11 @@ def obstacle(scene: Scene) -> str | None:
     return None
 
 
+def _is_smooth_history(scene: Scene) -> bool:
+    """Whether the load is a measured history, and contact does not jump."""
+    return isinstance(scene.load, HistoryLoad) and not scene.contact.cutoff
+
+
 def _methods(
     scene: Scene, method: str, wanted: tuple[int, ...], rtol: float
 ) -> tuple[tuple[str, str], ...]:
@@ -148,7 +156,7 @@ def _methods(
         return ((method, ""),)
     against = obstacle(scene)
     if against is not None:
-        return (("DOP853", against),)
+        return (("collocation" if _is_smooth_history(scene) else "DOP853", against),)
     first = ("cycle-count", "the load repeats")
     if max(wanted) > AFFORDABLE_CYCLES or rtol < DIRECT_LIMIT:
         return (first,)
@@ -165,9 +173,9 @@ def _solved(
 ) -> Wear:
     """The first method's result that meets the request, or that with the smallest error."""
     results: list[Wear] = []
+    special = {"cycle-count": _cycle_count, "collocation": _collocation}
     for name, reason in _methods(scene, method, wanted, rtol):
-        run = _cycle_count if name == "cycle-count" else _direct
-        wear = run(model, scene, wanted, rtol, name, deadline)
+        wear = special.get(name, _direct)(model, scene, wanted, rtol, name, deadline)
         if reason:
             wear = wear._replace(notices=(f"auto: {name}, because {reason}", *wear.notices))
         results.append(wear)
@@ -211,6 +219,19 @@ def _cycle_count(
 def _nothing(name: str, stopped: str, interrupted: bool) -> Wear:
     cost = {"cycles_integrated": 0, "rhs_evaluations": 0}
     return Wear(name, (), np.empty(0), np.empty(0), cost, (), stopped, interrupted)
+
+
+def _collocation(
+    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
+) -> Wear:
+    from wear.count.record import follow
+
+    assert isinstance(scene.load, HistoryLoad)
+    found = follow(model, scene.load, wanted, rtol, deadline)
+    cost = found.cost._asdict()
+    return Wear(
+        name, found.cycles, found.u, found.error, cost, (), found.stopped, found.interrupted
+    )
 
 
 def _direct(

@@ -247,7 +247,7 @@ def test_an_unusual_choice_of_a_method_is_told(run, tmp_path):
     own.write_text(load_scene("section4").to_toml().partition("[load]")[0])
     with own.open("a") as file:
         file.write('[load]\nkind = "history"\nfile = "rows.csv"\nperiod_s = 1.0\n')
-    assert "auto: DOP853, because" in run(str(own), "--cycles", "1", "--rtol", "1e-6")[2]
+    assert "auto: collocation, because" in run(str(own), "--cycles", "1", "--rtol", "1e-6")[2]
 
 
 def test_no_state_at_all_is_told_in_words(history):

@@ -42,8 +42,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     method = parser.add_argument(
         "--method",
         default="auto",
-        help="auto, cycle-count, or an integrator of SciPy that goes through every cycle: DOP853, "
-        "RK45, RK23, Radau, BDF, LSODA (default: %(default)s)",
+        help="auto, cycle-count, collocation (of a measured history), or an integrator of SciPy "
+        "that goes through every cycle: DOP853, RK45, RK23, Radau, BDF, LSODA (default: "
+        "%(default)s)",
     )
     completion.suggest(method, _methods)
     parser.add_argument(

@@ -26,8 +26,8 @@ MOST_ITERATIONS = 60
 PATIENCE = 8  # iterations that may diverge at first
 
 
-class Cycle(Protocol):
-    """One cycle of one scene or of many, on a mesh of phase."""
+class Paced(Protocol):
+    """A stretch of time, on a mesh, with the pace of wear in it."""
 
     @property
     def over(self) -> Mesh: ...
@@ -39,6 +39,10 @@ class Cycle(Protocol):
     def pace(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
         """Wear rate in mm per interval of the mesh at wear `u` (..., k, q, m), or (..., k, 1, 1)
         if frozen, sought from a pace `near` by."""
+
+
+class Cycle(Paced, Protocol):
+    """One cycle of one scene or of many, on a mesh of phase."""
 
     def interval(self, i: int) -> "Cycle":
         """The part over one interval of the mesh."""
@@ -92,7 +96,7 @@ def advance(cycle: Cycle, starts: FloatArray, near: Near | None = None) -> Advan
     return _one_by_one(cycle, starts, run.evaluations)
 
 
-def iterate(cycle: Cycle, starts: FloatArray, near: Near | None = None) -> Advance:
+def iterate(cycle: Paced, starts: FloatArray, near: Near | None = None) -> Advance:
     """Solve v = integral of rate(u + v) by Newton's method with the slope of the last two rates.
 
     It ends when the next change, foretold from the last contraction, is below the tolerance. Wear
