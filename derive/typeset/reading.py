@@ -31,7 +31,7 @@ _TOKEN = re.compile(
     r"|(?P<mark>.)",
     re.DOTALL,
 )
-_IDENTIFIER = re.compile(r"[A-Za-z]+(?:[_-]?[A-Za-z]+)*[_-]?\d[\w\-]*")
+_IDENTIFIER = re.compile(r"[A-Za-z]+(?:[_-][A-Za-z]+)*[_-]?\d[\w\-]*")
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?")
 #: What makes a number a result, and no part of a formula.
 _RESULT = re.compile(r"[.e]|\d{3}")
