@@ -13,34 +13,14 @@ Key results
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from ..symbols import QUANTITIES
+from .tokens import Token, tokens_of
 
-_NAME = r"[A-Za-z]+(?:_[A-Za-z0-9]+)?"
-_TOKEN = re.compile(
-    r"(?P<space>\s+)"
-    rf"|(?P<slope>\bd ?(?P<above>{_NAME})/d ?(?P<below>{_NAME})\b)"
-    r"|(?P<words>[A-Za-z]+'[A-Za-z]*|[A-Za-z]{2,}(?:-[A-Za-z]{2,})+|(?:[A-Za-z]\.){2,})"
-    r"|(?P<number>(?<![\w.])\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w]|\.\d))"
-    r"|(?P<factor>(?<![\w.])\d(?=[A-Za-z]))"
-    rf"|(?P<name>(?<!\w){_NAME}(?!\w))"
-    r"|(?P<relation><=|>=|!=|->|(?<=\s)[<>](?=\s)|=)"
-    r"|(?P<mark>.)",
-    re.DOTALL,
-)
-_IDENTIFIER = re.compile(r"[A-Za-z]+(?:[_-][A-Za-z]+)*[_-]?\d[\w\-]*")
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?")
 #: What makes a number a result, and no part of a formula.
 _RESULT = re.compile(r"[.e]|\d{3}")
-_RELATIONS = {"<=": r"\le", ">=": r"\ge", "!=": r"\ne", "->": r"\to", "=": "=", "<": "<", ">": ">"}
-_FUNCTIONS = {name: rf"\{name}" for name in ("tanh", "ln", "sin", "cos", "max", "min")}
-_NAMES = {
-    "phi": r"\phi", "pi": r"\pi", "oo": r"\infty", "K": "K", "Q": "Q", "F": "F",
-    "f_ij": "f_{ij}", "f_i": "f_i", "a_n": "a_n", "c_n": "c_n", "w_n": "w_n",
-}  # fmt: skip
 #: Letters that are words more often than not.
 _AMBIGUOUS = frozenset("aAIidmgb")
 _BRACKETS = {"(": ")", "[": "]", "|": "|"}
@@ -54,15 +34,6 @@ class Part:
     text: str
 
 
-@dataclass(frozen=True)
-class _Token:
-    kind: str
-    text: str
-    start: int
-    end: int
-    latex: str = ""
-
-
 class _NoFormulaError(Exception):
     """What stands here is no formula."""
 
@@ -73,7 +44,7 @@ def read(text: str) -> tuple[Part, ...]:
     >>> [part.text for part in read("at h = 3 sigma, for f_c = 0.25 and a load")]
     ['at ', 'h = 3 \\\\bar{\\\\sigma}', ', for ', 'f_c =', ' ', '0.25', ' and a load']
     """
-    tokens = tuple(_tokens(text))
+    tokens = tuple(tokens_of(text))
     parts: list[Part] = []
     place = start = 0
     while place < len(tokens):
@@ -88,41 +59,10 @@ def read(text: str) -> tuple[Part, ...]:
     return tuple(part for part in parts if part.text)
 
 
-def _tokens(text: str) -> Iterator[_Token]:
-    place = 0
-    while place < len(text):
-        identifier = _IDENTIFIER.match(text, place)
-        boundary = place == 0 or not text[place - 1].isalnum()
-        if identifier and boundary and identifier[0] not in QUANTITIES:
-            yield _Token("identifier", identifier[0], place, identifier.end(), identifier[0])
-            place = identifier.end()
-            continue
-        found = _TOKEN.match(text, place)
-        assert found is not None, text
-        yield _token(found)
-        place = found.end()
-
-
-def _token(found: re.Match[str]) -> _Token:
-    kind, text = str(found.lastgroup), found[0]
-    if found["slope"]:
-        above, below = _symbol(found["above"]), _symbol(found["below"])
-        latex = rf"\mathrm{{d}}{above}/\mathrm{{d}}{below}" if above and below else ""
-        return _Token("slope" if latex else "words", text, found.start(), found.end(), latex)
-    return _Token(kind, text, found.start(), found.end(), _symbol(text) if kind == "name" else "")
-
-
-def _symbol(name: str) -> str:
-    """The LaTeX of a name, empty for a word."""
-    if name in QUANTITIES:
-        return QUANTITIES[name].latex
-    return _NAMES.get(name, name if len(name) == 1 else "")
-
-
 class _Formula:
     """Reads one formula by recursive descent; ``_place`` is the token that comes next."""
 
-    def __init__(self, tokens: tuple[_Token, ...], place: int) -> None:
+    def __init__(self, tokens: tuple[Token, ...], place: int) -> None:
         self._tokens, self._place = tokens, place
         self._depth = 0
         self._certain = False
@@ -156,7 +96,7 @@ class _Formula:
                 break
             self._skip()
             self._certain = True
-            latex += f" {_RELATIONS[self._next().text]} "
+            latex += f" {self._next().latex} "
             self._skip()
             first = self._place
         if latex:
@@ -231,7 +171,7 @@ class _Formula:
             return False
         if token.kind == "mark":
             return token.text in "([" and self._starts_operand(certain=True)
-        if token.kind == "name" and token.text in _FUNCTIONS:
+        if token.kind == "function":
             return True
         lone = token.text in _AMBIGUOUS and self._depth == 0
         return token.kind in ("name", "slope") and bool(token.latex) and not lone
@@ -258,10 +198,10 @@ class _Formula:
         if token.kind == "slope":
             self._certain = True
             return token.latex
-        if token.kind == "name" and token.text in _FUNCTIONS:
+        if token.kind == "function":
             self._certain = True
             self._skip()
-            return f"{_FUNCTIONS[token.text]} {self._power()}"
+            return f"{token.latex} {self._power()}"
         if token.kind == "name" and token.latex:
             return self._named(token)
         if token.kind == "mark" and token.text in _BRACKETS:
@@ -270,15 +210,14 @@ class _Formula:
             return self._mean()
         raise _NoFormulaError
 
-    def _named(self, token: _Token) -> str:
+    def _named(self, token: Token) -> str:
         """A symbol, or a function at its arguments."""
-        known = token.text in QUANTITIES or token.text in _NAMES
         follows = self._peek("mark")
         applied = follows is not None and follows.text == "("
-        ambiguous = token.text in _AMBIGUOUS or not known
+        ambiguous = token.text in _AMBIGUOUS or not token.known
         if ambiguous and not (self._certain or self._depth or applied or self._operator_follows()):
             raise _NoFormulaError
-        self._certain = self._certain or (known and token.text not in _AMBIGUOUS)
+        self._certain = self._certain or not ambiguous
         if not applied:
             return token.latex if token.latex != "e" else r"\mathrm{e}"
         before = self._place
@@ -298,7 +237,7 @@ class _Formula:
         if token is None:
             return False
         power = token.kind == "mark" and token.text in "/^*"
-        return power or token.kind == "relation" or token.text in _FUNCTIONS
+        return power or token.kind in ("relation", "function")
 
     def _bracketed(self, opening: str) -> str:
         """What stands in brackets, with commas."""
@@ -346,7 +285,7 @@ class _Formula:
         self._place += there
         return there
 
-    def _peek(self, kind: str = "") -> _Token | None:
+    def _peek(self, kind: str = "") -> Token | None:
         if self._place >= len(self._tokens):
             return None
         token = self._tokens[self._place]
@@ -360,7 +299,7 @@ class _Formula:
         self._place += 1
         return token.text
 
-    def _next(self) -> _Token:
+    def _next(self) -> Token:
         if self._place >= len(self._tokens):
             raise _NoFormulaError
         self._place += 1
