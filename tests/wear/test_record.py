@@ -283,6 +283,19 @@ def test_an_interrupt_keeps_the_cycles_so_far(monkeypatch: pytest.MonkeyPatch) -
     assert stop.value.history.cycles.tolist() == [1, 2, 3]
 
 
+def test_a_trial_state_without_a_pressure_is_no_end() -> None:
+    """Violent wear on stiff springs: the iteration over all lines runs away, to -1e12 mm."""
+    made = tables(K=0.0019065965263269193, f_c=0.0, k=1.0634538522847895e7, load=CONSTANT)
+    made["contact"] |= {"closure_mm": 0.0003160310487783073, "law": "exponential"}
+    made["contact"].pop("closure_in_sigma", None)
+    of = scene_from_tables(made)
+    levels = (0.00149725, 0.00012321, 0.00178868)
+    load = HistoryLoad((0.0, 0.5, 1.0), levels, 1.0)
+    found = follow(bind(of), load, [1], 1e-9)
+    assert found.stopped is None
+    assert abs(found.u[0] / truth(of, load) - 1) <= found.error[0] <= 1e-9
+
+
 def test_where_the_roughness_vanishes_the_record_ends() -> None:
     load = dataclasses.replace(history((0.0, 1.0), (0.0, 1e-2)), period_s=1 / 64)
     with pytest.raises(AccuracyError, match="roughness vanishes") as fault:

@@ -13,8 +13,9 @@ from wear.count.collocation import BoolArray, FloatArray, Mesh, gauss
 from wear.count.cycle import pace
 from wear.count.iteration import NOISE, Advance, iterate
 from wear.count.panels import SAFETY
-from wear.count.resolution import hidden
+from wear.count.resolution import concealed
 from wear.count.rounding import roundoff_of
+from wear.faults import AccuracyError
 from wear.model import Model
 
 NODES, FINER_NODES = 8, 12  # on each line: for the result, and for its judge
@@ -88,7 +89,10 @@ def integrated(model: Model, lines: Lines, start: float, tolerance: float, limit
     blur = float(roundoff_of(model, np.max(lines.levels, keepdims=True), np.array([start]))[0])
     evaluations = 0
     for _ in range(MOST_ROUNDS):
-        twice = _solved(model, lines, start, max(NOISE, blur))
+        try:
+            twice = _solved(model, lines, start, max(NOISE, blur))
+        except AccuracyError:  # a trial state so far off that it has no pressure
+            break
         evaluations += twice.evaluations
         if not (twice.converged and start + twice.wear[-1] < limit):
             break
@@ -103,7 +107,8 @@ def integrated(model: Model, lines: Lines, start: float, tolerance: float, limit
 
 class Twice(NamedTuple):
     """Lines from a wear `start` (mm), integrated with the coarse rule, and with the fine one that
-    judges it; the wear (mm) added by each line (q,) according to both, and the right-hand sides."""
+    judges it; the wear (mm) added by each line (q,) according to both, and what neither may see of
+    it."""
 
     model: Model
     lines: Lines
@@ -114,6 +119,7 @@ class Twice(NamedTuple):
     judge: Advance
     own: FloatArray
     judged: FloatArray
+    concealed: FloatArray
 
     @property
     def wear(self) -> FloatArray:
@@ -135,29 +141,28 @@ def _solved(model: Model, lines: Lines, start: float, tolerance: float) -> Twice
     run = iterate(coarse, at)
     judge = iterate(fine, at, run.near(FINER_NODES))
     own, judged = _on_each(run.rate[0], coarse.over), _on_each(judge.rate[0], fine.over)
-    return Twice(model, lines, start, coarse, run, fine, judge, own, judged)
+    ends = model.rate(start + np.append(0.0, np.cumsum(judged)), lines.levels)[None]
+    missed = concealed(judge.rate, ends[:, :-1], ends[:, 1:], fine.over)[0]
+    return Twice(model, lines, start, coarse, run, fine, judge, own, judged, missed)
 
 
 def _rough(twice: Twice, tolerance: float, blur: float) -> BoolArray:
     """Which lines (q,) are not resolved: where the rules differ by more than a share of the
-    `tolerance` and than `blur`, relative to what the line adds, or the ends tell of more."""
-    share = tolerance / len(twice.own)
+    `tolerance` and than `blur`, relative to what the line adds, or both may miss as much."""
+    permitted = tolerance * np.sum(twice.own) / len(twice.own)
     apart = np.abs(twice.judged - twice.own)
-    rough = apart > np.maximum(share * np.sum(twice.own), blur * twice.own)
-    wear = twice.start + np.append(0.0, np.cumsum(twice.judged))
-    ends = twice.model.rate(wear, twice.lines.levels)[None]
-    beyond = hidden(twice.judge.rate, ends[:, :-1], ends[:, 1:], twice.fine.over, share)
-    return rough | beyond
+    rough: BoolArray = apart > np.maximum(permitted, blur * twice.own)
+    return rough | (twice.concealed > permitted)
 
 
 def _judged(twice: Twice, blur: float) -> Along:
-    """What lines that are resolved did, with its error: by the rule, by what the iterations have
+    """What lines that are resolved did, with its error: by the rules, by what the iterations have
     left, and by rounding, which changes the rate by `blur`, relatively."""
     run, wear = twice.run, twice.wear
     slope = twice.model.slope(twice.start + run.inside[0], twice.coarse.displacement)
     growth = np.cumsum(_on_each(slope, twice.coarse.over))  # its logarithm
     most = growth - np.minimum(np.minimum.accumulate(growth), 0.0)  # since any line
-    missed = SAFETY * np.abs(np.cumsum(twice.judged) - wear)
+    missed = SAFETY * np.abs(np.cumsum(twice.judged) - wear) + np.cumsum(twice.concealed)
     left = float(run.left[0] + twice.judge.left[0]) * wear[-1]
     error = missed + (left + blur * wear) * np.exp(most)
     quick = run.evaluations <= FEW_ITERATIONS * run.rate.size
