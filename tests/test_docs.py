@@ -88,7 +88,7 @@ def test_another_contact_law_is_one_entry(workplace):
     failures = []
     for command in (command for body in consoles for command in pages.commands(body)):
         program, _, arguments = command.line.partition(" ")
-        module = command._replace(line=f"{sys.executable} -m {program}.cli {arguments}")
+        module = command._replace(line=f"{sys.executable} -m {program} {arguments}")
         failures.append(pages.difference(module, run))
     report("\n".join(failures))
 
