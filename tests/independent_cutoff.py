@@ -29,11 +29,13 @@ class CutoffJudge(Judge):
 
     def __init__(self, problem: Problem) -> None:
         super().__init__(problem)
-        assert not problem.deflection
         with mpmath.workprec(BITS + 60):
             share = mpmath.exp(-3) if problem.exponential else 1 / (1 + mpmath.exp(4))
             self.edge_rate = mpf(self.drive) / ONE * share
-            self.steepest = 2 * max(abs(self.speed(mpf(k) / SAMPLES)) for k in range(SAMPLES))
+            looks = [mpf(k) / SAMPLES for k in range(SAMPLES)]
+            # A line of a table may be shorter than what lies between two samples.
+            looks += [(before + after) / 2 for (before, _), (after, _) in pairwise(self.kinks)]
+            self.steepest = 2 * max(abs(self.speed(phase)) for phase in looks)
             self.widening = mpf(abs(self.gap) + 3 * (abs(self.one[1]) + abs(self.two[1]))) / ONE
             self.cuts = [phase for phase, _ in self.kinks]
             if not problem.rows:
@@ -213,6 +215,7 @@ def evaluate(series: list[int], step: mpf) -> mpf:
 
 def wear_after(problem: Problem, cycles: Iterable[int]) -> dict[int, float]:
     """u_c in mm at the end of each of `cycles`, to double precision."""
+    assert not problem.deflection
     judge, done, found = CutoffJudge(problem), 0, {}
     for wanted in sorted(cycles):
         while done < wanted:
