@@ -97,11 +97,20 @@ class Model:
             root.pressure(self.module, u, U_a, self.constants).p, self.constants
         )
 
-    def held_rate(self, u: Real, U_a: Real) -> Real:
-        """Wear rate in mm/s while a compliant support holds the contact at its edge; that at the
-        ends of this range beyond them."""
-        p = self.module.limited(self._edge_pressure, u, U_a, self.constants)
-        return self.module.rate(p, self.constants)
+    def by_law(self, u: Real, U_a: Real) -> tuple[Real, Real]:
+        """Wear rate (mm/s) by the contact law, whatever the cutoff makes of it, and its derivative
+        with respect to u_c (1/s)."""
+        if not self.compliant:
+            return self.module.rate(u, U_a, self.constants), self.slope(u, U_a)
+        p = root.pressure(self.module, u, U_a, self.constants).p
+        return self.module.rate(p, self.constants), self.module.slope(p, u, U_a, self.constants)
+
+    def at_edge(self, u: Real, U_a: Real) -> tuple[Real, Real]:
+        """Wear rate (mm/s) while a compliant support holds the contact at its edge, proportional to
+        the margin, and its derivative with respect to u_c (1/s)."""
+        p = self._edge_pressure / self.held * self.margin(u, U_a)
+        slope = self.module.limited_slope(u, self.constants)
+        return self.module.rate(p, self.constants), slope + np.zeros_like(U_a)
 
     @property
     def held(self) -> float:

@@ -283,3 +283,11 @@ def test_a_trial_state_far_beyond_the_edge_ends_no_iteration() -> None:
     load = Harmonics(3.965692608849733e-5, cosine, sine, 0.06)
     scene = with_load(load, 4.846613339856077e-4, -0.15365579871590224, closure=6.12588782e-4)
     agrees_with_the_judge(scene, [1, 2], 1e-6)
+
+
+def test_a_phase_that_is_rounded_under_a_steep_load_is_no_lack_of_nodes() -> None:
+    """The load rises by a roughness in 5e-3 of a cycle: no finer mesh smooths the rate."""
+    times = (0.0, 0.0313, 0.0359, 0.0438, 0.0445, 0.06)
+    load = Table(times, (0.0, 7.6e-4, -7.1e-4, 8e-5, 8.6e-4, 0.0))
+    scene = with_load(load, 2.8e-3, 0.013, closure=9.577e-4)
+    agrees_with_the_judge(scene, [1, 10], 1e-7)

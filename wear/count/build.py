@@ -19,7 +19,7 @@ from wear.count.first import Opening, fresh, opening
 from wear.count.panels import NONE, SAFETY, Maps, Solved, fill
 from wear.count.request import Request
 from wear.count.resolution import refined
-from wear.count.rounding import roundoff
+from wear.count.rounding import roundoff, roundoff_of_cycles
 from wear.count.scan import SHIFT, roughness_limit, roughness_scale, scan
 from wear.faults import UsageError
 from wear.load import Load
@@ -150,8 +150,7 @@ def attainable(size: Settings, model: Model, load: Load, wear: FloatArray) -> Se
 def exact_error(model: Model, load: Load, exact: Opening, begun_with: float = 0.0) -> FloatArray:
     """Estimated error (mm) of cycles that were integrated one by one: what each has missed, by its
     mesh and by rounding, as the cycles after it change it."""
-    rounding = roundoff(model, load, exact.wear)
-    lost = np.maximum(rounding[1:], rounding[:-1]) * exact.each.response
+    lost = roundoff_of_cycles(model, load, exact.wear) * exact.each.response
     error = [begun_with]
     for missed, growth in zip(SAFETY * exact.each.missed + lost, exact.each.growth, strict=True):
         error.append(error[-1] * growth + missed)

@@ -1,8 +1,10 @@
 """Wear in contact over a part of the cycle: collocation on the contact alone, up to its end.
 
-Within contact the rate is smooth. Where contact ends, or changes its kind, the margin of contact
-has come to a known level; the phase at which it does so is found along with the wear, so that no
-node lies beyond and the collocation stays spectral.
+Within contact the rate is smooth, if stiff: on a stiff support, and where wear is fast, the wear
+follows the load within a small part of the cycle. Newton's method on all nodes of a part does not
+mind, and Radau nodes damp what was before. Where contact ends, or changes its kind, the margin of
+contact has come to a known level; the phase at which it does so is found along with the wear, so
+that no node lies beyond and the collocation stays spectral.
 """
 
 from __future__ import annotations
@@ -14,17 +16,19 @@ import numpy as np
 
 from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.collocation import BoolArray, FloatArray, Gauss
-from wear.count.iteration import NOISE, PATIENCE
+from wear.count.iteration import NOISE
 from wear.load import Load
 from wear.model import Model
 
-MOST_ITERATIONS = 60  # of Picard
+MOST_ITERATIONS = 12  # of Newton
+PATIENCE = 4  # iterations that may diverge at first
 SHORTEST = 1e-12  # part of a stretch
 MOST_PARTS = 1000  # of a stretch, then it is not sound
 LEAST = 0.1  # of the length of contact, that may be left from one iteration to the next
 STALLED = 1e-7  # what rounding may change from one iteration to the next, at the very most
 BLUR = 4 * ROUNDOFF  # of the margin's terms and of the phase: what the end of contact is known to
 LAYER = 0.25  # of the roughness: wear that changes the pressure by a factor of order one
+BY_PHASE = 0.02  # share of the phase's rounding in that of a series of the rate
 FLAT = 1e-30  # mm per cycle: a margin that does not change
 
 
@@ -38,41 +42,51 @@ class Stretch(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """Contact of one kind under a load: its wear `rate` (mm per cycle) at any wear and displacement
-    (mm), and the `level` (mm) of the margin at which it ends, which comes from above if it `falls`;
-    no level if it lasts. The rate may be `proportional` to the margin, and so as inexact."""
+    """Contact of one kind under a load: its wear `rate` (mm/s) at any wear and displacement (mm),
+    with its derivative with respect to the wear (1/s), and the `level` (mm) of the margin at which
+    it ends, which comes from above if it `falls`; no level if it lasts. The rate may be
+    `proportional` to the margin, and so as inexact."""
 
     model: Model
     load: Load
-    rate: Callable[[FloatArray, FloatArray], FloatArray]
+    rate: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
     level: float | None = None
     falls: bool = True
     proportional: bool = False
 
-    def rounding(self, u: FloatArray, over: Stretch) -> FloatArray:
-        """The relative rounding of the largest rate on stretches from wears u (k,)."""
-        if not self.proportional:
-            return np.full(len(u), ROUNDOFF)
-        phase = over.begin[:, None] + over.expected[:, None] * np.array([0.0, 0.5, 1.0])
-        U_a = self.load(phase)
-        terms = self.model.margin_terms(u[:, None], U_a) + np.abs(self.load.slope(phase))
-        terms += max(abs(self.load.minimum), abs(self.load.maximum))
-        terms /= np.abs(self.model.margin(u[:, None], U_a))
-        result: FloatArray = ROUNDOFF * (1.0 + np.min(terms, axis=1))
-        return result
+    def pace(self, u: FloatArray, U_a: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The wear rate in mm per cycle, and its derivative with respect to the wear."""
+        rate, slope = self.rate(u, U_a)
+        return self.load.period * rate, self.load.period * slope
 
-    def to_its_end(self, u: FloatArray, phase: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def rounding(self, u: FloatArray, U_a: FloatArray, steepest: FloatArray) -> FloatArray:
+        """The relative rounding (k,) of the largest rate at wears and displacements (k, m), under a
+        load that changes by `steepest` (k,) mm per cycle."""
+        if not self.proportional:
+            # A phase is rounded, too, and under a steep load the pressure with it.
+            follows = np.abs(steepest) / (LAYER * _roughness(self.model, u[:, 0]))
+            return np.asarray(ROUNDOFF * np.maximum(1.0, BY_PHASE * follows))
+        terms = self.model.margin_terms(u, U_a) + np.abs(steepest)[:, None]
+        terms += max(abs(self.load.minimum), abs(self.load.maximum))
+        terms /= np.abs(self.model.margin(u, U_a))
+        return np.asarray(ROUNDOFF * (1.0 + np.min(terms, axis=1)))
+
+    def to_its_end(
+        self, u: FloatArray, phase: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """How far it is to the end of contact (cycles) from wears and phases (k,), by a tangent;
-        and what of that is rounding."""
+        what of that is rounding; and the rate there (mm per cycle)."""
         assert self.level is not None
         sign = 1.0 if self.falls else -1.0
         U_a = self.load(phase)
         left = sign * (self.model.margin(u, U_a) - self.level)
-        widens = self.model.margin_slope(u, U_a) * self.rate(u, U_a)
+        rate, _ = self.pace(u, U_a)
+        widens = self.model.margin_slope(u, U_a) * rate
         falls = np.minimum(sign * (self.load.slope(phase) + widens), -FLAT)
         uncertain = BLUR * (self.model.margin_terms(u, U_a) - falls)
         # Only a margin that is rounding makes the end uncertain: trial states may be far off.
-        return -left / falls, np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
+        blur = np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
+        return -left / falls, blur, rate
 
 
 class Worn(NamedTuple):
@@ -116,7 +130,7 @@ def worn(
             todo.append(done + span / 2)
             continue
         sound &= fine
-        added[going] += part.added
+        added[going] += np.maximum(part.added, 0.0)  # a margin that is rounding may be negative
         length[going] += part.length
         going[going] = part.length >= whole
         done = todo.pop()
@@ -124,13 +138,14 @@ def worn(
 
 
 class _Part(NamedTuple):
-    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes and its relative `rounding`
-    (k,)."""
+    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes, its relative `rounding` (k,),
+    and how often wear alone would turn over in the part: its `stiffness` (k,)."""
 
     added: FloatArray
     length: FloatArray
     rate: FloatArray
     rounding: FloatArray
+    stiffness: FloatArray
     sound: bool
     evaluations: int
 
@@ -146,49 +161,70 @@ def _is_fine(
     """Whether the nodes resolve the rate, as measured by what this cycle has added (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
-    foretells. No node sees a layer before the first, where wear opens the gap: up to there wear
-    must be small against the roughness.
+    foretells. Where the wear follows the load within less than the distance of two nodes, it leaves
+    those from m on, over that time. No node sees a layer before the first, where wear opens the
+    gap: up to there wear must be small against the roughness.
     """
     series = np.abs(part.rate @ rule.coefficients.T)
     half = series.shape[1] // 2
     middle, tail = (np.max(series[:, k - 3 : k], axis=1) for k in (half, 2 * half))
-    left = tail * np.minimum(tail / (middle + TINY), 1.0) ** 2 * part.length
-    left[tail < 100 * part.rounding * np.max(series, axis=1)] = 0.0
-    roughness = contact.model.fields(u, np.zeros_like(u)).sigma
+    gain = np.minimum(tail / (middle + TINY), 1.0) ** 2
+    follows = part.stiffness > half
+    gain[follows] = np.maximum(gain, 1.0 / part.stiffness)[follows]
+    left = tail * gain * part.length
+    told = part.rounding / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
+    left[tail < 100 * told * np.max(series, axis=1)] = 0.0
+    roughness = _roughness(contact.model, u)
     skipped = part.length * rule.nodes[0] * np.max(part.rate, axis=1)
     seen = skipped <= LAYER * roughness
-    return bool(np.all(seen & (left <= tolerance * (before + part.added))))
+    return bool(np.all(seen & (left <= tolerance * np.maximum(before + part.added, 0.0))))
+
+
+def _roughness(model: Model, u: FloatArray) -> FloatArray:
+    """The equivalent roughness (mm) at each wear (k,); it does not depend on the pressure."""
+    none = np.zeros_like(u)
+    fields = model.fields_under(none, u, none) if model.compliant else model.fields(u, none)
+    return np.asarray(fields.sigma)
 
 
 def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
-    """Picard iteration on contact; where it has a level Newton's method finds its end along with
-    the iteration."""
+    """Newton's method on contact; where it has a level, the end of contact is found by tangents
+    along with the wear."""
     length = over.expected if contact.level is not None else over.whole
     inside = np.zeros((len(u), len(rule.nodes)))
     last, done, evaluations = np.ones(len(u)), np.full(len(u), False), 0
     for iteration in range(MOST_ITERATIONS):
-        U_a = contact.load(over.begin[:, None] + length[:, None] * rule.nodes)
-        rate = contact.rate(u[:, None] + inside, U_a)
+        phases = over.begin[:, None] + length[:, None] * rule.nodes
+        U_a = contact.load(phases)
+        rate, slope = contact.pace(u[:, None] + inside, U_a)
         evaluations += rate.size
+        missing = length[:, None] * (rate @ rule.integrate.T) - inside
+        step = _newton(rule, length, slope, missing)
+        rate, inside = rate + slope * step, inside + step
         added = length * (rate @ rule.weights)
-        fresh = length[:, None] * (rate @ rule.integrate.T)
-        apart = np.max(np.abs(fresh - inside), axis=1) / (np.abs(added) + TINY)
-        rounding = contact.rounding(u, over._replace(expected=length))
-        noise = NOISE / ROUNDOFF * rounding
+        apart = np.max(np.abs(step), axis=1) / (np.abs(added) + TINY)
+        rounding = contact.rounding(u[:, None] + inside, U_a, contact.load.slope(over.begin))
+        stiffness = length * np.max(np.abs(slope), axis=1)
+        noise = NOISE / ROUNDOFF * rounding / np.maximum(1.0, stiffness)
         if contact.level is not None:
-            change, blur = contact.to_its_end(u + added, over.begin + length)
+            change, blur, at_end = contact.to_its_end(u + added, over.begin + length)
             change = np.clip(length + change, LEAST * length, over.whole) - length
             apart = np.maximum(apart, np.abs(change) / length)
-            fresh += rate * rule.nodes * change[:, None]
-            length = length + change
+            inside = inside + rate * rule.nodes * change[:, None]
+            added, length = added + at_end * change, length + change
             noise += np.where(length < over.whole, blur / length, 0.0)
-        inside = fresh
         done |= _has_settled(apart, last, noise)
         grows = bool(np.any((apart > last) & ~done)) and iteration > PATIENCE
         if done.all() or grows or not np.max(apart) < 1e30:
             break
         last = apart
-    return _Part(added, length, rate, rounding, bool(done.all()), evaluations)
+    return _Part(added, length, rate, rounding, stiffness, bool(done.all()), evaluations)
+
+
+def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatArray) -> FloatArray:
+    """The solution x (k, m) of x = missing + length times the integral of slope x."""
+    matrix = np.eye(len(rule.nodes)) - length[:, None, None] * rule.integrate * slope[:, None, :]
+    return np.asarray(np.linalg.solve(matrix, missing[..., None])[..., 0], dtype=float)
 
 
 def _has_settled(apart: FloatArray, last: FloatArray, noise: FloatArray) -> BoolArray:

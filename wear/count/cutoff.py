@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.arithmetic import ROUNDOFF
-from wear.count.collocation import BoolArray, FloatArray, Mesh, mesh
+from wear.count.collocation import BoolArray, FloatArray, Gauss, Mesh, mesh, radau
 from wear.count.contact import Contact, Stretch, Worn, worn
 from wear.count.cycle import OneCycle, Settings, drive
 from wear.count.edge import Edge, Piece, displacement_at, edge_of_contact, phase_of, wear_at
@@ -36,6 +36,11 @@ class CutoffCycle(NamedTuple):
     edge: Edge
     over: Mesh
     tolerance: float
+
+    @property
+    def rule(self) -> Gauss:
+        """The nodes on a stretch of contact: a stiff support makes wear follow the load."""
+        return radau(len(self.over.rule.nodes))
 
     @property
     def most_intervals(self) -> int:
@@ -148,9 +153,10 @@ def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray)
     if not active.any():
         return Worn(added, added, True, 0)
     u, edge = wear[active], cycle.edge
-    contact = Contact(cycle.model, cycle.load, cycle.rate, None if piece.rising else 0.0)
+    level = None if piece.rising else 0.0
+    contact = Contact(cycle.model, cycle.load, cycle.model.by_law, level)
     over = Stretch(begin, piece.end - begin, end - begin)
-    run = worn(contact, cycle.over.rule, cycle.tolerance, u, over, before[active])
+    run = worn(contact, cycle.rule, cycle.tolerance, u, over, before[active])
     added[active] = run.added
     last = u + run.added
     if piece.rising:
@@ -193,5 +199,5 @@ def _frozen_contact(
 
 def _on_support(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray) -> Worn:
     """A piece on a compliant support, from each wear (k,)."""
-    support = Support(cycle.model, cycle.load, cycle.edge, cycle.over.rule, cycle.tolerance)
+    support = Support(cycle.model, cycle.load, cycle.edge, cycle.rule, cycle.tolerance)
     return on_support(support, piece, wear, before, touch(cycle.model, cycle.load, wear))

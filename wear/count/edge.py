@@ -26,7 +26,8 @@ NEARLY = 1e-13  # of a stretch: how near to its ends one looks
 BISECTIONS = 60  # to roundoff
 FEW_BISECTIONS = 30  # where a small error has no effect of first order
 MOST_NEWTON = 60  # for the wear at the edge, which may be far off
-PHASE_NEWTON = 12  # from a secant of the samples of a piece
+PHASE_NEWTON = 60  # from a secant of the samples of a piece: near a peak each halves the distance
+PHASE_PATIENCE = 6  # of them; then one that is no smaller than the last is rounding
 FAR = 1e6  # times the roughness: wear at which the margin is as good as linear
 Function = Callable[[FloatArray], FloatArray]
 
@@ -88,12 +89,16 @@ def edge_of_contact(model: Model, load: Load) -> Edge:
     over = (load(low) < top) != (load(high) < top)
     appears = _bisected(lambda phase: load(phase) - top, low[over], high[over])
     pull = _pull(model, load, crest, held)
-    cuts = np.unique(np.concatenate([turns, appears, _closings(pull, turns, model.compliant)]))
+    closings = _closings(pull, turns, model.compliant)
+    cuts = np.unique(np.concatenate([turns, appears, closings]))
     inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
     phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
     closes = pull(phases[:, PIECE_SAMPLES // 2]) >= 0.0
     pieces = tuple(map(Piece, phases, load(phases), closes.tolist()))
-    grazing = np.unique(np.concatenate([load(cuts) - held, load(turns)]))
+    # Wear goes on at the bend: there contact turns not with the load but where its pull does.
+    sharp = turns[np.isin(turns, [0.0, *load.kinks, 1.0])]
+    bending = np.concatenate([sharp, appears, closings])
+    grazing = np.unique(np.concatenate([load(bending) - held, load(turns)]))
     return Edge(pieces, crest, highest, held, grazing)
 
 
@@ -214,17 +219,30 @@ def wear_at(
 def phase_of(load: Load, piece: Piece, height: FloatArray) -> FloatArray:
     """Where the load reaches each height (k,) on a piece; the nearest end if it does not."""
     direction = 1.0 if piece.rising else -1.0
-    height = np.clip(height, np.min(piece.heights), np.max(piece.heights))
     rising = direction * piece.heights
-    at = np.clip(np.searchsorted(rising, direction * height), 1, len(rising) - 1)
-    low, high = piece.phases[at - 1], piece.phases[at]
-    share = (height - piece.heights[at - 1]) / (piece.heights[at] - piece.heights[at - 1])
-    phase = low + (high - low) * np.clip(np.nan_to_num(share), 0.0, 1.0)
-    for _ in range(PHASE_NEWTON):
+    phase = np.where(direction * height <= rising[0], piece.begin, piece.end)
+    inside = (direction * height > rising[0]) & (direction * height < rising[-1])
+    if inside.any():
+        at = np.searchsorted(rising, direction * height[inside])
+        low, high = piece.phases[at - 1], piece.phases[at]
+        rise = piece.heights[at] - piece.heights[at - 1]
+        share = (height[inside] - piece.heights[at - 1]) / rise
+        phase[inside] = _sought(load, height[inside], low, high, low + (high - low) * share)
+    return phase
+
+
+def _sought(
+    load: Load, height: FloatArray, low: FloatArray, high: FloatArray, phase: FloatArray
+) -> FloatArray:
+    """Where the load reaches each height (k,) between the phases `low` and `high`, by Newton's
+    method from a `phase` between."""
+    last = np.inf
+    for iteration in range(PHASE_NEWTON):
         slope = load.slope(phase)
         step = (height - load(phase)) / np.where(slope == 0.0, np.inf, slope)
         fresh = np.clip(phase + step, low, high)
-        change, phase = np.max(np.abs(fresh - phase), initial=0.0), fresh
-        if change <= ROUNDOFF:
+        change, phase = np.max(np.abs(fresh - phase)), fresh
+        if change <= ROUNDOFF or (iteration > PHASE_PATIENCE and change >= last):
             break
+        last = change
     return phase

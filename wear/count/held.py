@@ -32,21 +32,11 @@ class Support(NamedTuple):
 
     def by_law(self, level: float | None = None) -> Contact:
         """Contact by the law; to the `level` (mm) to which its margin falls, if any."""
-
-        def rate(u: FloatArray, U_a: FloatArray) -> FloatArray:
-            result: FloatArray = self.load.period * self.model.law_rate(u, U_a)
-            return result
-
-        return Contact(self.model, self.load, rate, level)
+        return Contact(self.model, self.load, self.model.by_law, level)
 
     def held(self, level: float | None = None, falls: bool = True) -> Contact:
         """Contact held at its edge; to the `level` (mm) to which its margin falls or rises."""
-
-        def rate(u: FloatArray, U_a: FloatArray) -> FloatArray:
-            result: FloatArray = self.load.period * self.model.held_rate(u, U_a)
-            return result
-
-        return Contact(self.model, self.load, rate, level, falls, proportional=True)
+        return Contact(self.model, self.load, self.model.at_edge, level, falls, proportional=True)
 
 
 @dataclass

@@ -13,16 +13,41 @@ APART = 1e-4  # of the roughness: displacements between which the rate's steepne
 
 def roundoff(model: Model, load: Load, wear: FloatArray) -> FloatArray:
     """Relative error by rounding of the rate at the peak of the load, and of where contact ends."""
+    return _of_rate(model, load, wear) + _of_contact(model, load, wear)
+
+
+def roundoff_of_cycles(model: Model, load: Load, wear: FloatArray) -> FloatArray:
+    """Relative error by rounding (k,) of the wear that cycles add, from each wear (k + 1,) to the
+    next.
+
+    A cycle that all but empties the margin m of contact does not lose what is left of it: contact
+    that begins with m_0 lasts for a time ~ m_0^(1/2), and its end, where m_1 is left, is known to
+    ~ 1/m_1^(1/2).
+    """
+    rate, contact = _of_rate(model, load, wear), _of_contact(model, load, wear)
+    result: FloatArray = np.maximum(rate[1:], rate[:-1])
+    return result + np.sqrt(contact[1:] * contact[:-1])
+
+
+def _of_rate(model: Model, load: Load, wear: FloatArray) -> FloatArray:
+    """The part of the rate at the peak of the load, contact assumed."""
     peak = np.full_like(wear, load.maximum)
     error = roundoff_of(model, peak, wear)
-    if model.cutoff:
-        margin, terms = model.margin(wear, peak), model.margin_terms(wear, peak)
-        if model.compliant:
-            # The pressure vanishes with the margin, and no steepness can be taken there.
-            told = margin > 2 * APART * model.fields(wear, peak).sigma
-            error = np.where(told, error, 8 * ROUNDOFF)
-        error += np.minimum(ROUNDOFF * terms / (np.abs(margin) + TINY), 1e-9)
+    if model.cutoff and model.compliant:
+        # The pressure vanishes with the margin, and no steepness can be taken there.
+        told = model.margin(wear, peak) > 2 * APART * model.fields(wear, peak).sigma
+        error = np.where(told, error, 8 * ROUNDOFF)
     return error
+
+
+def _of_contact(model: Model, load: Load, wear: FloatArray) -> FloatArray:
+    """The part of the margin of contact at the peak of the load."""
+    if not model.cutoff:
+        return np.zeros_like(wear)
+    peak = np.full_like(wear, load.maximum)
+    margin, terms = model.margin(wear, peak), model.margin_terms(wear, peak)
+    result: FloatArray = np.minimum(ROUNDOFF * terms / (np.abs(margin) + TINY), 1e-9)
+    return result
 
 
 def roundoff_of(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatArray:

@@ -26,6 +26,7 @@ from wear.load import Load
 from wear.model import Model
 
 AHEAD = 30.0  # cycles before a kink that are integrated one by one
+AHEAD_ON_SUPPORT = 8.0  # the same on a compliant support, where the rate is continuous
 GRAIN = 1e6  # roundoffs of the wear that the way to a kink may shrink to
 NEAR_REST = 0.1  # of the wear that changes the pressure: where a tail may begin
 MOST_STAGES = 40
@@ -122,7 +123,7 @@ def _next_stage(way: Way, now: Now, cycles: float) -> Stage:
     else:
         limit = _panels_until(way.exact, wear, target) if target < way.end else way.end
         left = _too_near(way.exact, wear, target)
-        if left > AHEAD:
+        if left > _ahead(way.exact):
             return now.stage(Leap(wear, float(target), float(np.floor(left))))
     counted = _on_panels(way, wear, limit, cycles) if limit > wear else None
     return now.stage(counted or _one_by_one(way, wear, target, cycles))
@@ -192,11 +193,16 @@ def _smooth_stages(
             return Stages(tuple(done), False, np.inf, cost)
 
 
-def _panels_until(cycle: OneCycle, wear: float, target: float) -> float:
-    """The wear (mm) from which AHEAD cycles lead to `target`, roughly, or from which on double
-    precision tells too little; `wear` if none does."""
+def _ahead(cycle: CutoffCycle) -> float:
+    return AHEAD_ON_SUPPORT if cycle.model.compliant else AHEAD
+
+
+def _panels_until(cycle: CutoffCycle, wear: float, target: float) -> float:
+    """The wear (mm) from which so many cycles lead to `target` as are integrated before a kink,
+    roughly, or from which on double precision tells too little; `wear` if none does."""
     before: FloatArray = (target - wear) * 0.5 ** np.arange(1.0, 60.0)
-    near = (before < AHEAD * cycle.frozen(target - before)) | (before < GRAIN * ROUNDOFF * target)
+    near = before < _ahead(cycle) * cycle.frozen(target - before)
+    near |= before < GRAIN * ROUNDOFF * target
     first = int(np.argmax(near))
     return float(target - before[first - 1]) if first else wear
 

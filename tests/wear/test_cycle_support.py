@@ -1,0 +1,86 @@
+"""The cutoff on a compliant support, judged in multiple precision: soft to very stiff."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from tests import independent_support
+from tests.independent_support import SupportJudge
+from tests.wear.test_cycle_count import between, problem
+from tests.wear.test_cycle_cutoff import loads, supported
+from wear import count, direct
+from wear.count.edge import edge_of_contact, phase_of
+from wear.load import Harmonics, Load, Sine, Table
+from wear.model import bind
+from wear.scene import Scene
+
+STEPS = Table((0.0, 0.25, 0.5, 0.75, 1.0), (1.2e-6, 1.2e-6, 2.25e-5, 2.25e-5, 1.2e-6))
+WAVES = Harmonics(2e-5, (1e-4, -6e-5), (1.5e-4, 4e-5), 0.06)
+SHARP = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
+
+
+def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
+    found = count.wear_after(bind(scene), scene.periodic_load, np.array(cycles, float), rtol)
+    true = independent_support.wear_after(problem(scene), cycles)
+    want = np.array([true[cycle] for cycle in cycles])
+    assert np.all(found.error <= rtol)
+    assert np.all(np.abs(found.u_c - want) <= (found.error + 3e-15) * want)
+
+
+@pytest.mark.parametrize("load", [Sine(2e-4, 0.06), WAVES, SHARP, STEPS])
+@pytest.mark.parametrize(
+    ("K", "f_c", "k"),
+    [
+        (1e-6, 0.25, 1e4),
+        (1e-5, 0.5, 1e5),  # contact becomes permanent
+        (1e-3, -0.05, 1e6),
+        (1e-2, 0.1, 1e7),
+        (1e-1, 0.2, 1e9),  # the margin is emptied in 1e-7 of a cycle
+    ],
+)
+def test_the_count_agrees_with_the_judge(load: Load, K: float, f_c: float, k: float) -> None:
+    agrees_with_the_judge(supported(K, f_c, False, k, load), [1, 2, 4], 1e-8)
+
+
+@settings(max_examples=5)
+@given(loads(), between(-8, -1), between(-0.2, 1.0), st.booleans(), between(2, 9))
+def test_drawn_scenes_agree_with_the_judge(
+    load: Load, K: float, f_c: float, pin: bool, k: float
+) -> None:
+    assume(not pin or K + k < 3)  # the judge takes small steps there
+    scene = supported(10**K, f_c, pin, 10**k, load)
+    if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
+        agrees_with_the_judge(scene, [1, 2], 1e-7)
+
+
+def test_two_rough_solids_on_a_very_stiff_support() -> None:
+    scene = supported(3e-2, 0.1, True, 1e7, Sine(2e-4, 0.06))
+    model, load = bind(scene), scene.periodic_load
+    found = count.wear_after(model, load, np.array([1.0, 2.0, 1000.0]), 1e-9)
+    want = direct.integrate(model, load, [1, 2], 1e-8, "Radau", np.inf)
+    assert np.all(found.error <= 1e-9)
+    assert np.all(np.abs(found.u_c[:2] / want.u - 1) <= found.error[:2] + want.error)
+    assert found.cost.rhs_evaluations < 30_000
+
+
+def test_the_judge_has_two_ways_that_agree() -> None:
+    """One rough solid: the closed form, and the Taylor series that two of them need."""
+
+    class Stepping(SupportJudge):
+        def linear(self, phase: object, end: object) -> object:
+            return self.stepped(self.held_series, phase, end)  # type: ignore[arg-type]
+
+    data = problem(supported(1e-4, 0.1, False, 1e6, WAVES))
+    judges = SupportJudge(data), Stepping(data)
+    for judge in judges:
+        judge.cycle()
+    assert judges[0].wear == pytest.approx(judges[1].wear, rel=1e-18)
+
+
+def test_contact_that_begins_just_below_a_smooth_peak_is_found() -> None:
+    """There Newton's method on the load only halves the distance at first."""
+    load = Sine(2e-4, 0.06)
+    edge = edge_of_contact(bind(supported(1e-2, 0.1, False, 1e7, load)), load)
+    below = load.maximum * (1 - np.logspace(-14, -1, 14))
+    assert np.max(np.abs(load(phase_of(load, edge.pieces[0], below)) - below)) < 1e-19
