@@ -293,7 +293,7 @@ def test_bad_csv_files(tmp_path: Path) -> None:
     (tmp_path / "long.csv").write_text(HEAD + "0,0\n2,0\n")
     for name, problem in (
         ("latin.csv", "is not UTF-8 text"),
-        ("large.csv", "is larger than 10240 KiB"),
+        ("large.csv", "is larger than 65536 KiB"),
         ("none.csv", "there is no such file"),
         (".", "is a folder"),
         ("a" * 300, "cannot be read"),

@@ -7,11 +7,13 @@ import stat
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from wear.scene.schema import LARGEST, SMALLEST
 from wear.scene.text import read_bytes
 from wear.scene.value import Wrong, shown
 
-MOST_BYTES = 10 * 1024 * 1024
+MOST_BYTES = 64 * 1024 * 1024
 MOST_ROWS = 1_000_000
 MOST_WRONG_ROWS = 5
 COLUMNS = ["t_s", "U_a_mm"]
@@ -70,6 +72,9 @@ def _parse(text: str) -> tuple[list[float], list[float], list[tuple[int, Wrong]]
     if not 2 <= len(lines) - 1 <= MOST_ROWS:
         count = f"there are {len(lines) - 1} rows"
         return [], [], [(1, Wrong(count, f"give from 2 to {MOST_ROWS}"))]
+    columns = _sound_columns([line for _, line in lines[1:]])
+    if columns is not None:
+        return *columns, []
     times: list[float] = []
     displacements: list[float] = []
     wrong: list[tuple[int, Wrong]] = []
@@ -84,6 +89,21 @@ def _parse(text: str) -> tuple[list[float], list[float], list[tuple[int, Wrong]]
             times.append(row[0])
             displacements.append(row[1])
     return times, displacements, wrong
+
+
+def _sound_columns(lines: list[str]) -> tuple[list[float], list[float]] | None:
+    """Both columns if every row is right, at a tenth of the time that it takes to look at rows one
+    by one; None if one is wrong, or written in an unusual way."""
+    try:
+        values = np.loadtxt(lines, delimiter=",", comments=None, ndmin=2)
+    except ValueError:
+        return None
+    if values.shape != (len(lines), len(COLUMNS)):
+        return None
+    size, (times, displacements) = np.abs(values), values.T
+    sane = np.all((size == 0.0) | ((size >= SMALLEST) & (size <= LARGEST)))
+    rising = times[0] == 0.0 and np.all(np.diff(times) > CLOSEST_ROWS * times[1:])
+    return (times.tolist(), displacements.tolist()) if sane and rising else None
 
 
 def _header_fault(header: str) -> Wrong:
