@@ -242,16 +242,19 @@ def _direct(
         "cycles_integrated": found.cycles_integrated,
         "rhs_evaluations": found.rhs_evaluations,
     }
-    notices: tuple[str, ...] = ()
-    if found.arrested_in is not None:
-        notices = (f"wear stops for good in cycle {found.arrested_in}",)
+    notices: list[str] = []
+    if found.fades:
+        cycle = found.arrested_in
+        notices.append(f"wear fades: from cycle {cycle} on it cannot be told from its end")
+    elif found.arrested_in is not None:
+        notices.append(f"wear stops for good in cycle {found.arrested_in}")
     return Wear(
         name,
         found.cycles,
         found.u,
         found.error,
         cost,
-        notices,
+        tuple(notices),
         found.stopped,
         found.interrupted,
     )

@@ -84,3 +84,11 @@ def test_contact_that_begins_just_below_a_smooth_peak_is_found() -> None:
     edge = edge_of_contact(bind(supported(1e-2, 0.1, False, 1e7, load)), load)
     below = load.maximum * (1 - np.logspace(-14, -1, 14))
     assert np.max(np.abs(load(phase_of(load, edge.pieces[0], below)) - below)) < 1e-19
+
+
+def test_at_a_plateau_wear_on_springs_fades_within_a_cycle() -> None:
+    """As exp(-decay tau), which rounding ends in the first cycle: even so it does not stop."""
+    scene = supported(4e-4, -0.1, True, 4e5, STEPS)
+    found = count.wear_after(bind(scene), STEPS, np.array([1.0, 1e9]), 1e-10)
+    assert found.notices == ("wear fades: from cycle 1 on it cannot be told from its end",)
+    assert np.all(found.error <= 1e-10)

@@ -2,13 +2,14 @@
 
 import math
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wear import direct
+from wear import count, direct
 from wear.direct.cutoff import Mode, first_mode, is_arrested, pieces, pressure_share
 from wear.direct.problem import problem
 from wear.load import Harmonics, Sine, Table
@@ -196,3 +197,28 @@ def test_kinks_of_a_compliant_support_cost_no_accuracy(k):
     other = integrate(scene, [1, 2], 1e-7, "Radau")
     assert np.all(one.error <= 1e-10)
     assert np.all(np.abs(one.u / other.u - 1.0) <= one.error + other.error)
+
+
+SHARP = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
+PLATEAU = Table((0.0, 0.2, 0.4, 1.0), (0.0, 3e-4, 3e-4, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("load", "K", "fades"),
+    [
+        (Sine(3e-4, 0.06), 3e-5, False),
+        (PLATEAU, 3e-5, False),
+        (SHARP, 3e-5, True),
+        (SHARP, 1e-3, False),  # wear opens the contact faster than the load closes it
+    ],
+)
+def test_wear_fades_at_a_sharp_peak_and_stops_elsewhere(load, K, fades):
+    """The count of cycles says the same."""
+    scene = replace(scene_from_tables(tables(K=K, f_c=0.1, cutoff=True)), load=load)
+    result = integrate(scene, [1000], 1e-6)
+    counted = count.wear_after(bind(scene), load, np.array([1e6]), 1e-6)
+    assert result.arrested_in is not None
+    assert result.fades == fades
+    assert counted.notices[0].startswith("wear fades" if fades else "wear stops for good")
+    if not fades:
+        assert counted.notices == (f"wear stops for good in cycle {result.arrested_in}",)

@@ -7,7 +7,7 @@ until the estimate meets the request.
 
 What else may go wrong is excluded by construction: steps cannot jump over a contact pulse
 (`wear.direct.problem.widest_step`), kinks of the load and of the cutoff are ends of steps
-(`wear.direct.cutoff`), and once wear has stopped for good nothing is integrated.
+(`wear.direct.cutoff`), and once wear has come to its end nothing is integrated.
 """
 
 from __future__ import annotations
@@ -53,8 +53,9 @@ class DirectResult(NamedTuple):
 
     `error` estimates the relative error of `u`, NaN where a run was stopped before there was a
     second one to compare with. `arrested_in` is the cycle, counted from 1, in which wear stopped
-    for good. `stopped` says why the integration ended early (None: it did not) and `interrupted`
-    whether that was the user or the clock.
+    for good; or if it `fades`, that from which on it cannot be told from its end. `stopped` says
+    why the integration ended early (None: it did not) and `interrupted` whether that was the user
+    or the clock.
     """
 
     cycles: tuple[int, ...]
@@ -63,6 +64,7 @@ class DirectResult(NamedTuple):
     cycles_integrated: int
     rhs_evaluations: int
     arrested_in: int | None
+    fades: bool
     stopped: str | None
     interrupted: bool
 
@@ -81,7 +83,8 @@ class Run(NamedTuple):
 class State(NamedTuple):
     """The wear in mm at the end of a cycle, after so many steps.
 
-    `arrested_in` is the cycle in which wear stopped for good.
+    `arrested_in` is the cycle in which wear stopped for good, or from which on, if it `fades`, it
+    cannot be told from its end.
     """
 
     cycle: int
@@ -89,6 +92,7 @@ class State(NamedTuple):
     mode: Mode
     arrested_in: int | None
     steps: int
+    fades: bool = False
 
 
 def integrate(
@@ -203,14 +207,16 @@ def _stops(kinks: tuple[float, ...], length: int) -> Iterator[float]:
 def _cycles_with_cutoff(
     of: Problem, state: State, to: int, setting: Setting, meter: Meter, maximum: float
 ) -> State:
-    """Integrate up to cycle `to`, or to the end of the one in which wear stops for good."""
+    """Integrate up to cycle `to`, or to the end of the one in which wear comes to its end."""
     cut = cutoff.pieces(of.load)
     while state.cycle < to and state.arrested_in is None:
         u, mode = cutoff.cycle(of, cut, state.u, state.mode, setting, meter)
         meter.cycles += 1
         cycle = state.cycle + 1
-        arrested = cutoff.is_arrested(of, u, mode, maximum)
-        state = state._replace(cycle=cycle, u=u, mode=mode, arrested_in=cycle if arrested else None)
+        state = state._replace(cycle=cycle, u=u, mode=mode)
+        if cutoff.is_arrested(of, u, mode, maximum):
+            fades = cutoff.fades(of, cut, u, maximum)
+            state = state._replace(arrested_in=cycle, fades=fades)
     return state
 
 
@@ -258,6 +264,7 @@ def _result(
         meter.cycles,
         meter.evaluations,
         arrests[0] if arrests else None,
+        any(state.fades for state in states),
         stopped,
         interrupted,
     )

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 TINY = float(np.finfo(float).tiny)
 SLIDING_LOOKS = 64  # phases of a piece at which the end of sliding is looked for
+NEARLY = 1e-12  # of a piece: how near to a peak one looks
 MOST_LEGS = 1000  # in one piece: more is chatter between modes, not contact
 
 
@@ -73,8 +74,29 @@ def first_mode(of: Problem, u: float) -> Mode:
 
 
 def is_arrested(of: Problem, u: float, mode: Mode, maximum: float) -> bool:
-    """Whether no load up to `maximum` (mm) closes the contact again: wear has stopped for good."""
+    """Whether no load up to `maximum` (mm) closes the contact again, as far as rounding tells."""
     return mode is not Mode.CLOSED and _threshold(of, u) >= maximum - _slack(of, u)
+
+
+def fades(of: Problem, cut: tuple[Piece, ...], u: float, maximum: float) -> bool:
+    """Whether wear that has come to its end `u` (mm), as far as rounding tells, only tends to it.
+
+    A rigid support stops wear at a smooth peak of the load, and at a plateau. At a peak so sharp
+    that the load closes the contact up to the very peak each cycle leaves a part of what is left;
+    a compliant support does so at any peak, since its pressure vanishes along with the margin.
+    """
+    if of.model.compliant:
+        return True
+    top = maximum - _slack(of, u)
+
+    def is_sharp(piece: Piece) -> bool:
+        near = NEARLY * (piece.end - piece.start)
+        if piece.rising:
+            return bool(_pull(of, piece.end - near, u) < 0.0)
+        return bool(of.load.slope(piece.start + near) < 0.0)
+
+    highest = [piece for piece in cut if of.load(piece.end if piece.rising else piece.start) >= top]
+    return bool(highest) and all(map(is_sharp, highest))
 
 
 def pressure_share(model: Model, u: Real, U_a: Real, rise: Real) -> Real:
