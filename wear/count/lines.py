@@ -166,7 +166,7 @@ def _judged(twice: Twice, blur: float) -> Along:
     left = float(run.left[0] + twice.judge.left[0]) * wear[-1]
     error = missed + (left + blur * wear) * np.exp(most)
     quick = run.evaluations <= FEW_ITERATIONS * run.rate.size
-    easy = quick and 2 * len(wear) <= MOST_CUT
+    easy = quick and 3 * len(wear) <= MOST_CUT  # some of them may be cut once more
     return Along(wear, error, np.exp(growth), twice.lines.marked[1:], easy)
 
 
