@@ -10,6 +10,9 @@ import pytest
 
 from tests.wear.reference_scenes import CONSTANT, tables
 from tests.wear.test_cycle_count import counted
+from wear.count.blocks import cycles_until, wear_after
+from wear.load import Block, Blocks, Constant
+from wear.model import bind
 from wear.scene import Scene, scene_from_tables
 
 CYCLES = np.array([1.0, 2.0, 6.0, 20.0, 1e3, 1e5, 1e8, 1e12])
@@ -56,3 +59,24 @@ def test_two_meshes_that_agree_by_chance_tell_no_error(scene: Scene) -> None:
     true = np.abs(found.u_c / exact.u_c - 1)
     assert np.all(true <= found.error + exact.error)
     assert np.all(found.error <= 1e-3)
+
+
+@pytest.mark.parametrize("scene", [SOFT, LATE], ids=["soft", "late"])
+def test_the_error_of_the_cycles_until_a_wear_spans_least_and_largest(scene: Scene) -> None:
+    """The least count is told: the largest is off by twice what the count may be wrong by."""
+    cycles = np.array([1e3, 1e5, 1e8, 1e12])
+    wear = counted(scene, cycles, 1e-13).u_c
+    found = cycles_until(bind(scene), scene.load, wear, 1e-2)
+    assert np.all(np.abs(found.cycles / cycles - 1) <= found.error + 1e-13)
+
+
+def test_cycles_until_a_wear_know_the_error_that_a_block_begins_with() -> None:
+    """Cycles integrated one by one are wrong by it as well."""
+    model = bind(SOFT)
+    load = Blocks((Block(SOFT.periodic_load, 10**8), Block(Constant(1e-5, 0.06), 10**8)))
+    cycles = np.array([1e8 + 1, 1e8 + 3, 1.1e8])
+    wear = wear_after(model, load, cycles, 1e-13).u_c
+    found = cycles_until(model, load, wear, 1e-2)
+    true = np.abs(found.cycles / cycles - 1)
+    assert np.all(true <= found.error + 1e-13)
+    assert np.all(found.error <= 1e-2)

@@ -80,13 +80,15 @@ def cycles_until(
     rtol: float,
     start: float = 0.0,
     most: float = MOST_CYCLES,
+    begun_with: float = 0.0,
 ) -> Cycles:
     """After how many whole cycles from wear `start` (mm) the wear u_c (mm, any shape) is reached,
-    up to `most` cycles."""
+    up to `most` cycles. What is reached but for the estimated error of the count, that of the start
+    included (`begun_with`, mm), counts as reached."""
     wear = np.asarray(wear, dtype=float)
     reach, cost = min(LEAST, most), Cost(0, 0)
     while True:
-        found = counted_stages(model, load, reach, rtol, start)
+        found = counted_stages(model, load, reach, rtol, start, begun_with=begun_with)
         cost = cost.plus(*found.cost)
         if reach >= most or found.arrested or np.max(wear, initial=0.0) <= found.last_wear:
             break

@@ -61,17 +61,22 @@ def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rto
     within the load or 1e12 cycles, and the estimated relative error of their number."""
     wear = np.asarray(wear, dtype=float)
     count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
-    start, done, cost = 0.0, 0, Cost(0, 0)
+    start, missed, done, cost = 0.0, 0.0, 0, Cost(0, 0)
     most = min(MOST_CYCLES, float(most_cycles(load)))
     while np.isinf(count).any() and done < most:
         acting, until = span(load, done)
         length = min(float(until), most) - done
         still = np.isinf(count)
-        found = until_of_one(model, acting, wear[still], rtol, start, length)
-        count[still], error[still] = done + found.cycles, found.error
+        found = until_of_one(model, acting, wear[still], rtol, start, length, missed)
+        count[still] = done + found.cycles
+        own = np.where(np.isfinite(found.cycles), found.cycles, 0.0)  # what the error refers to
+        error[still] = found.error * np.maximum(own, 1.0) / np.maximum(done + own, 1.0)
         cost = cost.plus(*found.cost)
         if until < most:
-            start = float(wear_of_one(model, acting, np.array([length]), rtol, start).u_c[0])
+            ended = wear_of_one(model, acting, np.array([length]), rtol, start)
+            begun, start = start, float(ended.u_c[0])
+            missed *= growth(model, acting, begun, start)
+            missed += float(ended.error[0]) * start
         done = until
     return Cycles(count, error, cost)
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel, tabulated
-from wear.count.arithmetic import ROUNDOFF
+from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import one_cycle
 from wear.count.cycle import Cost, OneCycle, Settings, settings
@@ -203,7 +203,12 @@ def until(counted: CycleCount, wear: FloatArray) -> tuple[FloatArray, FloatArray
     index = np.searchsorted(exact, wear, side="left")
     late = index == len(exact)
     count = np.where(late, np.inf, index)
-    error = np.where(late | np.append(told, True)[index], 0.0, np.inf)
+    # From the least count to the largest, at the pace of the cycle after: that of wear slows down.
+    pace = np.diff(counted.first)
+    after = np.append(pace, pace[-1])
+    after = np.where(after > 0, after, np.append(pace[0], pace))
+    blur = np.where(told, 2 * counted.first_error / (after + TINY), np.inf)
+    error = np.append(blur, 0.0)[index]
     table = counted.table
     within = late & (wear <= counted.last_wear)
     if table is not None and within.any():
@@ -211,5 +216,5 @@ def until(counted: CycleCount, wear: FloatArray) -> tuple[FloatArray, FloatArray
         ends = np.append(table.cycles, table.last_cycles)
         missed = np.interp(found, ends, counted.count_error)
         count[within] = np.ceil(found - missed)
-        error[within] = missed
+        error[within] = 2 * missed
     return count, error

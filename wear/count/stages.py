@@ -35,18 +35,25 @@ TIGHT = 1e-12
 
 @np.errstate(all="ignore")
 def counted_stages(
-    model: Model, load: Load, cycles: float, rtol: float, start: float, deadline: float = np.inf
+    model: Model,
+    load: Load,
+    cycles: float,
+    rtol: float,
+    start: float,
+    deadline: float = np.inf,
+    begun_with: float = 0.0,
 ) -> Stages:
-    """Count from the wear `start` (mm) up to `cycles`, or until wear ends.
+    """Count from the wear `start` (mm), known up to `begun_with`, up to `cycles`, or until wear
+    ends.
 
     After the `deadline` (`time.monotonic()`) no other stage is begun.
     """
     cycle = one_cycle(model, load)
     if not isinstance(cycle, CutoffCycle):
-        return _smooth_stages(model, load, cycles, rtol, start, deadline)
+        return _smooth_stages(model, load, cycles, rtol, start, deadline, begun_with)
     way, cost = _way(cycle, rtol, deadline), Cost(0, 0)
     done: list[Stage] = []
-    now = Now(0.0, start, 0.0, 0.0)
+    now = Now(0.0, start, begun_with, 0.0)
     while len(done) < MOST_STAGES:
         stage = _next_stage(way, now, cycles - now.cycles)
         done.append(stage)
@@ -163,12 +170,18 @@ def _towards(way: Way, rest: Rest, wear: float, cycles: float) -> CycleCount | T
 
 
 def _smooth_stages(
-    model: Model, load: Load, cycles: float, rtol: float, start: float, deadline: float
+    model: Model,
+    load: Load,
+    cycles: float,
+    rtol: float,
+    start: float,
+    deadline: float,
+    begun_with: float,
 ) -> Stages:
     """Stages without a cutoff: one does, unless wear gathers pace so much that a panel would hold
     too few cycles; these are integrated, and the count begins anew."""
     done: list[Stage] = []
-    begins, wear, missed, cost = 0.0, start, 0.0, Cost(0, 0)
+    begins, wear, missed, cost = 0.0, start, begun_with, Cost(0, 0)
     while True:
         counted = cycle_count(model, load, cycles - begins, rtol, wear, missed, deadline)
         done.append(Stage(begins, counted, 0.0))
@@ -187,7 +200,7 @@ def _smooth_stages(
         missed = float(relative[0]) * wear
         if not missed < np.inf and rtol > TIGHT:
             # Where wear takes off, a small error of the count is a large one of the wear.
-            again = _smooth_stages(model, load, cycles, TIGHT, start, deadline)
+            again = _smooth_stages(model, load, cycles, TIGHT, start, deadline, begun_with)
             return again._replace(cost=again.cost.plus(*cost))
         if not missed < np.inf:
             return Stages(tuple(done), False, np.inf, cost)
