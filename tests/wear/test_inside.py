@@ -145,6 +145,20 @@ def test_very_fast_wear_inside_its_first_cycles(rtol: float, K: float, kind: str
             assert 0 <= error <= rtol
 
 
+def test_no_cycle_leads_to_negative_roughness() -> None:
+    """Very fast wear had another solution beyond the wear at which the roughness vanishes."""
+    made = tables(K=0.0126, f_c=-0.14, load=CONSTANT | {"value_mm": 2e-4, "period_s": 1.05})
+    made["bearing"]["roughness_mm"] = 7.5e-5
+    made["contact"]["closure_mm"] = 2.8e-4
+    scene = scene_from_tables(made, "violent")
+    cycles = np.array([0.0, 1.0, 20.0])
+    found = history(scene, cycles)
+    exact = static_solution(scene).wear((cycles[:, None] + PHASES).ravel()).reshape(found.u.shape)
+    true = np.max(np.abs(found.u - exact), axis=1) / exact[:, -1]
+    assert np.all(true <= found.error + 1e-14)
+    assert np.all(found.error <= 1e-11)
+
+
 def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
     """Out of contact at first, roughness grows until contact sets in: the count begins anew."""
     made = tables(K=0.03, f_c=0.55, load=CONSTANT | {"value_mm": 0.0})

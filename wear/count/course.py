@@ -4,6 +4,7 @@ It depends on that wear alone, and smoothly: it is found once at the nodes of th
 cycle count and interpolated to the cycles wanted. No cycle between is integrated.
 """
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -23,8 +24,9 @@ from wear.count.collocation import (
 )
 from wear.count.cycle import MOST_INTERVALS, Drive, Settings, drive, settings
 from wear.count.iteration import Advance
+from wear.count.march import march
 from wear.count.panels import CHECKS, NONE, SAFETY
-from wear.count.resolution import refined
+from wear.count.resolution import first_edges, refined
 from wear.count.rounding import roundoff
 from wear.count.scan import SHIFT, halves, roughness_scale
 from wear.load import Load
@@ -116,8 +118,12 @@ def course(
     size, shift = settings(rtol), SHIFT * roughness_scale(model)
     first = counted.first[:-1] if counted.table else counted.first
     cycle = drive(model, load, mesh(counted.over.edges, size.finer_nodes))
-    cycle, added = _resolved(cycle, first, phases, rtol)
+    cycle, added = _resolved(cycle, first, np.append(phases, 1.0), rtol)
+    added, whole = added[:, :-1], added[:, -1]
     missed = np.max(np.abs(_judged(cycle, first, phases, size) - added), axis=1)
+    # Violent wear: beyond the limit, where the roughness is negative, there is another solution.
+    for i in np.flatnonzero(~(first + whole < counted.limit)):
+        added[i], missed[i] = _marched(model, load, float(first[i]), counted.limit, phases, size)
     missed += roundoff(model, load, first) * np.max(added, axis=1, initial=0.0)
     columns = _with_pressure(model, first, added, load(phases))
     panels = _panels(cycle, counted, shift, phases, rtol)
@@ -157,6 +163,23 @@ def _panels(
         done = done.joined(fresh.where(~rough))
         starts, ends = halves(shift, starts[rough], ends[rough])
     return done.joined(fresh)
+
+
+def _marched(
+    model: Model, load: Load, start: float, limit: float, phases: FloatArray, size: Settings
+) -> tuple[FloatArray, float]:
+    """Wear (mm) added up to each phase (m,) by one cycle from the wear `start`, taken interval by
+    interval, and what that may have missed (mm)."""
+    edges, added, missed, wrong = first_edges(load), [0.0], 0.0, 0.0
+    marks = np.unique(np.concatenate([[0.0], phases]))
+    for begin, end in pairwise(marks.tolist()):
+        inner = edges[(edges > begin) & (edges < end)]
+        over = mesh(np.concatenate([[begin], inner, [end]]), size.phase_nodes)
+        part = march(drive(model, load, over), start + added[-1], limit, size)
+        added.append(added[-1] + part.added)
+        missed = missed * part.growth + part.missed
+        wrong = max(wrong, missed)
+    return np.array(added)[np.searchsorted(marks, phases)], wrong
 
 
 def _with_pressure(
