@@ -67,6 +67,8 @@ class CycleCount(NamedTuple):
     @property
     def pace(self) -> float:
         """The wear (mm) that its first cycle adds."""
+        if len(self.first) == 1 and self.table is not None:
+            return float(tabulated.first_pace(self.table)[0])
         return float(np.sum(np.diff(self.first[:2])))
 
 

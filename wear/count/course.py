@@ -116,7 +116,8 @@ def course(
 ) -> Course:
     """Prepare for the cycles that are `counted` and for `phases` (m,) in [0, 1]."""
     size, shift = settings(rtol), SHIFT * roughness_scale(model)
-    first = counted.first[:-1] if counted.table else counted.first
+    # The first cycle is not interpolated even if panels begin with it.
+    first = counted.first[: max(1, len(counted.first) - 1)] if counted.table else counted.first
     cycle = drive(model, load, mesh(counted.over.edges, size.finer_nodes))
     cycle, added = _resolved(cycle, first, np.append(phases, 1.0), rtol)
     added, whole = added[:, :-1], added[:, -1]

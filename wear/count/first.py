@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.count.arithmetic import TINY
 from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost, Drive, OneCycle, Settings
@@ -73,8 +74,12 @@ def opening(
     requested or until panels towards `reach[-1]` (mm) span as many cycles as they have coefficients
     each: then n on a panel cannot hide an oscillation. A cycle that adds nothing ends it too,
     nothing will change any more; and wear beyond the limit, which has no meaning. Without panels it
-    may end early."""
+    may end early. None is integrated where panels may begin at once."""
     exact, end = begun, float(reach[-1])
+    if begun.cycles == 0 and begun.edges is None and request.cycles > BLOCK:
+        edges = _at_once(cycle, shift, float(begun.wear[-1]), end, size)
+        if edges is not None:
+            return exact._replace(edges=edges)
     while True:
         before = exact.cycles
         exact = more_cycles(cycle, exact, request.limit, size)
@@ -95,6 +100,17 @@ def opening(
             return exact._replace(edges=edges[: usable + 1])
         if left <= 0 or request.late:
             return exact._replace(edges=None)
+
+
+def _at_once(
+    cycle: OneCycle, shift: float, start: float, end: float, size: Settings
+) -> FloatArray | None:
+    """The ends of panels (mm) from the `start`, if each spans as many cycles as it has coefficients
+    and none changes its own pace much: then no first node can overlook what wear does before."""
+    if not isinstance(cycle, Drive) or not cycle.frozen(np.array(start)) > TINY:
+        return None
+    edges, counts = plan_panels(cycle, shift, start, end, size.panel_nodes, size.tail_tolerance)
+    return edges if np.all(counts >= size.panel_nodes) else None
 
 
 def exact_cycles(
