@@ -11,6 +11,7 @@ import pytest
 from tests.wear.reference_scenes import CONSTANT, tables
 from tests.wear.test_cycle_count import counted
 from wear.count.blocks import cycles_until, wear_after
+from wear.count.sweep import sweep
 from wear.load import Block, Blocks, Constant
 from wear.model import bind
 from wear.scene import Scene, scene_from_tables
@@ -80,3 +81,19 @@ def test_cycles_until_a_wear_know_the_error_that_a_block_begins_with() -> None:
     true = np.abs(found.cycles / cycles - 1)
     assert np.all(true <= found.error + 1e-13)
     assert np.all(found.error <= 1e-2)
+
+
+@pytest.mark.parametrize(
+    ("K", "f_c", "closure", "value", "rtol"),
+    [(1.84e-4, 0.587, 2.64e-4, 7.8e-5, 1e-2), (9.8e-3, 0.55, 8.7e-4, 3.25e-3, 1e-3)],
+)
+def test_a_first_cycle_that_goes_far_is_not_left_to_panels(
+    K: float, f_c: float, closure: float, value: float, rtol: float
+) -> None:
+    """It changes the pace little, but takes most of the way: the count was out by 0.03 cycles."""
+    load = {"kind": "constant", "value_mm": value, "period_s": 0.06}
+    scene = made(K, f_c, 3.6e-4, closure, load)
+    want = counted(scene, CYCLES, 1e-13).u_c
+    swept, found = sweep([scene], CYCLES, rtol), counted(scene, CYCLES, rtol)
+    assert np.all(np.abs(found.u_c / want - 1) <= found.error + 1e-14)
+    assert np.all(np.abs(swept.u_c[0] / want - 1) <= swept.error[0] + 1e-14)

@@ -16,6 +16,7 @@ from wear.load import Load
 from wear.model import Model
 
 MOST_INTERVALS = 256  # of one cycle
+COARSEST = 1e-6  # relative error: coarser meshes of phase would not tell what they miss
 
 
 class Cost(NamedTuple):
@@ -50,8 +51,8 @@ def settings(rtol: float) -> Settings:
     phase_nodes, panel_nodes = (24, 48) if rtol < 1e-8 else (16, 24)
     return Settings(
         phase_nodes=phase_nodes,
-        phase_tolerance=max(2 * rtol, ROUNDOFF),
-        strict_tolerance=max(1e-2 * rtol, ROUNDOFF),
+        phase_tolerance=max(2 * min(rtol, COARSEST), ROUNDOFF),
+        strict_tolerance=max(1e-2 * min(rtol, COARSEST), ROUNDOFF),
         panel_nodes=panel_nodes,
         tail_tolerance=max(rtol / 4, 1e-12),
         residual_tolerance=max(rtol / 4, 30 * ROUNDOFF),

@@ -106,8 +106,8 @@ def _at_once(
     cycle: OneCycle, shift: float, start: float, end: float, size: Settings
 ) -> FloatArray | None:
     """The ends of panels (mm) from the `start`, if each spans as many cycles as it has coefficients
-    and none changes its own pace much: then no first node can overlook what wear does before."""
-    if not isinstance(cycle, Drive) or not cycle.frozen(np.array(start)) > TINY:
+    and the first cycle is a small part of the way: then no node can overlook what wear does."""
+    if not isinstance(cycle, Drive) or not TINY < cycle.frozen(np.array(start)) < shift / SHIFT:
         return None
     edges, counts = plan_panels(cycle, shift, start, end, size.panel_nodes, size.tail_tolerance)
     return edges if np.all(counts >= size.panel_nodes) else None

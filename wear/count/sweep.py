@@ -33,6 +33,7 @@ MARGIN = 4.0  # of a rough look ahead
 ITERATED = 0.1  # of the error asked for: what the iteration over a cycle may leave
 JUDGED = 0.01  # of that: what the iteration of the judge may leave
 SAMPLES = np.array([0.0, 0.35, 0.5, 0.65, 1.0])  # of the way in y: there a mesh must suit
+SMALL = 0.5  # step in ln(u + scale): then panels may begin with it
 LONGEST, STEPS = 30.0, 60  # of the look ahead, in ln(1 + u/scale)
 
 
@@ -117,7 +118,7 @@ def _solve(
     # Scenes that wear alike take as many iterations.
     chosen = np.argsort(plan.pace)
     if first == 0:
-        chosen = chosen[plan.change[chosen] <= SHARP]
+        chosen = chosen[(plan.change[chosen] <= SHARP) & (plan.pace[chosen] <= SMALL)]
     many, plan, size = many.take(chosen), plan.take(chosen), settings(rtol)
     scale = plan.shift / SHIFT
     samples = scale[:, None] * np.expm1(np.log1p(plan.end / scale)[:, None] * SAMPLES)
