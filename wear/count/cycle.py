@@ -34,7 +34,7 @@ class Settings(NamedTuple):
     """Sizes of the discretisation for a requested relative error."""
 
     phase_nodes: int  # on each interval of phase
-    phase_tolerance: float  # what `unresolved` may tell, mostly twenty times the error and more
+    phase_tolerance: float  # of `unresolved`, which mostly tells ten times the error and more
     strict_tolerance: float  # of what nothing else would tell, or mend
     panel_nodes: int  # on each panel of wear
     tail_tolerance: float  # of the frozen density on a panel
