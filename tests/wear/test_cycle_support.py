@@ -1,5 +1,7 @@
 """The cutoff on a compliant support, judged in multiple precision: soft to very stiff."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -7,13 +9,14 @@ from hypothesis import strategies as st
 
 from tests import independent_support
 from tests.independent_support import SupportJudge
+from tests.wear.reference_scenes import tables
 from tests.wear.test_cycle_count import between, problem
 from tests.wear.test_cycle_cutoff import loads, supported
 from wear import count, direct
 from wear.count.edge import edge_of_contact, phase_of
 from wear.load import Harmonics, Load, Sine, Table
 from wear.model import bind
-from wear.scene import Scene
+from wear.scene import Scene, scene_from_tables
 
 STEPS = Table((0.0, 0.25, 0.5, 0.75, 1.0), (1.2e-6, 1.2e-6, 2.25e-5, 2.25e-5, 1.2e-6))
 WAVES = Harmonics(2e-5, (1e-4, -6e-5), (1.5e-4, 4e-5), 0.06)
@@ -92,3 +95,14 @@ def test_at_a_plateau_wear_on_springs_fades_within_a_cycle() -> None:
     found = count.wear_after(bind(scene), STEPS, np.array([1.0, 1e9]), 1e-10)
     assert found.notices == ("wear fades: from cycle 1 on it cannot be told from its end",)
     assert np.all(found.error <= 1e-10)
+
+
+def test_a_margin_that_is_rounding_ends_the_iteration() -> None:
+    """After the first cycle all that changes on the plateau is the last digit."""
+    times, values = (0.0, 0.25, 0.5, 0.75, 1.0), (2.85e-4, 2.85e-4, 1e-4, 1e-4, 2.85e-4)
+    made = tables(K=9.36e-5, f_c=0.13, k=1.04e8, cutoff=True)
+    made["contact"]["closure_mm"] = 8.27e-4
+    scene = replace(scene_from_tables(made), load=Table(times, values))
+    agrees_with_the_judge(scene, [1, 2], 1e-9)
+    found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0]), 1e-9)
+    assert found.cost.rhs_evaluations < 30_000

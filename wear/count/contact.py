@@ -205,7 +205,8 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
         apart = np.max(np.abs(step), axis=1) / (np.abs(added) + TINY)
         rounding = contact.rounding(u[:, None] + inside, U_a, contact.load.slope(over.begin))
         stiffness = length * np.max(np.abs(slope), axis=1)
-        noise = NOISE / ROUNDOFF * rounding / np.maximum(1.0, stiffness)
+        largest = length * np.max(np.abs(rate), axis=1) / (np.abs(added) + TINY)
+        noise = NOISE / ROUNDOFF * rounding * largest / np.maximum(1.0, stiffness)
         if contact.level is not None:
             change, blur, at_end = contact.to_its_end(u + added, over.begin + length)
             change = np.clip(length + change, LEAST * length, over.whole) - length
