@@ -206,9 +206,9 @@ def until(counted: CycleCount, wear: FloatArray) -> tuple[FloatArray, FloatArray
     late = index == len(exact)
     count = np.where(late, np.inf, index)
     # From the least count to the largest, at the pace of the cycle after: that of wear slows down.
-    pace = np.diff(counted.first)
-    after = np.append(pace, pace[-1])
-    after = np.where(after > 0, after, np.append(pace[0], pace))
+    pace = np.diff(counted.first) if len(counted.first) > 1 else np.array([counted.pace])
+    after, before = np.append(pace, pace[-1]), np.append(pace[0], pace)
+    after = np.where(after > 0, after, before)[: len(counted.first)]
     blur = np.where(told, 2 * counted.first_error / (after + TINY), np.inf)
     error = np.append(blur, 0.0)[index]
     table = counted.table
