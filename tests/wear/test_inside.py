@@ -112,6 +112,12 @@ def test_memory_is_bounded_by_the_chunk(monkeypatch: pytest.MonkeyPatch) -> None
     assert peaks[2] <= 2.0 * peaks[1]
 
 
+def test_the_error_refers_to_the_end_of_the_cycle() -> None:
+    """No wear yet is no error without bounds."""
+    for phases in (np.array([0.0]), np.array([0.0, 0.1])):
+        assert np.all(history(reference_scene("S2"), np.array([0.0, 1.0]), phases).error <= 1e-12)
+
+
 def test_few_cycles_come_in_order() -> None:
     found = history(reference_scene("S2"), np.array([2.0, 0.0, 1.0]))
     assert found.cycles.tolist() == [0.0, 1.0, 2.0]

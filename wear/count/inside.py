@@ -146,7 +146,7 @@ class _Part(NamedTuple):
             added = self.within.added(cycles[here] - self.begins, starts[here])
             u = starts[here, None] + added.wear
             missed = wrong[here] + SAFETY * added.missed
-            error = np.nan_to_num(missed / (np.max(u, axis=1) + TINY), nan=np.inf)
+            error = np.nan_to_num(missed / (wear[last[here]] + TINY), nan=np.inf)
             yield Inside(cycles[here], self.phases, u, self.fields(u, added, rtol), error)
 
     def _before(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
