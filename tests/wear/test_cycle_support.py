@@ -106,3 +106,16 @@ def test_a_margin_that_is_rounding_ends_the_iteration() -> None:
     agrees_with_the_judge(scene, [1, 2], 1e-9)
     found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0]), 1e-9)
     assert found.cost.rhs_evaluations < 30_000
+
+
+def test_two_rough_solids_at_rest_on_a_plateau() -> None:
+    """All nodes of a part see a margin that is nothing but rounding."""
+    times, values = (0.0, 0.25, 0.5, 0.75, 1.0), (2.85e-4, 2.85e-4, 1e-4, 1e-4, 2.85e-4)
+    scene = supported(5.72e-3, -0.181, True, 9.6e8, Table(times, values))
+    model, load = bind(scene), scene.periodic_load
+    found = count.wear_after(model, load, np.array([1.0, 1e6]), 1e-8)
+    # There the peak just fails to make contact.
+    rest = model.margin(found.u_c, load.maximum) / model.margin_slope(found.u_c, load.maximum)
+    assert np.all(np.abs(rest) <= 4e-15 * found.u_c)
+    assert np.all(found.error <= 1e-8)
+    assert found.cost.rhs_evaluations < 50_000

@@ -59,17 +59,21 @@ class Contact(NamedTuple):
         rate, slope = self.rate(u, U_a)
         return self.load.period * rate, self.load.period * slope
 
-    def rounding(self, u: FloatArray, U_a: FloatArray, steepest: FloatArray) -> FloatArray:
-        """The relative rounding (k,) of the largest rate at wears and displacements (k, m), under a
-        load that changes by `steepest` (k,) mm per cycle."""
+    def noise(
+        self, u: FloatArray, U_a: FloatArray, rate: FloatArray, steepest: FloatArray
+    ) -> FloatArray:
+        """What rounding makes of the `rate` (k, m), mm per cycle, at wears and displacements (k, m)
+        under a load that changes by `steepest` (k,) mm per cycle; at most, (k,)."""
+        largest = ROUNDOFF * np.max(np.abs(rate), axis=1)
         if not self.proportional:
             # A phase is rounded, too, and under a steep load the pressure with it.
             follows = np.abs(steepest) / (LAYER * _roughness(self.model, u[:, 0]))
-            return np.asarray(ROUNDOFF * np.maximum(1.0, BY_PHASE * follows))
-        terms = self.model.margin_terms(u, U_a) + np.abs(steepest)[:, None]
+            return np.asarray(largest * np.maximum(1.0, BY_PHASE * follows))
+        none = np.array(0.0)
+        per_margin, _ = self.pace(none, 1.0 - self.model.margin(none, none))
+        terms = np.max(self.model.margin_terms(u, U_a), axis=1) + np.abs(steepest)
         terms += max(abs(self.load.minimum), abs(self.load.maximum))
-        terms /= np.abs(self.model.margin(u, U_a))
-        return np.asarray(ROUNDOFF * (1.0 + np.min(terms, axis=1)))
+        return np.asarray(largest + ROUNDOFF * per_margin * terms)
 
     def to_its_end(
         self, u: FloatArray, phase: FloatArray
@@ -138,13 +142,13 @@ def worn(
 
 
 class _Part(NamedTuple):
-    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes, its relative `rounding` (k,),
-    and how often wear alone would turn over in the part: its `stiffness` (k,)."""
+    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes, what is `noise` of it (k,), and
+    how often wear alone would turn over in the part: its `stiffness` (k,)."""
 
     added: FloatArray
     length: FloatArray
     rate: FloatArray
-    rounding: FloatArray
+    noise: FloatArray
     stiffness: FloatArray
     sound: bool
     evaluations: int
@@ -172,8 +176,8 @@ def _is_fine(
     follows = part.stiffness > half
     gain[follows] = np.maximum(gain, 1.0 / part.stiffness)[follows]
     left = tail * gain * part.length
-    told = part.rounding / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
-    left[tail < 100 * told * np.max(series, axis=1)] = 0.0
+    told = part.noise / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
+    left[tail < 100 * told] = 0.0
     roughness = _roughness(contact.model, u)
     skipped = part.length * rule.nodes[0] * np.max(part.rate, axis=1)
     seen = skipped <= LAYER * roughness
@@ -203,23 +207,23 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
         rate, inside = rate + slope * step, inside + step
         added = length * (rate @ rule.weights)
         apart = np.max(np.abs(step), axis=1) / (np.abs(added) + TINY)
-        rounding = contact.rounding(u[:, None] + inside, U_a, contact.load.slope(over.begin))
+        noise = contact.noise(u[:, None] + inside, U_a, rate, contact.load.slope(over.begin))
         stiffness = length * np.max(np.abs(slope), axis=1)
-        largest = length * np.max(np.abs(rate), axis=1) / (np.abs(added) + TINY)
-        noise = NOISE / ROUNDOFF * rounding * largest / np.maximum(1.0, stiffness)
+        told = NOISE / ROUNDOFF * noise * length / np.maximum(1.0, stiffness)
+        told /= np.abs(added) + TINY
         if contact.level is not None:
             change, blur, at_end = contact.to_its_end(u + added, over.begin + length)
             change = np.clip(length + change, LEAST * length, over.whole) - length
             apart = np.maximum(apart, np.abs(change) / length)
             inside = inside + rate * rule.nodes * change[:, None]
             added, length = added + at_end * change, length + change
-            noise += np.where(length < over.whole, blur / length, 0.0)
-        done |= _has_settled(apart, last, noise)
+            told += np.where(length < over.whole, blur / length, 0.0)
+        done |= _has_settled(apart, last, told)
         grows = bool(np.any((apart > last) & ~done)) and iteration > PATIENCE
         if done.all() or grows or not np.max(apart) < 1e30:
             break
         last = apart
-    return _Part(added, length, rate, rounding, stiffness, bool(done.all()), evaluations)
+    return _Part(added, length, rate, noise, stiffness, bool(done.all()), evaluations)
 
 
 def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatArray) -> FloatArray:
