@@ -206,8 +206,8 @@ def _scan(many: Many, cycles: float) -> Plan:
     """How far panels must reach: to where the frozen rate puts `cycles`, roughly."""
     fresh = np.zeros((len(many.loads), 1))
     scale = many.model.fields(fresh, fresh).sigma / 4
-    limit = roughness_limits(many.model, 1e12 * scale)
-    step = np.minimum(LONGEST, np.log1p(limit / scale)) / STEPS
+    limit = np.log1p(roughness_limits(many.model, 1e12 * scale) / scale)
+    step = np.minimum(LONGEST, limit) / STEPS
     ahead = step * np.arange(STEPS + 1)
     wear = scale * np.expm1(ahead)
     added = np.empty_like(wear)
@@ -223,7 +223,7 @@ def _scan(many: Many, cycles: float) -> Plan:
     at = (np.arange(len(scale)), part)
     missing = cycles - np.where(part > 0, counts[at[0], part - 1], 0.0)
     share = np.log1p(missing / begin[at]) / rise[at]
-    y = np.minimum(ahead[at] + share * step[:, 0], ahead[:, -1])
+    y = np.minimum(ahead[at] + share * step[:, 0], limit[:, 0])
     pace = np.exp(-density[:, 0])
     change = pace * np.abs(rise[:, 0]) / step[:, 0]
     return Plan(SHIFT * scale[:, 0], scale[:, 0] * np.expm1(y), pace, change)
