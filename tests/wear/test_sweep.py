@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from tests.wear.reference_scenes import REFERENCE, TABLES, reference_scene, tables
+from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
 from wear.count import wear_after
 from wear.count.sweep import sweep
 from wear.faults import UsageError
@@ -138,3 +138,20 @@ def test_what_does_not_fit_is_solved_alone() -> None:
 def test_scenes_of_different_kinds_do_not_mix() -> None:
     with pytest.raises(UsageError):
         sweep([scene_from_tables(TABLES["S1"], "S1"), reference_scene("S2")], CYCLES)
+
+
+def test_a_sharp_density_is_judged_by_more_nodes_than_it_was_solved_with() -> None:
+    """Wear that takes off: within a cycle the density changes by orders of magnitude, and the same
+    quadrature twice told nothing of that. It came to light beside a scene of sharp density."""
+    drawn = [(2.77e-3, 0.7424, 3.352e-3, 1.145e-5), (2.482e-4, 0.36384, 1.58474e-3, 4.002e-5)]
+    scenes = []
+    for K, f_c, closure, value in drawn:
+        made = tables(K=K, f_c=f_c, pin=True, load=CONSTANT | {"value_mm": value})
+        made["contact"] |= {"closure_mm": closure}
+        made["contact"].pop("closure_in_sigma", None)
+        scenes.append(scene_from_tables(made, "drawn"))
+    cycles = np.array([1.0, 30.0, 200.0, 1e3, 1e12])
+    found = sweep(scenes, cycles, 1e-8)
+    alone = [wear_after(bind(scene), scene.periodic_load, cycles, 1e-13) for scene in scenes]
+    true = np.abs(found.u_c / np.array([one.u_c for one in alone]) - 1)
+    assert np.all(true <= found.error + [one.error for one in alone])

@@ -22,6 +22,7 @@ from wear.count.collocation import (
 
 ACROSS_A_CYCLE = 6  # Gauss nodes where the density changes by less than a factor 2 in a cycle
 ACROSS_A_FAST_CYCLE = 12  # good to rounding for a factor of 1e3
+ACROSS_JUDGED = 24  # more than in any solution, or both would miss the same
 MOST_ITERATIONS = 30
 STEADY = 0.3  # change of ln(density) after which Newton's method goes on with the same slope
 
@@ -178,7 +179,7 @@ def residual(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArra
     `increments` (panels, len(t)) in mm, as found for these positions by a finer one-cycle map.
     A residual r means that the density is wrong by a factor 1 - r, about.
     """
-    rule = gauss(ACROSS_A_FAST_CYCLE)
+    rule = gauss(ACROSS_JUDGED)
     steps = reach(panels.shift, panels.starts, panels.widths, t, increments, rule.nodes)
     basis = _within(t, steps, panels.series.shape[1])
     with np.errstate(all="ignore"):  # of a panel far too wide: infinite or no number

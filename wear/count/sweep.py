@@ -255,10 +255,13 @@ def _evaluate(
     for k in range(1, each):
         before, after = (density.take(slice(i, None, each)) for i in (k - 1, k))
         lost[:, k * parts] += abel.junctions(before, after)
-    lost = SAFETY * np.cumsum(lost, axis=1)
+    lost = SAFETY * lost + table.missed.reshape(gain.shape)
+    share = (late - np.take_along_axis(begins, part, axis=1)) / np.take_along_axis(gain, part, 1)
+    missed = np.take_along_axis(np.cumsum(lost, axis=1) - lost, part, axis=1)
+    missed += np.clip(share, 0.0, 1.0) * np.take_along_axis(lost, part, axis=1)
     if number > 0:
-        lost += begun.error[:, -1:] / tabulated.first_pace(table).reshape(gain.shape)[:, :1]
-    error = pace * np.take_along_axis(lost, part, axis=1)
+        missed += begun.error[:, -1:] / tabulated.first_pace(table).reshape(gain.shape)[:, :1]
+    error = pace * missed
     error[out_of_reach] = np.inf
 
     early = cycles <= number
