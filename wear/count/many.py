@@ -132,6 +132,14 @@ class ManyDrives(NamedTuple):
         for at in range(0, len(self.displacement), scenes):
             yield slice(at, at + scenes)
 
+    def rough_frozen(self, wear: FloatArray, tolerance: float) -> BoolArray:
+        """Which intervals (scenes, q) do not resolve the rate at frozen `wear` (scenes, k), mm."""
+        parts = []
+        for some in self.in_cache(wear.shape[1]):
+            part = self.take(some)
+            parts.append(unresolved(part.rate(wear[some, :, None, None]), part.over, tolerance))
+        return np.concatenate(parts)
+
     def frozen(self, wear: FloatArray) -> FloatArray:
         """Wear (mm) that a cycle would add to each `wear` (scenes, k) without feedback."""
         parts = []

@@ -11,7 +11,6 @@ from wear.count.collocation import BoolArray, FloatArray, IntArray
 from wear.count.cycle import Settings
 from wear.count.iteration import Advance
 from wear.count.many import Many
-from wear.count.resolution import unresolved
 
 MOST_INTERVALS = 48  # of phase: what needs more is solved by itself
 NUMBERS = (1, 2, 3, 6, 12, 24, MOST_INTERVALS)  # of intervals
@@ -47,7 +46,7 @@ def resolved(
         number = min(todo)  # cutting only adds intervals: no scene comes back to this number
         which, edges = (np.concatenate(arrays) for arrays in zip(*todo.pop(number), strict=True))
         cycle = many.take(which).on(edges, size.phase_nodes, iterated)
-        rough = unresolved(cycle.rate(wear[which, :, None, None]), cycle.over, size.phase_tolerance)
+        rough = cycle.rough_frozen(wear[which], size.phase_tolerance)
         calm, run = np.flatnonzero(~rough.any(axis=1)), None
         if first and len(calm):
             run = cycle.take(calm).several(first)
