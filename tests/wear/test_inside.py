@@ -10,7 +10,9 @@ from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
 from wear.count import inside
+from wear.count.build import cycle_count
 from wear.count.collocation import FloatArray, mesh
+from wear.count.course import course
 from wear.count.cycle import drive, settings
 from wear.count.inside import Inside, fields_inside
 from wear.count.march import march
@@ -261,3 +263,12 @@ def test_no_wear_inside_cycles_without_pressure() -> None:
     found = history(scene_from_tables(made, "far"), np.array([0.0, 1e6]))
     assert not found.u.any()
     assert not found.error.any()
+
+
+@pytest.mark.parametrize("name", ["S1", "S2", "S8_1", "S8_2"])
+def test_panels_from_the_first_cycle_on_are_not_cut_for_it(name: str) -> None:
+    """The wear they begin with is no measure of an error: it is zero."""
+    scene = scene_of(name)
+    model, load = bind(scene), scene.periodic_load
+    prepared = course(model, load, cycle_count(model, load, 9000.0, 1e-12), PHASES, 1e-12)
+    assert len(prepared.panels.starts) == 1

@@ -158,7 +158,8 @@ def _panels(
         missed = np.max(apart[:, :number], axis=1)
         off = SAFETY * np.max(apart[:, number:], axis=1, initial=0.0)
         fresh = Panels(starts, ends, series, missed, off)
-        rough = ~(SAFETY * missed <= rtol / 4 * starts)
+        # No cycle ends with less wear than the first adds.
+        rough = ~(SAFETY * missed <= rtol / 4 * np.maximum(starts, counted.pace))
         if not rough.any() or rounds == MOST_ROUNDS - 1:
             break
         done = done.joined(fresh.where(~rough))
