@@ -69,16 +69,24 @@ def in_parameters(variant: Variant, name: str) -> sp.Expr:
 @pytest.mark.parametrize(
     ("phi", "inflection", "told"),
     [
-        (1 / (1 + sp.exp(-2 * r)), 0, ["is not proved to be negative", "concave to convex at 0"]),
+        (
+            1 / (1 + sp.exp(-2 * r)),
+            sp.Integer(0),
+            ["is not proved to be negative", "concave to convex at 0"],
+        ),
         (-sp.exp(r), -sp.oo, ["-exp(r) is not proved to be positive", "concave to convex at -oo"]),
-        (1 / (1 + sp.exp(2 * r - 4)), 1, ["phi does not turn from concave to convex at 1"]),
+        (
+            1 / (1 + sp.exp(2 * r - 4)),
+            sp.Integer(1),
+            ["phi does not turn from concave to convex at 1"],
+        ),
         (1 / (1 + sp.exp(2 * r - 4)), -sp.oo, ["concave to convex at -oo"]),
-        (1 / (1 + sp.exp(2 * r - 4)), 2, []),
-        ((1 - r / sp.sqrt(1 + r**2)) / 2, 0, []),
+        (1 / (1 + sp.exp(2 * r - 4)), sp.Integer(2), []),
+        ((1 - r / sp.sqrt(1 + r**2)) / 2, sp.Integer(0), []),
     ],
 )
 def test_a_law_is_refused_unless_it_is_proved(phi, inflection, told):
-    faults = generate.faults_of(ContactLaw("own", phi, sp.sympify(inflection), "a test"))
+    faults = generate.faults_of(ContactLaw("own", phi, inflection, "a test"))
     assert "\n".join(faults).count("own: ") == len(told)
     assert all(words in "\n".join(faults) for words in told)
 
