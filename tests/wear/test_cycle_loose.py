@@ -97,3 +97,48 @@ def test_a_first_cycle_that_goes_far_is_not_left_to_panels(
     swept, found = sweep([scene], CYCLES, rtol), counted(scene, CYCLES, rtol)
     assert np.all(np.abs(found.u_c / want - 1) <= found.error + 1e-14)
     assert np.all(np.abs(swept.u_c[0] / want - 1) <= swept.error[0] + 1e-14)
+
+
+FEW = np.array([1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 100, 200, 500, 1e3, 3e3, 1e4, 1e12])
+
+
+def sine(amplitude_mm: float) -> dict[str, Any]:
+    return {"kind": "sine", "amplitude_mm": amplitude_mm, "period_s": 0.06}
+
+
+def holds(scene: Scene, rtol: float) -> bool:
+    """Whether counts and sweeps are as good as they tell."""
+    want = counted(scene, FEW, 1e-13).u_c
+    swept, found = sweep([scene], FEW, rtol), counted(scene, FEW, rtol)
+    good = np.abs(found.u_c / want - 1) <= found.error + 1e-14
+    good &= np.abs(swept.u_c[0] / want - 1) <= swept.error[0] + 1e-14
+    return bool(good.all())
+
+
+def test_a_junction_of_panels_shifts_the_count_at_once() -> None:
+    """Its error was told over some cycles behind it, little by little."""
+    assert holds(made(3.786e-4, 0.1315, 7.44e-5, 2.232e-4, sine(2.167e-5), k=454.5), 1e-4)
+
+
+def test_what_sweeps_miss_grows_as_the_wear_does() -> None:
+    """In wear that gathers pace it grows by more than the last increment did."""
+    assert holds(made(6.97e-5, 0.953, 4.18e-4, 1.622e-3, sine(1.312e-5), pin=True), 1e-2)
+
+
+THREE = {"kind": "harmonics", "sine_mm": [7.24e-4, 4.12e-4, -1.64e-3], "period_s": 0.06}
+
+
+@pytest.mark.parametrize(
+    ("K", "f_c", "load", "k", "pin", "rtol"),
+    [
+        (8.66e-9, 0.702, sine(5.35e-4), 1640.0, True, 1e-6),
+        (2.93e-8, 0.601, sine(1.14e-3), 1.04e4, False, 1e-9),
+        (2.04e-7, 0.652, sine(1.35e-3), 1.32e4, False, 1e-7),
+        (9.61e-9, 0.852, THREE, 2.68e5, False, 1e-7),
+    ],
+)
+def test_what_the_mesh_of_phase_misses_for_few_wears_is_told(
+    K: float, f_c: float, load: dict[str, Any], k: float, pin: bool, rtol: float
+) -> None:
+    """It changes its sign as the wear grows, and was looked at where it vanishes."""
+    assert holds(made(K, f_c, 3.6e-4, 1.08e-3, load, k=k, pin=pin), rtol)

@@ -155,3 +155,8 @@ def test_a_sharp_density_is_judged_by_more_nodes_than_it_was_solved_with() -> No
     alone = [wear_after(bind(scene), scene.periodic_load, cycles, 1e-13) for scene in scenes]
     true = np.abs(found.u_c / np.array([one.u_c for one in alone]) - 1)
     assert np.all(true <= found.error + [one.error for one in alone])
+
+
+def test_no_scenes_have_no_wear() -> None:
+    found = sweep([], CYCLES)
+    assert found.u_c.shape == found.error.shape == (0, len(CYCLES))

@@ -170,7 +170,8 @@ def judged(
     missed = SAFETY * np.repeat(solved.residual, parts) * table.gain + table.missed
     if len(panels.starts) > 1:
         at_junctions = abel.junctions(panels.take(slice(-1)), panels.take(slice(1, None)))
-        missed[parts::parts] += SAFETY * at_junctions
+        # They shift the count at once, and so belong to what was missed before them.
+        missed[parts - 1 : -1 : parts] += SAFETY * at_junctions
     rounding = roundoff(model, load, np.append(table.wear, table.last_wear))
     terms = np.sum(np.abs(solved.series), axis=1)  # of the logarithm of the density
     of_density = ROUNDOFF * np.repeat(terms, parts)

@@ -12,6 +12,7 @@ import numpy as np
 from wear.count import abel, tabulated
 from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.build import CycleCount
+from wear.count.checks import CHECKS
 from wear.count.collocation import (
     BoolArray,
     FloatArray,
@@ -25,7 +26,7 @@ from wear.count.collocation import (
 from wear.count.cycle import MOST_INTERVALS, Drive, Settings, drive, settings
 from wear.count.iteration import Advance
 from wear.count.march import march
-from wear.count.panels import CHECKS, NONE, SAFETY
+from wear.count.panels import NONE, SAFETY
 from wear.count.resolution import first_edges, refined
 from wear.count.rounding import roundoff
 from wear.count.scan import SHIFT, halves, roughness_scale

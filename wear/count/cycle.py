@@ -76,8 +76,8 @@ class OneCycle(Protocol):
         """On a mesh that suits the wear values (k,), mm."""
 
     def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
-        """Wear added by one cycle from each start, mm, any shape; from a guess with the shape
-        (starts.size, q, m)."""
+        """Wear added by one cycle from each start, mm, any shape (...); from a guess with the shape
+        (..., q, m)."""
 
     def frozen(self, wear: FloatArray) -> FloatArray:
         """Wear (mm) added by one cycle if the rate did not feel it, any shape."""
@@ -121,6 +121,8 @@ class Drive(NamedTuple):
 
     def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
         """Wear added over the mesh from each start, any shape."""
+        if near is not None:
+            near = Near(*(array.reshape(starts.size, *array.shape[-2:]) for array in near))
         run = advance(self, starts.ravel(), near)
         shape = (*starts.shape, *self.over.phases.shape)
         return run._replace(

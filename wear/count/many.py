@@ -14,7 +14,7 @@ import numpy as np
 from wear.count.collocation import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
 from wear.count.cycle import Settings, pace
 from wear.count.iteration import NOISE, Advance, Near, iterate
-from wear.count.resolution import hidden, unresolved
+from wear.count.resolution import concealed, unresolved
 from wear.load import Load, sampled
 from wear.model import Model
 
@@ -89,14 +89,14 @@ class ManyDrives(NamedTuple):
             at_edges=self.at_edges[:, :, i : i + 2],
         )
 
-    def overlooked(self, starts: FloatArray, run: Advance, tolerance: float) -> BoolArray:
-        """Which intervals (scenes, q) hide a change of the rate between an end and the nodes, over
-        the cycles of `run` from the `starts` (scenes, k)."""
+    def overlooked(self, starts: FloatArray, run: Advance) -> FloatArray:
+        """What each interval may conceal (scenes, k, q), in mm, by a change of the rate between an
+        end and the nodes, over the cycles of `run` from the `starts` (scenes, k)."""
         added = run.rate @ self.over.rule.weights * self.over.lengths
         wear = starts[..., None] + np.cumsum(np.insert(added, 0, 0.0, axis=-1), axis=-1)
         model = _shaped(self.model, (-1, 1, 1))
         rate = self.period[..., 0] * model.rate(wear, self.at_edges)
-        return hidden(run.rate, rate[..., :-1], rate[..., 1:], self.over, tolerance)
+        return concealed(run.rate, rate[..., :-1], rate[..., 1:], self.over)
 
     def several(self, number: int) -> Advance:
         """Some cycles on end from no wear: the guess for one is where those before lead."""
@@ -123,8 +123,16 @@ class ManyDrives(NamedTuple):
         of it at an end."""
         rough = unresolved(run.rate, self.over, size.phase_tolerance)
         starts = np.cumsum(run.increment, axis=1) - run.increment
-        rough |= self.overlooked(starts, run, size.strict_tolerance)
+        allowed = size.strict_tolerance * run.increment[..., None]
+        rough |= np.any(self.overlooked(starts, run) > allowed, axis=1)
         return rough & run.converged
+
+    def growth(self, starts: FloatArray, run: Advance) -> FloatArray:
+        """The factors by which the cycles of `run` change a small difference in the wear that they
+        start from, `starts` (scenes, k)."""
+        slope = self.model.slope(starts[..., None, None] + run.inside, self.displacement)
+        growth: FloatArray = np.exp(integral(self.period * slope, self.over))
+        return growth
 
     def in_cache(self, starts: int) -> Iterator[slice]:
         """Scenes a few at a time, with so many starts each."""

@@ -9,18 +9,15 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel
+from wear.count.checks import CHECKS, at_checks, missed_by_phase
 from wear.count.collocation import (
     BoolArray,
     FloatArray,
     IntArray,
-    chebyshev_analysis,
     chebyshev_nodes,
-    chebyshev_values,
 )
 from wear.count.cycle import Settings
-from wear.count.iteration import Advance, Near
 from wear.count.many import ManyDrives
-from wear.count.panels import CHECKS
 from wear.count.scan import cycles_if_cut, halves
 
 MOST_ROUNDS = 12  # of cutting panels
@@ -82,27 +79,19 @@ def _solved(
     shift, starts, m = blank.shift, blank.starts, size.panel_nodes
     across = abel.widths(shift, starts, blank.ends)
     nodes = abel.panel_wear(shift, starts, across, chebyshev_nodes(m))
-    ahead = coarse.take(blank.scene).advance(nodes)
+    solver = coarse.take(blank.scene)
+    ahead = solver.advance(nodes)
     panels = abel.solve(shift, starts, across, ahead.increment)
     checks = abel.panel_wear(shift, starts, across, CHECKS)
-    judged = fine.take(blank.scene).advance(checks, _near(ahead, size))
+    judged = fine.take(blank.scene).advance(checks, at_checks(ahead, size.finer_nodes))
     residual = np.abs(abel.residual(panels, CHECKS, judged.increment))
     # What the iterations may have left, nothing else tells.
     residual = np.max(residual + judged.left, axis=1) + np.max(ahead.left, axis=1)
+    by_phase = np.max(missed_by_phase(ahead, solver.over), axis=1)
+    residual = np.maximum(residual, by_phase)
     sound = np.all(ahead.converged & judged.converged, axis=1)
+    sound &= ~(by_phase > size.residual_tolerance)  # no cut cures it
     residual = np.where(sound, residual, np.inf)
     step = abel.reach(shift, starts, across, chebyshev_nodes(m), ahead.increment)
     if_cut = np.where(sound, cycles_if_cut(2 / step[..., 0]), 0.0)
     return blank._replace(series=panels.series, residual=residual), if_cut
-
-
-def _near(ahead: Advance, size: Settings) -> Near:
-    """What the cycles do that start at the checks, by interpolation, as a guess for the finer
-    mesh."""
-    m = size.panel_nodes
-    to_checks = chebyshev_values(CHECKS, m) @ chebyshev_analysis(m)
-    inside, rate = (
-        (to_checks @ x.reshape(*x.shape[:2], -1)).reshape(len(x), -1, *x.shape[2:])
-        for x in (ahead.inside, ahead.rate)
-    )
-    return ahead._replace(inside=inside, rate=rate).near(size.finer_nodes)

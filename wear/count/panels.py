@@ -7,19 +7,16 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel
+from wear.count.checks import CHECKS, MISSED, at_checks, missed_by_phase
 from wear.count.collocation import (
     BoolArray,
     FloatArray,
-    chebyshev_analysis,
     chebyshev_nodes,
-    chebyshev_values,
 )
 from wear.count.cycle import Cost, OneCycle, Settings
-from wear.count.iteration import Advance
 from wear.count.resolution import unresolved
 from wear.count.scan import SPLIT, cut_far_out, cycles_if_cut, halves
 
-CHECKS = np.array([-1.0, -0.8, 0.0, 0.7, 1.0])  # off the nodes, where T_m is large, and the ends
 FAR_OUT = 10.0  # times the residual elsewhere: then the fault lies at the end of the panel
 SAFETY = 3.0  # on measured discrepancies
 MOST_ROUNDS = 12  # of refinement
@@ -75,16 +72,20 @@ def solve_panels(
     ahead = both.coarse.advance(wear)
     panels = abel.solve(shift, starts, across, ahead.increment)
     check = abel.panel_wear(shift, starts, across, CHECKS)
-    fine = both.fine.advance(check, _at_checks(ahead).near(size.finer_nodes))
+    fine = both.fine.advance(check, at_checks(ahead, size.finer_nodes))
     residuals = np.abs(abel.residual(panels, CHECKS, fine.increment))
-    residual = np.max(residuals, axis=1)
-    far = residuals[:, -1] > FAR_OUT * np.max(residuals[:, :-1], axis=1)
+    far = np.max(residuals[:, -2:], axis=1) > FAR_OUT * np.max(residuals[:, :-2], axis=1)
+    by_phase = missed_by_phase(ahead, both.coarse.over)
+    residual = np.maximum(np.max(residuals, axis=1), np.max(by_phase, axis=1))
     cost = Cost(wear.size + check.size, ahead.evaluations + fine.evaluations)
     step = abel.reach(shift, starts, across, chebyshev_nodes(size.panel_nodes), ahead.increment)
     share = np.where(far, cut_far_out(shift, across), SPLIT)
     if_cut = cycles_if_cut(2 / step[..., 0], share)
     solved = Solved(starts, ends, panels.series, residual, share, if_cut)
     rough = ~ahead.converged
+    hazy = by_phase > size.residual_tolerance
+    share_of_one = size.residual_tolerance / (MISSED * len(rough))
+    rough |= unresolved(ahead.rate[hazy], both.coarse.over, share_of_one)
     worst = ~(residual <= size.residual_tolerance)
     if worst.any():
         again = both.coarse.advance(check[worst])
@@ -96,17 +97,6 @@ def solve_panels(
             rough |= unresolved(rates, both.coarse.over, size.phase_tolerance)
             rough |= ~rough.any()
     return solved, rough, cost
-
-
-def _at_checks(ahead: Advance) -> Advance:
-    """What the cycles do that begin at the checks, interpolated between the nodes (panels, m)."""
-    m = ahead.increment.shape[1]
-    to_checks = chebyshev_values(CHECKS, m) @ chebyshev_analysis(m)
-    inside, rate = (
-        (to_checks @ x.reshape(*x.shape[:2], -1)).reshape(-1, *x.shape[2:])
-        for x in (ahead.inside, ahead.rate)
-    )
-    return ahead._replace(inside=inside, rate=rate)
 
 
 class Filled(NamedTuple):

@@ -26,20 +26,26 @@ def first_edges(load: Load) -> FloatArray:
     return np.array([0.0, *sorted(x for x in inner if 1e-9 < x < 1.0 - 1e-9), 1.0])
 
 
-def unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
-    """Which intervals (..., q) do not resolve the rate (..., k, q, m) of every start.
+def truncated(rate: FloatArray, over: Mesh) -> FloatArray:
+    """What intervals may miss (..., k, q) of the integral of the rate (..., k, q, m).
 
     Gauss quadrature leaves what two truncated series have in common: on an interval, the square of
-    its last Legendre coefficients over its largest. That is held against the increment.
+    its last Legendre coefficients over its largest.
     """
     flat = rate.reshape(-1, rate.shape[-1])
     series = np.abs(flat @ over.rule.coefficients.T).reshape(rate.shape)
     largest = np.max(series, axis=-1) + TINY
     last = np.max(series[..., -2:], axis=-1)
-    left = last**2 / largest * over.lengths
+    left: FloatArray = last**2 / largest * over.lengths
     # Rounding of the largest coefficients looks like a tail: it is none.
     left[largest * ROUNDOFF * 100 > last] = 0.0
-    rough: BoolArray = np.any(left > tolerance * integral(rate, over)[..., None], axis=-2)
+    return left
+
+
+def unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
+    """Which intervals (..., q) do not resolve the rate (..., k, q, m) of every start."""
+    missed = truncated(rate, over)
+    rough: BoolArray = np.any(missed > tolerance * integral(rate, over)[..., None], axis=-2)
     return rough
 
 

@@ -32,7 +32,7 @@ FIRST = (0, 3, 30)  # cycles integrated one by one: none where they change the d
 MARGIN = 4.0  # of a rough look ahead
 ITERATED = 0.1  # of the error asked for: what the iteration over a cycle may leave
 JUDGED = 0.01  # of that: what the iteration of the judge may leave
-SAMPLES = np.array([0.0, 0.35, 0.5, 0.65, 1.0])  # of the way in y: there a mesh must suit
+SAMPLES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0])  # of the way in y: there a mesh must suit
 SMALL = 0.5  # step in ln(u + scale): then panels may begin with it
 LONGEST, STEPS = 30.0, 60  # of the look ahead, in ln(1 + u/scale)
 
@@ -64,6 +64,9 @@ def sweep(scenes: Sequence[Scene], cycles: FloatArray, rtol: float = 1e-7) -> Sw
     ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
     """
     cycles = np.asarray(cycles, dtype=float)
+    if not scenes:
+        none = np.empty((0, len(cycles)))
+        return Sweep(none, none, np.empty(0, dtype=bool))
     parts = [
         _together(scenes[at : at + TOGETHER], cycles, rtol)
         for at in range(0, len(scenes), TOGETHER)
@@ -170,10 +173,11 @@ def _begun(maps: Maps, run: Advance) -> Begun:
     """The first cycles `run` by the coarse map, judged by the fine one."""
     before = np.cumsum(run.increment, axis=1) - run.increment
     judged = maps.fine.advance(before, run.near(maps.fine.over.phases.shape[-1]))
-    # What the iterations of the judge may have left, nothing else tells.
-    missed = np.abs(judged.increment - run.increment) + judged.left * run.increment
+    missed = np.abs(judged.increment - run.increment)
+    # What both meshes miss, and what the iterations of the judge may have left.
+    missed += np.sum(maps.fine.overlooked(before, judged), axis=2) + judged.left * run.increment
     missed[~np.all(run.converged & judged.converged, axis=1)] = np.inf
-    return Begun(run.increment, _carried(SAFETY * missed, run.increment))
+    return Begun(run.increment, _carried(SAFETY * missed, maps.coarse.growth(before, run)))
 
 
 def _solve_group(
@@ -254,7 +258,7 @@ def _evaluate(
     each = len(panels.scene) // scenes
     for k in range(1, each):
         before, after = (density.take(slice(i, None, each)) for i in (k - 1, k))
-        lost[:, k * parts] += abel.junctions(before, after)
+        lost[:, k * parts - 1] += abel.junctions(before, after)  # the count is shifted at once
     lost = SAFETY * lost + table.missed.reshape(gain.shape)
     share = (late - np.take_along_axis(begins, part, axis=1)) / np.take_along_axis(gain, part, 1)
     missed = np.take_along_axis(np.cumsum(lost, axis=1) - lost, part, axis=1)
@@ -270,10 +274,10 @@ def _evaluate(
     return wear, error / wear
 
 
-def _carried(missed: FloatArray, added: FloatArray) -> FloatArray:
-    """The error (scenes, BLOCK) of the wear after each of the first cycles: what each has missed,
-    grown as the wear added by a cycle grows."""
+def _carried(missed: FloatArray, growth: FloatArray) -> FloatArray:
+    """The error (scenes, k) of the wear after each of the first cycles: what each has missed, and
+    what the ones before have, which grows with the wear."""
     error = missed.copy()
     for k in range(1, error.shape[1]):
-        error[:, k] += error[:, k - 1] * np.maximum(1.0, added[:, k] / added[:, k - 1])
+        error[:, k] += error[:, k - 1] * growth[:, k]
     return error

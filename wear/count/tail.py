@@ -13,9 +13,10 @@ import numpy as np
 
 from wear.count import abel, tabulated
 from wear.count.arithmetic import ROUNDOFF
+from wear.count.checks import CHECKS
 from wear.count.collocation import FloatArray, chebyshev_nodes, chebyshev_values
 from wear.count.cycle import Cost, OneCycle, Settings
-from wear.count.panels import CHECKS, NONE, SAFETY, Maps, Solved
+from wear.count.panels import NONE, SAFETY, Maps, Solved
 from wear.count.rounding import roundoff
 from wear.load import Load
 from wear.model import Model
@@ -132,7 +133,7 @@ def tail(
     parts = len(table.length) // len(panels.starts)
     missed = SAFETY * np.repeat(np.append(solved.residual, bend), parts) * table.gain
     apart = abel.junctions(panels.take(slice(-1)), panels.take(slice(1, None)))
-    missed[::parts] += SAFETY * np.concatenate([[0.0], apart])
+    missed[parts - 1 : -1 : parts] += SAFETY * apart
     missed += float(roundoff(model, load, np.array([wear]))[0]) * table.gain
     return Tail(rest, table, np.concatenate([[0.0], np.cumsum(missed)]), cost)
 
