@@ -78,6 +78,13 @@ def test_an_interval_of_a_mesh_is_a_mesh() -> None:
     assert_allclose(part.phases[0], 0.3 + 0.7 * c.gauss(5).nodes)
 
 
+@pytest.mark.parametrize("m", [24, 48])
+def test_a_constant_has_no_chebyshev_tail(m: int) -> None:
+    """Errors of n^2 roundoffs in T_n made one, and cost pressures their last three digits."""
+    series = c.chebyshev_analysis(m) @ np.ones(m)
+    assert_allclose(series, np.eye(m)[0], atol=1e-15)
+
+
 def test_chebyshev_analysis_inverts_evaluation_and_extrapolates() -> None:
     m = 11
     series = np.linspace(1.0, -2.0, m)

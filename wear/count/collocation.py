@@ -188,7 +188,13 @@ def chebyshev_values(t: FloatArray, m: int) -> FloatArray:
 
 @lru_cache(maxsize=32)
 def chebyshev_analysis(m: int) -> FloatArray:
-    """Matrix (m, m) from values at `chebyshev_nodes(m)` to Chebyshev coefficients."""
-    matrix = chebyshev_values(chebyshev_nodes(m), m).T * (2.0 / m)
+    """Matrix (m, m) from values at `chebyshev_nodes(m)` to Chebyshev coefficients.
+
+    By cosines of exactly reduced angles: a recurrence would lose n^2 roundoffs in T_n near the
+    ends, and so make a tail of a large constant.
+    """
+    n, k = np.arange(m)[:, None], np.arange(m)
+    quarters = (n * (2 * k + 1 + 2 * m)) % (4 * m)  # of the angle n (pi + (k + 1/2) pi/m)
+    matrix: FloatArray = np.cos(np.pi / (2 * m) * quarters) * (2.0 / m)
     matrix[0] /= 2
     return matrix
