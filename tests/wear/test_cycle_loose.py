@@ -83,6 +83,33 @@ def test_cycles_until_a_wear_know_the_error_that_a_block_begins_with() -> None:
     assert np.all(found.error <= 1e-2)
 
 
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3])
+@pytest.mark.parametrize("slow", [-1e-4, -2e-4])
+def test_a_wear_that_one_block_may_just_reach_or_the_next_one_late(
+    slow: float, rtol: float
+) -> None:
+    """The next block hardly wears: there the same small wear takes ten times as many cycles."""
+    scene = made(2.218e-6, 0.05877, 1.004e-4, 3.012e-4, constant(4.37e-4), k=620.3)
+    model, number = bind(scene), 38000
+    load = Blocks((Block(scene.periodic_load, number), Block(Constant(slow, 0.06), 10**9)))
+    cycles = number * np.array([0.5, 1.0, 1.001, 1.1, 2.0, 11.0])
+    wear = wear_after(model, load, cycles, 1e-13).u_c
+    found = cycles_until(model, load, wear, rtol)
+    assert np.all(np.abs(found.cycles / cycles - 1) <= found.error + 1e-12)
+    assert np.all(np.isfinite(found.error))
+
+
+def test_a_wear_that_may_never_be_reached_has_no_certain_count() -> None:
+    """The next blocks do not wear at all."""
+    scene = made(2.218e-6, 0.05877, 1.004e-4, 3.012e-4, constant(4.37e-4), k=620.3)
+    model, number = bind(scene), 38000
+    never = Block(Constant(-1.0, 0.06), 1000)
+    load = Blocks((Block(scene.periodic_load, number), never, never))
+    wear = wear_after(model, load, np.array([1e3, number]), 1e-13).u_c
+    found = cycles_until(model, load, wear, 1e-2)
+    assert np.isinf(found.error).tolist() == [False, True]
+
+
 @pytest.mark.parametrize(
     ("K", "f_c", "closure", "value", "rtol"),
     [(1.84e-4, 0.587, 2.64e-4, 7.8e-5, 1e-2), (9.8e-3, 0.55, 8.7e-4, 3.25e-3, 1e-3)],

@@ -58,15 +58,29 @@ def wear_after(
 
 def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rtol: float) -> Cycles:
     """Whole cycles after which each wear u_c (mm, (n,)) is first reached, infinite where it is not
-    within the load or 1e12 cycles, and the estimated relative error of their number."""
+    within the load or 1e12 cycles, and the estimated relative error of their number.
+
+    What a block reaches but for the estimated error counts as reached. If it did not, a block after
+    it does, at its own pace: that the error tells too.
+    """
     wear = np.asarray(wear, dtype=float)
     count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
     start, missed, done, cost = 0.0, 0.0, 0, Cost(0, 0)
     most = min(MOST_CYCLES, float(most_cycles(load)))
-    while np.isinf(count).any() and done < most:
+    doubtful = np.full(wear.shape, False)
+    while (np.isinf(count) | doubtful).any() and done < most:
         acting, until = span(load, done)
         length = min(float(until), most) - done
         still = np.isinf(count)
+        if doubtful.any():
+            late = until_of_one(
+                model, acting, wear[doubtful], rtol, max(start - missed, 0.0), length
+            )
+            largest = done + late.cycles * (1.0 + late.error)
+            known = np.where(np.isfinite(largest), largest / count[doubtful] - 1.0, 0.0)
+            error[doubtful] = np.maximum(error[doubtful], known)
+            doubtful[doubtful] = np.isinf(largest)
+            cost = cost.plus(*late.cost)
         found = until_of_one(model, acting, wear[still], rtol, start, length, missed)
         count[still] = done + found.cycles
         own = np.where(np.isfinite(found.cycles), found.cycles, 0.0)  # what the error refers to
@@ -77,7 +91,9 @@ def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rto
             begun, start = start, float(ended.u_c[0])
             missed *= growth(model, acting, begun, start)
             missed += float(ended.error[0]) * start
+            doubtful = np.isfinite(count) & (wear > start - missed)
         done = until
+    error[doubtful] = np.inf
     return Cycles(count, error, cost)
 
 
