@@ -151,7 +151,8 @@ def system(claims: tuple[sp.Basic, ...]) -> sp.Basic:
 
 
 def verify(equation: Equation) -> tuple[Check, ...]:
-    """Re-run every check on which an equation rests, and compare what is typeset."""
+    """The outcome of every check on which an equation rests, each run once in a process, and of
+    comparing what is typeset with what is claimed."""
     outcomes = [outcome for step in equation.steps for outcome in step.checks]
     typeset = Check("typeset", equation.typeset_agrees, "the display form equals the claim")
     return (*outcomes, typeset)

@@ -22,38 +22,27 @@ from wear.report.document import (
     Bibliography,
     Block,
     Claims,
-    Code,
     Column,
     Document,
-    Emphasis,
     Equation,
     Figure,
-    Given,
-    Inline,
     Items,
-    Link,
     Listing,
-    Math,
-    Number,
     Paragraph,
     Prose,
-    Reference,
     Section,
     Step,
     Steps,
     Table,
     Text,
     Work,
-    grouped,
 )
-from wear.report.numbering import Mark, mentioned_by, number
+from wear.report.numbering import mentioned_by, number
+from wear.report.tex_inline import Context, bare_link, link, prose
 from wear.report.tex_text import escape, heading, verbatim
 from wear.report.walk import blocks
 
 _HEADINGS = ("section", "subsection", "subsubsection")
-#: What is not numbered by LaTeX, but named where it stands.
-_NAMED = ("claim", "derivation", "work")
-_THIN_SPACE = r"\,"
 #: Characters of ``\footnotesize\ttfamily`` in a line of text.
 _LISTING_WIDTH = 96
 
@@ -65,14 +54,6 @@ class Sources:
     report: str
     equations: str
     figures: Mapping[str, bytes]
-
-
-@dataclass(frozen=True)
-class Context:
-    """What the blocks share."""
-
-    marks: Mapping[str, Mark]
-    mentioned_by: Mapping[str, tuple[str, ...]]
 
 
 def report(document: Document) -> Sources:
@@ -109,60 +90,6 @@ def equations(document: Document) -> str:
     return "\n".join(lines) + "\n"
 
 
-def prose(here: Context, content: Prose) -> str:
-    """Inline nodes as LaTeX."""
-    return "".join(_inline(here, piece) for piece in content)
-
-
-def _inline(here: Context, piece: Inline) -> str:
-    match piece:
-        case Text(text) | Given(text):
-            return escape(text)
-        case Emphasis(text):
-            return f"\\emph{{{escape(text)}}}"
-        case Code(text):
-            return f"\\texttt{{{_breakable(text)}}}"
-        case Math(latex):
-            return f"${latex}$"
-        case Reference(label, bare):
-            return _bare_link(here, label) if bare else _link(here, label)
-        case Link(text, url):
-            return f"\\href{{{_url(url)}}}{{{escape(text)}}}"
-        case Number():
-            return _number(piece)
-    assert_never(piece)
-
-
-def _breakable(code: str) -> str:
-    """Code that may be broken after the signs that join its parts."""
-    return "".join(escape(c) + (r"\allowbreak{}" if c in "/._-=" else "") for c in code)
-
-
-def _url(url: str) -> str:
-    return url.replace("\\", "/").replace("%", r"\%").replace("#", r"\#").replace("&", r"\&")
-
-
-def _number(node: Number) -> str:
-    digits, exponent = node.decimal
-    power = "" if exponent is None else f"\\times10^{{{exponent}}}"
-    unit = f"~{escape(node.unit)}" if node.unit else ""
-    return f"${grouped(digits, _THIN_SPACE)}{power}${unit}"
-
-
-def _link(here: Context, label: str) -> str:
-    mark = here.marks[label]
-    if mark.kind in _NAMED:
-        return f"\\linkto{{{label}}}{{{escape(mark.name)}}}"
-    return f"\\cref{{{label}}}"
-
-
-def _bare_link(here: Context, label: str) -> str:
-    mark = here.marks[label]
-    if mark.kind in _NAMED:
-        return f"\\linkto{{{label}}}{{{mark.bare}}}"
-    return f"\\hyperref[{label}]{{{mark.bare}}}"
-
-
 def _mentions(here: Context, label: str) -> str:
     """Where else a label is spoken of: its derivation with the page, then the rest, claims last."""
     sources = here.mentioned_by.get(label, ())
@@ -170,14 +97,14 @@ def _mentions(here: Context, label: str) -> str:
     told = [_mention(here, source) for source in sources if source not in claims]
     if claims:
         word = "claims" if len(claims) > 1 else "claim"
-        told.append(f"{word}~" + ", ".join(_bare_link(here, claim) for claim in claims))
+        told.append(f"{word}~" + ", ".join(bare_link(here, claim) for claim in claims))
     return ", ".join(told)
 
 
 def _mention(here: Context, source: str) -> str:
     if here.marks[source].kind == "derivation":
         return f"\\linkto{{{source}}}{{derivation}} on p.~\\pageref{{{source}@page}}"
-    return _link(here, source)
+    return link(here, source)
 
 
 def _block(here: Context, block: Block, depth: int) -> str:
@@ -323,7 +250,7 @@ def _appendix(here: Context, derivations: Sequence[Steps]) -> str:
 
 def _steps(here: Context, steps: Steps) -> str:
     entries = "\n".join(f"\\item {_step(here, step)}" for step in steps.steps)
-    title = f"Derivation of {_link(here, steps.of)}, p.~\\pageref{{{steps.of}}}"
+    title = f"Derivation of {link(here, steps.of)}, p.~\\pageref{{{steps.of}}}"
     return f"\n\\begin{{derivation}}{{{steps.label}}}{{{title}}}\n{entries}\n\\end{{derivation}}\n"
 
 
