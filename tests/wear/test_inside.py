@@ -153,6 +153,23 @@ def test_very_fast_wear_inside_its_first_cycles(rtol: float, K: float, kind: str
             assert 0 <= error <= rtol
 
 
+@pytest.mark.parametrize("rtol", [1e-2, 1e-4])
+def test_a_first_cycle_that_two_meshes_miss_alike(rtol: float) -> None:
+    """Wear takes off within a hundredth of it: what the count knows of its end has a say."""
+    made = tables(K=3.1e-3, f_c=1.1145, pin=True, load=CONSTANT | {"value_mm": 3.7e-6})
+    made["bearing"]["roughness_mm"] = 7.577e-5
+    made["pin"] |= {"roughness_mm": 1.263e-5, "roughness_slope": -0.0099}
+    made["contact"] = {"max_pressure_MPa": 300.0, "closure_mm": 2.273e-4}
+    scene = scene_from_tables(made, "violent")
+    cycles = np.array([0.0, 1e3, 1e9])
+    found, want = (
+        next(fields_inside(bind(scene), scene.load, cycles, PHASES, x)) for x in (rtol, 1e-13)
+    )
+    true = np.max(np.abs(found.u - want.u), axis=1) / want.u[:, -1]
+    assert np.all(true <= found.error + want.error)
+    assert np.all(found.error <= rtol)
+
+
 def test_no_cycle_leads_to_negative_roughness() -> None:
     """Very fast wear had another solution beyond the wear at which the roughness vanishes."""
     made = tables(K=0.0126, f_c=-0.14, load=CONSTANT | {"value_mm": 2e-4, "period_s": 1.05})
