@@ -6,19 +6,22 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
-from wear.count import inside
+from wear.count import inside, wear_after
 from wear.count.build import cycle_count
 from wear.count.collocation import FloatArray, mesh
 from wear.count.course import course
-from wear.count.cycle import drive, settings
+from wear.count.cycle import drive
+from wear.count.cycle import settings as sizes
 from wear.count.inside import Inside, fields_inside
 from wear.count.march import march
 from wear.count.stages import counted_stages
 from wear.faults import UsageError
-from wear.load import HistoryLoad, Table
+from wear.load import Harmonics, HistoryLoad, Table
 from wear.model import bind
 from wear.scene import Scene, builtin_names, load_scene, scene_from_tables
 from wear.solver import solve
@@ -129,7 +132,7 @@ def test_few_cycles_come_in_order() -> None:
 
 def marched(scene: Scene, start: float) -> FloatArray:
     """Wear (mm) at PHASES of one cycle, taken interval by interval, cut in two until sound."""
-    load, size, wear = scene.periodic_load, settings(1e-14), [start]
+    load, size, wear = scene.periodic_load, sizes(1e-14), [start]
     for begin, end in pairwise(PHASES.tolist()):
         cuts = [phase for phase in load.peaks if begin < phase < end]
         cycle = drive(bind(scene), load, mesh(np.array([begin, *cuts, end]), size.phase_nodes))
@@ -151,6 +154,25 @@ def test_very_fast_wear_inside_its_first_cycles(rtol: float, K: float, kind: str
             true = np.max(np.abs(row - marched(scene, row[0]))) / row[-1]
             assert true <= error + 5e-14  # to which the two ways agree in double precision
             assert 0 <= error <= rtol
+
+
+@settings(max_examples=8)
+@given(phase=st.floats(0.01, 0.99))
+@pytest.mark.parametrize("name", ["S1", "S2", "S4", "S8_1", "S8_2"])
+def test_a_load_shifted_in_time_shifts_the_wear(name: str, phase: float) -> None:
+    """Begun at another phase, with the wear there, it goes through the same states."""
+    scene = reference_scene(name)
+    load, angle = scene.periodic_load, 2 * np.pi * phase
+    later = Harmonics(
+        0.0, (load.maximum * np.sin(angle),), (load.maximum * np.cos(angle),), load.period
+    )
+    cycles = np.array([0.0, 1.0, 10.0, 1e3, 1e6, 1e9])
+    states = history(scene, cycles, np.array([phase]))
+    begun = float(states.u[0, 0])
+    found = wear_after(bind(scene), later, cycles[1:], 1e-12, begun)
+    error = found.error + states.error[1:] + states.error[0]
+    assert np.all(np.abs(found.u_c / states.u[1:, 0] - 1) <= error)
+    assert np.all(error <= 1e-10)
 
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-4])
