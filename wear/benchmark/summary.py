@@ -15,7 +15,7 @@ UNITS = (
     (1.0, 1e-3, "ms"),
     (120.0, 1.0, "s"),
     (7200.0, 60.0, "min"),
-    (86400.0, 3600.0, "h"),
+    (172800.0, 3600.0, "h"),
     (YEAR, 86400.0, "days"),
 )
 
@@ -76,8 +76,8 @@ def cell(runs: Sequence[Measurement], method: str, digits: int) -> str:
 def duration(seconds: float) -> str:
     """A time in the unit that suits.
 
-    >>> duration(0.00213), duration(47.0), duration(3e5), duration(4e9)
-    ('2.1 ms', '47 s', '3.5 days', '127 years')
+    >>> duration(0.00213), duration(47.0), duration(9e4), duration(3e5), duration(4e9)
+    ('2.1 ms', '47 s', '25 h', '3.5 days', '127 years')
     """
     for limit, unit, name in UNITS:
         if seconds < limit:
