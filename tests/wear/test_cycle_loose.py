@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from tests.wear.reference_scenes import CONSTANT, tables
 from tests.wear.test_cycle_count import counted
@@ -169,3 +171,19 @@ def test_what_the_mesh_of_phase_misses_for_few_wears_is_told(
 ) -> None:
     """It changes its sign as the wear grows, and was looked at where it vanishes."""
     assert holds(made(K, f_c, 3.6e-4, 1.08e-3, load, k=k, pin=pin), rtol)
+
+
+@settings(max_examples=40)
+@given(
+    K=st.floats(-9.0, -5.5),
+    f_c=st.floats(0.55, 1.05),
+    swing=st.floats(-4.0, -2.7),
+    k=st.floats(3.0, 6.0),
+    pin=st.booleans(),
+    rtol=st.sampled_from([1e-6, 1e-7, 1e-9]),
+)
+def test_contact_that_gets_short_on_springs(
+    K: float, f_c: float, swing: float, k: float, pin: bool, rtol: float
+) -> None:
+    """Where one drawn scene of a hundred was wrong by more than its estimate."""
+    assert holds(made(10**K, f_c, 3.6e-4, 1.08e-3, sine(10**swing), k=10**k, pin=pin), rtol)
