@@ -38,7 +38,7 @@ from wear.report.document import (
     Work,
 )
 from wear.report.numbering import mentioned_by, number
-from wear.report.tex_inline import Context, bare_link, link, prose
+from wear.report.tex_prose import Context, bare_link, link, prose
 from wear.report.tex_text import escape, heading, verbatim
 from wear.report.walk import blocks
 
