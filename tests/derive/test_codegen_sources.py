@@ -23,6 +23,7 @@ from derive.laws import ContactLaw, r
 from derive.note.governing import Pin
 from derive.variant import VARIANTS, Variant
 from tests.derive import exact
+from tests.derive.reading_back import read_back
 
 EVERY_TARGET = (numpy_target(), c.C, fortran.FORTRAN, javascript.JAVASCRIPT)
 every_target = pytest.mark.parametrize("target", EVERY_TARGET, ids=TARGETS)
@@ -87,14 +88,14 @@ def test_an_unknown_target_is_refused():
 # How expressions are written
 
 
-def read_back(text: str) -> sp.Expr:
+def as_sympy(text: str) -> sp.Expr:
     """An expression that a target has written, read again as SymPy's own."""
     text = re.sub(r"_dp\b|Math\.|np\.|wear_", "", text)
     words = {"sqrt": sp.sqrt, "exp": sp.exp, "pi": sp.pi, "PI": sp.pi}
     words |= dict.fromkeys(("minimum", "smaller", "min"), sp.Min)
     words |= dict.fromkeys(("maximum", "larger", "max"), sp.Max)
     words |= {name: sp.Symbol(name) for name in ("x", "y", "z")}
-    return sp.nsimplify(sp.sympify(text.replace("3.141592653589793", "pi"), locals=words))
+    return sp.nsimplify(read_back(text.replace("3.141592653589793", "pi"), words))
 
 
 x, y, z = sp.symbols("x y z")
@@ -162,12 +163,12 @@ def test_formulas_are_exact_in_decimal(tmp_path, monkeypatch):
     ids=str,
 )
 def test_what_is_written_reads_back(target, expr):
-    assert sp.simplify(read_back(emit(expr, target)) - expr) == 0
+    assert sp.simplify(as_sympy(emit(expr, target)) - expr) == 0
 
 
 @pytest.mark.parametrize("target", [c.C, fortran.FORTRAN], ids=lambda target: target.name)
 def test_no_integer_divides_an_integer(target):
-    assert read_back(emit(sp.Rational(1, 3), target)) == sp.Rational(1, 3)
+    assert as_sympy(emit(sp.Rational(1, 3), target)) == sp.Rational(1, 3)
     assert re.fullmatch(r"1\.0(_dp)? / 3\.0(_dp)?", emit(sp.Rational(1, 3), target))
 
 

@@ -20,6 +20,7 @@ from derive.symbols import QUANTITIES, symbol
 from derive.typeset.display import evaluated
 from derive.typeset.macros import macro_name, macros
 from derive.zero import same
+from tests.derive.reading_back import read_back
 
 
 def _json(capsys: pytest.CaptureFixture[str], *arguments: str) -> object:
@@ -38,7 +39,7 @@ def test_srepr_is_a_relation_with_the_names_of_the_contract(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["show", "21", "--as", "srepr"]) == 0
-    relation = sp.parse_expr(capsys.readouterr().out, global_dict=vars(sp) | {"Symbol": sp.Symbol})
+    relation = read_back(capsys.readouterr().out)
     assert {s.name for s in relation.free_symbols} == {
         "u_cum",
         "K_c",
