@@ -132,6 +132,10 @@ class Drive(NamedTuple):
             left=run.left.reshape(starts.shape),
         )
 
+    def growth(self, wear: FloatArray) -> FloatArray:
+        """By how much cycles with the `wear` (..., q, m) inside change a small difference in it."""
+        return growth(self.model, wear, self.displacement, self.load.period, self.over)
+
     def frozen(self, wear: FloatArray) -> FloatArray:
         """Wear (mm) added over the mesh if the rate did not feel it."""
         return integral(self.rate(wear[..., None, None]), self.over)
@@ -171,6 +175,19 @@ def pace(
     known = near / scale if model.compliant and near is not None else None
     result: FloatArray = model.rate(u, displacement, known) * scale
     return result
+
+
+def growth(
+    model: Model,
+    wear: FloatArray,
+    displacement: FloatArray,
+    period: float | FloatArray,
+    over: Mesh,
+) -> FloatArray:
+    """The factor (...) by which a small difference in the `wear` (..., q, m) changes over the mesh
+    `over`: the solution of the linearised equation."""
+    factor: FloatArray = np.exp(integral(period * model.slope(wear, displacement), over))
+    return factor
 
 
 def drive(model: Model, load: Load, over: Mesh) -> Drive:

@@ -8,7 +8,7 @@ from wear.count.arithmetic import TINY
 from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost, Drive, OneCycle, Settings
-from wear.count.march import growth_of, march, overlooked, overlooked_wear
+from wear.count.march import march, overlooked, overlooked_wear
 from wear.count.request import Request
 from wear.count.resolution import refined, unresolved
 from wear.count.scan import SHIFT, plan_panels, scan
@@ -162,7 +162,7 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
     if isinstance(at, CutoffCycle):
         growth = at.growth(starts)
     elif isinstance(at, Drive):
-        growth = growth_of(at, starts[:, None, None], run.inside)
+        growth = at.growth(starts[:, None, None] + run.inside)
     response = run.increment * np.maximum(growth, 1.0)
     if isinstance(at, CutoffCycle):
         response = at.response(run.increment, growth)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.collocation import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
-from wear.count.cycle import Settings, pace
+from wear.count.cycle import Settings, growth, pace
 from wear.count.iteration import NOISE, Advance, Near, iterate
 from wear.count.resolution import concealed, unresolved
 from wear.load import Load, sampled
@@ -127,12 +127,10 @@ class ManyDrives(NamedTuple):
         rough |= np.any(self.overlooked(starts, run) > allowed, axis=1)
         return rough & run.converged
 
-    def growth(self, starts: FloatArray, run: Advance) -> FloatArray:
-        """The factors by which the cycles of `run` change a small difference in the wear that they
-        start from, `starts` (scenes, k)."""
-        slope = self.model.slope(starts[..., None, None] + run.inside, self.displacement)
-        growth: FloatArray = np.exp(integral(self.period * slope, self.over))
-        return growth
+    def growth(self, wear: FloatArray) -> FloatArray:
+        """By how much cycles with the `wear` (scenes, k, q, m) inside change a small difference in
+        it."""
+        return growth(self.model, wear, self.displacement, self.period, self.over)
 
     def in_cache(self, starts: int) -> Iterator[slice]:
         """Scenes a few at a time, with so many starts each."""

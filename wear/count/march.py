@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.arithmetic import TINY
-from wear.count.collocation import BoolArray, FloatArray, integral, mesh
+from wear.count.collocation import BoolArray, FloatArray, mesh
 from wear.count.cycle import Drive, Settings
 from wear.count.iteration import Advance
 from wear.count.resolution import concealed, hidden, unresolved
@@ -57,7 +57,7 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
         judged = finer.advance(at)
         apart = abs(float(judged.increment) - own) if sound else np.inf
         apart += float(overlooked_wear(finer, float(at), judged)[0])
-        growth = float(growth_of(part, float(at), run.inside))
+        growth = float(part.growth(float(at) + run.inside))
         done = Marched(
             done.added + own,
             done.missed * growth + apart,
@@ -66,14 +66,6 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
             done.evaluations + judged.evaluations,
         )
     return done
-
-
-def growth_of(cycle: Drive, start: float | FloatArray, inside: FloatArray) -> FloatArray:
-    """By how much a small difference in the wear `start + inside` (..., q, m) changes over the
-    mesh of `cycle`: the solution of the linearised equation."""
-    slope = cycle.load.period * cycle.model.slope(start + inside, cycle.displacement)
-    growth: FloatArray = np.exp(integral(slope, cycle.over))
-    return growth
 
 
 def overlooked(cycle: Drive, start: float, run: Advance, tolerance: float) -> BoolArray:

@@ -177,7 +177,8 @@ def _begun(maps: Maps, run: Advance) -> Begun:
     # What both meshes miss, and what the iterations of the judge may have left.
     missed += np.sum(maps.fine.overlooked(before, judged), axis=2) + judged.left * run.increment
     missed[~np.all(run.converged & judged.converged, axis=1)] = np.inf
-    return Begun(run.increment, _carried(SAFETY * missed, maps.coarse.growth(before, run)))
+    growth = maps.coarse.growth(before[..., None, None] + run.inside)
+    return Begun(run.increment, _carried(SAFETY * missed, growth))
 
 
 def _solve_group(
