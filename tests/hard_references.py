@@ -32,7 +32,7 @@ NOTE_SCENES = {
     "section4": ("S2", "section4", []),
     "fast-wear": ("S4", "fast-wear", []),
     "f-one-eighth": ("S5", "f-one-eighth", []),
-    "f-negative": ("S6", "section4", ["bearing.roughness_slope=-0.05"]),
+    "f-negative": ("S6", "section4", ["bearing.roughness_growth=-0.05"]),
     "section3-support": ("S8_1", "section3", ["support.stiffness_MPa_per_mm=1e5"]),
     "section4-support": ("S8_2", "section4", ["support.stiffness_MPa_per_mm=1e5"]),
 }
@@ -55,7 +55,7 @@ def hard_case(name: str) -> dict[int, float]:
     scene = load_scene(name)
     if name == "deep-tail":
         return {cycles: linear(name, cycles) for cycles in (*INTEGRATED, *FAR)}
-    if scene.contact.cutoff:
+    if scene.contact.ends_at_3_sigma:
         found = independent_cutoff.wear_after(problem(scene), INTEGRATED)
         if found[10] == found[100]:
             found |= dict.fromkeys(ARRESTED, found[100])

@@ -107,7 +107,7 @@ def _both(scene: Scene, cycles: Sequence[int], low: Any, high: Any) -> tuple[Enc
     """Run the lower bound with the load ``low`` and the upper one with ``high``."""
     import flint
 
-    if scene.contact.cutoff or scene.contact.law != "tanh":
+    if scene.contact.ends_at_3_sigma or scene.contact.law != "tanh":
         raise UsageError("bounds need a scene without cutoff and with the tanh contact law")
     count = [int(n) for n in cycles]
     if any(n < 1 or n != given for n, given in zip(count, cycles, strict=True)):

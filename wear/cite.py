@@ -71,7 +71,7 @@ _ENTRIES = (
     Reference(
         "kuczma1990",
         "book",
-        "method cycle-count: Abel's functional equation",
+        "method abel: Abel's functional equation",
         {
             "author": "Kuczma, M. and Choczewski, B. and Ger, R.",
             "title": "Iterative Functional Equations",

@@ -84,7 +84,7 @@ class History:
             Column("bearing_roughness_mm", "mm", "roughness of the bearing", self.sigma_c),
             Column("pin_roughness_mm", "mm", "roughness of the pin", self.sigma_a),
             Column("closure_mm", "mm", "closure of the mean surfaces", self.h),
-            Column("contact_pressure_MPa", "MPa", "contact pressure", self.p),
+            Column("pressure_at_start_MPa", "MPa", "contact pressure", self.p),
         ]
         if self.U_c is not None:
             displacement = "displacement of the bearing"

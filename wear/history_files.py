@@ -134,7 +134,7 @@ def _columns_inside(part: Inside) -> tuple[Column, ...]:
         Column("bearing_roughness_mm", "mm", "roughness of the bearing", fields.sigma_c),
         Column("pin_roughness_mm", "mm", "roughness of the pin", fields.sigma_a),
         Column("closure_mm", "mm", "closure of the mean surfaces", fields.h),
-        Column("contact_pressure_MPa", "MPa", "contact pressure", fields.p),
+        Column("pressure_at_start_MPa", "MPa", "contact pressure", fields.p),
         Column("bearing_displacement_mm", "mm", "displacement of the bearing", fields.U_c),
     )
 

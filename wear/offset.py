@@ -142,7 +142,7 @@ def offset(scene: Scene, rtol: float = 1e-13) -> Offset | None:
 
 def _contact_lasts(scene: Scene) -> bool:
     """Whether cycles can be counted until contact, once for all, lasts throughout the cycle."""
-    if not scene.contact.cutoff:
+    if not scene.contact.ends_at_3_sigma:
         return True
     if scene.support is not None:
         return False
@@ -153,7 +153,7 @@ def _contact_lasts(scene: Scene) -> bool:
 def _history(scene: Scene, rtol: float) -> History | None:
     """The wear after each number of cycles, by the cycle count alone: no other reaches so far."""
     try:
-        return solve(scene, _CYCLES, rtol, method="cycle-count")
+        return solve(scene, _CYCLES, rtol, method="abel")
     except AccuracyError as fault:
         return fault.best
 

@@ -130,7 +130,7 @@ def asymptote(scene: Scene) -> Asymptote:
     """
     with decimal.localcontext(_DIGITS):
         case = _Case(scene)
-        return _with_cutoff(case) if scene.contact.cutoff else _without_cutoff(case)
+        return _with_cutoff(case) if scene.contact.ends_at_3_sigma else _without_cutoff(case)
 
 
 def _result(case: _Case, regime: str, **found: Any) -> Asymptote:

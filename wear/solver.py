@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["METHODS", "MOST_CYCLES", "solve"]
 
 FloatArray = NDArray[np.float64]
-METHODS = ("auto", "cycle-count", "collocation", *direct.METHODS)
+METHODS = ("auto", "abel", "collocation", *direct.METHODS)
 MOST_CYCLES = 10**12
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
@@ -62,7 +62,7 @@ def solve(
     rtol
         Requested relative error of the bearing's wear.
     method
-        "auto", "cycle-count" (any number of cycles from a few; the load must repeat),
+        "auto", "abel" (any number of cycles from a few; the load must repeat),
         "collocation" (a measured history, many of its rows at once) or one of SciPy's integrators,
         which go through every cycle.
     time_limit
@@ -115,8 +115,8 @@ def _check(
         faults.append(f"rtol: {rtol!r} is not between 1e-15 and 0.1")
     if method not in METHODS:
         faults.append(f"method: {method!r} is none of {', '.join(METHODS)}")
-    elif method == "cycle-count" and obstacle(scene) is not None:
-        faults.append(f"method: cycle-count is not for this scene: {obstacle(scene)}; take auto")
+    elif method == "abel" and obstacle(scene) is not None:
+        faults.append(f"method: abel is not for this scene: {obstacle(scene)}; take auto")
     elif method == "collocation" and not _is_smooth_history(scene):
         faults.append("method: collocation is for a measured history without cutoff; take auto")
     if time_limit is not None and not time_limit > 0.0:
@@ -145,7 +145,7 @@ def obstacle(scene: Scene) -> str | None:
 
 def _is_smooth_history(scene: Scene) -> bool:
     """Whether the load is a measured history, and contact does not jump."""
-    return isinstance(scene.load, HistoryLoad) and not scene.contact.cutoff
+    return isinstance(scene.load, HistoryLoad) and not scene.contact.ends_at_3_sigma
 
 
 def _methods(
@@ -157,7 +157,7 @@ def _methods(
     against = obstacle(scene)
     if against is not None:
         return (("collocation" if _is_smooth_history(scene) else "DOP853", against),)
-    first = ("cycle-count", "the load repeats")
+    first = ("abel", "the load repeats")
     if max(wanted) > AFFORDABLE_CYCLES or rtol < DIRECT_LIMIT:
         return (first,)
     return (first, ("DOP853", "the cycle count missed the requested accuracy"))
@@ -173,7 +173,7 @@ def _solved(
 ) -> Wear:
     """The first method's result that meets the request, or that with the smallest error."""
     results: list[Wear] = []
-    special = {"cycle-count": _cycle_count, "collocation": _collocation}
+    special = {"abel": _cycle_count, "collocation": _collocation}
     for name, reason in _methods(scene, method, wanted, rtol):
         wear = special.get(name, _direct)(model, scene, wanted, rtol, name, deadline)
         if reason:

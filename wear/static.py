@@ -212,7 +212,7 @@ def static_solution(scene: Scene) -> StaticSolution:
         for text, present in (
             ("its load varies", not isinstance(scene.load, Constant)),
             ("its pin is rough or wears", scene.pin is not None),
-            ("its contact ends at h = 3 sigma", scene.contact.cutoff),
+            ("its contact ends at h = 3 sigma", scene.contact.ends_at_3_sigma),
             ("its contact law is not tanh", scene.contact.law != "tanh"),
         )
         if present

@@ -40,7 +40,7 @@ def test_wear_per_cycle_of_section_4() -> None:
     ("identifier", "key"),
     [("elasticity-slope", "elasticity_f"), ("sensitivity-slope", "du_cum_df")],
 )
-def test_sensitivities_to_the_roughness_slope(identifier: str, key: str) -> None:
+def test_sensitivities_to_the_roughness_growth(identifier: str, key: str) -> None:
     found = sp.N(_right(identifier).subs(QUARTER), 40)
     assert abs(found / sp.Float(VALUES[key], 40) - 1) < 1e-27
 

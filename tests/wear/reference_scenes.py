@@ -31,15 +31,15 @@ def tables(
     cutoff: bool = False,
 ) -> dict[str, Any]:
     """The tables of a scene file; without arguments those of the note's section 4."""
-    bearing = {"hardness_MPa": 200.0, "roughness_mm": 3.6e-4, "roughness_slope": f_c}
+    bearing = {"hardness_MPa": 200.0, "roughness_mm": 3.6e-4, "roughness_growth": f_c}
     made: dict[str, Any] = {"bearing": bearing | {"wear_coefficient": K}}
-    contact: dict[str, Any] = {"max_pressure_MPa": 300.0, "cutoff": cutoff}
+    contact: dict[str, Any] = {"max_pressure_MPa": 300.0, "ends_at_3_sigma": cutoff}
     if pin:
         made["pin"] = {
             "hardness_MPa": 600.0,
             "wear_coefficient": K,
             "roughness_mm": 6.5e-5,
-            "roughness_slope": 0.05,
+            "roughness_growth": 0.05,
         }
     made["contact"] = contact | ({"closure_in_sigma": 3.0} if pin else {"closure_mm": 1.08e-3})
     if k is not None:

@@ -208,7 +208,7 @@ def test_a_traced_right_hand_side_is_the_generated_one(name):
 
 
 def test_peers_refuse_what_they_are_not_set_up_for():
-    for overrides in (["contact.cutoff=true"], ["support.stiffness_MPa_per_mm=1e5"]):
+    for overrides in (["contact.ends_at_3_sigma=true"], ["support.stiffness_MPa_per_mm=1e5"]):
         with pytest.raises(UnsuitableError, match="not set up"):
             peers.equation(load_scene("section4", overrides))
     known = peers.functions(math)
@@ -243,7 +243,7 @@ def test_the_command_gives_one_json_document(wear):
     assert {run["method"] for run in told["measurements"]} == {made.name for made in OWN}
     assert len(told["sentences"]) == len(CYCLES)
     assert told["machine"]["cores"] >= 1
-    counted = [run for run in told["measurements"] if run["method"] == "cycle-count"]
+    counted = [run for run in told["measurements"] if run["method"] == "abel"]
     assert all(abs(run["error"]) <= run["tolerance"] for run in counted)
 
 
@@ -251,7 +251,7 @@ def test_the_command_writes_its_files(wear, tmp_path):
     folder = tmp_path / "new"
     status, shown, _ = wear("--quick", "--peers", "-o", str(folder))
     assert status == 0
-    assert "use cycle-count" in shown
+    assert "use abel" in shown
     expected = {"speed.csv", "speed-start.csv", "speed.md", "speed.json"}
     assert expected <= {file.name for file in folder.iterdir()}
     assert json.loads((folder / "speed.json").read_text())["measurements"]

@@ -124,7 +124,7 @@ def test_the_asymptote_has_the_keys_of_the_contract(call: Call, name: str) -> No
 
 
 def test_the_asymptote_is_printed_with_units(call: Call) -> None:
-    status, shown, _ = call("asymptote", "section4", "--set", "bearing.roughness_slope=0.5")
+    status, shown, _ = call("asymptote", "section4", "--set", "bearing.roughness_growth=0.5")
     assert status == 0
     assert "steady" in shown
     assert "6.911503838e-05 mm" in shown  # half of M: p_inf/p_max = 1/2 at f_c = 1/2

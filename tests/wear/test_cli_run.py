@@ -24,7 +24,7 @@ from wear.solver import METHODS, solve
 
 CONTRACT = {
     "scene", "model", "method", "rtol", "cycles", "bearing_wear_mm", "pin_wear_mm",
-    "bearing_roughness_mm", "pin_roughness_mm", "closure_mm", "contact_pressure_MPa",
+    "bearing_roughness_mm", "pin_roughness_mm", "closure_mm", "pressure_at_start_MPa",
     "error_estimate", "cost", "seconds", "notices",
 }  # fmt: skip
 
@@ -219,7 +219,7 @@ def test_notices_go_to_standard_error(run):
     _, shown, messages = run("section3", "--cycles", "1", "--json")
     notices = json.loads(shown)["notices"]
     assert notices
-    usual = "auto: cycle-count, because the load repeats"  # the table's head says so
+    usual = "auto: abel, because the load repeats"  # the table's head says so
     assert all(notice in messages for notice in notices if notice != usual)
     assert set(notices) > {usual}
 
@@ -236,9 +236,9 @@ def test_a_reader_may_stop_reading():
 def test_the_usual_choice_of_a_method_is_no_notice_on_the_terminal(run):
     status, shown, messages = run("section4", "--cycles", "1")
     assert (status, messages) == (0, "")
-    assert "method cycle-count" in shown
+    assert "method abel" in shown
     document = json.loads(run("section4", "--cycles", "1", "--json")[1])
-    assert "auto: cycle-count, because the load repeats" in document["notices"]
+    assert "auto: abel, because the load repeats" in document["notices"]
 
 
 def test_an_unusual_choice_of_a_method_is_told(run, tmp_path):

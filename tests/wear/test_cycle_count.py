@@ -112,7 +112,7 @@ def scenes(draw: st.DrawFn) -> Scene:
     if "pin" in made:
         made["pin"]["wear_coefficient"] = K * 10 ** draw(between(-1, 0.6))
         made["pin"]["roughness_mm"] = roughness * draw(between(0.1, 1))
-        made["pin"]["roughness_slope"] = draw(between(-0.2, 0.3))
+        made["pin"]["roughness_growth"] = draw(between(-0.2, 0.3))
         made["contact"]["pin_wear_opens_gap"] = draw(st.booleans())
     return scene_from_tables(made, "drawn")
 

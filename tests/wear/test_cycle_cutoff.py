@@ -102,7 +102,7 @@ def test_in_permanent_contact_the_cutoff_changes_nothing() -> None:
     made = tables(f_c=0.5, cutoff=True)
     made["contact"]["closure_mm"] = 4e-4
     scene = scene_from_tables(made, "closed")
-    made["contact"]["cutoff"] = False
+    made["contact"]["ends_at_3_sigma"] = False
     without = scene_from_tables(made, "smooth")
     cycles = np.array([1.0, 30.0, 1e6])
     found, want = (

@@ -40,7 +40,7 @@ def constant(value_mm: float) -> dict[str, Any]:
 SATURATED_AT_FIRST = made(  # Picard iteration jumped between no wear and full wear, and "converged"
     {
         "bearing": {"roughness_mm": 1.19e-4},
-        "pin": {"wear_coefficient": 2.2e-3, "roughness_mm": 1.06e-4, "roughness_slope": 0.0},
+        "pin": {"wear_coefficient": 2.2e-3, "roughness_mm": 1.06e-4, "roughness_growth": 0.0},
         "contact": {"closure_mm": 9.1e-5},
     },
     K=3.2e-3,
@@ -51,7 +51,7 @@ SATURATED_AT_FIRST = made(  # Picard iteration jumped between no wear and full w
 OVER_BEFORE_THE_FIRST_NODE = made(  # the gap opens before the first node: no mesh saw it
     {
         "bearing": {"roughness_mm": 2.16e-4},
-        "pin": {"wear_coefficient": 0.806, "roughness_mm": 2.11e-4, "roughness_slope": 0.0},
+        "pin": {"wear_coefficient": 0.806, "roughness_mm": 2.11e-4, "roughness_growth": 0.0},
         "contact": {"closure_mm": 1.01e-3},
     },
     K=0.226,
@@ -200,7 +200,7 @@ def test_wear_that_takes_off_is_counted_at_any_tolerance() -> None:
     made_of["contact"] = {
         "max_pressure_MPa": 300.0,
         "closure_mm": 2.5526657220867523e-3,
-        "cutoff": False,
+        "ends_at_3_sigma": False,
     }
     made_of["load"] = {
         "kind": "harmonics",

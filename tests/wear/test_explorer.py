@@ -137,7 +137,7 @@ def test_a_title_cannot_become_markup(tmp_path):
 
 
 def test_changed_scene_does_not_hide_the_built_in_one():
-    data = explorer._data(load_scene("section4", ["bearing.roughness_slope=0.3"]))
+    data = explorer._data(load_scene("section4", ["bearing.roughness_growth=0.3"]))
     names = [scene["name"] for scene in data["scenes"]]
     assert data["first"] == names[0] == "section4 (changed)"
     assert "section4" in names
@@ -357,7 +357,9 @@ def test_contact_that_ends_on_a_compliant_support(page):
     assert number(text(page, "value-arrest-wear")) == pytest.approx(0.002, rel=1e-4)
     assert 0.0019 < number(text(page, "value-wear-now")) < 0.002
     put(page, "cycles", "1")
-    scene = load_scene("section4", ["contact.cutoff=true", "support.stiffness_MPa_per_mm=1e5"])
+    scene = load_scene(
+        "section4", ["contact.ends_at_3_sigma=true", "support.stiffness_MPa_per_mm=1e5"]
+    )
     expected = wear.solve(scene, [10], rtol=1e-6).u_c[0]
     assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
 
@@ -395,7 +397,7 @@ REGIMES = {
 @pytest.mark.parametrize("name", REGIMES)
 def test_regimes_at_the_edges_are_those_of_python(page, name):
     overrides = {
-        "number-f_c": "bearing.roughness_slope",
+        "number-f_c": "bearing.roughness_growth",
         "number-K_a": "pin.wear_coefficient",
         "number-h_0": "contact.closure_mm",
         "number-U": "load.amplitude_mm",
@@ -405,12 +407,12 @@ def test_regimes_at_the_edges_are_those_of_python(page, name):
     for control, value in REGIMES[name].items():
         if control == "cutoff":
             click(page, control)
-            settings.append("contact.cutoff=true")
+            settings.append("contact.ends_at_3_sigma=true")
         elif control == "pin":
             put(page, control, value)
             pin = {"hardness_MPa": 200, "wear_coefficient": 1e-6, "roughness_mm": 0}
             settings += [f"pin.{key}={number}" for key, number in pin.items()]
-            settings.append("pin.roughness_slope=0")
+            settings.append("pin.roughness_growth=0")
             put(page, "number-H_a", "200", event="change")
         else:
             put(page, control, value, event="change")
@@ -483,7 +485,7 @@ def test_the_scene_file_gives_what_is_shown(page, pin):
     put(page, "cycles", "1")
     scene = parse_scene(text(page, "scene-file"))
     assert text(page, "value-variant") == f"{scene.variant.law}/{scene.variant.module}"
-    assert scene.bearing.roughness_slope == 0.31
+    assert scene.bearing.roughness_growth == 0.31
     expected = wear.solve(scene, [10], rtol=1e-6).u_c[0]
     assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
     saved = page.run("decodeURIComponent(document.getElementById('save').href.split(',')[1])")

@@ -196,7 +196,7 @@ def test_the_pressure_inside_cycles_is_that_of_the_equations(name: str) -> None:
     for line in lines:
         assert line.x[np.argmax(line.y)] == pytest.approx(0.25, abs=0.01)
         assert line.y[-1] <= line.y[0] < line.y.max()  # wear has opened the gap
-    assert (lines[-1].y == 0.0).any() == scene.contact.cutoff
+    assert (lines[-1].y == 0.0).any() == scene.contact.ends_at_3_sigma
 
 
 def test_many_cycles_have_a_line_each() -> None:

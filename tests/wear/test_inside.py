@@ -28,7 +28,7 @@ from wear.solver import solve
 from wear.static import static_solution
 
 PHASES = np.linspace(0.0, 1.0, 21)
-SCENES = [name for name in builtin_names() if not load_scene(name).contact.cutoff]
+SCENES = [name for name in builtin_names() if not load_scene(name).contact.ends_at_3_sigma]
 SCENES += ["S1", "S2", "S4", "S7", "S8_2"]
 
 
@@ -180,7 +180,7 @@ def test_a_first_cycle_that_two_meshes_miss_alike(rtol: float) -> None:
     """Wear takes off within a hundredth of it: what the count knows of its end has a say."""
     made = tables(K=3.1e-3, f_c=1.1145, pin=True, load=CONSTANT | {"value_mm": 3.7e-6})
     made["bearing"]["roughness_mm"] = 7.577e-5
-    made["pin"] |= {"roughness_mm": 1.263e-5, "roughness_slope": -0.0099}
+    made["pin"] |= {"roughness_mm": 1.263e-5, "roughness_growth": -0.0099}
     made["contact"] = {"max_pressure_MPa": 300.0, "closure_mm": 2.273e-4}
     scene = scene_from_tables(made, "violent")
     cycles = np.array([0.0, 1e3, 1e9])
@@ -245,7 +245,7 @@ def test_blocks_of_loads_go_on_from_each_other(cutoff: bool) -> None:
     assert np.all(found.error <= 1e-11)
 
 
-CUTOFF = [load_scene(name) for name in builtin_names() if load_scene(name).contact.cutoff]
+CUTOFF = [load_scene(name) for name in builtin_names() if load_scene(name).contact.ends_at_3_sigma]
 CUTOFF += [
     scene_from_tables(tables(K=1e-3, cutoff=True), "slides along the edge of contact"),
     replace(scene_from_tables(tables(K=1e-4, cutoff=True), "kinks"), load=ZIGZAG),

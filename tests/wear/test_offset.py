@@ -49,8 +49,8 @@ def _two_solids() -> Scene:
     assert scene.pin is not None
     return dataclasses.replace(
         scene,
-        bearing=dataclasses.replace(scene.bearing, roughness_slope=0.5),
-        pin=dataclasses.replace(scene.pin, roughness_slope=0.4),
+        bearing=dataclasses.replace(scene.bearing, roughness_growth=0.5),
+        pin=dataclasses.replace(scene.pin, roughness_growth=0.4),
     )
 
 

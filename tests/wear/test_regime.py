@@ -60,7 +60,7 @@ def test_two_solids(name: str, sign: str) -> None:
     ("name", "overrides", "depth", "cycle"),
     [
         ("section4-cutoff", (), 0.002, 2045),
-        ("section4-cutoff", ("bearing.roughness_slope=-0.05",), 0.00043478260869565217, 342),
+        ("section4-cutoff", ("bearing.roughness_growth=-0.05",), 0.00043478260869565217, 342),
         ("section3-cutoff", (), 0.000622179713311576220, 491),
         ("section5-cutoff", (), 0.000980449714835624807, 824),
         ("section3-cutoff", ("contact.pin_wear_opens_gap=true",), 0.000339874441997526118, 271),
@@ -108,7 +108,7 @@ def test_one_third_with_cutoff() -> None:
         ("roughness-vanishing", ("load.kind=constant", "load.value_mm=0.01"), "finite-time"),
         ("pin-wears-faster", (), "steady"),
         ("equal-wear", (), "steady"),
-        ("section3", ("bearing.roughness_slope=0.0", "pin.roughness_slope=0.0"), "logarithmic"),
+        ("section3", ("bearing.roughness_growth=0.0", "pin.roughness_growth=0.0"), "logarithmic"),
     ],
 )
 def test_regimes(name: str, overrides: tuple[str, ...], regime: str) -> None:
@@ -128,7 +128,7 @@ def test_thresholds() -> None:
 def test_long_time_formulas_are_good_to_a_few_ulp(slope: float, sign: float) -> None:
     """f_c from 0.001 to 100, both signs (a rough pin that does not wear makes both steady)."""
     found = _asymptote(
-        "section3", f"bearing.roughness_slope={sign * slope!r}", "pin.wear_coefficient=0.0"
+        "section3", f"bearing.roughness_growth={sign * slope!r}", "pin.wear_coefficient=0.0"
     )
     with mpmath.workdps(60):
         exact = 300 / (1 + mpmath.exp(4 / mpmath.mpf(slope) - 8))
@@ -142,10 +142,10 @@ def test_long_time_formulas_are_good_to_a_few_ulp(slope: float, sign: float) -> 
 @pytest.mark.parametrize(
     ("name", "overrides", "cycles"),
     [
-        ("section4", ("bearing.roughness_slope=0.5",), 10**9),
-        ("section4", ("bearing.roughness_slope=0.5", "support.stiffness_MPa_per_mm=1e5"), 10**9),
-        ("section4", ("bearing.roughness_slope=0.6", "contact.law=exponential"), 10**9),
-        ("section3", ("bearing.roughness_slope=0.4", "pin.roughness_slope=0.2"), 10**9),
+        ("section4", ("bearing.roughness_growth=0.5",), 10**9),
+        ("section4", ("bearing.roughness_growth=0.5", "support.stiffness_MPa_per_mm=1e5"), 10**9),
+        ("section4", ("bearing.roughness_growth=0.6", "contact.law=exponential"), 10**9),
+        ("section3", ("bearing.roughness_growth=0.4", "pin.roughness_growth=0.2"), 10**9),
     ],
 )
 def test_the_solver_approaches_rate_and_drift(

@@ -38,7 +38,7 @@ MINIMAL = """
 hardness_MPa = 200
 wear_coefficient = 1e-6
 roughness_mm = 3.6e-4
-roughness_slope = 0.25
+roughness_growth = 0.25
 [contact]
 max_pressure_MPa = 300.0
 closure_mm = 1.08e-3
@@ -97,7 +97,7 @@ def test_parameters_of_a_full_scene() -> None:
         (None, "absent", set()),
         (replace(PIN, wear_coefficient=0.0), "rough", {"sigma_a0"}),
         (replace(PIN, wear_coefficient=0.0, roughness_mm=0.0), "absent", set()),
-        (replace(PIN, roughness_mm=0.0, roughness_slope=0.0), "worn", {"K_a", "H_a"}),
+        (replace(PIN, roughness_mm=0.0, roughness_growth=0.0), "worn", {"K_a", "H_a"}),
         (replace(PIN, roughness_mm=0.0), "worn_rough", {"K_a", "H_a", "sigma_a0", "f_a"}),
         (PIN, "worn_rough", {"K_a", "H_a", "sigma_a0", "f_a"}),
     ],
@@ -116,7 +116,9 @@ def test_a_pin_has_only_what_it_needs(
 
 def test_names_of_variants() -> None:
     assert VariantKey("tanh", "rigid", "absent", False, True).module == "rigid_bearing_cutoff"
-    scene = load_scene("section3", ["support.stiffness_MPa_per_mm=1e5", "contact.cutoff=true"])
+    scene = load_scene(
+        "section3", ["support.stiffness_MPa_per_mm=1e5", "contact.ends_at_3_sigma=true"]
+    )
     assert scene.variant.module == "compliant_worn_rough_cutoff"
     assert load_scene("section3-physical").variant.module == "rigid_worn_rough_opening"
     assert load_scene("section4", ["contact.law=exponential"]).variant.package == "exponential"
@@ -153,7 +155,7 @@ def test_every_variant_is_generated_and_gets_its_parameters(
     pins = {
         "absent": None,
         "rough": replace(PIN, wear_coefficient=0.0),
-        "worn": replace(PIN, roughness_mm=0.0, roughness_slope=0.0),
+        "worn": replace(PIN, roughness_mm=0.0, roughness_growth=0.0),
         "worn_rough": PIN,
     }
     contact = Contact(300.0, None, 2.5, cutoff=cutoff, pin_wear_opens_gap=opening)
@@ -250,7 +252,9 @@ def test_to_toml_and_to_tables_read_back(name: str) -> None:
 def test_every_part_of_a_scene_reads_back() -> None:
     text = (
         'title = "a \\"quoted\\" title, \\\\ and é 𝜎"\ndescription = """two\nlines"""\n'
-        + MINIMAL.replace("closure_mm", "width_mm = 3\nlength_mm = 4\ncutoff = true\nclosure_mm")
+        + MINIMAL.replace(
+            "closure_mm", "width_mm = 3\nlength_mm = 4\nends_at_3_sigma = true\nclosure_mm"
+        )
         + 'kind = "blocks"\n[[load.blocks]]\nkind = "harmonics"\nsine_mm = [1e-4, 1e-30]\n'
         "period_s = 0.1\ncycles = 7\n[support]\nstiffness_MPa_per_mm = 1e16\n"
     )
@@ -281,7 +285,7 @@ def test_every_builtin_scene_says_what_it_is() -> None:
 
 def test_hard_scenes_are_what_their_names_say() -> None:
     def slope(name: str) -> float:
-        return load_scene(name).bearing.roughness_slope
+        return load_scene(name).bearing.roughness_growth
 
     assert slope("f-just-below-one-third") == pytest.approx(1.0 / 3.0 - 1e-6, abs=1e-16)
     assert slope("f-just-above-one-third") == pytest.approx(1.0 / 3.0 + 1e-6, abs=1e-16)
@@ -311,14 +315,18 @@ def test_notices_tell_what_may_not_be_meant() -> None:
     assert "no effect" in told("contact.pin_wear_opens_gap=true")
     assert "unloaded" in told("support.stiffness_MPa_per_mm=1e5")
     assert "not modelled" in told("pin={hardness_MPa = 1, wear_coefficient = 0, roughness_mm = 0,"
-                                  " roughness_slope = 0}")  # fmt: skip
+                                  " roughness_growth = 0}")  # fmt: skip
     assert "U_a(0)" in told("load.kind=constant", "load.value_mm=5e-4")
     assert "closure turns negative" in told("load.amplitude_mm=2e-3")
-    assert "starts out of contact" in told("contact.cutoff=true", "contact.closure_mm=1.081e-3")
-    assert "never comes into contact" in told("contact.cutoff=true", "contact.closure_mm=1.6e-3")
-    assert "starts out" not in told("contact.cutoff=true", "contact.closure_in_sigma=3")
+    assert "starts out of contact" in told(
+        "contact.ends_at_3_sigma=true", "contact.closure_mm=1.081e-3"
+    )
+    assert "never comes into contact" in told(
+        "contact.ends_at_3_sigma=true", "contact.closure_mm=1.6e-3"
+    )
+    assert "starts out" not in told("contact.ends_at_3_sigma=true", "contact.closure_in_sigma=3")
     # the printed 0.0011 is a rounding of 3 sigma(0): taken literally it starts out of contact
-    printed = ("contact.closure_mm=0.0011", "contact.cutoff=true")
+    printed = ("contact.closure_mm=0.0011", "contact.ends_at_3_sigma=true")
     assert "starts out of contact" in told(*printed, name="section3")
     blocks = parse_scene(
         MINIMAL + 'kind = "blocks"\nrepeat = 2\n'
@@ -341,7 +349,7 @@ def test_overrides_take_the_place_of_entries() -> None:
             "load.kind=harmonics",
             "load.sine_mm=[1e-4, 2e-4]",
             "title=Another title",
-            "contact.cutoff=true",
+            "contact.ends_at_3_sigma=true",
         ],
     )
     assert scene.bearing.hardness_MPa == 100.0
@@ -349,7 +357,7 @@ def test_overrides_take_the_place_of_entries() -> None:
     assert scene.support == Support(1e5)
     assert scene.load == Harmonics(0.0, (), (1e-4, 2e-4), 0.06)
     assert scene.title == "Another title"
-    assert scene.contact.cutoff
+    assert scene.contact.ends_at_3_sigma
 
 
 def test_files_are_valid_toml_with_comments_kept_out() -> None:

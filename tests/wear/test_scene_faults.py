@@ -12,7 +12,7 @@ GOOD = """title = "good"
 hardness_MPa = 200.0
 wear_coefficient = 1e-6
 roughness_mm = 3.6e-4
-roughness_slope = 0.25
+roughness_growth = 0.25
 
 [contact]
 max_pressure_MPa = 300.0
@@ -55,7 +55,7 @@ titel = "a"
 max_pressure_MPa = "300.0"
 closure_mm = -1.0
 closure_in_sigma = nan
-cutoff = 1
+ends_at_3_sigma = 1
 law = "tahn"
 width_mm = 1.0
 [motion]
@@ -74,7 +74,7 @@ amplitude_mm = [1.0]
         (5, "contact", "max_pressure_MPa"),
         (6, "contact", "closure_mm"),
         (7, "contact", "closure_in_sigma"),
-        (8, "contact", "cutoff"),
+        (8, "contact", "ends_at_3_sigma"),
         (9, "contact", "law"),
         (4, "contact", ""),
         (12, "motion", "radius_mm"),
@@ -103,13 +103,15 @@ amplitude_mm = [1.0]
         ("bearing.hardness_MPa", "1979-05-27", "is a date", "give a number"),
         ("bearing.wear_coefficient", "0", "is zero", "> 0"),
         ("bearing.roughness_mm", "0", "zero on the only rough solid", "> 0"),
-        ("bearing.roughness_slope", "1e-40", "out of range", "any finite number"),
+        ("bearing.roughness_growth", "1e-40", "out of range", "any finite number"),
         ("contact.closure_mm", "-1e-9", "negative", ">= 0, in mm"),
-        ("contact.cutoff", "0", "is no flag", "true or false"),
+        ("contact.ends_at_3_sigma", "0", "is no flag", "true or false"),
         ("contact.law", "tanhh", "unknown", "did you mean tanh?"),
         ("contact.law", "3", "not a name", "choose one of"),
         ("contact.width_mm", "3.0", "length_mm is missing", "drop width_mm"),
         ("contact.closure_um", "1.0", "unknown key", "did you mean closure_mm"),
+        ("contact.cutoff", "true", "unknown key", "renamed to ends_at_3_sigma"),
+        ("bearing.roughness_slope", "0.1", "unknown key", "renamed to roughness_growth"),
         ("contact.radius_mm", "1.0", "unknown key", "it belongs to [motion]"),
         ("load.value_mm", "1.0", "unknown key", 'it belongs to kind = "constant"'),
         ("load.kind", "sinus", "unknown", "did you mean sine?"),
@@ -142,7 +144,7 @@ def test_what_is_missing() -> None:
     assert found == {
         ("bearing", "wear_coefficient", "missing"),
         ("bearing", "roughness_mm", "missing"),
-        ("bearing", "roughness_slope", "missing"),
+        ("bearing", "roughness_growth", "missing"),
         ("contact", "", "missing"),
         ("motion", "", "missing"),
         ("load", "kind", "missing"),
@@ -158,7 +160,7 @@ def test_neither_closure_and_both() -> None:
 
 
 def test_roughness_zero_on_both_solids() -> None:
-    pin = "[pin]\nhardness_MPa=1\nwear_coefficient=0\nroughness_mm={}\nroughness_slope=0\n"
+    pin = "[pin]\nhardness_MPa=1\nwear_coefficient=0\nroughness_mm={}\nroughness_growth=0\n"
     text = GOOD.replace("roughness_mm = 3.6e-4", "roughness_mm = 0.0")
     fault = only_fault(text + pin.format("0.0"))
     assert "both solids" in fault.problem

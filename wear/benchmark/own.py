@@ -84,7 +84,7 @@ def _plain(method: str) -> Method:
 
 
 OWN = (
-    _own("cycle-count", "cycle-count", (1e-4, 1e-6, 1e-9, 1e-12)),
+    _own("abel", "abel", (1e-4, 1e-6, 1e-9, 1e-12)),
     *(_own(f"wear {method}", method, (1e-4, 1e-6, 1e-9)) for method in SCIPY),
     *map(_plain, AS_IT_COMES),
 )

@@ -101,7 +101,11 @@ def equation(scene: Scene) -> Equation:
     from wear.load import Sine
     from wear.model import bind
 
-    if scene.support is not None or scene.contact.cutoff or not isinstance(scene.load, Sine):
+    if (
+        scene.support is not None
+        or scene.contact.ends_at_3_sigma
+        or not isinstance(scene.load, Sine)
+    ):
         raise UnsuitableError("not set up for a support, a cutoff or a load that is no sine")
     model = bind(scene)
     of = problem(model, scene.load)

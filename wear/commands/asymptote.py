@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 EXAMPLE = """\
   wear asymptote section4           regime, wear per cycle, pressure, drift
   wear asymptote section4-cutoff    where and in which cycle the wear stops
-  wear asymptote section4 --set bearing.roughness_slope=0.3 --json
+  wear asymptote section4 --set bearing.roughness_growth=0.3 --json
 """
 
 _LABELS: Mapping[str, tuple[str, str]] = {

@@ -12,7 +12,7 @@ from wear.commands.arguments import Faults, add_scene
 EXAMPLE = """\
   wear explore                          section4 of the note, into explorer.html
   wear explore scene.toml -o mine.html  a scene of your own, beside the built-in ones
-  wear explore section4 --set contact.cutoff=true
+  wear explore section4 --set contact.ends_at_3_sigma=true
 """
 
 

@@ -22,7 +22,7 @@ MOST_INSIDE = 7  # cycles in one figure: as many as there are colours
 EXAMPLE = """\
   wear figure section4 -o wear.pdf                          9000 cycles
   wear figure section4 -o wear.svg --cycles 1e8 --log       on a logarithmic axis
-  wear figure scene.toml -o wear.png --set contact.cutoff=true
+  wear figure scene.toml -o wear.png --set contact.ends_at_3_sigma=true
   wear figure section4 -o pulses.svg --inside 0,10,100      the pressure within three cycles
 """
 

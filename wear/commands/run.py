@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 EXAMPLE = """\
   wear run section4                                    a table
   wear run section4 --cycles 1,9000,1e8 --rtol 1e-12   the wear after 1e8 cycles, 12 digits
-  wear run section4 --set bearing.roughness_slope=0.3  with one entry changed
+  wear run section4 --set bearing.roughness_growth=0.3  with one entry changed
   wear run section4 --until-wear 1e-3,2e-3             cycles until 1 and 2 micrometres are worn
   wear run scene.toml --method DOP853 -o wear.csv      a scene of your own, into a file
   wear run section4 --cycles 0:8999 --phases 100 -o inside.nc        900,000 states
@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     method = parser.add_argument(
         "--method",
         default="auto",
-        help="auto, cycle-count, collocation (of a measured history), or an integrator of SciPy "
+        help="auto, abel, collocation (of a measured history), or an integrator of SciPy "
         "that goes through every cycle: DOP853, RK45, RK23, Radau, BDF, LSODA (default: "
         "%(default)s)",
     )

@@ -26,7 +26,7 @@ def read_phases(
         faults.add(f"--phases: {options.phases} is no whole number")
     if options.output is None or Path(options.output).suffix not in SUFFIXES:
         faults.add("--phases: name a .nc or .csv file with --output; there are too many states")
-    if options.method.lower() not in ("auto", "cycle-count"):
+    if options.method.lower() not in ("auto", "abel"):
         faults.add("--phases: only the cycle count knows the states inside; leave --method out")
     for option, value in (
         ("--until-wear", options.until_wear),
@@ -72,7 +72,7 @@ def execute(
     attributes = {
         "title": " ".join((scene.title or scene.name).split()) or "untitled",
         "scene": scene.to_json(),
-        "method": "cycle-count",
+        "method": "abel",
         "rtol": repr(rtol),
     }
     try:
@@ -89,7 +89,7 @@ def execute(
                 "file": str(output),
                 "cycles": len(cycles),
                 "phases": phases,
-                "method": "cycle-count",
+                "method": "abel",
                 "rtol": rtol,
                 "largest_error_estimate": worst,
                 "notices": list(scene.notices),

@@ -18,7 +18,7 @@ SYMBOLS = {
     "bearing_roughness_mm": r"\sigma_c",
     "pin_roughness_mm": r"\sigma_a",
     "closure_mm": "h",
-    "contact_pressure_MPa": "p",
+    "pressure_at_start_MPa": "p",
     "bearing_displacement_mm": "U_c",
     "pin_reaction_N": "R_a",
 }

@@ -196,7 +196,7 @@ def quicker_for_lower_wear() -> Finding:
 
 def data_and_condition() -> Finding:
     """C40."""
-    slopes = {name: _scene(name).bearing.roughness_slope for name in ("section3", "section5")}
+    slopes = {name: _scene(name).bearing.roughness_growth for name in ("section3", "section5")}
     met = all(slope > LEAST_SLOPE for slope in slopes.values())
     shown = ", ".join(f"f_c = {slope} in {name}" for name, slope in slopes.items())
     return Finding(

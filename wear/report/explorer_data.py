@@ -33,11 +33,11 @@ KEYS: Mapping[str, tuple[str, str]] = {
     "K_c": ("bearing", "wear_coefficient"),
     "H_c": ("bearing", "hardness_MPa"),
     "sigma_c0": ("bearing", "roughness_mm"),
-    "f_c": ("bearing", "roughness_slope"),
+    "f_c": ("bearing", "roughness_growth"),
     "K_a": ("pin", "wear_coefficient"),
     "H_a": ("pin", "hardness_MPa"),
     "sigma_a0": ("pin", "roughness_mm"),
-    "f_a": ("pin", "roughness_slope"),
+    "f_a": ("pin", "roughness_growth"),
     "p_max": ("contact", "max_pressure_MPa"),
     "h_0": ("contact", "closure_mm"),
     "k": ("support", "stiffness_MPa_per_mm"),
@@ -185,7 +185,7 @@ def checked(scenes: Iterable[Scene]) -> list[dict[str, Any]]:
     found = []
     for scene in scenes:
         try:
-            interrupted = scene.contact.cutoff and scene.support is None
+            interrupted = scene.contact.ends_at_3_sigma and scene.support is None
             found.append(check_data(scene, CYCLES[:3] if interrupted else CYCLES))
         except AccuracyError:
             continue

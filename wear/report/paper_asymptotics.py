@@ -26,7 +26,7 @@ def section(material: Material) -> Section:
 
 def _note_route(material: Material) -> Section:
     case = material.runs.cases["section4"]
-    slope, start = case.scene.bearing.roughness_slope, case.scene.bearing.roughness_mm
+    slope, start = case.scene.bearing.roughness_growth, case.scene.bearing.roughness_mm
     bracket = 2.0 * (slope * case.scene.closure - start)
     return Section(
         "sec:note-route",

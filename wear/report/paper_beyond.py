@@ -147,7 +147,7 @@ def _remark(material: Material, name: str) -> tuple[Block, ...]:
         fate, scene = runs.fate("section4"), runs.cases["section4"].scene
         elasticity = material.value(
             "elasticity-slope",
-            f_c=scene.bearing.roughness_slope,
+            f_c=scene.bearing.roughness_growth,
             p_inf=known(fate.pressure_MPa),
             p_max=scene.contact.max_pressure_MPa,
         )

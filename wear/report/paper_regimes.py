@@ -55,7 +55,7 @@ def validity(material: Material) -> Section:
 
 
 def _slope(material: Material, name: str) -> float:
-    return material.runs.cases[name].scene.bearing.roughness_slope
+    return material.runs.cases[name].scene.bearing.roughness_growth
 
 
 def _thresholds() -> Table:

@@ -84,7 +84,7 @@ def reconciliations() -> tuple[Reconciliation, ...]:
     scene = load_scene("section4")
     factor = PRINTED.formula_mm / (asymptote(scene).wear_per_cycle_mm or float("nan"))
     changes = (
-        ("f_c", "bearing", "roughness_slope", _slope(scene) / scene.bearing.roughness_slope),
+        ("f_c", "bearing", "roughness_growth", _slope(scene) / scene.bearing.roughness_growth),
         ("K_c", "bearing", "wear_coefficient", factor),
         ("p_max", "contact", "max_pressure_MPa", factor),
         ("H_c", "bearing", "hardness_MPa", 1.0 / factor),
@@ -102,10 +102,10 @@ def slope_for_simulation() -> float:
     scene = load_scene("section4")
 
     def distance(slope: float) -> float:
-        bearing = replace(scene.bearing, roughness_slope=slope)
+        bearing = replace(scene.bearing, roughness_growth=slope)
         return _simulated(replace(scene, bearing=bearing)) - PRINTED.simulated_mm
 
-    return float(brentq(distance, scene.bearing.roughness_slope, 0.5, rtol=1e-10))
+    return float(brentq(distance, scene.bearing.roughness_growth, 0.5, rtol=1e-10))
 
 
 def _changed(scene: Scene, datum: str, table: str, key: str, factor: float) -> Reconciliation:

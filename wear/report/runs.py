@@ -189,7 +189,7 @@ def figure_cycles() -> tuple[int, ...]:
 
 
 def _case(name: str, *, cutoff: bool) -> Case:
-    scene = load_scene(name, ["contact.cutoff=true"] if cutoff else [])
+    scene = load_scene(name, ["contact.ends_at_3_sigma=true"] if cutoff else [])
     history = solve(scene, figure_cycles(), rtol=CUTOFF_RTOL if cutoff else RTOL)
     return Case(scene, history, asymptote(scene))
 
@@ -225,7 +225,7 @@ def _increment(scene: Scene, cycle: int) -> float:
 def _steady_phases(case: Case) -> Phases:
     """Where U_a = h_0 - sigma_c0/f_c the rate is at its limit, whatever the wear."""
     scene, load = case.scene, case.scene.periodic_load
-    level = scene.closure - scene.bearing.roughness_mm / scene.bearing.roughness_slope
+    level = scene.closure - scene.bearing.roughness_mm / scene.bearing.roughness_growth
     rising = float(np.arcsin(level / load.maximum) / (2.0 * np.pi))
     phases = np.sort(np.mod([rising, 0.5 - rising], 1.0))
     rate = bind(scene).rate(case.history.u_c[:, None], load(phases)) * load.period
@@ -244,7 +244,7 @@ def _integrated(case: Case) -> float:
     """Largest relative difference between two solvers over the first cycles."""
     cycles = [int(n) for n in case.history.cycles if 0 < n <= INTEGRATED_CYCLES]
     direct = solve(case.scene, cycles, rtol=CUTOFF_RTOL, method="DOP853")
-    counted = solve(case.scene, cycles, rtol=CUTOFF_RTOL, method="cycle-count")
+    counted = solve(case.scene, cycles, rtol=CUTOFF_RTOL, method="abel")
     return float(np.max(np.abs(direct.u_c / counted.u_c - 1.0)))
 
 

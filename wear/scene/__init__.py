@@ -31,7 +31,7 @@ class Solid:
     hardness_MPa: float
     wear_coefficient: float
     roughness_mm: float
-    roughness_slope: float
+    roughness_growth: float
 
 
 class Bearing(Solid):
@@ -50,7 +50,7 @@ class Contact:
     closure_mm: float | None = None
     closure_in_sigma: float | None = None
     law: str = "tanh"
-    cutoff: bool = False
+    ends_at_3_sigma: bool = False
     pin_wear_opens_gap: bool = False
     width_mm: float | None = None
     length_mm: float | None = None
@@ -148,7 +148,7 @@ class Scene:
             support="rigid" if self.support is None else "compliant",
             pin=pin,
             opening=pin.startswith("worn") and self.contact.pin_wear_opens_gap,
-            cutoff=self.contact.cutoff,
+            cutoff=self.contact.ends_at_3_sigma,
         )
 
     @property
@@ -157,7 +157,7 @@ class Scene:
             return "absent"
         if self.pin.wear_coefficient == 0.0:
             return "rough" if self.pin.roughness_mm > 0.0 else "absent"
-        rough = self.pin.roughness_mm > 0.0 or self.pin.roughness_slope != 0.0
+        rough = self.pin.roughness_mm > 0.0 or self.pin.roughness_growth != 0.0
         return "worn_rough" if rough else "worn"
 
     def parameters(self) -> dict[str, float]:
@@ -169,7 +169,7 @@ class Scene:
         numbers = {
             "K_c": self.bearing.wear_coefficient,
             "H_c": self.bearing.hardness_MPa,
-            "f_c": self.bearing.roughness_slope,
+            "f_c": self.bearing.roughness_growth,
             "sigma_c0": self.bearing.roughness_mm,
             "p_max": self.contact.max_pressure_MPa,
             "h_0": self.closure,
@@ -182,7 +182,7 @@ class Scene:
         if self.pin is not None and pin in ("rough", "worn_rough"):
             numbers["sigma_a0"] = self.pin.roughness_mm
         if self.pin is not None and pin == "worn_rough":
-            numbers["f_a"] = self.pin.roughness_slope
+            numbers["f_a"] = self.pin.roughness_growth
         if self.support is not None:
             numbers["k"] = self.support.stiffness_MPa_per_mm
         if not isinstance(self.load, Blocks | HistoryLoad):

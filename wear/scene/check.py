@@ -18,6 +18,7 @@ from wear.scene.schema import (
     MOST_BLOCKS,
     MOST_CYCLES,
     PERIODIC_LOADS,
+    RENAMED,
     TABLES,
     TITLE,
     Key,
@@ -53,6 +54,9 @@ def _unknown_keys(
     unknown = [name for name in raw if name not in known]
     for name in unknown[:MOST_UNKNOWN_KEYS]:
         remedy = _home_of(name, path)
+        if RENAMED.get(name) in known:
+            remedy = f"renamed to {RENAMED[name]}"
+            meant_keys.add(RENAMED[name])
         if not remedy and (meant := did_you_mean(name, known)):
             remedy = f"did you mean {meant}?"
             meant_keys.add(meant)

@@ -17,6 +17,9 @@ MOST_HARMONICS = 100
 MOST_BLOCKS = 1000
 MOST_CYCLES = 10**12
 
+# Keys of versions before the first release, each with its name of today.
+RENAMED = {"roughness_slope": "roughness_growth", "cutoff": "ends_at_3_sigma"}
+
 Value = float | bool | str | tuple[float, ...]
 
 
@@ -102,7 +105,7 @@ def _solid(symbol: str, wear_domain: Domain) -> tuple[Key, ...]:
             Domain.NON_NEGATIVE,
         ),
         _number(
-            "roughness_slope",
+            "roughness_growth",
             f"f_{symbol} = d sigma_{symbol} / d u_{symbol}, change of roughness with own wear",
             domain=Domain.REAL,
         ),
@@ -145,7 +148,10 @@ CONTACT = Table(
             default="tanh",
             choices=contact_laws(),
         ),
-        _flag("cutoff", "true: no pressure for h > 3 sigma, the text under (4); false: as in (8)"),
+        _flag(
+            "ends_at_3_sigma",
+            "true: no pressure for h > 3 sigma, the text under (4); false: as in (8)",
+        ),
         _flag("pin_wear_opens_gap", "true: the physical sign of u_a; false: Eq. (1) as printed"),
         _number("width_mm", "contact width b; with length_mm, R_a = p b L is reported", "mm",
                 required=False),

@@ -21,13 +21,13 @@ function toml(value) {
 }
 
 function keysThatAct(state) {
-  const tables = { bearing: {}, pin: {}, contact: { law: state.law, cutoff: state.cutoff }, support: {}, motion: {} };
+  const tables = { bearing: {}, pin: {}, contact: { law: state.law, ends_at_3_sigma: state.cutoff }, support: {}, motion: {} };
   for (const [symbol, [table, key]] of Object.entries(DATA.keys)) tables[table][key] = state.parameters[symbol];
   const wears = state.pin.startsWith("worn");
   const rough = state.pin.endsWith("rough");
   if (!wears) tables.pin.wear_coefficient = 0;
   if (!rough) tables.pin.roughness_mm = 0;
-  if (!wears || !rough) tables.pin.roughness_slope = 0;
+  if (!wears || !rough) tables.pin.roughness_growth = 0;
   if (wears) tables.contact.pin_wear_opens_gap = state.opening;
   if (state.pin === "bearing") delete tables.pin;
   if (!state.compliant) delete tables.support;
