@@ -53,16 +53,11 @@ def built_in_names() -> Sequence[str]:
 
 def _entries() -> Sequence[str]:
     """Return the beginnings of what `--set` takes, but for the load, whose keys vary."""
-    from wear.checked import TABLES, keys_of
+    from wear.checked import keys_of
+    from wear.scene import Bearing, Contact, Motion, Pin, Support
 
-    import wear.scene  # its tables
-
-    return [
-        f"{table.place}.{name}="
-        for table in TABLES
-        if table.place and not table.kind
-        for name in keys_of(table)
-    ]
+    tables = (Bearing, Pin, Contact, Support, Motion)
+    return [f"{table.place}.{name}=" for table in tables for name in keys_of(table)]
 
 
 class Faults:
