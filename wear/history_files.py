@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from wear.count.inside import Inside
     from wear.history import Column, History
+    from wear.inside import Inside
 
 
 def write_csv(history: History, path: Path) -> None:

@@ -11,9 +11,9 @@ import pytest
 from scipy.io import netcdf_file
 
 from wear import direct
-from wear.count.inside import fields_inside
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history_files import write_inside
+from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad, Table
 from wear.model import bind
 from wear.scene import scene_from_tables

@@ -122,7 +122,7 @@ def _cycles_until(scene: Scene, wears: Sequence[float], rtol: float) -> dict[str
     """The part of the JSON that tells after how many cycles wears are reached, null for never."""
     import numpy as np
 
-    from wear.count.blocks import cycles_until
+    from wear.cycles import cycles_until
     from wear.model import bind
 
     found = cycles_until(bind(scene), scene.load, np.array(wears), rtol)

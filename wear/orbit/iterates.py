@@ -195,7 +195,7 @@ class Iterates(NamedTuple):
     `transient_error` their estimated errors; the cells of all scenes, one after the other, count
     beyond, and `count_error` (s, cells + 1) is the estimated error of n where each cell starts and
     where the last one ends. Without cells the state stays as it is. States from `limit` (s,) on
-    have no meaning.
+    have no meaning. The mesh of phase on which all this was found has `edges` (s, q + 1).
     """
 
     transient: FloatArray
@@ -204,6 +204,7 @@ class Iterates(NamedTuple):
     panels: Panels | None
     count_error: FloatArray
     limit: FloatArray
+    edges: FloatArray
 
     def take(self, rows: IntArray) -> Iterates:
         """Return some of the scenes."""
@@ -215,7 +216,7 @@ class Iterates(NamedTuple):
             each = len(panels.series) // len(self.transient)
             panels = panels.take((rows[:, None] * each + np.arange(each)).ravel())
         transient, error = self.transient[rows], self.transient_error[rows]
-        return Iterates(transient, error, table, panels, missed, self.limit[rows])
+        return Iterates(transient, error, table, panels, missed, self.limit[rows], self.edges[rows])
 
     @property
     def integrated_cycles(self) -> int:
@@ -233,14 +234,19 @@ class Iterates(NamedTuple):
     def at_rest(self) -> BoolArray:
         """Return whether the last cycle of each scene (s,) adds nothing, and so none after it."""
         moves = np.sum(np.diff(self.transient[:, -2:], axis=1), axis=1) > 0
-        return ~moves if self.cells is None else np.zeros(len(moves), dtype=bool)
+        return np.asarray(~moves & (self.cells is None))
+
+    @property
+    def first_idle_cycle(self) -> int:
+        """Return which cycle, counted from 0, is the first to add nothing to the first scene."""
+        return int(np.argmax(np.diff(self.transient[0]) <= 0))
 
     @property
     def reach(self) -> FloatArray:
         """Return how many cycles are counted (s,)."""
         if self.cells is None:
             return np.where(self.at_rest, np.inf, float(self.integrated_cycles))
-        return self._ends[:, -1]
+        return np.asarray(self._ends[:, -1])
 
     @property
     def whole_cycles(self) -> FloatArray:

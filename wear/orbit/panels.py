@@ -23,7 +23,6 @@ CHECKS = -np.cos(np.pi * np.array([0, 1 / 6, 3 / 8, 5 / 8, 7 / 8, 1]))  # extrem
 FAR_OUT = 10.0  # times the residual elsewhere: then the fault lies at the end of the panel
 SPLIT = 0.4  # of a panel, in its coordinate: the density is sharper at low states
 FASTER = 2.0  # than on average may the state change at the end of a panel
-FAR_TOO_WIDE = 1e-2  # residual
 MOST_ROUNDS = 12  # of refinement
 SHARP = 0.3  # change of the logarithm of the density within a cycle
 MOST_LOG = 650.0  # of a density: its exponential is a number
@@ -76,14 +75,16 @@ def fill(
     frame: abel.Frame,
     size: Settings,
     tolerance: FloatArray,
+    widest: float,
 ) -> Filled:
     """Solve Abel's equation on panels, each of a `scene` (panels,), and cut those with a residual
-    above the `tolerance` (scenes,)."""
+    above the `tolerance` (scenes,). Faults of a panel with a residual above `widest` say nothing
+    about the phase."""
     done: list[SolvedPanels] = []
     marked = np.zeros((len(tolerance), coarse.over.lengths.shape[-1]), dtype=bool)
     evaluations = increments = 0
     for rounds in range(MOST_ROUNDS):
-        judged = _judged(coarse, fine, scene, frame, size, tolerance)
+        judged = _judged(coarse, fine, scene, frame, size, tolerance, widest)
         fresh = judged.panels
         evaluations += judged.evaluations
         increments += judged.increments
@@ -94,7 +95,8 @@ def fill(
         stuck = [part.take(part.short & ~(part.residual <= tolerance[part.scene])) for part in done]
         for part in [*stuck, fresh.take(bad & fresh.short)]:
             np.minimum.at(end, part.scene, part.density.frame.starts)
-        cut = bad & ~fresh.short & (frame.starts < end[scene]) & ~marked.any(axis=1)[scene]
+        unclear = np.any(marked, axis=1)
+        cut = bad & ~fresh.short & (frame.starts < end[scene]) & ~unclear[scene]
         number = sum(len(part.scene) for part in done) + len(scene)
         if rounds == MOST_ROUNDS - 1 or number > MOST_PANELS * len(marked) or not cut.any():
             done.append(fresh)
@@ -128,6 +130,7 @@ def _judged(
     frame: abel.Frame,
     size: Settings,
     tolerance: FloatArray,
+    widest: float,
 ) -> Judged:
     """Solve Abel's equation with the coarse map, and test it off the nodes with the fine one."""
     coarse, fine, allowed = coarse.take(scene), fine.take(scene), tolerance[scene]
@@ -146,8 +149,7 @@ def _judged(
     short = _cycles_if_cut(taken, share) < size.panel_nodes
     evaluations = ahead.evaluations + judge.evaluations
     increments = ahead.increment.size + judge.increment.size
-    # Where a panel is far too wide, its faults say nothing about the phase.
-    wide = ~(residual <= FAR_TOO_WIDE) & ~short
+    wide = ~(residual <= widest) if np.isfinite(widest) else np.full(len(scene), False)
     marked = np.logical_not(ahead.converged) & ~wide[:, None]
     hazy = np.flatnonzero((by_phase > allowed) & ~wide)
     if len(hazy):

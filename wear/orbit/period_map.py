@@ -31,6 +31,7 @@ from wear.numerics.initial_value import SAFETY, Rules, integrate
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase do not show what they miss
+LOOSEST = 1e-4  # relative error: a looser count saves nothing
 MOST_INTERVALS = 256  # of one cycle; or twice as many as its breakpoints make
 NUMBERS = (1, 2, 3, 6, 12, 24, 48, 96, 192)  # of intervals, of many scenes: few different ones
 IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
@@ -68,7 +69,7 @@ def settings(rtol: float) -> Settings:
         endpoint_tolerance=max(1e-2 * min(rtol, COARSEST), ROUNDOFF),
         panel_nodes=panel_nodes,
         tail_tolerance=max(rtol / 4, 1e-12),
-        residual_tolerance=max(rtol / 4, 30 * ROUNDOFF),
+        residual_tolerance=max(min(rtol, LOOSEST) / 4, 30 * ROUNDOFF),
         iteration_tolerance=NOISE,
     )
 

@@ -43,6 +43,7 @@ FRAME_SCALE = 12.0  # of the coordinate of panels, over the scale: one serves to
 SMALL = 0.5  # step in ln(u + scale): then panels may begin with it
 APART = 1e-3  # of the state and its scale: states between which a change is taken
 SHARP = 0.3  # change of the logarithm of the density within a cycle
+FAR_TOO_WIDE = 1e-2  # residual of a panel that was not planned
 MOST_FIRST = 120  # cycles integrated one by one in a segment
 MOST_SEGMENTS = 40
 MOST_EVALUATIONS = 20_000_000  # of a scene: then the estimate shows what is missed
@@ -97,6 +98,9 @@ class Counted(Protocol):
 
     @property
     def at_rest(self) -> BoolArray: ...
+
+    @property
+    def first_idle_cycle(self) -> int: ...
 
     @property
     def whole_cycles(self) -> FloatArray: ...
@@ -173,7 +177,7 @@ class Orbit(NamedTuple):
             if not here.any():
                 continue
             state, missed = segment.counted.after(np.maximum(since, 0.0))
-            missed = missed + segment.inherited[:, None] / (state + TINY)
+            missed = np.nan_to_num(missed + segment.inherited[:, None] / (state + TINY), nan=np.inf)
             u[segment.which] = np.where(here, state, u[segment.which])
             error[segment.which] = np.where(here, missed, error[segment.which])
         return u, error
@@ -390,8 +394,10 @@ class _Work:
                 return
             job = job._replace(layout=Layout(np.arange(len(job.which)), self._frame(job)))
         which, number, tolerance = job.which, job.transient.cycles, self.tolerance[job.which]
+        widest = np.inf if number else FAR_TOO_WIDE
+        assert job.layout is not None
         fine, (scene, frame) = job.maps.finer(self.size), job.layout
-        filled = fill(job.maps, fine, scene, frame, self.size, tolerance)
+        filled = fill(job.maps, fine, scene, frame, self.size, tolerance, widest)
         self.cost = self.cost.plus(filled.increments, filled.evaluations)
         spent = job.spent + filled.evaluations / len(which)
         scene, residual = filled.panels.scene, filled.panels.residual
@@ -472,7 +478,8 @@ class _Work:
         error = self._transient_error(which, transient)
         none = np.empty((len(rows), 0))
         limit = self.limit[which]
-        return which, Iterates(transient.states, error, None, None, none, limit)
+        edges = _edges(job.maps, rows)
+        return which, Iterates(transient.states, error, None, None, none, limit, edges)
 
     def _transient_error(self, which: IntArray, transient: Transient) -> FloatArray:
         """Return the errors (s, k + 1) of the integrated cycles."""
@@ -493,7 +500,13 @@ class _Work:
             missed = count_error(some, table, roundoff, len(rows))
             missed += error[:, -1:] / table.first_rate.reshape(len(rows), -1)[:, :1]
             counted = Iterates(
-                transient.states, error, table, some.density, missed, self.limit[which]
+                transient.states,
+                error,
+                table,
+                some.density,
+                missed,
+                self.limit[which],
+                _edges(job.maps, rows),
             )
             yield which, counted
 
@@ -553,10 +566,15 @@ def _look_ahead(problem: Problem, request: Request) -> FloatArray:
     return end
 
 
+def _edges(maps: PeriodMap, rows: IntArray) -> FloatArray:
+    """Return the edges (s, q + 1) of the meshes of some scenes."""
+    edges = maps.over.edges[:, 0]
+    return np.repeat(edges, len(rows), axis=0) if len(edges) == 1 else np.asarray(edges[rows])
+
+
 def _before_the_first(bad: BoolArray, scene: IntArray) -> BoolArray:
     """Return which panels, in order, come before the first `bad` one of their scene."""
-    so_far = np.cumsum(bad)
+    so_far: IntArray = np.cumsum(bad)
     first = np.searchsorted(scene, scene)  # the first panel of the scene of each
-    before = so_far[first] - bad[first]
-    result: BoolArray = so_far == before
-    return result
+    before = so_far[first] - bad[first].astype(int)
+    return np.asarray(so_far == before)
