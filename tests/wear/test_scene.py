@@ -158,7 +158,7 @@ def test_every_variant_is_generated_and_gets_its_parameters(
         "worn": replace(PIN, roughness_mm=0.0, roughness_growth=0.0),
         "worn_rough": PIN,
     }
-    contact = Contact(300.0, None, 2.5, cutoff=cutoff, pin_wear_opens_gap=opening)
+    contact = Contact(300.0, None, 2.5, ends_at_3_sigma=cutoff, pin_wear_opens_gap=opening)
     scene = replace(section4(), pin=pins[pin_kind], support=support, contact=contact)
     name = scene.variant
     module = importlib.import_module(f"wear.generated.{name.package}.{name.module}")

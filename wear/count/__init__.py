@@ -8,13 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import FloatArray
 from wear.count.cycle import Cost
 from wear.count.scan import LEAST
 from wear.count.stage import Stages, evaluate_stages
 from wear.count.stages import counted_stages
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+)
 
 MOST_CYCLES = 1e12
 

@@ -15,10 +15,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF
-from wear.count.collocation import BoolArray, FloatArray
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+)
 
 SAMPLES = 2048  # of a cycle, to look for where q rises through zero
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases

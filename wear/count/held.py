@@ -13,11 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import BoolArray, FloatArray, Gauss
 from wear.count.contact import Contact, Stretch, Worn, worn
 from wear.count.edge import Edge, Piece, displacement_at, phase_of
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    Gauss,
+)
 
 
 class Support(NamedTuple):

@@ -11,12 +11,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
 from wear.count.cycle import Settings, growth, pace
-from wear.count.iteration import NOISE, Advance, Near, iterate
-from wear.count.resolution import concealed, unresolved
 from wear.load import Load, sampled
 from wear.model import Model
+from wear.numerics.collocation import (
+    NOISE,
+    CycleSolution,
+    InitialGuess,
+    endpoint_defect,
+    iterate,
+    unresolved,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+    Mesh,
+    integral,
+    mesh,
+)
 
 IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
 
@@ -64,7 +77,7 @@ class ManyDrives(NamedTuple):
         rate: FloatArray = self.model.rate(u, self.displacement)
         return self.period * rate
 
-    def pace(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
         """Wear rate in mm per interval at wear `u` (scenes, k, q, m), sought from one `near` by."""
         return pace(self.model, u, self.displacement, self.period, self.over, near)
 
@@ -89,16 +102,16 @@ class ManyDrives(NamedTuple):
             at_edges=self.at_edges[:, :, i : i + 2],
         )
 
-    def overlooked(self, starts: FloatArray, run: Advance) -> FloatArray:
+    def overlooked(self, starts: FloatArray, run: CycleSolution) -> FloatArray:
         """What each interval may conceal (scenes, k, q), in mm, by a change of the rate between an
         end and the nodes, over the cycles of `run` from the `starts` (scenes, k)."""
         added = run.rate @ self.over.rule.weights * self.over.lengths
         wear = starts[..., None] + np.cumsum(np.insert(added, 0, 0.0, axis=-1), axis=-1)
         model = _shaped(self.model, (-1, 1, 1))
         rate = self.period[..., 0] * model.rate(wear, self.at_edges)
-        return concealed(run.rate, rate[..., :-1], rate[..., 1:], self.over)
+        return endpoint_defect(run.rate, rate[..., :-1], rate[..., 1:], self.over)
 
-    def several(self, number: int) -> Advance:
+    def several(self, number: int) -> CycleSolution:
         """Some cycles on end from no wear: the guess for one is where those before lead."""
         start = np.zeros((len(self.displacement), 1))
         runs = [self.advance(start)]
@@ -107,18 +120,18 @@ class ManyDrives(NamedTuple):
             last = runs[-1]
             start = start + last.increment
             apart = last.increment[..., None, None] + grown
-            runs.append(self.advance(start, Near(last.inside + grown, last.rate, apart)))
+            runs.append(self.advance(start, InitialGuess(last.inside + grown, last.rate, apart)))
             grown = runs[-1].inside - last.inside
-        return Advance(
+        return CycleSolution(
             np.concatenate([run.increment for run in runs], axis=1),
             np.concatenate([run.inside for run in runs], axis=1),
             np.concatenate([run.rate for run in runs], axis=1),
             sum(run.evaluations for run in runs),
             np.logical_and.reduce([run.converged for run in runs]),
-            np.concatenate([run.left for run in runs], axis=1),
+            np.concatenate([run.iteration_error for run in runs], axis=1),
         )
 
-    def rough(self, run: Advance, size: Settings) -> BoolArray:
+    def rough(self, run: CycleSolution, size: Settings) -> BoolArray:
         """Which intervals (scenes, q) do not resolve the rate in the first cycles, or hide a change
         of it at an end."""
         rough = unresolved(run.rate, self.over, size.phase_tolerance)
@@ -154,19 +167,19 @@ class ManyDrives(NamedTuple):
             parts.append(integral(part.rate(wear[some, :, None, None]), part.over))
         return np.concatenate(parts)
 
-    def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
+    def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
         """Wear added by a cycle from each start (scenes, k)."""
         runs = []
         for some in self.in_cache(starts.shape[1]):
-            guess = None if near is None else Near(*(array[some] for array in near))
+            guess = None if near is None else InitialGuess(*(array[some] for array in near))
             runs.append(iterate(self.take(some), starts[some], guess))
-        return Advance(
+        return CycleSolution(
             np.concatenate([run.increment for run in runs]),
             np.concatenate([run.inside for run in runs]),
             np.concatenate([run.rate for run in runs]),
             sum(run.evaluations for run in runs),
             np.concatenate([run.converged for run in runs]),
-            np.concatenate([run.left for run in runs]),
+            np.concatenate([run.iteration_error for run in runs]),
         )
 
 

@@ -2,10 +2,15 @@
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF, TINY
-from wear.count.collocation import FloatArray
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+    TINY,
+)
 
 SMALLEST = 100 * float(np.finfo(float).smallest_subnormal)  # below, digits are lost
 APART = 1e-4  # of the roughness: displacements between which the rate's steepness is taken

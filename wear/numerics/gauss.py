@@ -1,8 +1,14 @@
-"""Nodes and matrices of the discretisations: Gauss-Legendre in phase, Chebyshev in wear.
+"""Gauss-Legendre and Radau collocation on [0, 1], and meshes of intervals with such nodes.
 
-Inside a cycle functions of phase are known at Gauss-Legendre nodes; `gauss` holds the nodes of
-[0, 1], the quadrature weights and the matrix that integrates from 0 to each node; `radau` the same
-where wear follows the load. Over many cycles functions of wear are Chebyshev series on panels.
+Overview
+    Within a cycle, functions of the phase are known at Gauss nodes. A rule holds the nodes, the
+    quadrature weights and the matrix that integrates the interpolant from 0 to each node.
+Key results
+    gauss, radau        rules; Radau's last node is the end, which damps stiff transients
+    Mesh                a stretch of time cut into intervals, each with the nodes of one rule
+    running, integral   integrals over a mesh, up to each node or over all of it
+References
+    E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, IV.5.
 """
 
 from functools import lru_cache
@@ -162,39 +168,4 @@ def between_nodes(m: int, finer: int) -> FloatArray:
     """Matrix (m, finer) from values at the m nodes of an interval to those at `finer` nodes."""
     basis = np.polynomial.legendre.legvander(2 * gauss(finer).nodes - 1, m - 1)
     matrix: FloatArray = (basis @ gauss(m).coefficients).T
-    return matrix
-
-
-def chebyshev_nodes(m: int) -> FloatArray:
-    """The m roots of the Chebyshev polynomial T_m, rising."""
-    nodes: FloatArray = -np.cos(np.pi * (np.arange(m) + 0.5) / m)
-    return nodes
-
-
-def chebyshev_values(t: FloatArray, m: int) -> FloatArray:
-    """T_0 ... T_{m-1} at `t` (...), shape (..., m). By recurrence: also right outside [-1, 1]."""
-    values = np.empty((m, *t.shape))
-    values[0] = 1.0
-    values[1:2] = t
-    n = 1
-    while n + 1 < m:  # T_{n + j} = 2 T_n T_j - T_{n - j} for j = 1 ... n
-        more = min(n, m - 1 - n)
-        fresh = values[n + 1 : n + 1 + more]
-        np.multiply(2 * values[n], values[1 : more + 1], out=fresh)
-        fresh -= values[n - more : n][::-1]
-        n += more
-    return np.moveaxis(values, 0, -1)
-
-
-@lru_cache(maxsize=32)
-def chebyshev_analysis(m: int) -> FloatArray:
-    """Matrix (m, m) from values at `chebyshev_nodes(m)` to Chebyshev coefficients.
-
-    By cosines of exactly reduced angles: a recurrence would lose n^2 roundoffs in T_n near the
-    ends, and so make a tail of a large constant.
-    """
-    n, k = np.arange(m)[:, None], np.arange(m)
-    quarters = (n * (2 * k + 1 + 2 * m)) % (4 * m)  # of the angle n (pi + (k + 1/2) pi/m)
-    matrix: FloatArray = np.cos(np.pi / (2 * m) * quarters) * (2.0 / m)
-    matrix[0] /= 2
     return matrix
