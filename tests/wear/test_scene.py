@@ -26,12 +26,12 @@ from wear.scene import (
     VariantKey,
     builtin_names,
     builtin_scenes,
+    contact_laws,
     load_scene,
     parse_scene,
     scene_from_tables,
 )
 from wear.scene.notices import CONTACT_REACH
-from wear.scene.schema import contact_laws
 
 MINIMAL = """
 [bearing]

@@ -90,7 +90,7 @@ def _load_data(load: Load) -> dict[str, Any]:
     values = [float(load(phase)) for phase in phases]
     return {
         "kind": "table",
-        "file": load.file,
+        "file": "" if load.source is None else load.source.file,
         "period_s": load.period,
         "phase": phases,
         "value": values,
