@@ -47,11 +47,8 @@ class WearEquation:
         """Return some of the scenes."""
         if self.scenes == 1:
             return self
-        chosen = np.arange(self.scenes)[rows]
-        loads = tuple(self.loads[i] for i in chosen.tolist())
-        constants = self.model.constants
-        taken = type(constants)(*(value[chosen] for value in constants))
-        return WearEquation(Model(self.model.module, taken), loads)
+        loads = tuple(self.loads[i] for i in np.arange(self.scenes)[rows].tolist())
+        return WearEquation(self.model.select(rows), loads)
 
     def forcing(self, phases: FloatArray) -> FloatArray:
         """Return the displacement in mm at phases (scenes, ...)."""
@@ -110,9 +107,7 @@ class WearEquation:
         """Return the model with its constants along the first of four axes."""
         if self.scenes == 1:
             return self.model
-        constants = self.model.constants
-        shaped = (value.reshape(-1, 1, 1, 1) for value in constants)
-        return Model(self.model.module, type(constants)(*shaped))
+        return self.model.reshaped((-1, 1, 1, 1))
 
     @cached_property
     def _period(self) -> FloatArray | float:

@@ -135,29 +135,26 @@ class Motion(SceneTable):
 
 
 class VariantKey(NamedTuple):
-    """Which generated module a scene needs: `wear.generated.<package>.<module>`.
+    """Which generated module a scene needs: `wear.generated.<law>.<module>`; `name` is the
+    variant's for users.
 
-    >>> VariantKey("tanh", "compliant", "worn_rough", True, True).module
-    'compliant_worn_rough_opening_cutoff'
-    >>> VariantKey("tanh", "rigid", "absent", False, False).module
-    'rigid_bearing'
+    >>> key = VariantKey("tanh", "compliant", "worn_rough", ends_at_3_sigma=True)
+    >>> key.module, key.name
+    ('compliant_worn_rough', 'compliant_worn_rough_ends_at_3_sigma')
     """
 
     law: str
     support: Literal["rigid", "compliant"]
-    pin: Literal["absent", "rough", "worn", "worn_rough"]
-    opening: bool
-    cutoff: bool
-
-    @property
-    def package(self) -> str:
-        return self.law
+    pin: Literal["bearing", "rough", "worn", "worn_rough"]
+    ends_at_3_sigma: bool
 
     @property
     def module(self) -> str:
-        pin = "bearing" if self.pin == "absent" else self.pin
-        flags = "_opening" * self.opening + "_cutoff" * self.cutoff
-        return f"{self.support}_{pin}{flags}"
+        return f"{self.support}_{self.pin}"
+
+    @property
+    def name(self) -> str:
+        return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
 
 @table("")
@@ -246,21 +243,24 @@ class Scene(SceneTable):
     @property
     def variant(self) -> VariantKey:
         """The generated module with what this scene needs, and no more."""
-        pin = self._pin_state
         return VariantKey(
             law=self.contact.law,
             support="rigid" if self.support is None else "compliant",
-            pin=pin,
-            opening=pin.startswith("worn") and self.contact.pin_wear_opens_gap,
-            cutoff=self.contact.ends_at_3_sigma,
+            pin=self._pin_state,
+            ends_at_3_sigma=self.contact.ends_at_3_sigma,
         )
 
     @property
-    def _pin_state(self) -> Literal["absent", "rough", "worn", "worn_rough"]:
+    def pin_wear_sign(self) -> float:
+        """+1 where wear of the pin opens the gap, -1 where it closes it, as printed in Eq. (1)."""
+        return 1.0 if self.contact.pin_wear_opens_gap else -1.0
+
+    @property
+    def _pin_state(self) -> Literal["bearing", "rough", "worn", "worn_rough"]:
         if self.pin is None:
-            return "absent"
+            return "bearing"
         if self.pin.wear_coefficient == 0.0:
-            return "rough" if self.pin.roughness_mm > 0.0 else "absent"
+            return "rough" if self.pin.roughness_mm > 0.0 else "bearing"
         rough = self.pin.roughness_mm > 0.0 or self.pin.roughness_growth != 0.0
         return "worn_rough" if rough else "worn"
 
@@ -361,6 +361,16 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
             remedy = "give a file or a built-in scene; `wear scenes` lists these"
         raise SceneError([Fault(_place(name), None, "", "", problem, remedy)])
     return parse_scene(data, name, file.parent, overrides)
+
+
+def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:
+    """Return a scene as it is, or that of a built-in name or a file."""
+    if isinstance(scene, Scene):
+        return scene
+    if isinstance(scene, str | os.PathLike):
+        return load_scene(scene)
+    kind = type(scene).__name__
+    raise UsageError(f"a {kind} is no scene; give a Scene, a built-in name or a path")
 
 
 def parse_scene(

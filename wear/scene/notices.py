@@ -21,9 +21,9 @@ def notices(scene: Scene) -> tuple[str, ...]:
 def _pin_notices(scene: Scene) -> Iterator[str]:
     variant = scene.variant
     wears = variant.pin.startswith("worn")
-    if scene.pin is not None and variant.pin == "absent":
+    if scene.pin is not None and variant.pin == "bearing":
         yield "the pin neither wears nor is rough: it is not modelled"
-    if wears and not variant.opening:
+    if wears and not scene.contact.pin_wear_opens_gap:
         yield (
             "wear of the pin closes the gap, the sign of Eq. (1) as printed; "
             "for the physical sign set contact.pin_wear_opens_gap = true"
