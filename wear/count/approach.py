@@ -14,42 +14,34 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel, tabulated
-from wear.count.build import CycleCount, attainable
+from wear.count.build import CycleCount
 from wear.count.checks import CHECKS
 from wear.count.cutoff import CutoffCycle
-from wear.count.cycle import Cost, Settings, settings
-from wear.count.increments import Coordinate, Increments, Span, fitted, middle
-from wear.count.kinks import Kink, fades, kinks, rest_of
-from wear.count.panels import NONE, SAFETY, Maps
+from wear.count.cycle import Cost, Settings
+from wear.count.increments import Increments, Span, fitted, middle
+from wear.count.kinks import rest_of
+from wear.count.panels import NONE, SAFETY
+from wear.count.plan import GRAIN, Way, planned, prepared
 from wear.count.rounding import roundoff, roundoff_of_cycles
-from wear.count.scan import LEAST, SHIFT, roughness_limit, roughness_scale, scan
+from wear.count.scan import SHIFT
 from wear.count.stage import Leap, Stage, Stages
 from wear.count.tail import TO_ROUNDOFF, Between, Rest
-from wear.load import Load
-from wear.model import Model
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import FloatArray, mesh
+from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
 FEW = 4.0  # cycles to the next grazing wear: they are integrated
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
 MOST_WALKED = 250  # cycles on a series that are taken one by one
-BEGINS = 0.03  # of the increment at a grazing wear: how far beyond it a series begins
-ENDS = 0.7  # of the distance that is left: the largest increment on a series
-GRAIN = 4096.0  # roundoffs of the wear: the smallest distance at which cycles are counted
-FACTOR, STEPS = 0.25, 21  # of distances at which one looks ahead
 LOOKS = 65  # at a series, for how many cycles it takes
 MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
 MOST_CUTS = 8  # rounds of cutting panels
 ENOUGH = 1.5  # cycles per coefficient of a panel
-FARTHEST = 1e12  # roughnesses
-AHEAD = 1.3  # of the cycles asked for: how far one looks ahead
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: increments that have no series
 MOST_POOR = 8  # times that panels may hold too few cycles
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
-ENOUGH_TO_FIT = 8.0  # cycles on a stretch
 
 
 @np.errstate(all="ignore")
@@ -66,50 +58,11 @@ def count_between_kinks(
 
     After the `deadline` (`time.monotonic()`) nothing is prepared any more.
     """
-    way = _way(cycle, rtol, deadline)
+    way = prepared(cycle, rtol, deadline)
     runs = _Runs(way, start)
     while not runs.over and (runs.done < cycles or not runs.parts):
         runs.go(max(cycles - runs.done, 1.0))
-    return _judged(way, runs, start, begun_with, cycles)
-
-
-class Way(NamedTuple):
-    """What is ahead: the `kinks`, rising; the `rest` if wear tends to the last of them for ever;
-    the wear `end` (mm) beyond which nothing has a meaning. The maps of a cycle: `plain`, for frozen
-    wear, and `both`, resolved."""
-
-    plain: CutoffCycle
-    both: Maps
-    kinks: list[Kink]
-    rest: Rest | None
-    end: float
-    scale: float
-    rtol: float
-    size: Settings
-    deadline: float
-
-    @property
-    def model(self) -> Model:
-        """The model."""
-        return self.plain.model
-
-    @property
-    def load(self) -> Load:
-        """The load."""
-        return self.plain.load
-
-
-def _way(cycle: CutoffCycle, rtol: float, deadline: float) -> Way:
-    model, load, size = cycle.model, cycle.load, settings(rtol)
-    scale = roughness_scale(model)
-    end = roughness_limit(model, FARTHEST * scale)
-    grazing = [kink for kink in kinks(cycle, scale) if kink.wear < end]
-    rest = rest_of(model, load, grazing[-1].wear) if grazing else None
-    if rest is not None and not fades(cycle, rest.wear):
-        rest = None
-    coarse = cycle.resolved(NONE, size)
-    finer = coarse.on(mesh(coarse.over.edges, size.finer_nodes))
-    return Way(cycle, Maps(coarse, finer), grazing, rest, end, scale, rtol, size, deadline)
+    return _judged(way, runs, begun_with, cycles)
 
 
 class Single(NamedTuple):
@@ -190,7 +143,7 @@ class _Runs:
         """Go on for so many `cycles`, or less."""
         if self.wear >= self.prepared and cycles > FEW:
             self._prepare(cycles)
-            return
+            return None
         for span, series in self.known:
             if span.start <= self.wear < span.end:
                 return self._along(span, series, cycles)
@@ -230,6 +183,8 @@ class _Runs:
         self.cost = self.cost.plus(1, run.evaluations)
         self.singles += 1
         added = float(run.increment[0])
+        if not added > 0.0 and self.way.rest is not None and self.wear < self.way.rest.wear:
+            added = self.way.rest.wear - self.wear  # nearer than rounding resolves
         part = Single([self.wear, self.wear + added], [added], None)
         last = self.parts[-1] if self.parts else None
         if isinstance(last, Single) and last.series is None:
@@ -303,98 +258,6 @@ class _Runs:
         self._append(Single(walked, added, series), walked[-1])
 
 
-def planned(way: Way, wear: float, cycles: float) -> tuple[list[Span], float]:
-    """Plan where increments are wanted from a `wear` (mm) on, for so many `cycles` about, by wear
-    that is frozen over a cycle; return also the wear up to which that is a plan."""
-    ahead = [kink for kink in way.kinks if kink.wear > wear * (1 + 8 * ROUNDOFF)]
-    behind = [kink for kink in way.kinks if kink not in ahead]
-    bounds = np.array([wear, *(kink.wear for kink in ahead)])
-    halfway = (bounds[1:] + bounds[:-1]) / 2
-    last = [behind[-1]] if behind else []
-    grazing = [*last, *ahead]
-    upto = way.plain.frozen_upto(np.array([kink.wear for kink in grazing]))
-    added = upto[-1]
-    rows = np.arange(len(grazing))
-    branch = np.array([upto[kink.before, i] for i, kink in zip(rows, grazing, strict=True)])
-    whole = np.array([kink.before == len(upto) - 1 for kink in grazing], dtype=bool)
-    behind_branch = np.where(whole, 0.0, branch)
-    if way.rest is not None:
-        branch[-1:] = 0.0
-    halvings = FACTOR ** np.arange(STEPS)
-    first = len(last)
-    poles = bounds[1:] - branch[first:]
-    rights = np.maximum(poles - halfway, TINY)[:, None] * halvings
-    lefts = (halfway - bounds[:-1])[:, None] * halvings
-    looks = np.stack([bounds[:-1, None] + lefts, poles[:, None] - rights])
-    paces = way.plain.frozen(looks) + TINY
-    gains = -np.log(FACTOR) * np.stack([lefts, rights]) / paces
-    at, peak = bounds[1:], np.array([way.load.maximum])
-    uncertain = ROUNDOFF * way.model.margin_terms(at, peak)
-    uncertain /= np.abs(way.model.margin_slope(at, peak)) + TINY
-    spans: list[Span] = []
-    counted = 0.0
-    wanted = AHEAD * max(cycles, LEAST)
-    for i, kink in enumerate(ahead):
-        if counted > wanted:
-            return spans, float(bounds[i])
-        outwards = np.cumsum(gains[0, i, ::-1])[::-1]
-        number = float(np.sum(gains[:, i]))
-        a, b, half = float(bounds[i]), kink.wear, float(halfway[i])
-        if counted + outwards[0] > wanted:
-            enough = counted + outwards > wanted
-            half = a + float(lefts[i, np.sum(enough) - 1])
-            return [*spans, _outwards(way, a, half, i, last, grazing, behind_branch, added)], half
-        counted += number
-        if number < ENOUGH_TO_FIT:
-            continue
-        fresh = _outwards(way, a, half, i, last, grazing, behind_branch, added)
-        if fresh.start < fresh.end and paces[0, i, -1] < ENDS * (b - a):
-            spans.append(fresh)
-        end = _nearest(way, kink, float(poles[i]), rights[i], paces[1, i])
-        tends = way.rest is not None and b == way.rest.wear
-        if tends:
-            calm = paces[1, i] < ENDS * rights[i]
-            half = b - float(rights[i, np.argmax(calm)]) if calm.any() else end
-        if end > half:
-            spans.append(Span(Coordinate(float(poles[i]), True), half, end, uncertain[i], tends))
-    if counted > wanted:
-        return spans, float(bounds[-1])
-    a = float(bounds[-1])
-    if way.rest is not None and ahead or not way.plain.frozen(np.array([a * (1 + 1e-9)]))[0] > 0:
-        return spans, np.inf
-    reach = float(scan(way.plain, way.scale, a, max(cycles - counted, LEAST), way.end)[-1])
-    smooth = Coordinate(0.0, False, SHIFT * way.scale)
-    if not grazing:
-        return [Span(smooth, a, reach)], np.inf
-    half = min(a + way.scale, (a + reach) / 2)
-    fresh = _outwards(way, a, half, len(ahead), last, grazing, behind_branch, added)
-    spans += [span for span in (fresh, Span(smooth, half, reach)) if span.start < span.end]
-    return spans, np.inf
-
-
-def _outwards(way, a, half, i, last, grazing, branch, added) -> Span:
-    """From the wear `a` to `half`."""
-    j = i + len(last) - 1
-    if j < 0 or (i == 0 and a > grazing[j].wear + way.scale):
-        return Span(Coordinate(0.0, False, SHIFT * way.scale), a, half)
-    origin = grazing[j].wear
-    begin = max(a, origin + max(BEGINS * float(added[j]), GRAIN * ROUNDOFF * origin))
-    return Span(Coordinate(float(origin - branch[j])), begin, half)
-
-
-def _nearest(way: Way, kink: Kink, pole: float, left: FloatArray, pace: FloatArray) -> float:
-    """The wear (mm) up to which series are wanted on the way to a kink."""
-    if way.rest is not None and kink.wear == way.rest.wear:
-        return way.rest.wear - way.rest.nearest
-    least = np.maximum(pace / 0.95 - (kink.wear - pole), 0.05 * pace + 2 * pace**2 / way.scale)
-    least = np.maximum(least, GRAIN * ROUNDOFF * kink.wear)
-    enough = left >= least
-    if not enough[0]:
-        return -np.inf
-    j = len(left) - 1 if enough.all() else int(np.argmin(enough)) - 1
-    return float(pole - min(left[j], least[j]))
-
-
 def solved(
     series: Increments, begin: float, end: float, size: Settings
 ) -> tuple[abel.Panels, FloatArray, bool]:
@@ -457,7 +320,7 @@ def on_a_line(
     return more, np.append(residual, abs(found - slope))
 
 
-def _judged(way: Way, runs: _Runs, start: float, begun_with: float, cycles: float) -> Stages:
+def _judged(way: Way, runs: _Runs, begun_with: float, cycles: float) -> Stages:
     """The parts of the way as stages, each with its estimate of error."""
     single = [part for part in runs.parts if isinstance(part, Single) and part.series is None]
     at = np.array([wear for part in single for wear in part.wear[:-1]])

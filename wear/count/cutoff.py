@@ -97,7 +97,7 @@ class CutoffCycle(NamedTuple):
         return np.asarray(self.frozen_upto(wear.ravel())[-1].reshape(wear.shape))
 
     def frozen_upto(self, wear: FloatArray) -> FloatArray:
-        """The same of each wear (k,) up to the start of every piece and to the end, (pieces + 1, k)."""
+        """The same of each wear (k,) up to every piece and to the end, (pieces + 1, k)."""
         x = self.over.phases.ravel()
         weights = (self.over.lengths[:, None] * self.over.rule.weights).ravel()
         added = np.zeros((len(self.edge.pieces) + 1, len(wear)))

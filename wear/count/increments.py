@@ -18,13 +18,11 @@ import numpy as np
 
 from wear.count import abel
 from wear.count.checks import CHECKS
-from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost
 from wear.count.panels import Maps
 from wear.count.scan import SPLIT
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray
-from wear.numerics.tolerances import ROUNDOFF
 
 MOST_ROUNDS = 6  # of cutting panels: those that are not resolved then are not used
 GRAIN = 16.0  # times the uncertainty of a distance: what rounding may make of the increment
@@ -82,7 +80,8 @@ class Increments(NamedTuple):
 
     def panel_of(self, z: FloatArray) -> FloatArray:
         """Return the panel that holds each z, or the nearest."""
-        return np.clip(np.searchsorted(self.starts, z, side="right") - 1, 0, len(self.starts) - 1)
+        at = np.searchsorted(self.starts, z, side="right") - 1
+        return np.asarray(np.clip(at, 0, len(self.starts) - 1))
 
     def at(self, z: FloatArray) -> FloatArray:
         """Return the wear (mm) that a cycle adds from each z (any shape)."""
@@ -91,7 +90,7 @@ class Increments(NamedTuple):
         t = abel.positions(self.coordinate.shift, self.starts[i], self.widths[i], flat)
         basis = chebyshev_values(t, self.series.shape[1])
         increment = self.level[i] * np.exp(np.einsum("ij,ij->i", basis, self.series[i]))
-        return increment.reshape(z.shape)
+        return np.asarray(increment.reshape(z.shape))
 
     def missed(self, z: FloatArray) -> FloatArray:
         """Return the relative error of the increment at each z (k,): the larger misfit of the two

@@ -10,9 +10,6 @@ from wear.count.edge import BISECTIONS, NEARLY, Piece
 from wear.count.tail import Rest
 from wear.load import Load
 from wear.model import Model
-from wear.numerics.gauss import (
-    FloatArray,
-)
 from wear.numerics.tolerances import (
     ROUNDOFF,
     TINY,
