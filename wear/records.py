@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from wear.equation import WearEquation, roundoff
 from wear.load import HistoryLoad
 from wear.model import Model
-from wear.numerics.initial_value import Rules, integrate
+from wear.numerics.gauss import mesh
+from wear.numerics.initial_value import Rules, StoppedError, integrate
 from wear.numerics.tolerances import ROUNDOFF
-from wear.orbit.period_map import PeriodMap, period_map
+from wear.orbit.period_map import PeriodMap
 from wear.orbit.segments import Cost
 
 FloatArray = NDArray[np.float64]
@@ -77,23 +78,26 @@ def follow(
     limit = float(equation.limit[0])
 
     def sampled(edges: FloatArray, m: int, tolerance: float) -> PeriodMap:
-        return period_map(equation, edges[None], m, tolerance)
+        over, levels = mesh(edges[None, None], m), load.value(edges)
+        # Straight between the levels at the ends: no rounding of the time enters.
+        forcing = levels[:-1, None] + np.diff(levels)[:, None] * over.rule.nodes
+        return PeriodMap(equation, over, forcing[None, None], tolerance)
 
     def rounding(wear: float) -> float:
         return float(roundoff(model, np.array([load.maximum]), np.array([wear]))[0])
 
     u, error = ([0.0], [0.0]) if ends[0] == 0.0 else ([], [])
-    evaluations, stopped, interrupted, number, wear = 0, None, False, 0, 0.0
+    evaluations, stopped, interrupted, number = 0, None, False, 0
     rules = Rules(NODES, FINER_NODES, STRICTER * rtol)
     try:
         for part in integrate(sampled, times, 0.0, rules, rounding, limit, deadline):
             here = asked[number : number + len(part.increment)]
             u += part.increment[here].tolist()
             error += part.error[here].tolist()
-            number, wear = number + len(here), float(part.increment[-1])
+            number += len(here)
             evaluations += part.evaluations
-        if number < len(asked):
-            stopped = _why(wear, limit)
+    except StoppedError as end:
+        stopped = _why(end.state, limit)
     except TimeoutError:
         stopped, interrupted = "the time limit has passed", True
     except KeyboardInterrupt:

@@ -190,7 +190,7 @@ def test_blocks_out_of_time_keep_the_first_one(cutoff):
 
 @pytest.mark.parametrize("fault", [np.linalg.LinAlgError("singular"), FloatingPointError("lost")])
 def test_a_count_that_breaks_down_is_told_and_auto_goes_on(monkeypatch, fault):
-    def broken(*_):
+    def broken(*_, **__):
         raise fault
 
     monkeypatch.setattr("wear.cycles.wear_after", broken)

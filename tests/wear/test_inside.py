@@ -137,7 +137,7 @@ def marched(scene: Scene, start: float) -> FloatArray:
         return period_map(equation, edges[None], m, tolerance)
 
     edges = np.unique(np.concatenate([PHASES, equation.breakpoints[0]]))
-    parts = integrate(sampled, edges, start, Rules(24, 30, 1e-16))
+    parts = integrate(sampled, edges, start, Rules(24, 30, 1e-14))
     added = np.concatenate([np.zeros(1), *(part.increment for part in parts)])
     return start + added[np.searchsorted(edges, PHASES)]
 

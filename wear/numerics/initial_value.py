@@ -28,6 +28,14 @@ FEW_ITERATIONS = 6  # so many, and twice as many intervals would be no harder
 SAFETY = 3.0  # on measured discrepancies
 
 
+class StoppedError(Exception):
+    """The integration ends at a `state`: intervals cannot be cut any shorter there."""
+
+    def __init__(self, state: float) -> None:
+        super().__init__(f"the state could not be followed beyond {state:.6g}")
+        self.state = state
+
+
 class JudgedRates(Rates, Protocol):
     """Rates on a mesh with what their errors need; arrays are (1, 1, intervals, nodes)."""
 
@@ -114,11 +122,12 @@ def integrate(
 ) -> Iterator[Reached]:
     """Integrate from the state `start` over intervals between `edges` (q + 1,), part after part.
 
-    It ends early where the intervals cannot be cut any shorter, or where the state would pass the
-    `limit`. `roundoff` is the relative error of the rate by rounding from a state on, at most.
+    `roundoff` is the relative error of the rate by rounding from a state on, at most.
 
     Raises
     ------
+    StoppedError
+        where the intervals cannot be cut any shorter, or the state would pass the `limit`.
     TimeoutError
         after the deadline (`time.monotonic()`).
     """
@@ -139,7 +148,7 @@ def integrate(
             size = max(1, len(now.asked) // 2)
             if len(now.asked) == 1:
                 if now.edges[1] - now.edges[0] <= shortest:
-                    return
+                    raise StoppedError(state)
                 now = now.cut(np.array([True]))
             todo.append(now)
             continue

@@ -14,7 +14,7 @@ import numpy as np
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution
 from wear.numerics.gauss import BoolArray, FloatArray, Mesh, integral
-from wear.numerics.initial_value import SAFETY, Rules, integrate
+from wear.numerics.initial_value import SAFETY, Rules, StoppedError, integrate
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Iterates, cell_of
@@ -179,11 +179,12 @@ def _violent(
 
     edges = np.unique(np.concatenate([problem.breakpoints[0], phases]))
     rules = Rules(size.phase_nodes, size.finer_nodes, size.endpoint_tolerance)
-    reached = list(integrate(sampled, edges, start, rules, limit=limit))
+    try:
+        reached = list(integrate(sampled, edges, start, rules, limit=limit))
+    except StoppedError:
+        return np.full(len(phases), np.nan), np.inf
     added = np.concatenate([np.zeros(1), *(part.increment for part in reached)])
-    error = max((float(np.max(part.error)) for part in reached), default=0.0) / SAFETY
-    if len(added) < len(edges):
-        added, error = np.append(added, np.full(len(edges) - len(added), np.nan)), np.inf
+    error = max(float(np.max(part.error)) for part in reached) / SAFETY
     return added[np.searchsorted(edges, phases)], error
 
 

@@ -259,8 +259,8 @@ class Iterates(NamedTuple):
     def first_increment(self) -> FloatArray:
         """Return what the first cycle adds (s,)."""
         if self.integrated_cycles == 0 and self.cells is not None:
-            return self._rows(self.cells.first_rate)[:, 0]
-        return np.sum(np.diff(self.transient[:, :2], axis=1), axis=1)
+            return np.asarray(self._rows(self.cells.first_rate)[:, 0])
+        return np.asarray(np.sum(np.diff(self.transient[:, :2], axis=1), axis=1))
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the states after `cycles` (s, c) and their estimated relative errors, infinite

@@ -27,7 +27,7 @@ from wear.numerics.collocation import (
     unresolved,
 )
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
-from wear.numerics.initial_value import SAFETY, Rules, integrate
+from wear.numerics.initial_value import SAFETY, Rules, StoppedError, integrate
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase do not show what they miss
@@ -210,15 +210,15 @@ class PeriodMap(NamedTuple):
             return period_map(self.equation, edges[None], m, tolerance)
 
         rules = Rules(size.phase_nodes, size.finer_nodes, size.endpoint_tolerance)
-        edges, evaluations, number, found = self.over.edges.ravel(), 0, 0, [0.0, np.inf, 1.0, 0.0]
-        for last in integrate(sampled, edges, start, rules, limit=limit):
-            evaluations += last.evaluations
-            number += len(last.increment)
-            found = [float(array[-1]) for array in last[:4]]
+        evaluations, found = 0, [0.0, np.inf, 1.0, 0.0]
+        try:
+            for last in integrate(sampled, self.over.edges.ravel(), start, rules, limit=limit):
+                evaluations += last.evaluations
+                found = [float(array[-1]) for array in last[:4]]
+        except StoppedError as end:
+            reached = limit if end.state > NEARLY * limit else end.state
+            return reached - start, np.inf, 1.0, 0.0, evaluations
         increment, error, derivative, response = found
-        if number < len(edges) - 1:
-            beyond = start + increment > NEARLY * limit
-            return limit - start if beyond else increment, np.inf, 1.0, 0.0, evaluations
         return increment, error / SAFETY, derivative, response, evaluations
 
     def endpoint_defect(self, starts: FloatArray, run: CycleSolution) -> FloatArray:

@@ -177,7 +177,8 @@ class Orbit(NamedTuple):
             if not here.any():
                 continue
             state, missed = segment.counted.after(np.maximum(since, 0.0))
-            missed = np.nan_to_num(missed + segment.inherited[:, None] / (state + TINY), nan=np.inf)
+            missed = missed + segment.inherited[:, None] / (state + TINY)
+            missed[np.isnan(missed)] = np.inf
             u[segment.which] = np.where(here, state, u[segment.which])
             error[segment.which] = np.where(here, missed, error[segment.which])
         return u, error
