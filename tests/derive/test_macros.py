@@ -84,7 +84,7 @@ def test_every_equation_fits_a_column(
 def test_a_derivation_fits_a_column(
     identifier: str, tmp_path: Path, need_tool: Callable[..., str]
 ) -> None:
-    """Prose with equations: the starting points, every step, the equation itself with its number."""
+    """Prose with equations: starting points, every step, the equation with its number."""
     engine = need_tool("pdflatex")
     text = prose(catalogue.equations_up_to(identifier), room("246pt"))
     assert rf"\tag{{{identifier}}}" in text

@@ -1,7 +1,8 @@
 """What the explorer's page takes from the derivation, written once into a file beside its scripts.
 
 Deriving all variants and equations takes ten seconds and more, so ``explorer.derived.json`` is
-committed; a test fails when it is out of date, ``python -m wear.report.explorer_derived`` writes it.
+committed.  A test fails when it is out of date; ``python -m wear.report.explorer_derived`` writes
+it.
 
 Key results
     derived           all of it, as the file has it
