@@ -18,8 +18,19 @@ if TYPE_CHECKING:
     from wear.regime import Asymptote, asymptote
     from wear.scene import Scene, load_scene
     from wear.solver import solve
+    from wear.studies.indices import sobol_indices
+    from wear.studies.run import study
 
-__all__ = ["Asymptote", "History", "Scene", "asymptote", "load_scene", "solve"]
+__all__ = [
+    "Asymptote",
+    "History",
+    "Scene",
+    "asymptote",
+    "load_scene",
+    "sobol_indices",
+    "solve",
+    "study",
+]
 
 _HOMES = {
     "Asymptote": "wear.regime",
@@ -27,7 +38,9 @@ _HOMES = {
     "Scene": "wear.scene",
     "asymptote": "wear.regime",
     "load_scene": "wear.scene",
+    "sobol_indices": "wear.studies.indices",
     "solve": "wear.solver",
+    "study": "wear.studies.run",
 }
 
 

@@ -70,3 +70,7 @@ class Interrupted(Exception):  # noqa: N818  # no error: what was computed is go
     def __init__(self, message: str, history: History) -> None:
         super().__init__(message)
         self.history = history
+
+
+class WorkersLost(RuntimeError):  # noqa: N818  # no error of ours: what was computed is kept
+    """The workers of a study went away (exit status 130); the same command goes on."""
