@@ -57,7 +57,7 @@ def _notices(model: Model, found: Stages, wear: FloatArray) -> Iterator[str]:
     limit = found.stages[-1].counted.limit
     if np.any(wear >= (1 - 1e-9) * limit):
         yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
-    elif found.arrest is not None and model.cutoff:
+    elif found.arrest is not None and model.ends_at_3_sigma:
         # On springs the pressure vanishes with the distance that is left, and no cycle is the last.
         fades = found.arrest.fades or (model.compliant and found.arrest.cycle > 0)
         yield str(found.arrest._replace(fades=fades))

@@ -99,7 +99,7 @@ def cycle_count(
     UsageError
         for a model with cutoff, whose map has kinks: see `wear.count.stages`.
     """
-    if model.cutoff:
+    if model.ends_at_3_sigma:
         raise UsageError("only the wear after whole cycles can be counted with a cutoff")
     limit = roughness_limit(model, 1e12 * roughness_scale(model))
     cycle = one_cycle(model, load)

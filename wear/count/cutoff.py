@@ -146,7 +146,7 @@ class CutoffCycle(NamedTuple):
 
 def one_cycle(model: Model, load: Load) -> OneCycle:
     """The map of one cycle that a model needs, on a mesh yet to be resolved."""
-    if not model.cutoff:
+    if not model.ends_at_3_sigma:
         return drive(model, load, mesh(first_edges(load), 8))
     return cutoff_cycle(model, load)
 
@@ -172,7 +172,7 @@ def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray)
         return Worn(added, added, True, 0)
     u, edge = wear[active], cycle.edge
     level = None if piece.rising else 0.0
-    contact = Contact(cycle.model, cycle.load, cycle.model.by_law, level)
+    contact = Contact(cycle.model, cycle.load, cycle.model.law_rate_and_slope, level)
     over = Stretch(begin, piece.end - begin, end - begin)
     run = worn(contact, cycle.rule, cycle.tolerance, u, over, before[active])
     added[active] = run.added

@@ -86,7 +86,7 @@ class Edge(NamedTuple):
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
     """The edge of contact of a model with cutoff."""
-    crest, held = _crest(model), model.held
+    crest, held = _crest(model), float(model.held_margin)
     turns = turning_points(load)
     highest = float(displacement_at(model, np.array(crest))) if np.isfinite(crest) else np.inf
     low, high = turns[:-1], turns[1:]

@@ -123,7 +123,7 @@ def _within(
     model: Model, stretch: _Stretch, stage: Stage, phases: FloatArray, rtol: float
 ) -> Course | CutoffCourse:
     """What cycles of the stage add up to the phases."""
-    if isinstance(stage.counted, CycleCount) and not model.cutoff:
+    if isinstance(stage.counted, CycleCount) and not model.ends_at_3_sigma:
         return course(model, stretch.load, stage.counted, phases, rtol)
     return cutoff_course(model, stretch.load, phases, rtol)
 

@@ -47,7 +47,7 @@ class Many(NamedTuple):
     def take(self, which: IntArray) -> Many:
         """Some of the scenes."""
         loads, edges = ([own[i] for i in which.tolist()] for own in (self.loads, self.plain_edges))
-        return Many(_taken(self.model, which), loads, edges)
+        return Many(self.model.select(which), loads, edges)
 
     def on(self, edges: FloatArray, m: int, tolerance: float = NOISE) -> ManyDrives:
         """A cycle of each scene on its mesh, with edges (scenes, q + 1)."""
@@ -57,7 +57,7 @@ class Many(NamedTuple):
         at_edges = displacement[:, None, -edges.shape[1] :]
         displacement = displacement[:, : -edges.shape[1]].reshape(over.phases.shape)
         period = np.array([load.period for load in self.loads])[:, None, None, None]
-        model = _shaped(self.model, (-1, 1, 1, 1))
+        model = self.model.reshaped((-1, 1, 1, 1))
         return ManyDrives(model, period, over, displacement, at_edges, tolerance)
 
 
@@ -86,7 +86,7 @@ class ManyDrives(NamedTuple):
         edges, lengths, phases, rule = self.over
         over = Mesh(edges[which], lengths[which], phases[which], rule)
         return ManyDrives(
-            _taken(self.model, which),
+            self.model.select(which),
             self.period[which],
             over,
             self.displacement[which],
@@ -107,7 +107,7 @@ class ManyDrives(NamedTuple):
         end and the nodes, over the cycles of `run` from the `starts` (scenes, k)."""
         added = run.rate @ self.over.rule.weights * self.over.lengths
         wear = starts[..., None] + np.cumsum(np.insert(added, 0, 0.0, axis=-1), axis=-1)
-        model = _shaped(self.model, (-1, 1, 1))
+        model = self.model.reshaped((-1, 1, 1))
         rate = self.period[..., 0] * model.rate(wear, self.at_edges)
         return endpoint_defect(run.rate, rate[..., :-1], rate[..., 1:], self.over)
 
@@ -181,15 +181,3 @@ class ManyDrives(NamedTuple):
             np.concatenate([run.converged for run in runs]),
             np.concatenate([run.iteration_error for run in runs]),
         )
-
-
-def _taken(model: Model, which: Which) -> Model:
-    """The model of some of the scenes."""
-    constants = model.constants
-    return Model(model.module, type(constants)(*(value[which] for value in constants)))
-
-
-def _shaped(model: Model, shape: tuple[int, ...]) -> Model:
-    """The model with its constants in this shape."""
-    constants = model.constants
-    return Model(model.module, type(constants)(*(value.reshape(shape) for value in constants)))

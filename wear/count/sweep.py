@@ -95,7 +95,7 @@ def _together(scenes: Sequence[Scene], cycles: FloatArray, rtol: float) -> Sweep
     alone = np.full(len(scenes), True)
     for first in FIRST:
         left = np.flatnonzero(alone)
-        if many.model.cutoff or len(left) == 0:
+        if many.model.ends_at_3_sigma or len(left) == 0:
             break
         with np.errstate(all="ignore"):  # a scene that overflows here is solved by itself
             wear[left], error[left] = _solve(many.take(left), cycles, rtol, first)

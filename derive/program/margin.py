@@ -7,6 +7,8 @@ Key results
     constants  start and growth of a linear margin, named
     margin     3 sigma - h with an undeflected support, its slope, the terms it is made of
     limited    the pressure of a compliant support, which lets go no further than to h = 3 sigma
+Remarks
+    Neither the contact law nor the support takes part: the functions depend on the pin alone.
 """
 
 from __future__ import annotations
@@ -24,11 +26,14 @@ from .symbols import (
     margin_gain,
     most_of_gain,
     most_of_margin,
+    number,
     pressure,
     sigma,
     u,
     wear_per_pressure,
 )
+
+value_of_margin, slope_of_margin = number("margin"), number("margin_slope")
 
 
 def constants(relations: Relations) -> tuple[Assignment, ...]:
@@ -78,22 +83,22 @@ def margin(relations: Relations) -> tuple[Function, ...]:
     )
 
 
-def limited(relations: Relations) -> tuple[Function, ...]:
-    """Return the pressure with cutoff, and the slope of the rate where h stays at 3 sigma."""
-    assignments, value, slope = _margin(relations)
+def limited() -> tuple[Function, ...]:
+    """Return the pressure of a compliant support that lets go no further than to h = 3 sigma, and
+    the slope of the rate while h stays there."""
     return (
         Function.made(
-            "limited",
-            (pressure, u, load),
-            assignments,
-            (sp.Min(pressure, sp.Max(0, value / compliance)),),
-            "contact pressure with cutoff, from the root of the residual, in MPa",
+            "limited_pressure",
+            (pressure, value_of_margin, compliance),
+            (),
+            (sp.Min(pressure, sp.Max(0, value_of_margin / compliance)),),
+            "contact pressure in MPa: the root of the residual, or what keeps h at 3 sigma",
         ),
         Function.made(
             "limited_slope",
-            (u,),
-            assignments,
-            (wear_per_pressure * slope / compliance,),
+            (slope_of_margin, compliance, wear_per_pressure),
+            (),
+            (wear_per_pressure * slope_of_margin / compliance,),
             "derivative of the wear rate with respect to u_c while h stays at 3 sigma, in 1/s",
         ),
     )

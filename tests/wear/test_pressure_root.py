@@ -1,9 +1,7 @@
 """The pressure on a compliant support: found from anywhere, monotonically, to roundoff."""
 
-import importlib.util
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import NamedTuple
 
 import mpmath
@@ -13,11 +11,13 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from derive.codegen.numpy_module import module_text
+from derive.codegen.sources import source
 from derive.laws import ContactLaw, r
 from derive.note.governing import Pin
+from derive.program import program
 from derive.variant import Variant
-from wear import root
+from tests.derive.exact import loaded
+from wear import pressure_root
 from wear.faults import AccuracyError
 from wear.generated.exponential import compliant_bearing as exponential
 from wear.generated.tanh import compliant_bearing as tanh
@@ -38,36 +38,26 @@ class Law(NamedTuple):
     the least h/sigma: deeper the exponential law has pressures far above its largest, and the
     algebraic one as it is written loses digits."""
 
-    module: root.CompliantModule
+    module: pressure_root.CompliantModule
     phi: Callable[[mpmath.mpf], mpmath.mpf]
     steepness: float
     least: float = -20.0
 
     def constants(self, sigma: float, k: float):
         numbers = {"h_0": 0.0, "sigma_c0": sigma, "f_c": 0.0, "K_c": 1e-6, "H_c": 200.0, "k": k}
-        return self.module.bind(**numbers, p_max=P_MAX, R=22.0, n=2000.0)
+        return self.module.bind(self.module.Parameters(**numbers, p_max=P_MAX, R=22.0, n=2000.0))
 
 
 TANH = Law(tanh, lambda x: 1 / (1 + mpmath.exp(4 * x - 8)), 4.0)
 
 
-def written(law: ContactLaw, folder: Path):
-    """The module of a law of one's own."""
-    path = folder / "own_law.py"
-    path.write_text(module_text(Variant(law, True, Pin.ABSENT, False, False)))
-    spec = importlib.util.spec_from_file_location("own_law", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 @pytest.fixture(scope="module", params=["tanh", "exponential", "algebraic"])
-def law(request, tmp_path_factory):
+def law(request):
     if request.param == "tanh":
         return TANH
     if request.param == "exponential":
         return Law(exponential, lambda x: mpmath.exp(-x), 1.0, least=-2.0)
-    module = written(ALGEBRAIC, tmp_path_factory.mktemp("law"))
+    module = loaded(source(program(Variant(ALGEBRAIC, True, Pin.ABSENT)), "numpy"))
     return Law(module, lambda x: (1 - x / mpmath.sqrt(1 + x**2)) / 2, 2.0, least=-1.0)
 
 
@@ -106,7 +96,7 @@ def state(law: Law, ratio: float, give: float):
 def test_the_root_is_exact_to_the_condition_of_the_law(law, ratio, give):
     about, U_a, c = state(law, ratio, give)
     at, give = law.module.undeflected(0.0, U_a, c), law.module.softness(0.0, c)
-    found = root.pressure(law.module, 0.0, U_a, c)
+    found = pressure_root.pressure(law.module, 0.0, U_a, c)
     expected = exact(law, at, give, about)
     condition = 1.0 + law.steepness * (abs(at) + give * float(expected))
     assert abs(float(found.p / expected - 1)) <= 8 * ROUNDOFF * condition
@@ -117,8 +107,8 @@ def test_the_root_is_exact_to_the_condition_of_the_law(law, ratio, give):
 def test_any_start_leads_there_and_from_the_second_step_on_never_beyond(law, ratio, give, near):
     # The other laws are computed well in their convex part alone.
     _, U_a, c = state(law, ratio if law is TANH else abs(ratio), give)
-    found = root.pressure(law.module, 0.0, U_a, c).p
-    again = root.pressure(law.module, 0.0, U_a, c, near).p
+    found = pressure_root.pressure(law.module, 0.0, U_a, c).p
+    again = pressure_root.pressure(law.module, 0.0, U_a, c, near).p
     # The same root to the accuracy of the residual, whose slope is one at least.
     noise = 8 * ROUNDOFF * (1.0 + law.steepness * (abs(ratio) + 2 * give * found))
     assert again == pytest.approx(found, rel=noise)
@@ -126,7 +116,7 @@ def test_any_start_leads_there_and_from_the_second_step_on_never_beyond(law, rat
     low, high = law.module.lower(at, give, c), law.module.upper(at, give, c)
     assert low * (1 - noise) <= found <= high * (1 + noise)
     p, signs = near, set()
-    for count in range(root.MOST_ITERATIONS):
+    for count in range(pressure_root.MOST_ITERATIONS):
         last = min(max(p, low), high)
         p = law.module.newton(last, at, give, c)
         if count > 0 and abs(p - last) > noise * p:
@@ -138,9 +128,9 @@ def test_any_start_leads_there_and_from_the_second_step_on_never_beyond(law, rat
 @given(ratio=st.floats(2.0, 170.0), give=gives)
 def test_few_iterations_do_where_the_law_falls_exponentially(ratio, give):
     p, U_a, c = state(TANH, ratio, give)
-    assert root.pressure(tanh, 0.0, U_a, c).iterations <= 5
+    assert pressure_root.pressure(tanh, 0.0, U_a, c).iterations <= 5
     near = p * (1 + 1e-6 / (1 + give * p))
-    assert root.pressure(tanh, 0.0, U_a, c, near).iterations <= 3
+    assert pressure_root.pressure(tanh, 0.0, U_a, c, near).iterations <= 3
 
 
 def test_iterations_are_bounded_where_a_soft_support_is_pressed_down():
@@ -148,21 +138,21 @@ def test_iterations_are_bounded_where_a_soft_support_is_pressed_down():
     for ratio in np.linspace(-5.0, 2.0, 50):
         for give in 10.0 ** np.linspace(-10, 9, 50):
             _, U_a, c = state(TANH, float(ratio), give)
-            assert root.pressure(tanh, 0.0, U_a, c).iterations <= 40
+            assert pressure_root.pressure(tanh, 0.0, U_a, c).iterations <= 40
 
 
 def test_a_vector_has_the_roots_of_its_elements(law):
     c = law.constants(3.6e-4, 1e5)
     displacement = np.linspace(-0.02, 0.001, 41)
-    together = root.pressure(law.module, 0.0, displacement, c).p
-    alone = [root.pressure(law.module, 0.0, U_a, c).p for U_a in displacement]
+    together = pressure_root.pressure(law.module, 0.0, displacement, c).p
+    alone = [pressure_root.pressure(law.module, 0.0, U_a, c).p for U_a in displacement]
     np.testing.assert_allclose(together, alone, rtol=1e-13)
 
 
 def test_the_smallest_pressures_keep_their_digits():
     sigma, k = 1e-4, 1e6
     U_a, c = -(690.0 + 8.0) * sigma / 4.0, TANH.constants(sigma, k)
-    found = root.pressure(tanh, 0.0, U_a, c).p
+    found = pressure_root.pressure(tanh, 0.0, U_a, c).p
     assert 0.0 < found < 1e-296
     expected = exact(TANH, tanh.undeflected(0.0, U_a, c), tanh.softness(0.0, c), found)
     assert abs(float(found / expected - 1)) < 8 * ROUNDOFF * 700
@@ -171,9 +161,9 @@ def test_the_smallest_pressures_keep_their_digits():
 def test_a_state_without_a_pressure_is_refused_alone_and_told_among_many(law):
     c = law.constants(1e-4, 1e5)
     with pytest.raises(AccuracyError):
-        root.pressure(law.module, np.nan, 0.0, c)
-    alone = root.pressure(law.module, 1e-4, 0.0, c).p
-    found = root.pressure(law.module, np.array([1e-4, np.nan]), 0.0, c).p
+        pressure_root.pressure(law.module, np.nan, 0.0, c)
+    alone = pressure_root.pressure(law.module, 1e-4, 0.0, c).p
+    found = pressure_root.pressure(law.module, np.array([1e-4, np.nan]), 0.0, c).p
     np.testing.assert_allclose(found, [alone, np.nan], rtol=1e-13)
 
 
@@ -182,5 +172,5 @@ def test_a_start_where_the_law_overflows_is_given_up():
     U_a, c = 0.5, law.constants(1e-4, 1e3)
     at, give = exponential.undeflected(0.0, U_a, c), exponential.softness(0.0, c)
     with np.errstate(all="ignore"):
-        found = root.pressure(exponential, 0.0, U_a, c, near=0.0).p
+        found = pressure_root.pressure(exponential, 0.0, U_a, c, near=0.0).p
     assert float(found / exact(law, at, give, found) - 1) < 1e-11

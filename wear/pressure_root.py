@@ -37,7 +37,7 @@ Real = Any  # a float or an array of floats
 
 
 class CompliantModule(Protocol):
-    """A generated module for a compliant support; `c` are its bound constants."""
+    """A generated module for a compliant support; `c` are its constants."""
 
     def undeflected(self, u: Real, U_a: Real, c: Any) -> Real: ...
 
