@@ -186,7 +186,7 @@ class Fit:
                 target,
                 np.linalg.pinv(information + g.T @ g / self.scatter**2),
                 target,
-            )  # fmt: skip
+            )
             for g in np.moveaxis(slope[:, :-1], 1, 0)
         ]
         best = int(np.argmin(after))

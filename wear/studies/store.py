@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from wear.checked import unit_of
 from wear.faults import UsageError
 from wear.studies.design import Chunk, Design
 from wear.studies.rows import Answers, Question, Status
@@ -153,7 +154,7 @@ class Store:
         yield "cycle", ("cycle",), "int64", {"units": "1", "long_name": "number of cycles"}
         for vary in self.design.vary:
             own = (vary.key,) if self.design.kind == "grid" else rows
-            yield vary.key, own, "float64", {"units": unit(vary.key)}
+            yield vary.key, own, "float64", {"units": unit_of(vary.key) or "1"}
         for variable in self._variables:
             attributes: dict[str, Any] = {"units": variable.unit, "long_name": variable.meaning}
             if variable.name == "status":
@@ -228,13 +229,3 @@ def identity(design: Design, question: Question) -> dict[str, Any]:
         "version": version("derive-wear"),
     }
     return dict(json.loads(json.dumps(made)))
-
-
-def unit(key: str) -> str:
-    """Return the unit that a key of the scene ends in, 1 where it has none.
-
-    >>> unit("support.stiffness_MPa_per_mm"), unit("bearing.roughness_growth")
-    ('MPa/mm', '1')
-    """
-    known = {"MPa_per_mm": "MPa/mm", "MPa": "MPa", "mm": "mm", "s": "s", "rpm": "rpm", "N": "N"}
-    return next((unit for end, unit in known.items() if key.endswith(f"_{end}")), "1")
