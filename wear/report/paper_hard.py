@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wear.benchmark.cases import cases
+from wear.benchmark.methods import cases
 from wear.report.document import Column, Number, Section, Table
 from wear.report.material import ROUNDOFF, Material, count
 from wear.report.plain import plain
