@@ -363,6 +363,16 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     return parse_scene(data, name, file.parent, overrides)
 
 
+def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:
+    """Return a scene as it is, or that of a built-in name or a file."""
+    if isinstance(scene, Scene):
+        return scene
+    if isinstance(scene, str | os.PathLike):
+        return load_scene(scene)
+    kind = type(scene).__name__
+    raise UsageError(f"a {kind} is no scene; give a Scene, a built-in name or a path")
+
+
 def parse_scene(
     data: bytes | str,
     name: str = "scene",
