@@ -215,12 +215,14 @@ class SceneTable:
             details = list(_details(cls, error))
         given = _given(cls, raw)
         if given is not None:
-            hidden = [] if isinstance(raw, ArgsKwargs) else [n for n in given if _is_hidden(cls, n)]
+            fields: Mapping[str, Any] = cls.__pydantic_fields__  # type: ignore[attr-defined]
+            known = fields if isinstance(raw, ArgsKwargs) else keys_of(cls)
+            unknown = given.keys() - known.keys()
             details += [
                 {"type": wrong(*_of_unknown(cls, name, given[name])), "loc": (name,), "input": None}
-                for name in hidden
+                for name in unknown & fields.keys()
             ]
-            meant = {_meant_by(cls, name) for name in given} - {""}
+            meant = {_meant_by(cls, name) for name in unknown} - {""}
             details = [entry for entry in details if not _is_meant(entry, meant)]
             present = {key: entry for key, entry in given.items() if entry is not None}
             details += [
@@ -252,7 +254,7 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
             except ValidationError as error:
                 raise SceneError(
                     [
-                        Fault("", None, place, ".".join(map(str, path)), problem, remedy)
+                        Fault("", None, *_table_and_key(place, path), problem, remedy)
                         for path, problem, remedy in problems(error)
                     ]
                 ) from None
@@ -264,16 +266,17 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
     return make
 
 
+@functools.cache
 def keys_of(kind: type[SceneTable]) -> dict[str, Any]:
     """Return the entries of a table in their order, each with pydantic's description of it."""
     fields: Mapping[str, Any] = kind.__pydantic_fields__  # type: ignore[attr-defined]
     return {name: entry for name, entry in fields.items() if not entry.exclude}
 
 
-def _is_hidden(kind: type[SceneTable], name: str) -> bool:
-    """Whether a name is a field of the class, but no entry of its table."""
-    fields: Mapping[str, Any] = kind.__pydantic_fields__  # type: ignore[attr-defined]
-    return name in fields and name not in keys_of(kind)
+def _table_and_key(place: str, path: Path) -> tuple[str, str]:
+    """Where an argument of a constructor would stand in a file."""
+    *tables, key = (*([place] if place else []), *map(str, path), *([] if path else [""]))
+    return ".".join(tables), key
 
 
 def problems(error: ValidationError) -> list[Problem]:
