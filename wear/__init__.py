@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from wear.faults import AccuracyError, Interrupted, SceneError, UsageError, WearError
     from wear.history import History
+    from wear.life import cycles_until
     from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
     from wear.regime import Asymptote, asymptote
     from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "wear.faults": ("AccuracyError", "Interrupted", "SceneError", "UsageError", "WearError"),
     "wear.history": ("History",),
+    "wear.life": ("cycles_until",),
     "wear.load": ("Block", "Blocks", "Constant", "Harmonics", "HistoryLoad", "Sine", "Table"),
     "wear.regime": ("Asymptote", "asymptote"),
     "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
@@ -34,7 +36,8 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Harmonics",
     "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene", "SceneError", "Sine",
-    "Support", "Table", "UsageError", "WearError", "asymptote", "load_scene", "solve",
+    "Support", "Table", "UsageError", "WearError", "asymptote", "cycles_until", "load_scene",
+    "solve",
 ]  # fmt: skip
 
 

@@ -191,12 +191,14 @@ Text = Annotated[Line, Field(max_length=200)]
 class SceneTable:
     """A table of the scene file: `place` is its name, `kind` chooses among those of that name.
 
-    `left_out` are the values of entries that a file may leave out, but not a constructor.
+    `entries` are its keys with pydantic's description of each, `left_out` the values of those that
+    a file may leave out, but not a constructor.
     """
 
     place: ClassVar[str] = ""
     kind: ClassVar[str] = ""
     left_out: ClassVar[Mapping[str, Any]] = {}
+    entries: ClassVar[Mapping[str, Any]] = {}
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:  # noqa: ARG003
@@ -245,6 +247,8 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
     def make(plain: type[T]) -> type[T]:
         made: Any = dataclass(frozen=True, config=ConfigDict(extra="forbid"))(plain)
         made.place, made.kind = place, kind
+        fields = made.__pydantic_fields__
+        made.entries = {name: entry for name, entry in fields.items() if not entry.exclude}
         checked_init = made.__init__
 
         @functools.wraps(checked_init)
@@ -266,11 +270,9 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
     return make
 
 
-@functools.cache
-def keys_of(kind: type[SceneTable]) -> dict[str, Any]:
+def keys_of(kind: type[SceneTable]) -> Mapping[str, Any]:
     """Return the entries of a table in their order, each with pydantic's description of it."""
-    fields: Mapping[str, Any] = kind.__pydantic_fields__  # type: ignore[attr-defined]
-    return {name: entry for name, entry in fields.items() if not entry.exclude}
+    return kind.entries
 
 
 def _table_and_key(place: str, path: Path) -> tuple[str, str]:

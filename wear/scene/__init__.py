@@ -218,7 +218,8 @@ class Scene(SceneTable):
         tables = {name: self._entries(name) for name in named}  # what a study does 1e6 times
         for entry, value in changes.items():
             set_entry(tables, tuple(entry.split(".")), value, keep=changes)
-        return dataclasses.replace(self, **{name: tables.get(name) for name in named})
+        changed: dict[str, Any] = {name: tables.get(name) for name in named}
+        return dataclasses.replace(self, **changed)
 
     def _entries(self, table: str) -> dict[str, Any]:
         """The entries of a table that are given, as plain values."""
