@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         WorkersLost,
     )
     from wear.history import History
+    from wear.life import cycles_until
     from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
     from wear.regime import Asymptote, asymptote
     from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
@@ -40,6 +41,7 @@ _HOMES = {
         "WorkersLost",
     ),
     "wear.history": ("History",),
+    "wear.life": ("cycles_until",),
     "wear.load": ("Block", "Blocks", "Constant", "Harmonics", "HistoryLoad", "Sine", "Table"),
     "wear.regime": ("Asymptote", "asymptote"),
     "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
@@ -52,8 +54,8 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Harmonics",
     "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene", "SceneError", "Sine",
-    "Support", "Table", "UsageError", "WearError", "WorkersLost", "asymptote", "load_scene",
-    "sobol_indices", "solve", "study",
+    "Support", "Table", "UsageError", "WearError", "WorkersLost", "asymptote", "cycles_until",
+    "load_scene", "sobol_indices", "solve", "study",
 ]  # fmt: skip
 
 
