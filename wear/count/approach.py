@@ -143,7 +143,7 @@ class _Runs:
         """Go on for so many `cycles`, or less."""
         if self.wear >= self.prepared and cycles > FEW:
             self._prepare(cycles)
-            return None
+            return
         for span, series in self.known:
             if span.start <= self.wear < span.end:
                 self._along(span, series, cycles)
