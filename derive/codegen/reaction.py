@@ -6,7 +6,7 @@ import sympy as sp
 
 from ..note.governing import Model
 from ..symbols import symbol
-from .formula_module import Formula, formula_module
+from .formulas import Formula, formula_module
 
 pressure = sp.Symbol("p", real=True)
 """The contact pressure as a number."""

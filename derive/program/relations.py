@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..note.condensed import Condensed
-from ..note.governing import Pin
+from ..note.governing import Model, Pin
 from ..statement import Statement, given
 from ..symbols import QUANTITIES, symbols
 from ..variant import Variant
@@ -29,10 +29,9 @@ def groups(variant: Variant) -> tuple[Assignment, ...]:
     """Return the named constants of a run: each a combination of parameters."""
     model = variant.model
     archard = model.wear_laws[2].substitute(model.slip).claim.rhs / p
-    sign = 1 if variant.opening else -1
     found: list[Assignment] = []
     if variant.pin.wears:
-        found += [(kappa, _kappa().claim.rhs), (named.gain, 1 + sign * kappa)]
+        found += [(kappa, _kappa().claim.rhs), (named.gain, 1 + named.pin_wear_sign * kappa)]
     if variant.pin is Pin.WORN_ROUGH:
         found.append((named.slope_a, f_a * kappa))
     if variant.compliant:
@@ -86,13 +85,21 @@ class Relations:
         return (named.sigma_c, bearing), (named.sigma, combined.subs(named.sigma_a, own))
 
     def closure(self, deflected: bool) -> Assignment:
-        """Return the assignment of h; the undeflected one is that of a rigid support."""
-        deflection = Condensed(self.variant.model).deflection
+        """Return the assignment of h; the undeflected one is that of a rigid support.
+
+        It is linear in the sign of pin wear, so that the closures of both signs determine it.
+        """
+        opening, closing = (self._closure(sign, deflected) for sign in (True, False))
+        either = (opening + closing) / 2 + named.pin_wear_sign * (opening - closing) / 2
+        return named.h, self._hoisted(either).subs(1 / k, named.compliance)
+
+    def _closure(self, opening: bool, deflected: bool) -> sp.Expr:
+        """Return h where wear of the pin opens the gap, or where it closes it."""
+        model = Model(self.variant.law, opening, self.variant.pin)
+        deflection = Condensed(model).deflection
         if not deflected:
             deflection = deflection.limit(k, sp.oo)
-        closed = self.variant.model.closure.substitute(self._wear_of_pin(), deflection)
-        expr = self._hoisted(_plain(closed.claim.rhs))
-        return named.h, expr.subs(1 / k, named.compliance)
+        return _plain(model.closure.substitute(self._wear_of_pin(), deflection).claim.rhs)
 
     def _wear_of_pin(self) -> Statement:
         worn = self.variant.model.wear_of_pin

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 from derive import files, terminal
 
 if TYPE_CHECKING:
-    from wear.history import Column, History
+    from wear.history import History
+    from wear.history_files import Column
 
-SYMBOLS = {
+SYMBOLS = {  # of the columns for which a page is wide enough
     "bearing_wear_mm": "u_c",
     "pin_wear_mm": "u_a",
     "bearing_roughness_mm": r"\sigma_c",
@@ -31,7 +32,7 @@ def text(history: History) -> str:
     rows = [
         [
             str(cycle),
-            *(f"{column.values[row]:.10g}" for column in quantities),
+            *(_shown(float(column.values[row])) for column in quantities),
             f"{history.error[row]:.1e}",
         ]
         for row, cycle in enumerate(history.cycles.tolist())
@@ -47,6 +48,10 @@ def text(history: History) -> str:
             f"{history.cost['rhs_evaluations']} evaluations of the rate, {history.seconds:.3g} s",
         ]
     )
+
+
+def _shown(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.10g}"
 
 
 def worth_telling(history: History) -> tuple[str, ...]:
@@ -67,7 +72,7 @@ def until_text(until: Mapping[str, Any]) -> str:
 
 def latex(history: History) -> str:
     r"""Return a `tabular` to `\input` into a document that loads booktabs."""
-    quantities = _modelled(history)
+    quantities = [column for column in _modelled(history) if column.name in SYMBOLS]
     symbols = ["$N$", *(f"${SYMBOLS[column.name]}$" for column in quantities)]
     units = ["", *(rf"\textnormal{{{column.unit}}}" for column in quantities)]
     rows = [
@@ -128,14 +133,20 @@ def write(history: History, path: Path) -> None:
 
 
 def _modelled(history: History) -> Sequence[Column]:
-    """Return the physical columns; those of a pin that is not modelled are zero and left out."""
+    """Return the physical columns that say something: not those of a pin that is not modelled, nor
+    of contact that is never lost or of cycles whose pressures are unknown."""
+    import numpy as np
+
     return [
         column
         for column in history.columns()
-        if column.name in SYMBOLS and (not column.name.startswith("pin") or column.values.any())
+        if column.name != "error_estimate"
+        and not np.isnan(column.values).all()
+        and (not column.name.startswith("pin") or column.values.any())
+        and (column.name != "contact_fraction" or np.any(column.values < 1.0))
     ]
 
 
 def _heading(column: Column) -> str:
     words = column.name.removesuffix(f"_{column.unit}").split("_")
-    return "\n".join([*words, f"({column.unit})"])
+    return "\n".join(words if column.unit == "1" else [*words, f"({column.unit})"])
