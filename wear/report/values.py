@@ -17,7 +17,7 @@ from derive.symbols import QUANTITIES
 from derive.typeset.display import inline
 from derive.typeset.nomenclature import occurring, unit
 from derive.typeset.present import presentable
-from wear.benchmark.cases import cases
+from wear.benchmark.methods import cases
 from wear.generated import asymptotics as formula
 from wear.report import speed
 from wear.report.derivations import Derivations
