@@ -155,7 +155,7 @@ class Motion:
 
     def _step(self, series: Mapping[str, arb_series], begin: fmpq) -> fmpq:
         """Return a step after which the last two terms are negligible, short of a corner."""
-        longest = math.log(4 * float(max(1, begin)))
+        longest = math.log(4 * max(1.0, float(begin)))
         for found in series.values():
             size = max(_log(found[0]), -7.0)
             for k in (ORDER - 1, ORDER):
