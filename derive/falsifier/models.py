@@ -25,8 +25,8 @@ _FACTORS = ((1, 5), (1.3, 21), (1.9, 37), (2.7, 58), (3.9, 83))
 """Times of a window: a factor, and a phase in hundredths of the period."""
 _EARLY = (0, 137, 620, 1210, 2870)
 """Times at which what is claimed for all times is tried, in thousandths of the period."""
-_LATE = (10**2, 10**4, 10**9)
-_FAR, _FARTHEST = 10**8, 10**18
+_LATE = (10**2, 10**4, 3 * 10**8)
+_FAR, _FARTHEST = 10**8, 10**16
 """Periods after which trends are read, and refusals confirmed."""
 _STEP = fmpq(1, 10**6)
 
@@ -55,7 +55,8 @@ class Model:
     @property
     def times(self) -> tuple[fmpq, ...]:
         """Return the times at which claims for all times are tried."""
-        late = () if self.motion else _LATE
+        reached = None if self.motion is None else self.motion.reached
+        late = (at for at in _LATE if reached is None or reached > self.period * (at + 1))
         early = (self.period * fmpq(at, 1000) for at in _EARLY)
         return (*early, *(self.period * (fmpq(at) + fmpq(43, 100)) for at in late))
 

@@ -176,7 +176,7 @@ def truth(relation: sp.Basic, model: Model) -> Truth:
             return Truth(
                 False, f"{reason}" + ("" if timeless else f" at {model.variable} = {time}")
             )
-        except (Undecided, OverflowError, ValueError, RecursionError):
+        except (ArithmeticError, ValueError, RecursionError):
             doubtful = doubtful or number < EARLY
     return Truth(True if decided and not doubtful else None)
 

@@ -23,7 +23,7 @@ from ..symbols import t
 from .balls import ball
 from .draws import WILD, drawn, with_law
 from .models import Model
-from .truth import truth
+from .truth import truth, varies
 
 DRAWS = 60
 """Seeds tried for a judgement."""
@@ -78,6 +78,8 @@ def falsify(
         models += 1
         outcome = truth(claimed, trial.model)
         if outcome.holds is False:
+            if not trial.fits(given):  # now that the fields are known for longer
+                continue
             found = Counterexample(trial.described(), outcome.where, trial.seed)
             return Answer(found, models, decided + 1)
         decided += outcome.holds is True
@@ -109,7 +111,7 @@ def needed(hypotheses: Iterable[sp.Basic], claim: sp.Basic, draws: int = DRAWS) 
             if not trial.fits(given, free) or truth(without, trial.model).holds is not False:
                 continue
             outcome = truth(claimed, trial.model)
-            if outcome.holds is False:
+            if outcome.holds is False and trial.fits(given, free):
                 found = Counterexample(trial.described(), outcome.where, trial.seed)
                 break
         yield Needed(dropped, found)
@@ -168,10 +170,22 @@ def _models(
     for seed in range(draws):
         if trends and seed % WILD == WILD - 1:  # what takes 1e30 periods has no trend in 1e8
             continue
-        written = tuple(with_law(relation, seed) for relation in relations)
-        model = drawn(tuple(with_law(h, seed) for h in imposed), written, seed, free)
+        written = tuple(with_law(relation, seed) for relation in _in_time(relations, imposed))
+        given = tuple(with_law(h, seed) for h in _in_time(imposed, imposed))
+        model = drawn(given, written, seed, free)
         if model is not None:
             yield _Trial(model, written, seed)
+
+
+def _in_time(
+    relations: tuple[sp.Basic, ...], imposed: tuple[sp.Basic, ...]
+) -> tuple[sp.Basic, ...]:
+    """Write relations without the names of what varies: N for t/T, say."""
+    for named in imposed:
+        if isinstance(named, sp.Eq) and isinstance(named.lhs, sp.Symbol) and varies(named.rhs, t):
+            written = (r.subs(named.lhs, named.rhs) if r != named else sp.true for r in relations)
+            relations = tuple(written)
+    return relations
 
 
 def _holds(relation: sp.Basic, model: Model) -> bool:
