@@ -14,27 +14,48 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from wear.faults import AccuracyError, Interrupted, SceneError, UsageError, WearError
+    from wear.faults import (
+        AccuracyError,
+        Interrupted,
+        SceneError,
+        UsageError,
+        WearError,
+        WorkersLost,
+    )
     from wear.history import History
+    from wear.life import cycles_until
     from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
     from wear.regime import Asymptote, asymptote
     from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
     from wear.solver import solve
+    from wear.studies.indices import sobol_indices
+    from wear.studies.run import study
 
 _HOMES = {
-    "wear.faults": ("AccuracyError", "Interrupted", "SceneError", "UsageError", "WearError"),
+    "wear.faults": (
+        "AccuracyError",
+        "Interrupted",
+        "SceneError",
+        "UsageError",
+        "WearError",
+        "WorkersLost",
+    ),
     "wear.history": ("History",),
+    "wear.life": ("cycles_until",),
     "wear.load": ("Block", "Blocks", "Constant", "Harmonics", "HistoryLoad", "Sine", "Table"),
     "wear.regime": ("Asymptote", "asymptote"),
     "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
     "wear.solver": ("solve",),
+    "wear.studies.indices": ("sobol_indices",),
+    "wear.studies.run": ("study",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Harmonics",
     "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene", "SceneError", "Sine",
-    "Support", "Table", "UsageError", "WearError", "asymptote", "load_scene", "solve",
+    "Support", "Table", "UsageError", "WearError", "WorkersLost", "asymptote", "cycles_until",
+    "load_scene", "sobol_indices", "solve", "study",
 ]  # fmt: skip
 
 

@@ -80,3 +80,7 @@ class Interrupted(WearError):  # noqa: N818  # no error: what was computed is go
     def __init__(self, message: str, history: Any) -> None:
         super().__init__(message)
         self.history = history
+
+
+class WorkersLost(WearError):  # noqa: N818  # no error of ours: what was computed is kept
+    """The workers of a study went away (exit status 130); the same command goes on."""

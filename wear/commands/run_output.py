@@ -64,9 +64,13 @@ def until_text(until: Mapping[str, Any]) -> str:
     """Return a table of the cycles after which wears are reached."""
     found = until["cycles_until"]
     rows = [
-        [f"{wear:.10g}", "never" if cycles is None else str(cycles)]
-        for wear, cycles in zip(found["bearing_wear_mm"], found["cycles"], strict=True)
-    ]
+        [f"{wear:.10g}", str(cycles) if reached == "counted" else
+         f"{cycles:.6g} (± {error * cycles:.1g})" if reached == "extrapolated" else reached]
+        for wear, cycles, error, reached in zip(
+            *(found[name] for name in ("bearing_wear_mm", "cycles", "error_estimate", "reached")),
+            strict=True,
+        )
+    ]  # fmt: skip
     return terminal.table(["bearing\nwear\n(mm)", "reached\nafter\ncycle"], rows)
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import sympy as sp
 
 from derive.note.governing import ROUGH_BEARING
+from derive.typeset.derivation import listed
 from derive.typeset.formula import width
 from derive.typeset.macros import macro_name
 from wear.report.document import Equation
@@ -66,13 +67,3 @@ def _title(equation: derived.Equation) -> str:
         if hypotheses:
             parts.append(f"{word} {listed(dict.fromkeys(hypotheses))}")
     return ", ".join(parts)
-
-
-def listed(entries: Iterable[str]) -> str:
-    """Return entries with commas, and a word before the last one.
-
-    >>> listed(["a", "b", "c"])
-    'a, b and c'
-    """
-    *most, last = entries
-    return f"{', '.join(most)} and {last}" if most else last

@@ -14,6 +14,7 @@ from derive.results.validity import RESOLUTIONS
 from derive.rules import SAMPLES
 from derive.sample import DIGITS
 from derive.symbols import QUANTITIES
+from derive.typeset.derivation import listed
 from derive.typeset.display import inline
 from derive.typeset.nomenclature import occurring, unit
 from derive.typeset.present import presentable
@@ -21,7 +22,7 @@ from wear.benchmark.methods import cases
 from wear.generated import asymptotics as formula
 from wear.report import speed
 from wear.report.derivations import Derivations
-from wear.report.equations import capital, listed
+from wear.report.equations import capital
 from wear.report.manifest import versions
 from wear.report.markup import markup
 from wear.report.number import Number
