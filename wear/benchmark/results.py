@@ -6,15 +6,13 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from wear.benchmark import Measurement, StartUp, Status
 from wear.benchmark.machine import footer
-
-if TYPE_CHECKING:
-    from wear.figure_data import Method
+from wear.figure_data import Method
 
 FEWEST_DRAWN = 4  # methods in a figure
 YEAR = 3.15576e7  # s
