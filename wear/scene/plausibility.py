@@ -59,7 +59,8 @@ RANGES = (
 
 def implausible_entries(scene: Scene) -> Iterator[str]:
     """Yield a sentence for each entry of a scene that is legal, but hardly meant."""
-    for table in (scene.bearing, scene.pin, scene.contact, scene.support, scene.motion):
+    tables = (scene.bearing, scene.pin, scene.contact, scene.support, scene.motion)
+    for table in (each for each in tables if each is not None):
         for key, low, high, if_low, if_high in RANGES:
             size = abs(getattr(table, key, None) or 0.0)
             if size and not low <= size <= high:
