@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import ClassVar
 
 import sympy as sp
 
@@ -51,8 +52,6 @@ closure = h_0 + u_c - U_a
 excess = sigma_c0 / f_c - h_0 + U_a
 """Distance of the load from the one at which the rate would be steady at once."""
 
-_BOUND = sigma_c0 / f_c + h_0 + U
-
 with as_written():
     per_cycle = sp.Eq(u_cum, K_c * V * T / (6 * H_c) * p_max * (1 + sp.tanh(4 - 2 / f_c)))
 """What u_cum stands for in display forms."""
@@ -69,6 +68,9 @@ class SteadyState:
     """The long-time limit of (13) for one contact law."""
 
     law: ContactLaw = TANH
+    closure: ClassVar[sp.Expr] = closure
+    excess: ClassVar[sp.Expr] = excess
+    bound: ClassVar[sp.Expr] = sigma_c0 / f_c + h_0 + U
 
     @property
     def model(self) -> Model:
@@ -103,7 +105,7 @@ class SteadyState:
     @cached_property
     def deviation(self) -> Judgement:
         """h/sigma differs from 1/f_c by b/sigma, exactly."""
-        claim = sp.Eq(closure / roughness, 1 / f_c - excess / roughness)
+        claim = sp.Eq(self.closure / roughness, 1 / f_c - self.excess / roughness)
         return identity(claim, self.roughening, self.worn, name="exact deviation")
 
     @property
@@ -114,7 +116,7 @@ class SteadyState:
     @cached_property
     def highest_ratio(self) -> Judgement:
         """h/sigma stays below a bound that holds for all time."""
-        claim = sp.Le(closure / roughness, 1 / f_c + _BOUND / sigma_c0)
+        claim = sp.Le(self.closure / roughness, 1 / f_c + self.bound / sigma_c0)
         return arithmetic(claim, *self.facts, name="highest closure ratio")
 
     @cached_property
@@ -137,8 +139,8 @@ class SteadyState:
     @cached_property
     def squeeze(self) -> Judgement:
         """The deviation of h/sigma is at most a constant over the roughness."""
-        offset = excess / roughness
-        claim = sp.And(sp.Le(offset, _BOUND / roughness), sp.Ge(offset, -_BOUND / roughness))
+        offset = self.excess / roughness
+        claim = sp.And(sp.Le(offset, self.bound / roughness), sp.Ge(offset, -self.bound / roughness))
         return arithmetic(claim, *self.facts, name="bound of the deviation")
 
     @cached_property
@@ -149,7 +151,7 @@ class SteadyState:
     @cached_property
     def ratio(self) -> Judgement:
         """h/sigma tends to 1/f_c, whatever the law."""
-        claim = sp.Eq(forever(closure / roughness), 1 / f_c)
+        claim = sp.Eq(forever(self.closure / roughness), 1 / f_c)
         return passes(claim, self.deviation, self.vanishing, name="limit of h/sigma")
 
     @cached_property
@@ -175,12 +177,12 @@ class SteadyState:
         y = sp.Dummy("r", real=True)
         function = sp.Lambda(y, self.law.ratio(y))
         steepest = -sp.limit(sp.diff(self.law.phi, r) / self.law.phi, r, sp.oo)
-        ratio, limit = closure / roughness, 1 / f_c
+        ratio, limit = self.closure / roughness, 1 / f_c
         rule = LogarithmicSlope(function, ratio, limit, steepest)
         lemma = infer(rule, self.roughening, self.worn)
         claim = sp.Le(
             sp.Abs(sp.log(rate("u_c") / self.rate.claim.value)),
-            steepest * sp.Abs(excess / roughness),
+            steepest * sp.Abs(self.excess / roughness),
         )
         return consequence(claim, lemma, self.rate_at_wear, self.deviation)
 

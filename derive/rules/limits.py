@@ -383,7 +383,8 @@ def in_terms_of(expr: sp.Expr, quantity: sp.Expr, name: sp.Symbol) -> sp.Expr:
 
 def _cancelled(expr: sp.Expr) -> sp.Expr:
     """Cancel common factors, inside the arguments of functions too."""
-    if not expr.args or (isinstance(expr, (AppliedUndef, sp.Derivative)) and not expr.has(LAW)):
+    field = isinstance(expr, AppliedUndef) and not isinstance(expr, LAW)
+    if not expr.args or field or isinstance(expr, (sp.Derivative, sp.Subs)):
         return expr
     inner = expr.func(*map(_cancelled, expr.args))
     return inner if isinstance(inner, sp.Function) else sp.cancel(inner)
