@@ -214,7 +214,9 @@ def _parts(claim: Claim, known: tuple[Judgement, ...]) -> tuple[tuple[object, sp
     pairs = [claim_of(part) for part in parts]
     sides: list[tuple[object, sp.Expr]] = []
     for part in pairs:
-        if isinstance(part, Inequality):
+        if isinstance(part, Limit):
+            sides += [((part.variable, part.point), part.expr), ("value", part.value)]
+        elif isinstance(part, Inequality):
             sides += [(("less", part.strict), part.lesser), (("more", part.strict), part.greater)]
         else:
             sides += [(type(part), side) for side in part.relation.args]

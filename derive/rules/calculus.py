@@ -3,6 +3,7 @@
 Key results
     integrate      dy/dt = c dx/dt, from the initial values
     grows          du/dt >= c and u(0) give u >= u(0) + c t
+    differentiate  the rates of two sides that are equal at every time
     rigid          k U_c = p becomes U_c = 0: the limit k -> oo
     change_clock   the rate of a scaled quantity in scaled time
 """
@@ -17,6 +18,7 @@ from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..symbols import symbols, t
+from .inequalities import smooth
 from .proving import continuous
 from .reading import LOAD, constant, equality, field_of_rate, fields, inequality, initial_value
 
@@ -74,6 +76,25 @@ class Grows(Rule):
 def grows(bound: Judgement, start: Judgement, name: str = "") -> Judgement:
     """Integrate a constant lower bound of a rate."""
     return infer(Grows(), bound, start, name=name)
+
+
+@dataclass(frozen=True)
+class Differentiate(Rule):
+    """An equality that holds at every time gives that of the rates of both sides."""
+
+    words = "Differentiate {0} with respect to time."
+    source = "chain rule"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        given = equality(premises[0])
+        if not all(smooth(side) for side in (given.lhs, given.rhs)):
+            raise RuleError(f"missing premise: {given.relation} is differentiable")
+        return Conclusion(Equality(sp.diff(given.lhs, t), sp.diff(given.rhs, t)))
+
+
+def differentiate(equation: Judgement) -> Judgement:
+    """Return the equality of the rates of both sides."""
+    return infer(Differentiate(), equation)
 
 
 @dataclass(frozen=True)
