@@ -150,7 +150,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "wear and time at a pressure",
             (static.wear, static.time, load_offset, half_rate),
-            display=(*rough, written_offset, half_rate.claim),
+            display=(*rough, written_offset, half_rate.relation),
             where=(roughness,),
         ),
         Equation(
@@ -158,7 +158,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "wear and time at a pressure, f_c = 0",
             (static.wear_smooth, static.time_smooth, half_rate),
-            display=(*smooth, half_rate.claim),
+            display=(*smooth, half_rate.relation),
             where=(elementary,),
         ),
     )

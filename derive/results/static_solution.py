@@ -117,7 +117,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "time under a constant load",
             (static.time, load_offset, limit_argument, half_rate),
-            display=(time, written_offset, limit_argument.claim, half_rate.claim),
+            display=(time, written_offset, limit_argument.relation, half_rate.relation),
             where=(excess_of,),
         ),
         Equation(
@@ -125,7 +125,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "time under a constant load, f_c = 0",
             (static.time_smooth, half_rate),
-            display=(smooth, half_rate.claim),
+            display=(smooth, half_rate.relation),
             where=(smooth_gap,),
         ),
         Equation(
