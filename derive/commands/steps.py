@@ -12,7 +12,7 @@ from derive.command_line import Command
 from derive.commands import arguments
 
 if TYPE_CHECKING:
-    from derive.statement import Statement
+    from derive.kernel import Judgement
 
 _INDENT = " " * 5
 
@@ -39,7 +39,7 @@ def execute(options: argparse.Namespace) -> int:
     return terminal.FAILED if any(row["status"] == "fails" for row in rows) else terminal.DONE
 
 
-def _row(step: Statement, numbers: Mapping[int, int]) -> dict[str, Any]:
+def _row(step: Judgement, numbers: Mapping[int, int]) -> dict[str, Any]:
     import sympy as sp
 
     from derive.rules import describe
@@ -48,8 +48,8 @@ def _row(step: Statement, numbers: Mapping[int, int]) -> dict[str, Any]:
     return {
         "step": numbers[id(step)],
         "name": step.name or None,
-        "claim": sp.sstr(step.claim),
-        "latex": latex(step.claim),
+        "claim": sp.sstr(step.relation),
+        "latex": latex(step.relation),
         "rule": describe(step.rule),
         "parents": [numbers[id(parent)] for parent in step.parents],
         "assumptions": [condition.text for condition in step.conditions],
@@ -59,7 +59,7 @@ def _row(step: Statement, numbers: Mapping[int, int]) -> dict[str, Any]:
     }
 
 
-def _status(step: Statement, passed: bool) -> str:
+def _status(step: Judgement, passed: bool) -> str:
     if not passed:
         return "fails"
     if not step.parents and type(step.rule).__name__ == "Given":
@@ -67,13 +67,13 @@ def _status(step: Statement, passed: bool) -> str:
     return "numeric" if getattr(step.rule, "numeric", False) else "proved"
 
 
-def _text(row: Mapping[str, Any], step: Statement) -> str:
+def _text(row: Mapping[str, Any], step: Judgement) -> str:
     """Return what was done and to what, above the claim as it is read on paper."""
     import sympy as sp
 
     origin = f" from {', '.join(map(str, row['parents']))}" if row["parents"] else ""
     status = "" if row["status"] == "given" else f": {row['status']}"
-    claim = sp.pretty(step.claim, use_unicode=terminal.shows_formulas(), wrap_line=False)
+    claim = sp.pretty(step.relation, use_unicode=terminal.shows_formulas(), wrap_line=False)
     lines = ["", *claim.splitlines(), ""]
     lines += [f"if {condition}" for condition in row["assumptions"]]
     if row["remark"]:

@@ -17,7 +17,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..codegen.formula_module import Formula, Guard, formula_module
+from ..codegen.formulas import Formula, Guard, formula_module
 from ..hypotheses import Hypothesis
 from ..laws import LAWS, TANH, ContactLaw, r
 from ..note.condensed import bearing_only

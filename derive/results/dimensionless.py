@@ -23,7 +23,7 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note import condensed
 from ..note.condensed import bearing_only
-from ..rules.algebra import consequence, insert, solve
+from ..rules.algebra import consequence, multiply
 from ..rules.assumption import assume, defined
 from ..rules.calculus import change_clock
 from ..rules.inequalities import arithmetic
@@ -75,8 +75,10 @@ def _scaled(
 ) -> Judgement:
     """Return a scaled equation, in which no datum is left but the groups."""
     definitions = tuple(DEFINITIONS[group] for group in groups if group in DEFINITIONS)
-    pace = () if claim.lhs == q else (solve(change_clock(SCALES[0], CLOCK), claim.lhs),)
-    return insert(claim, *pace, parent, *SCALES, *definitions, rough, name="scaled")
+    clock = change_clock(SCALES[0], CLOCK)
+    factor, pace = (1 / p_max, ()) if claim.lhs == q else (T / sigma_c0, (clock,))
+    first = multiply(parent, factor)
+    return consequence(claim, first, *pace, *SCALES, *definitions, rough, name="scaled")
 
 
 def _rate(closure: sp.Expr, roughness: sp.Expr) -> sp.Basic:
@@ -118,6 +120,7 @@ def two_solids() -> Judgement:
     rough = consequence(
         sp.Gt(sigma_c0**2 * squares, 0),
         arithmetic(sp.Gt(grown.claim.rhs**2, 0), grown),
+        problem.model.wear_of_pin,
         *(SCALES[0], DEFINITIONS[zeta], DEFINITIONS[kappa]),
     )
     return _scaled(rough, problem.rigid, _two(), GROUPS_OF_TWO)

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..codegen.formula_module import Formula, formula_module
+from ..codegen.formulas import Formula, formula_module
 from ..equations import Equation
 from ..note.condensed import bearing_only
 from ..kernel import Judgement

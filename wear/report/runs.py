@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from wear.bounds import Enclosure, static_bounds, wear_bounds
 from wear.count.cycle import drive, resolve, settings
-from wear.count.iteration import advance
 from wear.history import History
 from wear.load import Constant
 from wear.model import bind
@@ -215,7 +214,7 @@ def increments(scene: Scene, wear: FloatArray) -> FloatArray:
     model, load = bind(scene), scene.periodic_load
     size = settings(RTOL)
     over = resolve(model, load, wear, size.finer_nodes, size.strict_tolerance)
-    return advance(drive(model, load, over), wear).increment
+    return drive(model, load, over).advance(wear).increment
 
 
 def _increment(scene: Scene, cycle: int) -> float:
