@@ -114,7 +114,7 @@ def equations() -> tuple[Equation, ...]:
         )
         display = (
             sp.Eq(left, sigma * sp.exp(E) * _remainder()),
-            exponent.claim,
+            exponent.relation,
             sp.Eq(z, -(2 * beta / sigma)),
         )
     return (

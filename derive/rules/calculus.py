@@ -26,7 +26,7 @@ U_c, p, k, T, tau = symbols("U_c p k T tau")
 
 SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", sp.Eq(k * U_c - p, 0), kind=Kind.MODEL)
 RIGID = Hypothesis(
-    "the support is rigid", sp.Eq(U_c, 0), r"\text{the support is rigid}", Kind.SETTING
+    "rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING
 )
 
 
@@ -106,7 +106,7 @@ class RigidLimit(Rule):
     continuous in 1/k at 0, for the rigid support.  Nothing else may be said of the load or of k.
     """
 
-    words = "Let the support be rigid, k -> oo, in {0}."
+    words = "Let the stiffness tend to infinity in {0}: the support is rigid."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
@@ -159,7 +159,7 @@ class ParameterLimit(Rule):
 
     expr: sp.Expr
     variable: sp.Symbol
-    words = "Let {variable} -> oo in {expr}."
+    words = "Let {variable} tend to infinity in {expr}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         small = sp.Dummy("small", positive=True)

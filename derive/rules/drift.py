@@ -51,7 +51,7 @@ class FirstOrder(Rule):
     ``t (du/dt - R) - F'(l) a/R -> 0``, as u/t tends to R and F is differentiable at l.
     """
 
-    words = "Expand the contact law about the limit of h/sigma, with {all}."
+    words = "Expand the contact law about the limit of the closure ratio, with {all}."
     source = "Taylor's theorem; u/t -> R by L'Hopital's rule"
 
     def conclude(self, *premises: Judgement) -> Conclusion:

@@ -210,7 +210,7 @@ class AtInfinity(Rule):
     claim: sp.Equality
     small: sp.Expr
     words = (
-        "Let {small} -> 0, which holds by {0}, in an expansion that is uniform in bounded loads."
+        "By {0} let {small} tend to zero in an expansion that is uniform in bounded loads."
     )
     source = "Taylor's theorem"
 
