@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from derive.equations import Equation
     from derive.kernel import Judgement
 
+
 class Derivations:
     """The derivations of a report, told in the order in which they are asked for."""
 
