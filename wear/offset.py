@@ -160,7 +160,8 @@ def _history(scene: Scene, rtol: float) -> History | None:
     try:
         return solve(scene, _CYCLES, rtol, method="abel")
     except AccuracyError as fault:
-        return fault.best
+        best: History | None = fault.best
+        return best
 
 
 def _roughness(model: Model, u: Laurent) -> Laurent:

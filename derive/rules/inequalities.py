@@ -111,7 +111,8 @@ class Lipschitz(Rule):
         for nonnegative in (self.step, self.factor):
             require(sp.Ge(nonnegative, 0), *premises)
         change = self.factor * (self.function(self.at) - self.function(self.at + self.step))
-        bounds = sp.Ge(change, 0), sp.Le(change, self.factor * self.step)
+        most = self.factor * self.step
+        bounds = sp.Ge(change, 0, evaluate=False), sp.Le(change, most, evaluate=False)
         return Conclusion(claim_of(sp.And(*bounds, evaluate=False)))
 
 

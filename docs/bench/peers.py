@@ -1,4 +1,4 @@
-"""Other people's integrators on the same equation, for `wear bench --peers`.
+"""Other people's integrators on the same equation, for `wear bench --peers` in a checkout.
 
 No formula is typed here: a generated right-hand side is *traced*. Its NumPy functions are called
 with an object that stands for the unknown and turns every operation into one of the peer's own
@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wear.benchmark.method import Answer, Method, Run, UnsuitableError
+from wear.benchmark.methods import Answer, Method, Run, UnsuitableError
 
 if TYPE_CHECKING:
     from wear.scene import Scene

@@ -1,17 +1,29 @@
-"""The equations beside the explorer's plots: each with the choices for which it holds.
+"""What the explorer's page takes from the derivation, written once into a file beside its scripts.
+
+Deriving all variants and equations takes ten seconds and more, so ``explorer.derived.json`` is
+committed.  A test fails when it is out of date; ``python -m wear.report.explorer_derived`` writes
+it.
 
 Key results
-    rows    the equations as HTML; the page hides those that do not hold for what is chosen
+    derived           all of it, as the file has it
+    models            the generated functions of every variant, as JavaScript
+    parameter_rows    what can be moved, from the vocabulary
+    rows              the equations as HTML, each with the choices for which it holds
 """
 
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from html import escape
-from typing import NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from wear.report import mathml
+from wear.report.explorer_data import GROUPS, NOT_NEGATIVE
+
+FILE = "explorer.derived.json"
 
 Choices = dict[str, tuple[str | bool, ...]]
 """Values of the controls, and of the regime, for which an equation holds; the others are free."""
@@ -108,3 +120,72 @@ def _html(title: str, latex: str, number: str, holds: Choices) -> str:
         f'<div data-holds="{chosen}"><p>{title}</p><div class="row">'
         f'<div class="formula">{mathml.block(latex)}</div><span>{number}</span></div></div>'
     )
+
+
+def derived() -> str:
+    """Return the file: models, equations, rows of the sliders, contact laws."""
+    from derive.laws import LAWS
+
+    content = {
+        "models": models(),
+        "equations": rows(),
+        "parameters": parameter_rows(),
+        "laws": list(LAWS),
+        "cutoff": int(LAWS["tanh"].cutoff),
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def models() -> str:
+    """Return a script with the generated functions of every variant and the formulas."""
+    from derive.codegen.formulas import formula_script
+    from derive.codegen.sources import definitions
+    from derive.program import program
+    from derive.results.asymptotics import formulas
+    from derive.variant import VARIANTS
+
+    entries = (
+        f'"{variant.law.name}/{variant.name}": () => {{\n'
+        f"{_without_comments(definitions(program(variant)))}}},\n"
+        for variant in VARIANTS
+    )
+    closed = _without_comments(formula_script(tuple(formulas())))
+    return (
+        f'"use strict";\nconst MODELS = {{\n{"".join(entries)}}};\n'
+        f"const FORMULAS = (() => {{\n{closed}}})();\n"
+    )
+
+
+def _without_comments(text: str) -> str:
+    """Leave out what readers of the page's source find in `derive code --target javascript`."""
+    blocks = re.sub(r"/\*\*.*?\*/\n", "", text, flags=re.DOTALL)
+    return re.sub(r"\n{2,}", "\n", re.sub(r" // .*", "", blocks))
+
+
+def parameter_rows() -> list[dict[str, Any]]:
+    """Return name, range, scale and unit of every slider."""
+    from derive.symbols import QUANTITIES
+
+    rows = []
+    for name in (name for group in GROUPS.values() for name in group):
+        quantity = QUANTITIES[name]
+        domain = quantity.domain
+        unit = "" if quantity.unit == "1" else quantity.unit
+        rows.append(
+            {
+                "name": name,
+                "meaning": quantity.meaning.split(", ")[0],
+                "latex": quantity.latex,
+                "unit": unit,
+                "low": domain.low,
+                "high": domain.high,
+                "logarithmic": domain.logarithmic,
+                "positive": domain.positive,
+                "negative": not domain.positive and name not in NOT_NEGATIVE,
+            }
+        )
+    return rows
+
+
+if __name__ == "__main__":
+    (Path(__file__).parent / "assets" / FILE).write_text(derived(), encoding="utf-8")
