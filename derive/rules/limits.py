@@ -54,6 +54,7 @@ def forever(expr: sp.Expr) -> sp.Limit:
 def later(expr: sp.Basic) -> sp.Basic:
     """Return ``expr`` one period later.
 
+    >>> from derive.symbols import symbol
     >>> later(symbol("u_c")) == symbol("u_c").subs(t, t + T)
     True
     """
