@@ -562,7 +562,8 @@ def _look_ahead(problem: Problem, request: Request) -> FloatArray:
     at = (np.arange(len(start)), part)
     missing = wanted - np.where(part > 0, counts[at[0], part - 1], 0.0)
     share = np.log1p(missing / first[at]) / rise[at]
-    y = np.minimum(ahead[at] + share * longest[:, 0] / STEPS, longest[:, 0])
+    # Where the states end before the cycles do, the share is no number.
+    y = np.fmin(ahead[at] + share * longest[:, 0] / STEPS, longest[:, 0])
     end: FloatArray = start + begin[:, 0] * np.expm1(y)
     return end
 
