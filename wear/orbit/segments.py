@@ -372,7 +372,8 @@ class _Work:
             spent = job.spent[more.which] + more.evaluations / len(which)
             self.cost = self.cost.plus(more.increments, more.evaluations)
             fresh = _Job(which, more.maps, more.transient, job.needed, job.worst[more.which], spent)
-            ended = np.full(len(which), self.request.late)
+            late = self.request.late and more.transient.cycles >= BLOCK
+            ended = np.full(len(which), late)
             if more.transient.cycles > job.transient.cycles:
                 last = more.transient.last
                 ended |= more.transient.cycles >= self.request.cycles[which]
@@ -410,7 +411,8 @@ class _Work:
         # What rounding leaves no refinement cures.
         accepted = (job.worst <= NEARLY_THERE * tolerance) & ~(worst < job.worst / 2)
         accepted &= number > 0
-        accepted |= (spent > MOST_EVALUATIONS) | self.request.late | (marked & job.maps.full)
+        accepted |= (spent > MOST_EVALUATIONS) | (marked & job.maps.full)
+        accepted |= self.request.late and number > 0
         accepted |= good & ~marked
         finer = np.flatnonzero(marked & ~accepted)
         for group, maps in job.maps.take(finer).refined(filled.marked[finer]) if len(finer) else ():
