@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import numbers
 import os
 import time
@@ -143,11 +142,10 @@ def is_number(given: object) -> bool:
 
 
 def _whole(number: float, faults: list[str]) -> int:
-    whole = int(number) if is_number(number) and math.isfinite(number) else -1
-    if whole != number or not 0 <= whole <= MOST_CYCLES:
+    if not is_number(number) or not 0 <= number <= MOST_CYCLES or number != int(number):
         faults.append(f"cycles: {number!r} is no whole number from 0 to 1e12")
         return 0
-    return whole
+    return int(number)
 
 
 def obstacle(scene: Scene) -> str | None:
@@ -206,11 +204,13 @@ def _worst(wear: Wear) -> float:
 def _cycle_count(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
-    from wear.count.blocks import wear_after
+    from wear.cycles import wear_after
 
     cycles = tuple(sorted(set(wanted)))
     try:
-        found = wear_after(model, scene.load, np.array(cycles, dtype=float), rtol, deadline)
+        found = wear_after(
+            model, scene.load, np.array(cycles, dtype=float), rtol, deadline=deadline
+        )
     except KeyboardInterrupt:
         return _nothing(name, "interrupted", interrupted=True)
     except (AccuracyError, ArithmeticError, ValueError) as fault:  # LinAlgError is a ValueError
@@ -238,7 +238,7 @@ def _nothing(name: str, stopped: str, interrupted: bool) -> Wear:
 def _collocation(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
-    from wear.count.record import follow
+    from wear.records import follow
 
     assert isinstance(scene.load, HistoryLoad)
     found = follow(model, scene.load, wanted, rtol, deadline)
