@@ -18,7 +18,9 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare ids, and whether models are tried."""
     arguments.add_ids(parser)
-    parser.add_argument("--deep", action="store_true", help="try every step on models too (minutes)")
+    parser.add_argument(
+        "--deep", action="store_true", help="try every step on models too (minutes)"
+    )
 
 
 def execute(options: argparse.Namespace) -> int:

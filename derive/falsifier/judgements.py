@@ -55,5 +55,5 @@ class Reason:
 def reasons(judgement: Judgement) -> Iterator[Reason]:
     """Drop each hypothesis that stands beside the claim, in turn."""
     seen = {h.relation: h for h in judgement.hypotheses if h.relation is not sp.true and h.shown}
-    for row in needed(_relations(judgement), _claimed(judgement.claim), _DRAWS, tuple(seen)):
+    for row in needed(_relations(judgement), _claimed(judgement.claim), chosen=tuple(seen)):
         yield Reason(seen[row.hypothesis], str(row.counterexample or ""))

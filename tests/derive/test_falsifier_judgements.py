@@ -17,4 +17,4 @@ def test_models_agree_with_an_equation(identifier: str):
 def test_a_condition_of_the_threshold_is_needed():
     (statement,) = catalogue.equation("threshold").statements
     found = {row.hypothesis.typed: row.counterexample for row in reasons(statement)}
-    assert "f_c = -" in found["f_c > 0"]
+    assert "f_c = 0" in found["f_c > 0"]
