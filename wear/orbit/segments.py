@@ -457,13 +457,14 @@ class _Work:
     def _meets_the_request(self, job: _Job, panels: SolvedPanels) -> BoolArray:
         """Return whether the estimated error of each scene (s,), where panels meet included, is as
         small as requested."""
-        met = np.full(len(job.which), True)
+        met, order = np.full(len(job.which), True), np.argsort(job.which)
         for rows, counted in self._counted(job, panels):
             table = counted.cells
             assert table is not None
             rate, u = (x.reshape(len(rows), -1)[:, 1:] for x in (table.first_rate, table.u))
             error = counted.count_error[:, 1:-1] * rate / u
-            met[np.searchsorted(job.which, rows)] = np.all(error <= self.rtol, axis=1)
+            place = order[np.searchsorted(job.which, rows, sorter=order)]
+            met[place] = np.all(error <= self.rtol, axis=1)
         return met
 
     def _is_gentle(self, job: _Job) -> BoolArray:
