@@ -53,7 +53,7 @@ class DirectResult(NamedTuple):
 
     `error` estimates the relative error of `u`, NaN where a run was stopped before there was a
     second one to compare with. `arrested_in` is the cycle, counted from 1, in which wear stopped
-    for good; or if it `fades`, that from which on it cannot be told from its end. `stopped` says
+    for good; or if it `fades`, that from which on it is within rounding of its limit. `stopped` says
     why the integration ended early (None: it did not) and `interrupted` whether that was the user
     or the clock.
     """
@@ -84,7 +84,7 @@ class State(NamedTuple):
     """The wear in mm at the end of a cycle, after so many steps.
 
     `arrested_in` is the cycle in which wear stopped for good, or from which on, if it `fades`, it
-    cannot be told from its end.
+    is within rounding of its limit.
     """
 
     cycle: int
