@@ -1,5 +1,6 @@
 """The cutoff: arrest in the very cycle, kinks crossed, permanent contact counted."""
 
+import re
 from dataclasses import replace
 from fractions import Fraction
 
@@ -15,7 +16,7 @@ from tests.wear.test_cycle_count import between, problem
 from wear import count, direct
 from wear.count.cutoff import one_cycle
 from wear.count.cycle import settings as sizes
-from wear.count.edge import turning_points
+from wear.count.edge import edge_of_contact, turning_points
 from wear.count.kinks import kinks
 from wear.load import Harmonics, Load, Sine, Table
 from wear.model import bind
@@ -192,6 +193,36 @@ def test_at_a_sharp_peak_wear_fades(K: float, f_c: float, cycles: list[int]) -> 
     assert last.error[0] < 1e-14
 
 
+def test_at_a_sharp_peak_that_rises_slowly_wear_stops() -> None:
+    """There wear opens the gap faster than the load closes it: contact slides up to the peak."""
+    load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
+    scene = with_load(load, 1e-3, 0.1)
+    found = count.wear_after(bind(scene), load, np.array([1e12]), 1e-12)
+    assert found.notices[0].startswith("wear stops for good in cycle")
+
+
+def test_wear_that_is_over_before_the_first_node_is_seen() -> None:
+    """The rate falls to a fortieth in 1e-4 of the cycle, in which no node lies."""
+    scene = with_load(Sine(2e-4, 0.06), 5e-2, 0.34, closure=1e-4)
+    agrees_with_the_judge(scene, [1], 1e-10)
+
+
+def test_the_edge_of_contact_turns_twice_between_two_samples() -> None:
+    """The load rises ever more slowly and faster again; at its slowest, wear just wins."""
+    slowest, swing = 0.1, 2 * np.pi * np.array([5e-4, -2e-4])
+    turn = 2 * np.pi * slowest * np.array([1, 2])
+    wave = np.array([5e-4, -2e-4])
+    cosine, sine = (-wave * np.sin(turn)).tolist(), (wave * np.cos(turn)).tolist()
+    load = Harmonics(0.0, tuple(cosine), tuple(sine), 0.06)
+    assert load.slope(slowest) == pytest.approx(swing[0] + 2 * swing[1])
+    model = bind(with_load(load, 1e-6, 0.0))
+    at_edge = float(load(slowest)) + float(model.margin(0.0, 0.0))  # wear, as f = 0
+    opens = load.period * float(model.rate(at_edge, float(load(slowest))))
+    K = 1e-6 * float(load.slope(slowest)) / opens * (1 + 1e-9)
+    edge = edge_of_contact(bind(with_load(load, K, 0.0)), load)
+    assert min(abs(piece.end - slowest) for piece in edge.pieces) < 1e-4
+
+
 def test_cycles_until_a_wear_that_fades() -> None:
     load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
     model = bind(with_load(load, 3e-6, 0.1))
@@ -263,6 +294,12 @@ def test_on_a_compliant_support_wear_fades(load: Load | None) -> None:
     power = 2 if load is None else 1
     assert_allclose(left[::2] / left[1::2], 4.0**power, rtol=0.05)
     assert found.cost.cycles_integrated <= 1000
+    if load is None:
+        # Beyond what can be integrated the decay goes on: to a quarter of the wear's roundoff.
+        end = re.search(r"within rounding from cycle (\d+)", found.notices[0])
+        assert end is not None
+        reached = left[3] * (4e5 / int(end[1])) ** power
+        assert reached == pytest.approx(2.0**-54 * 4 * acting.maximum, rel=0.05)
 
 
 def test_a_count_on_a_compliant_support_goes_on_from_any_cycle() -> None:
