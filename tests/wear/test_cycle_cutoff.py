@@ -201,12 +201,6 @@ def test_at_a_sharp_peak_that_rises_slowly_wear_stops() -> None:
     assert found.notices[0].startswith("wear stops for good in cycle")
 
 
-def test_wear_that_is_over_before_the_first_node_is_seen() -> None:
-    """The rate falls to a fortieth in 1e-4 of the cycle, in which no node lies."""
-    scene = with_load(Sine(2e-4, 0.06), 5e-2, 0.34, closure=1e-4)
-    agrees_with_the_judge(scene, [1], 1e-10)
-
-
 def test_the_edge_of_contact_turns_twice_between_two_samples() -> None:
     """The load rises ever more slowly and faster again; at its slowest, wear just wins."""
     slowest, swing = 0.1, 2 * np.pi * np.array([5e-4, -2e-4])
@@ -299,7 +293,7 @@ def test_on_a_compliant_support_wear_fades(load: Load | None) -> None:
         end = re.search(r"within rounding from cycle (\d+)", found.notices[0])
         assert end is not None
         reached = left[3] * (4e5 / int(end[1])) ** power
-        assert reached == pytest.approx(2.0**-54 * 4 * acting.maximum, rel=0.05)
+        assert reached / (2.0**-54 * 4 * acting.maximum) == pytest.approx(1.0, rel=0.05)
 
 
 def test_a_count_on_a_compliant_support_goes_on_from_any_cycle() -> None:
