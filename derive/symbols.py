@@ -110,9 +110,9 @@ _TABLE = (
     Quantity(
         "sigma_c0", r"\sigma_c^0", "mm", "initial roughness of the bearing", _positive(1e-4, 1e-3)
     ),
-    Quantity("f_a", "f_a", "1", "roughness slope of the pin, d sigma_a/d u_a", _real(-0.05, 0.6)),
+    Quantity("f_a", "f_a", "1", "roughness growth of the pin, d sigma_a/d u_a", _real(-0.05, 0.6)),
     Quantity(
-        "f_c", "f_c", "1", "roughness slope of the bearing, d sigma_c/d u_c", _real(-0.05, 0.6)
+        "f_c", "f_c", "1", "roughness growth of the bearing, d sigma_c/d u_c", _real(-0.05, 0.6)
     ),
     Quantity("f_aa", "f_{aa}", "1", "slope of sigma_a with u_a", _real(-0.05, 0.6)),
     Quantity("f_ac", "f_{ac}", "1", "slope of sigma_a with u_c", _real(-0.05, 0.6)),
@@ -188,6 +188,16 @@ _TABLE = (
     Quantity("g", "g", "1", "opening of the gap per wear", _real(-1, 3)),
     Quantity("p_1", "p_1", "mm", "half the slope of sigma^2 at the start", _real(-1e-4, 1e-4)),
 )
+
+DATA = frozenset(
+    name
+    for names in (
+        "h_0 sigma_a0 sigma_c0 f_a f_c f_aa f_ac f_cc f_ca K_a K_c H_a H_c",
+        "p_max k b L R n V U T",
+    )
+    for name in names.split()
+)
+"""Parameters that may vary each by itself: all others are made of them."""
 
 QUANTITIES = MappingProxyType({quantity.name: quantity for quantity in _TABLE})
 """The vocabulary by name."""

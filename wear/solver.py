@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import numbers
 import os
 import time
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -17,6 +17,7 @@ from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history import History
 from wear.load import HistoryLoad
+from wear.scene.plausibility import implausible_results
 from wear.states import fields_at, negative_roughness, reaction_of
 
 if TYPE_CHECKING:
@@ -141,11 +142,10 @@ def is_number(given: object) -> bool:
 
 
 def _whole(number: float, faults: list[str]) -> int:
-    whole = int(number) if is_number(number) and math.isfinite(number) else -1
-    if whole != number or not 0 <= whole <= MOST_CYCLES:
+    if not is_number(number) or not 0 <= number <= MOST_CYCLES or number != int(number):
         faults.append(f"cycles: {number!r} is no whole number from 0 to 1e12")
         return 0
-    return whole
+    return int(number)
 
 
 def obstacle(scene: Scene) -> str | None:
@@ -204,11 +204,13 @@ def _worst(wear: Wear) -> float:
 def _cycle_count(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
-    from wear.count.blocks import wear_after
+    from wear.cycles import wear_after
 
     cycles = tuple(sorted(set(wanted)))
     try:
-        found = wear_after(model, scene.load, np.array(cycles, dtype=float), rtol, deadline)
+        found = wear_after(
+            model, scene.load, np.array(cycles, dtype=float), rtol, deadline=deadline
+        )
     except KeyboardInterrupt:
         return _nothing(name, "interrupted", interrupted=True)
     except (AccuracyError, ArithmeticError, ValueError) as fault:  # LinAlgError is a ValueError
@@ -236,7 +238,7 @@ def _nothing(name: str, stopped: str, interrupted: bool) -> Wear:
 def _collocation(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
-    from wear.count.record import follow
+    from wear.records import follow
 
     assert isinstance(scene.load, HistoryLoad)
     found = follow(model, scene.load, wanted, rtol, deadline)
@@ -305,6 +307,19 @@ def _history(
         rtol=rtol,
         cost=wear.cost,
         seconds=seconds,
-        notices=(*scene.notices, *wear.notices, *negative_roughness(model, fields, u)),
+        notices=(
+            *_repeated(wanted),
+            *scene.notices,
+            *wear.notices,
+            *negative_roughness(model, fields, u),
+            *implausible_results(scene, np.array(cycles), u, fields.sigma_c, fields.sigma_a),
+        ),
         stopped=wear.stopped is not None,
     )
+
+
+def _repeated(wanted: Sequence[int]) -> tuple[str, ...]:
+    """Which numbers of cycles were asked for more than once."""
+    twice = [str(cycle) for cycle, times in Counter(wanted).items() if times > 1]
+    shown = ", ".join(twice[:10]) + (", ..." if len(twice) > 10 else "")
+    return (f"cycles: {shown} given more than once",) if twice else ()

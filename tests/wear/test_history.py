@@ -11,9 +11,9 @@ import pytest
 from scipy.io import netcdf_file
 
 from wear import direct
-from wear.count.inside import fields_inside
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history_files import write_inside
+from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad, Table
 from wear.model import bind
 from wear.scene import scene_from_tables
@@ -190,10 +190,10 @@ def test_blocks_out_of_time_keep_the_first_one(cutoff):
 
 @pytest.mark.parametrize("fault", [np.linalg.LinAlgError("singular"), FloatingPointError("lost")])
 def test_a_count_that_breaks_down_is_told_and_auto_goes_on(monkeypatch, fault):
-    def broken(*_):
+    def broken(*_, **__):
         raise fault
 
-    monkeypatch.setattr("wear.count.blocks.wear_after", broken)
+    monkeypatch.setattr("wear.cycles.wear_after", broken)
     with pytest.raises(AccuracyError, match="could not be counted"):
         solve(reference_scene("S2"), [1], 1e-8, "abel")
     history = solve(reference_scene("S2"), [1], 1e-8)
@@ -315,3 +315,22 @@ def test_a_history_inside_the_cycles_that_stops_leaves_nothing(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         write_inside(interrupted(), tmp_path / "inside.nc", {})
     assert list(tmp_path.iterdir()) == []
+
+
+def test_labelled_tables_hold_the_columns(compliant):
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    frame, labelled = compliant.to_dataframe(), compliant.to_xarray()
+    assert frame.index.tolist() == labelled["cycle"].values.tolist() == [0, 1]
+    for column in compliant.columns():
+        np.testing.assert_array_equal(frame[column.name], column.values)
+        np.testing.assert_array_equal(labelled[column.name], column.values)
+        assert labelled[column.name].attrs["units"] == column.unit
+    assert scene_from_tables(json.loads(labelled.attrs["scene"])) == reference_scene("S8_2")
+
+
+def test_a_history_is_shown_in_short(section3):
+    assert "u_c = 0.000200172 mm after cycle 10" in repr(section3)
+    assert len(repr(section3)) < 200
+    assert section3._repr_html_().count("<tr>") == 5
+    assert "rows" in repr(Table((0.0, 1.0), (0.0, 0.0)))
