@@ -220,7 +220,9 @@ def test_wear_fades_at_a_sharp_peak_and_stops_elsewhere(load, K, fades):
     counted = count.wear_after(bind(scene), load, np.array([1e6]), 1e-6)
     assert result.arrested_in is not None
     assert result.fades == fades
-    assert counted.notices[0].startswith("wear approaches its limit" if fades else "wear stops for good")
+    assert counted.notices[0].startswith(
+        "wear approaches its limit" if fades else "wear stops for good"
+    )
     if not fades:
         assert counted.notices == (f"wear stops for good in cycle {result.arrested_in}",)
 

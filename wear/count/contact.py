@@ -169,9 +169,7 @@ class _Part(NamedTuple):
     evaluations: int
 
 
-def _is_fine(
-    rule: Gauss, part: _Part, tolerance: float, before: FloatArray
-) -> BoolArray:
+def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> BoolArray:
     """Whether the nodes resolve the rate, as measured by what this cycle has added (k,), (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m

@@ -53,9 +53,9 @@ class DirectResult(NamedTuple):
 
     `error` estimates the relative error of `u`, NaN where a run was stopped before there was a
     second one to compare with. `arrested_in` is the cycle, counted from 1, in which wear stopped
-    for good; or if it `fades`, that from which on it is within rounding of its limit. `stopped` says
-    why the integration ended early (None: it did not) and `interrupted` whether that was the user
-    or the clock.
+    for good; or if it `fades`, that from which on it is within rounding of its limit. `stopped`
+    says why the integration ended early (None: it did not) and `interrupted` whether that was the
+    user or the clock.
     """
 
     cycles: tuple[int, ...]
