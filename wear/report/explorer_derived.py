@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -87,6 +87,17 @@ def rows() -> str:
     limit = _Row("Pressure in the end", "general-law", other | _STEADY | _SMOOTH)
     found = (*_forms(others), *_listed((*_MODEL, limit, *_LONG_RUN)))
     return "\n".join(_html(*row) for row in found)
+
+
+def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
+    """Return the ids of the equations that hold for these choices and this regime."""
+    return tuple(
+        dict.fromkeys(
+            row.identifier
+            for row in (*_MODEL, *_LONG_RUN)
+            if all(chosen[name] in values for name, values in row.holds.items())
+        )
+    )
 
 
 _Formula = tuple[str, str, str, Choices]  # title, LaTeX, number, where it holds

@@ -1,7 +1,7 @@
 """The runs that the report needs, each made once.
 
 Overview
-    Everything here is a number: histories of the note's scenes with and without loss of contact, how
+    Everything here is a number: histories of the note's scenes in both readings, how
     the wear approaches its asymptote, the closed solution against the solver, bounds, arrest and
     hard scenes. The paper's modules only say what the numbers mean.
 Key results
