@@ -24,7 +24,7 @@ from .laws import LAWS, ContactLaw, r
 from .note.governing import Pin
 from .program import margin_program, program
 from .results import asymptotics, static_scaled
-from .rules.sign import sign
+from .rules.proving import sign
 from .variant import VARIANTS
 
 _DISTANCES = (-8.0, -1.0, -0.125, 0.125, 1.0, 8.0)

@@ -6,7 +6,8 @@ import math
 import numbers
 import os
 import time
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history import History
 from wear.load import HistoryLoad
+from wear.scene.plausibility import implausible_results
 from wear.states import fields_at, negative_roughness, reaction_of
 
 if TYPE_CHECKING:
@@ -305,6 +307,19 @@ def _history(
         rtol=rtol,
         cost=wear.cost,
         seconds=seconds,
-        notices=(*scene.notices, *wear.notices, *negative_roughness(model, fields, u)),
+        notices=(
+            *_repeated(wanted),
+            *scene.notices,
+            *wear.notices,
+            *negative_roughness(model, fields, u),
+            *implausible_results(scene, np.array(cycles), u, fields.sigma_c, fields.sigma_a),
+        ),
         stopped=wear.stopped is not None,
     )
+
+
+def _repeated(wanted: Sequence[int]) -> tuple[str, ...]:
+    """Which numbers of cycles were asked for more than once."""
+    twice = [str(cycle) for cycle, times in Counter(wanted).items() if times > 1]
+    shown = ", ".join(twice[:10]) + (", ..." if len(twice) > 10 else "")
+    return (f"cycles: {shown} given more than once",) if twice else ()

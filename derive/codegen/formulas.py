@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..conditions import Condition
+from ..hypotheses import Hypothesis
 from ..symbols import QUANTITIES
 from .emit import JAVASCRIPT, NUMPY, Target, emit
 from .sources import rendered
@@ -56,7 +56,7 @@ class Guard:
     """A condition to generate: a function of its data that says whether it holds."""
 
     name: str
-    condition: Condition
+    condition: Hypothesis
     parts: Parts = ()
     arguments = ()
     kind = "Any"

@@ -261,7 +261,7 @@ def _imposed(part: sp.Basic, chance: random.Random, wild: bool) -> sp.Basic | No
     if not isinstance(part, sp.Eq):
         return None
     left, right = sorted(part.args, key=lambda side: not isinstance(side, sp.Limit))
-    if not isinstance(left, sp.Limit) or left.args[1] != t:
+    if not isinstance(left, sp.Limit) or left.args[1] != t or isinstance(part.lhs, sp.Symbol):
         return part
     return _approaching(left.args[0], left.args[2], right, chance)
 

@@ -96,11 +96,16 @@ class Needed:
     counterexample: Counterexample | None
 
 
-def needed(hypotheses: Iterable[sp.Basic], claim: sp.Basic, draws: int = DRAWS) -> Iterator[Needed]:
-    """Drop each hypothesis in turn, the domains of the quantities too, and look for the model that
-    shows why it is there."""
+def needed(
+    hypotheses: Iterable[sp.Basic],
+    claim: sp.Basic,
+    draws: int = DRAWS,
+    chosen: Iterable[sp.Basic] = (),
+) -> Iterator[Needed]:
+    """Drop each hypothesis in turn (or those chosen), the domains of quantities too, and look for
+    the model that shows why it is there."""
     hypotheses = tuple(hypotheses)
-    for dropped in hypotheses:
+    for dropped in tuple(chosen) or hypotheses:
         rest = tuple(h for h in hypotheses if h != dropped)
         free = (
             frozenset(map(_name, _quantities((dropped,)))) if _is_domain(dropped) else frozenset()

@@ -17,9 +17,11 @@ import sympy as sp
 
 from .. import catalogue
 from ..equations import Status
+from ..hypotheses import Kind
 from ..laws import TANH, r
 from ..results import validity
-from ..rules.sign import sign
+from ..rules.algebra import solve
+from ..rules.proving import sign
 from ..symbols import symbols
 from ..typeset.present import presentable
 from ..zero import is_zero
@@ -38,15 +40,14 @@ def _holds(*ids: str) -> tuple[bool, str, bool]:
     verdicts = catalogue.verify(ids)
     good = all(v.passed and v.status in (Status.DERIVED, Status.DEFINITION) for v in verdicts)
     count = sum(len(v.checks) for v in verdicts)
-    found = (c for i in ids for c in catalogue.equation(i).conditions if c != ROUGH_BEARING)
-    conditions = dict.fromkeys(c.typed for c in found)  # a rough bearing is what the model is about
+    found = [c for i in ids for c in catalogue.equation(i).conditions if c != ROUGH_BEARING]
+    settings = dict.fromkeys(c.text for c in found if c.kind is Kind.SETTING)
+    conditions = dict.fromkeys(c.typed for c in found if c.kind is not Kind.SETTING)
     shown = ", ".join(f"({i}) {v.status}" for i, v in zip(ids, verdicts, strict=True))
+    setting = f"; setting: {', '.join(settings)}" if settings else ""
     needed = f"; needs {', '.join(conditions)}" if conditions else ""
-    return (
-        good,
-        f"{shown}; {count} checks{' hold' if good else ', some fail'}{needed}",
-        bool(needed),
-    )
+    outcome = f"{count} checks{' hold' if good else ', some fail'}"
+    return good, f"{shown}; {outcome}{setting}{needed}", bool(needed)
 
 
 def _equations(*ids: str) -> Callable[[], Finding]:
@@ -111,7 +112,7 @@ def initial_state() -> Finding:
     model = Model()
     start = dict.fromkeys((u_a, u_c), 0)
     gap = model.closure.claim.rhs.subs(start) - h_0
-    gap = gap.subs(U_c, model.support.solve_for(U_c).claim.rhs)
+    gap = gap.subs(U_c, solve(model.support, U_c).claim.rhs)
     rigid = sp.limit(gap, k, sp.oo).subs(U_a, 0)
     evidence = f"(1), (2), (6) give h(0) - h_0 = {sp.expand(gap)} at t = 0"
     if is_zero(gap):
@@ -156,7 +157,7 @@ def stiff_limit() -> Finding:
 
 def deflection() -> Finding:
     """C15: p/k for k to infinity at bounded p."""
-    value = sp.limit(Model().support.solve_for(U_c).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
+    value = sp.limit(solve(Model().support, U_c).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
     verdict = Verdict.CONFIRMED if value == 0 else Verdict.REFUTED
     return Finding(verdict, f"U_c = p/k with 0 < p < p_max tends to {value}")
 
@@ -205,7 +206,7 @@ def bracket() -> Finding:
 
 def affine_asymptote() -> Finding:
     """C27: the coefficient of ln t."""
-    drift = Stabilised().asymptote.claim.rhs
+    drift = Stabilised().asymptote.claim.value
     (free,) = sp.solve(sp.numer(sp.together(drift)), sigma_c0)
     status = catalogue.equation("19").status
     only = sp.sstr(presentable(free), order="none")

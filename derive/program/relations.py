@@ -1,7 +1,7 @@
 """The derived relations of a variant, in the symbols of its program.
 
 Overview
-    The statements of `derive.note` speak of functions of time.  Here they become assignments of
+    The judgements of `derive.note` speak of functions of time.  Here they become assignments of
     numbers, in which what does not change during a run stands as a named constant.
 Key results
     groups       the named constants of a run
@@ -14,9 +14,12 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..kernel import Judgement
 from ..note.condensed import Condensed
 from ..note.governing import Model, Pin
-from ..statement import Statement, given
+from ..rules.algebra import solve, substitute
+from ..rules.assumption import assume, defined
+from ..rules.calculus import RIGID
 from ..symbols import QUANTITIES, symbols
 from ..variant import Variant
 from . import symbols as named
@@ -28,7 +31,7 @@ kappa, K_a, K_c, H_a, H_c, k, p, p_max, f_a = symbols("kappa K_a K_c H_a H_c k p
 def groups(variant: Variant) -> tuple[Assignment, ...]:
     """Return the named constants of a run: each a combination of parameters."""
     model = variant.model
-    archard = model.wear_laws[2].substitute(model.slip).claim.rhs / p
+    archard = substitute(model.wear_laws[2], model.slip).claim.rhs / p
     found: list[Assignment] = []
     if variant.pin.wears:
         found += [(kappa, _kappa().claim.rhs), (named.gain, 1 + named.pin_wear_sign * kappa)]
@@ -41,9 +44,9 @@ def groups(variant: Variant) -> tuple[Assignment, ...]:
     return tuple(found)
 
 
-def _kappa() -> Statement:
+def _kappa() -> Judgement:
     """Return the wear of the pin per wear of the bearing."""
-    return given(sp.Eq(kappa, K_a * H_c / (K_c * H_a)), "definition of kappa", kappa)
+    return defined(kappa, K_a * H_c / (K_c * H_a))
 
 
 def _plain(expr: sp.Expr) -> sp.Expr:
@@ -73,7 +76,7 @@ class Relations:
             return ((named.sigma, bearing),)
         rough = model.roughness_of_pin
         if pin.wears:
-            rough = rough.substitute(self._wear_of_pin())
+            rough = substitute(rough, self._wear_of_pin())
         own = self._hoisted(_plain(rough.claim.rhs))
         combined = _plain(model.roughness.claim.rhs)
         if pin.wears:
@@ -96,14 +99,12 @@ class Relations:
     def _closure(self, opening: bool, deflected: bool) -> sp.Expr:
         """Return h where wear of the pin opens the gap, or where it closes it."""
         model = Model(self.variant.law, opening, self.variant.pin)
-        deflection = Condensed(model).deflection
-        if not deflected:
-            deflection = deflection.limit(k, sp.oo)
-        return _plain(model.closure.substitute(self._wear_of_pin(), deflection).claim.rhs)
+        deflection = Condensed(model).deflection if deflected else assume(RIGID)
+        return _plain(substitute(model.closure, self._wear_of_pin(), deflection).claim.rhs)
 
-    def _wear_of_pin(self) -> Statement:
+    def _wear_of_pin(self) -> Judgement:
         worn = self.variant.model.wear_of_pin
-        return worn.substitute(_kappa().solve_for(K_a)) if self.variant.pin.wears else worn
+        return substitute(worn, solve(_kappa(), K_a)) if self.variant.pin.wears else worn
 
     def _hoisted(self, expr: sp.Expr) -> sp.Expr:
         """Write a polynomial in the state with named constants for its coefficients."""

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import sympy as sp
 
-from ..rules import describe
+from ..kernel import Judgement
 from .breaking import broken
 from .display import latex
 from .macros import macro_name, macros
@@ -24,8 +24,6 @@ from .present import presentable
 
 if TYPE_CHECKING:
     from ..equations import Equation
-    from ..rules import Rule
-    from ..statement import Statement
 
 
 class Step(NamedTuple):
@@ -46,35 +44,35 @@ class Derivations:
         self._named: dict[sp.Basic, str] = {}
         for equation in self._equations.values():
             for statement in equation.statements:
-                self._named.setdefault(statement.claim, equation.id)
+                self._named.setdefault(statement.relation, equation.id)
         self._told: dict[sp.Basic, tuple[str, int]] = {}
 
     def steps(self, identifier: str) -> tuple[Step, ...]:
         """Return the steps to an equation that have not been told yet."""
         steps: list[Step] = []
         for statement in self._equations[identifier].steps:
-            name = self._named.get(statement.claim, identifier)
-            if statement.claim in self._told or name != identifier or is_hypothesis(statement):
+            name = self._named.get(statement.relation, identifier)
+            if statement.relation in self._told or name != identifier or is_hypothesis(statement):
                 continue
             step = self._step(statement, identifier)
             if step not in steps:
                 steps.append(step)
-            self._told[statement.claim] = (identifier, steps.index(step) + 1)
+            self._told[statement.relation] = (identifier, steps.index(step) + 1)
         return tuple(steps)
 
     def chain(self, identifier: str) -> tuple[Step, ...]:
         """Return all steps to an equation, hypotheses and other equations on the way included."""
         steps: list[Step] = []
         for statement in self._equations[identifier].steps:
-            name = self._named.get(statement.claim, "")
+            name = self._named.get(statement.relation, "")
             if is_hypothesis(statement):
-                formula = "" if name else latex(presentable(statement.claim))
+                formula = "" if name else latex(presentable(statement.relation))
                 step = Step("", "", formula, name)
             else:
                 step = self._step(statement, identifier)
             if step not in steps:
                 steps.append(step)
-            self._told.setdefault(statement.claim, (identifier, steps.index(step) + 1))
+            self._told.setdefault(statement.relation, (identifier, steps.index(step) + 1))
         return tuple(steps)
 
     def origins(self, identifier: str) -> tuple[str, ...]:
@@ -85,34 +83,36 @@ class Derivations:
                 found |= dict.fromkeys(self._nearest(parent, identifier))
         return tuple(found)
 
-    def _nearest(self, statement: Statement, of: str) -> Iterator[str]:
-        name = self._named.get(statement.claim, of)
+    def _nearest(self, statement: Judgement, of: str) -> Iterator[str]:
+        name = self._named.get(statement.relation, of)
         if name != of:
             yield name
             return
         for parent in statement.parents:
             yield from self._nearest(parent, of)
 
-    def _step(self, statement: Statement, of: str) -> Step:
-        parents = tuple(dict.fromkeys(self._name(parent, of) for parent in statement.parents))
-        name = self._named.get(statement.claim, "")
-        formula = "" if name else latex(presentable(statement.claim))
-        return Step(sentence(statement.rule, parents), statement.remark, formula, name)
+    def _step(self, statement: Judgement, of: str) -> Step:
+        parents = [self._name(parent, of) for parent in statement.parents]
+        name = self._named.get(statement.relation, "")
+        formula = "" if name else latex(presentable(statement.relation))
+        return Step(
+            statement.rule.sentence(*parents, write=_written), statement.remark, formula, name
+        )
 
-    def _name(self, parent: Statement, of: str) -> str:
+    def _name(self, parent: Judgement, of: str) -> str:
         """How a step refers to another relation."""
-        numbered = self._named.get(parent.claim)
+        numbered = self._named.get(parent.relation)
         if numbered is not None and numbered != of:
             return f"[eq:{numbered}]"
-        equation, place = self._told.get(parent.claim, ("", 0))
+        equation, place = self._told.get(parent.relation, ("", 0))
         if not equation:
             return f"[eq:{numbered}]" if numbered else "the hypotheses"
         return f"step {place}" if equation == of else f"step {place} of the [der:{equation}]"
 
 
-def is_hypothesis(statement: Statement) -> bool:
+def is_hypothesis(statement: Judgement) -> bool:
     """Return whether a statement is taken from the note, or assumed."""
-    return type(statement.rule).__name__ == "Given"
+    return type(statement.rule).__name__ == "Assume"
 
 
 _REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
@@ -158,92 +158,5 @@ def _formula(
         yield rf"\begin{{equation*}}\{macro}\tag{{{step.equation}}}\end{{equation*}}"
 
 
-def listed(entries: Iterable[str]) -> str:
-    """Return entries with commas, and a word before the last one.
-
-    >>> listed(["a", "b", "c"])
-    'a, b and c'
-    """
-    *most, last = entries
-    return f"{', '.join(most)} and {last}" if most else last
-
-
-_MOVES = {
-    "Substitute": "Insert {others} into {first}.",
-    "SolveFor": "Solve {first} for {detail}.",
-    "Rearrange": "Move terms of {first} between the sides.",
-    "Multiply": "Multiply {first} by {detail}.",
-    "Specialise": "Put {detail} in {first}.",
-    "Restrict": "Keep of {first} the branch with {detail}.",
-    "Integrate": "Integrate {first} over time, from {others}.",
-    "TakeLimit": "Let {detail} in {first}.",
-    "Identity": "An identity: both sides reduce to the same expression.",
-    "Positive": "An inequality: the difference is a sum of terms of one sign.",
-    "Monotone": "Apply a monotone function to both sides of {first}.",
-    "Consequence": "Insert {others} into {first}.",
-    "Inserted": "Insert {all}: an identity remains.",
-    "Grows": "Integrate the constant lower bound of {first}, from {others}.",
-    "Diverges": "By {first} the wear grows without bound, and with it this expression.",
-    "Vanishes": "Bounds that tend to zero, {first}, as the roughness grows, {others}.",
-    "Passes": "Let $t\\to\\infty$ in {first}: the limit {others} passes through a function that is "
-    "continuous where it ends.",
-    "LinearApproach": "Expand the rate {first} to first order in $1/t$.",
-    "LogarithmicDrift": "Integrate {first} over many periods: the mean adds up to a logarithm.",
-    "Accumulates": "Integrate the limit {first} over one period.",
-    "Named": "Name the limit {others} as in {first}.",
-    "LogOdds": "Take logarithms of {first} and solve.",
-    "MeanValue": "The mean value theorem, with a slope between $-1$ and $0$.",
-    "LogarithmicSlope": "The mean value theorem for the logarithm of the contact law, whose slope "
-    "is bounded.",
-    "Threshold": "The left side increases with $f_c$ and reaches the level exactly at the bound, "
-    "by {all}.",
-    "Unbounded": "A positive, continuous rate {first} under a bounded load: were $u_c$ bounded, "
-    "the rate would be bounded away from zero.",
-    "AtInfinity": "Let $u_c\\to\\infty$, which holds by {first}.",
-    "FirstOrder": "Expand the contact law about the limit of $h/\\bar\\sigma$, with {all}.",
-    "Separated": "Separate the variables of {first}; every cycle adds the same to the exponential "
-    "of the wear.",
-    "Asymptotic": "L'Hôpital's rule: the quotient of the claimed and the exact number of cycles "
-    "tends to one, by {first}.",
-    "Rearranged": "Two inequalities whose differences are equal.",
-    "WhileInContact": "The limit of the rate, {first}, holds during a fixed part of every period.",
-    "FirstZero": "The first zero of a convex function that is positive at the start, {all}.",
-    "Solution": "Differentiating the claim gives back the rate {first}; at $t=0$ it gives zero "
-    "wear.",
-    "Inverted": "Solve {first} for the wear, by Lambert's function.",
-    "ParametricSolution": "Wear and rate are known at a pressure, {all}; integrate over it.",
-    "Drift": "Average the rate over a cycle, order by order in $1/m$, with {all}.",
-    "Oscillation": "What averaging leaves, order by order in $1/m$, with {all}.",
-    "SlowTime": "Integrate the averaged drift, {all}, term by term.",
-    "LogarithmicCoefficient": "The first coefficient of the drift, with {all}.",
-    "Differentiated": "Differentiate {first} with respect to the datum, with {others}.",
-    "Solved": "Solve {first} for the datum.",
-    "OfOneSign": "Differentiate the rate {first} with respect to the datum: the sign is constant.",
-    "Nondimensional": "Scale lengths by the initial roughness and time by the period in {first}.",
-}
-_PLACE = re.compile(r"(\{(?:first|others|all|detail)\})")
-
-
-def sentence(rule: Rule, parents: Sequence[str]) -> str:
-    """Return what a rule did with the relations that ``parents`` name."""
-    name = type(rule).__name__
-    if name not in _MOVES:
-        return f"{describe(rule)}."
-    parts = {
-        "{first}": listed(parents[:1]) if parents else "",
-        "{others}": listed(parents[1:]) if parents[1:] else "",
-        "{all}": listed(parents) if parents else "",
-        "{detail}": _detail(rule),
-    }
-    return "".join(parts.get(part, part) for part in _PLACE.split(_MOVES[name]))
-
-
-def _detail(rule: Rule) -> str:
-    """What a rule carries besides the relations: an unknown, values, a condition, a limit."""
-    fields = vars(rule)
-    if "values" in fields:
-        return listed([f"${latex(a)} = {latex(b)}$" for a, b in fields["values"]])
-    if "point" in fields:
-        return rf"${latex(fields['variable'])} \to {latex(fields['point'])}$"
-    found = [f"${latex(fields[k])}$" for k in ("unknown", "condition", "factor") if k in fields]
-    return listed(found) if found else ""
+def _written(expr: sp.Basic) -> str:
+    return f"${latex(expr)}$"

@@ -99,6 +99,9 @@ def execute(options: argparse.Namespace) -> int:
         if miss.best is None:
             raise
         history, status, fault = miss.best, terminal.INACCURATE, str(miss)
+    if options.strict:
+        faults.refuse_implausible(history.notices)
+        faults.stop_if_any()
     until = {} if wears is None else _cycles_until(scene, wears, rtol)
     if options.json:
         terminal.print_json(history.as_json() | until)

@@ -35,7 +35,7 @@ CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel'
 MOST_WALKED = 250  # cycles on a series that are taken one by one
 LOOKS = 65  # at a series, for how many cycles it takes
 MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
-MOST_CUTS = 8  # rounds of cutting panels
+MOST_CUTS = 16  # rounds of cutting panels in two
 ENOUGH = 1.5  # cycles per coefficient of a panel
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
@@ -143,16 +143,20 @@ class _Runs:
         """Go on for so many `cycles`, or less."""
         if self.wear >= self.prepared and cycles > FEW:
             self._prepare(cycles)
-            return None
+            return
         for span, series in self.known:
             if span.start <= self.wear < span.end:
-                return self._along(span, series, cycles)
+                self._along(span, series, cycles)
+                return
         ahead = min(self._ahead(), default=np.inf)
-        left = 2 * (ahead - self.wear) / (self.way.plain.frozen(np.array([self.wear]))[0] + TINY)
-        if FEW < left < np.inf and ahead - self.wear <= 2 * GRAIN * ROUNDOFF * ahead:
+        if ahead - self.wear <= 2 * GRAIN * ROUNDOFF * ahead:
             # Contact shrinks like the root of what is left: twice the cycles at the present pace.
-            return self._append(Leap(self.wear, ahead, float(np.floor(left))), ahead)
-        return self._single()
+            pace = self.way.plain.frozen(np.array([self.wear]))[0] + TINY
+            left = 2 * (ahead - self.wear) / pace
+            if FEW < left < np.inf:
+                self._append(Leap(self.wear, ahead, float(np.floor(left))), ahead)
+                return
+        self._single()
 
     def _ahead(self) -> list[float]:
         return [k.wear for k in self.way.kinks if k.wear > self.wear * (1 + 8 * ROUNDOFF)]

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from derive.kernel import listed
 from derive.typeset import derivation
-from derive.typeset.derivation import Step, listed
+from derive.typeset.derivation import Step
 from wear.report.equations import capital
 from wear.report.markup import markup
 

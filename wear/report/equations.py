@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from derive.note.governing import ROUGH_BEARING
-from derive.typeset.derivation import listed
+from derive.hypotheses import Hypothesis, Kind
+from derive.kernel import listed
 from derive.typeset.formula import width
 from derive.typeset.macros import macro_name
 from wear.report.document import Equation
@@ -58,12 +58,24 @@ def capital(text: str) -> str:
 
 def _title(equation: derived.Equation) -> str:
     """What an equation is called, and its hypotheses but for that of the whole paper."""
-    needed = [c for c in equation.conditions if c != ROUGH_BEARING]
-    short = [c for c in needed if c.relation is not sp.true and width(c.latex) < _SHORT]
-    formulas = [f"${part}$" for c in short for part in c.latex.split(r", \quad ")]
-    said = [markup(c.text) for c in needed if c not in short]
+    known = (Kind.SETTING, Kind.LOAD)
+    words = [c for c in equation.conditions if c.kind in known and not _short(c)]
+    formulas = [f"${part}$" for c in equation.conditions if _short(c) for part in _parts(c)]
+    said = [markup(c.text) for c in equation.conditions if c not in words and not _short(c)]
     parts = [markup(capital(equation.title))]
     for word, hypotheses in (("for", formulas), ("if", said)):
         if hypotheses:
-            parts.append(f"{word} {listed(dict.fromkeys(hypotheses))}")
-    return ", ".join(parts)
+            parts.append(f"{word} {listed(hypotheses)}")
+    title = ", ".join(parts)
+    settings = ", ".join(dict.fromkeys(markup(c.text) for c in words))
+    return f"{title} ({settings})" if settings else title
+
+
+def _short(hypothesis: Hypothesis) -> bool:
+    """Whether a formula says it better than words."""
+    formula = hypothesis.relation is not sp.true and not hypothesis.typeset
+    return formula and hypothesis.kind is not Kind.SETTING and width(hypothesis.latex) < _SHORT
+
+
+def _parts(hypothesis: Hypothesis) -> list[str]:
+    return hypothesis.latex.split(r", \quad ")

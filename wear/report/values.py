@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from derive.kernel import listed
 from derive.results.regime_map import REGIMES
 from derive.results.validity import RESOLUTIONS
-from derive.rules import SAMPLES
-from derive.sample import DIGITS
 from derive.symbols import QUANTITIES
-from derive.typeset.derivation import listed
 from derive.typeset.display import inline
 from derive.typeset.nomenclature import occurring, unit
 from derive.typeset.present import presentable
@@ -132,11 +130,8 @@ def _verification(material: Material) -> dict[str, Any]:
         "steps": _count(checked.steps, "verification"),
         "checks": _count(checked.checks, "verification"),
         "proofs": _count(checked.of_kind("proof"), "verification"),
-        "samples": _count(checked.of_kind("sample"), "verification"),
         "dimensions": _count(checked.of_kind("dimensions"), "verification"),
         "failed": _count(len(checked.failures), "verification"),
-        "points": _count(SAMPLES, "derivation"),
-        "digits": _count(DIGITS, "derivation"),
     }
 
 
@@ -310,7 +305,7 @@ def _expressions(equations: Sequence[Equation]) -> Iterator[sp.Basic]:
         if not equation.agrees:
             yield from equation.printed
         yield from (condition.relation for condition in equation.conditions)
-        yield from (step.claim for step in equation.steps)
+        yield from (step.relation for step in equation.steps)
 
 
 def _thresholds() -> Iterator[tuple[str, Number, Number]]:

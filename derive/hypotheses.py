@@ -1,7 +1,7 @@
-"""Conditions: what a statement needs, as data.
+"""Hypotheses: what a judgement rests on, as data of a closed list of kinds.
 
-A condition gives LaTeX for the reader, restricts the samples of the tests and, where a relation
-says it, is a guard that can be asked with numbers.
+A hypothesis gives a sentence and LaTeX for the reader, a SymPy relation where there is one, and
+is a guard that can be asked with numbers.  A relation between fields holds at every time.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import StrEnum
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -18,9 +19,22 @@ _MODULUS = re.compile(r"Abs\((\w+)\)")
 _SHORT = 30
 
 
+class Kind(StrEnum):
+    """The closed list of kinds of hypotheses."""
+
+    MODEL = "model"  # an equation of the note's model, (1) to (5)
+    INITIAL = "initial"  # an initial value, (6)
+    SETTING = "setting"  # rigid support, smooth or unworn pin, no loss of contact
+    LOAD = "load"  # bounded, constant, periodic, sine, continuous
+    PARAMETER = "parameter"  # a relation between data
+    STATE = "state"  # a relation that the fields satisfy: contact is active, p < p_max
+    DEFINITION = "definition"  # a name for an expression
+    DOMAIN = "domain"  # of a symbol, from its definition in the vocabulary
+
+
 @dataclass(frozen=True)
-class Condition:
-    """One hypothesis: in words, and as a SymPy relation where there is one.
+class Hypothesis:
+    """One hypothesis: in words, and as a SymPy relation where there is one (else ``true``).
 
     ``typeset`` is its LaTeX where there is only words and they hold a formula.
     """
@@ -28,10 +42,11 @@ class Condition:
     text: str
     relation: sp.Basic = sp.true
     typeset: str = ""
+    kind: Kind = Kind.PARAMETER
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the quantities that the condition is about."""
+        """Return the quantities that the hypothesis is about."""
         return frozenset(str(getattr(s, "func", s)) if s.args else str(s) for s in self._unknowns)
 
     @property
@@ -41,7 +56,7 @@ class Condition:
         return fields | {symbol for symbol in plain if not isinstance(symbol, sp.Dummy)}
 
     def guard(self, values: Mapping[str, float]) -> bool | None:
-        """Return whether the condition holds for numbers, by name of the quantity.
+        """Return whether the hypothesis holds for numbers, by name of the quantity.
 
         None where only words say it, or where a number is missing.
 
@@ -54,15 +69,10 @@ class Condition:
         numbers = {u: sp.Float(values[str(u.func) if u.args else str(u)]) for u in self._unknowns}
         return bool(self.relation.xreplace(numbers))
 
-    def met_by(self, values: Mapping[sp.Expr, sp.Expr]) -> bool:
-        """Return whether these values of quantities make the relation true.
-
-        >>> from derive.results.steady_state import ROUGHENING
-        >>> from derive.symbols import symbol
-        >>> ROUGHENING.met_by({symbol("f_c"): sp.Integer(1)}), ROUGHENING.met_by({})
-        (True, False)
-        """
-        return self.relation is not sp.true and self.relation.subs(values) == sp.true
+    @property
+    def shown(self) -> bool:
+        """Return whether a reader needs it beside an equation: the model and names are known."""
+        return self.kind in (Kind.SETTING, Kind.LOAD, Kind.PARAMETER, Kind.STATE)
 
     @property
     def typed(self) -> str:
@@ -73,14 +83,16 @@ class Condition:
         ('f_c > 0', '|U_a| <= U')
         """
         parts = self.relation.args if isinstance(self.relation, sp.And) else (self.relation,)
-        said = ", ".join(_MODULUS.sub(r"|\1|", str(part).replace("(t)", "")) for part in parts)
-        return self.text if self.relation is sp.true or len(said) > _SHORT else said
+        written = (f"{p.lhs} != {p.rhs}" if isinstance(p, sp.Unequality) else str(p) for p in parts)
+        said = ", ".join(_MODULUS.sub(r"|\1|", part.replace("(t)", "")) for part in written)
+        words = self.relation is sp.true or isinstance(self.relation, sp.Equality)
+        return self.text if words or len(said) > _SHORT else said
 
     @property
     def latex(self) -> str:
-        """Return the condition in LaTeX; in words where no relation says it."""
+        """Return the hypothesis in LaTeX; in words where no relation says it."""
         from .typeset.display import inline
 
-        if self.relation is not sp.true:
-            return inline(self.relation)
-        return self.typeset or rf"\text{{{self.text}}}"
+        if self.typeset:
+            return self.typeset
+        return rf"\text{{{self.text}}}" if self.relation is sp.true else inline(self.relation)

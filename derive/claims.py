@@ -1,0 +1,251 @@
+"""Claims: what a judgement says, typed.
+
+Overview
+    A claim is an equality (or the definition of a name), an inequality, a double inequality, an
+    inequation, an equivalence, a limit or an asymptotic relation; what only words say is a
+    property.  ``relation`` is the SymPy form, for printing and for comparison.
+Key results
+    claim_of(relation)                  the typed claim of a SymPy relation
+    part of a claim by its name         ``lhs``, ``lesser``, ``value``; a claim has no others
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+landau_o = sp.Function("o", real=True)
+"""What vanishes in comparison with its argument, as in ``u = F + o(1)``."""
+
+
+class ClaimError(ValueError):
+    """A relation is of no type that a claim may have."""
+
+
+class FirstZero(sp.Expr):
+    """The least positive zero of an expression in a variable; ``FirstZero(expr, variable)``."""
+
+    is_commutative = True
+    is_positive = True
+    is_real = True
+
+    def _latex(self, printer: sp.printing.printer.Printer) -> str:
+        expr, variable = map(printer.doprint, self.args)
+        return rf"\min\left\{{{variable} > 0 : {expr} = 0\right\}}"
+
+
+class Claim(ABC):
+    """What a judgement says."""
+
+    @property
+    @abstractmethod
+    def relation(self) -> sp.Basic:
+        """Return the claim as SymPy writes it."""
+
+    def __getattr__(self, part: str) -> Any:
+        """Refuse to read a part that a claim of this type does not have."""
+        raise AttributeError(f"{type(self).__name__.lower()} has no {part}")
+
+    def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Claim:
+        """Return the claim of the same type with another form of its expressions."""
+        return claim_of(_mapped(self.relation, change))
+
+
+def _mapped(relation: sp.Basic, change: Callable[[sp.Expr], sp.Expr]) -> sp.Basic:
+    if isinstance(relation, Relational):
+        return relation.func(*map(change, relation.args), evaluate=False)
+    return relation.func(*(_mapped(part, change) for part in relation.args), evaluate=False)
+
+
+@dataclass(frozen=True)
+class Equality(Claim):
+    """``lhs = rhs``, at every time."""
+
+    lhs: sp.Expr
+    rhs: sp.Expr
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.Eq(self.lhs, self.rhs, evaluate=False)
+
+
+@dataclass(frozen=True)
+class Definition(Equality):
+    """A name for an expression."""
+
+
+@dataclass(frozen=True)
+class Inequality(Claim):
+    """``a <= b``, or strictly ``a < b``, in the orientation in which it was written."""
+
+    written: Relational
+
+    @property
+    def relation(self) -> sp.Basic:
+        return self.written
+
+    @property
+    def lesser(self) -> sp.Expr:
+        """Return the side that is not the greater."""
+        return self.written.lts
+
+    @property
+    def greater(self) -> sp.Expr:
+        """Return the side that is not the lesser."""
+        return self.written.gts
+
+    @property
+    def strict(self) -> bool:
+        """Return whether the sides differ."""
+        return isinstance(self.written, (sp.StrictGreaterThan, sp.StrictLessThan))
+
+
+@dataclass(frozen=True)
+class Between(Claim):
+    """Two inequalities that enclose one expression: ``low <= middle <= high``."""
+
+    below: Inequality
+    above: Inequality
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.And(self.below.written, self.above.written, evaluate=False)
+
+    @property
+    def low(self) -> sp.Expr:
+        """Return the lower bound."""
+        return self.below.lesser
+
+    @property
+    def middle(self) -> sp.Expr:
+        """Return what is bounded."""
+        return self.below.greater
+
+    @property
+    def high(self) -> sp.Expr:
+        """Return the upper bound."""
+        return self.above.greater
+
+
+@dataclass(frozen=True)
+class Inequation(Claim):
+    """``lhs != rhs``."""
+
+    lhs: sp.Expr
+    rhs: sp.Expr
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.Ne(self.lhs, self.rhs, evaluate=False)
+
+
+@dataclass(frozen=True)
+class Equivalence(Claim):
+    """Two inequalities that hold together or not at all."""
+
+    left: Inequality
+    right: Inequality
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.Equivalent(self.left.written, self.right.written, evaluate=False)
+
+
+@dataclass(frozen=True)
+class Limit(Claim):
+    """``expr`` tends to ``value`` as ``variable`` tends to ``point`` (``oo`` or from above)."""
+
+    expr: sp.Expr
+    variable: sp.Symbol
+    point: sp.Expr
+    value: sp.Expr
+
+    @property
+    def term(self) -> sp.Limit:
+        """Return the limit as an expression."""
+        return sp.Limit(self.expr, self.variable, self.point)
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.Eq(self.term, self.value, evaluate=False)
+
+
+@dataclass(frozen=True)
+class Asymptotic(Claim):
+    """``lhs = rhs + o(order)`` as ``variable`` tends to ``point``."""
+
+    lhs: sp.Expr
+    rhs: sp.Expr
+    variable: sp.Symbol
+    point: sp.Expr
+    order: sp.Expr = sp.S.One
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.Eq(self.lhs, self.rhs + landau_o(self.order), evaluate=False)
+
+    def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Claim:
+        return replace(self, lhs=change(self.lhs), rhs=change(self.rhs))
+
+
+@dataclass(frozen=True)
+class Conjunction(Claim):
+    """Two inequalities about different things."""
+
+    first: Inequality
+    second: Inequality
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.And(self.first.written, self.second.written, evaluate=False)
+
+
+@dataclass(frozen=True)
+class Property(Claim):
+    """What only words say: that the load is continuous, say."""
+
+    text: str
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.true
+
+
+def claim_of(relation: sp.Basic, definition: bool = False) -> Claim:
+    """Return the typed claim of a SymPy relation.
+
+    >>> x, y = sp.symbols("x y")
+    >>> claim_of(sp.Ge(x, y)).lesser
+    y
+    >>> claim_of(x)
+    Traceback (most recent call last):
+    ...
+    derive.claims.ClaimError: x is no claim
+    """
+    if isinstance(relation, sp.Equality):
+        left, right = relation.args
+        if definition:
+            return Definition(left, right)
+        if isinstance(left, sp.Limit) and not right.has(sp.Limit):
+            expr, variable, point = left.args[:3]
+            return Limit(expr, variable, point, right)
+        return Equality(left, right)
+    if isinstance(relation, sp.Unequality):
+        return Inequation(*relation.args)
+    if isinstance(relation, Relational):
+        return Inequality(relation)
+    if isinstance(relation, (sp.And, sp.Equivalent)) and len(relation.args) == 2:
+        first, second = map(claim_of, relation.args)
+        if isinstance(first, Inequality) and isinstance(second, Inequality):
+            if isinstance(relation, sp.Equivalent):
+                return Equivalence(first, second)
+            for below, above in ((first, second), (second, first)):
+                if below.greater == above.lesser:
+                    return Between(below, above)
+            return Conjunction(first, second)
+    raise ClaimError(f"{relation} is no claim")

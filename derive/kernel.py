@@ -1,0 +1,188 @@
+"""The kernel: judgements, and the one place where they are made.
+
+Overview
+    A judgement ``Gamma |- claim`` says: wherever the hypotheses Gamma hold at every time, so does
+    the claim.  Rules alone make judgements: a rule is a theorem, read off its premises; it lives
+    in ``derive.rules``.  The hypotheses of a conclusion are those of the premises, plus what the
+    rule adds, minus what a theorem discharges.
+Key results
+    Judgement     hypotheses, claim, the rule and the premises that gave it
+    Rule          a theorem: what it concludes from premises
+    infer         apply a rule
+    chain         judgements and all that they rest on, premises first
+    replayed      None, or why a judgement does not follow: every rule applied again
+References
+    Gordon, Milner, Wadsworth, Edinburgh LCF, 1979.
+"""
+
+from __future__ import annotations
+
+import sys
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable
+from dataclasses import InitVar, dataclass
+
+import sympy as sp
+
+from .claims import Claim
+from .hypotheses import Hypothesis, Kind
+from .symbols import QUANTITIES
+from .time_limit import time_limit
+
+_ROOM = "derive.rules."
+_TOKEN = object()
+LIMIT_S = 60.0
+"""Seconds of CPU time after which a symbolic step is given up."""
+
+
+def plain(expr: sp.Basic) -> str:
+    """Return an expression as one types it."""
+    return str(expr).replace("(t)", "")
+
+
+def listed(labels: Iterable[str]) -> str:
+    """Return labels with commas, and a word before the last one.
+
+    >>> listed(["(1)", "(2)", "(3)"])
+    '(1), (2) and (3)'
+    """
+    *first, last = dict.fromkeys(labels) or ("no others",)
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+class RuleError(ValueError):
+    """A premise of a theorem is missing; the message names it."""
+
+
+@dataclass(frozen=True)
+class Conclusion:
+    """What a rule makes of its premises, beside the union of their hypotheses."""
+
+    claim: Claim
+    adds: tuple[Hypothesis, ...] = ()
+    discharges: tuple[Hypothesis, ...] = ()
+
+
+class Rule(ABC):
+    """A theorem.  Its fields are what the author chooses; what must hold comes from premises."""
+
+    words = ""
+    """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
+    source = "elementary"
+    """Where the theorem is found."""
+
+    @abstractmethod
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        """Return what follows; RuleError names the premise or side condition that is missing."""
+
+    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
+        """Return what was done, in one sentence, with the labels of the premises."""
+        fields = {name: write(v) for name, v in vars(self).items() if isinstance(v, sp.Basic)}
+        places = {"all": listed(labels), "others": listed(labels[1:])}
+        return self.words.format(*labels, **places, **fields)
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """``hypotheses |- claim``, by ``rule`` from ``parents``.  Only ``infer`` makes one.
+
+    ``remark`` tells the reader what the formula does not: where the note drops a condition,
+    switches a sign or rounds.
+    """
+
+    hypotheses: tuple[Hypothesis, ...]
+    claim: Claim
+    rule: Rule
+    parents: tuple[Judgement, ...]
+    name: str
+    remark: str
+    token: InitVar[object]
+
+    def __post_init__(self, token: object) -> None:
+        if token is not _TOKEN:
+            raise TypeError("only a rule makes a judgement")
+
+    @property
+    def relation(self) -> sp.Basic:
+        """Return the claim as SymPy writes it."""
+        return self.claim.relation
+
+    @property
+    def conditions(self) -> tuple[Hypothesis, ...]:
+        """Return the hypotheses that a reader needs beside the claim."""
+        return tuple(h for h in self.hypotheses if h.shown)
+
+    @property
+    def domains(self) -> tuple[Hypothesis, ...]:
+        """Return what the vocabulary says of the domains of the symbols that occur."""
+        relations = (self.relation, *(h.relation for h in self.hypotheses))
+        found = {a for r in relations for a in r.atoms(sp.Symbol, sp.Function)}
+        return tuple(domain for a in sorted(found, key=str) if (domain := _domain(a)))
+
+    def named(self, name: str, remark: str = "") -> Judgement:
+        """Return the same judgement under another name."""
+        return Judgement(
+            self.hypotheses, self.claim, self.rule, self.parents, name, remark or self.remark,
+            _TOKEN,
+        )  # fmt: skip
+
+
+def _domain(atom: sp.Expr) -> Hypothesis | None:
+    """Return the domain of a quantity of the vocabulary, where it is not all reals."""
+    if (atom.name if atom.is_Symbol else atom.func.__name__) not in QUANTITIES:
+        return None
+    for holds, relation in ((atom.is_positive, sp.Gt), (atom.is_nonnegative, sp.Ge)):
+        if holds:
+            written = relation(atom, 0, evaluate=False)
+            return Hypothesis(f"{atom} {written.rel_op} 0", written, kind=Kind.DOMAIN)
+    return None
+
+
+def infer(rule: Rule, *premises: Judgement, name: str = "", remark: str = "") -> Judgement:
+    """Apply a rule to premises; RuleError where its theorem does not cover them."""
+    hypotheses, claim = _followed(rule, premises)
+    return Judgement(hypotheses, claim, rule, premises, name, remark, _TOKEN)
+
+
+def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
+    kind = type(rule)
+    if not kind.__module__.startswith(_ROOM) or (
+        getattr(sys.modules[kind.__module__], kind.__name__, None) is not kind
+    ):
+        raise RuleError(f"{kind.__name__} is no rule of {_ROOM[:-1]}")
+    with time_limit(LIMIT_S, f"{kind.__name__}: {rule.words}"):
+        made = rule.conclude(*premises)
+    union = (h for premise in premises for h in premise.hypotheses)
+    kept = (h for h in union if h not in made.discharges)
+    return tuple(dict.fromkeys((*kept, *made.adds))), made.claim
+
+
+def replayed(judgement: Judgement) -> str | None:
+    """Return None if the rule gives this judgement again from its parents, else what is wrong."""
+    if type(judgement) is not Judgement:
+        return "it is no judgement"
+    try:
+        hypotheses, claim = _followed(judgement.rule, judgement.parents)
+    except (RuleError, ValueError, TypeError, AttributeError, KeyError) as refusal:
+        return str(refusal) or type(refusal).__name__
+    if type(claim) is not type(judgement.claim) or claim != judgement.claim:
+        return f"the rule gives {claim.relation}"
+    return (
+        None if hypotheses == judgement.hypotheses else "its hypotheses are not those of the rule"
+    )
+
+
+def chain(*judgements: Judgement) -> tuple[Judgement, ...]:
+    """Return the judgements and all that they rest on, each once, premises first."""
+    seen: dict[int, Judgement] = {}
+
+    def visit(judgement: Judgement) -> None:
+        if id(judgement) in seen:
+            return
+        for parent in judgement.parents:
+            visit(parent)
+        seen[id(judgement)] = judgement
+
+    for judgement in judgements:
+        visit(judgement)
+    return tuple(seen.values())
