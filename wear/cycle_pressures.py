@@ -17,8 +17,8 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
-from wear.count.inside import Inside, fields_inside
 from wear.direct.sequence import span
+from wear.inside import Inside, fields_inside
 from wear.load import Blocks, HistoryLoad
 from wear.load.protocols import Load
 from wear.model import Model, bind

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from wear.count.inside import Inside
+    from wear.inside import Inside
 
 Attributes = Mapping[str, str]
 """What describes a result, each in one line and none empty."""

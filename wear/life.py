@@ -72,7 +72,7 @@ def cycles_until(
     >>> [f"{cycles:.4e}" for cycles in life.cycles], [way.value for way in life.reached]
     (['1.4000e+02', '1.0786e+12'], ['counted', 'extrapolated'])
     """
-    from wear.count.blocks import cycles_until as count_until
+    from wear.cycles import cycles_until as count_until
     from wear.model import bind
 
     scene = as_scene(scene)

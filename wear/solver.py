@@ -206,11 +206,13 @@ def _worst(wear: Wear) -> float:
 def _cycle_count(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
-    from wear.count.blocks import wear_after
+    from wear.cycles import wear_after
 
     cycles = tuple(sorted(set(wanted)))
     try:
-        found = wear_after(model, scene.load, np.array(cycles, dtype=float), rtol, deadline)
+        found = wear_after(
+            model, scene.load, np.array(cycles, dtype=float), rtol, deadline=deadline
+        )
     except KeyboardInterrupt:
         return _nothing(name, "interrupted", interrupted=True)
     except (AccuracyError, ArithmeticError, ValueError) as fault:  # LinAlgError is a ValueError
@@ -238,7 +240,7 @@ def _nothing(name: str, stopped: str, interrupted: bool) -> Wear:
 def _collocation(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
-    from wear.count.record import follow
+    from wear.records import follow
 
     assert isinstance(scene.load, HistoryLoad)
     found = follow(model, scene.load, wanted, rtol, deadline)

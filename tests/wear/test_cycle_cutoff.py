@@ -12,7 +12,8 @@ from numpy.testing import assert_allclose
 from tests import independent_cutoff
 from tests.wear.reference_scenes import reference_scene, tables
 from tests.wear.test_cycle_count import between, problem
-from wear import count, direct
+from wear import cycles as count
+from wear import direct
 from wear.count.cutoff import one_cycle
 from wear.count.cycle import settings as sizes
 from wear.count.edge import turning_points

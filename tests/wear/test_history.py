@@ -11,9 +11,9 @@ import pytest
 from scipy.io import netcdf_file
 
 from wear import direct
-from wear.count.inside import fields_inside
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history_files import write_inside
+from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad, Table
 from wear.model import bind
 from wear.scene import scene_from_tables
@@ -190,10 +190,10 @@ def test_blocks_out_of_time_keep_the_first_one(cutoff):
 
 @pytest.mark.parametrize("fault", [np.linalg.LinAlgError("singular"), FloatingPointError("lost")])
 def test_a_count_that_breaks_down_is_told_and_auto_goes_on(monkeypatch, fault):
-    def broken(*_):
+    def broken(*_, **__):
         raise fault
 
-    monkeypatch.setattr("wear.count.blocks.wear_after", broken)
+    monkeypatch.setattr("wear.cycles.wear_after", broken)
     with pytest.raises(AccuracyError, match="could not be counted"):
         solve(reference_scene("S2"), [1], 1e-8, "abel")
     history = solve(reference_scene("S2"), [1], 1e-8)

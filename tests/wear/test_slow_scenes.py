@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from tests import independent_support
 from tests.wear.test_cycle_count import between, problem
 from tests.wear.test_cycle_cutoff import loads, supported, with_load
-from wear import count
+from wear import cycles as count
 from wear.load import Load, Sine, Table
 from wear.model import bind
 from wear.regime import asymptote

@@ -85,7 +85,7 @@ def _fail(answers: Answers, row: int, status: Status, reason: str) -> None:
 
 def _solve(question: Question, scenes: Mapping[int, Scene], answers: Answers) -> None:
     """Fill in the answers of the rows whose scenes are valid."""
-    from wear.count.sweep import sweep
+    from wear.cycles import cycles_to_depth, sweep
 
     places = np.array(list(scenes))
     found = sweep(list(scenes.values()), np.array(question.cycles, dtype=float), question.rtol)
@@ -96,13 +96,6 @@ def _solve(question: Question, scenes: Mapping[int, Scene], answers: Answers) ->
             reason = f"the estimated error is {error:.1e}, {question.rtol:.1e} was requested"
             _fail(answers, row, Status.ACCURACY_MISSED, reason)
     if question.until_wear is not None:
-        for row, scene in scenes.items():
-            answers.cycles_to_wear[row] = _cycles_to(scene, question.until_wear, question.rtol)
-
-
-def _cycles_to(scene: Scene, wear: float, rtol: float) -> float:
-    """Return the number of cycles to a wear depth (mm), infinite where it is never reached."""
-    from wear.count.blocks import cycles_until
-    from wear.model import bind
-
-    return float(cycles_until(bind(scene), scene.load, np.array([wear]), rtol).cycles[0])
+        depth = np.array([question.until_wear])
+        reached = cycles_to_depth(list(scenes.values()), depth, question.rtol)
+        answers.cycles_to_wear[places] = reached.cycles[:, 0]

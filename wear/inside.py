@@ -4,25 +4,22 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from wear.count.blocks import growth
-from wear.count.build import CycleCount
-from wear.count.course import Added, Course, course
 from wear.count.course_cutoff import CutoffCourse, cutoff_course
-from wear.count.panels import SAFETY
-from wear.count.stage import Stage, Stages, evaluate_stages
-from wear.count.stages import counted_stages
+from wear.cycles import Counted, InContact, WithLossOfContact, count_cycles, growth
 from wear.direct.sequence import span
+from wear.equation import WearEquation
 from wear.faults import AccuracyError, UsageError
 from wear.load import AperiodicLoad, HistoryLoad, Load
 from wear.model import Fields, Model
-from wear.numerics.gauss import (
-    FloatArray,
-)
-from wear.numerics.tolerances import (
-    TINY,
-)
+from wear.numerics.initial_value import SAFETY
+from wear.numerics.tolerances import TINY
+from wear.orbit.dense_output import Added, DenseOutput, dense_output
+from wear.orbit.iterates import Iterates
 from wear.states import fields_under_load
+
+FloatArray = NDArray[np.float64]
 
 CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
 BATCH = 10_000  # cycles of which the wear at the start is found at once
@@ -76,42 +73,52 @@ def fields_inside(
     cycles, phases = np.sort(np.asarray(cycles, dtype=float)), np.asarray(phases, dtype=float)
     rows = max(1, chunk // max(1, len(phases)))
     for stretch in _stretches(model, load, float(cycles[-1]), rtol):
-        stages = stretch.found.stages
-        begins = stretch.begins + np.array([stage.begins for stage in stages])
-        for stage, begin, end in zip(
-            stages, begins, np.append(begins[1:], stretch.ends), strict=True
-        ):
+        for begin, end, within in stretch.dense(model, phases, rtol, cycles):
             wanted = cycles[(cycles >= begin) & (cycles < end)]
-            if len(wanted) == 0:
-                continue
-            part = _Part(
-                model, stretch, _within(model, stretch, stage, phases, rtol), phases, begin
-            )
+            part = _Part(model, stretch, within, phases, begin)
             for at in range(0, len(wanted), BATCH):
                 yield from part.rows(wanted[at : at + BATCH], rows, rtol)
 
 
 class _Stretch(NamedTuple):
-    """Cycles from `begins` to `ends`, that excluded, of one load that repeats, counted in stages
-    from wear that may be wrong by `inherited` (mm)."""
+    """Cycles from `begins` to `ends`, that excluded, of one load that repeats, counted from wear
+    that may be wrong by `inherited` (mm)."""
 
     load: Load
     begins: float
     ends: float
-    found: Stages
+    found: Counted
     inherited: float
+
+    def dense(
+        self, model: Model, phases: FloatArray, rtol: float, cycles: FloatArray
+    ) -> Iterator[tuple[float, float, DenseOutput | CutoffCourse]]:
+        """Return the parts of the stretch in which some of the `cycles` lie: from which cycle to
+        which, that excluded, and what these add up to the phases."""
+        if isinstance(self.found, WithLossOfContact):
+            if np.any((cycles >= self.begins) & (cycles < self.ends)):
+                yield self.begins, self.ends, cutoff_course(model, self.load, phases, rtol)
+            return
+        assert isinstance(self.found, InContact)
+        equation, segments = WearEquation(model, (self.load,)), self.found.found.segments
+        begins = [self.begins + float(segment.begins[0]) for segment in segments]
+        observable = model.pressure if model.compliant else None
+        for begin, end, segment in zip(begins, [*begins[1:], self.ends], segments, strict=True):
+            if np.any((cycles >= begin) & (cycles < end)):
+                assert isinstance(segment.counted, Iterates)
+                yield begin, end, dense_output(equation, segment.counted, phases, rtol, observable)
 
 
 def _stretches(
     model: Model, load: Load | AperiodicLoad, last: float, rtol: float
 ) -> Iterator[_Stretch]:
-    """The way to cycle `last` and over it, block by block."""
+    """Return the blocks up to cycle `last` and over it."""
     wear, missed, done = 0.0, 0.0, 0
     while done <= last:
         acting, until = span(load, done)
         length = min(float(until), last + 1.0) - done
-        found = counted_stages(model, acting, length, rtol, wear)
-        after, error = (float(x[0]) for x in evaluate_stages(found, np.array([length])))
+        found = count_cycles(model, acting, length, rtol, wear)
+        after, error = (float(x[0]) for x in found.after(np.array([length])))
         missed *= growth(model, acting, wear, after)
         yield _Stretch(acting, float(done), done + length, found, missed)
         wear, missed, done = after, missed + error * after, until
@@ -119,28 +126,19 @@ def _stretches(
             raise AccuracyError(f"the wear after {done} cycles could not be found")
 
 
-def _within(
-    model: Model, stretch: _Stretch, stage: Stage, phases: FloatArray, rtol: float
-) -> Course | CutoffCourse:
-    """What cycles of the stage add up to the phases."""
-    if isinstance(stage.counted, CycleCount) and not model.ends_at_3_sigma:
-        return course(model, stretch.load, stage.counted, phases, rtol)
-    return cutoff_course(model, stretch.load, phases, rtol)
-
-
 class _Part(NamedTuple):
-    """A stage of a stretch, from the cycle that it `begins` with, and what its cycles add up to
+    """A part of a stretch, from the cycle that it `begins` with, and what its cycles add up to
     some `phases`."""
 
     model: Model
     stretch: _Stretch
-    within: Course | CutoffCourse
+    within: DenseOutput | CutoffCourse
     phases: FloatArray
     begins: float
 
     def rows(self, cycles: FloatArray, at_once: int, rtol: float) -> Iterator[Inside]:
-        """The states in `cycles` (n,), so many cycles at once."""
-        # Where wear gathers pace or contact ends at a touch, an error grows within the cycle.
+        """Return the states in `cycles` (n,), so many cycles at once."""
+        # Where the wear rate rises or contact grazes, an error grows within the cycle.
         ends = np.unique(np.concatenate([cycles, cycles + 1.0]))
         wear, wrong = self._before(ends)
         first, last = np.searchsorted(ends, cycles), np.searchsorted(ends, cycles + 1.0)
@@ -148,21 +146,22 @@ class _Part(NamedTuple):
         for at in range(0, len(cycles), at_once):
             here = slice(at, at + at_once)
             added = self.within.added(cycles[here] - self.begins, starts[here])
-            u = starts[here, None] + added.wear
+            u = starts[here, None] + added.increment
             missed = wrong[here] + SAFETY * added.missed
             error = np.nan_to_num(missed / (wear[last[here]] + TINY), nan=np.inf)
             yield Inside(cycles[here], self.phases, u, self.fields(u, added, rtol), error)
 
     def _before(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The wear after `cycles` (n,) and what it may be wrong by, mm."""
-        wear, error = evaluate_stages(self.stretch.found, cycles - self.stretch.begins)
+        """Return the wear after `cycles` (n,) and what it may be wrong by, mm."""
+        with np.errstate(all="ignore"):
+            wear, error = self.stretch.found.after(cycles - self.stretch.begins)
         return wear, error * wear + self.stretch.inherited
 
     def fields(self, u: FloatArray, added: Added, rtol: float) -> Fields:
-        """All fields; on a compliant support from the interpolated pressure where that is right."""
+        """Return all fields; on a compliant support from the interpolated pressure, if right."""
         load = self.stretch.load
-        if added.pressure is not None and np.max(added.off) <= rtol:
-            return self.model.fields_under(added.pressure, u, load(self.phases))
+        if added.observable is not None and np.max(added.off) <= rtol:
+            return self.model.fields_under(added.observable, u, load(self.phases))
         return fields_under_load(
             self.model, u, load(self.phases), load.slope(self.phases) / load.period
         )
