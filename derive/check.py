@@ -9,7 +9,9 @@ from functools import cache
 from typing import NamedTuple
 
 from .dimensions import homogeneous
+from .falsifier.judgements import tried
 from .kernel import Judgement, replayed
+from .rules.assumption import Assume
 
 
 class Check(NamedTuple):
@@ -28,3 +30,11 @@ def checks(judgement: Judgement) -> tuple[Check, ...]:
         Check("dimensions", fault is None, fault or "both sides agree"),
         Check("proof", refusal is None, refusal or judgement.rule.source),
     )
+
+
+def on_models(judgement: Judgement) -> tuple[Check, ...]:
+    """Return what models say of a step that is no hypothesis: none may break it."""
+    if isinstance(judgement.rule, Assume):
+        return ()
+    answer = tried(judgement)
+    return (Check("falsifier", answer.passed, str(answer)),)
