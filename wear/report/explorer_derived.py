@@ -106,12 +106,12 @@ def _forms(laws: tuple[str, ...]) -> Iterator[_Formula]:
     from derive.note.governing import Model
     from derive.typeset.display import latex
 
-    yield "Closure", latex(Model(opening=True).closure.claim), "", _OPENING
+    yield "Closure", latex(Model(opening=True).closure.relation), "", _OPENING
     for name in laws:
         model = Model(LAWS[name])
         for cutoff, statement in (False, model.pressure), (True, model.pressure_with_cutoff):
             holds: Choices = {"law": (name,), "cutoff": (cutoff,)}
-            yield "Contact law", latex(statement.claim), "", holds
+            yield "Contact law", latex(statement.relation), "", holds
 
 
 def _html(title: str, latex: str, number: str, holds: Choices) -> str:
