@@ -20,7 +20,7 @@ from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost, Settings
 from wear.count.increments import Increments, Span, fitted, middle
 from wear.count.kinks import rest_of
-from wear.count.panels import NONE, SAFETY
+from wear.count.panels import SAFETY
 from wear.count.plan import GRAIN, Way, planned, prepared
 from wear.count.rounding import roundoff, roundoff_of_cycles
 from wear.count.scan import SHIFT
@@ -375,5 +375,4 @@ def _one_by_one(way: Way, part: Single, missed: FloatArray, growth: FloatArray) 
     for more, factor in zip(SAFETY * missed + lost, growth, strict=True):
         error.append(error[-1] * factor + more)
     estimate = np.array(error) + ROUNDOFF * wear
-    over = way.both.coarse.over
-    return CycleCount(wear, estimate, None, None, NONE, over, way.end, Cost(0, 0))
+    return CycleCount(wear, estimate, way.end)

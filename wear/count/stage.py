@@ -76,9 +76,7 @@ class Stage(NamedTuple):
         """How many whole cycles it counts."""
         if not isinstance(self.counted, CycleCount):
             return self.counted.ran
-        if self.counted.table is None:
-            return float(len(self.counted.first) - 1)
-        return float(np.floor(self.counted.table.last_cycles))
+        return float(len(self.counted.first) - 1)
 
     @property
     def drift(self) -> float:
