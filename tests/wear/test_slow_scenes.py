@@ -38,7 +38,7 @@ def scene_of(i: int) -> Scene:
     return replace(Scene.from_dict(tables), load=Table(times, values))
 
 
-@pytest.mark.parametrize("i", [0, 1, 2, 3, 5, 6])
+@pytest.mark.parametrize("i", [0, 1, 2, 3, 5, 6, 7])
 def test_slow_wear_with_loss_of_contact_is_counted(i: int) -> None:
     found = solve(scene_of(i), CYCLES, rtol=RESOLVED)
     assert np.all(found.error <= RESOLVED)
