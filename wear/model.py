@@ -140,12 +140,17 @@ class Model:
     def rate_gradient(self, u: Real, U_a: Real) -> dict[str, Real]:
         """Return the derivatives of the wear rate by the contact law with respect to the load
         `U_a` and to every physical parameter, by symbol, as if contact were never lost."""
-        if self.compliant:
-            p = self._law_pressure(u, U_a)
-            by_load, by_constants = self.module.rate_gradient(p, u, U_a, self.constants)
-        else:
-            by_load, by_constants = self.module.rate_gradient(u, U_a, self.constants)
+        by_load, by_constants = self.rate_by_constants(u, U_a)
         return {"U_a": by_load, **self.bound.gradient(by_constants)}
+
+    def rate_by_constants(self, u: Real, U_a: Real) -> tuple[Real, Any]:
+        """Return the derivatives of the wear rate by the contact law with respect to the load `U_a`
+        and to each of the constants, of which `bound.gradient` makes those with respect to
+        parameters."""
+        if not self.compliant:
+            return self.module.rate_gradient(u, U_a, self.constants)  # type: ignore[no-any-return]
+        p = self._law_pressure(u, U_a)
+        return self.module.rate_gradient(p, u, U_a, self.constants)  # type: ignore[no-any-return]
 
     def pressure(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
         """Return the contact pressure in MPa on a compliant support, sought from a pressure `near`

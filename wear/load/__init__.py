@@ -57,6 +57,9 @@ class Sine(SceneTable):
         angle = 2.0 * math.pi * centred(phase)
         return np.asarray(2.0 * math.pi * self.amplitude_mm * np.cos(angle))
 
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"amplitude_mm": np.sin(2.0 * math.pi * centred(phase))}
+
     @property
     def period(self) -> float:
         return self.period_s
@@ -90,6 +93,9 @@ class Constant(SceneTable):
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
         return np.zeros(np.shape(phase))
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"value_mm": np.ones(phase.shape)}
 
     @property
     def period(self) -> float:
