@@ -115,11 +115,11 @@ class Abscissa(Enum):
         if self is Abscissa.CYCLES:
             return cycles
         load = scene.load
-        seconds = [
-            load.time_at(n) if isinstance(load, Blocks | HistoryLoad) else n * load.period
-            for n in cycles.tolist()
-        ]
-        return np.array(seconds) / _SECONDS_PER_HOUR
+        if isinstance(load, Blocks | HistoryLoad):
+            seconds = np.array([load.time_at(n) for n in cycles.tolist()])
+        else:
+            seconds = cycles * scene.periodic_load.period
+        return seconds / _SECONDS_PER_HOUR
 
 
 def panels_of(

@@ -173,10 +173,10 @@ def test_a_figure_of_several_scenes_with_readings_and_a_limit(call: Call, tmp_pa
     assert (shown["scenes"], shown["cycles"]) == (["section4", "section4-cutoff"], [0, 50])
     assert shown["reached"] == ["counted", "never"]
     assert shown["cycles_until"][1] is None
-    data.write_text("cycles,wear_um,motion.radius_mm\n10,0.3,-1\n")
+    data.write_text("cycles,wear_um,motion.radius_mm\n10,0.3,-1\n20,1,-1\n")
     status, _, messages = call(*request, "--axis", "days")
     assert status == 2
-    assert all(word in messages for word in ("--axis", "radius_mm", "at least two"))
+    assert all(word in messages for word in ("--axis", "radius_mm", "negative"))
 
 
 def test_readings_of_two_specimens_have_a_run_each(call: Call, tmp_path: Path) -> None:

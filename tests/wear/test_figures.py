@@ -245,7 +245,7 @@ def test_what_grows_by_decades_has_a_logarithmic_axis() -> None:
         Line("bearing", cycles, 1e-7 * cycles),
         Line("bearing", cycles, 1.0 + 0.0 * cycles),
     )
-    arrested = Line("peak", cycles, np.array([300.0, 1.0, 0.0, 0.0]))
+    arrested = Line("peak", cycles, np.array([300.0, 300.0, 1.0, 0.0]))
     panels = [Panel(WEAR, (wear,)), Panel(ROUGHNESS, (level,)), Panel(PRESSURE, (arrested,))]
     for logarithmic, scale in ((True, "log"), (False, "linear")):
         drawn = figures.history(panels, logarithmic=logarithmic)
@@ -263,7 +263,7 @@ def test_readings_and_the_limit_stand_beside_the_wear() -> None:
 
 def test_one_run_has_a_colour_a_quantity_and_several_a_colour_each() -> None:
     runs = [solve(name, [1, 100, 5000], 1e-6) for name in ("section3", "section4-cutoff")]
-    wear, roughness, pressure = panels_of(runs[:1])
+    wear, _, pressure = panels_of(runs[:1])
     assert [line.name for line in wear.lines] == ["bearing", "pin"]
     assert [line.name for line in pressure.lines] == ["peak", "mean", "start of cycle"]
     np.testing.assert_array_equal(pressure.lines[1].y, runs[0].pressures.mean)

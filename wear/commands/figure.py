@@ -79,9 +79,7 @@ def execute(options: argparse.Namespace) -> int:
     limit = None
     if options.until_wear is not None:
         limit = faults.number("--until-wear", options.until_wear, 0.0, 1e300)
-    specimens = (
-        () if options.data is None else faults.readings(options.data, scenes)
-    )
+    specimens = () if options.data is None else faults.readings(options.data, scenes)
     last = () if options.cycles is None else faults.cycles("--cycles", options.cycles)
     output = Path(options.output)
     if output.suffix.lower() not in SUFFIXES:
