@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from wear.faults import UsageError
 from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.scene import Scene, load_scene
 
@@ -65,7 +66,7 @@ def _load_data(load: Load) -> dict[str, Any]:
             "stops": list(load.peaks),
         }
     if not isinstance(load, Table):
-        raise TypeError(f"the explorer has no load of kind {type(load).__name__}")
+        raise UsageError("the explorer moves the pin: it has no loads that are forces")
     phases = sorted({0.0, 1.0, *load.kinks})
     values = [float(load(phase)) for phase in phases]
     return {
