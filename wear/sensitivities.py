@@ -31,6 +31,7 @@ from wear.scene import KEYS, Scene
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
+AREA = {"b": ("contact", "width_mm"), "L": ("contact", "length_mm")}
 MOST_ROWS = 100  # of a table: each is a parameter
 
 
@@ -194,7 +195,8 @@ def _links(scene: Scene) -> list[_Link]:
     """Return how the parameters of the model depend on the numbers of the scene but the load's."""
     numbers = scene.parameters()
     found = []
-    for symbol, entry in KEYS.items():
+    entries = {**KEYS, **AREA} if scene.given_load else KEYS
+    for symbol, entry in entries.items():
         if symbol in numbers and symbol != "h_0":
             found.append(_Link(symbol, ".".join(entry), numbers[symbol], 1.0))
     contact, sigma = scene.contact, scene.initial_roughness
@@ -233,10 +235,10 @@ class _Parametrised(WearEquation):
     ) -> FloatArray:
         """Return the sum over all nodes of weights times the derivative of the wear per cycle."""
         weights = weights * self._period
-        by_load, by_constants = self._model.rate_by_constants(u, forcing)
-        sums = by_constants._make(np.sum(weights * each, axis=(2, 3)) for each in by_constants)
-        by_symbol = np.stack(list(self.model.bound.gradient(sums).values()), axis=-1)
-        found = by_symbol @ self.chain
+        by_load, *by_symbol = self._model.rate_gradient(
+            u, forcing, lambda values: np.sum(weights * values, axis=(2, 3), keepdims=True)
+        ).values()
+        found = np.stack(by_symbol, axis=-1)[:, :, 0, 0] @ self.chain
         if self.of_load:
             flat = (weights * by_load).reshape(*u.shape[:2], -1)
             found[..., list(self.of_load.values())] = flat @ self._load_gradient(phases)
@@ -258,7 +260,7 @@ def _equation(scenes: Sequence[Scene], acting: _Span, keys: Sequence[str]) -> _P
     have these `keys`."""
     place, loads = acting.place, acting.loads
     model = bind(scenes[0]) if len(scenes) == 1 else bind_many(scenes)
-    symbols = list(model.module.Parameters._fields)
+    symbols = [*model.module.Parameters._fields, *(AREA if scenes[0].given_load else ())]
     column = {key: i for i, key in enumerate(keys)}
     chain = np.zeros((len(scenes), len(symbols), len(keys)))
     for own, scene, load in zip(chain, scenes, loads, strict=True):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from derive.results.sensitivities import POWERS, WITHOUT_EFFECT
 from wear.cycles import sweep
 from wear.faults import UsageError
-from wear.load import Block, Blocks, Constant, Harmonics, Load, Sine, Table
+from wear.load import Block, Blocks, Constant, Force, Harmonics, Load, Sine, Table
 from wear.scene import KEYS, Scene, load_scene
 from wear.sensitivities import gradients, parameters_of
 
@@ -86,6 +86,7 @@ LOADS: dict[str, tuple[Load | Blocks, dict[str, Load | Blocks]]] = {
             "load.values_mm[1]": Table((0.0, 0.01, 0.06), (1e-4, 4.04e-4, 1e-4)),
         },
     ),
+    "force": (Force(4.0, 0.06), {"load.force_N": Force(4.04, 0.06)}),
     "blocks": (
         Blocks((Block(Sine(5e-4, 0.06), 20), Block(Constant(2e-4, 0.06), 100)), repeat=2),
         {
@@ -104,7 +105,8 @@ LOADS: dict[str, tuple[Load | Blocks, dict[str, Load | Blocks]]] = {
 def test_every_number_of_a_load_is_a_parameter(kind: str) -> None:
     """The derivative at both ends of a change of one percent has its mean between them."""
     load, changed = LOADS[kind]
-    scene = dataclasses.replace(load_scene("section4"), load=load)
+    area = {"contact.width_mm": 1.0, "contact.length_mm": 1.0}
+    scene = dataclasses.replace(load_scene("section4").with_(area), load=load)
     cycles = np.array([1.0, 150.0])
     for key, other in changed.items():
         ends = [scene, dataclasses.replace(scene, load=other)]

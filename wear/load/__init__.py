@@ -114,9 +114,6 @@ class Constant(_Level, SceneTable):
     value_mm: Real = Field(description="displacement U_a")
     period_s: Positive = Field(description="period T, only to count cycles")
 
-    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
-        return {"value_mm": np.ones(phase.shape)}
-
     @property
     def period(self) -> float:
         return self.period_s
@@ -124,6 +121,9 @@ class Constant(_Level, SceneTable):
     @property
     def mean(self) -> float:
         return self.value_mm
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"value_mm": np.ones(phase.shape)}
 
 
 @table("load", kind="force")
@@ -143,6 +143,9 @@ class Force(_Level, SceneTable):
     @property
     def mean(self) -> float:
         return self.force_N
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"force_N": np.ones(phase.shape)}
 
 
 def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:
