@@ -338,27 +338,20 @@ def _each(
     """Return two numbers (scenes, number) of every scene: of those of one variant `together`, of
     those with loss of contact or a load in blocks each `alone`."""
     first, second = np.empty((2, len(scenes), number))
-    for which in _groups(scenes):
+    for which in groups(scenes):
         some = [scenes[i] for i in which.tolist()]
-        if _is_alone(some[0]):
-            answers = [alone(scene) for scene in some]
-            first[which] = np.stack([answer[0] for answer in answers])
-            second[which] = np.stack([answer[1] for answer in answers])
-        else:
-            first[which], second[which] = together(equation_of(some))
+        lone = some[0].contact.ends_at_3_sigma or isinstance(some[0].load, Blocks)
+        first[which], second[which] = alone(some[0]) if lone else together(equation_of(some))
     return first, second
 
 
-def _groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
-    """Return which scenes are of one kind, no more than go together."""
+def groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
+    """Return which scenes are solved together: those of one variant whose loads repeat, no more
+    than go together; a scene with loss of contact or a load in blocks is alone."""
     kinds: dict[object, list[int]] = {}
     for i, scene in enumerate(scenes):
-        kinds.setdefault((scene.variant, _is_alone(scene)), []).append(i)
+        alone = scene.contact.ends_at_3_sigma or isinstance(scene.load, Blocks)
+        kinds.setdefault(i if alone else scene.variant, []).append(i)
     for which in kinds.values():
         for at in range(0, len(which), TOGETHER):
             yield np.array(which[at : at + TOGETHER])
-
-
-def _is_alone(scene: Scene) -> bool:
-    """Return whether a scene is solved by itself."""
-    return scene.contact.ends_at_3_sigma or isinstance(scene.load, Blocks)

@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wear.generated import asymptotics as formula
+from wear.generated import reaction
 from wear.model import bind
 from wear.offset import offset
 from wear.solver import obstacle
@@ -133,12 +134,31 @@ def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
     scene = as_scene(scene)
     with decimal.localcontext(_DIGITS):
         case = _Case(scene)
+        if scene.given_load:
+            return _given_load(case)
         return _with_cutoff(case) if scene.contact.ends_at_3_sigma else _without_cutoff(case)
 
 
 def _result(case: _Case, regime: str, **found: Any) -> Asymptote:
     notices = (*case.scene.notices, *found.pop("notices", ()))
     return Asymptote(case.scene.title or case.scene.name, regime, notices=notices, **found)
+
+
+def _given_load(case: _Case) -> Asymptote:
+    """Problem (i): the wear of a cycle is that of the mean pressure from the first cycle on."""
+    pressure = float(reaction.pressure(case.load.mean, b=case.numbers["b"], L=case.numbers["L"]))
+    end = None if case.data["q"] >= 0 else case.vanishing
+    said = ("the roughness vanishes in finite time; the model ends there",) if end else ()
+    return _result(
+        case,
+        "finite-time" if end else "steady",
+        wear_per_cycle_mm=case.wear_at(pressure),
+        pressure_MPa=pressure,
+        log_coefficient_mm=0.0,
+        offset_mm=0.0,
+        saturation_wear_mm=float(end) if end else None,
+        notices=said,
+    )
 
 
 def _without_cutoff(case: _Case) -> Asymptote:
