@@ -82,7 +82,7 @@ def from_a_look_alike() -> Judgement:
     return substitute(given(sp.Eq(h, u_a)), Forged())  # type: ignore[arg-type]
 
 
-class Lie(sp.Expr):
+class Lie(sp.Expr):  # type: ignore[misc]
     """Something that says it is zero."""
 
     is_zero = True
