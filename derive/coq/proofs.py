@@ -1,0 +1,219 @@
+"""Proofs: the tactics that a lemma is tried with, written from the judgement.
+
+Overview
+    SymPy proposes, Coq disposes: what is written here may be wrong, and then does not compile.
+    An equation becomes an identity when those that it rests on are inserted; an inequality has
+    a difference of manifest sign, or follows from one by an increasing function.  Limits are in
+    ``limits``.
+Key results
+    script    the proof of a step
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
+
+from ..symbols import t
+from . import limits, theorems
+from .printer import term
+from .steps import Step
+
+_UNKNOWN = sp.Symbol("unknown", real=True)
+Named = tuple[str, sp.Basic]
+
+
+def script(step: Step) -> str:
+    """Return the proof of a step."""
+    special = theorems.proof(step)
+    if special:
+        return "\n".join((step.introduction, *special))
+    if step.relation.has(sp.Limit) or step.limits:
+        return "\n".join((step.introduction, *limits.proof(step)))
+    lines = [step.introduction, *now(step)]
+    ways = _equation(step) if isinstance(step.relation, sp.Equality) else _inequality(step)
+    return "\n".join((*lines, "first [\n  " + "\n| ".join(f"({way})" for way in ways) + "]."))
+
+
+def now(step: Step) -> list[str]:
+    """Return the lines that fix an instant, and say what is positive then."""
+    if not step.statement.conclusion.startswith("forall t, "):
+        return []
+    lines = ["intros t Ht."]
+    for premise in step.statement.premises:
+        if premise.timed and not isinstance(premise.relation, sp.Equality) and premise.relation is not sp.true:
+            lines.append(f"pose proof ({premise.label} t Ht) as {premise.label}_now.")
+    return lines + divisors(step)
+
+
+def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
+    """State that what the claim divides by is positive, where it is a field that is."""
+    claims = [step.relation, *(p.relation for p in step.ancestors)]
+    below = {e.base for c in claims for e in c.atoms(sp.Pow) if not e.exp.is_positive or not e.exp.is_Integer}
+    below |= {sp.sqrt(e) for e in below}
+    lines = []
+    for other in step.ancestors:
+        relation = other.relation
+        if not isinstance(relation, sp.Equality) or relation.rhs not in below:
+            continue
+        for premise in step.statement.premises:
+            if isinstance(premise.relation, sp.Gt) and premise.relation.args == (relation.lhs, 0):
+                at = term(relation.rhs.subs(t, sp.Symbol(time)) if time != "t" else relation.rhs)
+                said = f"rewrite <- ({step.cited(other)} _ {proof}); exact ({premise.label} _ {proof})"
+                lines.append(f"assert (0 < {at}) by ({said}).")
+    return list(dict.fromkeys(lines))
+
+
+def stated(step: Step, steps: Sequence[Step]) -> tuple[str, list[Named]]:
+    """Return the tactic that states the claims of other steps at this time, and their labels."""
+    named = [(f"P{i}", s) for i, s in enumerate(steps) if not s.relation.has(sp.Limit)]
+    at = {True: " t Ht", False: ""}
+    text = "; ".join(f"pose proof ({step.cited(s)}{at[s.timed]}) as {label}" for label, s in named)
+    return f"{text}; " if text else "", [(label, s.relation) for label, s in named]
+
+
+def _sources(step: Step) -> Iterator[tuple[str, list[Named]]]:
+    """Return what a claim may follow from: the parents, or all that it rests on."""
+    own = [s for s in step.hypotheses if isinstance(s.relation, sp.Equality)]
+    for steps in (step.frontier, [*step.frontier, *own], [*step.ancestors, *own]):
+        usable = [s for s in dict.fromkeys(steps) if step.timed or not s.timed]
+        yield stated(step, usable)
+
+
+def _equation(step: Step) -> Iterator[str]:
+    """Return the ways in which an equation may follow, likely ones first."""
+    goal = step.relation
+    for text, named in _sources(step):
+        equations = [(label, e) for label, e in named if isinstance(e, sp.Equality)]
+        if equations:
+            yield text + _from_first(goal, equations)
+        lines, _ = _inserted(goal, equations)
+        yield text + "; ".join((*lines, "identity"))
+
+
+def _from_first(goal: sp.Equality, equations: list[Named]) -> str:
+    """Insert the further equations into the first, which then is the goal."""
+    (first, relation), *others = equations
+    lines = []
+    for label, other in others:
+        if relation.has(other.lhs) and _atomic(other.lhs) and not other.rhs.has(other.lhs):
+            lines.append(f"rewrite {label} in {first}")
+            relation = _replaced(relation, other.lhs, other.rhs)
+    factor = _factor(goal.lhs - goal.rhs, relation.lhs - relation.rhs, goal.lhs)
+    return "; ".join((*lines, f"from_equation {first} ({term(factor)})"))
+
+
+def _replaced(relation: sp.Basic, left: sp.Expr, right: sp.Expr) -> sp.Basic:
+    """Insert an equation into a relation that is not to be decided by that."""
+    if isinstance(relation, Relational):
+        return relation.func(*(a.xreplace({left: right}) for a in relation.args), evaluate=False)
+    return relation.func(*(_replaced(a, left, right) for a in relation.args), evaluate=False)
+
+
+def _factor(goal: sp.Expr, known: sp.Expr, unknown: sp.Expr) -> sp.Expr:
+    """Return c with ``goal = c known``, as far as numbers show."""
+    candidates = [sp.S.One, sp.S.NegativeOne]
+    if _atomic(unknown) and known.has(unknown):
+        slope = sp.diff(known.xreplace({unknown: _UNKNOWN}), _UNKNOWN).xreplace({_UNKNOWN: unknown})
+        candidates += [1 / slope] if slope != 0 else []
+    found = (c for c in candidates if _vanishes(goal - c * known))
+    return next(found, sp.S.One)
+
+
+def _vanishes(expr: sp.Expr) -> bool:
+    """Return whether an expression is 0 at a point."""
+    draw = random.Random(1)
+    for kind in (sp.Derivative, AppliedUndef, sp.Symbol):
+        atoms = sorted(expr.atoms(kind), key=str)
+        expr = expr.xreplace({a: sp.Float(draw.uniform(0.5, 1.5), 30) for a in atoms})
+    return bool(abs(sp.N(expr, 20)) < 1e-15)
+
+
+def _atomic(expr: sp.Expr) -> bool:
+    return isinstance(expr, (sp.Symbol, AppliedUndef, sp.Derivative))
+
+
+def _inserted(goal: sp.Basic, equations: list[Named]) -> tuple[list[str], sp.Basic]:
+    """Insert equations into the goal, each after those that bring in its left side."""
+    rules: dict[sp.Expr, tuple[str, sp.Expr]] = {}
+    for label, relation in equations:
+        left, right = relation.args
+        if _atomic(left) and left not in rules and not _reaches(rules, right, left):
+            rules[left] = (label, right)
+    lines = []
+    for left in _sorted(rules):
+        if goal.has(left):
+            label, right = rules[left]
+            lines.append(f"rewrite ?{label}")
+            goal = _replaced(goal, left, right)
+    return lines, goal
+
+
+def _reaches(rules: dict[sp.Expr, tuple[str, sp.Expr]], expr: sp.Expr, goal: sp.Expr) -> bool:
+    if expr.has(goal):
+        return True
+    return any(_reaches(rules, right, goal) for left, (_, right) in rules.items() if expr.has(left))
+
+
+def _sorted(rules: dict[sp.Expr, tuple[str, sp.Expr]]) -> list[sp.Expr]:
+    """Return the left sides, each after all whose right sides contain it."""
+    done: list[sp.Expr] = []
+
+    def visit(left: sp.Expr) -> None:
+        if left not in done:
+            for other, (_, right) in rules.items():
+                if right.has(left) and other != left:
+                    visit(other)
+            done.append(left)
+
+    for left in rules:
+        visit(left)
+    return done
+
+
+def _inequality(step: Step) -> Iterator[str]:
+    """Return the ways in which an inequality, or several, may follow."""
+    split = "repeat split; " if isinstance(step.relation, sp.And) else ""
+    if isinstance(step.relation, sp.Equivalent):
+        split = "split; intro; "
+    for text, named in _sources(step):
+        equations = [(label, e) for label, e in named if isinstance(e, sp.Equality)]
+        known = [(label, e) for label, e in named if isinstance(e, Relational) and (label, e) not in equations]
+        lines, goal = _inserted(step.relation, equations)
+        insert = "".join(f"{line}; " for line in lines)
+        for label, _ in known:
+            others = "".join(f"rewrite ?{e} in {label}; " for e, _ in equations)
+            yield f"{text}{insert}{others}{split}same_inequality {label}"
+        yield f"{text}{insert}{split}arithmetic"
+        for form in _manifest(goal):
+            yield f"{text}{insert}{split}manifest ({term(form)})"
+        for lemma in _ordered(goal):
+            yield f"{text}{insert}{split}{lemma}"
+
+
+def _manifest(goal: sp.Basic) -> Iterator[sp.Expr]:
+    """Return forms of the difference of the sides that may show its sign."""
+    if isinstance(goal, Relational):
+        difference = goal.gts - goal.lts
+        functions = {f: sp.Dummy(real=True) for f in difference.atoms(sp.Function, sp.Derivative)}
+        back = {dummy: f for f, dummy in functions.items()}
+        flat = difference.xreplace(functions)
+        yield sp.factor(flat).xreplace(back)
+        numerator, denominator = sp.fraction(sp.together(flat))
+        yield (sp.expand(numerator) / sp.factor(denominator)).xreplace(back)
+
+
+def _ordered(goal: sp.Basic) -> Iterator[str]:
+    """Return proofs by an increasing tanh, or a decreasing law, on the two sides."""
+    if not isinstance(goal, Relational):
+        return
+    low, high = goal.lts, goal.gts
+    for function in (sp.tanh, sp.Function("phi", positive=True)):
+        for a in low.atoms(function):
+            for b in high.atoms(function):
+                form = next(_manifest(goal))
+                yield f"ordered ({term(a.args[0])}) ({term(b.args[0])}) ({term(form)})"

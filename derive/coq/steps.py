@@ -1,0 +1,134 @@
+"""Steps: judgements as lemmas that know what they rest on.
+
+Key results
+    Step       a judgement with its statement, its name and the steps that it rests on
+    steps      of all judgements that can be stated, and why the others cannot
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ..kernel import Judgement
+from .printer import UntranslatableError
+from .statements import Premise, Statement, statement
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """A judgement as a lemma."""
+
+    name: str
+    judgement: Judgement
+    statement: Statement
+    parents: tuple[Step, ...]
+
+    @property
+    def relation(self) -> sp.Basic:
+        """Return the claim."""
+        return self.judgement.relation
+
+    @property
+    def rule(self) -> str:
+        """Return the name of the rule."""
+        return type(self.judgement.rule).__name__
+
+    @property
+    def timed(self) -> bool:
+        """Return whether the claim is about every t >= 0."""
+        return self.statement.conclusion.startswith("forall t, 0 <= t -> ")
+
+    @property
+    def assumed(self) -> bool:
+        """Return whether the claim is one of the premises: a hypothesis, nothing to prove."""
+        return any(p.said == self.statement.conclusion for p in self.statement.premises)
+
+    @property
+    def introduction(self) -> str:
+        """Return the tactic that names the premises."""
+        labels = " ".join(p.label for p in self.statement.premises)
+        return f"intros {labels}." if labels else "idtac."
+
+    @cached_property
+    def labels(self) -> dict[str, str]:
+        """Return the label of each premise."""
+        return {p.said: p.label for p in self.statement.premises}
+
+    def premise(self, relation: sp.Basic) -> Premise | None:
+        """Return the premise that says a relation."""
+        return next((p for p in self.statement.premises if p.relation == relation), None)
+
+    def usable(self, other: Step) -> bool:
+        """Return whether another step's premises are all among those of this one."""
+        return all(p.said in self.labels for p in other.statement.premises)
+
+    def cited(self, other: Step) -> str:
+        """Return the proof term of another step, from this one's premises."""
+        if other.statement.conclusion in self.labels:
+            return self.labels[other.statement.conclusion]
+        return " ".join((other.name, *(self.labels[p.said] for p in other.statement.premises)))
+
+    @cached_property
+    def frontier(self) -> list[Step]:
+        """Return the nearest steps that this one can use, instead of parents that it cannot."""
+        found: dict[str, Step] = {}
+
+        def visit(step: Step) -> None:
+            for parent in step.parents:
+                if self.usable(parent):
+                    found.setdefault(parent.name, parent)
+                else:
+                    visit(parent)
+
+        visit(self)
+        return list(found.values())
+
+    @cached_property
+    def ancestors(self) -> list[Step]:
+        """Return all usable steps that this one rests on, nearest first."""
+        found: dict[str, Step] = {}
+        row: list[Step] = list(self.parents)
+        while row:
+            for step in row:
+                if self.usable(step):
+                    found.setdefault(step.name, step)
+            row = list(dict.fromkeys(p for step in row for p in step.parents))
+        return list(found.values())
+
+    @cached_property
+    def hypotheses(self) -> list[Step]:
+        """Return the premises with a relation, as steps to cite."""
+        return [
+            Step(p.label, _Said(p.relation), Statement((p,), p.said), ())  # type: ignore[arg-type]
+            for p in self.statement.premises
+            if p.relation is not sp.true
+        ]
+
+    @cached_property
+    def limits(self) -> list[Step]:
+        """Return the nearest usable steps whose claims are limits."""
+        return [s for s in self.frontier if isinstance(s.relation, sp.Equality) and s.relation.has(sp.Limit)]
+
+
+@dataclass(frozen=True)
+class _Said:
+    relation: sp.Basic
+
+
+def steps(judgements: Iterable[Judgement]) -> tuple[list[Step], dict[int, str]]:
+    """Return judgements as steps, premises first, and the reasons of those that cannot be."""
+    made: dict[int, Step] = {}
+    refused: dict[int, str] = {}
+    for number, judgement in enumerate(judgements):
+        try:
+            said = statement(judgement)
+        except UntranslatableError as reason:
+            refused[id(judgement)] = str(reason)
+            continue
+        parents = tuple(made[id(p)] for p in judgement.parents if id(p) in made)
+        made[id(judgement)] = Step(f"step_{number}", judgement, said, parents)
+    return list(made.values()), refused
