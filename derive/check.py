@@ -1,12 +1,15 @@
-"""The outcome of one check.
+"""The checks of one step: the dimensions of its claim, and its rule applied again.
 
-A statement is checked in up to three ways: ``dimensions`` of its claim, a ``proof`` by its rule,
-and a ``sample``, values at many digits that know nothing of the proof.
+A judgement is also tried against models by the falsifier, which shares nothing with the rules.
 """
 
 from __future__ import annotations
 
+from functools import cache
 from typing import NamedTuple
+
+from .dimensions import homogeneous
+from .kernel import Judgement, replayed
 
 
 class Check(NamedTuple):
@@ -15,3 +18,13 @@ class Check(NamedTuple):
     kind: str
     passed: bool
     detail: str
+
+
+@cache
+def checks(judgement: Judgement) -> tuple[Check, ...]:
+    """Return what comes of checking one step; its parents are steps of their own."""
+    fault, refusal = homogeneous(judgement.relation), replayed(judgement)
+    return (
+        Check("dimensions", fault is None, fault or "both sides agree"),
+        Check("proof", refusal is None, refusal or judgement.rule.source),
+    )

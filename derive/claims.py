@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -153,7 +153,7 @@ class Equivalence(Claim):
 
 @dataclass(frozen=True)
 class Limit(Claim):
-    """``expr`` has the limit ``value`` as ``variable`` tends to ``point`` (``oo``, or from above)."""
+    """``expr`` tends to ``value`` as ``variable`` tends to ``point`` (``oo`` or from above)."""
 
     expr: sp.Expr
     variable: sp.Symbol
@@ -183,6 +183,9 @@ class Asymptotic(Claim):
     @property
     def relation(self) -> sp.Basic:
         return sp.Eq(self.lhs, self.rhs + landau_o(self.order), evaluate=False)
+
+    def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Claim:
+        return replace(self, lhs=change(self.lhs), rhs=change(self.rhs))
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,10 @@ from functools import cached_property
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .check import Check
-from .conditions import Condition
-from .rules import Given
-from .statement import Statement, chain
+from .check import Check, checks
+from .hypotheses import Hypothesis
+from .kernel import Judgement, chain
+from .rules.assumption import Assume
 from .typeset.display import evaluated, latex
 from .typeset.present import presentable
 from .zero import same
@@ -48,10 +48,10 @@ class Equation:
     id: str
     section: str
     title: str
-    statements: tuple[Statement, ...]
+    statements: tuple[Judgement, ...]
     printed: tuple[sp.Basic, ...] = ()
     display: tuple[sp.Basic, ...] = ()
-    refutation: Statement | None = None
+    refutation: Judgement | None = None
     remark: str = ""
     where: tuple[sp.Eq, ...] = ()
 
@@ -63,7 +63,7 @@ class Equation:
     @property
     def claims(self) -> tuple[sp.Basic, ...]:
         """Return the claims of the statements."""
-        return tuple(statement.claim for statement in self.statements)
+        return tuple(statement.relation for statement in self.statements)
 
     @property
     def shown(self) -> tuple[sp.Basic, ...]:
@@ -85,15 +85,20 @@ class Equation:
         return latex(self.printed) if self.printed else ""
 
     @property
-    def steps(self) -> tuple[Statement, ...]:
+    def steps(self) -> tuple[Judgement, ...]:
         """Return the chain of statements from the governing equations to this one."""
         extra = () if self.refutation is None else (self.refutation,)
         return chain(*self.statements, *extra)
 
     @property
-    def conditions(self) -> tuple[Condition, ...]:
-        """Return the hypotheses under which the equation holds."""
-        return tuple(dict.fromkeys(c for s in self.statements for c in s.conditions))
+    def conditions(self) -> tuple[Hypothesis, ...]:
+        """Return what a reader needs to know beside the equation of when it holds."""
+        return tuple(h for h in self.hypotheses if h.shown)
+
+    @property
+    def hypotheses(self) -> tuple[Hypothesis, ...]:
+        """Return all that the equation rests on, each once."""
+        return tuple(dict.fromkeys(h for s in self.statements for h in s.hypotheses))
 
     @cached_property
     def agrees(self) -> bool:
@@ -123,7 +128,7 @@ class Equation:
             return Status.REFUTED
         if not self.agrees:
             return Status.CORRECTED
-        if all(isinstance(s.rule, Given) for s in self.statements):
+        if all(isinstance(s.rule, Assume) for s in self.statements):
             return Status.DEFINITION
         if any(getattr(s.rule, "numeric", False) for s in self.steps):
             return Status.NUMERIC
@@ -153,6 +158,6 @@ def system(claims: tuple[sp.Basic, ...]) -> sp.Basic:
 def verify(equation: Equation) -> tuple[Check, ...]:
     """The outcome of every check on which an equation rests, each run once in a process, and of
     comparing what is typeset with what is claimed."""
-    outcomes = [outcome for step in equation.steps for outcome in step.checks]
+    outcomes = [outcome for step in equation.steps for outcome in checks(step)]
     typeset = Check("typeset", equation.typeset_agrees, "the display form equals the claim")
     return (*outcomes, typeset)

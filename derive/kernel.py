@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import sys
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
 from dataclasses import InitVar, dataclass
 
 import sympy as sp
@@ -26,9 +27,27 @@ import sympy as sp
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
 from .symbols import QUANTITIES
+from .time_limit import time_limit
 
 _ROOM = "derive.rules."
 _TOKEN = object()
+LIMIT_S = 60.0
+"""Seconds of CPU time after which a symbolic step is given up."""
+
+
+def plain(expr: sp.Basic) -> str:
+    """Return an expression as one types it."""
+    return str(expr).replace("(t)", "")
+
+
+def listed(labels: Sequence[str]) -> str:
+    """Return labels with commas, and a word before the last one.
+
+    >>> listed(["(1)", "(2)", "(3)"])
+    '(1), (2) and (3)'
+    """
+    *first, last = labels or ("",)
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 class RuleError(ValueError):
@@ -47,16 +66,20 @@ class Conclusion:
 class Rule(ABC):
     """A theorem.  Its fields are what the author chooses; what must hold comes from premises."""
 
-    source = ""
+    words = ""
+    """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
+    source = "elementary"
     """Where the theorem is found."""
 
     @abstractmethod
     def conclude(self, *premises: Judgement) -> Conclusion:
         """Return what follows; RuleError names the premise or side condition that is missing."""
 
-    @abstractmethod
-    def sentence(self, *labels: str) -> str:
+    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         """Return what was done, in one sentence, with the labels of the premises."""
+        fields = {name: write(v) for name, v in vars(self).items() if isinstance(v, sp.Basic)}
+        places = {"all": listed(labels), "others": listed(labels[1:])}
+        return self.words.format(*labels, **places, **fields)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +150,8 @@ def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
         getattr(sys.modules[kind.__module__], kind.__name__, None) is not kind
     ):
         raise RuleError(f"{kind.__name__} is no rule of {_ROOM[:-1]}")
-    made = rule.conclude(*premises)
+    with time_limit(LIMIT_S, f"{kind.__name__}: {rule.words}"):
+        made = rule.conclude(*premises)
     union = (h for premise in premises for h in premise.hypotheses)
     kept = (h for h in union if h not in made.discharges)
     return tuple(dict.fromkeys((*kept, *made.adds))), made.claim

@@ -189,6 +189,11 @@ _TABLE = (
     Quantity("p_1", "p_1", "mm", "half the slope of sigma^2 at the start", _real(-1e-4, 1e-4)),
 )
 
+DATA = frozenset(
+    "h_0 sigma_a0 sigma_c0 f_a f_c f_aa f_ac f_cc f_ca K_a K_c H_a H_c p_max k b L R n V U T".split()
+)
+"""Parameters that may vary each by itself: all others are made of them."""
+
 QUANTITIES = MappingProxyType({quantity.name: quantity for quantity in _TABLE})
 """The vocabulary by name."""
 

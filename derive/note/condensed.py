@@ -20,8 +20,10 @@ from functools import cache, cached_property
 import sympy as sp
 
 from ..equations import Equation
+from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
-from ..statement import Statement
+from ..rules.algebra import solve, substitute
+from ..rules.calculus import rigid
 from ..symbols import initial, rate, symbols
 from ..typeset.display import as_written, minus
 from . import printed
@@ -40,51 +42,51 @@ class Condensed:
     model: Model
 
     @cached_property
-    def deflection(self) -> Statement:
+    def deflection(self) -> Judgement:
         """Eq. (7c)."""
-        return self.model.support.solve_for(U_c)
+        return solve(self.model.support, U_c)
 
     @cached_property
-    def pressure_from_rate(self) -> Statement:
+    def pressure_from_rate(self) -> Judgement:
         """Archard's law of the bearing, read as the pressure that a wear rate needs."""
-        return self.model.wear_laws[2].solve_for(p)
+        return solve(self.model.wear_laws[2], p)
 
     @cached_property
-    def pressure_at_wear(self) -> Statement:
+    def pressure_at_wear(self) -> Judgement:
         """The contact law with closure and roughness written in terms of wear and load."""
         model = self.model
-        closed = model.pressure.substitute(model.closure).substitute(self.deflection)
-        return closed.substitute(model.roughness_at_wear)
+        closed = substitute(model.pressure, model.closure, self.deflection)
+        return substitute(closed, model.roughness_at_wear)
 
     @cached_property
-    def implicit(self) -> Statement:
+    def implicit(self) -> Judgement:
         """Eq. (8), first line: everything but u_a and u_c eliminated."""
-        eliminated = self.pressure_at_wear.substitute(self.pressure_from_rate)
+        eliminated = substitute(self.pressure_at_wear, self.pressure_from_rate)
         return eliminated.named("condensed problem")
 
     @cached_property
-    def pressure_of_bearing_wear(self) -> Statement:
+    def pressure_of_bearing_wear(self) -> Judgement:
         """The pressure in terms of u_c and U_a: explicit but for the deflection p/k."""
         made = self.pressure_at_wear
-        return made.substitute(self.model.wear_of_pin) if made.claim.has(u_a) else made
+        return substitute(made, self.model.wear_of_pin) if made.relation.has(u_a) else made
 
     @cached_property
-    def scalar(self) -> Statement:
+    def scalar(self) -> Judgement:
         """Eq. (9): u_c alone, solved for its rate where that stands outside the contact law."""
-        explicit = self.model.wear_laws[2].substitute(self.pressure_of_bearing_wear)
-        return explicit.substitute(self.pressure_from_rate).named("general form")
+        explicit = substitute(self.model.wear_laws[2], self.pressure_of_bearing_wear)
+        return substitute(explicit, self.pressure_from_rate).named("general form")
 
     @cached_property
-    def rigid(self) -> Statement:
+    def rigid(self) -> Judgement:
         """Eq. (10): the limit of an infinitely stiff support."""
-        return self.scalar.limit(k, sp.oo).named("rigid support")
+        return rigid(self.scalar, "rigid support")
 
     @cached_property
-    def rigid_condensed(self) -> Statement:
+    def rigid_condensed(self) -> Judgement:
         """Eq. (13), first line: (8) for a rigid support."""
-        condensed = self.implicit.limit(k, sp.oo)
-        if condensed.claim.has(u_a):
-            condensed = condensed.substitute(self.model.wear_of_pin)
+        condensed = rigid(self.implicit)
+        if condensed.relation.has(u_a):
+            condensed = substitute(condensed, self.model.wear_of_pin)
         return condensed.named("condensed problem, rigid support")
 
 

@@ -4,7 +4,7 @@ Overview
     Two rigid solids, a rotating pin and a bearing on springs, are in contact and wear.  The
     hypotheses (1) to (6) are stated here as the note states them; (7) follows from them.
 Key results
-    Model               the hypotheses, for a contact law and a sign of pin wear
+    Model               the hypotheses, for a contact law, a sign of pin wear and a kind of pin
     pressure_in_contact (7e) where the cutoff in the text under (4) allows contact
     wear_of_pin, roughness_of_pin, roughness_of_bearing   (5) integrated from (6)
 Remarks
@@ -23,10 +23,13 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
-from ..statement import Statement, given
+from ..rules.algebra import insert, restrict, solve, substitute
+from ..rules.assumption import assume, defined
+from ..rules.calculus import SPRINGS, integrate
 from ..symbols import initial, rate, symbols
 from ..typeset.display import as_written
 from . import printed
@@ -38,8 +41,24 @@ V, R, omega, n, kappa = symbols("V R omega n kappa")
 f_a, f_c, f_aa, f_ac, f_cc, f_ca = symbols("f_a f_c f_aa f_ac f_cc f_ca")
 K_a, K_c, H_a, H_c = symbols("K_a K_c H_a H_c")
 
-ROUGH_BEARING = Condition("the bearing is rough", sp.Gt(sigma_c, 0))
-NO_CROSS_COUPLING = {f_ac: 0, f_ca: 0, f_aa: f_a, f_cc: f_c}
+ROUGH_BEARING = Hypothesis("the bearing is rough", sp.Gt(sigma_c, 0), kind=Kind.STATE)
+SMOOTH_PIN = Hypothesis(
+    "the pin is smooth", sp.Eq(sigma_a, 0), r"\text{the pin is smooth}", Kind.SETTING
+)
+UNWORN_PIN = Hypothesis(
+    "the pin does not wear", sp.Eq(u_a, 0), r"\text{the pin does not wear}", Kind.SETTING
+)
+UNCOUPLED = tuple(
+    Hypothesis(f"no cross coupling of roughness, {name} = 0", sp.Eq(name, 0), kind=Kind.SETTING)
+    for name in (f_ac, f_ca)
+)
+OWN = (defined(f_aa, f_a), defined(f_cc, f_c))
+"""f_a and f_c: how the roughness of a solid changes with its own wear."""
+
+
+def equation(relation: sp.Basic, text: str, remark: str = "", name: str = "") -> Judgement:
+    """Return one of the hypotheses of section 2."""
+    return assume(Hypothesis(text, relation, kind=Kind.MODEL), name, remark)
 
 
 class Pin(StrEnum):
@@ -70,60 +89,63 @@ class Model:
     pin: Pin = Pin.WORN_ROUGH
 
     @cached_property
-    def closure(self) -> Statement:
+    def closure(self) -> Judgement:
         """Eq. (1), or its physical sign, with which wear of either solid opens the gap."""
         wear = u_c + u_a if self.opening else u_c - u_a
         remark = "wear of either solid opens the gap" if self.opening else "sign of u_a as printed"
         claim = sp.Eq(h, h_0 + wear + U_c - U_a)
-        return given(claim, "kinematics, Eq. (1)", U_a, remark, "closure")
+        return equation(claim, "kinematics, Eq. (1)", remark, "closure")
 
     @cached_property
-    def reaction(self) -> Statement:
+    def reaction(self) -> Judgement:
         """Eq. (2), equilibrium of the pin."""
-        return given(sp.Eq(p * b * L - R_a, 0), "equilibrium of the pin, Eq. (2)", R_a)
+        return equation(sp.Eq(p * b * L - R_a, 0), "equilibrium of the pin, Eq. (2)")
 
     @cached_property
-    def reaction_force(self) -> Statement:
+    def reaction_force(self) -> Judgement:
         """Eq. (7b), the form in which the reaction follows from the pressure."""
-        return self.reaction.rearrange(sp.Eq(p * b * L, R_a))
+        return insert(sp.Eq(p * b * L, R_a), solve(self.reaction, R_a))
 
     @cached_property
-    def support(self) -> Statement:
+    def support(self) -> Judgement:
         """Eq. (2), equilibrium of the bearing on its springs."""
-        return given(sp.Eq(k * U_c - p, 0), "equilibrium of the bearing, Eq. (2)", U_c)
+        return assume(SPRINGS)
 
     @cached_property
-    def roughness(self) -> Statement:
+    def roughness(self) -> Judgement:
         """Eq. (3), equivalent roughness."""
         claim = sp.Eq(sigma, sp.sqrt(sigma_a**2 + sigma_c**2))
-        return given(claim, "equivalent roughness, Eq. (3)", sigma)
+        return equation(claim, "equivalent roughness, Eq. (3)")
 
     @cached_property
-    def pressure(self) -> Statement:
+    def pressure(self) -> Judgement:
         """Eq. (4) at every closure, as the note uses it from (7e) on."""
         claim = sp.Eq(p, p_max * self.law.ratio(h / sigma))
         remark = "the cutoff in the text under (4) is not applied from here on"
-        return given(claim, f"contact law at every closure, {self.law.source}", p, remark)
+        text = f"no loss of contact: the law holds at every closure, {self.law.source}"
+        typeset = r"\text{no loss of contact}"
+        return assume(Hypothesis(text, claim, typeset, Kind.SETTING), "", remark)
 
     @cached_property
-    def pressure_with_cutoff(self) -> Statement:
+    def pressure_with_cutoff(self) -> Judgement:
         """Eq. (4) with the text under it: no contact for h > 3 sigma."""
         law = p_max * self.law.ratio(h / sigma)
         claim = sp.Eq(p, sp.Piecewise((law, self.in_contact.relation), (0, True)))
-        return given(claim, f"contact law with its cutoff, {self.law.source}", p)
+        return equation(claim, f"contact law with its cutoff, {self.law.source}")
 
     @property
-    def in_contact(self) -> Condition:
+    def in_contact(self) -> Hypothesis:
         """Contact is active, in the sense of the text under (4)."""
-        return Condition("contact is active", sp.Le(h, self.law.cutoff * sigma))
+        active = sp.Le(h, self.law.cutoff * sigma)
+        return Hypothesis("contact is active", active, kind=Kind.STATE)
 
     @cached_property
-    def pressure_in_contact(self) -> Statement:
+    def pressure_in_contact(self) -> Judgement:
         """Eq. (7e) where contact is active."""
-        return self.pressure_with_cutoff.restrict(self.in_contact)
+        return restrict(self.pressure_with_cutoff, assume(self.in_contact))
 
     @cached_property
-    def archard(self) -> tuple[Statement, Statement, Statement, Statement]:
+    def archard(self) -> tuple[Judgement, Judgement, Judgement, Judgement]:
         """Eq. (5): wear of both solids by Archard's law, and what it does to the roughness."""
         archard = "Archard's law, Eq. (5)"
         texture = "roughness changes with wear, Eq. (5)"
@@ -134,67 +156,73 @@ class Model:
             (rate("sigma_c"), f_cc * rate("u_c") + f_ca * rate("u_a"), texture),
         )
         u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = (
-            given(sp.Eq(left, right), source, left) for left, right, source in pairs
+            equation(sp.Eq(left, right), source) for left, right, source in pairs
         )
         return u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate
 
     @cached_property
-    def wear_laws(self) -> tuple[Statement, Statement, Statement, Statement]:
+    def wear_laws(self) -> tuple[Judgement, Judgement, Judgement, Judgement]:
         """Eq. (7f): (5) when wear of a solid changes its own roughness only."""
         u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = self.archard
-        without = "no cross coupling of roughness: f_ij = 0 for i != j"
+        (no_ac, no_ca), (own_a, own_c) = map(assume, UNCOUPLED), OWN
         return (
             u_a_rate,
-            sigma_a_rate.specialise(NO_CROSS_COUPLING, without),
+            substitute(sigma_a_rate, no_ac, own_a),
             u_c_rate,
-            sigma_c_rate.specialise(NO_CROSS_COUPLING, without),
+            substitute(sigma_c_rate, no_ca, own_c),
         )
 
     @cached_property
-    def start(self) -> tuple[Statement, ...]:
+    def start(self) -> tuple[Judgement, ...]:
         """Eq. (6): initial values of h, u_c, u_a, sigma_a, sigma_c."""
         values = (("h", h_0), ("u_c", 0), ("u_a", 0), ("sigma_a", sigma_a0), ("sigma_c", sigma_c0))
         return tuple(
-            given(sp.Eq(initial(name), value), "initial condition, Eq. (6)", initial(name))
+            assume(
+                Hypothesis(
+                    "initial condition, Eq. (6)", sp.Eq(initial(name), value), kind=Kind.INITIAL
+                )
+            )
             for name, value in values
         )
 
     @cached_property
-    def wear_of_pin(self) -> Statement:
+    def wear_of_pin(self) -> Judgement:
         """The pin wears in proportion to the bearing: second line of (8)."""
+        if not self.pin.wears:
+            return assume(UNWORN_PIN)
         _, start_c, start_a, *_ = self.start
         u_a_rate, _, u_c_rate, _ = self.wear_laws
-        proportional = u_a_rate.substitute(u_c_rate.solve_for(p))
-        worn = proportional.integrate(start_a, start_c).named("wear of the pin")
-        return worn if self.pin.wears else worn.specialise({K_a: 0}, "the pin does not wear")
+        proportional = substitute(u_a_rate, solve(u_c_rate, p))
+        return integrate(proportional, start_a, start_c).named("wear of the pin")
 
     @cached_property
-    def roughness_of_pin(self) -> Statement:
+    def roughness_of_pin(self) -> Judgement:
         """sigma_a as a function of the wear of the pin."""
-        rough = self.wear_laws[1].integrate(self.start[3], self.start[2])
         if not self.pin.rough:
-            return rough.specialise({sigma_a0: 0, f_a: 0}, "the pin is smooth")
-        return rough if self.pin.wears else rough.substitute(self.wear_of_pin)
+            return assume(SMOOTH_PIN)
+        rough = integrate(self.wear_laws[1], self.start[3], self.start[2])
+        return rough if self.pin.wears else substitute(rough, self.wear_of_pin)
 
     @cached_property
-    def roughness_of_bearing(self) -> Statement:
+    def roughness_of_bearing(self) -> Judgement:
         """sigma_c as a function of the wear of the bearing."""
-        return self.wear_laws[3].integrate(self.start[4], self.start[1])
+        return integrate(self.wear_laws[3], self.start[4], self.start[1])
 
     @cached_property
-    def roughness_at_wear(self) -> Statement:
+    def roughness_at_wear(self) -> Judgement:
         """The equivalent roughness in terms of the wear of both solids."""
-        combined = self.roughness.substitute(self.roughness_of_pin)
+        combined = substitute(self.roughness, self.roughness_of_pin)
         if not self.pin.rough:
-            combined = combined.restrict(ROUGH_BEARING, "a smooth pin leaves no square root")
-        return combined.substitute(self.roughness_of_bearing)
+            rough = assume(ROUGH_BEARING)
+            combined = restrict(combined, rough, "a smooth pin leaves no square root")
+        return substitute(combined, self.roughness_of_bearing)
 
     @cached_property
-    def slip(self) -> Statement:
+    def slip(self) -> Judgement:
         """The slip rate, from the radius of the pin and its speed in revolutions per minute."""
-        slip = given(sp.Eq(V, R * omega), "slip rate of the pin, section 2.4", V)
-        speed = given(sp.Eq(omega, sp.pi * n / 30), "revolutions per minute", omega)
-        return slip.substitute(speed)
+        slip = equation(sp.Eq(V, R * omega), "slip rate of the pin, section 2.4")
+        speed = equation(sp.Eq(omega, sp.pi * n / 30), "revolutions per minute")
+        return substitute(slip, speed)
 
 
 def equations(model: Model) -> tuple[Equation, ...]:
@@ -203,7 +231,7 @@ def equations(model: Model) -> tuple[Equation, ...]:
         closure = (sp.Eq(h, h_0 + (u_c + U_c) - (u_a + U_a)),)
         reaction = (sp.Eq(p * b * L - R_a, 0),)
         support = (sp.Eq(k * U_c - p, 0),)
-    deflection = model.support.solve_for(U_c)
+    deflection = solve(model.support, U_c)
     dropped = (
         "follows from (4) where contact is active; the note then uses it at every closure, "
         "which is a hypothesis of its own"

@@ -13,15 +13,17 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..conditions import Condition
 from ..equations import Equation
-from ..results.first_integral import FirstIntegral
-from ..statement import Statement
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
+from ..results.first_integral import UNSATURATED, FirstIntegral
+from ..rules.algebra import discharge, solve
+from ..rules.assumption import assume
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus
 from ..typeset.present import presentable
@@ -37,7 +39,9 @@ from .governing import Model
 h, p, p_max, R_a, U_a, b, L = symbols("h p p_max R_a U_a b L")
 h_0, u_a, u_c, kappa = symbols("h_0 u_a u_c kappa")
 
-CARRIED = Condition("the contact can carry the load", sp.And(R_a > 0, R_a < p_max * b * L))
+CARRIED = Hypothesis(
+    "the contact can carry the load", sp.And(R_a > 0, R_a < p_max * b * L), kind=Kind.STATE
+)
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ class Problem:
     id: str
     title: str
     given: sp.Expr
-    order: tuple[Statement, ...]
+    order: tuple[Judgement, ...]
 
     @property
     def unknowns(self) -> tuple[sp.Expr, ...]:
@@ -58,7 +62,7 @@ class Problem:
         return tuple(_determined(statement) for statement in self.order)
 
 
-def _determined(statement: Statement) -> sp.Expr:
+def _determined(statement: Judgement) -> sp.Expr:
     left = statement.claim.lhs
     return left.expr if isinstance(left, sp.Derivative) else left
 
@@ -85,7 +89,9 @@ def undetermined(problem: Problem) -> tuple[str, ...]:
 def given_load(model: Model | None = None) -> Problem:
     """Problem (i): the reaction R_a of the pin is given."""
     model = model or Model()
-    pressure = replace(model.reaction.solve_for(p), conditions=(CARRIED,))
+    carried = assume(CARRIED)
+    pressure = solve(model.reaction, p)
+    closure = solve(FirstIntegral(model.law).log_odds, h)
     u_a_rate, _, u_c_rate, _ = model.wear_laws
     order = (
         pressure,
@@ -95,8 +101,8 @@ def given_load(model: Model | None = None) -> Problem:
         model.roughness_of_bearing,
         model.roughness,
         Condensed(model).deflection,
-        FirstIntegral(model.law).log_odds.solve_for(h),
-        model.closure.solve_for(U_a),
+        discharge(closure, UNSATURATED, pressure, carried),
+        solve(model.closure, U_a),
     )
     return Problem("problem-i", "given load: the pressure is prescribed", R_a, order)
 
@@ -114,7 +120,7 @@ def given_motion(model: Model | None = None) -> Problem:
         condensed.pressure_from_rate,
         condensed.deflection,
         model.closure,
-        model.reaction.solve_for(R_a),
+        solve(model.reaction, R_a),
     )
     return Problem("problem-ii", "given displacement: the pressure is free", U_a, order)
 
@@ -128,7 +134,7 @@ def equations() -> tuple[Equation, ...]:
         argument = sp.Eq(x, sp.Add(4, minus(2 * closure / roughness_of_both)))
         law = sp.Eq(rate("u_c"), half_rate * (1 + sp.tanh(x)))
         proportional = sp.Eq(u_a, kappa * u_c)
-    others = tuple(presentable(statement.claim) for statement in motion.order[2:])
+    others = tuple(presentable(statement.relation) for statement in motion.order[2:])
     return (
         Equation(load.id, "3", load.title, load.order),
         Equation(

@@ -22,21 +22,30 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
 from ..results.steady_state import (
     SteadyState,
     closure,
-    made,
+    excess,
     per_cycle,
     roughness,
     steady_state,
-    step,
 )
-from ..rules.authored import Identity
-from ..rules.drift import LinearApproach, LogarithmicDrift
-from ..rules.limits import Named, Passes, forever, later
-from ..statement import Statement, given
+from ..rules.algebra import identity, insert, substitute
+from ..rules.assumption import assume, defined
+from ..rules.drift import MEAN, first_order, logarithmic_drift
+from ..rules.limits import (
+    at_infinity,
+    diverges,
+    forever,
+    later,
+    one_period_later,
+    passes,
+    reciprocal,
+)
+from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus
 from . import printed_stabilised as printed
@@ -44,8 +53,6 @@ from . import printed_stabilised as printed
 h_0, U_a, u_c, p, T, U_mean = symbols("h_0 U_a u_c p T U_mean")
 sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
 u_cum, p_inf, G, G_inf, u_inf, A, sigma = symbols("u_cum p_inf G G_inf u_inf A sigma")
-
-PERIODIC = Condition("the load has the period T", typeset=r"\text{the load has the period}\; T")
 
 argument = (4 * roughness - 2 * closure) / roughness
 bracket = (4 * f_c - 2) * roughness - f_c * (4 * roughness - 2 * closure)
@@ -58,116 +65,133 @@ class Stabilised:
     steady: SteadyState = field(default_factory=steady_state)
 
     @cached_property
-    def vacuous(self) -> Statement:
+    def vacuous(self) -> Judgement:
         """(11) as printed holds for every field, with G_inf = G."""
-        choice = given(sp.Eq(G_inf, G), "a choice of G_inf", G_inf)
+        choice = assume(Hypothesis("a choice of G_inf", sp.Eq(G_inf, G), kind=Kind.DEFINITION))
         claim = sp.Eq(forever(G - G_inf), 0)
-        return step(claim, Passes(), choice, name="every field satisfies (11)")
+        return passes(claim, choice, name="every field satisfies (11)")
 
     @cached_property
-    def asymptotic_response(self) -> Statement:
+    def asymptotic_response(self) -> Judgement:
         """(11), made to say something: the field itself has a limit."""
         at_rest = printed.at("G_inf", sp.S.Zero)
-        return given(sp.Eq(forever(G - at_rest), 0), "definition of an asymptotic response")
+        claim = sp.Eq(forever(G - at_rest), 0)
+        return assume(Hypothesis("an asymptotic response", claim, kind=Kind.DEFINITION))
 
     @cached_property
-    def stabilised_response(self) -> tuple[Statement, Statement]:
+    def stabilised_response(self) -> tuple[Judgement, Judgement]:
         """(12), for rates as its text says."""
-        source = "definition of a stabilised response"
-        periodic = sp.Eq(rate("G_inf") - later(rate("G_inf")), 0)
-        return (
-            given(periodic, source),
-            given(sp.Eq(forever(rate("G") - rate("G_inf")), 0), source),
+        claims = (
+            sp.Eq(rate("G_inf") - later(rate("G_inf")), 0),
+            sp.Eq(forever(rate("G") - rate("G_inf")), 0),
         )
+        text = "a stabilised response"
+        periodic, tends = (assume(Hypothesis(text, c, kind=Kind.DEFINITION)) for c in claims)
+        return periodic, tends
 
     @cached_property
-    def periodic_rate(self) -> Statement:
+    def periodic_rate(self) -> Judgement:
         """(14): the rates of two cycles come together."""
         claim = sp.Eq(forever(later(rate("u_c")) - rate("u_c")), 0)
-        return step(claim, Passes(), self.steady.rate, name="the rate becomes periodic")
+        return passes(claim, self.steady.rate, name="the rate becomes periodic")
 
     @cached_property
-    def passage(self) -> Statement:
+    def passage(self) -> Judgement:
         """First lines of (15), (16) and (17)."""
         left = 3 * H_c / (K_c * V) * rate("u_c")
         right = p_max / 2 * (1 + sp.tanh(argument))
+        value = p_max / 2 * (1 + sp.tanh(4 - 2 / f_c))
+        sides = (
+            passes(sp.Eq(forever(left), value), self.steady.rate),
+            passes(sp.Eq(forever(right), value), self.steady.ratio),
+        )
         claim = sp.Eq(forever(left), forever(right))
-        parents = (self.steady.rate_at_wear, self.steady.ratio)
-        return step(claim, Passes(), *parents, name="passage to the limit")
+        return insert(claim, *sides, name="passage to the limit")
 
     @cached_property
-    def argument(self) -> Statement:
+    def argument(self) -> Judgement:
         """(17), second line: the argument of tanh tends to 4 - 2/f_c."""
         claim = sp.Eq(forever(argument), 4 - 2 / f_c)
-        return step(claim, Passes(), self.steady.ratio, name="limit of the argument")
+        return passes(claim, self.steady.ratio, name="limit of the argument")
 
     @cached_property
-    def arguments_meet(self) -> Statement:
+    def arguments_meet(self) -> Judgement:
         """(15), second line."""
         claim = sp.Eq(forever(later(argument) - argument), 0)
-        return step(claim, Passes(), self.steady.ratio, name="the arguments come together")
+        return passes(claim, self.steady.ratio, name="the arguments come together")
 
     @cached_property
-    def bracket(self) -> Statement:
+    def bracket(self) -> Judgement:
         """The bracket in (16), second line, does not depend on the wear."""
         claim = sp.Eq(bracket, 2 * (f_c * (h_0 - U_a) - sigma_c0))
         remark = "a constant for each load, zero only for one load: (16) as printed is false"
-        return Statement(claim, Identity(), remark=remark, name="bracket of (16)")
+        return identity(claim, name="bracket of (16)", remark=remark)
 
     @cached_property
-    def difference(self) -> Statement:
+    def difference(self) -> Judgement:
         """The difference in (15), with the denominators that (16) drops."""
-        wear, load = later(u_c) - u_c, {later(U_a): U_a}
-        claim = sp.Eq(
-            (later(argument) - argument).subs(load),
-            wear * bracket / (roughness * later(roughness)),
-        )
+        wear, repeats = later(u_c) - u_c, assume(PERIODIC)
+        product = roughness * later(roughness)
+        claim = sp.Eq(later(argument) - argument, wear * bracket / product)
+        worn = self.steady.worn
+        facts = (self.steady.roughening, worn, one_period_later(worn))
         remark = "the product of two roughnesses tends to infinity and must not be dropped"
-        conditions = (PERIODIC,)
-        return Statement(claim, Identity(), (), conditions, remark, "from (15) to (16)")
+        found = insert(claim, repeats, *facts)
+        return substitute(found, repeats, name="from (15) to (16)", remark=remark)
 
     @cached_property
-    def bracket_over_roughness(self) -> Statement:
+    def bracket_over_roughness(self) -> Judgement:
         """(16), second line, with its denominators."""
-        claim = sp.Eq(u_cum * forever(bracket / (roughness * later(roughness))), 0)
-        parents = (self.steady.vanishing, self.steady.divergence)
-        return step(claim, Passes(), *parents, name="(16) with its denominators")
+        product = forever(bracket / (roughness * later(roughness)))
+        vanishing = passes(
+            sp.Eq(product, 0), self.steady.vanishing, reciprocal(self.steady.divergence)
+        )
+        claim = sp.Eq(u_cum * product, 0)
+        return insert(claim, vanishing, name="(16) with its denominators")
 
     @cached_property
-    def linear_approach(self) -> Statement:
+    def linear_approach(self) -> Judgement:
         """The distance of the rate from its limit, to first order in 1/t."""
         steady = self.steady
-        parents = (steady.rate_at_wear, steady.deviation, steady.ratio, steady.rate)
-        return made(LinearApproach(), *parents, name="approach of the rate, first order")
+        wear = diverges(u_c, steady.growth, steady.roughening)
+        claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
+        deviation = at_infinity(claim, wear, steady.roughening, steady.worn)
+        parents = (steady.rate_at_wear, deviation, steady.ratio, steady.rate)
+        return first_order(*parents, name="approach of the rate, first order")
 
     @cached_property
-    def asymptote(self) -> Statement:
+    def asymptote(self) -> Judgement:
         """In the place of (19): wear departs from every straight line like ln t."""
-        drift = made(LogarithmicDrift((U_a, U_mean)), self.linear_approach)
-        conditions = (*drift.conditions, PERIODIC)
-        remark = "an affine asymptote exists for sigma_c0 = f_c (h_0 - <U_a>) only"
-        return Statement(
-            drift.claim, drift.rule, drift.parents, conditions, remark, "logarithmic drift"
-        )
+        return drift(self.linear_approach)
 
     @cached_property
-    def increment(self) -> Statement:
+    def increment(self) -> Judgement:
         """(20): the wear of one cycle of the asymptotic response."""
-        claim = sp.Eq(u_cum, printed.at("u_inf", t + T) - u_inf)
-        return given(claim, "definition of the asymptotic wear per cycle", u_cum)
+        return defined(u_cum, printed.at("u_inf", t + T) - u_inf)
 
     @cached_property
-    def wear_per_cycle(self) -> Statement:
+    def wear_per_cycle(self) -> Judgement:
         """(21): the wear of a cycle tends to the product of limit rate and period."""
-        meaning = sp.Eq(u_cum, forever(u_c.subs(t, t + T) - u_c))
-        definition = given(meaning, "definition of u_cum, before (15)", u_cum)
-        return made(Named(), definition, self.steady.wear_per_cycle, name="wear per cycle")
+        limit = self.steady.wear_per_cycle
+        return named_limit(u_cum, limit, "wear per cycle")
 
     @cached_property
-    def pressure(self) -> Statement:
+    def pressure(self) -> Judgement:
         """(22)."""
-        definition = given(sp.Eq(p_inf, forever(p)), "definition of p_inf", p_inf)
-        return made(Named(), definition, self.steady.pressure, name="asymptotic pressure")
+        return named_limit(p_inf, self.steady.pressure, "asymptotic pressure")
+
+
+def named_limit(symbol: sp.Expr, limit: Judgement, name: str) -> Judgement:
+    """Return the value of a symbol that is defined as a limit."""
+    definition = defined(symbol, limit.claim.term)
+    return insert(sp.Eq(symbol, limit.claim.value), definition, limit, name=name)
+
+
+def drift(approach: Judgement) -> Judgement:
+    """Return the logarithmic drift under a periodic load, from the approach of the rate."""
+    mean = defined(MEAN.lhs, MEAN.rhs, "mean of the load")
+    load = (assume(PERIODIC), assume(CONTINUOUS), mean)
+    return logarithmic_drift(approach, *load, name="logarithmic drift")
 
 
 def _displays() -> dict[str, tuple[sp.Basic, ...]]:

@@ -17,20 +17,20 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
-from ..rules.authored import Positive
-from ..statement import Statement
+from ..hypotheses import Hypothesis
+from ..kernel import Judgement
+from ..rules.assumption import assume
+from ..rules.inequalities import arithmetic
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
+from .first_integral import UNSATURATED
 
 U_a, p, p_max, k = symbols("U_a p p_max k")
 
-UNSATURATED = Condition("the pressure stays below its maximum", sp.Lt(p, p_max))
-_share, _positive = sp.symbols("share positive", positive=True)
 _a, _cosine = sp.symbols("a c", real=True)
 
-SAME_SIDE = Condition("b is less than a quarter turn", sp.Gt(_cosine, 0))
+SAME_SIDE = Hypothesis("b is less than a quarter turn", sp.Gt(_cosine, 0))
 
 STRIP = sp.pi / 8
 """Largest |Im h/sigma| at which |phi| <= 1: there |Im(4 h/sigma)| is a quarter turn."""
@@ -41,26 +41,17 @@ class Comparison:
     """Bounds of the load and of the law at complex closures."""
 
     @cached_property
-    def compliant(self) -> Statement:
+    def compliant(self) -> Judgement:
         """The load that a compliant support leaves lies between two rigid ones."""
         claim = sp.And(sp.Lt(U_a - p_max / k, U_a - p / k), sp.Lt(U_a - p / k, U_a))
-        signs = ((p, p_max / (1 + _share)),)
-        return Statement(claim, Positive(signs), (), (UNSATURATED,), name="load and support")
+        return arithmetic(claim, assume(UNSATURATED), name="load and support")
 
     @cached_property
-    def strip(self) -> Statement:
+    def strip(self) -> Judgement:
         """1/(1 + e^z) is less than 1 in modulus while the cosine of Im z is positive."""
-        squared = 1 + 2 * sp.exp(_a) * _cosine + sp.exp(2 * _a)
-        claim = sp.Gt(squared, 1)
+        claim = sp.Gt(1 + 2 * sp.exp(_a) * _cosine + sp.exp(2 * _a), 1)
         remark = "|1 + e^(a + i b)|^2 with c = cos b"
-        return Statement(
-            claim,
-            Positive(((_cosine, _positive),)),
-            (),
-            (SAME_SIDE,),
-            remark,
-            "strip of analyticity",
-        )
+        return arithmetic(claim, assume(SAME_SIDE), name="strip of analyticity", remark=remark)
 
 
 def equations() -> tuple[Equation, ...]:

@@ -14,109 +14,106 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
+from ..kernel import Judgement, RuleError
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import bearing_only
-from ..rules.authored import Identity, Inserted, Positive
-from ..rules.bounds import Consequence, Monotone
-from ..rules.limits import Passes, forever
-from ..statement import Statement, given, inherited
-from ..symbols import rate, symbols
+from ..note.stabilised import drift, named_limit
+from ..rules.algebra import insert, substitute
+from ..rules.assumption import assume, defined
+from ..rules.drift import first_order
+from ..rules.inequalities import arithmetic
+from ..rules.limits import at_infinity, diverges, forever, passes
+from ..symbols import rate, symbols, t
 from ..typeset.display import as_written
-from .expansion_rules import LogarithmicCoefficient
-from .steady_state import BOUNDED_LOAD, ROUGHENING, SIGNS, SteadyState, made, roughness, step
+from .first_integral import UNSATURATED
+from .steady_state import SteadyState, roughness
 
 h_0, U_a, U_c, u_c, p, U, sigma_c0, f_c = symbols("h_0 U_a U_c u_c p U sigma_c0 f_c")
 p_max, k, K_c, H_c, V, A, U_mean, p_inf = symbols("p_max k K_c H_c V A U_mean p_inf")
 
 closure = h_0 + u_c + U_c - U_a
 excess = sigma_c0 / f_c - h_0 + U_a - U_c
-_BOUND = sigma_c0 / f_c + h_0 + U + p_max / k
-_part = sp.Symbol("part", positive=True)
-_SIGNS = (*SIGNS, (U_c, p_max / k * _part / (1 + _part)))
-DEFLECTED = Condition(
-    "the support carries a pressure below p_max", sp.And(sp.Gt(U_c, 0), sp.Lt(U_c, p_max / k))
-)
-_CONDITIONS = (ROUGHENING, BOUNDED_LOAD, DEFLECTED)
 
 
 @dataclass(frozen=True)
 class CompliantSteadyState(SteadyState):
     """The long-time limit of (9) for one contact law and a finite stiffness."""
 
+    closure: ClassVar[sp.Expr] = closure
+    excess: ClassVar[sp.Expr] = excess
+    bound: ClassVar[sp.Expr] = sigma_c0 / f_c + h_0 + U + p_max / k
+
     @cached_property
-    def pressure_at_wear(self) -> Statement:
+    def pressure_at_wear(self) -> Judgement:
         """The pressure in terms of wear, load and deflection."""
         model = self.model
         parents = (model.pressure, model.closure, model.wear_of_pin, model.roughness_at_wear)
         claim = sp.Eq(p, p_max * self.law.ratio(closure / roughness))
-        return Statement(claim, Inserted(p), parents, name="pressure at wear and deflection")
+        facts = (self.roughening, self.worn)
+        return self.rough(insert(claim, *parents, *facts, name="pressure at wear and deflection"))
 
     @cached_property
-    def rate_at_wear(self) -> Statement:
+    def rate_at_wear(self) -> Judgement:
         """The wear rate in terms of wear, load and deflection."""
         parents = (self.model.wear_laws[2], self.pressure_at_wear)
         claim = sp.Eq(rate("u_c"), K_c * V / (3 * H_c) * self.pressure_at_wear.claim.rhs)
-        return Statement(claim, Inserted(rate("u_c")), parents, name="wear rate")
+        return insert(claim, *parents, name="wear rate")
 
     @cached_property
-    def deviation(self) -> Statement:
-        """h/sigma differs from 1/f_c by a bounded quantity over sigma, exactly."""
-        claim = sp.Eq(closure / roughness, 1 / f_c - excess / roughness)
-        return Statement(claim, Identity(), conditions=(ROUGHENING,), name="exact deviation")
+    def deflected(self) -> Judgement:
+        """The support carries a pressure below p_max, where the law does not show it by itself."""
+        claim = sp.And(sp.Gt(U_c, 0), sp.Lt(U_c, p_max / k))
+        deflection = bearing_only(self.law).deflection
+        try:
+            return arithmetic(claim, deflection, self.model.pressure)
+        except RuleError:
+            return arithmetic(claim, deflection, assume(UNSATURATED))
+
+    @property
+    def facts(self) -> tuple[Judgement, ...]:
+        """What bounds of the closure ratio rest on."""
+        return *super().facts, self.deflected
 
     @cached_property
-    def highest_ratio(self) -> Statement:
-        """h/sigma stays below a bound that holds for all time."""
-        claim = sp.Le(closure / roughness, 1 / f_c + _BOUND / sigma_c0)
-        return Statement(claim, Positive(_SIGNS), (), _CONDITIONS, name="highest closure ratio")
-
-    @cached_property
-    def lowest_rate(self) -> Statement:
-        """The wear rate never falls below a positive constant."""
-        y = sp.Dummy("r", real=True)
-        wear_rate = sp.Lambda(y, K_c * V * p_max * self.law.ratio(y) / (3 * H_c))
-        bound = made(Monotone(wear_rate), self.highest_ratio)
-        claim = sp.Le(bound.claim.lts, rate("u_c"))
-        return step(claim, Consequence(), bound, self.rate_at_wear, name="lowest wear rate")
-
-    @cached_property
-    def squeeze(self) -> Statement:
-        """The deviation of h/sigma is at most a constant over the roughness."""
-        deviation = excess / roughness
-        upper = sp.Le(deviation, _BOUND / roughness)
-        claim = sp.And(upper, sp.Ge(deviation, -_BOUND / roughness))
-        return Statement(claim, Positive(_SIGNS), (), _CONDITIONS, name="bound of the deviation")
-
-    @cached_property
-    def ratio(self) -> Statement:
-        """h/sigma tends to 1/f_c, whatever the law and the stiffness."""
-        claim = sp.Eq(forever(closure / roughness), 1 / f_c)
-        return step(claim, Passes(), self.deviation, self.vanishing, name="limit of h/sigma")
-
-    @cached_property
-    def pressure(self) -> Statement:
+    def pressure(self) -> Judgement:
         """The pressure tends to p_max phi(1/f_c), whatever the stiffness."""
         claim = sp.Eq(forever(p), p_max * self.law.ratio(1 / f_c))
-        return step(claim, Passes(), self.pressure_at_wear, self.ratio, name="steady pressure")
+        return passes(claim, self.pressure_at_wear, self.ratio, name="steady pressure")
+
+    @cached_property
+    def drift(self) -> Judgement:
+        """The coefficient of ln t, in terms of the deflection under the steady pressure."""
+        wear = diverges(u_c, self.growth, self.roughening)
+        claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
+        deviation = at_infinity(claim, wear, *self.facts)
+        near = first_order(
+            self.rate_at_wear, deviation, self.ratio, self.rate, self.deflected
+        )
+        settled = passes(
+            sp.Eq(forever(U_c), p_inf / k), bearing_only(self.law).deflection, self.steady
+        )
+        at_rest = near.claim.expr.subs(U_c, p_inf / k)
+        return drift(passes(sp.Eq(forever(at_rest), 0), near, settled))
+
+    @cached_property
+    def steady(self) -> Judgement:
+        """p tends to p_inf, by the definition of that name."""
+        named = named_limit(p_inf, self.pressure, "asymptotic pressure")
+        return substitute(self.pressure, insert(sp.Eq(self.pressure.claim.value, p_inf), named))
 
 
-def drift_coefficient(law: ContactLaw) -> Statement:
+def drift_coefficient(law: ContactLaw) -> Judgement:
     """Return A of ``u_c(N T) = u_cum N + A ln N + O(1)`` for any periodic load."""
-    steady = given(sp.Eq(p_inf, p_max * law.ratio(1 / f_c)), "definition", p_inf)
-    condensed = bearing_only(law).pressure_of_bearing_wear
+    steady = CompliantSteadyState(law)
     decline = -sp.diff(law.phi, r).subs(r, 1 / f_c) / law.ratio(1 / f_c)
     claim = sp.Eq(A, decline * (sigma_c0 / f_c - h_0 + U_mean - p_inf / k) / f_c)
-    parents = (condensed, steady)
-    repeats = Condition(
-        "the load repeats with period T", typeset=r"\text{the load repeats with period}\; T"
-    )
-    conditions = (*inherited(parents), ROUGHENING, repeats)
-    return Statement(claim, LogarithmicCoefficient(), parents, conditions, name="drift")
+    definition = defined(A, steady.drift.claim.term)
+    return insert(claim, definition, steady.drift, name="drift")
 
 
 def equations() -> tuple[Equation, ...]:

@@ -20,23 +20,25 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
 from ..note.condensed import bearing_only
 from ..note.governing import Model
-from ..rules.authored import Inserted, LogOdds
-from ..statement import Statement, given, inherited
+from ..rules.algebra import insert, logarithm, solve
+from ..rules.assumption import assume
+from ..rules.calculus import RIGID
 from ..symbols import symbols
 from ..typeset.display import as_written
 
 h, h_0, U_a, U_c, u_c, sigma = symbols("h h_0 U_a U_c u_c sigma")
 p, p_max, k, f_c, sigma_c0 = symbols("p p_max k f_c sigma_c0")
 
-SLOPED = Condition("the roughness changes with wear", sp.Ne(f_c, 0))
-UNSATURATED = Condition("the pressure is below its largest value", sp.Lt(p, p_max))
-
-RIGID = given(sp.Eq(U_c, 0), "rigid support, k -> oo in (7c)", U_c)
+SLOPED = Hypothesis("the roughness changes with wear", sp.Ne(f_c, 0))
+UNSATURATED = Hypothesis(
+    "the pressure is below its largest value", sp.Lt(p, p_max), kind=Kind.STATE
+)
 
 
 @dataclass(frozen=True)
@@ -51,38 +53,36 @@ class FirstIntegral:
         return bearing_only(self.law).model
 
     @cached_property
-    def line(self) -> Statement:
+    def line(self) -> Judgement:
         """Closure and roughness lie on a line that the load shifts."""
         model = self.model
         parents = (model.closure, model.roughness_at_wear, model.wear_of_pin)
         claim = sp.Eq(h + U_a - U_c - sigma / f_c, h_0 - sigma_c0 / f_c)
-        conditions = (*inherited(parents), SLOPED)
-        return Statement(claim, Inserted(), parents, conditions, name="line of closure")
+        return insert(claim, *parents, assume(SLOPED), name="line of closure")
 
     @cached_property
-    def log_odds(self) -> Statement:
+    def log_odds(self) -> Judgement:
         """Eq. (4) solved for the closure."""
-        pressure = self.model.pressure
         claim = sp.Eq(sp.log(p / (p_max - p)), 8 - 4 * h / sigma)
-        conditions = (*pressure.conditions, UNSATURATED)
-        return Statement(claim, LogOdds(), (pressure,), conditions, name="log-odds of pressure")
+        parents = (self.model.pressure, assume(UNSATURATED))
+        return logarithm(claim, *parents, name="log-odds of pressure")
 
     @cached_property
-    def compliant(self) -> Statement:
+    def compliant(self) -> Judgement:
         """What stays constant, with a support of stiffness k."""
         deflection = bearing_only(self.law).deflection
         return self._from(deflection, p / k).named("first integral, compliant support")
 
     @cached_property
-    def rigid(self) -> Statement:
+    def rigid(self) -> Judgement:
         """What stays constant, on a rigid support."""
-        return self._from(RIGID, sp.S.Zero).named("first integral")
+        return self._from(assume(RIGID), sp.S.Zero).named("first integral")
 
-    def _from(self, deflection: Statement, depth: sp.Expr) -> Statement:
-        parents = (self.log_odds, self.line.solve_for(h), deflection)
+    def _from(self, deflection: Judgement, depth: sp.Expr) -> Judgement:
+        parents = (self.log_odds, solve(self.line, h), deflection)
         bracket = sp.log(p / (p_max - p)) - (8 - 4 / f_c)
         claim = sp.Eq(sigma * bracket + 4 * depth - 4 * U_a, 4 * (sigma_c0 / f_c - h_0))
-        return Statement(claim, Inserted(), parents, inherited(parents))
+        return insert(claim, *parents)
 
 
 def equations() -> tuple[Equation, ...]:

@@ -15,19 +15,18 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 
-from ..check import Check
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note.condensed import bearing_only
-from ..rules import Authored, proof, sampled
-from ..rules.sign import sign
-from ..statement import Statement, inherited
+from ..note.governing import ROUGH_BEARING
+from ..rules.assumption import assume
+from ..rules.data import one_sign
 from ..symbols import symbols
+from .steady_state import worn
 
 h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
 K_c, H_c, V, p_max = symbols("K_c H_c V p_max")
@@ -35,9 +34,9 @@ K_c, H_c, V, p_max = symbols("K_c H_c V p_max")
 roughness = sigma_c0 + f_c * u_c
 closure = h_0 + u_c - U_a
 
-ROUGH = Condition("the bearing is rough", sp.Gt(roughness, 0))
-APART = Condition("the mean surfaces do not interpenetrate", sp.Gt(closure, 0))
-WORN = Condition("there is wear", sp.Gt(u_c, 0))
+APART = Hypothesis(
+    "the mean surfaces do not interpenetrate", sp.Gt(closure, 0), kind=Kind.STATE
+)
 
 INCREASING = (K_c, V, p_max, U_a, sigma_c0, f_c)
 DECREASING = (H_c, h_0)
@@ -45,50 +44,16 @@ WHILE_APART = (sigma_c0, f_c)
 """Data whose effect needs h > 0."""
 
 
-@dataclass(frozen=True)
-class OfOneSign(Authored):
-    """An authored bound of dQ/da by zero, from the rate Q of the parent.
+def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgement:
+    """Return the sign of the effect of a datum on the rate at given wear and load.
 
-    Proof: the derivative is taken again, closure and roughness are replaced by positive symbols
-    where the conditions say that they are positive, and its sign must then be manifest.
+    ``apart``: whether h > 0 is supposed; by default where it is needed.
     """
-
-    datum: sp.Expr
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        (parent,) = statement.parents
-        slope = _slope(parent.claim.rhs, self.datum)
-        claim = statement.claim
-        direction = sign(_manifest(slope, statement.conditions))
-        proved = direction is not None and claim == _bound(slope, direction)
-        return proof(proved, "the derivative has one sign"), sampled(statement)
-
-
-def _bound(slope: sp.Expr, direction: int) -> sp.Basic:
-    relation = sp.Ge if direction == 1 else sp.Le
-    return relation(slope, 0, evaluate=False)
-
-
-def _slope(rate: sp.Expr, datum: sp.Expr) -> sp.Expr:
-    return sp.diff(rate, datum).doit()
-
-
-def _manifest(slope: sp.Expr, conditions: tuple[Condition, ...]) -> sp.Expr:
-    """Insert positive symbols for what the conditions make positive."""
-    size, gap, wear = (sp.Dummy(name, positive=True) for name in ("sigma", "h", "u"))
-    slope = slope.subs(U_a, h_0 + u_c - gap if APART in conditions else U_a)
-    slope = slope.subs(sigma_c0, size - f_c * u_c).subs(u_c, wear)
-    return sp.expand(slope) if APART in conditions else slope
-
-
-def effect(law: ContactLaw, datum: sp.Expr) -> Statement:
-    """Return the sign of the effect of a datum on the rate at given wear and load."""
-    rate = bearing_only(law).rigid
-    slope = _slope(rate.claim.rhs, datum)
-    claim = _bound(slope, 1 if datum in INCREASING else -1)
-    apart = (APART, WORN) if datum in WHILE_APART else ()
-    conditions = (*inherited((rate,)), ROUGH, *apart)
-    return Statement(claim, OfOneSign(datum), (rate,), conditions, name=f"effect of {datum}")
+    problem = bearing_only(law)
+    facts = [problem.model.roughness_of_bearing, assume(ROUGH_BEARING)]
+    if datum in WHILE_APART if apart is None else apart:
+        facts += [assume(APART), worn(problem.model)]
+    return one_sign(problem.rigid, datum, *facts, name=f"effect of {datum}")
 
 
 def equations() -> tuple[Equation, ...]:

@@ -22,57 +22,45 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import ClassVar
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement, infer
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note import condensed
-from ..note.governing import Model
-from ..rules.authored import Identity, Positive
-from ..rules.bounds import Consequence, Grows, LogarithmicSlope, Monotone
-from ..rules.limits import Accumulates, Diverges, Passes, Vanishes, forever
-from ..statement import Statement, inherited
+from ..note.governing import ROUGH_BEARING, Model
+from ..rules.algebra import consequence, discharge, identity
+from ..rules.assumption import assume
+from ..rules.calculus import grows, rigid
+from ..rules.inequalities import LogarithmicSlope, arithmetic, monotone
+from ..rules.limits import accumulates, diverges, forever, passes, vanishes
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written
 
-h_0, U_a, u_c, p, T, U, k = symbols("h_0 U_a u_c p T U k")
+h_0, U_a, u_c, p, T, U = symbols("h_0 U_a u_c p T U")
 sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
 beta, u_cum = symbols("beta u_cum")
 
-ROUGHENING = Condition("the bearing roughens as it wears", sp.Gt(f_c, 0))
-BOUNDED_LOAD = Condition("the load is bounded by U", sp.Le(sp.Abs(U_a), U))
+ROUGHENING = Hypothesis("the bearing roughens as it wears", sp.Gt(f_c, 0))
+BOUNDED_LOAD = Hypothesis("the load is bounded by U", sp.Le(sp.Abs(U_a), U), kind=Kind.LOAD)
 
 roughness = sigma_c0 + f_c * u_c
 closure = h_0 + u_c - U_a
 excess = sigma_c0 / f_c - h_0 + U_a
 """Distance of the load from the one at which the rate would be steady at once."""
 
-_slope, _wear, _share = sp.symbols("slope wear share", positive=True)
-SIGNS = (
-    (U_a, U * (1 - _share) / (1 + _share)),
-    (u_c, _wear),
-    (f_c, _slope),
-)
-"""The domain f_c > 0, u_c > 0, -U < U_a < U in positive parameters."""
-
-_BOUND = sigma_c0 / f_c + h_0 + U
-
 with as_written():
     per_cycle = sp.Eq(u_cum, K_c * V * T / (6 * H_c) * p_max * (1 + sp.tanh(4 - 2 / f_c)))
 """What u_cum stands for in display forms."""
 
 
-def step(claim: sp.Basic, rule: object, *parents: Statement, name: str = "") -> Statement:
-    """Return an authored statement with the conditions of its parents."""
-    return Statement(claim, rule, parents, inherited(parents), name=name)  # type: ignore[arg-type]
-
-
-def made(rule: object, *parents: Statement, name: str = "") -> Statement:
-    """Return the statement that a rule makes from its parents."""
-    claim = rule.apply(tuple(parent.claim for parent in parents))  # type: ignore[attr-defined]
-    return step(claim, rule, *parents, name=name)
+def worn(model: Model) -> Judgement:
+    """Return that the wear of the bearing never falls below zero: its rate is positive."""
+    positive = arithmetic(sp.Ge(rate("u_c"), 0), model.wear_laws[2])
+    return grows(positive, model.start[1], "wear increases")
 
 
 @dataclass(frozen=True)
@@ -80,6 +68,9 @@ class SteadyState:
     """The long-time limit of (13) for one contact law."""
 
     law: ContactLaw = TANH
+    closure: ClassVar[sp.Expr] = closure
+    excess: ClassVar[sp.Expr] = excess
+    bound: ClassVar[sp.Expr] = sigma_c0 / f_c + h_0 + U
 
     @property
     def model(self) -> Model:
@@ -87,95 +78,119 @@ class SteadyState:
         return condensed.bearing_only(self.law).model
 
     @cached_property
-    def rate_at_wear(self) -> Statement:
+    def worn(self) -> Judgement:
+        """Wear increases from zero."""
+        return worn(self.model)
+
+    @cached_property
+    def roughening(self) -> Judgement:
+        """The hypothesis f_c > 0."""
+        return assume(ROUGHENING)
+
+    def rough(self, judgement: Judgement) -> Judgement:
+        """Return a judgement that need not suppose that the bearing is rough: it starts so."""
+        grown = self.model.roughness_of_bearing
+        return discharge(judgement, ROUGH_BEARING, grown, self.worn, self.roughening)
+
+    @cached_property
+    def rate_at_wear(self) -> Judgement:
         """Eq. (13), solved for the rate."""
-        return condensed.bearing_only(self.law).rigid.named("wear rate")
+        return self.rough(condensed.bearing_only(self.law).rigid).named("wear rate")
 
     @cached_property
-    def deviation(self) -> Statement:
+    def pressure_at_wear(self) -> Judgement:
+        """The pressure in terms of wear and load."""
+        return self.rough(rigid(condensed.bearing_only(self.law).pressure_of_bearing_wear))
+
+    @cached_property
+    def deviation(self) -> Judgement:
         """h/sigma differs from 1/f_c by b/sigma, exactly."""
-        claim = sp.Eq(closure / roughness, 1 / f_c - excess / roughness)
-        return Statement(claim, Identity(), conditions=(ROUGHENING,), name="exact deviation")
+        claim = sp.Eq(self.closure / roughness, 1 / f_c - self.excess / roughness)
+        return identity(claim, self.roughening, self.worn, name="exact deviation")
+
+    @property
+    def facts(self) -> tuple[Judgement, ...]:
+        """What bounds of the closure ratio rest on."""
+        return self.roughening, assume(BOUNDED_LOAD), self.worn
 
     @cached_property
-    def highest_ratio(self) -> Statement:
+    def highest_ratio(self) -> Judgement:
         """h/sigma stays below a bound that holds for all time."""
-        claim = sp.Le(closure / roughness, 1 / f_c + _BOUND / sigma_c0)
-        conditions = (ROUGHENING, BOUNDED_LOAD)
-        return Statement(claim, Positive(SIGNS), (), conditions, name="highest closure ratio")
+        claim = sp.Le(self.closure / roughness, 1 / f_c + self.bound / sigma_c0)
+        return arithmetic(claim, *self.facts, name="highest closure ratio")
 
     @cached_property
-    def lowest_rate(self) -> Statement:
+    def lowest_rate(self) -> Judgement:
         """The wear rate never falls below a positive constant."""
-        y = sp.Dummy("r", real=True)
-        wear_rate = sp.Lambda(y, K_c * V * p_max * self.law.ratio(y) / (3 * H_c))
-        bound = made(Monotone(wear_rate), self.highest_ratio)
-        claim = sp.Le(bound.claim.lts, rate("u_c"))
-        return step(claim, Consequence(), bound, self.rate_at_wear, name="lowest wear rate")
+        bound = monotone(wear_rate(self.law), self.highest_ratio)
+        claim = sp.Le(bound.claim.lesser, rate("u_c"))
+        return consequence(claim, bound, self.rate_at_wear, name="lowest wear rate")
 
     @cached_property
-    def growth(self) -> Statement:
+    def growth(self) -> Judgement:
         """Wear grows at least linearly, hence without bound."""
-        start = self.model.start[1]
-        return made(Grows((f_c,)), self.lowest_rate, start, name="growth")
+        return grows(self.lowest_rate, self.model.start[1], "growth")
 
     @cached_property
-    def divergence(self) -> Statement:
+    def divergence(self) -> Judgement:
         """Roughness grows without bound."""
-        return made(Diverges(roughness, (f_c,)), self.growth, name="roughness diverges")
+        return diverges(roughness, self.growth, self.roughening, name="roughness diverges")
 
     @cached_property
-    def squeeze(self) -> Statement:
+    def squeeze(self) -> Judgement:
         """The deviation of h/sigma is at most a constant over the roughness."""
-        offset = excess / roughness
-        claim = sp.And(sp.Le(offset, _BOUND / roughness), sp.Ge(offset, -_BOUND / roughness))
-        conditions = (ROUGHENING, BOUNDED_LOAD)
-        return Statement(claim, Positive(SIGNS), (), conditions, name="bound of the deviation")
+        offset = self.excess / roughness
+        claim = sp.And(sp.Le(offset, self.bound / roughness), sp.Ge(offset, -self.bound / roughness))
+        return arithmetic(claim, *self.facts, name="bound of the deviation")
 
     @cached_property
-    def vanishing(self) -> Statement:
+    def vanishing(self) -> Judgement:
         """The deviation of h/sigma tends to zero."""
-        return made(Vanishes(), self.squeeze, self.divergence, name="the deviation vanishes")
+        return vanishes(self.squeeze, self.divergence, "the deviation vanishes")
 
     @cached_property
-    def ratio(self) -> Statement:
+    def ratio(self) -> Judgement:
         """h/sigma tends to 1/f_c, whatever the law."""
-        claim = sp.Eq(forever(closure / roughness), 1 / f_c)
-        return step(claim, Passes(), self.deviation, self.vanishing, name="limit of h/sigma")
+        claim = sp.Eq(forever(self.closure / roughness), 1 / f_c)
+        return passes(claim, self.deviation, self.vanishing, name="limit of h/sigma")
 
     @cached_property
-    def rate(self) -> Statement:
+    def rate(self) -> Judgement:
         """The wear rate tends to a constant: (18) for the law of the note."""
         claim = sp.Eq(forever(rate("u_c")), K_c * V / (3 * H_c) * p_max * self.law.ratio(1 / f_c))
-        return step(claim, Passes(), self.rate_at_wear, self.ratio, name="steady wear rate")
+        return passes(claim, self.rate_at_wear, self.ratio, name="steady wear rate")
 
     @cached_property
-    def pressure(self) -> Statement:
+    def pressure(self) -> Judgement:
         """The pressure tends to p_max phi(1/f_c): (22) for the law of the note."""
-        law = condensed.bearing_only(self.law).pressure_of_bearing_wear.limit(k, sp.oo)
         claim = sp.Eq(forever(p), p_max * self.law.ratio(1 / f_c))
-        return step(claim, Passes(), law, self.ratio, name="steady pressure")
+        return passes(claim, self.pressure_at_wear, self.ratio, name="steady pressure")
 
     @cached_property
-    def wear_per_cycle(self) -> Statement:
+    def wear_per_cycle(self) -> Judgement:
         """The wear of one period tends to a constant: (21) for the law of the note."""
-        return made(Accumulates(), self.rate, name="steady wear per cycle")
+        return accumulates(self.rate, "steady wear per cycle")
 
     @cached_property
-    def approach(self) -> Statement:
+    def approach(self) -> Judgement:
         """Relative distance of the rate from its limit (laws whose ln has a bounded slope)."""
         y = sp.Dummy("r", real=True)
         function = sp.Lambda(y, self.law.ratio(y))
         steepest = -sp.limit(sp.diff(self.law.phi, r) / self.law.phi, r, sp.oo)
-        ratio, limit = closure / roughness, 1 / f_c
-        slope = LogarithmicSlope(function, ratio, limit, steepest)
-        said = sp.Abs(sp.log(function(ratio) / function(limit)))
-        lemma = Statement(sp.Le(said, steepest * sp.Abs(ratio - limit)), slope, (), (ROUGHENING,))
+        ratio, limit = self.closure / roughness, 1 / f_c
+        rule = LogarithmicSlope(function, ratio, limit, steepest)
+        lemma = infer(rule, self.roughening, self.worn)
         claim = sp.Le(
-            sp.Abs(sp.log(rate("u_c") / self.rate.claim.rhs)),
-            steepest * sp.Abs(excess / roughness),
+            sp.Abs(sp.log(rate("u_c") / self.rate.claim.value)),
+            steepest * sp.Abs(self.excess / roughness),
         )
-        return step(claim, Consequence(), lemma, self.rate_at_wear, self.deviation)
+        return consequence(claim, lemma, self.rate_at_wear, self.deviation)
+
+
+def wear_rate(law: ContactLaw) -> sp.Lambda:
+    """Return the wear rate as a function of h/sigma."""
+    y = sp.Dummy("r", real=True)
+    return sp.Lambda(y, K_c * V * p_max * law.ratio(y) / (3 * H_c))
 
 
 @cache
@@ -187,6 +202,7 @@ def steady_state(law: ContactLaw = TANH) -> SteadyState:
 def equations() -> tuple[Equation, ...]:
     """Return the results for any contact law."""
     general, tanh = steady_state(GENERAL), steady_state(TANH)
+    any_law = condensed.bearing_only(GENERAL)
     section = "steady state"
     with as_written():
         offset = sp.Eq(beta, 2 * sp.Add(sigma_c0 / f_c, -h_0, U_a))
@@ -206,7 +222,7 @@ def equations() -> tuple[Equation, ...]:
             where=(offset,),
         ),
         Equation("growth", section, "wear grows without bound", (tanh.growth,), display=growth),
-        Equation("general-rate", section, "wear rate, any law", (general.rate_at_wear,)),
+        Equation("general-rate", section, "wear rate, any law", (any_law.rigid,)),
         Equation("closure-ratio", section, "limit of h/sigma, any law", (general.ratio,)),
         Equation("general-law", section, "asymptotic pressure, any law", (general.pressure,)),
         Equation(

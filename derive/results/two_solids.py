@@ -24,18 +24,20 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis
+from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note import condensed
-from ..rules.authored import Identity
-from ..rules.bounds import Consequence
-from ..rules.drift import FirstOrder, LogarithmicDrift
-from ..rules.limits import AtInfinity, Passes, Unbounded, forever
-from ..statement import Statement, given
+from ..note.stabilised import drift
+from ..rules.algebra import consequence, insert, solve, substitute
+from ..rules.assumption import assume, defined
+from ..rules.drift import first_order
+from ..rules.inequalities import arithmetic
+from ..rules.limits import at_infinity, forever, passes, unbounded
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus
-from .steady_state import BOUNDED_LOAD, made, step
+from .steady_state import BOUNDED_LOAD
 
 h_0, U_a, u_c, U_mean, kappa, q, g, p_1 = symbols("h_0 U_a u_c U_mean kappa q g p_1")
 f_a, f_c, sigma_a0, sigma_c0, T = symbols("f_a f_c sigma_a0 sigma_c0 T")
@@ -43,10 +45,11 @@ p_max, K_a, K_c, H_a, H_c, V, A, u_cum = symbols("p_max K_a K_c H_a H_c V A u_cu
 
 apart = f_a * kappa * sigma_c0 - f_c * sigma_a0
 """Zero if and only if the two roughnesses vanish at the same wear."""
-sigma = sp.sqrt(sigma_a0**2 + sigma_c0**2 + 2 * p_1 * u_c + q**2 * u_c**2)
+squared = sigma_a0**2 + sigma_c0**2 + 2 * p_1 * u_c + q**2 * u_c**2
+sigma = sp.sqrt(squared)
 closure_ratio = (h_0 + g * u_c - U_a) / sigma
 
-NEVER_SMOOTH = Condition("the two roughnesses never vanish together", sp.Ne(apart, 0))
+NEVER_SMOOTH = Hypothesis("the two roughnesses never vanish together", sp.Ne(apart, 0))
 
 
 @dataclass(frozen=True)
@@ -57,67 +60,73 @@ class TwoSolids:
     opening: bool = False
 
     @cached_property
-    def definitions(self) -> tuple[Statement, Statement, Statement]:
+    def definitions(self) -> tuple[Judgement, Judgement, Judgement]:
         """q, g and p_1."""
-        gap = 1 + kappa if self.opening else 1 - kappa
-        values = (
-            (q, sp.sqrt((f_a * kappa) ** 2 + f_c**2)),
-            (g, gap),
-            (p_1, f_a * kappa * sigma_a0 + f_c * sigma_c0),
+        return (
+            defined(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2)),
+            defined(g, 1 + kappa if self.opening else 1 - kappa),
+            defined(p_1, f_a * kappa * sigma_a0 + f_c * sigma_c0),
         )
-        roughening, opening, cross = (
-            given(sp.Eq(name, value), "definition", name) for name, value in values
-        )
-        return roughening, opening, cross
 
     @cached_property
-    def separation(self) -> Statement:
+    def separation(self) -> Judgement:
         """q^2 sigma^2 is a square plus a constant that vanishes only with both roughnesses."""
-        values = {s.claim.lhs: s.claim.rhs for s in self.definitions}
-        claim = sp.Eq(q**2 * sigma**2, (q**2 * u_c + p_1) ** 2 + apart**2).subs(values)
-        return Statement(claim, Identity(), name="what keeps the roughness from vanishing")
+        roughening, _, cross = self.definitions
+        claim = sp.Eq(q**2 * squared, (q**2 * u_c + p_1) ** 2 + apart**2)
+        separated = insert(claim, roughening, cross)
+        name = "what keeps the roughness from vanishing"
+        return substitute(separated, roughening, cross, name=name)
 
     @cached_property
-    def rate_at_wear(self) -> Statement:
+    def rough(self) -> Judgement:
+        """The roughness does not vanish, whatever the wear."""
+        roughening, _, cross = self.definitions
+        never = assume(NEVER_SMOOTH)
+        return arithmetic(sp.Gt(squared, 0), self.separation, roughening, cross, never)
+
+    @cached_property
+    def rate_at_wear(self) -> Judgement:
         """Eq. (10) in terms of kappa, q, g and p_1."""
+        ratio_of_wears = defined(kappa, K_a * H_c / (K_c * H_a))
         problem = condensed.two_solids(self.law, self.opening).rigid
-        ratio_of_wears = {K_a: kappa * K_c * H_a / H_c}
-        wear_rate = K_c * V / (3 * H_c) * p_max * self.law.ratio(closure_ratio)
-        parents = (problem.specialise(ratio_of_wears, "definition of kappa"), *self.definitions)
-        return step(sp.Eq(rate("u_c"), wear_rate), Consequence(), *parents, name="wear rate")
+        proportional = substitute(problem, solve(ratio_of_wears, K_a))
+        claim = sp.Eq(rate("u_c"), K_c * V / (3 * H_c) * p_max * self.law.ratio(closure_ratio))
+        return consequence(claim, proportional, *self.definitions, self.rough, name="wear rate")
 
     @cached_property
-    def unbounded(self) -> Statement:
+    def bounded(self) -> Judgement:
+        """The hypothesis of a bounded load."""
+        return assume(BOUNDED_LOAD)
+
+    @cached_property
+    def unbounded(self) -> Judgement:
         """Wear grows without bound."""
-        proved = made(Unbounded((sigma,)), self.rate_at_wear)
-        conditions = (NEVER_SMOOTH, BOUNDED_LOAD)
-        return Statement(proved.claim, proved.rule, proved.parents, conditions, name="growth")
+        return unbounded(self.rate_at_wear, self.rough, self.bounded, name="growth")
 
     @cached_property
-    def ratio(self) -> Statement:
+    def ratio(self) -> Judgement:
         """h/sigma tends to g/q."""
         claim = sp.Eq(forever(closure_ratio), g / q)
-        return step(claim, AtInfinity(), self.unbounded, name="limit of h/sigma, two solids")
+        return at_infinity(claim, self.unbounded, self.rough, name="limit of h/sigma, two solids")
 
     @cached_property
-    def rate(self) -> Statement:
+    def rate(self) -> Judgement:
         """The steady wear rate."""
         claim = sp.Eq(forever(rate("u_c")), K_c * V / (3 * H_c) * p_max * self.law.ratio(g / q))
-        return step(claim, Passes(), self.rate_at_wear, self.ratio, name="steady wear rate")
+        return passes(claim, self.rate_at_wear, self.ratio, name="steady wear rate")
 
     @cached_property
-    def first_order(self) -> Statement:
+    def first_order(self) -> Judgement:
         """How h/sigma approaches its limit."""
         offset = (h_0 - U_a) / q - g * p_1 / q**3
         claim = sp.Eq(forever(u_c * (closure_ratio - g / q) - offset), 0)
-        return step(claim, AtInfinity(), self.unbounded, name="approach of h/sigma")
+        return at_infinity(claim, self.unbounded, self.rough, name="approach of h/sigma")
 
     @cached_property
-    def drift(self) -> Statement:
+    def drift(self) -> Judgement:
         """The coefficient of ln t in the wear."""
         parents = (self.rate_at_wear, self.first_order, self.ratio, self.rate)
-        approach = made(FirstOrder(), *parents)
-        return made(LogarithmicDrift((U_a, U_mean)), approach, name="logarithmic drift")
+        return drift(first_order(*parents))
 
 
 def equations() -> tuple[Equation, ...]:

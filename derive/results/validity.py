@@ -17,25 +17,23 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from types import MappingProxyType
 
 import sympy as sp
 
-from ..check import Check
-from ..conditions import Condition
 from ..equations import Equation
-from ..rules import Authored, proof, sampled
-from ..rules.authored import Identity, Positive
-from ..rules.sign import sign
-from ..statement import Statement
+from ..hypotheses import Hypothesis
+from ..kernel import Judgement
+from ..rules import inequalities
+from ..rules.algebra import discharge, forget, identity, substitute
+from ..rules.assumption import assume
+from ..rules.inequalities import arithmetic, monotone
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
-from ..zero import is_zero
-from .steady_state import ROUGHENING, step
+from .first_integral import SLOPED
+from .steady_state import ROUGHENING
 
 f_c, epsilon = symbols("f_c epsilon")
-_slope = sp.Symbol("slope", positive=True)
 
 RESOLUTIONS = MappingProxyType(
     {
@@ -46,59 +44,46 @@ RESOLUTIONS = MappingProxyType(
 )
 """Half of the 1 + tanh at which a correctly rounded tanh becomes -1."""
 
-RESOLVED = Condition("epsilon is below the largest possible share", epsilon < 1 / (1 + sp.exp(-8)))
+RESOLVED = Hypothesis(
+    "epsilon is below the largest possible share", epsilon < 1 / (1 + sp.exp(-8))
+)
+TEN_DIGITS = Hypothesis("resolution of ten digits", sp.Eq(epsilon, 1 / (1 + sp.exp(24))))
 
 
-@dataclass(frozen=True)
-class Threshold(Authored):
-    """``F(x) > e`` if and only if ``x > x*``, for F that increases on x > 0 and F(x*) = e."""
-
-    variable: sp.Symbol
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        demand, bound = statement.claim.args
-        if demand.lts == self.variable or demand.gts == self.variable:
-            demand, bound = bound, demand
-        function, level, point = demand.gts, demand.lts, bound.lts
-        positive = sp.Dummy(positive=True)
-        increases = sign(sp.diff(function.subs(self.variable, positive), positive)) == 1
-        met = is_zero(function.subs(self.variable, point) - level)
-        detail = "the left side increases and reaches the level at the bound"
-        return proof(increases and met, detail), sampled(statement)
-
-
-def share() -> Statement:
+def share() -> Judgement:
     """(22) as a share of p_max, in the form to compute with."""
     claim = sp.Eq((1 + sp.tanh(4 - 2 / f_c)) / 2, 1 / (1 + sp.exp(4 / f_c - 8)))
-    return Statement(claim, Identity(), conditions=(ROUGHENING,), name="share of p_max")
+    return identity(claim, assume(SLOPED), name="share of p_max")
 
 
-def always() -> Statement:
+def always() -> Judgement:
     """The note's criterion holds without condition."""
     claim = sp.StrictGreaterThan(sp.tanh(4 - 2 / f_c), -1)
-    signs = Positive(((f_c, _slope),))
-    return Statement(claim, signs, conditions=(ROUGHENING,), name="the criterion always holds")
+    return arithmetic(claim, assume(SLOPED), name="the criterion always holds")
 
 
-def growing() -> Statement:
+def growing() -> Judgement:
     """The asymptotic pressure grows with f_c."""
     value = share().claim.rhs
     claim = sp.Eq(sp.diff(value, f_c), 4 / f_c**2 * value * (1 - value))
-    return step(claim, Identity(), share(), name="slope of the share")
+    return identity(claim, assume(SLOPED), name="slope of the share")
 
 
-def threshold() -> Statement:
+def threshold() -> Judgement:
     """A demand on the pressure is a demand on f_c."""
     bound = 4 / (8 + sp.log(1 / epsilon - 1))
     claim = sp.Equivalent(sp.Gt(share().claim.rhs, epsilon), sp.Gt(f_c, bound))
-    parents = (share(), growing())
-    conditions = (ROUGHENING, RESOLVED)
-    return Statement(claim, Threshold(f_c), parents, conditions, name="threshold")
+    rare = arithmetic(sp.Gt(1 / epsilon - 1, sp.exp(-8)), assume(RESOLVED))
+    x = sp.Dummy("x", real=True)
+    level = monotone(sp.Lambda(x, sp.log(x)), rare)
+    return inequalities.threshold(claim, f_c, assume(ROUGHENING), level, name="threshold")
 
 
-def eighth() -> Statement:
+def eighth() -> Judgement:
     """f_c > 1/8 is a demand on the size of the asymptotic pressure."""
-    return threshold().specialise({epsilon: 1 / (1 + sp.exp(24))}, "resolution of ten digits")
+    resolution = assume(TEN_DIGITS)
+    special = substitute(threshold(), resolution)
+    return forget(discharge(special, RESOLVED, resolution), TEN_DIGITS)
 
 
 def threshold_at(resolution: sp.Expr) -> sp.Expr:
@@ -112,8 +97,7 @@ def threshold_at(resolution: sp.Expr) -> sp.Expr:
 
 def threshold_bound() -> sp.Expr:
     """Return the bound of ``threshold`` as an expression in epsilon."""
-    (bound,) = (part.lts for part in threshold().claim.args if part.gts == f_c)
-    return bound
+    return threshold().claim.right.lesser
 
 
 def equations() -> tuple[Equation, ...]:

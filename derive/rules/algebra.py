@@ -1,8 +1,10 @@
-"""Algebra at an instant: moves whose claim holds wherever the parents do.
+"""Algebra at an instant: what holds wherever the premises do.
 
 Key results
-    Substitute, SolveFor, Rearrange, Multiply    equations
-    Specialise, Restrict                         particular cases
+    substitute, solve, restrict                  equations
+    identity, insert, logarithm                  claims that an author writes, then proved
+    consequence, alike                           the same relation in another form
+    discharge, forget                            hypotheses that follow from others
 """
 
 from __future__ import annotations
@@ -10,86 +12,291 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import sympy as sp
-from sympy.core.relational import Relational
 
-from ..sample import Source
+from ..claims import Claim, Equality, Inequality, Limit, claim_of
+from ..hypotheses import Hypothesis
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..zero import is_zero
-from . import Pointwise, RuleError
+from .proving import holds, require, require_defined
+from .reading import equality
 
 
 @dataclass(frozen=True)
-class Substitute(Pointwise):
-    """Insert ``left = right`` of each further parent into the first, in order."""
+class Substitute(Rule):
+    """A claim and ``l = r`` give the claim with r for l."""
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        claim, *definitions = parents
+    words = "Insert {others} into {0}."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        first, *definitions = premises
+        claim = first.claim
         for definition in definitions:
-            if not claim.has(definition.lhs):
-                raise RuleError(f"{definition.lhs} does not occur in {claim}")
-            claim = claim.subs(definition.lhs, definition.rhs)
-        return claim
+            known = equality(definition)
+            if not claim.relation.has(known.lhs):
+                raise RuleError(f"{known.lhs} does not occur in {claim.relation}")
+            if known.lhs in _bound(claim.relation):
+                raise RuleError(f"missing premise: {known.lhs} may take every value")
+            claim = _put(claim, known)
+        return Conclusion(claim)
+
+
+def _put(claim: Claim, known: Equality) -> Claim:
+    made = claim.map(lambda side: side.subs(known.lhs, known.rhs))
+    if made.relation.has(sp.zoo, sp.nan):
+        raise RuleError(f"{claim.relation} has no value for {known.lhs} = {known.rhs}")
+    return made
+
+
+def _bound(relation: sp.Basic) -> set[sp.Basic]:
+    """Return the variables of derivatives, integrals and limits."""
+    found: set[sp.Basic] = set()
+    for part in relation.atoms(sp.Derivative, sp.Integral, sp.Limit):
+        found |= set(part.args[1:2] if isinstance(part, sp.Limit) else part.variables)
+    return found
+
+
+def substitute(first: Judgement, *known: Judgement, name: str = "", remark: str = "") -> Judgement:
+    """Insert ``left = right`` of each further premise into the first, in order."""
+    return infer(Substitute(), first, *known, name=name, remark=remark)
 
 
 @dataclass(frozen=True)
-class SolveFor(Pointwise):
-    """Solve an equation that is linear in ``unknown``."""
+class Solve(Rule):
+    """``a x + b = c x + d`` with ``a != c`` gives x; further premises show that ``a != c``."""
 
     unknown: sp.Expr
+    words = "Solve {0} for {unknown}."
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (claim,) = parents
-        return sp.Eq(self.unknown, Source.of(claim, self.unknown).value)
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        given, x = equality(premises[0]), sp.Dummy(real=True)
+        residual = given.lhs - given.rhs
+        inner = residual.atoms(sp.Derivative, sp.Integral, sp.Limit, sp.Subs) - {self.unknown}
+        residual = residual.xreplace({self.unknown: x})
+        slope = sp.diff(residual, x)
+        if any(part.has(self.unknown) for part in inner) or slope.has(x):
+            raise RuleError(f"missing premise: {given.relation} is linear in {self.unknown}")
+        require(sp.Ne(slope, 0), *premises)
+        value = given.rhs
+        if given.lhs != self.unknown or value.has(self.unknown):
+            value = -residual.xreplace({x: sp.S.Zero}) / slope
+        return Conclusion(Equality(self.unknown, value))
+
+
+def solve(first: Judgement, unknown: sp.Expr, *facts: Judgement, name: str = "") -> Judgement:
+    """Solve an equation that is linear in ``unknown`` for it."""
+    return infer(Solve(unknown), first, *facts, name=name)
 
 
 @dataclass(frozen=True)
-class Rearrange(Pointwise):
-    """Move terms between the sides of an equation: left minus right stays what it was."""
+class Restrict(Rule):
+    """Where a relation holds, a piecewise expression is its branch, and ``|x| = x`` if x > 0."""
+
+    words = "Keep of {0} the branch on which {others} holds."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        first, condition = premises
+        relation = condition.relation
+        claim = first.claim.map(
+            lambda side: side.replace(
+                lambda e: isinstance(e, sp.Piecewise) and e.args[0].cond == relation,
+                lambda e: e.args[0].expr,
+            )
+        )
+        if isinstance(condition.claim, Inequality) and condition.claim.lesser == 0:
+            positive = condition.claim.greater
+            claim = claim.map(lambda side: side.xreplace({sp.Abs(positive): positive}))
+        if claim == first.claim:
+            raise RuleError(f"{first.relation} has no branch for {relation}")
+        return Conclusion(claim)
+
+
+def restrict(first: Judgement, condition: Judgement, remark: str = "") -> Judgement:
+    """Keep the branch of a piecewise claim, or of a modulus, on which a relation holds."""
+    return infer(Restrict(), first, condition, remark=remark)
+
+
+def inserted(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
+    """Insert ``left = right`` of equalities, and finite limits, in order."""
+    for premise in premises:
+        claim = premise.claim
+        if isinstance(claim, Equality):
+            expr = expr.subs(claim.lhs, claim.rhs)
+        elif isinstance(claim, Limit) and claim.value.is_finite is not False:
+            expr = expr.subs(claim.term, claim.value)
+    return expr
+
+
+@dataclass(frozen=True)
+class Identity(Rule):
+    """An equation that holds for every value of its unknowns; premises show that it has values."""
 
     claim: sp.Equality
+    words = "An identity: both sides reduce to the same expression."
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (parent,) = parents
-        if not is_zero((parent.lhs - parent.rhs) - (self.claim.lhs - self.claim.rhs)):
-            raise RuleError(f"{self.claim} is not {parent} rearranged")
-        return self.claim
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        return Conclusion(_identical(self.claim, (), premises))
 
 
 @dataclass(frozen=True)
-class Multiply(Pointwise):
-    """Multiply both sides by a factor that cannot vanish."""
+class Insert(Rule):
+    """An equation that becomes an identity when the premises are inserted, in order."""
 
-    factor: sp.Expr
+    claim: sp.Equality
+    words = "Insert {all}: an identity remains."
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (claim,) = parents
-        if not self.factor.is_nonzero:
-            raise RuleError(f"{self.factor} may vanish")
-        return sp.Eq(self.factor * claim.lhs, self.factor * claim.rhs)
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        return Conclusion(_identical(self.claim, premises, premises))
+
+
+def _identical(
+    relation: sp.Equality, known: tuple[Judgement, ...], premises: tuple[Judgement, ...]
+) -> Claim:
+    require_defined(relation, *premises)
+    left, right = relation.args
+    if not is_zero(inserted(left - right, known)):
+        raise RuleError(f"missing premise: {relation} is no identity")
+    return Equality(left, right)
+
+
+def identity(claim: sp.Equality, *facts: Judgement, name: str = "", remark: str = "") -> Judgement:
+    """State an equation that holds for every value of its unknowns."""
+    return infer(Identity(claim), *facts, name=name, remark=remark)
+
+
+def insert(claim: sp.Equality, *known: Judgement, name: str = "", remark: str = "") -> Judgement:
+    """State an equation that the premises turn into an identity."""
+    return infer(Insert(claim), *known, name=name, remark=remark)
 
 
 @dataclass(frozen=True)
-class Specialise(Pointwise):
-    """Give parameters particular values."""
+class Logarithm(Rule):
+    """``ln a = b`` from ``a = e^b``, which the premises turn into an identity."""
 
-    values: tuple[tuple[sp.Expr, sp.Expr], ...]
+    claim: sp.Equality
+    words = "Take logarithms of {0} and solve."
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (claim,) = parents
-        return claim.subs(dict(self.values)).doit()
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        left, right = self.claim.args
+        inside = left.args[0] if isinstance(left, sp.log) else sp.nan
+        require_defined(inside, *premises)
+        if not is_zero(inserted(inside, premises) - sp.exp(right)):
+            raise RuleError(f"missing premise: {inside} = exp({right})")
+        return Conclusion(Equality(left, right))
+
+
+def logarithm(claim: sp.Equality, *known: Judgement, name: str = "") -> Judgement:
+    """State a logarithm, proved from its exponential."""
+    return infer(Logarithm(claim), *known, name=name)
 
 
 @dataclass(frozen=True)
-class Restrict(Pointwise):
-    """Keep the branch of a piecewise claim, or of a modulus, on which ``condition`` holds."""
+class Consequence(Rule):
+    """A claim that becomes the first premise when the others are inserted into both."""
 
-    condition: Relational
+    claim: sp.Basic
+    words = "Insert {others} into {0}."
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (claim,) = parents
-        branch = claim.replace(
-            lambda e: isinstance(e, sp.Piecewise) and e.args[0].cond == self.condition,
-            lambda e: e.args[0].expr,
-        )
-        if self.condition.gts != 0 and self.condition.lts == 0:
-            branch = branch.xreplace({sp.Abs(self.condition.gts): self.condition.gts})
-        return branch
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        first, *others = premises
+        claim = claim_of(self.claim)
+        require_defined(self.claim, *premises)
+        if type(claim) is not type(first.claim) or not _agree(
+            *(_parts(c, tuple(others)) for c in (claim, first.claim))
+        ):
+            raise RuleError(f"missing premise: {first.relation} does not become {self.claim}")
+        return Conclusion(claim)
+
+
+def _parts(claim: Claim, known: tuple[Judgement, ...]) -> tuple[tuple[object, sp.Expr], ...]:
+    """Return the sides of all relations in a claim, each with what makes its place."""
+    relation = claim.relation
+    parts = relation.args if isinstance(relation, (sp.And, sp.Equivalent)) else (relation,)
+    pairs = [claim_of(part) for part in parts]
+    sides: list[tuple[object, sp.Expr]] = []
+    for part in pairs:
+        if isinstance(part, Inequality):
+            sides += [(("less", part.strict), part.lesser), (("more", part.strict), part.greater)]
+        else:
+            sides += [(type(part), side) for side in part.relation.args]
+    return tuple((place, inserted(side, known)) for place, side in sides)
+
+
+def _agree(
+    left: tuple[tuple[object, sp.Expr], ...], right: tuple[tuple[object, sp.Expr], ...]
+) -> bool:
+    return len(left) == len(right) and all(
+        a[0] == b[0] and is_zero(a[1] - b[1]) for a, b in zip(left, right, strict=True)
+    )
+
+
+def consequence(claim: sp.Basic, *premises: Judgement, name: str = "") -> Judgement:
+    """State the first premise, rewritten by the others."""
+    return infer(Consequence(claim), *premises, name=name)
+
+
+@dataclass(frozen=True)
+class Alike(Rule):
+    """``a <= b`` if and only if ``c <= d``, where ``b - a = d - c`` identically."""
+
+    claim: sp.Equivalent
+    words = "Two inequalities whose differences are equal."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        claim = claim_of(self.claim)
+        left, right = (claim_of(part) for part in self.claim.args)
+        require_defined(self.claim, *premises)
+        equal = is_zero((left.greater - left.lesser) - (right.greater - right.lesser))
+        if not equal or left.strict != right.strict:
+            raise RuleError(f"missing premise: the differences in {self.claim} are equal")
+        return Conclusion(claim)
+
+
+def alike(claim: sp.Equivalent, *facts: Judgement, name: str = "") -> Judgement:
+    """State that two inequalities of equal differences hold together."""
+    return infer(Alike(claim), *facts, name=name)
+
+
+@dataclass(frozen=True)
+class Discharge(Rule):
+    """``Gamma, H |- C`` and ``Delta |- H`` give ``Gamma, Delta |- C`` (cut)."""
+
+    hypothesis: Hypothesis
+    words = "{0}, where the hypothesis is met by {others}."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        first, *known = premises
+        if self.hypothesis not in first.hypotheses:
+            raise RuleError(f"{first.relation} does not rest on {self.hypothesis.text}")
+        if any(self.hypothesis in premise.hypotheses for premise in known):
+            raise RuleError(f"missing premise: {self.hypothesis.text}, from others")
+        require(self.hypothesis.relation, *known)
+        return Conclusion(first.claim, discharges=(self.hypothesis,))
+
+
+def discharge(first: Judgement, hypothesis: Hypothesis, *known: Judgement) -> Judgement:
+    """Drop a hypothesis that follows from other judgements."""
+    return infer(Discharge(hypothesis), first, *known, name=first.name, remark=first.remark)
+
+
+@dataclass(frozen=True)
+class Forget(Rule):
+    """``x = v`` is no hypothesis where x, which may have the value v, occurs nowhere else."""
+
+    hypothesis: Hypothesis
+    words = "{0}, which says nothing of that value."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        (first,) = premises
+        name, value = self.hypothesis.relation.args
+        others = [h.relation for h in first.hypotheses if h != self.hypothesis]
+        if not name.is_Symbol or sp.Tuple(value, first.relation, *others).has(name):
+            raise RuleError(f"missing premise: {name} occurs nowhere else")
+        possible = name.is_real and (not name.is_nonnegative or holds(sp.Ge(value, 0)))
+        if not possible or (name.is_positive and not holds(sp.Gt(value, 0))):
+            raise RuleError(f"missing premise: {name} may be {value}")
+        return Conclusion(first.claim, discharges=(self.hypothesis,))
+
+
+def forget(first: Judgement, hypothesis: Hypothesis) -> Judgement:
+    """Drop the value of a symbol that does not occur."""
+    return infer(Forget(hypothesis), first, name=first.name, remark=first.remark)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
 
 from ..claims import Property, claim_of
 from ..hypotheses import Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, plain
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Assume(Rule):
         claim = Property(self.hypothesis.text) if true else claim_of(relation, named)
         return Conclusion(claim, adds=(self.hypothesis,))
 
-    def sentence(self, *labels: str) -> str:
+    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         return f"Hypothesis: {self.hypothesis.text}."
 
 

@@ -1,157 +1,153 @@
-"""Calculus: integrals over time, and limits of parameters.
+"""Calculus: from rates to wear, and to a rigid support.
 
 Key results
-    Integrate    dy/dt = c dx/dt, from the initial values
-    TakeLimit    a parameter tends to a point, at an instant
+    integrate      dy/dt = c dx/dt, from the initial values
+    grows          du/dt >= c and u(0) give u >= u(0) + c t
+    rigid          k U_c = p becomes U_c = 0: the limit k -> oo
+    change_clock   the rate of a scaled quantity in scaled time
 """
 
 from __future__ import annotations
 
-import random
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-import mpmath
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
-from .. import sample
-from ..check import Check
-from ..symbols import QUANTITIES, t
-from ..zero import is_zero, same
-from . import Rule, RuleError, proof
+from ..claims import Equality, Inequality, Limit
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..symbols import symbols, t
+from .proving import continuous
+from .reading import LOAD, constant, equality, field_of_rate, fields, inequality, initial_value
 
-if TYPE_CHECKING:
-    from ..statement import Statement
+U_c, p, k, T, tau = symbols("U_c p k T tau")
+
+SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", sp.Eq(k * U_c - p, 0), kind=Kind.MODEL)
+RIGID = Hypothesis(
+    "the support is rigid", sp.Eq(U_c, 0), r"\text{the support is rigid}", Kind.SETTING
+)
 
 
 @dataclass(frozen=True)
 class Integrate(Rule):
-    """From ``dy/dt = c dx/dt`` with constant c, and y(0), x(0): y = y(0) + c (x - x(0))."""
+    """``dy/dt = c dx/dt`` with constant c, y(0) and x(0) give ``y = y(0) + c (x - x(0))``."""
 
-    def pivot_of(self, claim: sp.Basic) -> sp.Expr | None:
-        return claim.lhs
+    words = "Integrate {0} over time, from {others}."
+    source = "fundamental theorem of calculus"
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        rate, *initial = parents
-        y, x, factor = _proportional_rates(rate)
-        start = {value.lhs: value.rhs for value in initial}
-        return sp.Eq(y, (y - factor * x).subs(t, 0).subs(start) + factor * x)
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        return self._proof(statement), self._sample(statement)
-
-    def _proof(self, statement: Statement) -> Check:
-        """Differentiate the claim back, and look at time zero."""
-        rate, *initial = (parent.claim for parent in statement.parents)
-        y, x, factor = _proportional_rates(rate)
-        start = {value.lhs: value.rhs for value in initial}
-        claim = statement.claim
-        slope = is_zero(sp.diff(claim.rhs, t) - factor * sp.diff(x, t)) and claim.lhs == y
-        begin = is_zero((claim.lhs - claim.rhs).subs(t, 0).subs(start))
-        return proof(slope and begin, "its derivative and its value at t = 0 agree")
-
-    def _sample(self, statement: Statement) -> Check:
-        """Integrate the parent's rate by quadrature along a random path x(t)."""
-        rate, *initial = (parent.claim for parent in statement.parents)
-        y, x, factor = _proportional_rates(rate)
-        generator = random.Random(0)
-        constants = {a: sample.draw(a, generator) for a in sorted(_constants(statement), key=str)}
-        start = {v.lhs: sample.evaluate(v.rhs, constants) for v in initial}
-        growth = [generator.random() for _ in range(3)]
-        with mpmath.workdps(sample.DIGITS + 15):
-            c = mpmath.mpf(sample.evaluate(factor, constants))
-            speed = lambda s: sum(a * s**i for i, a in enumerate(growth))  # noqa: E731
-            wear = mpmath.quad(speed, [0, 1])
-            x_end = mpmath.mpf(start.get(x.subs(t, 0), sp.Float(0))) + wear
-            y_end = mpmath.mpf(start[y.subs(t, 0)]) + c * wear
-            values = {**constants, x: sp.Float(x_end, 65), y: sp.Float(y_end, 65)}
-        passed = sample.holds(statement.claim, values)
-        return Check("sample", passed, f"quadrature along a path, {sample.DIGITS} digits")
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, start_y, start_x = premises
+        given = equality(law)
+        y = field_of_rate(given.lhs)
+        driving = list(given.rhs.atoms(sp.Derivative))
+        if len(driving) != 1:
+            raise RuleError(f"missing premise: {given.relation} is of the form dy/dt = c dx/dt")
+        x, factor = field_of_rate(driving[0]), sp.cancel(given.rhs / driving[0])
+        if not constant(factor) or fields(factor):
+            raise RuleError(f"missing premise: {factor} is constant")
+        begin = initial_value(start_y, y) - factor * initial_value(start_x, x)
+        return Conclusion(Equality(y, begin + factor * x))
 
 
-def _constants(statement: Statement) -> set[sp.Expr]:
-    everything = sp.Tuple(statement.claim, *(parent.claim for parent in statement.parents))
-    return {a for a in sample.atoms(everything) if isinstance(a, sp.Symbol) and a != t}
-
-
-def _proportional_rates(claim: sp.Equality) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Read ``dy/dt = c dx/dt`` as (y, x, c)."""
-    driving = list(claim.rhs.atoms(sp.Derivative))
-    if not isinstance(claim.lhs, sp.Derivative) or len(driving) != 1:
-        raise RuleError(f"{claim} is not of the form dy/dt = c dx/dt")
-    factor = sp.cancel(claim.rhs / driving[0])
-    if factor.atoms(AppliedUndef) or factor.has(t):
-        raise RuleError(f"the factor {factor} is not constant")
-    return claim.lhs.expr, driving[0].expr, factor
+def integrate(law: Judgement, *start: Judgement) -> Judgement:
+    """Integrate ``dy/dt = c dx/dt`` from time zero, given y(0) and x(0)."""
+    return infer(Integrate(), law, *start)
 
 
 @dataclass(frozen=True)
-class TakeLimit(Rule):
-    """Let a parameter tend to a point, all else at an instant held fixed."""
+class Grows(Rule):
+    """``du/dt >= c`` with constant c, and u(0), give ``u >= u(0) + c t``."""
 
+    words = "Integrate the constant lower bound of {0}, from {others}."
+    source = "mean value theorem on [0, t]"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        bound, start = premises
+        found = inequality(bound)
+        u, least = field_of_rate(found.greater), found.lesser
+        if not constant(least) or fields(least):
+            raise RuleError(f"missing premise: {least} is constant")
+        begin = initial_value(start, u)
+        return Conclusion(Inequality(sp.Ge(u, begin + least * t, evaluate=False)))
+
+
+def grows(bound: Judgement, start: Judgement, name: str = "") -> Judgement:
+    """Integrate a constant lower bound of a rate."""
+    return infer(Grows(), bound, start, name=name)
+
+
+@dataclass(frozen=True)
+class RigidLimit(Rule):
+    """``k U_c = p`` becomes ``U_c = 0``, and an equation its limit for k -> oo.
+
+    The same fields belong to a support of stiffness k under the load ``U_a + p/k`` and to a rigid
+    one under the load U_a.  So the equation holds for every k with that load, and as it is
+    continuous in 1/k at 0, for the rigid support.  Nothing else may be said of the load or of k.
+    """
+
+    words = "Let the support be rigid, k -> oo, in {0}."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        (first,) = premises
+        given, small = equality(first), sp.Dummy("1/k", positive=True)
+        if SPRINGS not in first.hypotheses:
+            raise RuleError(f"missing premise: {SPRINGS.text}")
+        others = [h for h in first.hypotheses if h != SPRINGS]
+        loads = [h for h in others if h.kind is not Kind.MODEL and h.relation.has(LOAD.func)]
+        if loads or given.relation.has(U_c) or any(h.relation.has(k) for h in others):
+            raise RuleError("missing premise: nothing else is said of the load, of U_c and of k")
+        sides = [side.subs(k, 1 / small) for side in (given.lhs, given.rhs)]
+        if not all(continuous(side, {small: sp.S.Zero}, first) for side in sides):
+            raise RuleError(f"missing premise: {given.relation} is continuous for k -> oo")
+        left, right = (side.subs(small, 0) for side in sides)
+        return Conclusion(Equality(left, right), adds=(RIGID,), discharges=(SPRINGS,))
+
+
+def rigid(first: Judgement, name: str = "") -> Judgement:
+    """Let the stiffness of the support tend to infinity."""
+    return infer(RigidLimit(), first, name=name)
+
+
+@dataclass(frozen=True)
+class ChangeClock(Rule):
+    """``y = c v`` with constant c, and ``t = T tau``, give ``dy/dt = (c/T) dv/dtau``."""
+
+    words = "Measure time in periods, in {all}."
+    source = "chain rule"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        scaled, clock = map(equality, premises)
+        moving = [f for f in scaled.rhs.atoms(sp.Function) if f.args == (tau,)]
+        if (clock.lhs, clock.rhs) != (t, T * tau) or len(moving) != 1:
+            raise RuleError("missing premise: t = T tau")
+        factor = sp.cancel(scaled.rhs / moving[0])
+        if factor.has(tau, t) or fields(factor):
+            raise RuleError(f"missing premise: {factor} is constant")
+        slope = factor / T * sp.Derivative(moving[0], tau)
+        return Conclusion(Equality(sp.Derivative(scaled.lhs, t), slope))
+
+
+def change_clock(scaled: Judgement, clock: Judgement) -> Judgement:
+    """Return the rate of a scaled quantity in scaled time."""
+    return infer(ChangeClock(), scaled, clock)
+
+
+@dataclass(frozen=True)
+class ParameterLimit(Rule):
+    """The limit of ``F(N)`` for N -> oo, by continuity in 1/N at 0."""
+
+    expr: sp.Expr
     variable: sp.Symbol
-    point: sp.Expr
+    words = "Let {variable} -> oo in {expr}."
 
-    def pivot_of(self, claim: sp.Basic) -> sp.Expr | None:
-        """A limit is a source of its own: its parents hold before it only."""
-        if not isinstance(claim, sp.Equality):
-            return None
-        derivatives = claim.lhs.atoms(sp.Derivative) or claim.lhs.atoms(AppliedUndef)
-        return next(iter(derivatives), None)
-
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (claim,) = parents
-        return claim.func(*(self._limit(side) for side in claim.args))
-
-    def _limit(self, side: sp.Expr) -> sp.Expr:
-        """Insert the point where the side is continuous there; else ask for SymPy's limit."""
-        small = sp.Dummy("epsilon", positive=True)
-        shifted = side.subs(self.variable, 1 / small if self.point == sp.oo else self.point + small)
-        inserted = shifted.subs(small, 0)
-        if not inserted.has(sp.oo, sp.zoo, sp.nan) and _continuous(inserted):
-            return inserted
-        return sp.limit(shifted, small, 0, "+")
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        again = self.apply(tuple(parent.claim for parent in statement.parents))
-        return (
-            proof(same(again, statement.claim), f"the limit, taken again, is {again}"),
-            self._sample(statement),
-        )
-
-    def _sample(self, statement: Statement) -> Check:
-        """Go towards the point in steps of 1e10; each must bring the sides as much nearer."""
-        (parent,) = (p.claim for p in statement.parents)
-        claim = statement.claim
-        values = sample.world((), sp.Tuple(parent, claim), seed=1)
-        distances, reached = [], []
-        for exponent in (20, 30, 40):
-            near = sp.Float(10) ** (exponent if self.point == sp.oo else -exponent)
-            at = near if self.point == sp.oo else self.point + near
-            there = {**values, self.variable: at}
-            reached.append(f"{float(at):.0e}")
-            gaps = [
-                abs(sample.evaluate(a, there) - sample.evaluate(b, values))
-                / max(abs(sample.evaluate(b, values)), sp.Float(10) ** -300)
-                for a, b in zip(parent.args, claim.args, strict=True)
-            ]
-            distances.append(max(gaps))
-        passed = all(
-            gap < sp.Float(10) ** (-e + 15) for gap, e in zip(distances, (20, 30, 40), strict=True)
-        )
-        shown = ", ".join(f"{float(gap):.0e}" for gap in distances)
-        known = QUANTITIES.get(self.variable.name)
-        unit = f" {known.unit}" if known and known.unit != "1" else ""
-        where = f"at {self.variable} = {', '.join(reached)}{unit}"
-        return Check("sample", passed, f"{where} the relative distance from the limit is {shown}")
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        small = sp.Dummy("small", positive=True)
+        at_end = sp.together(self.expr.subs(self.variable, 1 / small))
+        if not continuous(at_end, {small: sp.S.Zero}, *premises):
+            raise RuleError(f"missing premise: {self.expr} is continuous for {self.variable} -> oo")
+        return Conclusion(Limit(self.expr, self.variable, sp.oo, at_end.subs(small, 0)))
 
 
-def _continuous(expr: sp.Expr) -> bool:
-    """Return whether an expression is made of functions continuous where they are evaluated."""
-    roots = (e for e in expr.atoms(sp.Pow) if not e.exp.is_Integer)
-    known = all(
-        isinstance(f, (sp.tanh, sp.exp, AppliedUndef))
-        for f in expr.atoms(sp.Function, AppliedUndef)
-    )
-    return known and all(e.base.is_nonnegative for e in roots)
+def parameter_limit(expr: sp.Expr, variable: sp.Symbol, *facts: Judgement) -> Judgement:
+    """Return the limit of an expression for a parameter that tends to infinity."""
+    return infer(ParameterLimit(expr, variable), *facts)

@@ -1,98 +1,91 @@
-"""Results as functions of a datum: their derivative, and the datum for a given result.
+"""Results as functions of a parameter: their derivatives.
 
 Key results
-    Differentiated   the derivative of a parent with respect to a datum
-    Solved           a parent solved for a datum
+    differentiated   the derivative of a result with respect to a parameter
+    one_sign         a derivative that is nowhere negative, or nowhere positive
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from .. import sample
-from ..check import Check
-from ..conditions import Condition
-from ..symbols import symbol
+from ..claims import Equality, Inequality
+from ..hypotheses import Kind
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..symbols import DATA
 from ..zero import is_zero
-from . import SAMPLES, Authored, proof
-from .authored import insert
+from .algebra import inserted
+from .inequalities import smooth
+from .proving import facts_of, holds, require_defined, sign
+from .reading import equality, fields
 
-if TYPE_CHECKING:
-    from ..statement import Statement
+_OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)
 
-RESOLVED = Condition("160 digits resolve 1 + tanh", sp.Gt(symbol("f_c"), sp.Rational(1, 50)))
-"""Where samples of the steady state are drawn: below, 1 + tanh(4 - 2/f_c) rounds to 0."""
+
+def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
+    """Refuse unless an expression has data alone, of which one may vary with the others fixed."""
+    names = {s for s in expr.free_symbols if s.name not in DATA}
+    if fields(expr) or names:
+        raise RuleError(f"missing premise: {expr} is a function of data alone")
+    for hypothesis in premises[0].hypotheses:
+        relation = hypothesis.relation
+        kept = hypothesis.kind in (Kind.PARAMETER, Kind.STATE) and relation.has(parameter)
+        if kept and not isinstance(relation, _OPEN):
+            raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
 
 
 @dataclass(frozen=True)
-class Differentiated(Authored):
-    """An authored relation for dy/da, the derivative of a result with respect to a datum.
+class Differentiated(Rule):
+    """``y = F(a, ...)`` gives ``dy/da``: F is a function of data, of which a varies alone.
 
-    The first parent says ``y = F(a, ...)``; the others name constants of the claim.
+    The claim has the derivative of y; further premises name constants of the claim.
     """
 
+    claim: sp.Equality
     parameter: sp.Symbol
+    words = "Differentiate {0} with respect to {parameter}, with {others}."
 
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        slope = sp.diff(statement.parents[0].claim.rhs, self.parameter)
-        claim = statement.claim
-        rest = insert(self._with(claim.lhs - claim.rhs, slope, statement), statement.parents)
-        detail = "the derivative, taken again, agrees"
-        return proof(is_zero(rest), detail), self._sample(statement)
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        result = equality(premises[0])
+        if not result.lhs.is_Symbol or self.parameter.name not in DATA:
+            raise RuleError(f"missing premise: {self.parameter} is one of the data")
+        _free(self.parameter, result.rhs, premises[0])
+        require_defined(result.rhs, *premises)
+        slope = sp.diff(result.rhs, self.parameter)
+        of_result = sp.Derivative(result.lhs, self.parameter, evaluate=False)
+        require_defined(self.claim, *premises)
+        rest = (self.claim.lhs - self.claim.rhs).xreplace({of_result: slope})
+        if not smooth(result.rhs) or not is_zero(inserted(rest, premises)):
+            raise RuleError(f"missing premise: the derivative is {slope}")
+        return Conclusion(Equality(*self.claim.args))
 
-    def _with(self, expr: sp.Expr, slope: sp.Expr, statement: Statement) -> sp.Expr:
-        result = statement.parents[0].claim.lhs
-        return expr.xreplace({sp.Derivative(result, self.parameter, evaluate=False): slope})
 
-    def _sample(self, statement: Statement) -> Check:
-        """Compare with difference quotients, of 30 digits."""
-        value, slope = statement.parents[0].claim.rhs, sp.Dummy()
-        claim = self._with(statement.claim, slope, statement)
-        left, right = (insert(side, statement.parents) for side in claim.args)
-        everything = sp.Tuple(value, self.parameter, left, right)
-        conditions = (*statement.conditions, RESOLVED)
-        worlds = sample.satisfying((), everything, conditions, SAMPLES)
-        passed = True
-        for world in worlds:
-            measured = {**world, slope: self._quotient(value, world)}
-            gap = abs(sample.evaluate(left, measured) - sample.evaluate(right, measured))
-            passed = passed and bool(gap <= 1e-30 * abs(sample.evaluate(right, measured)))
-        return Check("sample", passed, f"{SAMPLES} points, difference quotients, 30 digits")
-
-    def _quotient(self, value: sp.Expr, world: sample.World) -> sp.Expr:
-        at, step = world[self.parameter], sp.Float(10) ** -40 * world[self.parameter]
-        above = sample.evaluate(value, {**world, self.parameter: at + step})
-        below = sample.evaluate(value, {**world, self.parameter: at - step})
-        return (above - below) / (2 * step)
+def differentiated(
+    claim: sp.Equality, parameter: sp.Symbol, *premises: Judgement, name: str = ""
+) -> Judgement:
+    """State the derivative of a result with respect to one of the data."""
+    return infer(Differentiated(claim, parameter), *premises, name=name)
 
 
 @dataclass(frozen=True)
-class Solved(Authored):
-    """An authored ``a = G(y, ...)``, the first parent ``y = F(a, ...)`` solved for a datum.
+class OneSign(Rule):
+    """``y = Q`` gives ``dQ/da >= 0``, or ``<= 0``, where the premises prove the sign."""
 
-    Further parents name constants of the claim.  Proof: F(G(y)) = y; F is monotone in a.
-    """
+    parameter: sp.Expr
+    words = "Differentiate the rate {0} with respect to {parameter}: the sign is constant."
 
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        first, *names = statement.parents
-        claim, law = statement.claim, first.claim
-        back = insert(law.rhs.subs(claim.lhs, claim.rhs), tuple(names))
-        proved = is_zero(back - law.lhs)
-        detail = "inserted into what it solves, it gives back the result"
-        return proof(proved, detail), self._sample(statement)
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law = equality(premises[0])
+        slope = sp.diff(law.rhs, self.parameter).doit()
+        known = facts_of(premises)
+        for relation in (sp.Ge, sp.Le):
+            if holds(relation(slope, 0), known):
+                return Conclusion(Inequality(relation(slope, 0, evaluate=False)))
+        raise RuleError(f"missing premise: {slope} has one sign")
 
-    def _sample(self, statement: Statement) -> Check:
-        """Compute y from drawn data, and the datum from y."""
-        first, *names = statement.parents
-        claim, law = statement.claim, first.claim
-        again = insert(claim.rhs.subs(law.lhs, law.rhs), tuple(names))
-        conditions = (*statement.conditions, RESOLVED)
-        worlds = sample.satisfying((), sp.Tuple(again, claim.lhs), conditions, SAMPLES)
-        passed = all(
-            abs(sample.evaluate(again, world) / world[claim.lhs] - 1) < 10**-sample.DIGITS
-            for world in worlds
-        )
-        return Check("sample", passed, f"{SAMPLES} points, {sample.DIGITS} digits")
+
+def one_sign(law: Judgement, parameter: sp.Expr, *facts: Judgement, name: str = "") -> Judgement:
+    """State the sign of the effect of one of the data, or of the load."""
+    return infer(OneSign(parameter), law, *facts, name=name)

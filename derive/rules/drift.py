@@ -1,9 +1,10 @@
 """The drift of wear: how the rate approaches its limit, and what that adds to the wear.
 
 Key results
-    LinearApproach      du/dt = F(h/sigma) with h/sigma = l - e/sigma gives t (du/dt - R) to O(1/t)
-    FirstOrder          the same from u (h/sigma - l) - a(t) -> 0
-    LogarithmicDrift    t (du/dt - R) - a(t) -> 0, a periodic, gives (u - R t)/ln t -> mean of a
+    first_order          u (x - l) - a -> 0 for du/dt = F(x) gives t (du/dt - R) - F'(l) a/R -> 0
+    logarithmic_drift    t (du/dt - R) - a -> 0, a periodic, gives (u - R t)/ln t -> mean of a
+    logarithmic_growth   e^((u - U_a)/s) du/dt -> a gives u(N T) = s ln(1 + ...) + o(1)
+    last_cycles          the number of cycles to a vanishing roughness, to leading order
 """
 
 from __future__ import annotations
@@ -12,88 +13,201 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..symbols import t
+from ..claims import Asymptotic
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..symbols import symbols, t
 from ..zero import is_zero
-from . import RuleError, Theorem
-from .limits import T, forever, in_terms_of
+from .inequalities import smooth
+from .limits import bounds, in_terms_of, in_time
+from .proving import continuous, require, require_defined
+from .reading import (
+    CONSTANT,
+    CONTINUOUS,
+    LOAD,
+    PERIODIC,
+    SINE,
+    T,
+    constant,
+    equality,
+    field_of_rate,
+    fields,
+    has_hypothesis,
+    initial_value,
+    limit_in_time,
+    rate_law,
+)
+
+N, U, U_mean = symbols("N U U_mean")
+MEAN = sp.Eq(U_mean, sp.Integral(LOAD, (t, 0, T)) / T)
+"""What the mean of the load is."""
 
 
 @dataclass(frozen=True)
-class LinearApproach(Theorem):
-    """How the rate approaches its limit, to first order in 1/t.
-
-    Parents: ``du/dt = F(h/sigma)``; ``h/sigma = l - e/sigma`` exactly, with bounded e; the
-    limits l of h/sigma and R of the rate.  With sigma = sigma_0 + f u:
-    ``t (du/dt - R) + F'(l) e/(f R) -> 0``.
-    """
-
-    theorem = (
-        "the contact law is differentiable at the limit, and sigma/t tends to f_c times the limit "
-        "of du_c/dt"
-    )
-
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        law, deviation, ratio, limit = parents
-        y = sp.Dummy(real=True)
-        function = in_terms_of(law.rhs, deviation.lhs, y)
-        wear, speed = limit.lhs.args[0].expr, limit.rhs
-        size = sp.denom(deviation.lhs)
-        end = ratio.rhs
-        load = sp.cancel((end - deviation.rhs) * size)
-        if function.has(t) or load.has(wear) or not is_zero(function.subs(y, end) - speed):
-            raise RuleError("the rate is no function of a ratio with that limit")
-        slope = sp.cancel(sp.diff(function, y).subs(y, end) / speed)
-        first_order = -slope * load / sp.diff(size, wear)
-        return sp.Eq(forever(t * (limit.lhs.args[0] - speed) - first_order), 0)
-
-
-@dataclass(frozen=True)
-class FirstOrder(Theorem):
+class FirstOrder(Rule):
     """How the rate approaches its limit, from how h/sigma does.
 
-    Parents: ``du/dt = F(h/sigma)``; ``u (h/sigma - l) - a -> 0``; the limits l and R:
-    ``t (du/dt - R) - F'(l) a/R -> 0``.
+    ``du/dt = F(x)``, ``u (x - l) - a -> 0`` with bounded a, ``x -> l``, ``du/dt -> R > 0``:
+    ``t (du/dt - R) - F'(l) a/R -> 0``, as u/t tends to R and F is differentiable at l.
     """
 
-    theorem = (
-        "the contact law is differentiable at the limit, and u_c/t tends to the limit of du_c/dt"
-    )
+    words = "Expand the contact law about the limit of h/sigma, with {all}."
+    source = "Taylor's theorem; u/t -> R by L'Hopital's rule"
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        law, deviation, ratio, limit = parents
-        y = sp.Dummy(real=True)
-        quantity, end = ratio.lhs.args[0], ratio.rhs
-        rate, speed = limit.lhs.args[0], limit.rhs
-        function = in_terms_of(law.rhs, quantity, y)
-        wear = rate.expr
-        first = sp.expand(wear * (quantity - end) - deviation.lhs.args[0])
-        if function.has(t) or deviation.rhs != 0 or not is_zero(function.subs(y, end) - speed):
-            raise RuleError("the rate is no function of a ratio with that limit")
-        slope = sp.cancel(sp.diff(function, y).subs(y, end) / speed)
-        return sp.Eq(forever(t * (rate - speed) - slope * first), 0)
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, deviation, ratio, speed, *_ = premises
+        y, (u, rate) = sp.Dummy(real=True), rate_law(law)
+        approach, x, steady = map(limit_in_time, (deviation, ratio, speed))
+        function = in_terms_of(rate, x.expr, y)
+        if approach.value != 0 or steady.expr != sp.Derivative(u, t) or not constant(function):
+            raise RuleError("missing premise: the rate is a function of a ratio with that limit")
+        if fields(function) or not is_zero(function.subs(y, x.expr) - rate):
+            raise RuleError("missing premise: the rate is a function of the ratio alone")
+        first = sp.expand(u * (x.expr - x.value) - approach.expr)
+        for field in fields(first):
+            bounds(field, *premises)
+            if sp.diff(first, field).has(field):
+                raise RuleError(f"missing premise: {first} is linear in bounded fields")
+        if not smooth(function) or not continuous(function, {y: x.value}, *premises):
+            raise RuleError(f"missing premise: {function} is differentiable at the limit")
+        if not constant(first.subs(dict.fromkeys(fields(first), 0))):
+            raise RuleError(f"missing premise: {first} is bounded")
+        if not is_zero(function.subs(y, x.value) - steady.value):
+            raise RuleError(f"missing premise: {steady.value} is the rate at the limit")
+        require(sp.Gt(steady.value, 0), *premises)
+        slope = sp.cancel(sp.diff(function, y).subs(y, x.value) / steady.value)
+        return Conclusion(in_time(t * (steady.expr - steady.value) - slope * first, sp.S.Zero))
+
+
+def first_order(*premises: Judgement, name: str = "") -> Judgement:
+    """Expand a rate about its limit, from rate, deviation, ratio and limit of the rate."""
+    return infer(FirstOrder(), *premises, name=name)
 
 
 @dataclass(frozen=True)
-class LogarithmicDrift(Theorem):
-    """From ``t (du/dt - R) - a(t) -> 0`` with periodic a: ``(u - R t)/ln(t/T) -> mean of a``."""
+class LogarithmicDrift(Rule):
+    """``t (du/dt - R) - a(U_a) -> 0``, a linear: ``(u - R t)/ln(t/T) -> a(<U_a>)``.
 
-    mean: tuple[sp.Expr, sp.Expr]
-    theorem = "a periodic function over t integrates to its mean times ln N and a bounded rest"
+    The load is periodic and integrable, as it is continuous; <U_a> is its mean over a period.
+    """
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (limit,) = parents
-        inside = limit.lhs.args[0]
-        (rate,) = inside.atoms(sp.Derivative)
-        load, average = self.mean
-        speed_now, load_now = sp.Dummy(), sp.Dummy()
-        flat = inside.xreplace({rate: speed_now}).xreplace({load: load_now})
+    words = "Integrate {0} over many periods: the mean adds up to a logarithm."
+    source = "a periodic function over t integrates to its mean times ln N and a bounded rest"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        approach = limit_in_time(premises[0])
+        has_hypothesis(PERIODIC.relation, *premises)
+        has_hypothesis(MEAN, *premises)
+        if CONTINUOUS not in {h for p in premises for h in p.hypotheses}:
+            raise RuleError(f"missing premise: {CONTINUOUS.text}")
+        (rate,) = approach.expr.atoms(sp.Derivative) - _laws(approach.expr)
+        u, now, load = field_of_rate(rate), sp.Dummy(), sp.Dummy()
+        flat = approach.expr.xreplace({rate: now}).xreplace({LOAD: load})
         periodic = -flat.subs(t, 0)
-        speed = sp.expand(speed_now - sp.diff(flat, t))
-        rest = sp.expand(flat - t * (speed_now - speed) + periodic)
-        linear = not sp.diff(periodic, load_now).has(load_now)
-        if limit.rhs != 0 or rest != 0 or speed.has(t, speed_now) or not linear:
-            raise RuleError(
-                f"{limit} is not of the form t (du/dt - R) - a(t) -> 0, a linear in U_a"
-            )
-        drift = (rate.expr - speed * t) / sp.log(t / T)
-        return sp.Eq(forever(drift), periodic.subs(load_now, average))
+        speed = sp.expand(now - sp.diff(flat, t))
+        rest = sp.expand(flat - t * (now - speed) + periodic)
+        linear = not sp.diff(periodic, load).has(load)
+        if approach.value != 0 or rest != 0 or speed.has(t, now) or not linear or fields(flat):
+            raise RuleError("missing premise: t (du/dt - R) - a(t) -> 0, a linear in the load")
+        drift = (u - speed * t) / sp.log(t / T)
+        return Conclusion(in_time(drift, periodic.subs(load, U_mean)))
+
+
+def _laws(expr: sp.Expr) -> set[sp.Basic]:
+    return {d for d in expr.atoms(sp.Derivative) if not fields(d)}
+
+
+def logarithmic_drift(*premises: Judgement, name: str = "") -> Judgement:
+    """Integrate the first-order approach of a rate under a periodic load."""
+    return infer(LogarithmicDrift(), *premises, name=name)
+
+
+@dataclass(frozen=True)
+class LogarithmicGrowth(Rule):
+    """``e^((u - U_a)/s) du/dt -> a > 0`` with constant s > 0, under ``U_a = U sin(2 pi t/T)``:
+    ``u(N T) = s ln(1 + a N T I_0(U/s)/s) + o(1)`` as N -> oo.
+
+    s e^(u/s) has the derivative ``(a + o(1)) e^(U_a/s)``, whose mean over a cycle is a I_0(U/s).
+    """
+
+    scale: sp.Expr
+    words = (
+        "Separate the variables of {0}: every cycle adds the same to the exponential of the wear."
+    )
+    source = "DLMF 10.32.1; Cesaro's theorem"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        growth = limit_in_time(premises[0])
+        has_hypothesis(SINE.relation, *premises)
+        (rate,) = growth.expr.atoms(sp.Derivative)
+        u, a, s = field_of_rate(rate), growth.value, self.scale
+        if not is_zero(growth.expr - rate * sp.exp((u - LOAD) / s)) or fields(s) or not constant(s):
+            raise RuleError("missing premise: the limit of exp((u - U_a)/s) du/dt")
+        for positive in (a, s):
+            require(sp.Gt(positive, 0), *premises)
+        mean = sp.besseli(0, U / s)
+        worn = s * sp.log(1 + a * N * T * mean / s)
+        return Conclusion(Asymptotic(u.subs(t, N * T), worn, N, sp.oo))
+
+
+def logarithmic_growth(scale: sp.Expr, *premises: Judgement, name: str = "") -> Judgement:
+    """Integrate an exponential tail of the rate under a sine load."""
+    return infer(LogarithmicGrowth(scale), *premises, name=name)
+
+
+@dataclass(frozen=True)
+class LastCycles(Rule):
+    """``ln N = F(s) + o(1)`` as s -> 0+, for the cycles N at which the roughness is s.
+
+    Premises: ``du/dt = Q(u)`` under a constant load, ``s = s_0 + f u`` with f < 0, and names.  N
+    grows without bound, and the quotient of the claimed and the exact dN/ds tends to one.
+    """
+
+    claim: sp.Equality
+    words = (
+        "L'Hopital's rule: the quotient of the claimed and the exact number of cycles tends to "
+        "one, by {0}."
+    )
+    source = "L'Hopital's rule"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, size, clock, gap, *names = premises
+        (u, rate), rough, spent = rate_law(law), equality(size), equality(clock)
+        has_hypothesis(CONSTANT.relation, *premises)
+        left, s = self.claim.lhs, rough.lhs
+        slope = sp.diff(rough.rhs, u)
+        if left != sp.log(spent.lhs) or spent.rhs != t / T or not s.is_Symbol:
+            raise RuleError(f"missing premise: {left} is the logarithm of the cycles t/T")
+        require(sp.Lt(slope, 0), *premises)
+        require_defined(self.claim.rhs, *premises)
+        small, fall = sp.Dummy("s", positive=True), sp.Dummy("fall", positive=True)
+        worn = u + (small - rough.rhs) / slope
+        opening = equality(gap)
+        load = LOAD - (opening.rhs - opening.lhs) / sp.diff(opening.rhs, LOAD)
+        if sp.diff(opening.rhs, LOAD, 2) != 0 or sp.diff(rough.rhs, u, 2) != 0:
+            raise RuleError("missing premise: the gap is linear in the load")
+        exact = rate.subs(u, sp.cancel(worn)).subs(LOAD, sp.cancel(load))
+        claimed = sp.exp(self.claim.rhs)
+        for name in names:
+            claimed = claimed.subs(equality(name).lhs, equality(name).rhs)
+        claimed = claimed.subs(s, small)
+        exact, claimed = (e.subs(slope, -fall) for e in (exact, claimed))
+        if {*fields(exact), *fields(claimed)}:
+            raise RuleError("missing premise: rate and claim are functions of the roughness")
+        steps = -sp.diff(claimed, small) * fall * T * exact.rewrite(sp.exp)
+        if sp.limit(_one_exponential(claimed), small, 0, "+") != sp.oo:
+            raise RuleError("missing premise: the number of cycles grows without bound")
+        if sp.limit(_one_exponential(steps), small, 0, "+") != 1:
+            raise RuleError("missing premise: the quotient of the slopes tends to one")
+        return Conclusion(Asymptotic(left, self.claim.rhs, s, sp.S.Zero))
+
+
+def _one_exponential(expr: sp.Expr) -> sp.Expr:
+    """Return a quotient of exponentials in one exponential of one argument."""
+    expr = expr.replace(sp.exp, lambda argument: sp.exp(sp.expand(sp.cancel(argument))))
+    expr = sp.powsimp(sp.expand(sp.together(expr)))
+    return sp.factor(sp.powsimp(expr))
+
+
+def last_cycles(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judgement:
+    """State the number of cycles at which the roughness is small."""
+    return infer(LastCycles(claim), *premises, name=name)

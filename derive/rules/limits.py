@@ -1,43 +1,47 @@
-"""Limits in time: rules that pass from bounds to limits, and from limits to limits.
+"""Limits in time: from bounds to limits, and from limits to limits.
 
-Overview
-    A claim ``Limit(e, t, oo) = value`` is about the fields as functions of time.  Each rule is
-    one textbook theorem whose hypotheses are checked by the machine.  Where a limit follows
-    from the wear growing without bound, it is sampled too: at a wear of 1e20, 1e30 and 1e40 mm
-    the distance of the two sides has to fall accordingly.
 Key results
     forever, later   the limit for t -> oo; an expression one period later
-    Diverges         u >= c t gives a + f u -> oo for f > 0
-    Unbounded        du/dt = F(u, load) with F > 0 gives u -> oo
-    AtInfinity       what a function of u and the load tends to as u -> oo
-    Vanishes         |e| <= B/s and s -> oo give e -> 0
-    Passes           limits pass through continuous functions and through t -> t + T
-    Accumulates      du/dt -> R gives u(t + T) - u(t) -> R T
-    Named            a name for a limit
+    one_period_later what holds at every time holds one period later
+    diverges         u >= c t + d with c > 0, and f > 0, give a + f u -> oo
+    unbounded        du/dt = F(u, load) with F > 0 and a bounded load gives u -> oo
+    at_infinity      what a function of u and bounded fields tends to as u -> oo
+    reciprocal       s -> oo gives 1/s -> 0
+    vanishes         |e| <= B/s and s -> oo give e -> 0
+    passes           limits pass through continuous functions and through t -> t + T
+    accumulates      du/dt -> R gives u(t + T) - u(t) -> R T
+    intermittent     a rate that is on during a fraction d of every period adds d T R
+References
+    Rudin, Principles of Mathematical Analysis, 1976, chapters 4 and 5.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..check import Check
-from ..sample import DIGITS, Source, evaluate, satisfying
+from ..claims import Equality, Limit
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..symbols import symbol, t
 from ..zero import is_zero
-from . import Authored, RuleError, Theorem, proof, sources
-from .sign import LAW, assume, sign
-
-if TYPE_CHECKING:
-    from ..statement import Statement
-
-T = symbol("T")
-_LOAD = symbol("U_a").func
-_WEAR = symbol("u_c")
-_DEPTHS = (20, 30, 40)
+from .proving import LAW, continuity, continuous, facts_of, holds, require, require_defined
+from .reading import (
+    LOAD,
+    PERIODIC,
+    T,
+    between,
+    constant,
+    equality,
+    field_of_rate,
+    fields,
+    growing,
+    has_hypothesis,
+    inequality,
+    limit_in_time,
+    rate_law,
+)
 
 
 def forever(expr: sp.Expr) -> sp.Limit:
@@ -45,217 +49,404 @@ def forever(expr: sp.Expr) -> sp.Limit:
     return sp.Limit(expr, t, sp.oo)
 
 
-def later(expr: sp.Expr) -> sp.Expr:
+def later(expr: sp.Basic) -> sp.Basic:
     """Return ``expr`` one period later.
 
-    >>> from derive.symbols import symbol
     >>> later(symbol("u_c")) == symbol("u_c").subs(t, t + T)
     True
     """
-    fields = {f: f.subs(t, t + T) for f in expr.atoms(AppliedUndef) if f.has(t)}
-    return expr.xreplace(fields)
+    moving = {f: f.subs(t, t + T) for f in expr.atoms(AppliedUndef) if f.has(t)}
+    return expr.xreplace(moving)
+
+
+def in_time(expr: sp.Expr, value: sp.Expr) -> Limit:
+    """Return the claim of a limit for t -> oo."""
+    return Limit(expr, t, sp.oo, value)
 
 
 @dataclass(frozen=True)
-class Diverges(Theorem):
-    """From ``u >= c t`` with c > 0: a polynomial in u that increases without bound diverges."""
+class OnePeriodLater(Rule):
+    """What holds at every time holds one period later."""
+
+    words = "One period later, {0}."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        return Conclusion(premises[0].claim.map(later))
+
+
+def one_period_later(judgement: Judgement) -> Judgement:
+    """State a judgement one period later."""
+    return infer(OnePeriodLater(), judgement)
+
+
+@dataclass(frozen=True)
+class Diverges(Rule):
+    """``u >= c t + d`` with constants c > 0 and d: ``a + f u -> oo`` for constants f > 0 and a."""
 
     expr: sp.Expr
-    positive: tuple[sp.Symbol, ...] = ()
-    theorem = "it increases with u_c, and already its value at the lower bound of u_c diverges"
+    words = "By {0} the wear grows without bound, and with it {expr}."
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (growth,) = parents
-        u, y = growth.gts, sp.Dummy(positive=True)
-        at_bound = assume(self.expr.subs(u, y), self.positive)
-        if sign(sp.diff(at_bound, y)) != 1 or sp.limit(at_bound, y, sp.oo) != sp.oo:
-            raise RuleError(f"{self.expr} does not increase with {u} beyond all bounds")
-        return sp.Eq(forever(self.expr), sp.oo)
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        growth = inequality(premises[0])
+        u, bound = growth.greater, growth.lesser
+        speed, slope = sp.diff(bound, t), sp.diff(self.expr, u)
+        steady = (speed, sp.expand(bound - speed * t), slope, sp.expand(self.expr - slope * u))
+        if fields(u) != {u} or not all(constant(e) and not fields(e) for e in steady):
+            raise RuleError(f"missing premise: {self.expr} is linear in what grows")
+        for positive in (speed, slope):
+            require(sp.Gt(positive, 0), *premises)
+        return Conclusion(in_time(self.expr, sp.oo))
+
+
+def diverges(expr: sp.Expr, growth: Judgement, *facts: Judgement, name: str = "") -> Judgement:
+    """Let a linear function of a growing quantity tend to infinity."""
+    return infer(Diverges(expr), growth, *facts, name=name)
+
+
+def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
+    """Return relations that keep a field between two constants; RuleError where there are none."""
+    found = []
+    for fact in facts_of(premises):
+        for part in fact.args if isinstance(fact, sp.And) else (fact,):
+            if isinstance(part, (sp.LessThan, sp.StrictLessThan)):
+                pair = (part.lhs, part.rhs)
+            elif isinstance(part, (sp.GreaterThan, sp.StrictGreaterThan)):
+                pair = (part.rhs, part.lhs)
+            else:
+                continue
+            small, large = pair
+            if small == sp.Abs(field) and _fixed(large):
+                return (sp.Le(small, large),)
+            if small == field and _fixed(large):
+                found.append((1, sp.Le(field, large)))
+            if large == field and _fixed(small):
+                found.append((0, sp.Ge(field, small)))
+    if field.is_nonnegative:
+        found.append((0, sp.Ge(field, 0)))
+    if {side for side, _ in found} != {0, 1}:
+        raise RuleError(f"missing premise: {field.func} is bounded")
+    return tuple(relation for _, relation in found)
+
+
+def _fixed(expr: sp.Expr) -> bool:
+    return constant(expr) and not fields(expr)
 
 
 @dataclass(frozen=True)
-class Unbounded(Theorem):
-    """From ``du/dt = F(u, load)`` with F positive and continuous, and a bounded load: u -> oo.
+class Unbounded(Rule):
+    """``du/dt = F(u, a)`` with F positive and continuous, and bounded fields a: ``u -> oo``.
 
-    ``positive`` are expressions that a condition makes positive (a roughness, say).
+    Were u, which increases, bounded, then u and a would stay in a compact set, on which F has a
+    positive minimum.  So F has to be positive where the bounds of a are attained, too.
     """
 
-    positive: tuple[sp.Expr, ...] = ()
-    theorem = (
-        "were u_c bounded, the rate would have a positive minimum, and u_c would exceed any bound"
+    words = (
+        "A positive, continuous rate {0} under a bounded load: were the wear bounded, the rate "
+        "would be bounded away from zero."
+    )
+    source = "extreme value theorem"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, *facts = premises
+        u, function = rate_law(law)
+        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(function)}
+        closed = [r for f in plain if f != u for r in bounds(f, *premises)]
+        anywhere = [f.relation for f in facts if all(_fixed(h.relation) for h in f.hypotheses)]
+        fixed = [h.relation for p in premises for h in p.hypotheses if _fixed(h.relation)]
+        given = frozenset(r.xreplace(plain) for r in (*closed, *anywhere, *fixed))
+        flat = function.xreplace(plain)
+        if flat.has(t) or not holds(sp.Gt(flat, 0), given):
+            raise RuleError(f"missing premise: {function} > 0 wherever the fields may be")
+        if not all(holds(goal, given) for goal in continuity(flat, set(plain.values()))):
+            raise RuleError(f"missing premise: {function} is continuous")
+        return Conclusion(in_time(u, sp.oo))
+
+
+def unbounded(law: Judgement, *facts: Judgement, name: str = "") -> Judgement:
+    """Let the wear tend to infinity under a positive rate."""
+    return infer(Unbounded(), law, *facts, name=name)
+
+
+def expanded(expr: sp.Expr, small: sp.Symbol) -> tuple[int, sp.Expr]:
+    """Return n and an expression N(small), made of functions that are smooth where they have a
+    value, so that ``expr = small**-n N``; infinite parts of expr are powers of small.
+
+    >>> z = sp.Symbol("z", positive=True)
+    >>> expanded(sp.sqrt(1 + 4 / z**2), z)
+    (1, sqrt(z**2 + 4))
+    """
+    if not expr.has(small):
+        return 0, expr
+    if expr == small:
+        return -1, sp.S.One
+    if isinstance(expr, (sp.Add, sp.Mul)):
+        parts = [expanded(part, small) for part in expr.args]
+        if isinstance(expr, sp.Mul):
+            return sum(n for n, _ in parts), sp.Mul(*(e for _, e in parts))
+        order = max(n for n, _ in parts)
+        return order, sp.expand(sp.Add(*(small ** (order - n) * e for n, e in parts)))
+    if isinstance(expr, sp.Pow) and expr.exp.is_Rational:
+        order, inside = expanded(sp.expand(expr.base), small)
+        if (order * expr.exp).is_Integer:
+            return int(order * expr.exp), inside**expr.exp
+    if isinstance(expr, (sp.exp, sp.tanh, LAW)):
+        order, inside = expanded(sp.expand(expr.args[0]), small)
+        if order <= 0:
+            return 0, expr.func(small**-order * inside)
+    raise RuleError(f"missing premise: {expr} is a smooth function at infinity")
+
+
+@dataclass(frozen=True)
+class AtInfinity(Rule):
+    """The limit of a function of u and bounded fields, where ``u -> oo``.
+
+    The function is written as ``z^-n N(z, a)`` with ``z = 1/u``, or another ``small`` function of
+    u that tends to 0.  N is smooth at z = 0, so that Taylor's remainder is uniform in bounded a:
+    the first n coefficients must vanish, and the next is the limit, which is free of a.
+    """
+
+    claim: sp.Equality
+    small: sp.Expr
+    words = (
+        "Let {small} -> 0, which holds by {0}, in an expansion that is uniform in bounded loads."
+    )
+    source = "Taylor's theorem"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        u, inside = growing(premises[0]), self.claim.lhs.args[0]
+        z, w = sp.Dummy("z", positive=True), sp.Dummy("w", positive=True)
+        self._tends_to_zero(u, w, premises)
+        if inside.has(sp.Derivative) and not constant(
+            inside.subs(dict.fromkeys(fields(inside), z))
+        ):
+            raise RuleError(f"missing premise: {inside} depends on {u} and bounded fields alone")
+        require_defined(inside, *premises)
+        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(inside) if f != u}
+        for field in plain:
+            bounds(field, *premises)
+        value = self._coefficient(inside.xreplace({u: w}).xreplace(plain), w, z, premises)
+        if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
+            raise RuleError(f"missing premise: the limit is {value}")
+        return Conclusion(in_time(inside, self.claim.rhs))
+
+    def _tends_to_zero(self, u: sp.Expr, w: sp.Symbol, premises: tuple[Judgement, ...]) -> None:
+        if self.small == 1 / u:
+            return
+        exponent = (
+            sp.log(self.small.subs(u, w)).expand(force=False) if self.small.func == sp.exp else w
+        )
+        fall = -sp.diff(exponent, w)
+        if not isinstance(self.small, sp.exp) or not _fixed(fall) or fall.has(w):
+            raise RuleError(f"missing premise: {self.small} -> 0 as {u} -> oo")
+        require(sp.Gt(fall, 0), *premises)
+
+    def _coefficient(
+        self, flat: sp.Expr, w: sp.Symbol, z: sp.Symbol, premises: tuple[Judgement, ...]
+    ) -> sp.Expr:
+        if self.small.func == sp.exp:
+            in_z = sp.powsimp(sp.expand(flat)).replace(
+                lambda e: isinstance(e, sp.exp) and e.has(w), lambda e: _power(e, self.small, w, z)
+            )
+        else:
+            in_z = flat.subs(w, 1 / z)
+        order, smooth = expanded(in_z, z)
+        if (
+            in_z.has(w)
+            or smooth.has(sp.Piecewise)
+            or not continuous(smooth, {z: sp.S.Zero}, *premises)
+        ):
+            raise RuleError(f"missing premise: {self.claim.lhs.args[0]} is smooth at infinity")
+        for n in range(max(order, 0)):
+            if not is_zero(_taylor(smooth, z, n)):
+                raise RuleError(f"missing premise: {self.claim.lhs.args[0]} is bounded")
+        return _taylor(smooth, z, order) if order >= 0 else sp.S.Zero
+
+
+def _power(expr: sp.exp, small: sp.exp, w: sp.Symbol, z: sp.Symbol) -> sp.Expr:
+    """Return ``exp(a - n c w)`` as ``exp(a) z**n``, where z stands for ``exp(-c w)``."""
+    argument = sp.expand(expr.args[0])
+    (u,) = fields(small)
+    power = sp.cancel(sp.diff(argument, w) / sp.diff(small.args[0], u))
+    if not power.is_Integer:
+        raise RuleError(f"missing premise: {expr} is a power of {small}")
+    return sp.exp(argument.subs(w, 0)) * z**power
+
+
+def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
+    return (sp.diff(expr, z, n) / sp.factorial(n)).subs(z, 0).doit()
+
+
+def at_infinity(
+    claim: sp.Equality, *premises: Judgement, small: sp.Expr | None = None, name: str = ""
+) -> Judgement:
+    """State the limit of a function of a growing quantity and of bounded fields."""
+    return infer(AtInfinity(claim, small or 1 / growing(premises[0])), *premises, name=name)
+
+
+@dataclass(frozen=True)
+class Reciprocal(Rule):
+    """``s -> oo`` gives ``1/s -> 0``."""
+
+    words = "The reciprocal of what grows beyond all bounds, {0}, tends to zero."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        return Conclusion(in_time(1 / growing(premises[0]), sp.S.Zero))
+
+
+def reciprocal(divergence: Judgement) -> Judgement:
+    """Let the reciprocal of a growing quantity vanish."""
+    return infer(Reciprocal(), divergence)
+
+
+@dataclass(frozen=True)
+class Vanishes(Rule):
+    """``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
+
+    words = "Bounds that tend to zero, {0}, as the roughness grows, {others}."
+    source = "squeeze theorem"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        squeeze, divergence = premises
+        found, size = between(squeeze), growing(divergence)
+        for side in (found.low, found.high):
+            if not _fixed(sp.cancel(side * size)):
+                raise RuleError(f"missing premise: {side} is a constant over {size}")
+        return Conclusion(in_time(found.middle, sp.S.Zero))
+
+
+def vanishes(squeeze: Judgement, divergence: Judgement, name: str = "") -> Judgement:
+    """Squeeze an expression between two bounds that tend to zero."""
+    return infer(Vanishes(), squeeze, divergence, name=name)
+
+
+@dataclass(frozen=True)
+class Passes(Rule):
+    """Limits pass through a function that is continuous where they end, and through one period.
+
+    The premises give the finite limits of some expressions, and equalities; the claim is the limit
+    of a combination of those expressions, now or one period later.
+    """
+
+    claim: sp.Equality
+    words = (
+        "Let t -> oo in {0}: the limit {others} passes through a function that is continuous "
+        "where it ends."
     )
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (law,) = parents
-        rate, function = law.lhs, law.rhs
-        for expr in self.positive:
-            function = function.subs(expr, sp.Dummy(positive=True))
-        if not isinstance(rate, sp.Derivative) or function.atoms(sp.Derivative):
-            raise RuleError(f"{law} does not give the rate")
-        if sign(function) != 1:
-            raise RuleError(f"{function} is not manifestly positive")
-        return sp.Eq(forever(rate.expr), sp.oo)
-
-
-@dataclass(frozen=True)
-class AtInfinity(Authored):
-    """An authored limit of a function of u and a bounded load, where the parent says u -> oo.
-
-    The function is written in z = 1/u; continuity at z = 0 makes the limit uniform in the load.
-    """
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        divergence, *_ = (parent.claim for parent in statement.parents)
-        claim, wear = statement.claim, divergence.lhs.args[0]
-        inside, y = claim.lhs.args[0], sp.Dummy(positive=True)
-        plain = {f: sp.Dummy(real=True) for f in inside.atoms(AppliedUndef) if f != wear}
-        flat = inside.xreplace({wear: y}).xreplace(plain)
-        value = sp.limit(flat, y, sp.oo).xreplace({d: f for f, d in plain.items()})
-        proved = divergence.rhs == sp.oo and is_zero(value - claim.rhs)
-        return proof(proved, f"SymPy's limit is {value}"), approached(statement)
-
-
-@dataclass(frozen=True)
-class Vanishes(Theorem):
-    """From ``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
-
-    theorem = "squeezed between two bounds that tend to 0"
-
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        squeeze, divergence = parents
-        size = divergence.lhs.args[0]
-        above = {part.lts for part in squeeze.args if _shrinks(part.gts, size)}
-        below = {part.gts for part in squeeze.args if _shrinks(part.lts, size)}
-        if divergence.rhs != sp.oo or above != below or len(above) != 1:
-            raise RuleError(f"{squeeze} does not squeeze one expression like 1/({size})")
-        return sp.Eq(forever(above.pop()), 0)
-
-
-def _shrinks(side: sp.Expr, size: sp.Expr) -> bool:
-    """Return whether ``side`` is a constant over ``size``."""
-    constant = sp.cancel(side * size)
-    return not constant.has(t) and not constant.atoms(AppliedUndef)
-
-
-@dataclass(frozen=True)
-class Passes(Authored):
-    """Limits pass through a function that is continuous where they end.
-
-    The parents give the limits of some expressions; the authored claim is the limit of a
-    combination of those expressions, now or one period later.
-    """
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        claim = statement.claim
-        left = self._value(claim.lhs, statement)
-        right = self._value(claim.rhs, statement)
-        detail = "continuous function of quantities whose limits are known"
-        proved = left is not None and right is not None and is_zero(left - right)
-        return proof(proved, detail), approached(statement)
-
-    def _value(self, side: sp.Expr, statement: Statement) -> sp.Expr | None:
-        """Return the value of ``side`` with its limits taken; None where one is not known."""
-        for limit in side.atoms(sp.Limit):
-            value = self._limit(limit.args[0], statement)
-            if value is None:
-                return None
-            side = side.subs(limit, value)
-        return side
-
-    @staticmethod
-    def _limit(expr: sp.Expr, statement: Statement) -> sp.Expr | None:
-        values: dict[sp.Expr, sp.Expr] = {}
-        for parent in statement.parents:
-            known, value = parent.claim.lhs, parent.claim.rhs
-            if not isinstance(known, sp.Limit):
-                expr = expr.subs(known, value)
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        whole = self.claim.lhs.args[0]
+        expr, known, ends = whole, list[Equality](), dict[sp.Symbol, sp.Expr]()
+        meaning: dict[sp.Symbol, sp.Expr] = {}
+        for premise in premises:
+            if isinstance(premise.claim, Equality):
+                known.append(premise.claim)
+                expr = expr.subs(premise.claim.lhs, premise.claim.rhs)
+        rewritten = expr
+        for premise in premises:
+            if not isinstance(premise.claim, Limit):
                 continue
-            for quantity in (known.args[0], later(known.args[0])):
+            given = limit_in_time(premise)
+            if given.value.is_finite is False:
+                raise RuleError(f"missing premise: the limit of {given.expr} is finite")
+            for quantity in (given.expr, later(given.expr)):
                 stand_in = sp.Dummy(real=True)
                 expr = in_terms_of(expr, quantity, stand_in)
-                values[stand_in] = value
-        if _varies(expr) or not continuous(expr):
-            return None
-        infinite = {s: v for s, v in values.items() if v.is_infinite}
-        for stand_in, value in infinite.items():
-            expr = sp.limit(expr, stand_in, value)
-        return expr.subs(values)
+                ends[stand_in], meaning[stand_in] = given.value, quantity
+        back = expr
+        for stand_in, quantity in reversed(meaning.items()):
+            back = back.subs(stand_in, quantity)
+        if not constant(expr) or fields(expr) or not is_zero(back - rewritten):
+            raise RuleError(f"missing premise: the limit of all that varies in {whole}")
+        require_defined(whole, *premises, known=[later(p.relation) for p in premises])
+        if not continuous(expr, ends, *premises):
+            raise RuleError(f"missing premise: {whole} is continuous where the limits end")
+        if not is_zero(expr.subs(ends) - self.claim.rhs):
+            raise RuleError(f"missing premise: the limit of {whole} is {expr.subs(ends)}")
+        return Conclusion(in_time(whole, self.claim.rhs))
 
 
-def _varies(expr: sp.Expr) -> bool:
-    """Return whether an expression depends on time."""
-    return bool(expr.has(t)) or bool(expr.atoms(AppliedUndef) - expr.atoms(LAW))
-
-
-def continuous(expr: sp.Expr) -> bool:
-    """Return whether an expression is built of functions that are continuous everywhere.
-
-    Denominators are allowed; a value that makes one vanish is not finite and shows itself.
-    """
-    allowed = (sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, LAW, sp.Symbol, sp.Number)
-    return all(isinstance(e, allowed) or e.is_number for e in sp.preorder_traversal(expr))
+def passes(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judgement:
+    """State the limit of a continuous function of quantities whose limits are known."""
+    return infer(Passes(claim), *premises, name=name)
 
 
 def in_terms_of(expr: sp.Expr, quantity: sp.Expr, name: sp.Symbol) -> sp.Expr:
     """Write ``expr`` with ``name`` for ``quantity``, by eliminating the load or a field."""
     expr = expr.subs(quantity, name)
-    fields = [f for f in quantity.atoms(AppliedUndef) if f.has(t) and expr.has(f)]
-    for field in sorted(fields, key=lambda f: (f.func != _LOAD, str(f))):
-        if not sp.diff(quantity, field).has(field):
-            solved = Source.of(sp.Eq(quantity, name), field).value
-            return _cancelled(expr.subs(field, solved))
+    for field in sorted(fields(quantity), key=lambda f: (f.func != LOAD.func, str(f))):
+        slope = sp.diff(quantity, field)
+        if slope != 0 and expr.has(field) and not slope.has(field):
+            solved = field + (name - quantity) / slope
+            return _cancelled(expr.subs(field, sp.cancel(solved)))
     return expr
 
 
 def _cancelled(expr: sp.Expr) -> sp.Expr:
     """Cancel common factors, inside the arguments of functions too."""
-    if not expr.args or (isinstance(expr, (AppliedUndef, sp.Derivative)) and not expr.has(LAW)):
+    field = isinstance(expr, AppliedUndef) and not isinstance(expr, LAW)
+    if not expr.args or field or isinstance(expr, (sp.Derivative, sp.Subs)):
         return expr
     inner = expr.func(*map(_cancelled, expr.args))
     return inner if isinstance(inner, sp.Function) else sp.cancel(inner)
 
 
 @dataclass(frozen=True)
-class Accumulates(Theorem):
-    """From ``du/dt -> R``: the wear of one period tends to R T."""
+class Accumulates(Rule):
+    """``du/dt -> R``, finite: the wear of one period tends to ``R T``."""
 
-    theorem = "mean value theorem on [t, t + T]"
+    words = "Integrate the limit {0} over one period."
+    source = "mean value theorem on [t, t + T]"
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        (limit,) = parents
-        u = limit.lhs.args[0].expr
-        return sp.Eq(forever(u.subs(t, t + T) - u), limit.rhs * T)
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        given = limit_in_time(premises[0])
+        u = field_of_rate(given.expr)
+        if not _fixed(given.value) or given.value.is_finite is False:
+            raise RuleError(f"missing premise: the limit of {given.expr} is finite")
+        return Conclusion(in_time(u.subs(t, t + T) - u, given.value * T))
+
+
+def accumulates(limit: Judgement, name: str = "") -> Judgement:
+    """Integrate the limit of a rate over one period."""
+    return infer(Accumulates(), limit, name=name)
 
 
 @dataclass(frozen=True)
-class Named(Theorem):
-    """A name for a limit: the first parent defines the name, the second gives the limit."""
+class Intermittent(Rule):
+    """A rate ``F(u, load)`` in contact, else 0, where contact depends on the load alone.
 
-    theorem = "the limit, inserted into the definition"
+    Premises: the rate, piecewise; the definition of d > 0, the fraction of the period in contact;
+    the limit of F by itself as u -> oo.  With a periodic, bounded load u grows without bound, as F
+    is positive, and ``u(t + T) - u(t) -> d T R``.
+    """
 
-    def apply(self, parents: tuple[sp.Basic, ...]) -> sp.Basic:
-        definition, limit = parents
-        return definition.subs(limit.lhs, limit.rhs)
+    words = "The limit of the rate {0} holds during a fixed part of every period, {others}."
+    source = "mean value theorem on the part of the period in contact"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, part = premises
+        u, function = rate_law(law)
+        has_hypothesis(PERIODIC.relation, *premises)
+        bounds(LOAD, *premises)
+        if not isinstance(function, sp.Mul) and not isinstance(function, sp.Piecewise):
+            raise RuleError("missing premise: a rate that is piecewise")
+        inside = sp.piecewise_fold(function)
+        (on, contact), *rest = inside.args
+        room = sp.expand(contact.gts - contact.lts)
+        if [e for e, _ in rest] != [0] or fields(room) - {LOAD}:
+            raise RuleError("missing premise: contact depends on the load alone")
+        meaning = equality(part)
+        indicator = sp.Piecewise((1, sp.Ge(room, 0)), (0, True))
+        if meaning.rhs != sp.Integral(indicator, (t, 0, T)) / T or not meaning.lhs.is_positive:
+            raise RuleError("missing premise: the fraction of the period in contact")
+        require(sp.Gt(on, 0), *premises)
+        z = sp.Dummy("z", positive=True)
+        order, smooth = expanded(on.subs(u, 1 / z), z)
+        value = smooth.subs(z, 0)
+        if order != 0 or not continuous(smooth, {z: sp.S.Zero}, law) or fields(value):
+            raise RuleError("missing premise: the limit of the rate in contact")
+        return Conclusion(in_time(u.subs(t, t + T) - u, meaning.lhs * T * value))
 
 
-def approached(statement: Statement) -> Check:
-    """Evaluate the limits of a claim at ever deeper wear; the sides must come together."""
-    gaps = [_gap(statement, exponent) for exponent in _DEPTHS]
-    passed = all(gap < 10.0 ** (15 - depth) for gap, depth in zip(gaps, _DEPTHS, strict=True))
-    shown = ", ".join(f"{gap:.0e}" for gap in gaps)
-    depths = ", ".join(f"1e{depth}" for depth in _DEPTHS)
-    detail = f"at u_c = {depths} mm the sides differ by {shown} (relative if above 1)"
-    return Check("sample", passed, detail)
-
-
-def _gap(statement: Statement, exponent: int) -> float:
-    """Return the relative distance of the sides of a claim at a wear of 10^exponent mm."""
-    claim = statement.claim
-    inside = claim.replace(sp.Limit, lambda expr, *_: expr)
-    depth = sp.Float(10, 2 * DIGITS) ** exponent
-    found = {**sources(statement), _WEAR: Source(_WEAR, depth)}
-    found |= {later(pivot): Source(later(pivot), later(s.value)) for pivot, s in found.items()}
-    found[later(_WEAR)] = Source(later(_WEAR), depth + 1)
-    (world,) = satisfying(found.values(), inside, statement.conditions, 1)
-    left, right = evaluate(inside.lhs, world), evaluate(inside.rhs, world)
-    return float(abs(left - right) / max(abs(left), abs(right), 1))
+def intermittent(law: Judgement, part: Judgement, name: str = "") -> Judgement:
+    """Integrate a rate that is on during a fraction of every period."""
+    return infer(Intermittent(), law, part, name=name)

@@ -1,177 +1,186 @@
 """Solutions of the differential equation, found by insight and proved by differentiating back.
 
-Overview
-    A closed form is proved by a machine that knows nothing of the insight.  Each rule has a
-    second, independent route in numbers: quadrature, or insertion at 50 digits.
 Key results
-    Solution            t(u), the solution of du/dt = Q(u) under a constant load
-    Inverted            u(t), the inverse of such a t(u)
-    ParametricSolution  t(p), where wear and rate are functions of the pressure
+    solution      t(u) under a constant load: dF/du = 1/Q and F(u(0)) = 0
+    inverted      u(t), the inverse of an increasing t(u)
+    parametric    t(p), where wear and rate are functions of the pressure
+    first_root    the first zero of what a positive factor makes quadratic
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-import mpmath
 import sympy as sp
 
-from .. import sample
-from ..check import Check
-from ..sample import Source
-from ..symbols import symbol, t
+from ..claims import Equality, FirstZero
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..symbols import t
 from ..zero import is_zero
-from . import SAMPLES, Authored, RuleError, proof
-from .authored import insert
-
-if TYPE_CHECKING:
-    from ..statement import Statement
-
-
-@dataclass(frozen=True)
-class Solution(Authored):
-    """An authored ``t = F(u)``, the solution of ``du/dt = Q(u)`` for a load that does not vary.
-
-    The first parent gives the rate Q, further ones name the constants of the claim.  Proof: F
-    vanishes at u = 0 and dF/du = 1/Q.
-    """
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        unknown, slowness, time = self._pieces(statement)
-        slope = is_zero(sp.diff(time, unknown) - slowness)
-        start = is_zero(time.subs(unknown, 0))
-        detail = "its derivative is the reciprocal of the rate, and it begins at 0"
-        return proof(slope and start, detail), self._sample(statement)
-
-    def _pieces(self, statement: Statement) -> tuple[sp.Symbol, sp.Expr, sp.Expr]:
-        """Return u, 1/Q(u) and F(u), with the fields as plain symbols."""
-        law, *definitions = statement.parents
-        u, constant = sp.Symbol("u", nonnegative=True), sp.Symbol("U", real=True)
-        (wear,) = (d.expr for d in law.claim.lhs.atoms(sp.Derivative))
-        plain = {wear: u, symbol("U_a"): constant}
-        rate = insert(law.claim.rhs, tuple(definitions)).xreplace(plain)
-        claim = statement.claim
-        time = insert(claim.rhs, tuple(definitions)).xreplace(plain)
-        if claim.lhs != t:
-            raise RuleError(f"{claim} does not give the time")
-        return u, (1 / rate).rewrite(sp.exp), time
-
-    def _sample(self, statement: Statement) -> Check:
-        """Compare F with the integral of 1/Q, by quadrature."""
-        unknown, slowness, time = self._pieces(statement)
-        everything = sp.Tuple(slowness, time)
-        worlds = sample.satisfying((), everything, statement.conditions, 3)
-        passed = all(_quadrature_agrees(unknown, slowness, time, world) for world in worlds)
-        return Check("sample", passed, "3 points, quadrature of 1/Q, 30 digits")
-
-
-def _quadrature_agrees(
-    unknown: sp.Symbol, slowness: sp.Expr, time: sp.Expr, world: sample.World
-) -> bool:
-    rest = {key: value for key, value in world.items() if key != unknown}
-    end = sp.Float("1e-3", 60)
-    claimed = sample.evaluate(time, {**rest, unknown: end})
-    integrand = sp.lambdify(unknown, slowness.xreplace(rest), "mpmath")
-    with mpmath.workdps(60):
-        found = mpmath.quad(integrand, mpmath.linspace(0, mpmath.mpf(end), 5))
-    return bool(abs(sp.Float(found, 60) - claimed) <= sp.Float(10) ** -30 * abs(claimed))
+from .algebra import inserted
+from .inequalities import smooth
+from .proving import require, require_defined, sign
+from .reading import CONSTANT, LOAD, equality, fields, has_hypothesis, initial_value, rate_law
 
 
 @dataclass(frozen=True)
-class Inverted(Authored):
-    """An authored ``u = G(t)``, the inverse of the parent's ``t = F(u)``.
+class Solution(Rule):
+    """``t = F(u)`` for ``du/dt = Q(u) > 0`` under a constant load: ``F' = 1/Q``, ``F(u(0)) = 0``.
 
-    G may use Lambert's W: with ``x = w e^w`` for its argument, exponentials of W are rational.
+    Premises: the rate, u(0), then names of constants, and what F needs to have a value.
     """
 
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        (parent,) = statement.parents
-        wear, inverse = statement.claim.lhs, statement.claim.rhs
-        rest = parent.claim.rhs.subs(wear, inverse) - parent.claim.lhs
-        detail = "inserted into the solution, it gives back the time"
-        return proof(is_zero(_resolved(rest)), detail), self._sample(rest, statement)
+    claim: sp.Equality
+    words = (
+        "Differentiating the claim gives back the rate {0}; at t = 0 it gives the first wear, {1}."
+    )
+    source = "fundamental theorem of calculus"
 
-    def _sample(self, rest: sp.Expr, statement: Statement) -> Check:
-        worlds = sample.satisfying((), rest, statement.conditions, SAMPLES)
-        scales = (abs(world[t]) * sp.Float(10) ** -sample.DIGITS for world in worlds)
-        rests = (abs(sample.evaluate(rest, world)) for world in worlds)
-        passed = all(found <= scale for found, scale in zip(rests, scales, strict=True))
-        return Check("sample", passed, f"{SAMPLES} points, {sample.DIGITS} digits")
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, start, *names = premises
+        (u, rate), time = rate_law(law), self.claim.rhs
+        has_hypothesis(CONSTANT.relation, *premises)
+        if self.claim.lhs != t or fields(rate) - {u, LOAD} or rate.has(t) is None:
+            raise RuleError(f"missing premise: {self.claim} gives the time")
+        require_defined(time, *premises)
+        require(sp.Gt(rate, 0), *premises)
+        plain = {u: sp.Dummy("u", nonnegative=True), LOAD: sp.Dummy("U", real=True)}
+        known = tuple(names)
+        found, slope = (inserted(e, known).xreplace(plain) for e in (time, rate))
+        if found.has(t) or slope.has(t) or fields(found):
+            raise RuleError(f"missing premise: {time} depends on the wear alone")
+        wear = plain[u]
+        if not is_zero(sp.diff(found, wear) - (1 / slope).rewrite(sp.exp)):
+            raise RuleError("missing premise: its derivative is the reciprocal of the rate")
+        if not is_zero(found.subs(wear, initial_value(start, u))):
+            raise RuleError("missing premise: it begins at 0")
+        return Conclusion(Equality(t, time))
+
+
+def solution(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judgement:
+    """State the time at which the wear is u."""
+    return infer(Solution(claim), *premises, name=name)
+
+
+@dataclass(frozen=True)
+class Inverted(Rule):
+    """``u = G(t)``, the inverse of ``t = F(u)``: F increases, and ``F(G(t)) = t``.
+
+    G may use the principal branch W of Lambert's function at arguments that are not negative:
+    with ``x = w e^w`` exponentials of w = W(x) are rational in w.
+    """
+
+    claim: sp.Equality
+    words = "Solve {0} for the wear, by Lambert's function."
+    source = "Corless et al., Adv. Comput. Math. 5 (1996) 329"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        given = equality(premises[0])
+        u, inverse = self.claim.lhs, self.claim.rhs
+        x = sp.Dummy(real=True)
+        if given.lhs != t or u not in fields(given.rhs) or inverse.has(u):
+            raise RuleError(f"missing premise: {premises[0].relation} gives the time")
+        require_defined(inverse, *premises)
+        if not smooth(given.rhs) or sign(sp.diff(given.rhs.subs(u, x), x)) != 1:
+            raise RuleError(f"missing premise: {given.rhs} increases with {u}")
+        if not is_zero(_resolved(given.rhs.subs(u, inverse) - given.lhs)):
+            raise RuleError("missing premise: inserted, it gives back the time")
+        return Conclusion(Equality(u, inverse))
 
 
 def _resolved(expr: sp.Expr) -> sp.Expr:
     """Use e^(-W(x)) = W(x)/x, for one Lambert function on which exponentials depend linearly."""
-    (lambert,) = expr.atoms(sp.LambertW)
+    lambert = expr.atoms(sp.LambertW)
+    if len(lambert) != 1:
+        return expr
+    (found,) = lambert
     w = sp.Dummy(positive=True)
-    expr = expr.subs(lambert, w)
+    expr = expr.subs(found, w)
     exponents = {e: sp.expand(e.exp) for e in expr.atoms(sp.exp) if e.has(w)}
     powers = {
-        e: sp.exp(inside.coeff(w, 0)) * (w / lambert.args[0]) ** -inside.coeff(w, 1)
+        e: sp.exp(inside.coeff(w, 0)) * (w / found.args[0]) ** -inside.coeff(w, 1)
         for e, inside in exponents.items()
     }
     return expr.xreplace(powers)
 
 
-@dataclass(frozen=True)
-class ParametricSolution(Authored):
-    """An authored ``t = F(p)``, for wear ``u = G(p)`` at the rate ``du/dt = Q(p)``.
+def inverted(claim: sp.Equality, time: Judgement, name: str = "") -> Judgement:
+    """State the wear at a time."""
+    return infer(Inverted(claim), time, name=name)
 
-    The parents give the rate, the wear, and names of constants.  Proof: dF/dp = (dG/dp)/Q, and
-    F vanishes at p(0), where G does.
+
+@dataclass(frozen=True)
+class Parametric(Rule):
+    """``t = F(p)`` where ``du/dt = Q(p)`` and ``u = G(p)``: ``F' = G'/Q``, F = 0 at p(0).
+
+    Premises: rate, wear, u(0), then names of constants.  The load is constant.
     """
 
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        pieces = _Parametric.of(statement)
-        slope = is_zero(sp.diff(pieces.time, pieces.pressure) - pieces.slowness)
-        start = pieces.time.subs(pieces.pressure, pieces.start).doit()
-        begins = is_zero(start.subs(pieces.load, pieces.load_at_start))
-        detail = "its derivative is that of the wear over the rate, and it begins at 0"
-        return proof(slope and begins, detail), self._sample(pieces, statement)
+    claim: sp.Equality
+    pressure: sp.Expr
+    words = "Wear and rate are known at a pressure, {0} and {1}; integrate over it."
+    source = "chain rule"
 
-    def _sample(self, pieces: _Parametric, statement: Statement) -> Check:
-        """Compare F with the integral of dt/dp, by quadrature."""
-        everything = sp.Tuple(pieces.slowness, pieces.load_at_start)
-        worlds = sample.satisfying((), everything, statement.conditions, 3)
-        passed = all(pieces.agree(world) for world in worlds)
-        return Check("sample", passed, "3 points, quadrature of dt/dp, 30 digits")
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, wear, start, *names = premises
+        (u, rate), worn = rate_law(law), equality(wear)
+        has_hypothesis(CONSTANT.relation, *premises)
+        if worn.lhs != u or self.claim.lhs != t or initial_value(start, u) != 0:
+            raise RuleError("missing premise: rate and wear are of the same quantity, from 0 on")
+        require_defined(self.claim.rhs, *premises)
+        p = sp.Dummy("p", positive=True)
+        first, load = sp.Dummy("p_0", positive=True), sp.Dummy("U", real=True)
+        begin = self.pressure.subs(t, 0)
+        plain = {self.pressure: p, begin: first, LOAD: load}
+        q, g, f = (
+            inserted(e, tuple(names)).xreplace(plain) for e in (rate, worn.rhs, self.claim.rhs)
+        )
+        if fields(sp.Tuple(q, g, f)) or q.has(t) or not is_zero(sp.diff(f, p) - sp.diff(g, p) / q):
+            raise RuleError("missing premise: its derivative is that of the wear over the rate")
+        zero = g.subs(p, first)  # u(0) = 0 gives the load at which the pressure is p(0)
+        at_start = load - zero / sp.diff(zero, load)
+        if not is_zero(f.subs(p, first).doit().subs(load, at_start)):
+            raise RuleError("missing premise: it begins at 0")
+        return Conclusion(Equality(t, self.claim.rhs))
+
+
+def parametric(
+    claim: sp.Equality, pressure: sp.Expr, *premises: Judgement, name: str = ""
+) -> Judgement:
+    """State the time at which the pressure is p."""
+    return infer(Parametric(claim, pressure), *premises, name=name)
 
 
 @dataclass(frozen=True)
-class _Parametric:
-    """What a parametric solution says, with the fields as plain symbols."""
+class FirstRoot(Rule):
+    """The first positive zero x of f, where ``f w = a_0 + 2 a_1 x + a_2 x^2`` with w > 0.
 
-    pressure: sp.Symbol
-    start: sp.Symbol
-    load: sp.Symbol
-    load_at_start: sp.Expr
-    slowness: sp.Expr
-    time: sp.Expr
+    With ``a_0 > 0``, ``D = a_1^2 - a_2 a_0 >= 0`` and ``sqrt(D) > a_1`` it is
+    ``a_0/(sqrt(D) - a_1)``: the other root is negative or lies beyond.  The premise defines x.
+    """
 
-    @staticmethod
-    def of(statement: Statement) -> _Parametric:
-        law, wear, *names = statement.parents
-        pressure, load = sp.Symbol("pressure", positive=True), sp.Symbol("load", real=True)
-        start, p = sp.Symbol("start", positive=True), symbol("p")
-        plain = {p: pressure, p.subs(t, 0): start, symbol("U_a"): load}
-        rate, worn, time = (
-            insert(s.claim.rhs, tuple(names)).xreplace(plain) for s in (law, wear, statement)
-        )
-        begins = Source.of(sp.Eq(worn.subs(pressure, start), 0), load).value
-        return _Parametric(pressure, start, load, begins, sp.diff(worn, pressure) / rate, time)
+    factor: sp.Expr
+    words = "The first root of a quadratic equation, {all}."
+    source = "the quadratic formula, in the form without cancellation"
 
-    def agree(self, world: sample.World) -> bool:
-        """Return whether quadrature from the first pressure to a near one gives F."""
-        known = {key: value for key, value in world.items() if key not in (self.load, self.start)}
-        first = known[symbol("p_max")] * sp.Rational(1, 50)
-        begins = self.load_at_start.xreplace(known).xreplace({self.start: first})
-        known |= {self.start: first, self.load: begins}
-        del known[self.pressure]
-        with mpmath.workdps(60):
-            slowness, time = (
-                sp.lambdify(self.pressure, e.xreplace(known), "mpmath")
-                for e in (self.slowness, self.time)
-            )
-            low, high = mpmath.mpf(sp.N(first, 60)), mpmath.mpf(sp.N(first, 60)) * 1.01
-            found, claimed = mpmath.quad(slowness, [low, high]), time(high)
-        return bool(abs(found - claimed) <= mpmath.mpf(10) ** -30 * abs(claimed))
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        meaning = equality(premises[0])
+        if not isinstance(meaning.rhs, FirstZero):
+            raise RuleError("missing premise: the definition of a first zero")
+        function, x = meaning.rhs.args
+        z = sp.Dummy("x", positive=True)
+        product = sp.Poly(sp.expand(function * self.factor).subs(x, z), z)
+        a_2, twice, a_0 = (product.coeff_monomial(z**n) for n in (2, 1, 0))
+        a_1 = twice / 2
+        inside = a_1**2 - a_2 * a_0
+        if product.degree() > 2 or not all(e.is_real for e in (a_0, a_1, a_2)):
+            raise RuleError(f"missing premise: {function} times {self.factor} is quadratic")
+        require(sp.Gt(self.factor.subs(x, z), 0), *premises)
+        for goal in (sp.Gt(a_0, 0), sp.Ge(inside, 0), sp.Gt(inside, a_1 * sp.Abs(a_1))):
+            require(goal, *premises)
+        return Conclusion(Equality(meaning.lhs, a_0 / (sp.sqrt(inside) - a_1)))
+
+
+def first_root(factor: sp.Expr, *premises: Judgement, name: str = "") -> Judgement:
+    """Return the first zero of what a positive factor makes quadratic."""
+    return infer(FirstRoot(factor), *premises, name=name)

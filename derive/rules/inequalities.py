@@ -1,0 +1,168 @@
+"""Inequalities: between reals, and from one quantity to another.
+
+Key results
+    arithmetic          a relation that follows from facts in the reals
+    monotone            a >= b gives F(a) >= F(b) for an increasing F
+    lipschitz           -m <= F' <= 0 bounds the change of F
+    logarithmic_slope   |F'/F| <= m gives |ln(F(a)/F(b))| <= m |a - b|
+    threshold           F(x) > e if and only if x > x*
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..claims import Inequality, claim_of
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..zero import is_zero
+from .proving import LAW, continuity, facts_of, holds, require, require_defined, sign
+from .reading import inequality
+
+_SMOOTH = (sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, LAW, sp.Symbol, sp.Number, sp.NumberSymbol)
+
+
+def smooth(expr: sp.Expr) -> bool:
+    """Return whether an expression is differentiable wherever it has a value and roots are not 0."""
+    parts = sp.preorder_traversal(expr)
+    return all(isinstance(part, (*_SMOOTH, AppliedUndef)) for part in parts)
+
+
+@dataclass(frozen=True)
+class Arithmetic(Rule):
+    """A relation that follows from the premises in the real numbers."""
+
+    claim: sp.Basic
+    words = "An inequality of real numbers."
+    source = "decided by z3: Jovanovic, de Moura, Solving nonlinear arithmetic, 2012"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        require_defined(self.claim, *premises)
+        require(self.claim, *premises)
+        return Conclusion(claim_of(self.claim))
+
+
+def arithmetic(claim: sp.Basic, *facts: Judgement, name: str = "", remark: str = "") -> Judgement:
+    """State an inequality that follows from facts."""
+    return infer(Arithmetic(claim), *facts, name=name, remark=remark)
+
+
+@dataclass(frozen=True)
+class Monotone(Rule):
+    """``a >= b`` gives ``F(a) >= F(b)`` for an increasing F, ``<=`` for a decreasing one."""
+
+    function: sp.Lambda
+    words = "Apply a monotone function to both sides of {0}."
+    source = "the derivative of the function has one sign between the two sides"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        bound, at = inequality(premises[0]), sp.Dummy(real=True)
+        value = self.function(at)
+        inside = (sp.Ge(at, bound.lesser), sp.Le(at, bound.greater))
+        facts = facts_of(premises) | set(inside)
+        open_set = continuity(value, {at})
+        direction = sign(sp.diff(value, at), facts) if smooth(value) else None
+        if not all(holds(goal, facts) for goal in open_set):
+            direction = None
+        if direction is None:
+            raise RuleError(f"missing premise: {self.function} is monotone")
+        high, low = self.function(bound.greater), self.function(bound.lesser)
+        relation = (sp.Gt, sp.Lt) if bound.strict else (sp.Ge, sp.Le)
+        return Conclusion(Inequality(relation[direction < 0](high, low, evaluate=False)))
+
+
+def monotone(function: sp.Lambda, bound: Judgement) -> Judgement:
+    """Apply a monotone function to both sides of an inequality."""
+    return infer(Monotone(function), bound)
+
+
+@dataclass(frozen=True)
+class Lipschitz(Rule):
+    """``-1 <= F' <= 0`` everywhere gives ``0 <= c (F(a) - F(a + d)) <= c d`` for c, d >= 0."""
+
+    function: sp.Lambda
+    at: sp.Expr
+    step: sp.Expr
+    factor: sp.Expr
+    words = "The mean value theorem, with a slope between -1 and 0."
+    source = "mean value theorem"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        y = sp.Dummy(real=True)
+        value = self.function(y)
+        slope = sp.diff(value, y)
+        require_defined(value)
+        require_defined(sp.Tuple(self.at, self.step, self.factor), *premises)
+        if not smooth(value) or not holds(sp.And(slope <= 0, slope >= -1)):
+            raise RuleError(f"missing premise: -1 <= {slope} <= 0")
+        for nonnegative in (self.step, self.factor):
+            require(sp.Ge(nonnegative, 0), *premises)
+        change = self.factor * (self.function(self.at) - self.function(self.at + self.step))
+        bounds = sp.Ge(change, 0), sp.Le(change, self.factor * self.step)
+        return Conclusion(claim_of(sp.And(*bounds, evaluate=False)))
+
+
+@dataclass(frozen=True)
+class LogarithmicSlope(Rule):
+    """``|F'/F| <= m`` for F > 0 gives ``|ln(F(a)/F(b))| <= m |a - b|``."""
+
+    function: sp.Lambda
+    a: sp.Expr
+    b: sp.Expr
+    bound: sp.Expr
+    words = (
+        "The mean value theorem for the logarithm of the contact law, whose slope is bounded by "
+        "{bound}."
+    )
+    source = "mean value theorem"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        y = sp.Dummy(real=True)
+        value = self.function(y)
+        require_defined(value)
+        require_defined(sp.Tuple(self.a, self.b), *premises)
+        slope = sp.cancel((sp.diff(value, y) / value).rewrite(sp.exp))
+        goals = (value > 0, self.bound - slope >= 0, self.bound + slope >= 0)
+        if not smooth(value) or not all(holds(goal) for goal in goals):
+            raise RuleError(f"missing premise: |{slope}| <= {self.bound}")
+        ratio = self.function(self.a) / self.function(self.b)
+        said = sp.Le(sp.Abs(sp.log(ratio)), self.bound * sp.Abs(self.a - self.b), evaluate=False)
+        return Conclusion(Inequality(said))
+
+
+@dataclass(frozen=True)
+class Threshold(Rule):
+    """``F(x) > e`` if and only if ``x > x*``: F increases on x > 0, and F(x*) = e with x* > 0."""
+
+    claim: sp.Equivalent
+    variable: sp.Symbol
+    words = "The left side increases with {variable} and reaches the level at the bound, by {all}."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        said = claim_of(self.claim)
+        demand, bound = said.left, said.right
+        if self.variable in (demand.greater, demand.lesser):
+            demand, bound = bound, demand
+        function, level, point = demand.greater, demand.lesser, bound.lesser
+        if bound.greater != self.variable or not (demand.strict and bound.strict):
+            raise RuleError(f"missing premise: {self.claim} is strict on both sides")
+        positive = sp.Dummy(positive=True)
+        value = function.subs(self.variable, positive)
+        require(sp.Gt(self.variable, 0), *premises)
+        require_defined(sp.Tuple(value, level, point), *premises)
+        require(sp.Gt(point, 0), *premises)
+        slope = sp.diff(value, positive)
+        if point.has(self.variable) or not smooth(value) or sign(slope, facts_of(premises)) != 1:
+            raise RuleError(f"missing premise: {function} increases with {self.variable}")
+        if not is_zero(function.subs(self.variable, point) - level):
+            raise RuleError(f"missing premise: the left side is {level} at {point}")
+        return Conclusion(said)
+
+
+def threshold(
+    claim: sp.Equivalent, variable: sp.Symbol, *premises: Judgement, name: str = ""
+) -> Judgement:
+    """State that an increasing function exceeds a level exactly beyond a point."""
+    return infer(Threshold(claim, variable), *premises, name=name)

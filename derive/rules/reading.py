@@ -1,0 +1,138 @@
+"""Readers: the parts of a claim, or a refusal that names what the theorem asks for.
+
+Key results
+    equality, inequality, between, limit, asked of any judgement
+    rate_law, initial_value, limit_in_time      the forms that theorems about time ask for
+    constant                                    what does not depend on time
+"""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..claims import Between, Claim, Equality, Equivalence, Inequality, Limit
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement, RuleError
+from ..symbols import symbol, t
+from .proving import LAW
+
+C = TypeVar("C", bound=Claim)
+T = symbol("T")
+LOAD = symbol("U_a")
+
+
+def _read(judgement: Judgement, kind: type[C]) -> C:
+    if not isinstance(judgement.claim, kind):
+        raise RuleError(f"missing premise: {judgement.relation} is no {kind.__name__.lower()}")
+    return judgement.claim
+
+
+def equality(judgement: Judgement) -> Equality:
+    """Return the parts of an equality or a definition."""
+    return _read(judgement, Equality)
+
+
+def inequality(judgement: Judgement) -> Inequality:
+    """Return the parts of an inequality."""
+    return _read(judgement, Inequality)
+
+
+def between(judgement: Judgement) -> Between:
+    """Return the parts of a double inequality."""
+    return _read(judgement, Between)
+
+
+def equivalence(judgement: Judgement) -> Equivalence:
+    """Return the parts of an equivalence."""
+    return _read(judgement, Equivalence)
+
+
+def limit(judgement: Judgement) -> Limit:
+    """Return the parts of a limit."""
+    return _read(judgement, Limit)
+
+
+def limit_in_time(judgement: Judgement) -> Limit:
+    """Return the parts of a limit for t -> oo."""
+    found = limit(judgement)
+    if found.variable != t or found.point != sp.oo:
+        raise RuleError(f"missing premise: {judgement.relation} is no limit for t -> oo")
+    return found
+
+
+def growing(judgement: Judgement) -> sp.Expr:
+    """Return the quantity that tends to infinity in time."""
+    found = limit_in_time(judgement)
+    if found.value != sp.oo:
+        raise RuleError(f"missing premise: {found.expr} -> oo")
+    return found.expr
+
+
+def field_of_rate(expr: sp.Expr) -> sp.Expr:
+    """Return the field whose first derivative with respect to time an expression is."""
+    rate = isinstance(expr, sp.Derivative) and expr.variables == (t,)
+    if not rate or not isinstance(expr.expr, AppliedUndef) or expr.expr.args != (t,):
+        raise RuleError(f"missing premise: {expr} is no rate")
+    return expr.expr
+
+
+def rate_law(judgement: Judgement) -> tuple[sp.Expr, sp.Expr]:
+    """Return u and Q of ``du/dt = Q``, where Q has no rates."""
+    law = equality(judgement)
+    if law.rhs.has(sp.Derivative):
+        raise RuleError(f"missing premise: {judgement.relation} is not solved for the rate")
+    return field_of_rate(law.lhs), law.rhs
+
+
+def initial_value(judgement: Judgement, field: sp.Expr) -> sp.Expr:
+    """Return ``field(0)``."""
+    start = equality(judgement)
+    if start.lhs != field.subs(t, 0):
+        raise RuleError(f"missing premise: the value of {field.func} at t = 0")
+    return start.rhs
+
+
+def fields(expr: sp.Basic) -> set[sp.Expr]:
+    """Return the functions of time in an expression."""
+    return {f for f in expr.atoms(AppliedUndef) if not isinstance(f, LAW) and f.has(t)}
+
+
+def constant(expr: sp.Expr) -> bool:
+    """Return whether an expression does not depend on time."""
+    return not expr.has(t) and not expr.atoms(sp.Derivative, sp.Integral, sp.Limit) - _slopes(expr)
+
+
+def _slopes(expr: sp.Expr) -> set[sp.Basic]:
+    return {d for d in expr.atoms(sp.Derivative) if isinstance(d.expr, LAW)}
+
+
+def has_hypothesis(relation: sp.Basic, *premises: Judgement) -> Hypothesis:
+    """Return the hypothesis of a relation, which must be among those of the premises."""
+    for hypothesis in (h for premise in premises for h in premise.hypotheses):
+        if hypothesis.relation == relation:
+            return hypothesis
+    raise RuleError(f"missing premise: {relation}")
+
+
+PERIODIC = Hypothesis(
+    "the load has the period T",
+    sp.Eq(LOAD.subs(t, t + T), LOAD),
+    r"\text{the load has the period}\; T",
+    Kind.LOAD,
+)
+CONTINUOUS = Hypothesis("the load is continuous", kind=Kind.LOAD)
+CONSTANT = Hypothesis(
+    "the load does not vary",
+    sp.Eq(LOAD, LOAD.subs(t, 0)),
+    r"\text{the load does not vary}",
+    Kind.LOAD,
+)
+SINE = Hypothesis(
+    "the load is U sin(2 pi t/T)",
+    sp.Eq(LOAD, symbol("U") * sp.sin(2 * sp.pi * t / T)),
+    r"U_a = U \sin{\left(2 \pi t/T\right)}",
+    Kind.LOAD,
+)
