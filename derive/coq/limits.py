@@ -48,7 +48,8 @@ def _named(step: Step) -> Iterator[str]:
             defined = isinstance(premise.relation, sp.Equality) and premise.relation.lhs == name
             if defined and premise.relation.has(sp.Limit):
                 inside = premise.relation.rhs.args[0]
-                yield f"apply (tends_unique (fun t => {term(inside)})); [exact {premise.label} | exact ({step.cited(limit)})]."
+                cited = f"{premise.label} ({step.cited(limit)})"
+                yield f"exact (tends_unique (fun t => {term(inside)}) _ _ {cited})."
                 return
 
 
@@ -58,7 +59,7 @@ def _diverges(step: Step, inside: sp.Expr) -> Iterator[str]:
     flat = sp.Symbol("flat")
     start = inside.xreplace({wear: flat}).subs(flat, 0)
     slope = sp.diff(inside.xreplace({wear: flat}), flat)
-    speed = sp.cancel(bound / t)
+    speed = bound / t
     yield f"apply (diverges_ext (fun t => {term(start)} + {_in(slope)} * {term(wear)})); [intros; ring |]."
     yield "apply diverges_affine; [positive |]."
     yield f"apply (diverges_above _ 0 ({term(speed)})); [positive |]."
@@ -87,7 +88,7 @@ def _squeezed(step: Step, inside: sp.Expr, value: sp.Expr) -> Iterator[str]:
     if between and diverging and value == 0:
         size = diverging[0].relation.lhs.args[0]
         above = next(part for part in between[0].relation.args if part.lts == inside)
-        bound = sp.cancel(above.gts * size)
+        bound = above.gts * size
         yield f"apply (squeezed _ (fun t => {term(size)}) ({term(bound)})); [exact ({step.cited(diverging[0])}) |]."
         yield f"intros t Ht; pose proof ({step.cited(between[0])} t (Rlt_le _ _ Ht)) as P0."
         yield "unfold Rdiv in *; lra."
@@ -98,7 +99,7 @@ def _known(step: Step) -> list[str]:
     lines = []
     for i, limit in enumerate(step.limits):
         inside, value = limit.relation.lhs.args[0], limit.relation.rhs
-        later = term(_later(inside))
+        later = term(one_period_later(inside))
         if value == sp.oo:
             lines.append(f"pose proof (tends_inv_diverges _ ({step.cited(limit)})) as L{i}; cbv beta in L{i}.")
             lines.append(f"pose proof (later _ _ T L{i}) as M{i}; cbv beta in M{i}.")
@@ -110,7 +111,8 @@ def _known(step: Step) -> list[str]:
     return lines
 
 
-def _later(expr: sp.Expr) -> sp.Expr:
+def one_period_later(expr: sp.Expr) -> sp.Expr:
+    """Return an expression at T + t."""
     return expr.xreplace({f: f.subs(t, t + _T) for f in expr.atoms(AppliedUndef) if f.has(t)})
 
 
@@ -140,7 +142,7 @@ def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
     for now in (True, False):
         for i, limit in enumerate(sorted(step.limits, key=lambda s: s.relation.rhs == sp.oo)):
             quantity, value = limit.relation.lhs.args[0], limit.relation.rhs
-            quantity = quantity if now else _later(quantity)
+            quantity = quantity if now else one_period_later(quantity)
             stand_in = sp.Symbol(f"known{i}{'now' if now else 'later'}", positive=True)
             infinite = value == sp.oo
             text = f"(/ ({term(quantity)}))" if infinite else f"({term(quantity)})"

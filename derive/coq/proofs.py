@@ -27,16 +27,18 @@ _UNKNOWN = sp.Symbol("unknown", real=True)
 Named = tuple[str, sp.Basic]
 
 
-def script(step: Step) -> str:
-    """Return the proof of a step."""
-    special = theorems.proof(step)
-    if special:
-        return "\n".join((step.introduction, *special))
-    if step.relation.has(sp.Limit) or step.limits:
-        return "\n".join((step.introduction, *limits.proof(step)))
+def script(step: Step, way: int | None = None) -> str:
+    """Return the proof of a step; by one of its ways, or by the first that succeeds."""
+    cited = theorems.proof(step) or (limits.proof(step) if step.limits or step.relation.has(sp.Limit) else [])
+    if cited:
+        return "\n".join((step.introduction, *cited))
     lines = [step.introduction, *now(step)]
-    ways = _equation(step) if isinstance(step.relation, sp.Equality) else _inequality(step)
-    return "\n".join((*lines, "first [\n  " + "\n| ".join(f"({way})" for way in ways) + "]."))
+    found = _equation(step) if isinstance(step.relation, sp.Equality) else _inequality(step)
+    ways = list(dict.fromkeys(found))
+    if way is not None:
+        return "\n".join((*lines, f"{ways[way]}."))
+    tried = (f'timeout 6 ({text}); idtac "WAY {step.name} {i}"' for i, text in enumerate(ways))
+    return "\n".join((*lines, "first [\n  " + "\n| ".join(tried) + "]."))
 
 
 def now(step: Step) -> list[str]:
@@ -52,17 +54,21 @@ def now(step: Step) -> list[str]:
 
 def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
     """State that what the claim divides by is positive, where it is a field that is."""
+    lines = []
+    for i, other in enumerate(step.ancestors):
+        if isinstance(other.relation, Relational) and not isinstance(other.relation, sp.Equality):
+            at = f" {time} {proof}" if other.timed else ""
+            lines.append(f"pose proof ({step.cited(other)}{at}).")
     claims = [step.relation, *(p.relation for p in step.ancestors)]
     below = {e.base for c in claims for e in c.atoms(sp.Pow) if not e.exp.is_positive or not e.exp.is_Integer}
     below |= {sp.sqrt(e) for e in below}
-    lines = []
     for other in step.ancestors:
         relation = other.relation
         if not isinstance(relation, sp.Equality) or relation.rhs not in below:
             continue
         for premise in step.statement.premises:
             if isinstance(premise.relation, sp.Gt) and premise.relation.args == (relation.lhs, 0):
-                at = term(relation.rhs.subs(t, sp.Symbol(time)) if time != "t" else relation.rhs)
+                at = term(relation.rhs if time == "t" else limits.one_period_later(relation.rhs))
                 said = f"rewrite <- ({step.cited(other)} _ {proof}); exact ({premise.label} _ {proof})"
                 lines.append(f"assert (0 < {at}) by ({said}).")
     return list(dict.fromkeys(lines))
@@ -79,9 +85,10 @@ def stated(step: Step, steps: Sequence[Step]) -> tuple[str, list[Named]]:
 def _sources(step: Step) -> Iterator[tuple[str, list[Named]]]:
     """Return what a claim may follow from: the parents, or all that it rests on."""
     own = [s for s in step.hypotheses if isinstance(s.relation, sp.Equality)]
-    for steps in (step.frontier, [*step.frontier, *own], [*step.ancestors, *own]):
-        usable = [s for s in dict.fromkeys(steps) if step.timed or not s.timed]
-        yield stated(step, usable)
+    new = [s for s in own if all(s.statement.conclusion not in p.labels for p in step.parents)]
+    for steps in ([*step.frontier, *new], [*step.ancestors, *own]):
+        usable = {s.statement.conclusion: s for s in steps if step.timed or not s.timed}
+        yield stated(step, list(usable.values()))
 
 
 def _equation(step: Step) -> Iterator[str]:
@@ -100,7 +107,7 @@ def _from_first(goal: sp.Equality, equations: list[Named]) -> str:
     (first, relation), *others = equations
     lines = []
     for label, other in others:
-        if relation.has(other.lhs) and _atomic(other.lhs) and not other.rhs.has(other.lhs):
+        if relation.has(other.lhs) and _atomic(other.lhs):
             lines.append(f"rewrite {label} in {first}")
             relation = _replaced(relation, other.lhs, other.rhs)
     factor = _factor(goal.lhs - goal.rhs, relation.lhs - relation.rhs, goal.lhs)
@@ -130,7 +137,8 @@ def _vanishes(expr: sp.Expr) -> bool:
     for kind in (sp.Derivative, AppliedUndef, sp.Symbol):
         atoms = sorted(expr.atoms(kind), key=str)
         expr = expr.xreplace({a: sp.Float(draw.uniform(0.5, 1.5), 30) for a in atoms})
-    return bool(abs(sp.N(expr, 20)) < 1e-15)
+    size = sp.N(expr.doit(), 20)
+    return bool(size.is_number and abs(size) < 1e-15) if not size.atoms(sp.Subs) else False
 
 
 def _atomic(expr: sp.Expr) -> bool:
@@ -177,22 +185,31 @@ def _sorted(rules: dict[sp.Expr, tuple[str, sp.Expr]]) -> list[sp.Expr]:
 
 def _inequality(step: Step) -> Iterator[str]:
     """Return the ways in which an inequality, or several, may follow."""
-    split = "repeat split; " if isinstance(step.relation, sp.And) else ""
-    if isinstance(step.relation, sp.Equivalent):
-        split = "split; intro; "
     for text, named in _sources(step):
         equations = [(label, e) for label, e in named if isinstance(e, sp.Equality)]
-        known = [(label, e) for label, e in named if isinstance(e, Relational) and (label, e) not in equations]
+        known = [label for label, e in named if not isinstance(e, sp.Equality)]
         lines, goal = _inserted(step.relation, equations)
         insert = "".join(f"{line}; " for line in lines)
-        for label, _ in known:
-            others = "".join(f"rewrite ?{e} in {label}; " for e, _ in equations)
-            yield f"{text}{insert}{others}{split}same_inequality {label}"
-        yield f"{text}{insert}{split}arithmetic"
-        for form in _manifest(goal):
-            yield f"{text}{insert}{split}manifest ({term(form)})"
-        for lemma in _ordered(goal):
-            yield f"{text}{insert}{split}{lemma}"
+        into = [f"{''.join(f'rewrite ?{e} in {label}; ' for e, _ in equations)}same_inequality {label}" for label in known]
+        if isinstance(goal, sp.And):
+            parts = " | ".join(f"first [{' | '.join(_parts(part, known))}]" for part in goal.args)
+            yield f"{text}{insert}split; [{parts}]"
+        elif isinstance(goal, sp.Equivalent):
+            yield f"{text}{insert}split; intro; arithmetic"
+            for label in known:
+                yield f"{text}{insert}split; intro; [apply {label} | apply {label}]; arithmetic"
+        else:
+            order = list(_ordered(goal))
+            for way in (*order, *into, *(w for w in _parts(goal, []) if w not in order)):
+                yield f"{text}{insert}{way}"
+
+
+def _parts(goal: sp.Basic, known: list[str]) -> Iterator[str]:
+    """Return the ways of one inequality."""
+    yield "solve [arithmetic]"
+    yield from (f"same_inequality {label}" for label in known)
+    yield from (f"manifest ({term(form)})" for form in _manifest(goal))
+    yield from _ordered(goal)
 
 
 def _manifest(goal: sp.Basic) -> Iterator[sp.Expr]:

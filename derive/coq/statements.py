@@ -111,7 +111,7 @@ def _of_quantity(atom: sp.Expr) -> bool:
 
 def _label(text: str) -> str:
     words = re.sub(r"\W+", "_", text.encode("ascii", "ignore").decode()).strip("_").lower()
-    return f"the_{words[:40].rstrip('_')}"
+    return "for_" + words.removeprefix("the_")[:40].rstrip("_")
 
 
 def _numbered(premises: list[Premise]) -> tuple[Premise, ...]:

@@ -99,6 +99,12 @@ class Step:
             row = list(dict.fromkeys(p for step in row for p in step.parents))
         return list(found.values())
 
+    @property
+    def missing(self) -> list[tuple[Step, list[Premise]]]:
+        """Return parents that rest on more than this step does, with what it lacks."""
+        lacking = ((p, [q for q in p.statement.premises if q.said not in self.labels]) for p in self.parents)
+        return [(parent, premises) for parent, premises in lacking if premises]
+
     @cached_property
     def hypotheses(self) -> list[Step]:
         """Return the premises with a relation, as steps to cite."""
@@ -119,16 +125,21 @@ class _Said:
     relation: sp.Basic
 
 
-def steps(judgements: Iterable[Judgement]) -> tuple[list[Step], dict[int, str]]:
-    """Return judgements as steps, premises first, and the reasons of those that cannot be."""
+def steps(judgements: Iterable[Judgement]) -> tuple[list[Step], dict[str, str]]:
+    """Return judgements as steps, premises first, and what cannot be stated, with the reason.
+
+    Judgements that say the same are one step.
+    """
     made: dict[int, Step] = {}
-    refused: dict[int, str] = {}
-    for number, judgement in enumerate(judgements):
+    known: dict[str, Step] = {}
+    refused: dict[str, str] = {}
+    for judgement in judgements:
         try:
             said = statement(judgement)
         except UntranslatableError as reason:
-            refused[id(judgement)] = str(reason)
+            refused[str(judgement.relation)] = str(reason)
             continue
         parents = tuple(made[id(p)] for p in judgement.parents if id(p) in made)
-        made[id(judgement)] = Step(f"step_{number}", judgement, said, parents)
-    return list(made.values()), refused
+        new = Step(f"step_{len(known)}", judgement, said, parents)
+        made[id(judgement)] = known.setdefault(said.hash, new)
+    return list(known.values()), refused

@@ -18,16 +18,30 @@ from .steps import Step
 
 def proof(step: Step) -> list[str]:
     """Return the lines of a proof by a general theorem."""
-    for way in (_grows, _integrates):
+    for way in (_discharges, _grows, _integrates):
         if lines := list(way(step)):
             return lines
     return []
 
 
+def _discharges(step: Step) -> Iterator[str]:
+    """A hypothesis of the first parent that the others imply."""
+    if step.rule != "Discharge":
+        return
+    (first, premises), *_ = step.missing
+    usable = [s for s in step.frontier if s in step.parents and not s.relation.has(sp.Limit)]
+    for premise in premises:
+        facts = "".join(f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''}) as P{i}; " for i, s in enumerate(usable))
+        fixed = "intros t Ht; " if premise.timed else ""
+        yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}{facts}arithmetic)."
+    labels = step.labels | {p.said: f"{p.label}_met" for p in premises}
+    yield "exact (" + " ".join((first.name, *(labels[p.said] for p in first.statement.premises))) + ")."
+
+
 def _grows(step: Step) -> Iterator[str]:
     """A rate of at least c, from 0: u >= c t."""
     relation = step.relation
-    if not isinstance(relation, (sp.Ge, sp.Le)) or not relation.lts.has(t):
+    if not isinstance(relation, (sp.Ge, sp.Le)) or not _atom(relation.gts):
         return
     for other in step.frontier:
         bound = other.relation

@@ -44,6 +44,18 @@ with positive_part :=
   | |- _ => nra
   end.
 
+(** The goal by arithmetic alone, from the facts of the context. *)
+Ltac bounds :=
+  repeat match goal with
+  | H : Rabs _ <= _ |- _ => apply Rabs_le_between in H
+  | |- context [tanh ?a] => lazymatch goal with H : tanh a < 1 |- _ => fail
+      | _ => pose proof (tanh_below a); pose proof (tanh_above a) end
+  | |- context [exp ?a] => lazymatch goal with H : 0 < exp a |- _ => fail
+      | _ => pose proof (exp_pos a) end
+  end.
+
+Ltac arithmetic := first [lra | bounds; solve [lra | positive | nra]].
+
 (** ** Equal arguments of functions *)
 
 Ltac same_argument :=
@@ -85,8 +97,18 @@ Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_
 Ltac in_contact :=
   repeat match goal with |- context [Rle_dec ?a ?b] => destruct (Rle_dec a b); [| lra] end.
 
+(** A root of a square, and a modulus of what has a sign. *)
+Ltac roots :=
+  repeat first
+  [ rewrite Rabs_pos_eq by arithmetic
+  | match goal with |- context [sqrt ?x] =>
+      match goal with H : _ 0 ?y |- _ => replace (sqrt x) with y
+        by (symmetry; apply sqrt_lem_1; [nra | lra | ring]) end end
+  | match goal with |- sqrt _ = Rabs _ => rewrite <- sqrt_Rsqr_abs; f_equal; unfold Rsqr; ring end ].
+
 Ltac identity := in_contact; same_functions; first
-  [ reflexivity | ring | field; positive | same_exponentials; field; positive ].
+  [ reflexivity | ring | field; positive | same_exponentials; field; positive
+  | progress roots; first [reflexivity | ring | field; positive] ].
 
 (** The goal is c times the equation H, up to the form of arguments. *)
 Ltac from_equation H c :=
@@ -96,17 +118,6 @@ Ltac from_equation H c :=
     [rewrite E; ring | first [ring | field; positive | same_exponentials; field; positive]] end.
 
 (** ** Inequalities *)
-
-(** The goal by arithmetic alone, from the facts of the context. *)
-Ltac bounds :=
-  repeat match goal with
-  | |- context [tanh ?a] => lazymatch goal with H : tanh a < 1 |- _ => fail
-      | _ => pose proof (tanh_below a); pose proof (tanh_above a) end
-  | |- context [exp ?a] => lazymatch goal with H : 0 < exp a |- _ => fail
-      | _ => pose proof (exp_pos a) end
-  end.
-
-Ltac arithmetic := first [lra | bounds; solve [lra | positive | nra]].
 
 (** The goal [a <= b] or [a < b] where [b - a] is the expression e of manifest sign. *)
 Ltac manifest e :=
@@ -128,7 +139,7 @@ Ltac ordered a b e :=
 (** ** Limits of expressions, part by part *)
 
 Ltac limit_of_parts :=
-  match goal with
+  cbv beta; match goal with
   | H : tends ?f _ |- tends ?f _ => exact H
   | |- tends (fun _ => ?c) _ => apply tends_const
   | |- tends (fun t => @?f t + @?g t) _ => apply (tends_plus f g); limit_of_parts
