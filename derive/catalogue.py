@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 
-from .check import Check
+from .check import Check, checks
 from .equations import Equation, Status
+from .kernel import Judgement
 from .note import condensed, governing, problems, stabilised
 from .note.governing import Model
 from .results import (
@@ -38,7 +39,6 @@ from .results import (
     two_solids,
     validity,
 )
-from .statement import Statement
 
 _BEYOND = (
     problems,
@@ -151,7 +151,7 @@ def verify(
         outcomes: list[Check] = []
         for step, place in _numbered(found.steps, numbers):
             if place not in done:
-                done[place] = step.checks
+                done[place] = checks(step)
             outcomes += done[place]
         shown = Check("typeset", found.typeset_agrees, "the display form equals the claim")
         verdicts.append(Verdict(found.id, found.status, (*outcomes, shown)))
@@ -159,12 +159,12 @@ def verify(
 
 
 def _numbered(
-    steps: tuple[Statement, ...], numbers: dict[Hashable, int]
-) -> Iterator[tuple[Statement, int]]:
+    steps: tuple[Judgement, ...], numbers: dict[Hashable, int]
+) -> Iterator[tuple[Judgement, int]]:
     """Give every step a number; steps that say the same for the same reasons share one."""
     known: dict[int, int] = {}
     for step in steps:  # parents come first
         parents = tuple(known[id(parent)] for parent in step.parents)
-        content = (step.claim, step.rule, step.conditions, parents)
+        content = (step.claim, step.rule, step.hypotheses, parents)
         known[id(step)] = numbers.setdefault(content, len(numbers))
         yield step, known[id(step)]

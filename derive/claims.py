@@ -189,6 +189,18 @@ class Asymptotic(Claim):
 
 
 @dataclass(frozen=True)
+class Conjunction(Claim):
+    """Two inequalities about different things."""
+
+    first: Inequality
+    second: Inequality
+
+    @property
+    def relation(self) -> sp.Basic:
+        return sp.And(self.first.written, self.second.written, evaluate=False)
+
+
+@dataclass(frozen=True)
 class Property(Claim):
     """What only words say: that the load is continuous, say."""
 
@@ -229,4 +241,5 @@ def claim_of(relation: sp.Basic, definition: bool = False) -> Claim:
             for below, above in ((first, second), (second, first)):
                 if below.greater == above.lesser:
                     return Between(below, above)
+            return Conjunction(first, second)
     raise ClaimError(f"{relation} is no claim")

@@ -14,6 +14,7 @@ from functools import cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from .claims import FirstZero, landau_o
 from .symbols import QUANTITIES
 
 Dimension = tuple[Fraction, Fraction, Fraction]
@@ -50,7 +51,7 @@ def dimension(expr: sp.Expr) -> Dimension | None:
 
     Raises DimensionError where terms do not fit.
     """
-    if expr == 0 or expr.is_infinite:
+    if expr == 0 or expr.is_infinite or isinstance(expr, (FirstZero, landau_o)):
         return None
     if isinstance(expr, sp.Symbol):
         return parse_unit(QUANTITIES[expr.name].unit) if expr.name in QUANTITIES else NONE

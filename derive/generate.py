@@ -1,4 +1,4 @@
-"""Writing the generated modules of wear, and telling whether they are up to date.
+"""Writing the generated modules of wear, and whether they are up to date.
 
 Key results
     faults_of   why no code is written for a contact law
@@ -17,12 +17,14 @@ from types import MappingProxyType
 import sympy as sp
 
 from .codegen import reaction
-from .codegen.numpy_module import module_text
+from .codegen.sources import source
 from .faults import UsageError
 from .files import write_atomically
 from .laws import LAWS, ContactLaw, r
+from .note.governing import Pin
+from .program import margin_program, program
 from .results import asymptotics, static_scaled
-from .rules.sign import sign
+from .rules.proving import sign
 from .variant import VARIANTS
 
 _DISTANCES = (-8.0, -1.0, -0.125, 0.125, 1.0, 8.0)
@@ -31,7 +33,7 @@ _PACKAGE = '"""Generated code{of}, one module a variant; not to be edited."""\n'
 
 
 def faults_of(law: ContactLaw) -> tuple[str, ...]:
-    """Return what is not proved of a law that must be positive and decreasing, and curved as told.
+    """Return what is not proved of a law: it must be positive, decreasing and curved as stated.
 
     >>> from derive.laws import TANH
     >>> faults_of(TANH)
@@ -66,7 +68,10 @@ def sources() -> Mapping[str, str]:
     for law in LAWS:
         files[f"{law}/__init__.py"] = _PACKAGE.format(of=f" of the {law} contact law")
     for variant in VARIANTS:
-        files[f"{variant.law.name}/{variant.module}.py"] = module_text(variant)
+        if not variant.ends_at_3_sigma:
+            files[f"{variant.law.name}/{variant.module}.py"] = source(program(variant), "numpy")
+    for pin in Pin:
+        files[f"margin_{pin}.py"] = source(margin_program(pin), "numpy")
     files["asymptotics.py"] = asymptotics.module()
     files["reaction.py"] = reaction.module()
     files["static_solution.py"] = static_scaled.module()

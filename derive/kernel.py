@@ -46,7 +46,7 @@ def listed(labels: Sequence[str]) -> str:
     >>> listed(["(1)", "(2)", "(3)"])
     '(1), (2) and (3)'
     """
-    *first, last = labels or ("",)
+    *first, last = dict.fromkeys(labels) or ("nothing else",)
     return f"{', '.join(first)} and {last}" if first else last
 
 

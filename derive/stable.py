@@ -21,9 +21,9 @@ from types import MappingProxyType
 
 import sympy as sp
 
+from .kernel import Judgement
 from .laws import EXPONENTIAL, LAWS, TANH, ContactLaw, r
-from .rules.authored import Identity
-from .statement import Statement
+from .rules.algebra import identity
 
 HELD = 709
 """Argument beyond which the odds are held: the largest integer whose exponential is finite."""
@@ -91,7 +91,7 @@ def stable(law: ContactLaw) -> Stable:
     return STABLE.get(law.name, plain)
 
 
-def proof(law_name: str) -> tuple[Statement, Statement]:
+def proof(law_name: str) -> tuple[Judgement, Judgement]:
     """Return the two identities of a row: its value is phi, its slope is phi'."""
     law = LAWS[law_name]
     row = stable(law)
@@ -99,7 +99,7 @@ def proof(law_name: str) -> tuple[Statement, Statement]:
     for name, form in reversed(row.names):
         value, slope = (e.xreplace({name: released(form)}) for e in (value, slope))
     value, slope = sp.Eq(law.phi, value), sp.Eq(sp.diff(law.phi, r), slope)
-    return Statement(value, Identity()), Statement(slope, Identity())
+    return identity(value), identity(slope)
 
 
 def released(expr: sp.Expr) -> sp.Expr:

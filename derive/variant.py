@@ -1,8 +1,8 @@
 """Variants: what a scene needs, and nothing else.
 
 Key results
-    Variant     law, support, pin, sign of pin wear, cutoff
-    VARIANTS    every variant that code is generated for
+    Variant     law, support, pin, loss of contact
+    VARIANTS    every variant that source code can be written for
 """
 
 from __future__ import annotations
@@ -18,26 +18,32 @@ from .note.governing import Model, Pin
 class Variant:
     """A choice of what is modelled.
 
-    >>> Variant(LAWS["tanh"], compliant=False, pin=Pin.WORN, opening=True, cutoff=True).module
-    'rigid_worn_opening_cutoff'
+    Whether wear of a pin opens or closes the gap is no part of it, but a number: its sign.
+
+    >>> variant = Variant(LAWS["tanh"], compliant=False, pin=Pin.WORN, ends_at_3_sigma=True)
+    >>> variant.module, variant.name
+    ('rigid_worn', 'rigid_worn_ends_at_3_sigma')
     """
 
     law: ContactLaw
     compliant: bool
     pin: Pin
-    opening: bool
-    cutoff: bool
+    ends_at_3_sigma: bool = False
 
     @property
     def module(self) -> str:
         """Return the name of the generated module, within the package of its law."""
-        parts = ["compliant" if self.compliant else "rigid", self.pin.value]
-        return "_".join(parts + ["opening"] * self.opening + ["cutoff"] * self.cutoff)
+        return f"{'compliant' if self.compliant else 'rigid'}_{self.pin.value}"
+
+    @property
+    def name(self) -> str:
+        """Return the name that users know: the module, and whether contact can be lost."""
+        return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
     @property
     def model(self) -> Model:
-        """Return the hypotheses that the variant rests on."""
-        return Model(self.law, self.opening, self.pin)
+        """Return the hypotheses that the variant rests on, with the printed sign of pin wear."""
+        return Model(self.law, opening=False, pin=self.pin)
 
     @property
     def equations(self) -> tuple[str, ...]:
@@ -47,14 +53,10 @@ class Variant:
         return ("1", "2b", "3", "4", "5", "6", *(("13",) if bearing_only else condensed))
 
 
-def _signs(pin: Pin) -> tuple[bool, ...]:
-    """The sign of pin wear matters only where the pin wears."""
-    return (False, True) if pin.wears else (False,)
-
-
 VARIANTS = tuple(
-    Variant(law, compliant, pin, opening, cutoff)
-    for law, compliant, pin, cutoff in product(LAWS.values(), (False, True), Pin, (False, True))
-    for opening in _signs(pin)
+    Variant(law, compliant, pin, ends_at_3_sigma)
+    for law, compliant, pin, ends_at_3_sigma in product(
+        LAWS.values(), (False, True), Pin, (False, True)
+    )
 )
-"""Every variant that code is generated for."""
+"""Every variant that source code can be written for."""

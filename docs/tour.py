@@ -25,13 +25,13 @@ print(*(condition.text for condition in wear_per_cycle.conditions), sep="\n")
 
 # %% [markdown]
 # It was not typed in. It follows, statement by statement, from the governing equations, and every
-# statement is checked by the rule that made it, and by numbers of 50 digits.
+# statement is checked by applying its rule again.
 
 # %%
-from derive.rules import describe
 
 for statement in wear_per_cycle.steps[-3:]:
-    print(f"- {describe(statement.rule)}")
+    labels = [parent.name or "a hypothesis" for parent in statement.parents]
+    print(f"- {statement.rule.sentence(*labels)}")
 
 (verdict,) = derive.verify(["21"])
 print("every check passed:", verdict.passed)

@@ -24,7 +24,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib import import_module
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,6 +31,7 @@ from numpy.typing import NDArray
 
 from wear.faults import UsageError
 from wear.load import Constant, Harmonics, Sine
+from wear.model import bound, generated
 from wear.scene import Scene
 
 Ball = Any  # flint.arb
@@ -139,11 +139,10 @@ class _Flow(NamedTuple):
         """Bind a scene's numbers as balls; ``lift`` is added to the load."""
         from flint import arb
 
-        key = scene.variant
-        module = import_module(f"wear.generated.{key.package}.{key.module}")
+        module = generated(scene.variant)
         numbers = {name: arb(value) for name, value in scene.parameters().items()}
         numbers["n"] *= arb.pi() / arb(np.pi)  # bind multiplies by np.pi
-        constants = module.bind(**{name: numbers[name] for name in module.PARAMETERS})
+        constants = bound(module, numbers, int(scene.pin_wear_sign))
         mean, terms = _terms(load)
         wave = [(j, arb(cosine), arb(sine)) for j, cosine, sine in terms]
         period, count = arb(load.period), PHASES if terms else 1
@@ -185,8 +184,8 @@ class _Flow(NamedTuple):
         from flint import arb
 
         wear, weight = low.union(high), self.scale / len(self.panels)
-        rates = self.module.rate(wear, self.panels, self.constants) * weight
-        slopes = self.module.slope(wear, self.panels, self.constants) * weight
+        rates, slopes = self.module.rate_and_slope(wear, self.panels, self.constants)
+        rates, slopes = rates * weight, slopes * weight
         least = _change(rates, [slope.lower() for slope in slopes]).lower()
         most = _change(rates, [slope.upper() for slope in slopes]).upper()
         error = self.largest * (self._quadrature(wear) + arb("1e-300"))  # the clamp in rate

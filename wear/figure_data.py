@@ -88,17 +88,11 @@ class Method:
 
 
 @dataclass(frozen=True)
-class Regime:
-    """A range of f_c with the name of what happens there."""
+class Example:
+    """A scene on the map of regimes: its f_c, and its gap at the peak of the load over the initial
+    roughness; `one_solid` where only the bearing is rough and wears."""
 
     name: str
-    start: float
-    end: float
-
-
-@dataclass(frozen=True)
-class Threshold:
-    """A value of f_c that parts two regimes, or only seems to."""
-
-    name: str
-    value: float
+    slope: float
+    gap: float
+    one_solid: bool

@@ -118,6 +118,13 @@ def panels(rows: int, width: float, height: float) -> tuple[Figure, list[Axes]]:
     return figure, list(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
 
 
+def side_by_side(columns: int, width: float, height: float) -> tuple[Figure, list[Axes]]:
+    """A figure of that size in mm with axes side by side. Call inside `styled`."""
+    size = (width / _MILLIMETRES_PER_INCH, height / _MILLIMETRES_PER_INCH)
+    figure = Figure(figsize=size, layout="constrained")
+    return figure, list(figure.subplots(1, columns, sharey=True, squeeze=False)[0])
+
+
 def canvas(width: float, height: float) -> tuple[Figure, Axes]:
     """A figure of that size in mm with one pair of axes. Call inside `styled`."""
     figure, [axes] = panels(1, width, height)

@@ -8,7 +8,8 @@ Overview
     wear_by_coefficient     wear for several wear coefficients                    (Fig. 3b)
     pressure_in_cycles      contact pressure over the phase of chosen cycles
     speed_against_error     time against true error, one line a method
-    regime_map              asymptotic pressure over f_c, with the regimes
+    wear_by_decades         wear over all decades with straight lines behind it
+    regime_map              the regimes over f_c and the gap at the peak
     Each returns a matplotlib `Figure`; `wear.figure_style` makes files of it.
 Units
     Lengths come in mm and are shown in micrometres, pressures in MPa, times in s.
@@ -16,15 +17,16 @@ Units
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
+from numpy.typing import NDArray
 
-from wear.figure_data import Line, Method, Regime, Threshold, spans_decades
+from wear.figure_data import Example, FloatArray, Line, Method, spans_decades
 from wear.figure_style import (
     COLUMN,
     GREY,
@@ -35,6 +37,7 @@ from wear.figure_style import (
     canvas,
     label_ends,
     panels,
+    side_by_side,
     stroke,
     styled,
 )
@@ -114,6 +117,35 @@ def wear_with_asymptote(
     return figure
 
 
+def wear_by_decades(
+    wear: Sequence[Line],
+    lines: Sequence[Line],
+    mark: tuple[float, str],
+    *,
+    width: float = COLUMN,
+) -> Figure:
+    """Bearing wear in mm against cycles, both logarithmic, with straight lines behind and a number
+    of cycles marked."""
+    with styled():
+        figure, axes = canvas(width, 0.72 * width)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        top = 10.0 * _MICROMETRES_PER_MM * max(float(line.y.max()) for line in wear)
+        for line in (*lines, *wear):
+            look = _look(line)
+            axes.plot(
+                line.x, line.y * _MICROMETRES_PER_MM, color=look.colour, linestyle=look.dash,
+                linewidth=0.9 if line in lines else 1.4, label=line.name,
+            )  # fmt: skip
+        axes.axvline(mark[0], color=GREY, linewidth=0.6, linestyle=(0, (4.0, 2.0)))
+        axes.text(mark[0], 0.02, f" {mark[1]}", transform=axes.get_xaxis_transform(), va="bottom")
+        low = 0.1 * _MICROMETRES_PER_MM * float(wear[0].y[0])
+        axes.set(xlabel=r"Cycles  $N$", ylabel=_BEARING_WEAR, ylim=(low, top))
+        axes.set_xlim(float(wear[0].x[0]), float(wear[0].x[-1]))
+        axes.legend(loc="upper left")
+    return figure
+
+
 def wear_by_coefficient(
     lines: Sequence[Line], *, logarithmic: bool = False, width: float = COLUMN
 ) -> Figure:
@@ -152,39 +184,65 @@ def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Fi
     return figure
 
 
+_REGIMES = {
+    "steady": "#0072B2",
+    "saturating": "#009E73",
+    "finite-time": "#D55E00",
+    "arrest": "#CC79A7",
+}
+
+
 def regime_map(
-    pressure: Line,
-    regimes: Sequence[Regime],
-    thresholds: Sequence[Threshold],
+    regime: Callable[[FloatArray, FloatArray, bool], NDArray[np.str_]],
+    titles: tuple[str, str],
+    examples: Sequence[Example],
     *,
     width: float = PAGE,
 ) -> Figure:
-    """Asymptotic pressure over p_max, logarithmic, against f_c, above the named regimes.
+    """Regions of f_c against the gap at the peak over the roughness, without and with loss of
+    contact.
 
-    `pressure` has f_c as x and p_inf/p_max as y.
+    `regime` returns the names of the regimes for arrays of f_c and of the gap.
     """
+    slopes, gaps = np.meshgrid(np.linspace(-0.6, 0.6, 480), np.linspace(-3.0, 4.0, 560))
     with styled():
-        figure, axes = canvas(width, 0.42 * width)
-        left, right = min(r.start for r in regimes), max(r.end for r in regimes)
-        axes.semilogy(pressure.x, pressure.y, color=_look(pressure).colour, linewidth=1.6)
-        axes.set(xlim=(left, right), ylim=(float(pressure.y[pressure.y > 0.0].min()), 2.0))
-        axes.set(
-            xlabel=r"Roughness slope of the bearing  $f_c = \mathrm{d}\sigma_c/\mathrm{d}u_c$",
-            ylabel=r"Asymptotic pressure  $p_\infty/p_{\max}$",
-        )
-        for position, regime in enumerate(regimes):
-            _band(axes, regime, position)
-        for threshold in thresholds:
-            axes.axvline(threshold.value, color=INK, linewidth=0.7, linestyle=(0, (4.0, 2.0)))
-            axes.text(
-                threshold.value,
-                0.03,
-                f" {threshold.name}",
-                transform=axes.get_xaxis_transform(),
-                ha="left",
-                va="bottom",
-            )
+        figure, [left, right] = side_by_side(2, width, 0.42 * width)
+        for axes, title, ends in ((left, titles[0], False), (right, titles[1], True)):
+            named = regime(slopes, gaps, ends)
+            for name, colour in _REGIMES.items():
+                _region(axes, slopes, gaps, named == name, colour, name)
+            _example_points(axes, examples)
+            axes.set(title=title, xlabel=r"Change of roughness with wear  $f_c$")
+            axes.set(xlim=(-0.6, 0.6), ylim=(-3.0, 4.0))
+        left.set_ylabel(r"Gap at the peak over roughness  $(h_0-\max U_a)/\bar\sigma(0)$")
     return figure
+
+
+def _region(
+    axes: Axes, x: FloatArray, y: FloatArray, inside: NDArray[np.bool_], colour: str, name: str
+) -> None:
+    """A region in its colour, its name in the middle of it."""
+    if not inside.any():
+        return
+    axes.contourf(x, y, inside.astype(float), levels=[0.5, 1.5], colors=[colour], alpha=0.3)
+    level = np.argmax(inside.sum(axis=1))  # the row where the region is widest
+    across = x[level][inside[level]]
+    if np.ptp(across) > 0.05:
+        axes.text(
+            float(across.mean()), float(y[inside].mean()), name, ha="center", va="center",
+            path_effects=[withStroke(linewidth=2.0, foreground=PAPER)],
+        )  # fmt: skip
+
+
+def _example_points(axes: Axes, examples: Sequence[Example]) -> None:
+    for example in examples:
+        face = INK if example.one_solid else PAPER
+        axes.plot(example.slope, example.gap, "o", color=INK, markerfacecolor=face)
+        axes.annotate(
+            example.name, (example.slope, example.gap), xytext=(0.0, 5.0),
+            textcoords="offset points", ha="center", va="bottom",
+            path_effects=[withStroke(linewidth=2.0, foreground=PAPER)],
+        )  # fmt: skip
 
 
 def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
@@ -282,18 +340,3 @@ def _name_peaks(axes: Axes, lines: Sequence[Line]) -> None:
             va="bottom",
             path_effects=[withStroke(linewidth=2.0, foreground=PAPER)],
         )
-
-
-def _band(axes: Axes, regime: Regime, position: int) -> None:
-    """A shaded range with its name above; neighbours differ in shade."""
-    axes.axvspan(
-        regime.start, regime.end, color=GREY, alpha=0.06 + 0.10 * (position % 2), linewidth=0.0
-    )
-    axes.text(
-        (regime.start + regime.end) / 2.0,
-        1.02,
-        regime.name,
-        transform=axes.get_xaxis_transform(),
-        ha="center",
-        va="bottom",
-    )

@@ -1,26 +1,24 @@
 """A scene's model: the generated variant that it needs, with its numbers bound.
 
 What a scene leaves out has no symbol, no state and no operation in the code that runs. The model
-gives solvers one interface to all variants: wear rate, its slope, the fields, and with cutoff the
-margin of contact.
+gives solvers one interface to all variants: wear rate, its slope, the fields, and where contact
+ends at h = 3 sigma the margin of contact.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from importlib import import_module
 from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from wear import root
+from wear import pressure_root
 from wear.faults import UsageError
-from wear.scene import Scene
+from wear.scene import Scene, VariantKey
 
-Array = NDArray[np.float64]
 Real = Any  # a float or an array of floats
 
 
@@ -36,21 +34,30 @@ class Fields(NamedTuple):
     p: Real
 
 
-@dataclass(frozen=True)
-class Model:
-    """A generated variant with its constants bound.
-
-    `u` is the wear u_c of the bearing and `U_a` the displacement of the pin, both in mm;
-    they broadcast with each other and, for a model of many scenes, with shape (scenes, 1).
-    """
+class Loss(NamedTuple):
+    """The generated functions of the margin of contact, with their constants bound."""
 
     module: ModuleType
     constants: Any
 
+
+@dataclass(frozen=True)
+class Model:
+    """A generated variant with its constants bound.
+
+    `u` is the wear u_c of the bearing and `U_a` the displacement of the pin, both in mm; they
+    broadcast with each other and with the constants, which for a model of many scenes are arrays
+    of shape (scenes, 1). `loss` is None where contact is never lost.
+    """
+
+    module: ModuleType
+    constants: Any
+    loss: Loss | None = None
+
     @property
     def variant(self) -> str:
-        """The name of the generated module."""
-        return str(self.module.VARIANT)
+        """The name of the variant."""
+        return str(self.module.VARIANT) + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
     @property
     def law(self) -> str:
@@ -60,146 +67,188 @@ class Model:
     @property
     def operations(self) -> Mapping[str, int]:
         """How many arithmetic operations each generated function costs."""
-        return dict(self.module.OPERATIONS)
+        return {**self.module.OPERATIONS, **(self.loss.module.OPERATIONS if self.loss else {})}
 
     @property
     def compliant(self) -> bool:
         """Whether the bearing stands on springs."""
-        return "k" in self.module.PARAMETERS
+        return "compliance" in self.constants._fields
 
     @property
-    def cutoff(self) -> bool:
-        """Whether contact ends at h = 3 sigma."""
-        return "margin" in self.module.OPERATIONS
+    def ends_at_3_sigma(self) -> bool:
+        """Whether contact is lost at h > 3 sigma."""
+        return self.loss is not None
+
+    def select(self, index: Any) -> Model:
+        """Return the model of some of many scenes, chosen by an index of the scene axis."""
+        return self._with_constants(lambda value: value[index])
+
+    def reshaped(self, shape: tuple[int, ...]) -> Model:
+        """Return the model of many scenes with its constants in this shape."""
+        return self._with_constants(lambda value: value.reshape(shape))
+
+    def _with_constants(self, change: Callable[[Real], Real]) -> Model:
+        loss = self.loss
+        if loss is not None:
+            loss = loss._replace(constants=loss.constants._make(map(change, loss.constants)))
+        return replace(self, constants=self.constants._make(map(change, self.constants)), loss=loss)
 
     def rate(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
-        """Wear rate du_c/dt in mm/s, Eq. (9) or (10).
+        """Return the wear rate du_c/dt in mm/s, Eq. (9) or (10).
 
-        With cutoff and a rigid support: the rate in contact; whether there is contact is the
-        margin's to say, since the rate jumps there. With a compliant support a rate `near` by,
-        where it is known, saves time.
+        With a rigid support the rate is that in contact; whether there is contact is the margin's
+        to say, since the rate jumps there. With a compliant support a rate `near` by, where it is
+        known, saves time.
         """
         if not self.compliant:
             return self.module.rate(u, U_a, self.constants)
         start = None if near is None else near / self.module.rate(1.0, self.constants)
         return self.module.rate(self.pressure(u, U_a, start), self.constants)
 
-    def pressure(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
-        """Contact pressure in MPa on a compliant support, sought from a pressure `near` by."""
-        p = root.pressure(self.module, u, U_a, self.constants, near).p
-        return self.module.limited(p, u, U_a, self.constants) if self.cutoff else p
-
-    def law_rate(self, u: Real, U_a: Real) -> Real:
-        """Wear rate in mm/s by the contact law, whatever the cutoff makes of it."""
-        if not self.compliant:
-            return self.module.rate(u, U_a, self.constants)
-        return self.module.rate(
-            root.pressure(self.module, u, U_a, self.constants).p, self.constants
-        )
-
-    def by_law(self, u: Real, U_a: Real) -> tuple[Real, Real]:
-        """Wear rate (mm/s) by the contact law, whatever the cutoff makes of it, and its derivative
-        with respect to u_c (1/s)."""
-        if not self.compliant:
-            return self.module.rate(u, U_a, self.constants), self.slope(u, U_a)
-        p = root.pressure(self.module, u, U_a, self.constants).p
-        return self.module.rate(p, self.constants), self.module.slope(p, u, U_a, self.constants)
-
-    def at_edge(self, u: Real, U_a: Real) -> tuple[Real, Real]:
-        """Wear rate (mm/s) while a compliant support holds the contact at its edge, proportional to
-        the margin, and its derivative with respect to u_c (1/s)."""
-        p = self._edge_pressure / self.held * self.margin(u, U_a)
-        slope = self.module.limited_slope(u, self.constants)
-        return self.module.rate(p, self.constants), slope + np.zeros_like(U_a)
-
-    @property
-    def held(self) -> float:
-        """The margin (mm) up to which a compliant support holds the contact at its edge; none with
-        a rigid one."""
-        if not self.compliant:
-            return 0.0
-        unit = self.module.limited(np.inf, 0.0, 1.0 - self.margin(0.0, 0.0), self.constants)
-        return float(self._edge_pressure / unit)
-
-    @property
-    def _edge_pressure(self) -> Real:
-        """The pressure of the contact law at its edge, MPa: all that is missing at no pressure."""
-        return -self.module.residual(0.0, 0.0, -self.margin(0.0, 0.0), self.constants)
-
     def slope(self, u: Real, U_a: Real) -> Real:
-        """Derivative of the wear rate with respect to u_c, in 1/s."""
+        """Return the derivative of the wear rate with respect to u_c, in 1/s."""
         if not self.compliant:
             return self.module.slope(u, U_a, self.constants)
-        p = root.pressure(self.module, u, U_a, self.constants).p
-        smooth = self.module.slope(p, u, U_a, self.constants)
-        if not self.cutoff:
-            return smooth
+        p = self._law_pressure(u, U_a)
+        by_law = self.module.slope(p, u, U_a, self.constants)
+        if self.loss is None:
+            return by_law
         margin = self.margin(u, U_a)
-        limited = self.module.limited(p, u, U_a, self.constants) < p
-        followed = self.module.limited_slope(u, self.constants)
-        return np.where(limited, np.where(margin > 0.0, followed, 0.0), smooth)
+        limited = self._limited(p, margin) < p
+        return np.where(limited, np.where(margin > 0.0, self._edge_slope(u), 0.0), by_law)
+
+    def pressure(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
+        """Return the contact pressure in MPa on a compliant support, sought from a pressure `near`
+        by."""
+        p = self._law_pressure(u, U_a, near)
+        return p if self.loss is None else self._limited(p, self.margin(u, U_a))
 
     def fields(self, u: Real, U_a: Real) -> Fields:
-        """Every field at given wear and load."""
+        """Return every field at given wear and load."""
         if self.compliant:
             return self.fields_under(self.pressure(u, U_a), u, U_a)
-        made = _made(self.module.fields(u, U_a, self.constants), u, U_a)
-        if self.cutoff:
-            made = made._replace(p=np.where(self.margin(u, U_a) >= 0.0, made.p, 0.0))
-        return made
+        fields = _complete(self.module.fields(u, U_a, self.constants), u, U_a)
+        if self.loss is None:
+            return fields
+        return fields._replace(p=np.where(self.margin(u, U_a) >= 0.0, fields.p, 0.0))
 
     def fields_under(self, p: Real, u: Real, U_a: Real) -> Fields:
-        """Every field on a compliant support, whose contact pressure `p` (MPa) is known."""
-        return _made(self.module.fields(p, u, U_a, self.constants), u, U_a)
+        """Return every field on a compliant support, whose contact pressure `p` (MPa) is known."""
+        return _complete(self.module.fields(p, u, U_a, self.constants), u, U_a)
+
+    def law_rate(self, u: Real, U_a: Real) -> Real:
+        """Return the wear rate (mm/s) by the contact law, as if contact were never lost."""
+        if not self.compliant:
+            return self.module.rate(u, U_a, self.constants)
+        return self.module.rate(self._law_pressure(u, U_a), self.constants)
+
+    def law_rate_and_slope(self, u: Real, U_a: Real) -> tuple[Real, Real]:
+        """Return the wear rate (mm/s) by the contact law, as if contact were never lost, and its
+        derivative with respect to u_c (1/s)."""
+        if not self.compliant:
+            rate, slope = self.module.rate_and_slope(u, U_a, self.constants)
+            return rate, slope
+        p = self._law_pressure(u, U_a)
+        return self.module.rate(p, self.constants), self.module.slope(p, u, U_a, self.constants)
+
+    def edge_rate_and_slope(self, u: Real, U_a: Real) -> tuple[Real, Real]:
+        """Return the wear rate (mm/s) while a compliant support keeps h at 3 sigma, which is
+        proportional to the margin, and its derivative with respect to u_c (1/s)."""
+        p = self._limited(np.inf, 1.0) * self.margin(u, U_a)
+        return self.module.rate(p, self.constants), self._edge_slope(u) + np.zeros_like(U_a)
+
+    @property
+    def held_margin(self) -> Real:
+        """The margin (mm) up to which a compliant support keeps h at 3 sigma; 0 with a rigid one.
+
+        There the pressure that does so is that of the contact law: all of the residual at no
+        pressure.
+        """
+        if not self.compliant:
+            return 0.0
+        law = -self.module.residual(0.0, 0.0, -self.margin(0.0, 0.0), self.constants)
+        return law / self._limited(np.inf, 1.0)
 
     def margin(self, u: Real, U_a: Real) -> Real:
-        """3 sigma - h with an undeflected support, in mm; with cutoff, contact where >= 0."""
-        return self.module.margin(u, U_a, self.constants)
+        """Return 3 sigma - h with an undeflected support, in mm; there is contact where >= 0."""
+        return self._loss.module.margin(u, U_a, self._loss.constants)
 
     def margin_slope(self, u: Real, U_a: Real) -> Real:
-        """Derivative of the margin with respect to u_c; with respect to U_a it is 1."""
-        return self.module.margin_slope(u, self.constants) + np.zeros_like(U_a)
+        """Return the derivative of the margin with respect to u_c; with respect to U_a it is 1."""
+        return self._loss.module.margin_slope(u, self._loss.constants) + np.zeros_like(U_a)
 
     def margin_terms(self, u: Real, U_a: Real) -> Real:
-        """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
-        return self.module.margin_terms(u, U_a, self.constants)
+        """Return the sum of the absolute terms of the margin, in mm: its rounding error is at most
+        as many roundoffs."""
+        return self._loss.module.margin_terms(u, U_a, self._loss.constants)
+
+    @property
+    def _loss(self) -> Loss:
+        if self.loss is None:
+            raise UsageError("this scene never loses contact: it has no margin")
+        return self.loss
+
+    def _law_pressure(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
+        return pressure_root.pressure(self.module, u, U_a, self.constants, near).p
+
+    def _limited(self, p: Real, margin: Real) -> Real:
+        module, constants = self._loss
+        return module.limited_pressure(p, margin, self.constants.compliance, constants)
+
+    def _edge_slope(self, u: Real) -> Real:
+        module, constants = self._loss
+        change = module.margin_slope(u, constants)
+        of = self.constants
+        return module.limited_slope(change, of.compliance, of.wear_per_pressure, constants)
 
 
-def _made(found: Any, u: Real, U_a: Real) -> Fields:
-    """The fields that a generated module gives, and zero for those that it does not model."""
+def _complete(found: Any, u: Real, U_a: Real) -> Fields:
+    """Return the fields that a generated module gives, and zero for those that it has not."""
     zero = np.zeros(np.broadcast(u, U_a).shape)
     return Fields(**(dict.fromkeys(Fields._fields, zero) | found._asdict()))
 
 
-def _module(scene: Scene) -> ModuleType:
-    key = scene.variant
-    return import_module(f"wear.generated.{key.package}.{key.module}")
+def generated(key: VariantKey) -> ModuleType:
+    """Return the generated module of a variant."""
+    return import_module(f"wear.generated.{key.law}.{key.module}")
 
 
-def _constants(module: ModuleType, values: Mapping[str, Real]) -> Any:
-    return module.bind(**{name: values[name] for name in module.PARAMETERS})
+def bound(module: ModuleType, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Any:
+    """Return the constants of a generated module; the sign is for a pin that wears."""
+    parameters = module.Parameters._make(numbers[name] for name in module.Parameters._fields)
+    signs = (pin_wear_sign,) if "K_a" in module.Parameters._fields else ()
+    return module.bind(parameters, *signs)
+
+
+def _bind(key: VariantKey, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Model:
+    module, loss = generated(key), None
+    if key.ends_at_3_sigma:
+        margin = import_module(f"wear.generated.margin_{key.pin}")
+        loss = Loss(margin, bound(margin, numbers, pin_wear_sign))
+    return Model(module, bound(module, numbers, pin_wear_sign), loss)
 
 
 def bind(scene: Scene) -> Model:
-    """The model of one scene."""
-    module = _module(scene)
-    return Model(module, _constants(module, scene.parameters()))
+    """Return the model of one scene."""
+    return _bind(scene.variant, scene.parameters(), scene.pin_wear_sign)
 
 
 def bind_many(scenes: Sequence[Scene]) -> Model:
-    """One model of many scenes; its constants have shape (scenes, 1).
+    """Return one model of many scenes; its constants have shape (scenes, 1).
 
     Raises
     ------
     UsageError
         if the scenes need different variants.
     """
-    variants = {scene.variant for scene in scenes}
-    if len(variants) != 1:
+    if len({scene.variant for scene in scenes}) != 1:
         raise UsageError("scenes that are solved together must model the same things")
-    module = _module(scenes[0])
     rows = [scene.parameters() for scene in scenes]
-    columns = {
-        name: np.array([[row[name]] for row in rows], dtype=float) for name in module.PARAMETERS
-    }
-    return Model(module, _constants(module, columns))
+    names = set.intersection(*map(set, rows))
+    columns = {name: _column(row[name] for row in rows) for name in names}
+    signs = _column(scene.pin_wear_sign for scene in scenes)
+    return _bind(scenes[0].variant, columns, signs)
+
+
+def _column(values: Iterable[float]) -> Real:
+    return np.array([[value] for value in values], dtype=float)

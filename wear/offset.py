@@ -21,11 +21,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.count.collocation import Mesh, integral, mesh, running_integral
 from wear.faults import AccuracyError
 from wear.history import History
 from wear.laurent import Laurent, NotSteady
 from wear.model import Model, bind
+from wear.numerics.gauss import (
+    Mesh,
+    integral,
+    mesh,
+    running_integral,
+)
 from wear.scene import Scene
 from wear.solver import solve
 

@@ -4,9 +4,11 @@ Overview
     A target is a table: how the language writes functions, powers, numbers and names.  Only
     what the table has can be printed; anything else is an error, never a guess.  Sums put
     what is added before what is subtracted, products divide once.  Half-integer powers are
-    products with a square root.
+    products with a square root.  The table and a template of the same name in ``templates`` are
+    all that there is of a language.
 Key results
     Target    the table of one language
+    TARGETS   the tables
     emit      an expression in a target's language
 """
 
@@ -14,7 +16,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from types import MappingProxyType
 
 import sympy as sp
 
@@ -32,15 +35,19 @@ class Target:
 
     ``functions`` maps SymPy functions onto names; ``power`` writes base and integer exponent;
     ``number`` writes a floating-point literal from a decimal string; ``rename`` says how a
-    symbol is reached (``c.h_0`` for a constant).
+    symbol is reached.  ``constant`` and ``parameter`` are formats: how a constant of the run is
+    reached within a function, and a parameter within ``bind``.
     """
 
     name: str
+    language: str
     functions: Mapping[type[sp.Basic], str]
     power: Callable[[str, int], str]
     number: Callable[[str], str]
     pi: str
-    rename: Callable[[str], str] = field(default=lambda name: name)
+    rename: Callable[[str], str] = str
+    constant: str = "c.{}"
+    parameter: str = "{}"
 
 
 def emit(expr: sp.Expr, target: Target) -> str:
@@ -148,3 +155,68 @@ def _power(expr: sp.Pow, target: Target) -> tuple[str, int]:
 def _wrapped(expr: sp.Expr, target: Target, least: int) -> str:
     text, precedence = _emit(expr, target)
     return text if precedence >= least else f"({text})"
+
+
+_FUNCTIONS = (sp.exp, sp.log, sp.sqrt, sp.Abs, sp.Min, sp.Max)
+
+
+def _named(names: str) -> Mapping[type[sp.Basic], str]:
+    return MappingProxyType(dict(zip(_FUNCTIONS, names.split(), strict=True)))
+
+
+def _square(base: str, exponent: int) -> str:
+    return f"{base} * {base}" if exponent == 2 else f"{base}**{exponent}"
+
+
+def _product_of_equals(base: str, exponent: int) -> str:
+    return " * ".join([base] * exponent)
+
+
+def _floating(decimal: str) -> str:
+    """Write every number as a double: an integer divided by an integer would be cut off."""
+    return decimal if any(mark in decimal for mark in ".e") else f"{decimal}.0"
+
+
+_IN_WORDS = {"U_a": "pin_displacement", "U_c": "bearing_displacement"}
+"""Fortran does not distinguish U_a from u_a."""
+
+NUMPY = Target(
+    name="numpy",
+    language="NumPy",
+    functions=_named("np.exp np.log np.sqrt np.abs np.minimum np.maximum"),
+    power=_square,
+    number=str,
+    pi="np.pi",
+    parameter="data.{}",
+)
+C = Target(
+    name="c",
+    language="C99",
+    functions=_named("exp log sqrt fabs wear_smaller wear_larger"),
+    power=_product_of_equals,
+    number=_floating,
+    pi="3.141592653589793",
+    constant="c->{}",
+    parameter="data->{}",
+)
+FORTRAN = Target(
+    name="fortran",
+    language="Fortran 2008",
+    functions=_named("exp log sqrt abs smaller larger"),
+    power=lambda base, exponent: f"{base}**{exponent}",
+    number=lambda decimal: f"{_floating(decimal)}_dp",
+    pi="3.141592653589793_dp",
+    rename=lambda name: _IN_WORDS.get(name, name),
+    constant="c%{}",
+)
+JAVASCRIPT = Target(
+    name="javascript",
+    language="ECMAScript module",
+    functions=_named("Math.exp Math.log Math.sqrt Math.abs Math.min Math.max"),
+    power=_product_of_equals,
+    number=str,
+    pi="Math.PI",
+)
+
+TARGETS = MappingProxyType({t.name: t for t in (NUMPY, C, FORTRAN, JAVASCRIPT)})
+"""The languages by name."""

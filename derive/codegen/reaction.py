@@ -5,8 +5,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ..note.governing import Model
+from ..rules.algebra import solve
 from ..symbols import symbol
-from .formula_module import Formula, formula_module
+from .formulas import Formula, formula_module
 
 pressure = sp.Symbol("p", real=True)
 """The contact pressure as a number."""
@@ -14,7 +15,7 @@ pressure = sp.Symbol("p", real=True)
 
 def module() -> str:
     """Return the source of the generated module."""
-    force = Model().reaction.solve_for(symbol("R_a")).claim.rhs
+    force = solve(Model().reaction, symbol("R_a")).claim.rhs
     value = force.subs(symbol("p"), pressure)
     formula = Formula("reaction", (pressure,), value, "reaction force of the pin, in N")
     return formula_module("Reaction of the pin.", ("7b",), (formula,))

@@ -2,20 +2,23 @@
 
 Key results
     title_of      a variant in a sentence
+    margin_title  the functions that loss of contact adds, in a sentence
+    sentence      words with a capital
     meaning_of    a parameter, constant or field, with its unit
     remark_on     an intermediate of a function, with the equation it comes from
 """
 
 from __future__ import annotations
 
+from ..note.governing import Pin
 from ..symbols import QUANTITIES
 from ..variant import Variant
 
 _PINS = {
-    "bearing": "smooth pin that does not wear",
-    "rough": "rough pin that does not wear",
-    "worn": "smooth pin that wears",
-    "worn_rough": "rough pin that wears",
+    Pin.ABSENT: "smooth pin that does not wear",
+    Pin.ROUGH: "rough pin that does not wear",
+    Pin.WORN: "smooth pin that wears",
+    Pin.WORN_ROUGH: "rough pin that wears",
 }
 
 _CONSTANTS = {
@@ -26,8 +29,9 @@ _CONSTANTS = {
     "compliance": "deflection of the support per pressure, mm/MPa",
     "most_of_margin": "fresh_margin less one roughness, mm",
     "fresh_margin": "3 sigma - h before any wear or load, mm",
-    "most_of_gain": "margin_gain less one roughness slope",
+    "most_of_gain": "margin_gain less one roughness growth",
     "margin_gain": "3 sigma - h per wear of the bearing, undeflected",
+    "pin_wear_sign": "+1 where wear of the pin opens the gap, -1 where it closes it",
 }
 
 _INTERMEDIATES = {
@@ -55,13 +59,27 @@ def title_of(variant: Variant) -> str:
     'Tanh contact law, rigid support, smooth pin that does not wear.'
     """
     support = "compliant support" if variant.compliant else "rigid support"
-    sign = ", wear of the pin opens the gap" if variant.opening else ""
-    cutoff = ", contact for h <= 3 sigma only" if variant.cutoff else ""
-    name = variant.law.name
-    return (
-        f"{name[0].upper()}{name[1:]} contact law, {support}, {_PINS[variant.pin.value]}"
-        f"{sign}{cutoff}."
-    )
+    ends = ", contact for h <= 3 sigma only" if variant.ends_at_3_sigma else ""
+    law = sentence(variant.law.name)
+    return f"{law} contact law, {support}, {_PINS[variant.pin]}{ends}."
+
+
+def margin_title(pin: Pin) -> str:
+    """Return the title of the functions that loss of contact adds.
+
+    >>> margin_title(Pin.WORN)
+    'Loss of contact at h = 3 sigma: smooth pin that wears.'
+    """
+    return f"Loss of contact at h = 3 sigma: {_PINS[pin]}."
+
+
+def sentence(words: str) -> str:
+    """Return words with a capital.
+
+    >>> sentence("closure, mm")
+    'Closure, mm'
+    """
+    return words[0].upper() + words[1:]
 
 
 def meaning_of(name: str) -> str:

@@ -10,7 +10,7 @@ from derive.command_line import Command
 from derive.commands import arguments
 from derive.faults import UsageError
 
-TARGETS = ("numpy", "c", "fortran", "javascript")
+TARGETS = ("numpy", "c", "fortran", "javascript")  # known before SymPy is imported
 
 EXAMPLE = """\
   derive code rigid_bearing                          section 4 of the note, in NumPy
@@ -40,7 +40,7 @@ def variant_names() -> tuple[str, ...]:
     """Return the names of the variants, with their law."""
     from derive.variant import VARIANTS
 
-    return tuple(f"{variant.law.name}/{variant.module}" for variant in VARIANTS)
+    return tuple(f"{variant.law.name}/{variant.name}" for variant in VARIANTS)
 
 
 def _short_names() -> tuple[str, ...]:
@@ -50,7 +50,7 @@ def _short_names() -> tuple[str, ...]:
 
 def execute(options: argparse.Namespace) -> int:
     """Print or write the source."""
-    from derive.codegen.targets import source
+    from derive.codegen.sources import source
     from derive.program import program
     from derive.variant import VARIANTS
 
@@ -68,16 +68,15 @@ def execute(options: argparse.Namespace) -> int:
         near = difflib.get_close_matches(wanted, names, n=1, cutoff=0.0)
         raise UsageError(f"{options.variant}: no such variant; did you mean {near[0]}?")
     variant = VARIANTS[names.index(wanted)]
-    text = source(variant, options.target)
+    made = program(variant)
+    text = source(made, options.target)
     if options.json:
-        made = program(variant)
-        counts = {function.name: function.operations for function in made.functions}
         terminal.print_json(
             {
                 "variant": wanted,
                 "target": options.target,
                 "equations": list(variant.equations),
-                "operations": counts,
+                "operations": made.operations,
                 "source": text,
             }
         )

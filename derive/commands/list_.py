@@ -23,7 +23,13 @@ def execute(options: argparse.Namespace) -> int:
     from derive import catalogue
 
     rows = [
-        {"id": e.id, "section": e.section, "title": e.title, "status": e.status.value}
+        {
+            "id": e.id,
+            "section": e.section,
+            "title": e.title,
+            "status": e.status.value,
+            "conditions": list(dict.fromkeys(c.text for c in e.conditions)),
+        }
         for e in catalogue.equations()
     ]
     if options.json:

@@ -42,7 +42,10 @@ def document(found: Equation) -> dict[str, Any]:
         "latex": found.latex,
         "printed_latex": found.printed_latex or None,
         "srepr": sp.srepr(found.relation),
-        "conditions": [condition.text for condition in found.conditions],
+        "conditions": list(dict.fromkeys(c.text for c in found.conditions)),
+        "hypotheses": [
+            {"kind": h.kind.value, "text": h.text, "latex": h.latex} for h in found.hypotheses
+        ],
         "remark": found.remark or None,
     }
 
@@ -54,7 +57,7 @@ def _text(found: Equation) -> str:
     lines = [f"({found.id})  {found.title}  [{found.status.value}]", ""]
     for claim in found.claims:
         lines += [sp.pretty(claim, **style), ""]
-    lines += [f"if {condition.text}" for condition in found.conditions]
+    lines += dict.fromkeys(f"if {condition.text}" for condition in found.conditions)
     if found.printed and not found.agrees:
         lines += ["", "as printed in the note (does not hold):", ""]
         lines += [sp.pretty(claim, **style) for claim in found.printed]

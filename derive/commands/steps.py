@@ -12,7 +12,7 @@ from derive.command_line import Command
 from derive.commands import arguments
 
 if TYPE_CHECKING:
-    from derive.statement import Statement
+    from derive.kernel import Judgement
 
 _INDENT = " " * 5
 
@@ -39,47 +39,50 @@ def execute(options: argparse.Namespace) -> int:
     return terminal.FAILED if any(row["status"] == "fails" for row in rows) else terminal.DONE
 
 
-def _row(step: Statement, numbers: Mapping[int, int]) -> dict[str, Any]:
+def _row(step: Judgement, numbers: Mapping[int, int]) -> dict[str, Any]:
     import sympy as sp
 
-    from derive.rules import describe
+    from derive.check import checks
     from derive.typeset.display import latex
 
+    parents = [numbers[id(parent)] for parent in step.parents]
+    outcomes = checks(step)
     return {
         "step": numbers[id(step)],
         "name": step.name or None,
-        "claim": sp.sstr(step.claim),
-        "latex": latex(step.claim),
-        "rule": describe(step.rule),
-        "parents": [numbers[id(parent)] for parent in step.parents],
-        "assumptions": [condition.text for condition in step.conditions],
-        "status": _status(step, all(check.passed for check in step.checks)),
+        "claim": sp.sstr(step.relation),
+        "latex": latex(step.relation),
+        "rule": step.rule.sentence(*(f"({n})" for n in parents)),
+        "theorem": step.rule.source,
+        "parents": parents,
+        "assumptions": list(dict.fromkeys(condition.text for condition in step.conditions)),
+        "hypotheses": [h.text for h in step.hypotheses],
+        "status": _status(step, all(check.passed for check in outcomes)),
         "remark": step.remark or None,
-        "checks": [{"kind": c.kind, "passed": c.passed, "detail": c.detail} for c in step.checks],
+        "checks": [{"kind": c.kind, "passed": c.passed, "detail": c.detail} for c in outcomes],
     }
 
 
-def _status(step: Statement, passed: bool) -> str:
+def _status(step: Judgement, passed: bool) -> str:
     if not passed:
         return "fails"
-    if not step.parents and type(step.rule).__name__ == "Given":
+    if not step.parents and type(step.rule).__name__ == "Assume":
         return "given"
-    return "numeric" if getattr(step.rule, "numeric", False) else "proved"
+    return "proved"
 
 
-def _text(row: Mapping[str, Any], step: Statement) -> str:
+def _text(row: Mapping[str, Any], step: Judgement) -> str:
     """Return what was done and to what, above the claim as it is read on paper."""
     import sympy as sp
 
-    origin = f" from {', '.join(map(str, row['parents']))}" if row["parents"] else ""
-    status = "" if row["status"] == "given" else f": {row['status']}"
-    claim = sp.pretty(step.claim, use_unicode=terminal.shows_formulas(), wrap_line=False)
+    status = "" if row["status"] == "given" else f" [{row['status']}]"
+    claim = sp.pretty(step.relation, use_unicode=terminal.shows_formulas(), wrap_line=False)
     lines = ["", *claim.splitlines(), ""]
     lines += [f"if {condition}" for condition in row["assumptions"]]
     if row["remark"]:
         lines.append(row["remark"])
     shown = textwrap.indent("\n".join(lines).rstrip(), _INDENT)
-    return f"{row['step']:3}. {row['rule']}{origin}{status}\n{shown}"
+    return f"{row['step']:3}. {row['rule']}{status}\n{shown}"
 
 
 COMMAND = Command(

@@ -19,7 +19,8 @@ from .. import catalogue
 from ..equations import Status
 from ..laws import TANH, r
 from ..results import validity
-from ..rules.sign import sign
+from ..rules.algebra import solve
+from ..rules.proving import sign
 from ..symbols import symbols
 from ..typeset.present import presentable
 from ..zero import is_zero
@@ -111,7 +112,7 @@ def initial_state() -> Finding:
     model = Model()
     start = dict.fromkeys((u_a, u_c), 0)
     gap = model.closure.claim.rhs.subs(start) - h_0
-    gap = gap.subs(U_c, model.support.solve_for(U_c).claim.rhs)
+    gap = gap.subs(U_c, solve(model.support, U_c).claim.rhs)
     rigid = sp.limit(gap, k, sp.oo).subs(U_a, 0)
     evidence = f"(1), (2), (6) give h(0) - h_0 = {sp.expand(gap)} at t = 0"
     if is_zero(gap):
@@ -156,7 +157,7 @@ def stiff_limit() -> Finding:
 
 def deflection() -> Finding:
     """C15: p/k for k to infinity at bounded p."""
-    value = sp.limit(Model().support.solve_for(U_c).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
+    value = sp.limit(solve(Model().support, U_c).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
     verdict = Verdict.CONFIRMED if value == 0 else Verdict.REFUTED
     return Finding(verdict, f"U_c = p/k with 0 < p < p_max tends to {value}")
 

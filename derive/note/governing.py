@@ -43,13 +43,13 @@ K_a, K_c, H_a, H_c = symbols("K_a K_c H_a H_c")
 
 ROUGH_BEARING = Hypothesis("the bearing is rough", sp.Gt(sigma_c, 0), kind=Kind.STATE)
 SMOOTH_PIN = Hypothesis(
-    "the pin is smooth", sp.Eq(sigma_a, 0), r"\text{the pin is smooth}", Kind.SETTING
+    "smooth pin", sp.Eq(sigma_a, 0), r"\text{smooth pin}", Kind.SETTING
 )
 UNWORN_PIN = Hypothesis(
-    "the pin does not wear", sp.Eq(u_a, 0), r"\text{the pin does not wear}", Kind.SETTING
+    "unworn pin", sp.Eq(u_a, 0), r"\text{unworn pin}", Kind.SETTING
 )
 UNCOUPLED = tuple(
-    Hypothesis(f"no cross coupling of roughness, {name} = 0", sp.Eq(name, 0), kind=Kind.SETTING)
+    Hypothesis("no cross coupling of roughness", sp.Eq(name, 0), kind=Kind.SETTING)
     for name in (f_ac, f_ca)
 )
 OWN = (defined(f_aa, f_a), defined(f_cc, f_c))
@@ -122,9 +122,9 @@ class Model:
         """Eq. (4) at every closure, as the note uses it from (7e) on."""
         claim = sp.Eq(p, p_max * self.law.ratio(h / sigma))
         remark = "the cutoff in the text under (4) is not applied from here on"
-        text = f"no loss of contact: the law holds at every closure, {self.law.source}"
+        text, source = "no loss of contact", f"the law at every closure: {self.law.source}"
         typeset = r"\text{no loss of contact}"
-        return assume(Hypothesis(text, claim, typeset, Kind.SETTING), "", remark)
+        return assume(Hypothesis(text, claim, typeset, Kind.SETTING), source, remark)
 
     @cached_property
     def pressure_with_cutoff(self) -> Judgement:

@@ -5,8 +5,9 @@ Overview
     functions of numbers.  Intermediates keep the names of the field.  What does not change
     during a run is hoisted into named constants.
 Key results
-    Program     the functions and constants of one variant
-    program     the program of a variant
+    Program          functions and constants of a source
+    program          the program of a variant
+    margin_program   the functions that loss of contact adds to any variant with the same pin
 """
 
 from __future__ import annotations
@@ -17,26 +18,40 @@ from functools import cache
 
 import sympy as sp
 
+from ..laws import TANH
+from ..note.governing import Pin
 from ..symbols import QUANTITIES
 from ..variant import Variant
-from . import cutoff, fields, rate, root
+from . import fields, margin, rate, root
 from .function import Assignment, Function
 from .relations import Relations, groups
+from .symbols import pin_wear_sign
 
 
 @dataclass(frozen=True)
 class Program:
-    """All that is generated for one variant.
+    """All that is written in one source.
 
-    ``constants`` are computed once, by ``bind``, from ``parameters``; ``fields`` names the
-    results of the last function.
+    ``constants`` are computed once, by ``bind``, from ``parameters`` and, where the pin wears,
+    the sign of its wear; ``fields`` names the results of the function of that name, if there is
+    one.
     """
 
     variant: Variant
     parameters: tuple[sp.Symbol, ...]
     constants: tuple[Assignment, ...]
     functions: tuple[Function, ...]
-    fields: tuple[str, ...]
+    fields: tuple[str, ...] = ()
+
+    @property
+    def equations(self) -> tuple[str, ...]:
+        """Return the ids of the equations that the code comes from."""
+        return self.variant.equations if self.fields else ("1", "3", "5", "6")
+
+    @property
+    def signed(self) -> bool:
+        """Return whether ``bind`` takes the sign of pin wear."""
+        return any(pin_wear_sign in value.free_symbols for _, value in self.constants)
 
     @property
     def exact_constants(self) -> dict[sp.Symbol, sp.Expr]:
@@ -46,36 +61,47 @@ class Program:
             values[name] = expr.xreplace(values)
         return values
 
+    @property
+    def operations(self) -> dict[str, int]:
+        """Return how many arithmetic operations one call of each function costs."""
+        return {function.name: function.operations for function in self.functions}
+
 
 @cache
 def program(variant: Variant) -> Program:
-    """Return the program of a variant."""
-    functions = _functions(variant)
-    hoisted = _hoisted(variant)
+    """Return the program of a variant, complete in itself."""
+    relations = Relations(variant)
+    functions = rate.rigid(relations)
+    if variant.compliant:
+        functions = (*root.root(relations), *rate.compliant(relations))
+    hoisted = groups(variant)
+    if variant.ends_at_3_sigma:
+        functions += margin.margin(relations)
+        functions += margin.limited() if variant.compliant else ()
+        hoisted += margin.constants(relations)
+    functions += (fields.fields(relations),)
+    return _program(variant, hoisted, functions, fields.names(variant))
+
+
+@cache
+def margin_program(pin: Pin) -> Program:
+    """Return what loss of contact adds: no law and no support takes part in it."""
+    relations = Relations(Variant(TANH, compliant=False, pin=pin, ends_at_3_sigma=True))
+    hoisted = (*groups(relations.variant), *margin.constants(relations))
+    return _program(relations.variant, hoisted, (*margin.margin(relations), *margin.limited()))
+
+
+def _program(
+    variant: Variant,
+    hoisted: Sequence[Assignment],
+    functions: tuple[Function, ...],
+    names: tuple[str, ...] = (),
+) -> Program:
+    """Hoist the constants that the functions use; the parameters are those of the constants."""
     constants = _constants(hoisted, functions)
     used = set().union(*(expr.free_symbols for _, expr in constants))
-    parameters = sorted(used - {name for name, _ in hoisted}, key=_order)
-    return Program(variant, tuple(parameters), constants, functions, fields.names(variant))
-
-
-def _hoisted(variant: Variant) -> tuple[Assignment, ...]:
-    """Return all that may be computed once, by ``bind``."""
-    limits = cutoff.constants(Relations(variant)) if variant.cutoff else ()
-    return (*groups(variant), *limits)
-
-
-def _functions(variant: Variant) -> tuple[Function, ...]:
-    """Return the functions of a variant, that of the fields last."""
-    relations = Relations(variant)
-    if variant.compliant:
-        found = (*root.root(relations), *rate.compliant(relations))
-    else:
-        found = rate.rigid(relations)
-    if variant.cutoff:
-        found += cutoff.margin(relations)
-    if variant.cutoff and variant.compliant:
-        found += cutoff.limited(relations)
-    return (*found, fields.fields(relations))
+    parameters = used - {name for name, _ in hoisted} - {pin_wear_sign}
+    return Program(variant, tuple(sorted(parameters, key=_order)), constants, functions, names)
 
 
 def _constants(

@@ -47,24 +47,32 @@ def to_ratio(relations: Relations, deflected: bool) -> tuple[Assignment, ...]:
 
 
 def rigid(relations: Relations) -> tuple[Function, ...]:
-    """Return the rate of wear and its slope."""
+    """Return the rate of wear, its slope, and both at the cost of little more than one."""
     names, value, slope = law(relations.variant)
-    start = to_ratio(relations, deflected=False)
-    sloped, slopes = with_slopes(start)
+    sloped, slopes = with_slopes(to_ratio(relations, deflected=False))
+    assignments = (*sloped, *names)
+    rate, change = largest_rate * value, largest_rate * slope * slopes[ratio]
     return (
         Function.made(
             "rate",
             (u, load),
-            (*start, *names),
-            (largest_rate * value,),
+            assignments,
+            (rate,),
             "wear rate of the bearing, du_c/dt, in mm/s",
         ),
         Function.made(
             "slope",
             (u, load),
-            (*sloped, *names),
-            (largest_rate * slope * slopes[ratio],),
+            assignments,
+            (change,),
             "derivative of the wear rate with respect to u_c, in 1/s",
+        ),
+        Function.made(
+            "rate_and_slope",
+            (u, load),
+            assignments,
+            (rate, change),
+            "wear rate in mm/s and its derivative with respect to u_c in 1/s",
         ),
     )
 

@@ -1,7 +1,7 @@
 """The derived relations of a variant, in the symbols of its program.
 
 Overview
-    The statements of `derive.note` speak of functions of time.  Here they become assignments of
+    The judgements of `derive.note` speak of functions of time.  Here they become assignments of
     numbers, in which what does not change during a run stands as a named constant.
 Key results
     groups       the named constants of a run
@@ -14,9 +14,12 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ..kernel import Judgement
 from ..note.condensed import Condensed
-from ..note.governing import Pin
-from ..statement import Statement, given
+from ..note.governing import Model, Pin
+from ..rules.algebra import solve, substitute
+from ..rules.assumption import assume, defined
+from ..rules.calculus import RIGID
 from ..symbols import QUANTITIES, symbols
 from ..variant import Variant
 from . import symbols as named
@@ -28,11 +31,10 @@ kappa, K_a, K_c, H_a, H_c, k, p, p_max, f_a = symbols("kappa K_a K_c H_a H_c k p
 def groups(variant: Variant) -> tuple[Assignment, ...]:
     """Return the named constants of a run: each a combination of parameters."""
     model = variant.model
-    archard = model.wear_laws[2].substitute(model.slip).claim.rhs / p
-    sign = 1 if variant.opening else -1
+    archard = substitute(model.wear_laws[2], model.slip).claim.rhs / p
     found: list[Assignment] = []
     if variant.pin.wears:
-        found += [(kappa, _kappa().claim.rhs), (named.gain, 1 + sign * kappa)]
+        found += [(kappa, _kappa().claim.rhs), (named.gain, 1 + named.pin_wear_sign * kappa)]
     if variant.pin is Pin.WORN_ROUGH:
         found.append((named.slope_a, f_a * kappa))
     if variant.compliant:
@@ -42,9 +44,9 @@ def groups(variant: Variant) -> tuple[Assignment, ...]:
     return tuple(found)
 
 
-def _kappa() -> Statement:
+def _kappa() -> Judgement:
     """Return the wear of the pin per wear of the bearing."""
-    return given(sp.Eq(kappa, K_a * H_c / (K_c * H_a)), "definition of kappa", kappa)
+    return defined(kappa, K_a * H_c / (K_c * H_a))
 
 
 def _plain(expr: sp.Expr) -> sp.Expr:
@@ -74,7 +76,7 @@ class Relations:
             return ((named.sigma, bearing),)
         rough = model.roughness_of_pin
         if pin.wears:
-            rough = rough.substitute(self._wear_of_pin())
+            rough = substitute(rough, self._wear_of_pin())
         own = self._hoisted(_plain(rough.claim.rhs))
         combined = _plain(model.roughness.claim.rhs)
         if pin.wears:
@@ -86,17 +88,23 @@ class Relations:
         return (named.sigma_c, bearing), (named.sigma, combined.subs(named.sigma_a, own))
 
     def closure(self, deflected: bool) -> Assignment:
-        """Return the assignment of h; the undeflected one is that of a rigid support."""
-        deflection = Condensed(self.variant.model).deflection
-        if not deflected:
-            deflection = deflection.limit(k, sp.oo)
-        closed = self.variant.model.closure.substitute(self._wear_of_pin(), deflection)
-        expr = self._hoisted(_plain(closed.claim.rhs))
-        return named.h, expr.subs(1 / k, named.compliance)
+        """Return the assignment of h; the undeflected one is that of a rigid support.
 
-    def _wear_of_pin(self) -> Statement:
+        It is linear in the sign of pin wear, so that the closures of both signs determine it.
+        """
+        opening, closing = (self._closure(sign, deflected) for sign in (True, False))
+        either = (opening + closing) / 2 + named.pin_wear_sign * (opening - closing) / 2
+        return named.h, self._hoisted(either).subs(1 / k, named.compliance)
+
+    def _closure(self, opening: bool, deflected: bool) -> sp.Expr:
+        """Return h where wear of the pin opens the gap, or where it closes it."""
+        model = Model(self.variant.law, opening, self.variant.pin)
+        deflection = Condensed(model).deflection if deflected else assume(RIGID)
+        return _plain(substitute(model.closure, self._wear_of_pin(), deflection).claim.rhs)
+
+    def _wear_of_pin(self) -> Judgement:
         worn = self.variant.model.wear_of_pin
-        return worn.substitute(_kappa().solve_for(K_a)) if self.variant.pin.wears else worn
+        return substitute(worn, solve(_kappa(), K_a)) if self.variant.pin.wears else worn
 
     def _hoisted(self, expr: sp.Expr) -> sp.Expr:
         """Write a polynomial in the state with named constants for its coefficients."""

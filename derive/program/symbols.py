@@ -25,3 +25,6 @@ most_of_margin, fresh_margin, most_of_gain, margin_gain = map(
     number, ("most_of_margin", "fresh_margin", "most_of_gain", "margin_gain")
 )
 """A margin of contact that is linear in the wear: where it starts and how it grows."""
+
+pin_wear_sign = number("pin_wear_sign")
+"""+1 where wear of the pin opens the gap, -1 where it closes it, as printed in (1)."""

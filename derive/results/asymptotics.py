@@ -17,18 +17,18 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..codegen.formula_module import Formula, Guard, formula_module
-from ..conditions import Condition
+from ..codegen.formulas import Formula, Guard, formula_module
+from ..hypotheses import Hypothesis
 from ..laws import LAWS, TANH, ContactLaw, r
 from ..note.condensed import bearing_only
+from ..rules.algebra import substitute
 from ..stable import released, stable
 from ..symbols import symbol, symbols
 from ..zero import is_zero
 from . import cutoff_two_solids
 from .cutoff import SMOOTHING as OUTGROWN
-from .cutoff import Cutoff
+from .cutoff import THIRD, Cutoff
 from .cutoff_two_solids import CutoffTwoSolids
-from .regime_map import THIRD
 from .regimes import Regimes
 from .two_solids import TwoSolids, apart, sigma
 from .validity import threshold_bound
@@ -82,7 +82,7 @@ class _Drift:
     def agrees(self) -> bool:
         """Return whether the derived coefficient is steepness times offset."""
         claimed = self.steepness.subs(r, g / q) * self.offset
-        return is_zero(self.two.drift.claim.rhs - claimed)
+        return is_zero(self.two.drift.claim.value - claimed)
 
 
 def formulas() -> tuple[Formula | Guard, ...]:
@@ -95,7 +95,7 @@ def formulas() -> tuple[Formula | Guard, ...]:
 
 def _geometry() -> tuple[Formula | Guard, ...]:
     printed, physical = TwoSolids(), TwoSolids(opening=True)
-    growth, gap, cross = (statement.claim.rhs for statement in printed.definitions)
+    growth, gap, cross = (judgement.claim.rhs for judgement in printed.definitions)
     opening = physical.definitions[1].claim.rhs
     return (
         Formula("pin_wear", (), K_a * H_c / (K_c * H_a), "wear of the pin per wear of the bearing"),
@@ -167,7 +167,7 @@ def _equal(form: sp.Expr, exact: sp.Expr) -> sp.Expr:
 
 def _steady() -> tuple[Formula | Guard, ...]:
     problem = bearing_only()
-    archard = problem.model.wear_laws[2].substitute(problem.model.slip).claim.rhs
+    archard = substitute(problem.model.wear_laws[2], problem.model.slip).claim.rhs
     deflection = problem.deflection.claim.rhs
     offset = _Drift(TANH).offset
     compliant = offset.subs(h_0, h_0 + deflection.subs(p, p_inf))
@@ -211,7 +211,7 @@ def _cutoff() -> tuple[Formula | Guard, ...]:
             raise ValueError(f"{written} is not the derived {derived}")
     discriminant = sp.Symbol("discriminant", real=True)
     relation = sp.And(discriminant >= 0, discriminant > half * sp.Abs(half))
-    lost = Condition(cutoff_two_solids.LOST.text, relation)
+    lost = Hypothesis(cutoff_two_solids.LOST.text, relation)
     return (
         Formula("arrest_depth", (), one.arrest_depth.claim.rhs, "wear at arrest, one worn solid"),
         Guard("gap_outgrows_roughness", OUTGROWN),

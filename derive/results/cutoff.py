@@ -33,55 +33,33 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..check import Check
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
-from ..rules import Authored, Given, proof, sampled
-from ..rules.authored import Identity, Inserted
-from ..rules.bounds import Consequence, Monotone
-from ..statement import Statement, given
+from ..note.condensed import bearing_only
+from ..note.governing import ROUGH_BEARING, Model
+from ..note.stabilised import named_limit
+from ..rules.algebra import alike, consequence, discharge, identity, insert, solve, substitute
+from ..rules.assumption import assume
+from ..rules.calculus import RIGID, differentiate
+from ..rules.inequalities import arithmetic, monotone
+from ..rules.limits import intermittent
+from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus, over
-from ..zero import is_zero
-from .static_solution import ROUGH
-from .steady_state import closure, made, roughness, steady_state, step
+from .steady_state import BOUNDED_LOAD, closure, roughness, wear_rate, worn
 
 h_0, U_a, u_c, u_stop, U_max, U_min = symbols("h_0 U_a u_c u_stop U_max U_min")
 sigma_c0, f_c, u_perm, u_cum, d, T = symbols("sigma_c0 f_c u_perm u_cum d T")
 p, p_max, k, h, sigma, K_c, H_c, V = symbols("p p_max k h sigma K_c H_c V")
 
-SMOOTHING = Condition("the gap outgrows the roughness", sp.Lt(f_c, sp.Rational(1, 3)))
-ROUGHER = Condition("the roughness outgrows the gap", sp.Gt(f_c, sp.Rational(1, 3)))
-IN_CONTACT = Condition("contact is active", sp.Le(closure, 3 * roughness))
+SMOOTHING = Hypothesis("the gap outgrows the roughness", sp.Lt(f_c, sp.Rational(1, 3)))
+ROUGHER = Hypothesis("the roughness outgrows the gap", sp.Gt(f_c, sp.Rational(1, 3)))
+THIRD = Hypothesis("gap and cutoff grow alike", sp.Eq(f_c, sp.Rational(1, 3)))
 
 margin = 3 * roughness - closure
 """Room to the edge of contact; contact where it is not negative."""
-
-
-@dataclass(frozen=True)
-class Rearranged(Authored):
-    """Two inequalities that say the same: their differences are equal."""
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        left, right = statement.claim.args
-        equal = is_zero((left.gts - left.lts) - (right.gts - right.lts))
-        return proof(equal, "the differences of the sides are equal"), sampled(statement)
-
-
-@dataclass(frozen=True)
-class WhileInContact(Authored):
-    """A limit of the rate that holds during a fraction d of every period: u_cum = d T rate."""
-
-    slope: sp.Expr
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        (limit,) = statement.parents
-        speed = limit.claim.rhs.subs(f_c, self.slope)
-        claim = statement.claim
-        accumulated = is_zero(claim.rhs - speed * d * T) and claim.lhs == u_cum
-        detail = "mean value theorem on the part of the period in contact"
-        return (proof(accumulated, detail),)
 
 
 @dataclass(frozen=True)
@@ -90,85 +68,106 @@ class Cutoff:
 
     law: ContactLaw = TANH
 
+    @property
+    def model(self) -> Model:
+        """Bearing wear only."""
+        return bearing_only(self.law).model
+
     @cached_property
-    def contact(self) -> Statement:
+    def contact(self) -> Judgement:
         """Contact as a condition on the wear."""
         room = 3 * sigma_c0 - h_0 + U_a
-        claim = sp.Equivalent(IN_CONTACT.relation, sp.Le((1 - 3 * f_c) * u_c, room))
-        return Statement(claim, Rearranged(), name="contact condition")
+        active = sp.Le(closure, 3 * roughness)
+        claim = sp.Equivalent(active, sp.Le((1 - 3 * f_c) * u_c, room))
+        return alike(claim, name="contact condition")
 
     @cached_property
-    def arrest_depth(self) -> Statement:
+    def arrest_depth(self) -> Judgement:
         """The wear at which the peak of the load just reaches contact."""
-        at_peak = margin.subs({u_c: u_stop, U_a: U_max})
-        meaning = given(sp.Eq(at_peak, 0), "no margin at the peak of the load", u_stop)
+        at_peak = sp.Eq(margin.subs({u_c: u_stop, U_a: U_max}), 0)
+        meaning = _defined("no margin at the peak of the load", at_peak)
+        smoothing = assume(SMOOTHING)
         claim = sp.Eq(u_stop, (3 * sigma_c0 - h_0 + U_max) / (1 - 3 * f_c))
-        solved = meaning.solve_for(u_stop)
-        return Statement(claim, Inserted(), (solved,), (SMOOTHING,), name="arrest depth")
+        return insert(claim, solve(meaning, u_stop, smoothing), smoothing, name="arrest depth")
 
     @cached_property
-    def no_contact(self) -> Statement:
+    def no_contact(self) -> Judgement:
         """Beyond the arrest depth the margin is negative at every load."""
         claim = sp.Eq(margin, (1 - 3 * f_c) * (u_stop - u_c) - (U_max - U_a))
-        return step(claim, Inserted(), self.arrest_depth, name="margin and arrest depth")
+        return insert(claim, self.arrest_depth, name="margin and arrest depth")
 
     @cached_property
-    def lowest_rate(self) -> Statement:
+    def geometry(self) -> tuple[Judgement, ...]:
+        """Closure and roughness in terms of wear and load."""
+        model = self.model
+        closed = substitute(model.closure, model.wear_of_pin, assume(RIGID))
+        return closed, model.roughness_at_wear
+
+    @cached_property
+    def lowest_rate(self) -> Judgement:
         """The rate in contact is at least that at the edge of contact."""
-        conditions = (IN_CONTACT, ROUGH)
-        edge = Statement(sp.Le(closure / roughness, 3), Given("contact"), conditions=conditions)
-        y = sp.Dummy("r", real=True)
-        wear_rate = sp.Lambda(y, K_c * V * p_max * self.law.ratio(y) / (3 * H_c))
-        bound = made(Monotone(wear_rate), edge)
-        claim = sp.Le(bound.claim.lts, rate("u_c"))
-        steady = steady_state(self.law)
-        return step(claim, Consequence(), bound, steady.rate_at_wear, name="rate in contact")
+        model, (closed, rough) = self.model, self.geometry
+        pressure = substitute(model.pressure_in_contact, closed, rough)
+        contact_rate = substitute(model.wear_laws[2], pressure)
+        ratio = sp.Le(closure / roughness, 3)
+        edge = arithmetic(ratio, assume(model.in_contact), closed, rough)
+        bound = monotone(wear_rate(self.law), edge)
+        claim = sp.Le(bound.claim.lesser, rate("u_c"))
+        return consequence(claim, bound, contact_rate, name="rate in contact")
 
     @cached_property
-    def sliding(self) -> Statement:
+    def sliding(self) -> Judgement:
         """While h = 3 sigma is kept, wear follows the load."""
-        kept = given(sp.Eq(sp.diff(margin, t), 0), "the margin stays zero", rate("u_c"))
-        solved = kept.solve_for(rate("u_c"))
+        kept = assume(Hypothesis("h = 3 sigma is kept", sp.Eq(margin, 0), kind=Kind.STATE))
+        smoothing = assume(SMOOTHING)
+        solved = solve(differentiate(kept), rate("u_c"), smoothing)
         claim = sp.Eq(rate("u_c"), rate("U_a") / (1 - 3 * f_c))
-        return Statement(claim, Inserted(), (solved,), (SMOOTHING,), name="sliding rate")
+        return insert(claim, solved, smoothing, name="sliding rate")
 
     @cached_property
-    def margin_rate(self) -> Statement:
+    def margin_rate(self) -> Judgement:
         """How the margin changes: wear lowers it, a rising load raises it."""
         claim = sp.Eq(sp.diff(margin, t), rate("U_a") - (1 - 3 * f_c) * rate("u_c"))
-        return Statement(claim, Identity(), name="rate of the margin")
+        return identity(claim, name="rate of the margin")
 
     @cached_property
-    def in_wear(self) -> Statement:
+    def in_wear(self) -> Judgement:
         """The margin is linear in the wear, and for f_c = 1/3 independent of it."""
         claim = sp.Eq(margin, 3 * sigma_c0 - h_0 + U_a + (3 * f_c - 1) * u_c)
-        return Statement(claim, Identity(), name="margin and wear")
+        return identity(claim, name="margin and wear")
 
     @cached_property
-    def per_cycle(self) -> Statement:
+    def per_cycle(self) -> Judgement:
         """For f_c = 1/3: the steady wear per cycle, d the fraction of the period in contact."""
+        model, third = self.model, assume(THIRD)
+        pressure = substitute(model.pressure_with_cutoff, *self.geometry)
+        law = substitute(model.wear_laws[2], pressure, third)
+        law = discharge(law, ROUGH_BEARING, model.roughness_of_bearing, worn(model), third)
+        inside = sp.Ge(3 * sigma_c0 - h_0 + U_a, 0)
+        share = sp.Integral(sp.Piecewise((1, inside), (0, True)), (t, 0, T)) / T
+        part = _defined("fraction of the period in contact", sp.Eq(d, share))
+        load = (assume(PERIODIC), assume(CONTINUOUS), assume(BOUNDED_LOAD))
+        limit = intermittent(law, part, worn(model), *load)
         claim = sp.Eq(u_cum, d * K_c * V * T * p_max * self.law.ratio(sp.Integer(3)) / (3 * H_c))
-        limit = steady_state(self.law).rate
-        rule = WhileInContact(sp.Rational(1, 3))
-        return Statement(claim, rule, (limit,), name="wear per cycle for f_c = 1/3")
+        return insert(claim, named_limit(u_cum, limit, ""), name="wear per cycle for f_c = 1/3")
 
     @cached_property
-    def permanent(self) -> Statement:
+    def permanent(self) -> Judgement:
         """The wear beyond which every load keeps contact."""
-        at_lowest = margin.subs({u_c: u_perm, U_a: U_min})
-        meaning = given(sp.Eq(at_lowest, 0), "no margin at the lowest load", u_perm)
+        at_lowest = sp.Eq(margin.subs({u_c: u_perm, U_a: U_min}), 0)
+        meaning = _defined("no margin at the lowest load", at_lowest)
+        rougher = assume(ROUGHER)
         claim = sp.Eq(u_perm, (h_0 - 3 * sigma_c0 - U_min) / (3 * f_c - 1))
-        solved = meaning.solve_for(u_perm)
-        return Statement(claim, Inserted(), (solved,), (ROUGHER,), name="permanent contact")
+        return insert(claim, solve(meaning, u_perm, rougher), rougher, name="permanent contact")
 
     @cached_property
-    def always_contact(self) -> Statement:
+    def always_contact(self) -> Judgement:
         """Beyond that depth the margin is positive at every load."""
         claim = sp.Eq(margin, (3 * f_c - 1) * (u_c - u_perm) + (U_a - U_min))
-        return step(claim, Inserted(), self.permanent, name="margin and permanent contact")
+        return insert(claim, self.permanent, name="margin and permanent contact")
 
     @cached_property
-    def at_edge(self) -> Statement:
+    def at_edge(self) -> Judgement:
         """Compliant support: k margin exceeds p exactly where the smooth law is in contact.
 
         ``h - p/k`` is the undeflected closure.  Where the smooth solution has h > 3 sigma, the
@@ -176,7 +175,11 @@ class Cutoff:
         """
         undeflected = h - p / k
         claim = sp.Equivalent(sp.Le(p, k * (3 * sigma - undeflected)), sp.Le(k * h, 3 * k * sigma))
-        return Statement(claim, Rearranged(), name="edge of contact, compliant support")
+        return alike(claim, name="edge of contact, compliant support")
+
+
+def _defined(text: str, relation: sp.Basic) -> Judgement:
+    return assume(Hypothesis(text, relation, kind=Kind.DEFINITION))
 
 
 def equations() -> tuple[Equation, ...]:

@@ -20,16 +20,15 @@ from functools import cached_property
 
 import sympy as sp
 
-from .. import sample
-from ..check import Check
-from ..conditions import Condition
+from ..claims import FirstZero
 from ..equations import Equation
-from ..rules import Authored, proof
-from ..rules.authored import Identity
-from ..statement import Statement
+from ..hypotheses import Hypothesis
+from ..kernel import Judgement
+from ..rules.algebra import identity, insert
+from ..rules.assumption import assume, defined
+from ..rules.solutions import first_root
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
-from ..zero import is_zero
 
 h_0, U_max, u_stop, q, g, p_1 = symbols("h_0 U_max u_stop q g p_1")
 sigma_a0, sigma_c0, sigma = symbols("sigma_a0 sigma_c0 sigma")
@@ -43,47 +42,13 @@ _half = 9 * p_1 - g * _gap
 _product = 9 * (sigma_a0**2 + sigma_c0**2) - _gap**2
 discriminant = _half**2 + (g**2 - 9 * q**2) * _product
 
-LOST = Condition(
+LOST = Hypothesis(
     "the margin has a zero",
     sp.And(sp.Ge(discriminant, 0), sp.Gt(discriminant, _half * sp.Abs(_half))),
 )
-STARTS = Condition("the peak of the load makes contact at the start", sp.Gt(_product, 0))
-POSSIBLE = Condition("the roughnesses are real", p_1**2 < q**2 * (sigma_a0**2 + sigma_c0**2))
-OPENING = Condition("wear opens the gap", sp.And(g > 0, _gap > 0))
-
-
-@dataclass(frozen=True)
-class FirstZero(Authored):
-    """An authored first zero of a convex function that starts positive.
-
-    Proof: the zero satisfies the squared equation.  The sample follows the function from the
-    start to the claimed zero: it must stay positive, and vanish there to 50 digits.
-    """
-
-    function: sp.Expr
-    squared: sp.Expr
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        claim = statement.claim
-        zero = is_zero(self.squared.subs(claim.lhs, claim.rhs))
-        detail = "it satisfies the squared equation"
-        return proof(zero, detail), self._follow(statement)
-
-    def _follow(self, statement: Statement) -> Check:
-        claim = statement.claim
-        everything = sp.Tuple(self.function.subs(claim.lhs, claim.rhs), claim.rhs)
-        worlds = sample.satisfying((), everything, statement.conditions, 5)
-        passed = all(self._first(statement, world) for world in worlds)
-        return Check("sample", passed, "5 points, followed from the start to the zero")
-
-    def _first(self, statement: Statement, world: sample.World) -> bool:
-        wear = statement.claim.lhs
-        end = sample.evaluate(statement.claim.rhs, world)
-        values = [
-            sample.evaluate(self.function, {**world, wear: end * share / 20}) for share in range(21)
-        ]
-        positive = all(value > 0 for value in values[:-1])
-        return bool(end > 0 and positive and abs(values[-1]) < values[0] * sp.Float(10) ** -50)
+STARTS = Hypothesis("the peak of the load makes contact at the start", sp.Gt(_product, 0))
+POSSIBLE = Hypothesis("the roughnesses are real", p_1**2 < q**2 * (sigma_a0**2 + sigma_c0**2))
+OPENING = Hypothesis("wear opens the gap", sp.And(g > 0, _gap > 0))
 
 
 @dataclass(frozen=True)
@@ -91,20 +56,23 @@ class CutoffTwoSolids:
     """Two worn solids with the cutoff."""
 
     @cached_property
-    def convex(self) -> Statement:
+    def convex(self) -> Judgement:
         """The second derivative of the margin."""
         second = sp.diff(margin, u_stop, 2)
         claim = sp.Eq(second, 3 * (q**2 * (sigma_a0**2 + sigma_c0**2) - p_1**2) / sigma_stop**3)
-        return Statement(claim, Identity(), (), (POSSIBLE,), name="curvature of the margin")
+        return identity(claim, assume(POSSIBLE), name="curvature of the margin")
 
     @cached_property
-    def arrest_depth(self) -> Statement:
+    def arrest_depth(self) -> Judgement:
         """The first zero of the margin at the peak of the load."""
+        wear = sp.Symbol("u", positive=True)
+        at_peak = margin.subs(u_stop, wear)
+        meaning = defined(u_stop, FirstZero(at_peak, wear), "first wear without margin at the peak")
+        facts = tuple(map(assume, (STARTS, LOST, POSSIBLE, OPENING)))
+        other = 6 * sigma_stop.subs(u_stop, wear) - at_peak
+        found = first_root(other, meaning, *facts)
         claim = sp.Eq(u_stop, _product / (sp.sqrt(discriminant) - _half))
-        squared = 9 * sigma_stop**2 - (h_0 + g * u_stop - U_max) ** 2
-        conditions = (STARTS, LOST, POSSIBLE, OPENING)
-        rule = FirstZero(margin, squared)
-        return Statement(claim, rule, (self.convex,), conditions, name="arrest depth")
+        return insert(claim, found, *facts, name="arrest depth")
 
 
 def equations() -> tuple[Equation, ...]:

@@ -15,22 +15,20 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 
-from .. import sample
-from ..check import Check
 from ..dimensions import dimension
 from ..equations import Equation
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
 from ..note import condensed
 from ..note.condensed import bearing_only
-from ..rules import SAMPLES, Authored, proof
-from ..rules.authored import insert
-from ..statement import Statement, given
-from ..symbols import symbols
+from ..rules.algebra import consequence, multiply
+from ..rules.assumption import assume, defined
+from ..rules.calculus import change_clock
+from ..rules.inequalities import arithmetic
+from ..symbols import symbols, t
 from ..typeset.display import as_written, over
-from ..zero import is_zero
 
 U_a, u_c, p, h_0, U, k, T, V = symbols("U_a u_c p h_0 U k T V")
 f_a, f_c, K_a, K_c, H_a, H_c, p_max = symbols("f_a f_c K_a K_c H_a H_c p_max")
@@ -42,7 +40,11 @@ v, a, q = (sp.Function(name, real=True)(tau) for name in ("v", "a", "y"))
 mu, eta, nu, zeta, lamda = sp.symbols("mu eta nu zeta lambda", positive=True)
 """The groups: M, h_0, U and sigma_a0 over sigma_c0, and p_max/(k sigma_c0)."""
 
-SCALES = {u_c: sigma_c0 * v, U_a: U * a, p: p_max * q}
+SCALES = tuple(
+    assume(Hypothesis(f"{name.func} in units of {unit}", sp.Eq(name, unit * value), kind=Kind.DEFINITION))
+    for name, unit, value in ((u_c, sigma_c0, v), (U_a, U, a), (p, p_max, q))
+)
+CLOCK = defined(t, T * tau, "time in periods")
 
 GROUPS = (
     (mu, K_c * V * p_max * T / (3 * H_c * sigma_c0)),
@@ -52,43 +54,10 @@ GROUPS = (
     (kappa, K_a * H_c / (K_c * H_a)),
     (lamda, p_max / (k * sigma_c0)),
 )
-DEFINITIONS = {name: given(sp.Eq(name, value), "definition", name) for name, value in GROUPS}
+DEFINITIONS = {name: defined(name, value) for name, value in GROUPS}
 
 ONE = (K_c, H_c, V, p_max, T, f_c, sigma_c0, h_0, U)
 TWO = (*ONE, K_a, H_a, f_a, sigma_a0)
-
-
-@dataclass(frozen=True)
-class Nondimensional(Authored):
-    """An authored equation between dimensionless quantities: the parent, scaled.
-
-    Proof: the parent's right side, with scaled fields and times ``factor``, is that of the
-    claim, in which no datum is left but the groups.
-    """
-
-    factor: sp.Expr
-    groups: tuple[sp.Symbol, ...]
-    data: tuple[sp.Symbol, ...]
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        parent, *definitions = statement.parents
-        claim = statement.claim
-        scaled = self.factor * parent.claim.rhs.subs(SCALES)
-        rest = insert(claim.rhs, tuple(definitions)) - scaled
-        left = claim.rhs.free_symbols - {tau}
-        proved = is_zero(rest) and left == set(self.groups)
-        found, rank = count(self.data)
-        detail = (
-            f"scaling gives the claim: {found} data, rank {rank}, hence at most "
-            f"{found - rank} groups, of which {len(self.groups)} occur"
-        )
-        return proof(proved, detail), self._sample(rest)
-
-    def _sample(self, rest: sp.Expr) -> Check:
-        rest = rest.subs({field: sp.Symbol(field.func.__name__) for field in (v, a, q)})
-        worlds = sample.satisfying((), rest, (), SAMPLES)
-        passed = all(abs(sample.evaluate(rest, w)) < 10**-sample.DIGITS for w in worlds)
-        return Check("sample", passed, f"{SAMPLES} points, {sample.DIGITS} digits")
 
 
 def count(data: tuple[sp.Symbol, ...]) -> tuple[int, int]:
@@ -101,16 +70,15 @@ def count(data: tuple[sp.Symbol, ...]) -> tuple[int, int]:
     return len(data), sp.Matrix([[sp.Rational(str(x)) for x in row] for row in rows]).rank()
 
 
-def _statement(
-    parent: Statement,
-    claim: sp.Basic,
-    factor: sp.Expr,
-    groups: tuple[sp.Symbol, ...],
-    data: tuple[sp.Symbol, ...],
-) -> Statement:
+def _scaled(
+    rough: Judgement, parent: Judgement, claim: sp.Basic, groups: tuple[sp.Symbol, ...]
+) -> Judgement:
+    """Return a scaled equation, in which no datum is left but the groups."""
     definitions = tuple(DEFINITIONS[group] for group in groups if group in DEFINITIONS)
-    rule = Nondimensional(factor, groups, data)
-    return Statement(claim, rule, (parent, *definitions), parent.conditions, name="scaled")
+    clock = change_clock(SCALES[0], CLOCK)
+    factor, pace = (1 / p_max, ()) if claim.lhs == q else (T / sigma_c0, (clock,))
+    first = multiply(parent, factor)
+    return consequence(claim, first, *pace, *SCALES, *definitions, rough, name="scaled")
 
 
 def _rate(closure: sp.Expr, roughness: sp.Expr) -> sp.Basic:
@@ -133,24 +101,36 @@ def _compliant() -> sp.Basic:
     return sp.Eq(q, over(2) * (1 + sp.tanh(argument)))
 
 
-def one_solid() -> Statement:
+GROUPS_OF_ONE = (f_c, mu, eta, nu)
+GROUPS_OF_TWO = (f_c, mu, eta, nu, f_a, kappa, zeta)
+GROUPS_COMPLIANT = (f_c, eta, nu, lamda)
+
+
+def one_solid() -> Judgement:
     """Four groups for one worn solid."""
-    parent = bearing_only().rigid
-    return _statement(parent, _one(), T / sigma_c0, (f_c, mu, eta, nu), ONE)
+    problem = bearing_only()
+    return _scaled(problem.model.roughness_at_wear, problem.rigid, _one(), GROUPS_OF_ONE)
 
 
-def two_solids() -> Statement:
+def two_solids() -> Judgement:
     """Seven groups for two worn, rough solids."""
-    parent = condensed.two_solids().rigid
-    groups = (f_c, mu, eta, nu, f_a, kappa, zeta)
-    return _statement(parent, _two(), T / sigma_c0, groups, TWO)
+    problem = condensed.two_solids()
+    grown = problem.model.roughness_at_wear
+    squares = (zeta + f_a * (kappa * v)) ** 2 + (1 + f_c * v) ** 2
+    rough = consequence(
+        sp.Gt(sigma_c0**2 * squares, 0),
+        arithmetic(sp.Gt(grown.claim.rhs**2, 0), grown),
+        problem.model.wear_of_pin,
+        *(SCALES[0], DEFINITIONS[zeta], DEFINITIONS[kappa]),
+    )
+    return _scaled(rough, problem.rigid, _two(), GROUPS_OF_TWO)
 
 
-def compliant() -> Statement:
+def compliant() -> Judgement:
     """One more group for a compliant support, in the pressure."""
-    parent = bearing_only().pressure_of_bearing_wear
-    groups = (f_c, eta, nu, lamda)
-    return _statement(parent, _compliant(), 1 / p_max, groups, (*ONE, k))
+    problem = bearing_only()
+    parent = problem.pressure_of_bearing_wear
+    return _scaled(problem.model.roughness_at_wear, parent, _compliant(), GROUPS_COMPLIANT)
 
 
 def equations() -> tuple[Equation, ...]:
@@ -159,7 +139,7 @@ def equations() -> tuple[Equation, ...]:
     with as_written():
         one, two, soft = _one(), _two(), _compliant()
     return tuple(
-        Equation(name, section, title, (found, *more), display=(law, *(s.claim for s in more)))
+        Equation(name, section, title, (found, *more), display=(law, *(s.relation for s in more)))
         for name, title, found, law, more in (
             ("groups-one-solid", "four groups", one_solid(), one, _defined(mu, eta, nu)),
             ("groups-two-solids", "seven groups", two_solids(), two, _defined(kappa, zeta)),
@@ -168,5 +148,5 @@ def equations() -> tuple[Equation, ...]:
     )
 
 
-def _defined(*groups: sp.Symbol) -> tuple[Statement, ...]:
+def _defined(*groups: sp.Symbol) -> tuple[Judgement, ...]:
     return tuple(DEFINITIONS[group] for group in groups)

@@ -20,28 +20,30 @@ from functools import cached_property
 
 import sympy as sp
 
+from ..claims import landau_o
 from ..equations import Equation
-from ..note.condensed import bearing_only
+from ..kernel import Judgement
 from ..note.stabilised import Stabilised, drift_and_wear
+from ..rules.assumption import assume, defined
+from ..rules.averages import EXPANSION, OFFSET, SATURATION, averaging, slow_time
 from ..rules.limits import forever
-from ..statement import Statement, given, inherited
+from ..rules.reading import SINE
 from ..symbols import symbol, symbols, t
 from ..typeset.display import as_written
-from .expansion_rules import Drift, Oscillation, SlowTime
-from .steady_state import ROUGHENING
+from .steady_state import steady_state
 
-h_0, sigma_c0, f_c, k, U, T = symbols("h_0 sigma_c0 f_c k U T")
+h_0, sigma_c0, f_c, U, T = symbols("h_0 sigma_c0 f_c U T")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
 u_c, u_cum, A = symbols("u_c u_cum A")
 c_1, c_2, c_3, c_4 = symbols("c_1 c_2 c_3 c_4")
 
-offset = given(sp.Eq(b_0, sigma_c0 / f_c - h_0), "definition", b_0)
-growth = given(sp.Eq(rho, f_c * u_cum), "definition", rho)
-saturation = given(sp.Eq(theta, sp.tanh(4 - 2 / f_c)), "definition", theta)
+offset = defined(*OFFSET.args)
+saturation = defined(*SATURATION.args)
+growth = defined(rho, f_c * u_cum)
 
 
 def _drifts() -> dict[int, sp.Expr]:
-    """Return c_1 to c_4, as an author writes them; ``Drift`` proves them."""
+    """Return c_1 to c_4, as an author writes them; ``averaging`` proves them."""
     rest = 1 - theta
     third = (3 * theta**2 - 1) * (3 * U**2 + 2 * b_0**2)
     fourth = (3 * theta**2 - 2) * sp.Add(3 * U**4, 24 * U**2 * b_0**2, 8 * b_0**4)
@@ -57,7 +59,7 @@ def _drifts() -> dict[int, sp.Expr]:
 
 
 def _oscillations() -> dict[int, sp.Expr]:
-    """Return w_1 and w_2, as an author writes them; ``Oscillation`` proves them."""
+    """Return w_1 and w_2, as an author writes them; ``averaging`` proves them."""
     rest, angle = 1 - theta, 2 * sp.pi * tau
     waves = sp.Add(
         sp.pi * U * theta * sp.sin(4 * sp.pi * tau),
@@ -86,31 +88,24 @@ def _slow_time() -> sp.Expr:
 class Expansion:
     """The expansion for the note's law, a rigid support and a sine load."""
 
-    @property
-    def pressure(self) -> Statement:
-        """The pressure as a function of wear and load."""
-        return bearing_only().pressure_of_bearing_wear.limit(k, sp.oo)
-
-    def drift(self, n: int) -> Statement:
+    def drift(self, n: int) -> Judgement:
         """Growth of the roughness at order 1/m^n."""
-        return self._term(Drift(n), sp.Eq(symbol(f"c_{n}"), _drifts()[n]))
+        return self._term(sp.Eq(symbol(f"c_{n}"), _drifts()[n]))
 
-    def oscillation(self, n: int) -> Statement:
+    def oscillation(self, n: int) -> Judgement:
         """Oscillation of the roughness at order 1/m^n."""
-        return self._term(Oscillation(n), sp.Eq(symbol(f"w_{n}"), _oscillations()[n]))
+        return self._term(sp.Eq(symbol(f"w_{n}"), _oscillations()[n]))
 
-    def _term(self, rule: Drift | Oscillation, claim: sp.Equality) -> Statement:
-        parents = (self.pressure, offset, saturation)
-        conditions = (*inherited(parents), ROUGHENING)
-        return Statement(claim, rule, parents, conditions, name="term of the expansion")
+    def _term(self, claim: sp.Equality) -> Judgement:
+        pressure = steady_state().pressure_at_wear
+        meaning = (assume(SINE), assume(EXPANSION), offset, saturation)
+        return averaging(claim, pressure, *meaning, name="term of the expansion")
 
     @cached_property
-    def slow_time(self) -> Statement:
+    def slow_time(self) -> Judgement:
         """The number of cycles as a function of the averaged roughness."""
         drifts = tuple(self.drift(n) for n in (1, 2, 3, 4))
-        parents = (*drifts, self.oscillation(1), self.oscillation(2))
-        claim = sp.Eq(rho * tau + s_0, _slow_time())
-        return Statement(claim, SlowTime(), parents, inherited(parents), name="slow time")
+        return slow_time(sp.Eq(rho * tau + s_0, _slow_time()), *drifts, name="slow time")
 
 
 def equations() -> tuple[Equation, ...]:
@@ -122,9 +117,9 @@ def equations() -> tuple[Equation, ...]:
     with as_written():
         steps = tuple(sp.Eq(symbol(f"c_{n}"), value) for n, value in _drifts().items())
         shifted = sp.Eq(b_0, sp.Add(sigma_c0 / f_c, -h_0))
-        drifts = (*steps, shifted, saturation.claim, growth.claim)
+        drifts = (*steps, shifted, saturation.relation, growth.relation)
         swings = tuple(sp.Eq(symbol(f"w_{n}"), value) for n, value in _oscillations().items())
-        slow = (sp.Eq(rho * tau + s_0, _slow_time()),)
+        slow = (sp.Eq(rho * tau + s_0, sp.Add(_slow_time(), landau_o(m**-3))),)
         line = u_cum * t / T
         logarithm = (sp.Eq(forever(sp.Add(u_c, -line) / sp.log(t / T)), A),)
     drift = Stabilised().asymptote

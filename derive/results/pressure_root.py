@@ -25,18 +25,17 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..check import Check
-from ..conditions import Condition
 from ..equations import Equation
+from ..kernel import Judgement, infer
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import two_solids
-from ..rules import Authored, proof, sampled
-from ..rules.authored import Identity, Positive
-from ..rules.sign import sign
-from ..statement import Statement
+from ..rules.algebra import identity, substitute
+from ..rules.assumption import assume
+from ..rules.inequalities import Lipschitz, arithmetic
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
 from ..typeset.present import presentable
+from .first_integral import UNSATURATED
 
 p, p_max, k, sigma, U_a, U_c, u_a, u_c = symbols("p p_max k sigma U_a U_c u_a u_c")
 h_0, h_rigid = symbols("h_0 h_rigid")
@@ -44,37 +43,9 @@ h_0, h_rigid = symbols("h_0 h_rigid")
 undeflected = h_0 + u_c - u_a - U_a
 """The closure on an undeflected support, g."""
 
-BELOW_SATURATION = Condition("the pressure is below its largest value", sp.Lt(p, p_max))
-odds = sp.Symbol("z", positive=True)
 a = sp.Symbol("a", real=True)
 s, x, y = sp.symbols("s x y", positive=True)
 """Softness p_max/(k sigma), a trial share of p_max, and the share at the root."""
-
-
-@dataclass(frozen=True)
-class MeanValue(Authored):
-    """``-1 <= phi' <= 0`` everywhere gives ``0 <= phi(a) - phi(a + d) <= d`` for d >= 0.
-
-    The parent bounds the slope; the claim is the conclusion times a positive factor.
-    """
-
-    law: ContactLaw
-    at: sp.Expr
-    step: sp.Expr
-    factor: sp.Expr
-
-    def conclusion(self) -> sp.Basic:
-        """Return what the theorem says of this law, these points and this factor."""
-        change = self.factor * (self.law.ratio(self.at) - self.law.ratio(self.at + self.step))
-        return sp.And(sp.Ge(change, 0), sp.Le(change, self.factor * self.step))
-
-    def check(self, statement: Statement) -> tuple[Check, ...]:
-        (parent,) = statement.parents
-        slope = sp.diff(self.law.phi, r)
-        bounded = parent.claim == sp.And(sp.Le(slope, 0), sp.Ge(slope, -1))
-        signs = sign(self.factor) == 1 and sign(self.step) == 1
-        passed = bounded and signs and statement.claim == self.conclusion()
-        return proof(passed, "mean value theorem for phi"), sampled(statement)
 
 
 @dataclass(frozen=True)
@@ -84,10 +55,10 @@ class PressureRoot:
     law: ContactLaw = TANH
 
     @cached_property
-    def equation(self) -> Statement:
+    def equation(self) -> Judgement:
         """The equation that the pressure satisfies at given wear, roughness and load."""
         problem = two_solids(self.law)
-        closed = problem.model.pressure.substitute(problem.model.closure, problem.deflection)
+        closed = substitute(problem.model.pressure, problem.model.closure, problem.deflection)
         return closed.named("equation for the pressure")
 
     def residual(self, pressure: sp.Expr) -> sp.Expr:
@@ -95,42 +66,33 @@ class PressureRoot:
         return pressure - self.equation.claim.rhs.subs(p, pressure)
 
     @cached_property
-    def unique(self) -> tuple[Statement, Statement, Statement]:
+    def unique(self) -> tuple[Judgement, Judgement, Judgement]:
         """Negative at 0, positive at p_max, increasing in between: exactly one root."""
         trial = sp.Symbol("x", real=True)
         slope = sp.diff(self.residual(trial), trial).subs(trial, p)
         remark = "a continuous, increasing function that changes sign has exactly one root"
         return (
-            Statement(sp.Lt(self.residual(sp.S.Zero), 0), Positive(), (self.equation,)),
-            Statement(sp.Gt(self.residual(p_max), 0), Positive(), (self.equation,)),
-            Statement(sp.Gt(slope, 0), Positive(), (self.equation,), (), remark, "one root"),
+            arithmetic(sp.Lt(self.residual(sp.S.Zero), 0), self.equation),
+            arithmetic(sp.Gt(self.residual(p_max), 0), self.equation),
+            arithmetic(sp.Gt(slope, 0), self.equation, name="one root", remark=remark),
         )
 
     @cached_property
-    def slope_bound(self) -> Statement:
-        """The contact law is nowhere steeper than -1."""
-        slope = sp.diff(self.law.phi, r)
-        claim = sp.And(sp.Le(slope, 0), sp.Ge(slope, -1))
-        return Statement(claim, Positive(), name="steepest slope of the law")
-
-    @cached_property
-    def softening(self) -> Statement:
+    def softening(self) -> Judgement:
         """The rigid pressure exceeds the compliant one, by at most p_max p/(k sigma)."""
-        rule = MeanValue(self.law, undeflected / sigma, p / (k * sigma), p_max)
+        function = sp.Lambda(r, self.law.phi)
+        rule = Lipschitz(function, undeflected / sigma, p / (k * sigma), p_max)
         remark = "the second pressure is p itself, by its equation, and p < p_max"
-        return Statement(
-            rule.conclusion(), rule, (self.slope_bound,), (BELOW_SATURATION,), remark, "softening"
-        )
+        return infer(rule, name="softening", remark=remark)
 
     @cached_property
-    def error_bound(self) -> Statement:
+    def error_bound(self) -> Judgement:
         """That distance is below p_max^2/(k sigma), which tends to 0 for k -> oo."""
         claim = sp.Le(p_max * p / (k * sigma), p_max**2 / (k * sigma))
-        below = Positive(((p, p_max * odds / (1 + odds)),))
-        return Statement(claim, below, (), (BELOW_SATURATION,), name="bound of the softening")
+        return arithmetic(claim, assume(UNSATURATED), name="bound of the softening")
 
 
-def newton(law: ContactLaw) -> tuple[Statement, Statement]:
+def newton(law: ContactLaw) -> tuple[Judgement, Judgement]:
     """A step from x in a form in which nothing cancels; the distance of its end from the root y.
 
     At the root the second term of the distance vanishes.
@@ -142,23 +104,21 @@ def newton(law: ContactLaw) -> tuple[Statement, Statement]:
     distance = y - end - (y - law.ratio(a + s * y)) / steepness
     remark = "a curve lies on one side of its tangents where it is curved one way"
     return (
-        Statement(sp.Eq(end, summed), Identity(), name="step of Newton's iteration"),
-        Statement(
+        identity(sp.Eq(end, summed), name="step of Newton's iteration"),
+        identity(
             sp.Eq(distance, (law.ratio(a + s * y) - tangent) / steepness),
-            Identity(),
-            remark=remark,
             name="distance from the root",
+            remark=remark,
         ),
     )
 
 
-def curvature() -> tuple[Statement, Statement]:
+def curvature() -> tuple[Judgement, Judgement]:
     """The note's law is convex where h > 2 sigma, and concave where h < 2 sigma."""
     bend = sp.diff(TANH.phi, r, 2)
-    beyond = Positive(((x, sp.atanh(odds / (1 + odds)) / 2),))
     return (
-        Statement(sp.Ge(bend.subs(r, TANH.inflection + x), 0), beyond, name="convex"),
-        Statement(sp.Le(bend.subs(r, TANH.inflection - x), 0), beyond, name="concave"),
+        arithmetic(sp.Ge(bend.subs(r, TANH.inflection + x), 0), name="convex"),
+        arithmetic(sp.Le(bend.subs(r, TANH.inflection - x), 0), name="concave"),
     )
 
 
@@ -183,7 +143,7 @@ def equations() -> tuple[Equation, ...]:
             "Newton's iteration for the pressure",
             (*newton(GENERAL), *curvature()),
             (),
-            (*steps, *(presentable(statement.claim) for statement in curvature())),
+            (*steps, *(presentable(statement.relation) for statement in curvature())),
             where=names,
         ),
         Equation(

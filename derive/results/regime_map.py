@@ -17,24 +17,22 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from ..conditions import Condition
+from ..hypotheses import Hypothesis
 from ..symbols import symbols
-from .cutoff import ROUGHER
+from .cutoff import ROUGHER, THIRD
 from .cutoff import SMOOTHING as OUTGROWN
-from .regimes import SMOOTHING
+from .regimes import KEPT, SMOOTHING
 from .steady_state import ROUGHENING
 
 f_c, h_0, sigma_c0, U_max = symbols("f_c h_0 sigma_c0 U_max")
 
-KEPT = Condition("wear does not change the roughness", sp.Eq(f_c, 0))
-NOT_SMOOTHING = Condition("wear does not smoothen the bearing", sp.Ge(f_c, 0))
-THIRD = Condition("gap and cutoff grow alike", sp.Eq(f_c, sp.Rational(1, 3)))
+NOT_SMOOTHING = Hypothesis("wear does not smoothen the bearing", sp.Ge(f_c, 0))
 _gap = h_0 - sigma_c0 / f_c - U_max
-OPEN = Condition("a gap is left where the roughness would vanish", sp.Gt(_gap, 0))
-CLOSED = Condition("no gap is left where the roughness would vanish", sp.Le(_gap, 0))
+OPEN = Hypothesis("a gap is left where the roughness would vanish", sp.Gt(_gap, 0))
+CLOSED = Hypothesis("no gap is left where the roughness would vanish", sp.Le(_gap, 0))
 _room = 3 * sigma_c0 - h_0 + U_max
-TOUCHING = Condition("the peak of the load makes contact", sp.Gt(_room, 0))
-APART = Condition("the load never makes contact", sp.Le(_room, 0))
+TOUCHING = Hypothesis("the peak of the load makes contact", sp.Gt(_room, 0))
+APART = Hypothesis("the load never makes contact", sp.Le(_room, 0))
 
 
 class Regime(NamedTuple):
@@ -42,7 +40,7 @@ class Regime(NamedTuple):
 
     name: str
     cutoff: bool
-    conditions: tuple[Condition, ...]
+    conditions: tuple[Hypothesis, ...]
     equations: tuple[str, ...]
 
 

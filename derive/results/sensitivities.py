@@ -19,22 +19,32 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equations import Equation
-from ..note.stabilised import Stabilised
-from ..rules.authored import Inserted
-from ..rules.data import Differentiated, Solved
-from ..statement import Statement, given, inherited
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
+from ..note.stabilised import Stabilised, named_limit
+from ..rules.algebra import insert, logarithm, substitute
+from ..rules.assumption import assume
+from ..rules.calculus import RIGID
+from ..rules.data import differentiated
 from ..symbols import symbols
 from ..typeset.display import as_written, over
-from .first_integral import RIGID, FirstIntegral
+from .compliant import CompliantSteadyState
+from .first_integral import FirstIntegral
+from .regimes import largest_wear
+from .steady_state import ROUGHENING
 
 u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
-f_c, h_0, U_a, U, u_c, p, sigma_c0, M, k = symbols("f_c h_0 U_a U u_c p sigma_c0 M k")
+f_c, h, h_0, U_a, U, u_c = symbols("f_c h h_0 U_a U u_c")
+p, sigma_c0, M, k = symbols("p sigma_c0 M k")
 
 wear_per_cycle = Stabilised().wear_per_cycle
 pressure = Stabilised().pressure
 
-largest = given(sp.Eq(M, K_c * V * p_max * T / (3 * H_c)), "definition", M)
-"""The wear of one cycle under the largest pressure."""
+compliant_wear = named_limit(u_cum, CompliantSteadyState().wear_per_cycle, "wear per cycle")
+"""The same on a support of any stiffness."""
+
+WORN = Hypothesis("there is wear", sp.Gt(u_c, 0), kind=Kind.STATE)
+OPEN_GAP = Hypothesis("the mean surfaces do not coincide", sp.Ne(h, 0), kind=Kind.STATE)
 
 share = p_inf / p_max
 """The asymptotic pressure as a part of the largest."""
@@ -46,53 +56,54 @@ WITHOUT_EFFECT = (sigma_c0, h_0, U, k)
 """Data that u_cum and p_inf do not depend on."""
 
 
-def sensitivity(result: Statement, parameter: sp.Symbol, slope: sp.Expr) -> Statement:
-    """Return the statement that ``slope`` is the derivative of a result."""
+def sensitivity(result: Judgement, parameter: sp.Symbol, slope: sp.Expr) -> Judgement:
+    """Return the judgement that ``slope`` is the derivative of a result."""
     return _differentiated(result, parameter, _slope(result, parameter), slope)
 
 
-def elasticity(result: Statement, parameter: sp.Symbol, value: sp.Expr) -> Statement:
-    """Return the statement that ``value`` is the elasticity of a result."""
+def elasticity(result: Judgement, parameter: sp.Symbol, value: sp.Expr) -> Judgement:
+    """Return the judgement that ``value`` is the elasticity of a result."""
     relative = parameter / result.claim.lhs * _slope(result, parameter)
     return _differentiated(result, parameter, relative, value)
 
 
-def _slope(result: Statement, parameter: sp.Symbol) -> sp.Derivative:
+def _slope(result: Judgement, parameter: sp.Symbol) -> sp.Derivative:
     return sp.Derivative(result.claim.lhs, parameter, evaluate=False)
 
 
 def _differentiated(
-    result: Statement, parameter: sp.Symbol, left: sp.Expr, right: sp.Expr
-) -> Statement:
-    parents = (result, pressure, largest)
+    result: Judgement, parameter: sp.Symbol, left: sp.Expr, right: sp.Expr
+) -> Judgement:
     claim = sp.Eq(left, right, evaluate=False)
-    rule = Differentiated(parameter)
-    return Statement(claim, rule, parents, inherited(parents), name="sensitivity")
+    names = (pressure,) if right.has(p_inf) else ()
+    names += (largest_wear,) if right.has(M) else ()
+    return differentiated(claim, parameter, result, *names, name="sensitivity")
 
 
-def slope_from_wear() -> Statement:
+def slope_from_wear() -> Judgement:
     """f_c from the asymptotic wear per cycle."""
-    claim = sp.Eq(f_c, 4 / (8 + sp.log(M / u_cum - 1)))
-    parents = (wear_per_cycle, largest)
-    return Statement(claim, Solved(), parents, inherited(parents), name="f_c from wear per cycle")
+    odds = sp.log(M / u_cum - 1)
+    known = logarithm(sp.Eq(odds, 4 / f_c - 8), wear_per_cycle, largest_wear)
+    claim = sp.Eq(f_c, 4 / (8 + odds))
+    return insert(claim, known, assume(ROUGHENING), name="f_c from wear per cycle")
 
 
-def coefficient_from_wear() -> Statement:
+def coefficient_from_wear() -> Judgement:
     """K_c from the asymptotic wear per cycle."""
     claim = sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * (1 + sp.exp(4 / f_c - 8)))
-    parents = (wear_per_cycle,)
-    return Statement(claim, Solved(), parents, inherited(parents), name="K_c from wear per cycle")
+    return insert(claim, wear_per_cycle, name="K_c from wear per cycle")
 
 
-def slope_from_rate() -> Statement:
+def slope_from_rate() -> Judgement:
     """f_c from the pressure at one instant."""
     log_odds = sp.log(p / (p_max - p))
     claim = sp.Eq(f_c, (4 * (h_0 + u_c - U_a) / (8 - log_odds) - sigma_c0) / u_c)
     integral = FirstIntegral()
     model = integral.model
-    closure = model.closure.substitute(model.wear_of_pin).substitute(RIGID)
-    parents = (integral.log_odds, closure, model.roughness_at_wear)
-    return Statement(claim, Inserted(), parents, inherited(parents), name="f_c from a pressure")
+    closure = substitute(model.closure, model.wear_of_pin, assume(RIGID))
+    facts = (assume(WORN), assume(OPEN_GAP))
+    parents = (integral.log_odds, closure, model.roughness_at_wear, *facts)
+    return insert(claim, *parents, name="f_c from a pressure")
 
 
 def equations() -> tuple[Equation, ...]:
@@ -100,7 +111,7 @@ def equations() -> tuple[Equation, ...]:
     section = "sensitivities"
     by_slope = M * (4 / f_c**2) * share * (1 - share)
     powers = tuple(elasticity(wear_per_cycle, a, sp.Integer(n)) for a, n in POWERS.items())
-    nothing = tuple(sensitivity(wear_per_cycle, a, sp.S.Zero) for a in WITHOUT_EFFECT)
+    nothing = tuple(sensitivity(compliant_wear, a, sp.S.Zero) for a in WITHOUT_EFFECT)
     pressures = (
         sensitivity(pressure, f_c, p_max * (4 / f_c**2) * share * (1 - share)),
         sensitivity(pressure, p_max, share),

@@ -19,25 +19,33 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis, Kind
+from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..note.governing import Model
-from ..rules.authored import Inserted
-from ..rules.solutions import ParametricSolution
-from ..statement import Statement, inherited
+from ..rules.algebra import insert, solve, substitute
+from ..rules.assumption import assume
+from ..rules.reading import CONSTANT
+from ..rules.solutions import parametric
 from ..symbols import initial, symbols, t
 from ..typeset.display import as_written, over
-from .first_integral import FirstIntegral
-from .static_solution import CONSTANT_LOAD, half_rate, load_offset, written_offset
+from .first_integral import SLOPED, UNSATURATED, FirstIntegral
+from .regimes import KEPT
+from .static_solution import half_rate, load_offset, written_offset
 
 h, h_0, U_a, u_c, sigma, sigma_c0, f_c = symbols("h h_0 U_a u_c sigma sigma_c0 f_c")
 p, p_max, k, C, beta, p_s = symbols("p p_max k C beta p_s")
 p_start = initial("p")
 
 log_odds = sp.log(p / (p_max - p))
-UNSATURATED_START = Condition(
-    "the first pressure solves u_c = 0", typeset=r"\text{the first pressure solves}\; u_c = 0"
+START = Hypothesis("the first pressure is below p_max", sp.Lt(p_start, p_max), kind=Kind.STATE)
+OFF_LIMIT = Hypothesis(
+    "the pressure is not that of steady wear", sp.Ne(log_odds - 8 + 4 / f_c, 0), kind=Kind.STATE
+)
+BETWEEN = tuple(
+    Hypothesis(f"for the pressures in between, {h.text}", relation, kind=Kind.STATE)
+    for h, relation in ((h, h.relation.subs(p, p_s)) for h in (UNSATURATED, OFF_LIMIT))
 )
 
 
@@ -51,40 +59,41 @@ class StaticCompliant:
         return bearing_only().model
 
     @cached_property
-    def wear(self) -> Statement:
+    def wear(self) -> Judgement:
         """The wear at a pressure."""
-        roughness = FirstIntegral().compliant.solve_for(sigma)
-        parents = (self.model.roughness_at_wear.solve_for(u_c), roughness, load_offset)
-        claim = sp.Eq(u_c, _worn(p))
-        return Statement(claim, Inserted(), parents, inherited(parents), name="wear at a pressure")
+        off, sloped = assume(OFF_LIMIT), assume(SLOPED)
+        roughness = solve(FirstIntegral().compliant, sigma, off)
+        grown = solve(self.model.roughness_at_wear, u_c, sloped)
+        parents = (grown, roughness, load_offset, off, sloped)
+        return insert(sp.Eq(u_c, _worn(p)), *parents, name="wear at a pressure")
 
     @cached_property
-    def time(self) -> Statement:
+    def time(self) -> Judgement:
         """The time at a pressure, counted from the first pressure p(0)."""
-        return self._time(self.wear, _by_parts())
+        facts = (load_offset, assume(OFF_LIMIT), assume(SLOPED), *map(assume, BETWEEN))
+        return self._time(self.wear, _by_parts(), *facts)
 
     @cached_property
-    def wear_smooth(self) -> Statement:
+    def wear_smooth(self) -> Judgement:
         """The wear at a pressure, for f_c = 0."""
         model = self.model
-        smooth = model.roughness_at_wear.specialise({f_c: 0}, "the roughness does not change")
-        closed = FirstIntegral().log_odds.solve_for(h)
-        deflection = bearing_only().deflection
-        opened = model.closure.substitute(model.wear_of_pin).solve_for(u_c)
-        parents = (opened, closed, deflection, smooth)
-        claim = sp.Eq(u_c, _worn_smooth())
-        return Statement(claim, Inserted(), parents, inherited(parents), name="wear, f_c = 0")
+        smooth = substitute(model.roughness_at_wear, assume(KEPT))
+        closed = solve(FirstIntegral().log_odds, h)
+        opened = solve(substitute(model.closure, model.wear_of_pin), u_c)
+        parents = (opened, closed, bearing_only().deflection, smooth)
+        return insert(sp.Eq(u_c, _worn_smooth()), *parents, name="wear, f_c = 0")
 
     @cached_property
-    def time_smooth(self) -> Statement:
+    def time_smooth(self) -> Judgement:
         """The time at a pressure, for f_c = 0."""
-        return self._time(self.wear_smooth, _elementary())
+        facts = (assume(UNSATURATED), assume(START))
+        return self._time(self.wear_smooth, _elementary(), *facts)
 
-    def _time(self, wear: Statement, travelled: sp.Expr) -> Statement:
-        parents = (self.model.wear_laws[2], wear, half_rate, load_offset)
-        conditions = (*inherited(parents), CONSTANT_LOAD, UNSATURATED_START)
+    def _time(self, wear: Judgement, travelled: sp.Expr, *facts: Judgement) -> Judgement:
+        law, start = self.model.wear_laws[2], self.model.start[1]
         claim = sp.Eq(t, travelled / (2 * C))
-        return Statement(claim, ParametricSolution(), parents, conditions, name="time")
+        parents = (law, wear, start, half_rate, assume(CONSTANT), *facts)
+        return parametric(claim, p, *parents, name="time")
 
 
 def _worn(at: sp.Expr) -> sp.Expr:
@@ -141,7 +150,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "wear and time at a pressure",
             (static.wear, static.time, load_offset, half_rate),
-            display=(*rough, written_offset, half_rate.claim),
+            display=(*rough, written_offset, half_rate.relation),
             where=(roughness,),
         ),
         Equation(
@@ -149,7 +158,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "wear and time at a pressure, f_c = 0",
             (static.wear_smooth, static.time_smooth, half_rate),
-            display=(*smooth, half_rate.claim),
+            display=(*smooth, half_rate.relation),
             where=(elementary,),
         ),
     )

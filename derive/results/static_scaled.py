@@ -15,16 +15,17 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..codegen.formula_module import Formula, formula_module
+from ..codegen.formulas import Formula, formula_module
 from ..equations import Equation
 from ..note.condensed import bearing_only
-from ..rules.authored import Inserted, insert
-from ..statement import Statement, given
+from ..kernel import Judgement
+from ..rules.algebra import insert, inserted, substitute
+from ..rules.assumption import assume, defined
 from ..symbols import symbols
 from ..typeset.display import as_written
 from .first_integral import FirstIntegral
-from .sensitivities import largest
-from .static_solution import excess, load_offset
+from .regimes import largest_wear
+from .static_solution import MOVING, excess, load_offset
 
 h, h_0, U_a, u_c, sigma, sigma_c0, f_c, beta, x_inf, M = symbols(
     "h h_0 U_a u_c sigma sigma_c0 f_c beta x_inf M"
@@ -37,25 +38,24 @@ u, load, log_ratio, size, gap, remainder, bounded, offset = sp.symbols(
 )
 """Names in the generated code."""
 
-argument = given(sp.Eq(z, -2 * beta / sigma), "definition", z)
-exponent = given(sp.Eq(E, z - 2 * x_inf), "definition", E)
+argument = defined(z, -2 * beta / sigma)
+exponent = defined(E, z - 2 * x_inf)
 
 
 def _remainder() -> sp.Expr:
     return sp.Add(1, -(z * sp.exp(-z) * sp.Ei(z)))
 
 
-def scaled_primitive() -> Statement:
+def scaled_primitive() -> Judgement:
     """The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow."""
     claim = sp.Eq(sp.exp(-2 * x_inf) * excess(sigma), sigma * sp.exp(E) * _remainder())
-    parents = (exponent, argument)
-    return Statement(claim, Inserted(), parents, name="scaled primitive")
+    return insert(claim, exponent, argument, assume(MOVING), name="scaled primitive")
 
 
 def _of_numbers(expr: sp.Expr) -> sp.Expr:
     """Write an expression with the plain symbols of generated code."""
     model = bearing_only().model
-    closure = model.closure.substitute(model.wear_of_pin).claim.rhs
+    closure = substitute(model.closure, model.wear_of_pin).claim.rhs
     expr = expr.subs(h, closure.subs(symbols("U_c")[0], 0)).subs(sigma, sigma_c0 + f_c * u_c)
     return expr.xreplace({u_c: u, U_a: load})
 
@@ -68,7 +68,7 @@ def formulas() -> tuple[Formula, ...]:
         Formula(
             "largest_wear",
             (),
-            insert(largest.claim.rhs, (bearing_only().model.slip,)),
+            inserted(largest_wear.claim.rhs, (bearing_only().model.slip,)),
             "wear of one cycle under the largest pressure",
         ),
         Formula("roughness", (u,), _of_numbers(sigma), "roughness of the bearing"),
@@ -114,7 +114,7 @@ def equations() -> tuple[Equation, ...]:
         )
         display = (
             sp.Eq(left, sigma * sp.exp(E) * _remainder()),
-            exponent.claim,
+            exponent.relation,
             sp.Eq(z, -(2 * beta / sigma)),
         )
     return (

@@ -21,24 +21,26 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..conditions import Condition
 from ..equations import Equation
+from ..hypotheses import Hypothesis
+from ..kernel import Judgement
 from ..note.condensed import bearing_only
-from ..rules.solutions import Inverted, Solution
-from ..statement import Statement, given, inherited
+from ..rules.assumption import assume, defined
+from ..rules.reading import CONSTANT
+from ..rules.solutions import inverted, solution
 from ..symbols import symbols, t
 from ..typeset.display import as_written, over
 from .first_integral import SLOPED
+from .regimes import Regimes
 
 h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
 p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")
 
-CONSTANT_LOAD = Condition("the load does not vary")
-ROUGH = Condition("the roughness has not vanished", sp.Gt(sigma_c0 + f_c * u_c, 0))
+MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(beta, 0))
 
-half_rate = given(sp.Eq(C, K_c * V * p_max / (6 * H_c)), "definition", C)
-load_offset = given(sp.Eq(beta, 2 * (sigma_c0 / f_c - h_0 + U_a)), "definition", beta)
-limit_argument = given(sp.Eq(x_inf, 4 - 2 / f_c), "definition", x_inf)
+half_rate = defined(C, K_c * V * p_max / (6 * H_c))
+load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a))
+limit_argument = defined(x_inf, 4 - 2 / f_c)
 
 with as_written():
     written_offset = sp.Eq(beta, 2 * sp.Add(sigma_c0 / f_c, -h_0, U_a))
@@ -54,41 +56,32 @@ def excess(roughness: sp.Expr) -> sp.Expr:
 class StaticSolution:
     """Wear under a constant load, for the law of the note and a rigid support."""
 
-    @cached_property
-    def rate(self) -> Statement:
-        """Eq. (13), solved for the rate."""
-        return bearing_only().rigid
+    @property
+    def start(self) -> Judgement:
+        """Wear begins at 0."""
+        return bearing_only().model.start[1]
 
     @cached_property
-    def time(self) -> Statement:
+    def time(self) -> Judgement:
         """The time at which the wear is u_c."""
-        parents = (self.rate, half_rate, load_offset, limit_argument)
         gap = sp.exp(-2 * x_inf) / (2 * f_c) * (excess(sigma_c0 + f_c * u_c) - excess(sigma_c0))
-        claim = sp.Eq(t, (u_c / 2 + gap) / C)
-        conditions = (*inherited(parents), CONSTANT_LOAD, SLOPED, ROUGH)
-        return Statement(claim, Solution(), parents, conditions, name="static solution")
+        names = (half_rate, load_offset, limit_argument)
+        facts = (assume(CONSTANT), assume(SLOPED), assume(MOVING), *Regimes().rough)
+        parents = (bearing_only().rigid, self.start, *names, *facts)
+        return solution(sp.Eq(t, (u_c / 2 + gap) / C), *parents, name="static solution")
 
     @cached_property
-    def rate_smooth(self) -> Statement:
-        """The rate of a bearing that keeps its roughness."""
-        return self.rate.specialise({f_c: 0}, "the roughness does not change")
-
-    @cached_property
-    def time_smooth(self) -> Statement:
+    def time_smooth(self) -> Judgement:
         """The time at which the wear is u_c, for f_c = 0."""
-        parents = (self.rate_smooth, half_rate)
         gap = sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8)
         claim = sp.Eq(t, (u_c / 2 + gap * (sp.exp(4 * u_c / sigma_c0) - 1)) / C)
-        conditions = (*inherited(parents), CONSTANT_LOAD)
-        return Statement(claim, Solution(), parents, conditions, name="static solution, f_c = 0")
+        parents = (Regimes().kept, self.start, half_rate, assume(CONSTANT))
+        return solution(claim, *parents, name="static solution, f_c = 0")
 
     @cached_property
-    def wear_smooth(self) -> Statement:
+    def wear_smooth(self) -> Judgement:
         """The wear at a time, for f_c = 0."""
-        claim = sp.Eq(u_c, _inverse())
-        parents = (self.time_smooth,)
-        conditions = inherited(parents)
-        return Statement(claim, Inverted(), parents, conditions, name="wear at a time, f_c = 0")
+        return inverted(sp.Eq(u_c, _inverse()), self.time_smooth, "wear at a time, f_c = 0")
 
 
 def _inverse() -> sp.Expr:
@@ -124,7 +117,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "time under a constant load",
             (static.time, load_offset, limit_argument, half_rate),
-            display=(time, written_offset, limit_argument.claim, half_rate.claim),
+            display=(time, written_offset, limit_argument.relation, half_rate.relation),
             where=(excess_of,),
         ),
         Equation(
@@ -132,7 +125,7 @@ def equations() -> tuple[Equation, ...]:
             section,
             "time under a constant load, f_c = 0",
             (static.time_smooth, half_rate),
-            display=(smooth, half_rate.claim),
+            display=(smooth, half_rate.relation),
             where=(smooth_gap,),
         ),
         Equation(

@@ -97,7 +97,9 @@ def threshold_at(resolution: sp.Expr) -> sp.Expr:
 
 def threshold_bound() -> sp.Expr:
     """Return the bound of ``threshold`` as an expression in epsilon."""
-    return threshold().claim.right.lesser
+    said = threshold().claim
+    (bound,) = (part.lesser for part in (said.left, said.right) if part.greater == f_c)
+    return bound
 
 
 def equations() -> tuple[Equation, ...]:

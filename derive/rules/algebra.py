@@ -1,7 +1,7 @@
 """Algebra at an instant: what holds wherever the premises do.
 
 Key results
-    substitute, solve, restrict                  equations
+    substitute, solve, multiply, restrict        equations
     identity, insert, logarithm                  claims that an author writes, then proved
     consequence, alike                           the same relation in another form
     discharge, forget                            hypotheses that follow from others
@@ -85,6 +85,28 @@ class Solve(Rule):
 def solve(first: Judgement, unknown: sp.Expr, *facts: Judgement, name: str = "") -> Judgement:
     """Solve an equation that is linear in ``unknown`` for it."""
     return infer(Solve(unknown), first, *facts, name=name)
+
+
+@dataclass(frozen=True)
+class Multiply(Rule):
+    """``l = r`` gives ``c l = c r``; an inequality needs c > 0."""
+
+    factor: sp.Expr
+    words = "Multiply {0} by {factor}."
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        claim = premises[0].claim
+        require_defined(self.factor, *premises)
+        if not isinstance(claim, Equality):
+            if not isinstance(claim, Inequality):
+                raise RuleError(f"missing premise: {claim.relation} is an equality or inequality")
+            require(sp.Gt(self.factor, 0), *premises)
+        return Conclusion(claim.map(lambda side: self.factor * side))
+
+
+def multiply(first: Judgement, factor: sp.Expr, *facts: Judgement) -> Judgement:
+    """Multiply both sides of an equality, or of an inequality by a positive factor."""
+    return infer(Multiply(factor), first, *facts)
 
 
 @dataclass(frozen=True)
@@ -214,7 +236,9 @@ def _parts(claim: Claim, known: tuple[Judgement, ...]) -> tuple[tuple[object, sp
     pairs = [claim_of(part) for part in parts]
     sides: list[tuple[object, sp.Expr]] = []
     for part in pairs:
-        if isinstance(part, Inequality):
+        if isinstance(part, Limit):
+            sides += [((part.variable, part.point), part.expr), ("value", part.value)]
+        elif isinstance(part, Inequality):
             sides += [(("less", part.strict), part.lesser), (("more", part.strict), part.greater)]
         else:
             sides += [(type(part), side) for side in part.relation.args]

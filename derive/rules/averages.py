@@ -85,7 +85,7 @@ class Averaging(Rule):
     """c_n, or w_n, of EXPANSION: the premises give the pressure, a sine load, b_0 and theta."""
 
     claim: sp.Equality
-    words = "Average the rate over a cycle, order by order in 1/m, with {all}."
+    words = "Average the rate over a cycle, order by order, with {all}."
     source = "Sanders, Verhulst, Murdock, 2007"
 
     def conclude(self, *premises: Judgement) -> Conclusion:

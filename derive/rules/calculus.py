@@ -3,6 +3,7 @@
 Key results
     integrate      dy/dt = c dx/dt, from the initial values
     grows          du/dt >= c and u(0) give u >= u(0) + c t
+    differentiate  the rates of two sides that are equal at every time
     rigid          k U_c = p becomes U_c = 0: the limit k -> oo
     change_clock   the rate of a scaled quantity in scaled time
 """
@@ -17,6 +18,7 @@ from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..symbols import symbols, t
+from .inequalities import smooth
 from .proving import continuous
 from .reading import LOAD, constant, equality, field_of_rate, fields, inequality, initial_value
 
@@ -24,7 +26,7 @@ U_c, p, k, T, tau = symbols("U_c p k T tau")
 
 SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", sp.Eq(k * U_c - p, 0), kind=Kind.MODEL)
 RIGID = Hypothesis(
-    "the support is rigid", sp.Eq(U_c, 0), r"\text{the support is rigid}", Kind.SETTING
+    "rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING
 )
 
 
@@ -77,6 +79,25 @@ def grows(bound: Judgement, start: Judgement, name: str = "") -> Judgement:
 
 
 @dataclass(frozen=True)
+class Differentiate(Rule):
+    """An equality that holds at every time gives that of the rates of both sides."""
+
+    words = "Differentiate {0} with respect to time."
+    source = "chain rule"
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        given = equality(premises[0])
+        if not all(smooth(side) for side in (given.lhs, given.rhs)):
+            raise RuleError(f"missing premise: {given.relation} is differentiable")
+        return Conclusion(Equality(sp.diff(given.lhs, t), sp.diff(given.rhs, t)))
+
+
+def differentiate(equation: Judgement) -> Judgement:
+    """Return the equality of the rates of both sides."""
+    return infer(Differentiate(), equation)
+
+
+@dataclass(frozen=True)
 class RigidLimit(Rule):
     """``k U_c = p`` becomes ``U_c = 0``, and an equation its limit for k -> oo.
 
@@ -85,7 +106,7 @@ class RigidLimit(Rule):
     continuous in 1/k at 0, for the rigid support.  Nothing else may be said of the load or of k.
     """
 
-    words = "Let the support be rigid, k -> oo, in {0}."
+    words = "Let the stiffness tend to infinity in {0}: the support is rigid."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
@@ -138,7 +159,7 @@ class ParameterLimit(Rule):
 
     expr: sp.Expr
     variable: sp.Symbol
-    words = "Let {variable} -> oo in {expr}."
+    words = "Let {variable} tend to infinity in {expr}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         small = sp.Dummy("small", positive=True)

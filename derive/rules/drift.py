@@ -17,6 +17,7 @@ from ..claims import Asymptotic
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..symbols import symbols, t
 from ..zero import is_zero
+from .algebra import inserted
 from .inequalities import smooth
 from .limits import bounds, in_terms_of, in_time
 from .proving import continuous, require, require_defined
@@ -50,7 +51,7 @@ class FirstOrder(Rule):
     ``t (du/dt - R) - F'(l) a/R -> 0``, as u/t tends to R and F is differentiable at l.
     """
 
-    words = "Expand the contact law about the limit of h/sigma, with {all}."
+    words = "Expand the contact law about the limit of the closure ratio, with {all}."
     source = "Taylor's theorem; u/t -> R by L'Hopital's rule"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -175,7 +176,7 @@ class LastCycles(Rule):
         has_hypothesis(CONSTANT.relation, *premises)
         left, s = self.claim.lhs, rough.lhs
         slope = sp.diff(rough.rhs, u)
-        if left != sp.log(spent.lhs) or spent.rhs != t / T or not s.is_Symbol:
+        if left != sp.log(spent.lhs) or spent.rhs != t / T:
             raise RuleError(f"missing premise: {left} is the logarithm of the cycles t/T")
         require(sp.Lt(slope, 0), *premises)
         require_defined(self.claim.rhs, *premises)
@@ -186,10 +187,7 @@ class LastCycles(Rule):
         if sp.diff(opening.rhs, LOAD, 2) != 0 or sp.diff(rough.rhs, u, 2) != 0:
             raise RuleError("missing premise: the gap is linear in the load")
         exact = rate.subs(u, sp.cancel(worn)).subs(LOAD, sp.cancel(load))
-        claimed = sp.exp(self.claim.rhs)
-        for name in names:
-            claimed = claimed.subs(equality(name).lhs, equality(name).rhs)
-        claimed = claimed.subs(s, small)
+        claimed = inserted(sp.exp(self.claim.rhs), tuple(names)).subs(s, small)
         exact, claimed = (e.subs(slope, -fall) for e in (exact, claimed))
         if {*fields(exact), *fields(claimed)}:
             raise RuleError("missing premise: rate and claim are functions of the roughness")

@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
 
 from ..claims import Equality, Limit
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
@@ -28,6 +29,7 @@ from ..symbols import symbol, t
 from ..zero import is_zero
 from .proving import LAW, continuity, continuous, facts_of, holds, require, require_defined
 from .reading import (
+    CONTINUOUS,
     LOAD,
     PERIODIC,
     T,
@@ -208,7 +210,7 @@ class AtInfinity(Rule):
     claim: sp.Equality
     small: sp.Expr
     words = (
-        "Let {small} -> 0, which holds by {0}, in an expansion that is uniform in bounded loads."
+        "By {0} let {small} tend to zero in an expansion that is uniform in bounded loads."
     )
     source = "Taylor's theorem"
 
@@ -415,31 +417,39 @@ class Intermittent(Rule):
     """A rate ``F(u, load)`` in contact, else 0, where contact depends on the load alone.
 
     Premises: the rate, piecewise; the definition of d > 0, the fraction of the period in contact;
-    the limit of F by itself as u -> oo.  With a periodic, bounded load u grows without bound, as F
-    is positive, and ``u(t + T) - u(t) -> d T R``.
+    a lower bound of u; a periodic, continuous, bounded load.  F is positive and continuous, so that
+    u grows without bound, and tends to R as u -> oo: ``u(t + T) - u(t) -> d T R``.
     """
 
     words = "The limit of the rate {0} holds during a fixed part of every period, {others}."
     source = "mean value theorem on the part of the period in contact"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        law, part = premises
-        u, function = rate_law(law)
+        law, part, start, *_ = premises
+        (u, function), meaning, least = rate_law(law), equality(part), inequality(start)
         has_hypothesis(PERIODIC.relation, *premises)
-        bounds(LOAD, *premises)
-        if not isinstance(function, sp.Mul) and not isinstance(function, sp.Piecewise):
-            raise RuleError("missing premise: a rate that is piecewise")
-        inside = sp.piecewise_fold(function)
-        (on, contact), *rest = inside.args
+        if CONTINUOUS not in {h for p in premises for h in p.hypotheses}:
+            raise RuleError(f"missing premise: {CONTINUOUS.text}")
+        if least.greater != u or not _fixed(least.lesser):
+            raise RuleError(f"missing premise: {u} stays above a constant")
+        (on, contact), *rest = sp.piecewise_fold(function).args
+        if not isinstance(contact, Relational) or [e for e, _ in rest] != [0]:
+            raise RuleError("missing premise: a rate that is 0 out of contact")
         room = sp.expand(contact.gts - contact.lts)
-        if [e for e, _ in rest] != [0] or fields(room) - {LOAD}:
+        if fields(room) != {LOAD} or not isinstance(contact, (sp.Le, sp.Ge)):
             raise RuleError("missing premise: contact depends on the load alone")
-        meaning = equality(part)
-        indicator = sp.Piecewise((1, sp.Ge(room, 0)), (0, True))
-        if meaning.rhs != sp.Integral(indicator, (t, 0, T)) / T or not meaning.lhs.is_positive:
+        inside = [c for e, c in _indicators(meaning.rhs) if e == 1]
+        share = [_same_side(c, room) for c in inside]
+        if share != [True] or not meaning.lhs.is_positive:
             raise RuleError("missing premise: the fraction of the period in contact")
-        require(sp.Gt(on, 0), *premises)
-        z = sp.Dummy("z", positive=True)
+        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(on)}
+        inside = (*bounds(LOAD, *premises), sp.Ge(u, least.lesser))
+        fixed = [h.relation for p in premises for h in p.hypotheses if _fixed(h.relation)]
+        given = frozenset(r.xreplace(plain) for r in (*inside, *fixed))
+        flat, z = on.xreplace(plain), sp.Dummy("z", positive=True)
+        goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
+        if flat.has(t) or not all(holds(goal, given) for goal in goals):
+            raise RuleError(f"missing premise: {on} is positive and continuous")
         order, smooth = expanded(on.subs(u, 1 / z), z)
         value = smooth.subs(z, 0)
         if order != 0 or not continuous(smooth, {z: sp.S.Zero}, law) or fields(value):
@@ -447,6 +457,22 @@ class Intermittent(Rule):
         return Conclusion(in_time(u.subs(t, t + T) - u, meaning.lhs * T * value))
 
 
-def intermittent(law: Judgement, part: Judgement, name: str = "") -> Judgement:
+def _same_side(relation: sp.Basic, room: sp.Expr) -> bool:
+    """Return whether a relation says that room is not negative."""
+    if not isinstance(relation, (sp.Le, sp.Ge)):
+        return False
+    return bool(sp.cancel((relation.gts - relation.lts) / room).is_positive)
+
+
+def _indicators(expr: sp.Expr) -> tuple[tuple[sp.Expr, sp.Basic], ...]:
+    """Return the branches of a function whose mean over a period an expression is."""
+    whole = sp.expand(expr * T)
+    if not isinstance(whole, sp.Integral) or whole.limits != ((t, 0, T),):
+        return ()
+    branches = whole.function.args if isinstance(whole.function, sp.Piecewise) else ()
+    return tuple(branches) if [e for e, _ in branches] == [1, 0] else ()
+
+
+def intermittent(*premises: Judgement, name: str = "") -> Judgement:
     """Integrate a rate that is on during a fraction of every period."""
-    return infer(Intermittent(), law, part, name=name)
+    return infer(Intermittent(), *premises, name=name)

@@ -75,6 +75,8 @@ def holds(goal: sp.Basic, facts: frozenset[sp.Basic] = frozenset()) -> bool:
         return bool(goal)
     if goal in facts:
         return True
+    if goal.has(sp.tanh) and goal.has(sp.exp):
+        goal = goal.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x)))
     for known in (_relevant(goal, facts), facts):
         translator, solver = _Translator(), z3.Solver()
         solver.set("rlimit", EFFORT)
@@ -133,6 +135,8 @@ class _Translator:
             return power if expr.exp > 0 else 1 / power
         if isinstance(expr, sp.Pow) and expr.exp.is_Rational and expr.exp.q == 2:
             return self.number(sp.Pow(_Root(expr.base), expr.exp.p))
+        if isinstance(expr, sp.exp):
+            expr = sp.exp(sp.expand(expr.args[0]))
         if isinstance(expr, sp.Abs):
             inside = self.number(expr.args[0])
             return z3.If(inside >= 0, inside, -inside)
@@ -147,7 +151,11 @@ class _Translator:
             inside = self.number(expr.args[0])
             self.known.append(z3.Implies(inside >= 0, z3.And(name >= 0, name * name == inside)))
         elif isinstance(expr, sp.tanh):
+            signs = {"is_positive": name > 0, "is_negative": name < 0}
             self.known += [name > -1, name < 1]
+            self.known += [known for given, known in signs.items() if getattr(expr.args[0], given)]
+        elif isinstance(expr, (sp.sin, sp.cos)):
+            self.known += [name >= -1, name <= 1]
         elif isinstance(expr, (sp.exp, LAW)):
             self.known.append(name > 0)
         elif is_slope_of_law(expr):

@@ -118,20 +118,20 @@ def has_hypothesis(relation: sp.Basic, *premises: Judgement) -> Hypothesis:
 
 
 PERIODIC = Hypothesis(
-    "the load has the period T",
+    "load of period T",
     sp.Eq(LOAD.subs(t, t + T), LOAD),
-    r"\text{the load has the period}\; T",
+    r"\text{load of period}\; T",
     Kind.LOAD,
 )
-CONTINUOUS = Hypothesis("the load is continuous", kind=Kind.LOAD)
+CONTINUOUS = Hypothesis("continuous load", kind=Kind.LOAD)
 CONSTANT = Hypothesis(
-    "the load does not vary",
+    "constant load",
     sp.Eq(LOAD, LOAD.subs(t, 0)),
-    r"\text{the load does not vary}",
+    r"\text{constant load}",
     Kind.LOAD,
 )
 SINE = Hypothesis(
-    "the load is U sin(2 pi t/T)",
+    "load U sin(2 pi t/T)",
     sp.Eq(LOAD, symbol("U") * sp.sin(2 * sp.pi * t / T)),
     r"U_a = U \sin{\left(2 \pi t/T\right)}",
     Kind.LOAD,

@@ -175,6 +175,7 @@ class FirstRoot(Rule):
         inside = a_1**2 - a_2 * a_0
         if product.degree() > 2 or not all(e.is_real for e in (a_0, a_1, a_2)):
             raise RuleError(f"missing premise: {function} times {self.factor} is quadratic")
+        require_defined(sp.Tuple(function, self.factor).subs(x, z), *premises)
         require(sp.Gt(self.factor.subs(x, z), 0), *premises)
         for goal in (sp.Gt(a_0, 0), sp.Ge(inside, 0), sp.Gt(inside, a_1 * sp.Abs(a_1))):
             require(goal, *premises)

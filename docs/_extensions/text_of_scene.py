@@ -1,53 +1,58 @@
-"""The scene file as Markdown, from the schema that validates it."""
+"""The scene file as Markdown, from the classes that validate it."""
 
 from __future__ import annotations
 
 import re
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
 
-from wear.scene import schema
+from wear.checked import TABLES, OneOf, SceneTable, domain_of, keys_of, unit_of
+from wear.load.blocks import Block, BlockCycles
+from wear.load.tables import KINDS, PERIODIC
+from wear.scene import Scene
 
 _SYMBOL = re.compile(r"\b(sigma|phi|[UHKfhpRu])_(\w+)\b|\b(sigma|phi)\b")
 _WORDS = {"max": r"\max"}
+_TABLES = ("bearing", "pin", "contact", "support", "motion")
+_KINDS = {float: "a number", int: "a whole number", bool: "true or false", str: "text"}
 
 
 def reference() -> str:
     """A section a table of the file, a row a key."""
-    parts = ["## Top of the file", _keys((schema.TITLE, schema.DESCRIPTION))]
-    for table in schema.TABLES:
-        parts += [f"## `[{table.name}]`", _sentence(table), _keys(table.keys)]
+    parts = ["## Top of the file", _keys(Scene, ("title", "description"))]
+    for name in _TABLES:
+        table = next(each for each in TABLES if each.place == name)
+        parts += [f"## `[{name}]`", _sentence(table), _keys(table)]
     parts += [
         "## `[load]`",
         "The displacement $U_a(t)$ of the pin. `kind` chooses among the following.",
     ]
-    for load in schema.LOADS:
-        kind = schema.Key("kind", schema.Kind.CHOICE, f'`"{load.name}"`')
-        parts += [f'### `kind = "{load.name}"`', _sentence(load), _keys((kind, *load.keys))]
-    names = ", ".join(f"`{load.name}`" for load in schema.PERIODIC_LOADS)
+    for kind in KINDS:
+        table = next(each for each in TABLES if each.kind == kind)
+        row = f'| `kind` | `"{kind}"` | kind of load |'
+        parts += [f'### `kind = "{kind}"`', _sentence(table), _keys(table, first=row)]
+    names = ", ".join(f"`{kind}`" for kind in PERIODIC)
     parts += [
         "### `[[load.blocks]]`",
         f"Each block is a periodic load ({names}) with its keys, and",
-        _keys((schema.CYCLES,)),
+        _keys(BlockCycles),
     ]
     return "\n\n".join(parts)
 
 
-def _sentence(table: schema.Table) -> str:
-    said = [_typeset(f"{table.meaning[0].upper()}{table.meaning[1:]}.")]
-    if table.one_of:
-        said.append(f"Exactly one of {_listed(table.one_of, 'and')} is given.")
-    if table.together:
-        said.append(f"Give both of {_listed(table.together, 'and')} or neither.")
-    return " ".join(said)
+def _sentence(table: type[SceneTable]) -> str:
+    """The first paragraph of the class's docstring."""
+    words = " ".join((table.__doc__ or "").split("\n\n")[0].split())
+    return _typeset(f"{words[0].upper()}{words[1:]}")
 
 
-def _listed(names: tuple[str, ...], word: str) -> str:
-    return f" {word} ".join(f"`{name}`" for name in names)
-
-
-def _keys(keys: tuple[schema.Key, ...]) -> str:
-    rows = ["| key | value | meaning |", "| --- | --- | --- |"]
+def _keys(table: type[SceneTable], only: tuple[str, ...] = (), first: str = "") -> str:
+    rows = ["| key | value | meaning |", "| --- | --- | --- |", *([first] if first else [])]
     rows += [
-        f"| `{key.name}` | {_value(key)}{_default(key)} | {_typeset(key.meaning)} |" for key in keys
+        f"| `{name}` | {_value(name, field)}{_default(table, name, field)} | "
+        f"{_typeset(field.description)} |"
+        for name, field in keys_of(table).items()
+        if not only or name in only
     ]
     return "\n".join(rows)
 
@@ -70,19 +75,37 @@ def _typeset(meaning: str) -> str:
     return _SYMBOL.sub(symbol, re.sub(r"(--\w+)", r"`\1`", meaning))
 
 
-def _value(key: schema.Key) -> str:
-    if key.choices:
-        return ", ".join(f'`"{name}"`' for name in key.choices)
-    unit = f" {key.unit}" if key.unit else ""
-    if key.kind is schema.Kind.NUMBER and key.domain is not schema.Domain.REAL:
-        return f"{key.kind.value} {key.domain.value}{unit}"
-    return f"{key.kind.value}{unit and ','}{unit}"
+def _value(name: str, field: Any) -> str:
+    choices = next((each.names for each in field.metadata if isinstance(each, OneOf)), ())
+    if choices:
+        return ", ".join(f'`"{choice}"`' for choice in choices)
+    kind, unit = _kind(field.annotation), unit_of(name)
+    if domain := domain_of(field):
+        return f"{kind} {domain}{unit and ' '}{unit}"
+    return f"{kind}{unit and ', '}{unit}"
 
 
-def _default(key: schema.Key) -> str:
-    if key.required:
+def _kind(annotation: Any) -> str:
+    """
+    >>> _kind(float | None), _kind(tuple[float, ...])
+    ('a number', 'a list of numbers')
+    """
+    parts, origin = get_args(annotation), get_origin(annotation)
+    if origin in (UnionType, Union, Annotated):
+        return _kind(parts[0])
+    if origin is not tuple:
+        return _KINDS[annotation]
+    if parts[0] is Block:
+        return "a list of tables"
+    return f"a list of {_kind(parts[0]).removeprefix('a ')}s"
+
+
+def _default(table: type[SceneTable], name: str, field: Any) -> str:
+    if field.is_required() and name not in table.left_out:
         return ""
-    if key.default is None or key.default == ():
+    default = table.left_out.get(name, field.default)
+    if default in (None, (), ""):
         return "; may be left out"
-    shown = str(key.default).lower() if isinstance(key.default, bool) else repr(key.default)
+    shown = str(default).lower() if isinstance(default, bool) else repr(default)
+    shown = re.sub(r"^\((.*)\)$", r"[\1]", shown)
     return f"; default `{shown}`".replace("'", '"')

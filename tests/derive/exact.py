@@ -7,15 +7,20 @@ and intermediates.  That is what one unit of roundoff in each of them can make o
 
 from __future__ import annotations
 
+import importlib.util
 import math
 import random
+import tempfile
 from collections.abc import Mapping
 from functools import cache
-from typing import NamedTuple
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple
 
 import mpmath
 import sympy as sp
 
+from derive.codegen.sources import source
 from derive.program import Program, program
 from derive.program.function import Function
 from derive.stable import released
@@ -60,9 +65,9 @@ def composed(function: Function) -> tuple[sp.Expr, ...]:
     return function.composed()
 
 
-def variant_of(law: str, module: str) -> Variant:
-    """Return the variant of a generated module."""
-    return next(v for v in VARIANTS if v.law.name == law and v.module == module)
+def variant_of(law: str, name: str) -> Variant:
+    """Return the variant of a name."""
+    return next(v for v in VARIANTS if v.law.name == law and v.name == name)
 
 
 def judge(function: Function, values: Mapping[str, float], index: int = 0) -> Judged:
@@ -153,7 +158,7 @@ def dual(expr: sp.Expr, values: Mapping[str, mpmath.mpf]) -> Dual:
 
 def exact_values(variant: Variant, at: Point) -> dict[str, mpmath.mpf]:
     """Return the constants of a run without rounding, and the state."""
-    parameters = {name: mpmath.mpf(value) for name, value in at.parameters.items()}
+    parameters = {name: mpmath.mpf(value) for name, value in at.numbers.items()}
     with mpmath.workdps(3 * DIGITS):
         constants = {
             name.name: _evaluate(expr, parameters).value
@@ -182,20 +187,32 @@ def judge_root(residual: Function, values: Mapping[str, float]) -> Judged:
 
 
 class Point(NamedTuple):
-    """Physical parameters, and where to evaluate: u, U_a and, with a compliant support, p, h/sigma
-    without deflection and the support's deflection per pressure over sigma."""
+    """Physical parameters, the sign of pin wear, and where to evaluate: u, U_a and, with a
+    compliant support, p, h/sigma without deflection and the support's deflection per pressure over
+    sigma; the margin, its slope, compliance and wear rate per pressure."""
 
     parameters: dict[str, float]
+    pin_wear_sign: float
     u: float
     U_a: float
     p: float
     undeflected: float
     softness: float
+    margin: float
+    margin_slope: float
+    compliance: float
+    wear_per_pressure: float
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """All that `bind` depends on, by name."""
+        return {**self.parameters, "pin_wear_sign": self.pin_wear_sign}
 
     @property
     def state(self) -> dict[str, float]:
-        """Every number but the parameters, by name."""
-        return {name: value for name, value in self._asdict().items() if name != "parameters"}
+        """Every argument that a generated function may have, by name."""
+        given = ("parameters", "pin_wear_sign")
+        return {name: value for name, value in self._asdict().items() if name not in given}
 
 
 def point(
@@ -238,7 +255,8 @@ def point(
     pin = 0.0
     if variant.pin.rough:
         pin = everything["sigma_a0"] + everything["f_a"] * kappa * u * variant.pin.wears
-    gain = 1.0 + kappa * (1 if variant.opening else -1) if variant.pin.wears else 1.0
+    sign = generator.choice((1.0, -1.0))
+    gain = 1.0 + kappa * sign if variant.pin.wears else 1.0
     sigma = math.hypot(bearing, pin)
     closure = (2.0 - argument / 2.0) * sigma
     pressure = everything["p_max"] * between(1e-12, 1)
@@ -247,17 +265,22 @@ def point(
     names = [parameter.name for parameter in made(variant).parameters]
     return Point(
         {name: everything[name] for name in names},
+        sign,
         u,
         load,
         pressure,
         (closure - deflection) / sigma,
         1.0 / (everything["k"] * sigma),
+        3.0 * sigma - closure + deflection,
+        generator.uniform(-4.0, 4.0),
+        1.0 / everything["k"],
+        between(1e-12, 1e-3),
     )
 
 
 def points(variant: Variant, count: int, seed: int = 0) -> list[Point]:
     """Draw points from everywhere, the extremes of the argument first."""
-    generator = random.Random(f"{variant.law.name}/{variant.module}/{seed}")
+    generator = random.Random(f"{variant.law.name}/{variant.name}/{seed}")
     arguments = [-700.0, 700.0, -30.0, -1.0, 0.0, 1.0, 20.0]
     arguments += [generator.uniform(-40, 40) for _ in range(count - len(arguments))]
     return [
@@ -279,3 +302,26 @@ def names_in(function: Function, program_of: Program) -> set[str]:
     used = {symbol.name for expression in expressions for symbol in expression.free_symbols}
     own = {name.name for name, _ in function.assignments} | {a.name for a in function.arguments}
     return (used - constants) | own
+
+
+@cache
+def module_of(variant: Variant) -> ModuleType:
+    """Return the free-standing NumPy source of a variant as a module."""
+    return loaded(source(made(variant), "numpy"))
+
+
+def loaded(text: str) -> ModuleType:
+    """Return a source that the project has written as a module."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "written.py"
+        path.write_text(text)
+        spec = importlib.util.spec_from_file_location("written", path)
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+    return module
+
+
+def bound(module: ModuleType, at: Point) -> Any:
+    """Return the constants of a generated module at a point."""
+    parameters = module.Parameters(**{n: at.parameters[n] for n in module.Parameters._fields})
+    return module.bind(parameters, *[at.pin_wear_sign] * ("K_a" in module.Parameters._fields))

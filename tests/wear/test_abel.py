@@ -5,7 +5,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from wear.count import abel, tabulated
-from wear.count.collocation import FloatArray, chebyshev_nodes
+from wear.numerics.chebyshev import (
+    chebyshev_nodes,
+)
+from wear.numerics.gauss import (
+    FloatArray,
+)
 
 SHIFT = 0.3
 

@@ -13,7 +13,7 @@ import pytest
 from derive.check import Check
 from tests.wear.report import quick
 from wear import cli, regime
-from wear.report import claims, paper, paper_speed, runs, typeset, verification
+from wear.report import claims, paper, runs, speed, typeset, verification
 from wear.scene import load_scene
 
 Call = Callable[..., tuple[int, str, str]]
@@ -40,7 +40,7 @@ def shortened(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(runs, "run", lambda _: quick.runs())
     monkeypatch.setattr(verification, "verified", lambda found, _: quick.trusted(found))
     monkeypatch.setattr(claims, "ledger", lambda _: quick.few_claims())
-    monkeypatch.setattr(paper_speed, "measured", quick.measurements)
+    monkeypatch.setattr(speed, "measured", quick.measurements)
     monkeypatch.setattr(paper, "paper", lambda *_: quick.paper())
     monkeypatch.setattr(typeset.shutil, "which", lambda _: None)
 

@@ -5,10 +5,14 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import REFERENCE, reference_scene
-from wear.count.collocation import mesh
 from wear.count.cycle import Drive, drive, resolve
-from wear.count.iteration import Near
 from wear.model import bind
+from wear.numerics.collocation import (
+    InitialGuess,
+)
+from wear.numerics.gauss import (
+    mesh,
+)
 
 
 def fine_cycle(name: str) -> Drive:
@@ -24,7 +28,7 @@ def fine_cycle(name: str) -> Drive:
 def test_the_first_cycle_to_a_tolerance(name: str, tolerance: float) -> None:
     run = fine_cycle(name)._replace(tolerance=tolerance).advance(np.zeros(1))
     assert run.converged.all()
-    assert run.left[0] <= tolerance
+    assert run.iteration_error[0] <= tolerance
     assert_allclose(run.increment[0], REFERENCE[name][1], rtol=tolerance)
 
 
@@ -51,11 +55,11 @@ def test_a_good_guess_saves_rates_and_a_bad_one_does_no_harm() -> None:
     finer = cycle.on(mesh(cycle.over.edges, 30))
     starts = np.array([0.0, 1e-4, 3e-4])
     plain = finer.advance(starts)
-    good = finer.advance(starts, cycle.advance(starts).near(30))
+    good = finer.advance(starts, cycle.advance(starts).guess(30))
     assert_allclose(good.increment, plain.increment, rtol=3e-15)
     assert good.evaluations <= 2 * starts.size * finer.displacement.size
     shape = (3, *finer.over.phases.shape)
-    bad = Near(np.full(shape, 1e-4), np.full(shape, 1e-3), np.full(shape, 1e-5))
+    bad = InitialGuess(np.full(shape, 1e-4), np.full(shape, 1e-3), np.full(shape, 1e-5))
     assert_allclose(finer.advance(starts, bad).increment, plain.increment, rtol=3e-15)
 
 
@@ -63,7 +67,7 @@ def test_what_a_loose_iteration_leaves_a_strict_one_finds() -> None:
     """The error estimate of sweeps rests on it: the judge starts from what it judges."""
     cycle = fine_cycle("S3d")
     loose = cycle._replace(tolerance=1e-6).advance(np.zeros(1))
-    judge = cycle._replace(tolerance=1e-9).advance(np.zeros(1), loose.near(24))
+    judge = cycle._replace(tolerance=1e-9).advance(np.zeros(1), loose.guess(24))
     true = abs(loose.increment[0] / REFERENCE["S3d"][1] - 1)
-    told = abs(judge.increment[0] / loose.increment[0] - 1) + judge.left[0]
+    told = abs(judge.increment[0] / loose.increment[0] - 1) + judge.iteration_error[0]
     assert true <= 3 * told

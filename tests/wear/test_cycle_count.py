@@ -12,9 +12,11 @@ from tests.independent import Problem
 from tests.independent import wear_after as independent
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
 from wear import count
-from wear.count.collocation import FloatArray
 from wear.load import Harmonics, Sine, Table
 from wear.model import bind
+from wear.numerics.gauss import (
+    FloatArray,
+)
 from wear.scene import Scene, scene_from_tables
 
 ROUNDING = 3e-15  # below, an error needs no estimate

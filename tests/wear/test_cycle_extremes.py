@@ -15,8 +15,10 @@ from hypothesis import strategies as st
 from tests.independent import wear_after as independent
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
 from tests.wear.test_cycle_count import ROUNDING, between, counted, problem, scenes
-from wear.count.collocation import FloatArray
 from wear.load import Table
+from wear.numerics.gauss import (
+    FloatArray,
+)
 from wear.scene import Scene, load_scene, scene_from_tables
 from wear.static import static_solution
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import wear
-from derive.codegen import javascript
-from tests.derive.exact import variant_of
+from derive.codegen.sources import definitions
+from tests.derive.exact import made, variant_of
 from tests.wear.browser import browser
 from wear.cli import main
 from wear.report import explorer, explorer_data
@@ -168,10 +168,10 @@ def test_loads_are_those_of_python(kind, tmp_path, need_tool):
     data = explorer_data.scene_data(scene)
     assert data["load"]["kind"] == kind
     phases = np.linspace(0.0, 1.0, 40, endpoint=False) + 0.003
-    text, names = javascript.definitions(variant_of("tanh", "rigid_bearing"))
+    text = definitions(made(variant_of("tanh", "rigid_bearing")))
     (tmp_path / "run.js").write_text(
         f"""{explorer._asset("explorer.solve.js")}
-const model = (() => {{ {text}; return {{ {", ".join(names)} }}; }})();
+const model = (() => {{ {text} }})();
 const P = {json.dumps(data["parameters"])};
 const load = makeLoad({json.dumps(data["load"])}, P.U);
 const solver = makeSolver(model, model.bind(P), load, P.T);
@@ -283,7 +283,7 @@ def test_asymptotic_values_are_those_of_python(page, name):
 def test_arrest_is_found_in_its_cycle(page):
     """With the cutoff the note's section 4 stops in its 2045th cycle, at 0.002 mm."""
     click(page, "cutoff")
-    assert text(page, "value-variant") == "tanh/rigid_bearing_cutoff"
+    assert text(page, "value-variant") == "tanh/rigid_bearing_ends_at_3_sigma"
     assert text(page, "value-regime").startswith("arrest")
     assert "stops in cycle 2045." in text(page, "notices")
     assert number(text(page, "value-arrest-wear")) == pytest.approx(0.002, rel=1e-4)
@@ -320,9 +320,9 @@ def test_choices_choose_the_generated_variant(page):
     assert text(page, "value-variant") == "tanh/compliant_bearing"
     put(page, "pin", "worn_rough")
     click(page, "opening")
-    assert text(page, "value-variant") == "tanh/compliant_worn_rough_opening"
+    assert text(page, "value-variant") == "tanh/compliant_worn_rough"
     put(page, "law", "exponential")
-    assert text(page, "value-variant") == "exponential/compliant_worn_rough_opening"
+    assert text(page, "value-variant") == "exponential/compliant_worn_rough"
     assert len(curves(page)["roughness"]) == 3
     click(page, "reset")
     assert text(page, "value-variant") == "tanh/rigid_bearing"
@@ -352,7 +352,7 @@ def test_contact_that_ends_on_a_compliant_support(page):
     """The rate bends where contact ends: it is found in many cycles all the same."""
     click(page, "cutoff")
     click(page, "compliant")
-    assert text(page, "value-variant") == "tanh/compliant_bearing_cutoff"
+    assert text(page, "value-variant") == "tanh/compliant_bearing_ends_at_3_sigma"
     assert text(page, "value-regime").startswith("arrest")
     assert number(text(page, "value-arrest-wear")) == pytest.approx(0.002, rel=1e-4)
     assert 0.0019 < number(text(page, "value-wear-now")) < 0.002
@@ -484,7 +484,7 @@ def test_the_scene_file_gives_what_is_shown(page, pin):
     put(page, "slider-f_c", "0.31")
     put(page, "cycles", "1")
     scene = parse_scene(text(page, "scene-file"))
-    assert text(page, "value-variant") == f"{scene.variant.law}/{scene.variant.module}"
+    assert text(page, "value-variant") == f"{scene.variant.law}/{scene.variant.name}"
     assert scene.bearing.roughness_growth == 0.31
     expected = wear.solve(scene, [10], rtol=1e-6).u_c[0]
     assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4)

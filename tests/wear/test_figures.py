@@ -15,7 +15,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from wear import figure_style, figures
-from wear.figure_data import Line, Method, Regime, Threshold, pressure_inside
+from wear.figure_data import Example, Line, Method, pressure_inside
 from wear.report import drawing
 from wear.scene import load_scene
 from wear.solver import solve
@@ -41,8 +41,11 @@ def _methods() -> list[Method]:
     ]
 
 
+def _two_regimes(slope: np.ndarray, gap: np.ndarray, ends: bool) -> np.ndarray:
+    return np.where(slope + 0.0 * gap > 0.3 * ends, "steady", "arrest")
+
+
 def _all() -> dict[str, Figure]:
-    slope = np.linspace(0.05, 1.0, 50)
     return {
         "history": figures.history(_lines(), _lines(), _lines()[:1], logarithmic=True),
         "wear": figures.wear_history(_lines()),
@@ -53,9 +56,12 @@ def _all() -> dict[str, Figure]:
         "pressure": figures.pressure_in_cycles([Line("first", CYCLES / 100.0, WEAR)]),
         "speed": figures.speed_against_error(_methods()),
         "map": figures.regime_map(
-            Line("p", slope, slope**9),
-            [Regime("slow", -0.2, 0.0), Regime("steady", 0.0, 1.0)],
-            [Threshold("$1/8$", 0.125)],
+            _two_regimes,
+            ("without", "with"),
+            [Example("one", 0.25, 1.6, True), Example("two", 0.05, 2.0, False)],
+        ),
+        "decades": figures.wear_by_decades(
+            [line.positive() for line in _lines()[:2]], _lines()[2:], (50.0, "here")
         ),
         "system": drawing.system(),
     }
@@ -106,6 +112,14 @@ def test_a_logarithmic_axis_leaves_out_the_start(drawn: dict[str, Figure]) -> No
     axes = drawn["logarithmic"].axes[0]
     assert axes.get_xscale() == "log"
     assert axes.get_xlim() == (0.5, 100.0)
+
+
+def test_the_map_names_the_regimes_and_the_examples(drawn: dict[str, Figure]) -> None:
+    """Dots lie at their scenes; those with two worn solids are hollow."""
+    for axes in drawn["map"].axes:
+        assert {text.get_text() for text in axes.texts} == {"steady", "arrest", "one", "two"}
+        dots = {tuple(line.get_xydata()[0]): line.get_markerfacecolor() for line in axes.lines}
+        assert dots == {(0.25, 1.6): figure_style.INK, (0.05, 2.0): figure_style.PAPER}
 
 
 def test_failures_and_exact_results_are_shown(drawn: dict[str, Figure]) -> None:

@@ -13,7 +13,6 @@ from numpy.testing import assert_allclose
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
 from wear.count import inside, wear_after
 from wear.count.build import cycle_count
-from wear.count.collocation import FloatArray, mesh
 from wear.count.course import course
 from wear.count.cycle import drive
 from wear.count.cycle import settings as sizes
@@ -23,6 +22,10 @@ from wear.count.stages import counted_stages
 from wear.faults import UsageError
 from wear.load import Harmonics, HistoryLoad, Table
 from wear.model import bind
+from wear.numerics.gauss import (
+    FloatArray,
+    mesh,
+)
 from wear.scene import Scene, builtin_names, load_scene, scene_from_tables
 from wear.solver import solve
 from wear.static import static_solution

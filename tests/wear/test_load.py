@@ -111,12 +111,6 @@ def test_a_small_lead_does_not_spoil_the_extremes(noise: float) -> None:
     assert noisy.peaks == pytest.approx((0.25,), abs=1e-10)
 
 
-def test_subnormal_amplitudes() -> None:
-    load = Harmonics(0.0, (), (2.225e-311,), 1.0)
-    assert load.peaks == pytest.approx((0.25,), abs=1e-10)
-    assert load.maximum == 2.225e-311
-
-
 def test_flat_extremes() -> None:
     # (1 + cos x)^4: the minimum is flat to the eighth order
     powers = [math.comb(8, 4 - j) * 2.0**-3 for j in range(5)]

@@ -18,12 +18,14 @@ from tests.wear.reference_scenes import CONSTANT, tables
 from tests.wear.test_cycle_count import ROUNDING, between, problem
 from wear import direct
 from wear.count import lines
-from wear.count.collocation import FloatArray
 from wear.count.lines import Lines, integrated
 from wear.count.record import Followed, follow
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.load import HistoryLoad
 from wear.model import bind
+from wear.numerics.gauss import (
+    FloatArray,
+)
 from wear.scene import Scene, scene_from_tables
 from wear.solver import solve
 

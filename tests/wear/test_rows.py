@@ -1,14 +1,20 @@
-"""CSV files of loads: all rows at once are read as rows one by one are."""
+"""CSV files of loads: as instruments write them, and all rows at once as rows one by one."""
 
+import tempfile
 from pathlib import Path
 from unittest import mock
 
 import numpy as np
+import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
-from wear.scene import rows
-from wear.scene.rows import Rows, read_rows
+from wear.checked import problems
+from wear.faults import SceneError
+from wear.load import Table, rows
+from wear.load.rows import TableFile, read_rows
+from wear.scene import Scene, load_scene
 
 HEAD = "t_s,U_a_mm\n"
 NUMBERS = st.one_of(
@@ -20,6 +26,15 @@ NUMBERS = st.one_of(
 )  # fmt: skip
 
 
+def found(folder: Path) -> str:
+    """The rows of a.csv, or what is wrong with them."""
+    try:
+        times, displacements, _ = read_rows(TableFile("a.csv"), folder)
+    except ValidationError as error:
+        return repr(problems(error))
+    return repr((times.tolist(), displacements.tolist()))
+
+
 @given(st.lists(st.lists(NUMBERS, min_size=1, max_size=3).map(",".join), min_size=1, max_size=6))
 @example(["0,1e-4", "1_0,2e-4"])
 @example(["0,1e-4\r", "1,2e-4\r", "\r"])
@@ -29,27 +44,146 @@ NUMBERS = st.one_of(
 def test_the_quick_way_says_the_same(lines: list[str]) -> None:
     timed = [f"{place}{',' if line else ''}{line}" for place, line in enumerate(lines)]
     for some in (lines, timed):
-        text = HEAD + "\n".join(some)
-        quick = rows._parse(text)
-        with mock.patch.object(rows, "_sound_columns", return_value=None):
-            assert repr(quick) == repr(rows._parse(text))
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "a.csv").write_bytes((HEAD + "\n".join(some)).encode())
+            quick = found(folder)
+            with mock.patch.object(rows, "_all_at_once", return_value=None):
+                assert quick == found(folder)
 
 
 def test_a_million_rows_are_read(tmp_path: Path) -> None:
     times = np.arange(1_000_000) / 1024
     level = 5e-4 * np.sin(times)
     lines = [f"{t!r},{U!r}" for t, U in zip(times.tolist(), level.tolist(), strict=True)]
-    (tmp_path / "record.csv").write_text(HEAD + "\n".join(lines))
-    read = read_rows("record.csv", tmp_path)
-    assert isinstance(read, Rows)
-    assert read.times == times.tolist()
-    assert read.displacements == level.tolist()
+    (tmp_path / "a.csv").write_text(HEAD + "\n".join(lines))
+    read = read_rows(TableFile("a.csv"), tmp_path)
+    assert read.times.tolist() == times.tolist()
+    assert read.displacements.tolist() == level.tolist()
 
 
 def test_one_wrong_row_among_many_is_told_with_its_line(tmp_path: Path) -> None:
     lines = [f"{n},1e-4" for n in range(1000)]
     lines[700] = "700;1e-4"
-    (tmp_path / "record.csv").write_text(HEAD + "\n".join(lines))
-    read = read_rows("record.csv", tmp_path)
-    assert isinstance(read, list)
-    assert [wrong.problem for wrong in read] == ['record.csv line 702: "700;1e-4" is no row']
+    (tmp_path / "a.csv").write_text(HEAD + "\n".join(lines))
+    with pytest.raises(ValidationError) as caught:
+        read_rows(TableFile("a.csv"), tmp_path)
+    assert [p.problem for p in problems(caught.value)] == ['a.csv line 702: "700;1e-4" is no row']
+
+
+# Files as instruments write them
+
+
+def scene(tmp_path: Path, **load: object) -> Scene:
+    tables = load_scene("section4").to_tables() | {"load": {"kind": "table"} | load}
+    return Scene.from_dict(tables, folder=tmp_path)
+
+
+def load(tmp_path: Path, **entries: object) -> Table:
+    made = scene(tmp_path, **entries).load
+    assert isinstance(made, Table)
+    return made
+
+
+INSTRUMENT = {
+    "file": "log.csv", "columns": ["Zeit (ms)", "Weg (µm)"], "time_unit": "ms", "unit": "um",
+    "delimiter": ";", "decimal": ",", "encoding": "latin-1",
+}  # fmt: skip
+
+
+def test_an_instrument_s_file(tmp_path: Path) -> None:
+    """Lines before the header, a column too many, decimal commas, another encoding."""
+    text = 'Messung Prüfstand 3\n\n"Zeit (ms)";Kanal 2;"Weg (µm)"\n0,0;1;-0,1\n15,0;2;0,5\n'
+    (tmp_path / "log.csv").write_bytes((text + "60,0;3;-0,1\n").encode("latin-1"))
+    made = load(tmp_path, **INSTRUMENT)
+    assert made.times_s == pytest.approx((0.0, 0.015, 0.06), rel=1e-15)
+    assert made.values_mm == pytest.approx((-1e-4, 5e-4, -1e-4), rel=1e-15)
+    original = scene(tmp_path, **INSTRUMENT)
+    assert Scene.from_dict(original.to_tables(), folder=tmp_path) == original
+
+
+def test_a_byte_order_mark_does_no_harm(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\ufeff" + HEAD + "0,0\n1,0\n", encoding="utf-8")
+    assert load(tmp_path, file="a.csv").period == 1.0
+
+
+def test_rows_may_stand_in_the_scene_itself(tmp_path: Path) -> None:
+    made = scene(tmp_path, times_s=[0.0, 0.01, 0.06], values_mm=[0.0, 5e-4, 0.0])
+    assert made.load == Table((0.0, 0.01, 0.06), (0.0, 5e-4, 0.0))
+    assert Scene.from_dict(made.to_tables()) == made
+
+
+@pytest.mark.parametrize(
+    ("entries", "problem", "remedy"),
+    [
+        ({"columns": ["Zeit", "Weg (µm)"]}, 'the columns are "Messung"', "begin with Zeit;Weg"),
+        ({"columns": ["Zeit (ms)"]}, "", ""),
+        ({"time_unit": "sec"}, '"sec" is unknown', "choose one of s, ms"),
+        ({"unit": "micron"}, '"micron" is unknown', "choose one of mm, um"),
+        ({"delimiter": ";;"}, "is no delimiter", "one character"),
+        ({"delimiter": ",", "decimal": ","}, "is the delimiter too", 'delimiter = ";"'),
+        ({"encoding": "martian"}, '"martian" is unknown', "latin-1"),
+        ({"encoding": "hex"}, '"hex" is unknown', "latin-1"),
+        ({"encoding": "utf-8"}, "is not UTF-8 text", 'encoding = "latin-1"'),
+        ({"repeat": 1}, "is no flag", "true or false"),
+        ({"decimal": "."}, "is no row", "two finite numbers"),
+    ],
+)
+def test_an_instrument_s_file_that_is_described_wrongly(
+    entries: dict[str, object], problem: str, remedy: str, tmp_path: Path
+) -> None:
+    text = '"Messung"\nZeit (ms);Weg (µm)\n0,0;0,1\n15,0;0,5\n60,0;0,1\n'
+    (tmp_path / "log.csv").write_bytes(text.encode("latin-1"))
+    with pytest.raises(SceneError) as caught:
+        scene(tmp_path, **(INSTRUMENT | entries))
+    assert problem in caught.value.faults[0].problem
+    assert remedy in caught.value.faults[0].remedy
+
+
+# One period out of a record
+
+
+def record(tmp_path: Path, count: int, start: float = 0.0) -> None:
+    """A sine of period 60 ms, a row a millisecond, with a drift of 1e-5 mm a period."""
+    at = np.arange(count) * 1e-3
+    level = 5e-4 * np.sin(2 * np.pi * at / 0.06) + 1e-5 * at / 0.06
+    lines = (f"{t + start!r},{u!r}\n" for t, u in zip(at.tolist(), level.tolist(), strict=True))
+    (tmp_path / "a.csv").write_text(HEAD + "".join(lines))
+
+
+def test_one_period_of_a_record(tmp_path: Path) -> None:
+    record(tmp_path, 200)
+    made = load(tmp_path, file="a.csv", period_s=0.06, repeat=True)
+    assert (made.period, len(made.times_s)) == (0.06, 61)
+    assert made.values_mm[-1] == made.values_mm[0] == 0.0
+    assert made.values_mm[15] == pytest.approx(5e-4 + 0.25e-5)
+
+
+def test_the_period_is_the_last_time_plus_one_step(tmp_path: Path) -> None:
+    record(tmp_path, 60)
+    made = load(tmp_path, file="a.csv", repeat=True)
+    assert made.period == pytest.approx(0.06, rel=1e-14)
+    assert len(made.times_s) == 61
+
+
+def test_a_record_may_start_at_any_time(tmp_path: Path) -> None:
+    record(tmp_path, 60)
+    whole = load(tmp_path, file="a.csv", period_s=0.06, repeat=True)
+    record(tmp_path, 60, start=12.5)
+    late = load(tmp_path, file="a.csv", period_s=0.06, repeat=True)
+    np.testing.assert_allclose(late.times_s, whole.times_s, atol=1e-14)
+    assert late.values_mm == whole.values_mm
+
+
+def test_a_record_that_is_shorter_than_the_period_is_refused(tmp_path: Path) -> None:
+    record(tmp_path, 30)
+    with pytest.raises(SceneError, match="before the period does"):
+        load(tmp_path, file="a.csv", period_s=0.06, repeat=True)
+
+
+def test_the_seam_and_the_drift_of_a_record_are_told(tmp_path: Path) -> None:
+    record(tmp_path, 200)
+    told = " ".join(scene(tmp_path, file="a.csv", period_s=0.06, repeat=True).notices)
+    assert "61 rows" in told
+    assert "mean" in told
+    assert "there U_a changes by" in told

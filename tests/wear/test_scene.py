@@ -1,6 +1,5 @@
 """Scenes: what is read, what a solver is given, and the way back to a file."""
 
-import importlib
 import json
 import math
 import tomllib
@@ -15,6 +14,7 @@ from derive.laws import LAWS
 from derive.note.governing import Model, sigma_a, sigma_c
 from wear.faults import SceneError, UsageError
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
+from wear.model import bind
 from wear.scene import (
     SCENES,
     Bearing,
@@ -26,12 +26,12 @@ from wear.scene import (
     VariantKey,
     builtin_names,
     builtin_scenes,
+    contact_laws,
     load_scene,
     parse_scene,
     scene_from_tables,
 )
 from wear.scene.notices import CONTACT_REACH
-from wear.scene.schema import contact_laws
 
 MINIMAL = """
 [bearing]
@@ -94,9 +94,9 @@ def test_parameters_of_a_full_scene() -> None:
 @pytest.mark.parametrize(
     ("pin", "state", "symbols"),
     [
-        (None, "absent", set()),
+        (None, "bearing", set()),
         (replace(PIN, wear_coefficient=0.0), "rough", {"sigma_a0"}),
-        (replace(PIN, wear_coefficient=0.0, roughness_mm=0.0), "absent", set()),
+        (replace(PIN, wear_coefficient=0.0, roughness_mm=0.0), "bearing", set()),
         (replace(PIN, roughness_mm=0.0, roughness_growth=0.0), "worn", {"K_a", "H_a"}),
         (replace(PIN, roughness_mm=0.0), "worn_rough", {"K_a", "H_a", "sigma_a0", "f_a"}),
         (PIN, "worn_rough", {"K_a", "H_a", "sigma_a0", "f_a"}),
@@ -110,18 +110,18 @@ def test_a_pin_has_only_what_it_needs(
     contact = replace(scene.contact, pin_wear_opens_gap=opening)
     with_pin = replace(scene, pin=pin, contact=contact)
     assert with_pin.variant.pin == state
-    assert with_pin.variant.opening == (opening and "worn" in state)
+    assert with_pin.pin_wear_sign == (1.0 if opening else -1.0)
     assert set(with_pin.parameters()) - set(scene.parameters()) == symbols
 
 
 def test_names_of_variants() -> None:
-    assert VariantKey("tanh", "rigid", "absent", False, True).module == "rigid_bearing_cutoff"
+    assert VariantKey("tanh", "rigid", "bearing", True).name == "rigid_bearing_ends_at_3_sigma"
     scene = load_scene(
         "section3", ["support.stiffness_MPa_per_mm=1e5", "contact.ends_at_3_sigma=true"]
     )
-    assert scene.variant.module == "compliant_worn_rough_cutoff"
-    assert load_scene("section3-physical").variant.module == "rigid_worn_rough_opening"
-    assert load_scene("section4", ["contact.law=exponential"]).variant.package == "exponential"
+    assert scene.variant.name == "compliant_worn_rough_ends_at_3_sigma"
+    assert load_scene("section3-physical").variant.module == "rigid_worn_rough"
+    assert load_scene("section4", ["contact.law=exponential"]).variant.law == "exponential"
 
 
 def test_only_a_load_that_repeats_has_a_period(tmp_path: Path) -> None:
@@ -146,30 +146,27 @@ def test_equivalent_roughness_is_equation_3() -> None:
 
 
 @pytest.mark.parametrize("support", [None, Support(1e5)])
-@pytest.mark.parametrize("pin_kind", ["absent", "rough", "worn", "worn_rough"])
+@pytest.mark.parametrize("pin_kind", ["bearing", "rough", "worn", "worn_rough"])
 @pytest.mark.parametrize("opening", [False, True])
 @pytest.mark.parametrize("cutoff", [False, True])
 def test_every_variant_is_generated_and_gets_its_parameters(
     support: Support | None, pin_kind: str, opening: bool, cutoff: bool
 ) -> None:
     pins = {
-        "absent": None,
+        "bearing": None,
         "rough": replace(PIN, wear_coefficient=0.0),
         "worn": replace(PIN, roughness_mm=0.0, roughness_growth=0.0),
         "worn_rough": PIN,
     }
-    contact = Contact(300.0, None, 2.5, cutoff=cutoff, pin_wear_opens_gap=opening)
+    contact = Contact(300.0, None, 2.5, ends_at_3_sigma=cutoff, pin_wear_opens_gap=opening)
     scene = replace(section4(), pin=pins[pin_kind], support=support, contact=contact)
-    name = scene.variant
-    module = importlib.import_module(f"wear.generated.{name.package}.{name.module}")
-    numbers = scene.parameters()
-    constants = module.bind(**{symbol: numbers[symbol] for symbol in module.PARAMETERS})
-    start = module.fields(*([0.0] * (3 if support else 2)), constants)
+    model = bind(scene)
+    start = model.fields_under(0.0, 0.0, 0.0) if support else model.fields(0.0, 0.0)
     assert float(start.sigma) == pytest.approx(scene.initial_roughness, rel=4e-16)
     assert float(start.h) == pytest.approx(scene.closure, rel=4e-16)
     if cutoff:
         margin = CONTACT_REACH * scene.initial_roughness - scene.closure
-        assert float(module.margin(0.0, 0.0, constants)) == pytest.approx(margin, rel=1e-14)
+        assert float(model.margin(0.0, 0.0)) == pytest.approx(margin, rel=1e-14)
 
 
 def test_reach_of_contact_is_that_of_the_laws() -> None:

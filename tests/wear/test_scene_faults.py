@@ -121,7 +121,7 @@ amplitude_mm = [1.0]
         ("title", "3", "is a number", 'title = "..."'),
         ("title", '"a\\u0007b"', "control characters", "printable"),
         ("title", '"' + "a" * 201 + '"', "201 characters", "at most 200"),
-        ("zzz.key", "3", "unknown table", "known here: title, description, bearing"),
+        ("zzz.key", "3", "unknown table", "known here: bearing, contact, motion, load"),
         ("bearing.zzz", "3", "unknown key", "known here: hardness_MPa"),
     ],
 )

@@ -6,14 +6,13 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from wear.checked import TABLES, keys_of
 from wear.faults import SceneError
 from wear.scene import Scene, builtin_names, load_scene, parse_scene, scene_from_tables
-from wear.scene.schema import LOADS, TABLES
 
 NAMES = sorted(
     {"title", "description", "load", "kind", "cycles", "blocks"}
-    | {table.name for table in (*TABLES, *LOADS)}
-    | {name for table in (*TABLES, *LOADS) for name in table.names}
+    | {name for table in TABLES for name in (table.place, table.kind, *keys_of(table)) if name}
 )
 TEXTS = [load_scene(name).to_toml() for name in ("section3", "section4", "soft-support")]
 

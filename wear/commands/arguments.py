@@ -53,9 +53,11 @@ def built_in_names() -> Sequence[str]:
 
 def _entries() -> Sequence[str]:
     """Return the beginnings of what `--set` takes, but for the load, whose keys vary."""
-    from wear.scene.schema import TABLES
+    from wear.checked import keys_of
+    from wear.scene import Bearing, Contact, Motion, Pin, Support
 
-    return [f"{table.name}.{name}=" for table in TABLES for name in table.names]
+    tables = (Bearing, Pin, Contact, Support, Motion)
+    return [f"{table.place}.{name}=" for table in tables for name in keys_of(table)]
 
 
 class Faults:
@@ -127,7 +129,7 @@ class Faults:
 
     def choice(self, name: str, text: str, choices: Sequence[str]) -> str:
         """Return one of these words, whatever the case of its letters."""
-        from wear.scene.value import did_you_mean
+        from wear.checked import did_you_mean
 
         exact = {choice.lower(): choice for choice in choices}
         if text.lower() not in exact:
@@ -147,6 +149,6 @@ def _number(text: str) -> float:
 
 
 def _quoted(text: str) -> str:
-    from wear.scene.value import shown
+    from wear.checked import shown
 
     return f'"{shown(text)}"'

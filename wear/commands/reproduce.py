@@ -64,9 +64,9 @@ def _reproduce(
     from wear.report.claims import as_json, ledger
     from wear.report.manifest import NAME, manifest
     from wear.report.paper import paper
-    from wear.report.paper_speed import measured
     from wear.report.publish import publish
     from wear.report.runs import run
+    from wear.report.speed import measured
     from wear.report.verification import verified
 
     with files.replacing_in(folder) as draft:

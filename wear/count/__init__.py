@@ -8,13 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import FloatArray
 from wear.count.cycle import Cost
 from wear.count.scan import LEAST
 from wear.count.stage import Stages, evaluate_stages
 from wear.count.stages import counted_stages
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+)
 
 MOST_CYCLES = 1e12
 
@@ -55,7 +57,7 @@ def _notices(model: Model, found: Stages, wear: FloatArray) -> Iterator[str]:
     limit = found.stages[-1].counted.limit
     if np.any(wear >= (1 - 1e-9) * limit):
         yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
-    elif found.arrest is not None and model.cutoff:
+    elif found.arrest is not None and model.ends_at_3_sigma:
         # On springs the pressure vanishes with the distance that is left, and no cycle is the last.
         fades = found.arrest.fades or (model.compliant and found.arrest.cycle > 0)
         yield str(found.arrest._replace(fades=fades))

@@ -12,11 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import (
-    FloatArray,
+from wear.numerics.chebyshev import (
     chebyshev_analysis,
     chebyshev_nodes,
     chebyshev_values,
+)
+from wear.numerics.gauss import (
+    FloatArray,
     gauss,
 )
 

@@ -9,11 +9,13 @@ import numpy as np
 from wear.count import MOST_CYCLES, Cycles, Wear
 from wear.count import cycles_until as until_of_one
 from wear.count import wear_after as wear_of_one
-from wear.count.collocation import FloatArray
 from wear.count.cycle import Cost
 from wear.direct.sequence import most_cycles, span
 from wear.load import AperiodicLoad, Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+)
 
 PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 

@@ -11,19 +11,28 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel, tabulated
-from wear.count.arithmetic import ROUNDOFF, TINY
-from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import one_cycle
 from wear.count.cycle import Cost, OneCycle, Settings, settings
 from wear.count.first import Opening, fresh, opening
 from wear.count.panels import NONE, SAFETY, Maps, Solved, fill
 from wear.count.request import Request
-from wear.count.resolution import refined
 from wear.count.rounding import roundoff, roundoff_of_cycles
 from wear.count.scan import SHIFT, roughness_limit, roughness_scale, scan
 from wear.faults import UsageError
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.collocation import (
+    refined,
+)
+from wear.numerics.gauss import (
+    FloatArray,
+    Mesh,
+    mesh,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+    TINY,
+)
 
 MOST_EVALUATIONS = 20_000_000  # then no finer mesh is tried: the estimate tells what is missed
 NEARLY = 10.0  # times the residual that is asked for
@@ -90,7 +99,7 @@ def cycle_count(
     UsageError
         for a model with cutoff, whose map has kinks: see `wear.count.stages`.
     """
-    if model.cutoff:
+    if model.ends_at_3_sigma:
         raise UsageError("only the wear after whole cycles can be counted with a cutoff")
     limit = roughness_limit(model, 1e12 * roughness_scale(model))
     cycle = one_cycle(model, load)

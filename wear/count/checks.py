@@ -7,23 +7,39 @@ vanishes: so the rates at all nodes have a say.
 
 import numpy as np
 
-from wear.count.arithmetic import TINY
-from wear.count.collocation import FloatArray, Mesh, chebyshev_analysis, chebyshev_values
-from wear.count.iteration import Advance, Near
-from wear.count.resolution import truncated
+from wear.numerics.chebyshev import (
+    chebyshev_analysis,
+    chebyshev_values,
+)
+from wear.numerics.collocation import (
+    CycleSolution,
+    InitialGuess,
+    truncation_error,
+)
+from wear.numerics.gauss import (
+    FloatArray,
+    Mesh,
+)
+from wear.numerics.tolerances import (
+    TINY,
+)
 
 CHECKS = -np.cos(np.pi * np.array([0, 1 / 6, 3 / 8, 5 / 8, 7 / 8, 1]))  # extrema of T_24 and T_48
-MISSED = 1 / 12  # of what `truncated` tells: in 99 of 100 drawn scenes less than three times that
+MISSED = (
+    1 / 12
+)  # of what `truncation_error` tells: in 99 of 100 drawn scenes less than three times that
 
 
-def missed_by_phase(ahead: Advance, over: Mesh) -> FloatArray:
+def missed_by_phase(ahead: CycleSolution, over: Mesh) -> FloatArray:
     """The relative errors by the mesh of phase of cycles `ahead` from the nodes of panels, (panels,
     m), roughly."""
-    missed: FloatArray = np.sum(truncated(ahead.rate, over), axis=-1) / (ahead.increment + TINY)
+    missed: FloatArray = np.sum(truncation_error(ahead.rate, over), axis=-1) / (
+        ahead.increment + TINY
+    )
     return MISSED * missed
 
 
-def at_checks(ahead: Advance, m: int) -> Near:
+def at_checks(ahead: CycleSolution, m: int) -> InitialGuess:
     """What the cycles do that start at the CHECKS, as a guess for a mesh with `m` nodes on each
     interval: interpolated between those `ahead` from the nodes of panels."""
     nodes = ahead.increment.shape[1]
@@ -32,4 +48,4 @@ def at_checks(ahead: Advance, m: int) -> Near:
         (to_checks @ x.reshape(*x.shape[:2], -1)).reshape(len(x), -1, *x.shape[2:])
         for x in (ahead.inside, ahead.rate)
     )
-    return ahead._replace(inside=inside, rate=rate).near(m)
+    return ahead._replace(inside=inside, rate=rate).guess(m)

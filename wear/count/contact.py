@@ -14,11 +14,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF, TINY
-from wear.count.collocation import BoolArray, FloatArray, Gauss
-from wear.count.iteration import NOISE
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.collocation import (
+    NOISE,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    Gauss,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+    TINY,
+)
 
 MOST_ITERATIONS = 12  # of Newton
 PATIENCE = 4  # iterations that may diverge at first

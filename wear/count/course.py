@@ -10,28 +10,42 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel, tabulated
-from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.build import CycleCount
 from wear.count.checks import CHECKS
-from wear.count.collocation import (
-    BoolArray,
-    FloatArray,
-    Mesh,
-    chebyshev_analysis,
-    chebyshev_nodes,
-    chebyshev_values,
-    integral,
-    mesh,
+from wear.count.cycle import (
+    MOST_INTERVALS,
+    Drive,
+    Settings,
+    drive,
+    first_edges,
+    settings,
 )
-from wear.count.cycle import MOST_INTERVALS, Drive, Settings, drive, settings
-from wear.count.iteration import Advance
 from wear.count.march import march
 from wear.count.panels import NONE, SAFETY
-from wear.count.resolution import first_edges, refined
 from wear.count.rounding import roundoff
 from wear.count.scan import SHIFT, halves, roughness_scale
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.chebyshev import (
+    chebyshev_analysis,
+    chebyshev_nodes,
+    chebyshev_values,
+)
+from wear.numerics.collocation import (
+    CycleSolution,
+    refined,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    Mesh,
+    integral,
+    mesh,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+    TINY,
+)
 
 MOST_ROUNDS = 6  # of cutting panels
 
@@ -236,7 +250,7 @@ def _judged(cycle: Drive, starts: FloatArray, phases: FloatArray, size: Settings
     return _at_phases(again.advance(starts), again.over, phases)
 
 
-def _at_phases(run: Advance, over: Mesh, phases: FloatArray) -> FloatArray:
+def _at_phases(run: CycleSolution, over: Mesh, phases: FloatArray) -> FloatArray:
     """Wear added up to each phase, shape (starts, phases)."""
     interval = np.clip(
         np.searchsorted(over.edges, phases, side="right") - 1, 0, len(over.lengths) - 1

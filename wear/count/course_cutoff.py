@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import FloatArray, mesh
 from wear.count.course import Added
 from wear.count.cutoff import CutoffCycle, cutoff_cycle
 from wear.count.cycle import settings
@@ -19,6 +18,10 @@ from wear.count.edge import PIECE_SAMPLES, Piece
 from wear.count.panels import NONE
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+    mesh,
+)
 
 NODES = 8  # on each part of a piece, most of which are short
 NEARLY = 1e-12  # of a cycle: phases that are one

@@ -12,16 +12,32 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF
-from wear.count.collocation import BoolArray, FloatArray, Gauss, Mesh, mesh, radau
 from wear.count.contact import Contact, Stretch, Worn, worn
-from wear.count.cycle import OneCycle, Settings, drive
+from wear.count.cycle import (
+    OneCycle,
+    Settings,
+    drive,
+    first_edges,
+)
 from wear.count.edge import Edge, Piece, displacement_at, edge_of_contact, phase_of, wear_at
 from wear.count.held import Support, on_support
-from wear.count.iteration import Advance, Near
-from wear.count.resolution import first_edges
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.collocation import (
+    CycleSolution,
+    InitialGuess,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    Gauss,
+    Mesh,
+    mesh,
+    radau,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+)
 
 TOUCH = 16.0  # roundoffs of the margin by which contact is told
 APART = 1e-9  # of roughness and wear: a small difference
@@ -58,7 +74,7 @@ class CutoffCycle(NamedTuple):
         over = mesh(np.array([0.0, 1.0]), size.phase_nodes)
         return self._replace(over=over, tolerance=size.strict_tolerance)
 
-    def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
+    def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
         """Wear added by one cycle from each start, shape (...); guesses are of no use."""
         flat = starts.ravel()
         added = np.zeros(len(flat))
@@ -72,7 +88,9 @@ class CutoffCycle(NamedTuple):
         nothing = np.zeros((*starts.shape, *self.over.phases.shape))
         converged = np.full(len(self.over.lengths), sound)
         left = np.zeros(starts.shape)
-        return Advance(added.reshape(starts.shape), nothing, nothing, evaluations, converged, left)
+        return CycleSolution(
+            added.reshape(starts.shape), nothing, nothing, evaluations, converged, left
+        )
 
     def frozen(self, wear: FloatArray) -> FloatArray:
         """Wear added by one cycle if the rate did not feel it, any shape."""
@@ -109,26 +127,26 @@ class CutoffCycle(NamedTuple):
         response: FloatArray = added + np.minimum(added, roughness) * growth
         return response
 
-    def several(self, start: float, number: int) -> Advance:
+    def several(self, start: float, number: int) -> CycleSolution:
         """Some cycles on end from wear `start`; increments have shape (number,)."""
         runs, wear = [], start
         for _ in range(number):
             run = self.advance(np.array([wear]))
             wear += float(run.increment[0])
             runs.append(run)
-        return Advance(
+        return CycleSolution(
             np.concatenate([run.increment for run in runs]),
             np.concatenate([run.inside for run in runs]),
             np.concatenate([run.rate for run in runs]),
             sum(run.evaluations for run in runs),
             np.all([run.converged for run in runs], axis=0),
-            np.concatenate([run.left for run in runs]),
+            np.concatenate([run.iteration_error for run in runs]),
         )
 
 
 def one_cycle(model: Model, load: Load) -> OneCycle:
     """The map of one cycle that a model needs, on a mesh yet to be resolved."""
-    if not model.cutoff:
+    if not model.ends_at_3_sigma:
         return drive(model, load, mesh(first_edges(load), 8))
     return cutoff_cycle(model, load)
 
@@ -154,7 +172,7 @@ def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray)
         return Worn(added, added, True, 0)
     u, edge = wear[active], cycle.edge
     level = None if piece.rising else 0.0
-    contact = Contact(cycle.model, cycle.load, cycle.model.by_law, level)
+    contact = Contact(cycle.model, cycle.load, cycle.model.law_rate_and_slope, level)
     over = Stretch(begin, piece.end - begin, end - begin)
     run = worn(contact, cycle.rule, cycle.tolerance, u, over, before[active])
     added[active] = run.added

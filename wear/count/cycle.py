@@ -1,19 +1,32 @@
 """The one-cycle map u -> P(u): the wear that one cycle adds, for many starts at once.
 
-A cycle is cut into intervals of phase, see `wear.count.resolution`, and solved on them by
-`wear.count.iteration`.
+A cycle is cut into intervals of phase and solved on them by collocation.
 """
 
+from itertools import pairwise
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF
-from wear.count.collocation import FloatArray, Mesh, integral, mesh
-from wear.count.iteration import NOISE, Advance, Near, advance
-from wear.count.resolution import first_edges, refined, unresolved
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.collocation import (
+    NOISE,
+    CycleSolution,
+    InitialGuess,
+    refined,
+    solve,
+    unresolved,
+)
+from wear.numerics.gauss import (
+    FloatArray,
+    Mesh,
+    integral,
+    mesh,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+)
 
 MOST_INTERVALS = 256  # of one cycle
 COARSEST = 1e-6  # relative error: coarser meshes of phase would not tell what they miss
@@ -75,14 +88,14 @@ class OneCycle(Protocol):
     def resolved(self, wear: FloatArray, size: Settings) -> "OneCycle":
         """On a mesh that suits the wear values (k,), mm."""
 
-    def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
+    def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
         """Wear added by one cycle from each start, mm, any shape (...); from a guess with the shape
         (..., q, m)."""
 
     def frozen(self, wear: FloatArray) -> FloatArray:
         """Wear (mm) added by one cycle if the rate did not feel it, any shape."""
 
-    def several(self, start: float, number: int) -> Advance:
+    def several(self, start: float, number: int) -> CycleSolution:
         """Some cycles on end; increments have shape (number,), the rest (number, q, m), the wear
         inside each cycle since its own start."""
 
@@ -101,7 +114,7 @@ class Drive(NamedTuple):
         rate: FloatArray = self.model.rate(u, self.displacement)
         return self.load.period * rate
 
-    def pace(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
         """Wear rate in mm per interval at wear `u` (..., q, m), sought from a pace `near` by."""
         return pace(self.model, u, self.displacement, self.load.period, self.over, near)
 
@@ -119,17 +132,17 @@ class Drive(NamedTuple):
         nodes, tolerance = size.phase_nodes, size.phase_tolerance
         return self.on(resolve(self.model, self.load, wear, nodes, tolerance))
 
-    def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
+    def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
         """Wear added over the mesh from each start, any shape."""
         if near is not None:
-            near = Near(*(array.reshape(starts.size, *array.shape[-2:]) for array in near))
-        run = advance(self, starts.ravel(), near)
+            near = InitialGuess(*(array.reshape(starts.size, *array.shape[-2:]) for array in near))
+        run = solve(self, starts.ravel(), near)
         shape = (*starts.shape, *self.over.phases.shape)
         return run._replace(
             increment=run.increment.reshape(starts.shape),
             inside=run.inside.reshape(shape),
             rate=run.rate.reshape(shape),
-            left=run.left.reshape(starts.shape),
+            iteration_error=run.iteration_error.reshape(starts.shape),
         )
 
     def growth(self, wear: FloatArray) -> FloatArray:
@@ -140,21 +153,21 @@ class Drive(NamedTuple):
         """Wear (mm) added over the mesh if the rate did not feel it."""
         return integral(self.rate(wear[..., None, None]), self.over)
 
-    def several(self, start: float, number: int) -> Advance:
+    def several(self, start: float, number: int) -> CycleSolution:
         """Cycles on end, all at once on copies of the mesh of one."""
         over = self.over
         edges = np.concatenate([over.edges[:-1] + k for k in range(number)] + [[float(number)]])
-        run = advance(self.on(mesh(edges, len(over.rule.nodes))), np.array([start]))
+        run = solve(self.on(mesh(edges, len(over.rule.nodes))), np.array([start]))
         rate = run.rate.reshape(number, *over.phases.shape)
         added = integral(rate, over)
         before = np.cumsum(added) - added
-        return Advance(
+        return CycleSolution(
             added,
             run.inside.reshape(rate.shape) - before[:, None, None],
             rate,
             run.evaluations,
             np.logical_and.reduce(run.converged.reshape(number, -1), axis=0),
-            np.repeat(run.left, number),
+            np.repeat(run.iteration_error, number),
         )
 
     def interval(self, i: int) -> "Drive":
@@ -193,6 +206,17 @@ def growth(
 def drive(model: Model, load: Load, over: Mesh) -> Drive:
     """Sample the load on a mesh."""
     return Drive(model, load, over, load(over.phases))
+
+
+def first_edges(load: Load) -> FloatArray:
+    """Ends of intervals that no node may straddle (kinks), should cluster at (peaks), or where a
+    smooth pulse ends, about: a quarter of the way to the next peak."""
+    inner = {*load.kinks, *load.peaks}
+    if not load.kinks and load.minimum < load.maximum:
+        for peak, after in pairwise([*load.peaks, load.peaks[0] + 1.0]):
+            quarter = (after - peak) / 4
+            inner |= {(peak + quarter) % 1.0, (after - quarter) % 1.0}
+    return np.array([0.0, *sorted(x for x in inner if 1e-9 < x < 1.0 - 1e-9), 1.0])
 
 
 def resolve(model: Model, load: Load, starts: FloatArray, m: int, tolerance: float) -> Mesh:

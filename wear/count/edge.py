@@ -15,10 +15,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF
-from wear.count.collocation import BoolArray, FloatArray
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+)
 
 SAMPLES = 2048  # of a cycle, to look for where q rises through zero
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
@@ -81,7 +86,7 @@ class Edge(NamedTuple):
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
     """The edge of contact of a model with cutoff."""
-    crest, held = _crest(model), model.held
+    crest, held = _crest(model), float(model.held_margin)
     turns = turning_points(load)
     highest = float(displacement_at(model, np.array(crest))) if np.isfinite(crest) else np.inf
     low, high = turns[:-1], turns[1:]

@@ -4,14 +4,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import TINY
-from wear.count.collocation import FloatArray, Mesh, mesh
 from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost, Drive, OneCycle, Settings
 from wear.count.march import march, overlooked, overlooked_wear
 from wear.count.request import Request
-from wear.count.resolution import refined, unresolved
 from wear.count.scan import SHIFT, plan_panels, scan
+from wear.numerics.collocation import (
+    refined,
+    unresolved,
+)
+from wear.numerics.gauss import (
+    FloatArray,
+    Mesh,
+    mesh,
+)
+from wear.numerics.tolerances import (
+    TINY,
+)
 
 BLOCK = 5  # cycles integrated at once
 MOST_FIRST = 120
@@ -147,7 +156,7 @@ def more_cycles(cycle: OneCycle, exact: Opening, limit: float, size: Settings) -
             rough |= overlooked(at, start, run, size.strict_tolerance)
         if full or not rough.any():
             finer = at.on(mesh(over.edges, size.finer_nodes))
-            judged = finer.advance(starts, run.near(size.finer_nodes))
+            judged = finer.advance(starts, run.guess(size.finer_nodes))
             evaluations += judged.evaluations
             missed = np.abs(judged.increment - run.increment)
             if isinstance(finer, Drive):  # what both meshes miss

@@ -13,11 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import BoolArray, FloatArray, Gauss
 from wear.count.contact import Contact, Stretch, Worn, worn
 from wear.count.edge import Edge, Piece, displacement_at, phase_of
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    Gauss,
+)
 
 
 class Support(NamedTuple):
@@ -32,11 +36,13 @@ class Support(NamedTuple):
 
     def by_law(self, level: float | None = None) -> Contact:
         """Contact by the law; to the `level` (mm) to which its margin falls, if any."""
-        return Contact(self.model, self.load, self.model.by_law, level)
+        return Contact(self.model, self.load, self.model.law_rate_and_slope, level)
 
     def held(self, level: float | None = None, falls: bool = True) -> Contact:
         """Contact held at its edge; to the `level` (mm) to which its margin falls or rises."""
-        return Contact(self.model, self.load, self.model.at_edge, level, falls, proportional=True)
+        return Contact(
+            self.model, self.load, self.model.edge_rate_and_slope, level, falls, proportional=True
+        )
 
 
 @dataclass

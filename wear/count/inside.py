@@ -5,10 +5,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import TINY
 from wear.count.blocks import growth
 from wear.count.build import CycleCount
-from wear.count.collocation import FloatArray
 from wear.count.course import Added, Course, course
 from wear.count.course_cutoff import CutoffCourse, cutoff_course
 from wear.count.panels import SAFETY
@@ -18,6 +16,12 @@ from wear.direct.sequence import span
 from wear.faults import AccuracyError, UsageError
 from wear.load import AperiodicLoad, HistoryLoad, Load
 from wear.model import Fields, Model
+from wear.numerics.gauss import (
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    TINY,
+)
 from wear.states import fields_under_load
 
 CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
@@ -119,7 +123,7 @@ def _within(
     model: Model, stretch: _Stretch, stage: Stage, phases: FloatArray, rtol: float
 ) -> Course | CutoffCourse:
     """What cycles of the stage add up to the phases."""
-    if isinstance(stage.counted, CycleCount) and not model.cutoff:
+    if isinstance(stage.counted, CycleCount) and not model.ends_at_3_sigma:
         return course(model, stretch.load, stage.counted, phases, rtol)
     return cutoff_course(model, stretch.load, phases, rtol)
 

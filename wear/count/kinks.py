@@ -3,13 +3,18 @@ wear ends or fades."""
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF, TINY
-from wear.count.collocation import FloatArray
 from wear.count.cutoff import TOUCH, CutoffCycle, touch
 from wear.count.edge import NEARLY, Piece
 from wear.count.tail import Rest
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+    TINY,
+)
 
 
 def kinks(cycle: CutoffCycle, shift: float) -> FloatArray:

@@ -9,14 +9,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import BoolArray, FloatArray, Mesh, gauss
 from wear.count.cycle import pace
-from wear.count.iteration import NOISE, Advance, iterate
 from wear.count.panels import SAFETY
-from wear.count.resolution import concealed
 from wear.count.rounding import roundoff_of
 from wear.faults import AccuracyError
 from wear.model import Model
+from wear.numerics.collocation import (
+    NOISE,
+    CycleSolution,
+    endpoint_defect,
+    iterate,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    Mesh,
+    gauss,
+)
 
 NODES, FINER_NODES = 8, 12  # on each line: for the result, and for its judge
 MOST_LINES = 1024  # at once: the arrays of more fall out of the processor's cache
@@ -59,7 +68,7 @@ class Stretch(NamedTuple):
     displacement: FloatArray  # (q, m), mm
     tolerance: float
 
-    def pace(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
         """Wear rate in mm per line at wear `u` (..., q, m), sought from a pace `near` by."""
         return pace(self.model, u, self.displacement, 1.0, self.over, near)
 
@@ -114,9 +123,9 @@ class Twice(NamedTuple):
     lines: Lines
     start: float
     coarse: Stretch
-    run: Advance
+    run: CycleSolution
     fine: Stretch
-    judge: Advance
+    judge: CycleSolution
     own: FloatArray
     judged: FloatArray
     concealed: FloatArray
@@ -139,10 +148,10 @@ def _solved(model: Model, lines: Lines, start: float, tolerance: float) -> Twice
     at = np.array([start])
     coarse, fine = (_stretch(model, lines, m, tolerance) for m in (NODES, FINER_NODES))
     run = iterate(coarse, at)
-    judge = iterate(fine, at, run.near(FINER_NODES))
+    judge = iterate(fine, at, run.guess(FINER_NODES))
     own, judged = _on_each(run.rate[0], coarse.over), _on_each(judge.rate[0], fine.over)
     ends = model.rate(start + np.append(0.0, np.cumsum(judged)), lines.levels)[None]
-    missed = concealed(judge.rate, ends[:, :-1], ends[:, 1:], fine.over)[0]
+    missed = endpoint_defect(judge.rate, ends[:, :-1], ends[:, 1:], fine.over)[0]
     return Twice(model, lines, start, coarse, run, fine, judge, own, judged, missed)
 
 
@@ -163,7 +172,7 @@ def _judged(twice: Twice, blur: float) -> Along:
     growth = np.cumsum(_on_each(slope, twice.coarse.over))  # its logarithm
     most = growth - np.minimum(np.minimum.accumulate(growth), 0.0)  # since any line
     missed = SAFETY * np.abs(np.cumsum(twice.judged) - wear) + np.cumsum(twice.concealed)
-    left = float(run.left[0] + twice.judge.left[0]) * wear[-1]
+    left = float(run.iteration_error[0] + twice.judge.iteration_error[0]) * wear[-1]
     error = missed + (left + blur * wear) * np.exp(most)
     quick = run.evaluations <= FEW_ITERATIONS * run.rate.size
     easy = quick and 3 * len(wear) <= MOST_CUT  # some of them may be cut once more

@@ -11,12 +11,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
 from wear.count.cycle import Settings, growth, pace
-from wear.count.iteration import NOISE, Advance, Near, iterate
-from wear.count.resolution import concealed, unresolved
 from wear.load import Load, sampled
 from wear.model import Model
+from wear.numerics.collocation import (
+    NOISE,
+    CycleSolution,
+    InitialGuess,
+    endpoint_defect,
+    iterate,
+    unresolved,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+    Mesh,
+    integral,
+    mesh,
+)
 
 IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
 
@@ -34,7 +47,7 @@ class Many(NamedTuple):
     def take(self, which: IntArray) -> Many:
         """Some of the scenes."""
         loads, edges = ([own[i] for i in which.tolist()] for own in (self.loads, self.plain_edges))
-        return Many(_taken(self.model, which), loads, edges)
+        return Many(self.model.select(which), loads, edges)
 
     def on(self, edges: FloatArray, m: int, tolerance: float = NOISE) -> ManyDrives:
         """A cycle of each scene on its mesh, with edges (scenes, q + 1)."""
@@ -44,7 +57,7 @@ class Many(NamedTuple):
         at_edges = displacement[:, None, -edges.shape[1] :]
         displacement = displacement[:, : -edges.shape[1]].reshape(over.phases.shape)
         period = np.array([load.period for load in self.loads])[:, None, None, None]
-        model = _shaped(self.model, (-1, 1, 1, 1))
+        model = self.model.reshaped((-1, 1, 1, 1))
         return ManyDrives(model, period, over, displacement, at_edges, tolerance)
 
 
@@ -64,7 +77,7 @@ class ManyDrives(NamedTuple):
         rate: FloatArray = self.model.rate(u, self.displacement)
         return self.period * rate
 
-    def pace(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
         """Wear rate in mm per interval at wear `u` (scenes, k, q, m), sought from one `near` by."""
         return pace(self.model, u, self.displacement, self.period, self.over, near)
 
@@ -73,7 +86,7 @@ class ManyDrives(NamedTuple):
         edges, lengths, phases, rule = self.over
         over = Mesh(edges[which], lengths[which], phases[which], rule)
         return ManyDrives(
-            _taken(self.model, which),
+            self.model.select(which),
             self.period[which],
             over,
             self.displacement[which],
@@ -89,16 +102,16 @@ class ManyDrives(NamedTuple):
             at_edges=self.at_edges[:, :, i : i + 2],
         )
 
-    def overlooked(self, starts: FloatArray, run: Advance) -> FloatArray:
+    def overlooked(self, starts: FloatArray, run: CycleSolution) -> FloatArray:
         """What each interval may conceal (scenes, k, q), in mm, by a change of the rate between an
         end and the nodes, over the cycles of `run` from the `starts` (scenes, k)."""
         added = run.rate @ self.over.rule.weights * self.over.lengths
         wear = starts[..., None] + np.cumsum(np.insert(added, 0, 0.0, axis=-1), axis=-1)
-        model = _shaped(self.model, (-1, 1, 1))
+        model = self.model.reshaped((-1, 1, 1))
         rate = self.period[..., 0] * model.rate(wear, self.at_edges)
-        return concealed(run.rate, rate[..., :-1], rate[..., 1:], self.over)
+        return endpoint_defect(run.rate, rate[..., :-1], rate[..., 1:], self.over)
 
-    def several(self, number: int) -> Advance:
+    def several(self, number: int) -> CycleSolution:
         """Some cycles on end from no wear: the guess for one is where those before lead."""
         start = np.zeros((len(self.displacement), 1))
         runs = [self.advance(start)]
@@ -107,18 +120,18 @@ class ManyDrives(NamedTuple):
             last = runs[-1]
             start = start + last.increment
             apart = last.increment[..., None, None] + grown
-            runs.append(self.advance(start, Near(last.inside + grown, last.rate, apart)))
+            runs.append(self.advance(start, InitialGuess(last.inside + grown, last.rate, apart)))
             grown = runs[-1].inside - last.inside
-        return Advance(
+        return CycleSolution(
             np.concatenate([run.increment for run in runs], axis=1),
             np.concatenate([run.inside for run in runs], axis=1),
             np.concatenate([run.rate for run in runs], axis=1),
             sum(run.evaluations for run in runs),
             np.logical_and.reduce([run.converged for run in runs]),
-            np.concatenate([run.left for run in runs], axis=1),
+            np.concatenate([run.iteration_error for run in runs], axis=1),
         )
 
-    def rough(self, run: Advance, size: Settings) -> BoolArray:
+    def rough(self, run: CycleSolution, size: Settings) -> BoolArray:
         """Which intervals (scenes, q) do not resolve the rate in the first cycles, or hide a change
         of it at an end."""
         rough = unresolved(run.rate, self.over, size.phase_tolerance)
@@ -154,29 +167,17 @@ class ManyDrives(NamedTuple):
             parts.append(integral(part.rate(wear[some, :, None, None]), part.over))
         return np.concatenate(parts)
 
-    def advance(self, starts: FloatArray, near: Near | None = None) -> Advance:
+    def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
         """Wear added by a cycle from each start (scenes, k)."""
         runs = []
         for some in self.in_cache(starts.shape[1]):
-            guess = None if near is None else Near(*(array[some] for array in near))
+            guess = None if near is None else InitialGuess(*(array[some] for array in near))
             runs.append(iterate(self.take(some), starts[some], guess))
-        return Advance(
+        return CycleSolution(
             np.concatenate([run.increment for run in runs]),
             np.concatenate([run.inside for run in runs]),
             np.concatenate([run.rate for run in runs]),
             sum(run.evaluations for run in runs),
             np.concatenate([run.converged for run in runs]),
-            np.concatenate([run.left for run in runs]),
+            np.concatenate([run.iteration_error for run in runs]),
         )
-
-
-def _taken(model: Model, which: Which) -> Model:
-    """The model of some of the scenes."""
-    constants = model.constants
-    return Model(model.module, type(constants)(*(value[which] for value in constants)))
-
-
-def _shaped(model: Model, shape: tuple[int, ...]) -> Model:
-    """The model with its constants in this shape."""
-    constants = model.constants
-    return Model(model.module, type(constants)(*(value.reshape(shape) for value in constants)))

@@ -7,10 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.collocation import BoolArray, FloatArray, IntArray
 from wear.count.cycle import Settings
-from wear.count.iteration import Advance
 from wear.count.many import Many
+from wear.numerics.collocation import (
+    CycleSolution,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+)
 
 MOST_INTERVALS = 48  # of phase: what needs more is solved by itself
 NUMBERS = (1, 2, 3, 6, 12, 24, MOST_INTERVALS)  # of intervals
@@ -22,7 +28,7 @@ class Meshed(NamedTuple):
 
     which: IntArray
     edges: FloatArray
-    first: Advance | None
+    first: CycleSolution | None
 
 
 def plain(many: Many) -> Iterator[tuple[IntArray, FloatArray]]:

@@ -10,15 +10,17 @@ import numpy as np
 
 from wear.count import abel
 from wear.count.checks import CHECKS, at_checks, missed_by_phase
-from wear.count.collocation import (
-    BoolArray,
-    FloatArray,
-    IntArray,
-    chebyshev_nodes,
-)
 from wear.count.cycle import Settings
 from wear.count.many import ManyDrives
 from wear.count.scan import cycles_if_cut, halves
+from wear.numerics.chebyshev import (
+    chebyshev_nodes,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+)
 
 MOST_ROUNDS = 12  # of cutting panels
 
@@ -86,7 +88,9 @@ def _solved(
     judged = fine.take(blank.scene).advance(checks, at_checks(ahead, size.finer_nodes))
     residual = np.abs(abel.residual(panels, CHECKS, judged.increment))
     # What the iterations may have left, nothing else tells.
-    residual = np.max(residual + judged.left, axis=1) + np.max(ahead.left, axis=1)
+    residual = np.max(residual + judged.iteration_error, axis=1) + np.max(
+        ahead.iteration_error, axis=1
+    )
     by_phase = np.max(missed_by_phase(ahead, solver.over), axis=1)
     residual = np.maximum(residual, by_phase)
     sound = np.all(ahead.converged & judged.converged, axis=1)

@@ -10,11 +10,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import TINY
-from wear.count.collocation import BoolArray, FloatArray, mesh
 from wear.count.cycle import Drive, Settings
-from wear.count.iteration import Advance
-from wear.count.resolution import concealed, hidden, unresolved
+from wear.numerics.collocation import (
+    CycleSolution,
+    endpoint_defect,
+    hidden,
+    unresolved,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    mesh,
+)
+from wear.numerics.tolerances import (
+    TINY,
+)
 
 SHORTEST = 1e-12  # of a cycle
 
@@ -68,20 +78,22 @@ def march(cycle: Drive, start: float, limit: float, size: Settings) -> Marched:
     return done
 
 
-def overlooked(cycle: Drive, start: float, run: Advance, tolerance: float) -> BoolArray:
+def overlooked(cycle: Drive, start: float, run: CycleSolution, tolerance: float) -> BoolArray:
     """Which intervals (q,) of phase hide a change of the rate between an end and the nodes, over
     the cycles of `run` on end (..., q, m) from wear `start` (mm)."""
     return hidden(*_with_ends(cycle, start, run), cycle.over, tolerance)
 
 
-def overlooked_wear(cycle: Drive, start: float, run: Advance) -> FloatArray:
+def overlooked_wear(cycle: Drive, start: float, run: CycleSolution) -> FloatArray:
     """What such changes may make of the wear (mm) that each of the cycles adds, (k,)."""
-    missed: FloatArray = np.sum(concealed(*_with_ends(cycle, start, run), cycle.over), axis=-1)
+    missed: FloatArray = np.sum(
+        endpoint_defect(*_with_ends(cycle, start, run), cycle.over), axis=-1
+    )
     return missed
 
 
 def _with_ends(
-    cycle: Drive, start: float, run: Advance
+    cycle: Drive, start: float, run: CycleSolution
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The rates (k, q, m) of cycles on end, and those where their intervals begin and end (k, q),
     in mm per cycle."""

@@ -8,14 +8,18 @@ import numpy as np
 
 from wear.count import abel
 from wear.count.checks import CHECKS, MISSED, at_checks, missed_by_phase
-from wear.count.collocation import (
-    BoolArray,
-    FloatArray,
+from wear.count.cycle import Cost, OneCycle, Settings
+from wear.count.scan import SPLIT, cut_far_out, cycles_if_cut, halves
+from wear.numerics.chebyshev import (
     chebyshev_nodes,
 )
-from wear.count.cycle import Cost, OneCycle, Settings
-from wear.count.resolution import unresolved
-from wear.count.scan import SPLIT, cut_far_out, cycles_if_cut, halves
+from wear.numerics.collocation import (
+    unresolved,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+)
 
 FAR_OUT = 10.0  # times the residual elsewhere: then the fault lies at the end of the panel
 SAFETY = 3.0  # on measured discrepancies

@@ -11,14 +11,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF
-from wear.count.collocation import FloatArray
 from wear.count.cycle import Cost
 from wear.count.lines import MOST_LINES, Lines, integrated
 from wear.count.scan import roughness_limit, roughness_scale
 from wear.faults import AccuracyError
 from wear.load import HistoryLoad
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+)
 
 FIRST_LINES = 64  # at once
 SHORTEST = 1e-12  # part of a line, of the longest

@@ -2,10 +2,15 @@
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF, TINY
-from wear.count.collocation import FloatArray
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+    TINY,
+)
 
 SMALLEST = 100 * float(np.finfo(float).smallest_subnormal)  # below, digits are lost
 APART = 1e-4  # of the roughness: displacements between which the rate's steepness is taken
@@ -33,7 +38,7 @@ def _of_rate(model: Model, load: Load, wear: FloatArray) -> FloatArray:
     """The part of the rate at the peak of the load, contact assumed."""
     peak = np.full_like(wear, load.maximum)
     error = roundoff_of(model, peak, wear)
-    if model.cutoff and model.compliant:
+    if model.ends_at_3_sigma and model.compliant:
         # The pressure vanishes with the margin, and no steepness can be taken there.
         told = model.margin(wear, peak) > 2 * APART * model.fields(wear, peak).sigma
         error = np.where(told, error, 8 * ROUNDOFF)
@@ -42,7 +47,7 @@ def _of_rate(model: Model, load: Load, wear: FloatArray) -> FloatArray:
 
 def _of_contact(model: Model, load: Load, wear: FloatArray) -> FloatArray:
     """The part of the margin of contact at the peak of the load."""
-    if not model.cutoff:
+    if not model.ends_at_3_sigma:
         return np.zeros_like(wear)
     peak = np.full_like(wear, load.maximum)
     margin, terms = model.margin(wear, peak), model.margin_terms(wear, peak)

@@ -7,10 +7,18 @@ good enough for a plan; what the plan misses, the residual of Abel's equation fi
 import numpy as np
 
 from wear.count.abel import Shift, change_in_a_cycle, folded, panel_wear, reach, widths
-from wear.count.arithmetic import TINY
-from wear.count.collocation import FloatArray, chebyshev_analysis, chebyshev_nodes
 from wear.count.cycle import OneCycle, settings
 from wear.model import Model
+from wear.numerics.chebyshev import (
+    chebyshev_analysis,
+    chebyshev_nodes,
+)
+from wear.numerics.gauss import (
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    TINY,
+)
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
 STEP, STEPS = 0.2, 180  # in ln(u + scale)

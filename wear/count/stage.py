@@ -4,11 +4,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import TINY
 from wear.count.build import CycleCount, evaluate, until
-from wear.count.collocation import FloatArray
 from wear.count.cycle import Cost
 from wear.count.tail import Tail
+from wear.numerics.gauss import (
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    TINY,
+)
 
 
 class Leap(NamedTuple):

@@ -11,9 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.arithmetic import ROUNDOFF, TINY
 from wear.count.build import CycleCount, cycle_count, cycle_count_upto, evaluate, exact_error
-from wear.count.collocation import FloatArray, mesh
 from wear.count.cutoff import CutoffCycle, one_cycle
 from wear.count.cycle import Cost, OneCycle, Settings, settings
 from wear.count.first import exact_cycles
@@ -24,6 +22,14 @@ from wear.count.stage import Leap, Stage, Stages
 from wear.count.tail import Rest, Tail, begins_at, tail
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.gauss import (
+    FloatArray,
+    mesh,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+    TINY,
+)
 
 AHEAD = 30.0  # cycles before a kink that are integrated one by one
 AHEAD_ON_SUPPORT = 8.0  # the same on a compliant support, where the rate is continuous

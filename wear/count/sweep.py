@@ -12,17 +12,28 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wear.count import abel, tabulated, wear_after
-from wear.count.arithmetic import TINY
-from wear.count.collocation import BoolArray, FloatArray, IntArray
-from wear.count.cycle import Settings, settings
-from wear.count.iteration import Advance
+from wear.count.cycle import (
+    Settings,
+    first_edges,
+    settings,
+)
 from wear.count.many import Many, ManyDrives
 from wear.count.many_meshes import plain, resolved
 from wear.count.many_panels import ManyPanels, fill
 from wear.count.panels import SAFETY
-from wear.count.resolution import first_edges
 from wear.count.rounding import roundoff_of
 from wear.count.scan import LEAST, SHARP, SHIFT, roughness_limits
+from wear.numerics.collocation import (
+    CycleSolution,
+)
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+)
+from wear.numerics.tolerances import (
+    TINY,
+)
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -84,7 +95,7 @@ def _together(scenes: Sequence[Scene], cycles: FloatArray, rtol: float) -> Sweep
     alone = np.full(len(scenes), True)
     for first in FIRST:
         left = np.flatnonzero(alone)
-        if many.model.cutoff or len(left) == 0:
+        if many.model.ends_at_3_sigma or len(left) == 0:
             break
         with np.errstate(all="ignore"):  # a scene that overflows here is solved by itself
             wear[left], error[left] = _solve(many.take(left), cycles, rtol, first)
@@ -169,13 +180,16 @@ def _fresh(scenes: int) -> Begun:
     return Begun(np.empty((scenes, 0)), np.empty((scenes, 0)))
 
 
-def _begun(maps: Maps, run: Advance) -> Begun:
+def _begun(maps: Maps, run: CycleSolution) -> Begun:
     """The first cycles `run` by the coarse map, judged by the fine one."""
     before = np.cumsum(run.increment, axis=1) - run.increment
-    judged = maps.fine.advance(before, run.near(maps.fine.over.phases.shape[-1]))
+    judged = maps.fine.advance(before, run.guess(maps.fine.over.phases.shape[-1]))
     missed = np.abs(judged.increment - run.increment)
     # What both meshes miss, and what the iterations of the judge may have left.
-    missed += np.sum(maps.fine.overlooked(before, judged), axis=2) + judged.left * run.increment
+    missed += (
+        np.sum(maps.fine.overlooked(before, judged), axis=2)
+        + judged.iteration_error * run.increment
+    )
     missed[~np.all(run.converged & judged.converged, axis=1)] = np.inf
     growth = maps.coarse.growth(before[..., None, None] + run.inside)
     return Begun(run.increment, _carried(SAFETY * missed, growth))

@@ -12,14 +12,22 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count import abel, tabulated
-from wear.count.arithmetic import ROUNDOFF
 from wear.count.checks import CHECKS
-from wear.count.collocation import FloatArray, chebyshev_nodes, chebyshev_values
 from wear.count.cycle import Cost, OneCycle, Settings
 from wear.count.panels import NONE, SAFETY, Maps, Solved
 from wear.count.rounding import roundoff
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.chebyshev import (
+    chebyshev_nodes,
+    chebyshev_values,
+)
+from wear.numerics.gauss import (
+    FloatArray,
+)
+from wear.numerics.tolerances import (
+    ROUNDOFF,
+)
 
 CALM = 0.25  # of the distance that a cycle takes at most, for a panel to hold enough cycles
 WIDEST = 5.0  # panel, in y: the rounding of small distances must not reach large ones

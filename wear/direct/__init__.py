@@ -118,7 +118,7 @@ def integrate(
     """
     marks = _marks(cycles)
     meter = Meter(deadline)
-    blur = cutoff.roundoff(model, 0.0, load.maximum) if model.cutoff else 0.0
+    blur = cutoff.roundoff(model, 0.0, load.maximum) if model.ends_at_3_sigma else 0.0
     runs: list[Run] = []
     stopped, interrupted = None, False
     try:
@@ -165,7 +165,7 @@ def _march(
     acting = span(load, 0)
     of = problem(model, acting.load)
     state, steps_before = State(0, 0.0, _mode(of, 0.0), None, 0), meter.steps
-    if model.cutoff and cutoff.is_arrested(of, 0.0, state.mode, load.maximum):
+    if model.ends_at_3_sigma and cutoff.is_arrested(of, 0.0, state.mode, load.maximum):
         state = state._replace(arrested_in=0)
     for mark in marks:
         while state.cycle < mark and state.arrested_in is None:
@@ -174,7 +174,7 @@ def _march(
                 of = replace(of, load=acting.load)
                 state = state._replace(mode=_mode(of, state.u))
             to = min(mark, acting.until)
-            if model.cutoff:
+            if model.ends_at_3_sigma:
                 state = _cycles_with_cutoff(of, state, to, setting, meter, load.maximum)
             else:
                 state = _smooth_cycles(of, state, to, setting, meter)
@@ -183,7 +183,7 @@ def _march(
 
 
 def _mode(of: Problem, u: float) -> Mode:
-    return cutoff.first_mode(of, u) if of.model.cutoff else Mode.CLOSED
+    return cutoff.first_mode(of, u) if of.model.ends_at_3_sigma else Mode.CLOSED
 
 
 def _smooth_cycles(of: Problem, state: State, to: int, setting: Setting, meter: Meter) -> State:

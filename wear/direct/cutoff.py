@@ -22,7 +22,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wear import root
 from wear.direct.problem import EPS, Problem, Real, Setting, widest_step
 from wear.direct.step import EndOfModelError, Meter, first_zero, leg
 
@@ -166,16 +165,15 @@ def _wear(
 
 
 def _following(of: Problem) -> Callable[[Real, Real], Real]:
-    """How far the support's pressure at the edge of contact is above that of the contact law (MPa).
+    """How far the wear rate at the edge of contact is above that of the contact law (mm/s).
 
     While it is negative, a compliant support keeps the contact at its edge.
     """
-    module, constants = of.model.module, of.model.constants
 
     def excess(phase: Real, u: Real) -> Real:
         U_a = of.load(phase)
-        law = root.pressure(module, u, U_a, constants).p
-        return module.limited(np.inf, u, U_a, constants) - law
+        edge, _ = of.model.edge_rate_and_slope(u, U_a)
+        return edge - of.model.law_rate(u, U_a)
 
     return excess
 

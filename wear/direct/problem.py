@@ -62,7 +62,7 @@ def problem(model: Model, load: Load) -> Problem:
     """Scale the wear of a model under a load."""
     U_a = load(_grid(load))
     rate = model.rate(0.0, U_a)
-    if model.cutoff:
+    if model.ends_at_3_sigma:
         rate = np.where(model.margin(0.0, U_a) >= 0.0, rate, 0.0)
     first_cycle = load.period * float(np.mean(rate))
     roughness = float(model.fields(0.0, load.maximum).sigma)

@@ -107,28 +107,14 @@ def wear_per_cycle(*, T: Real, K_c: Real, H_c: Real, R: Real, n: Real, p_inf: Re
 
 
 def log_coefficient(
-    steepness: Real,
-    *,
-    h_0: Real,
-    U_mean: Real,
-    q: Real,
-    g: Real,
-    p_1: Real,
+    steepness: Real, *, h_0: Real, U_mean: Real, q: Real, g: Real, p_1: Real
 ) -> Real:
     """Coefficient of ln N, rigid support; at U_a for its mean: how the rate there deviates."""
     return steepness * ((h_0 - U_mean) / q - g * p_1 / (q**3))
 
 
 def log_coefficient_compliant(
-    steepness: Real,
-    *,
-    h_0: Real,
-    k: Real,
-    p_inf: Real,
-    U_mean: Real,
-    q: Real,
-    g: Real,
-    p_1: Real,
+    steepness: Real, *, h_0: Real, k: Real, p_inf: Real, U_mean: Real, q: Real, g: Real, p_1: Real
 ) -> Real:
     """The same on a compliant support."""
     return steepness * ((h_0 + p_inf / k - U_mean) / q - g * p_1 / (q**3))
@@ -150,14 +136,7 @@ def gap_and_cutoff_grow_alike(*, f_c: Real) -> Any:
 
 
 def margin_is_lost(
-    *,
-    h_0: Real,
-    sigma_a0: Real,
-    sigma_c0: Real,
-    U_max: Real,
-    q: Real,
-    g: Real,
-    p_1: Real,
+    *, h_0: Real, sigma_a0: Real, sigma_c0: Real, U_max: Real, q: Real, g: Real, p_1: Real
 ) -> Any:
     """The margin has a zero."""
     gap = h_0 - U_max
@@ -168,14 +147,7 @@ def margin_is_lost(
 
 
 def arrest_depth_two_solids(
-    *,
-    h_0: Real,
-    sigma_a0: Real,
-    sigma_c0: Real,
-    U_max: Real,
-    q: Real,
-    g: Real,
-    p_1: Real,
+    *, h_0: Real, sigma_a0: Real, sigma_c0: Real, U_max: Real, q: Real, g: Real, p_1: Real
 ) -> Real:
     """Wear at arrest, two solids."""
     gap = h_0 - U_max

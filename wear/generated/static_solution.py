@@ -11,11 +11,7 @@ import numpy as np
 
 Real = Any  # a number or an array of numbers
 
-EQUATIONS = (
-    "first-integral",
-    "static-solution",
-    "static-solution-scaled",
-)
+EQUATIONS = ("first-integral", "static-solution", "static-solution-scaled")
 
 
 def largest_wear(*, T: Real, K_c: Real, H_c: Real, p_max: Real, R: Real, n: Real) -> Real:

@@ -2,22 +2,24 @@
 
 A `Load` repeats and is a function of the phase t/T; `Sine`, `Constant`, `Harmonics` and `Table` are
 such. An `AperiodicLoad` is a function of the time in s; `HistoryLoad` and `Blocks` are such.
-All are frozen; values, slopes and extremes are exact to rounding.
+All are frozen and checked where they are made; values, slopes and extremes are exact to rounding.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Protocol
+from typing import ClassVar
 
 import numpy as np
+from pydantic import Field
 
+from wear.checked import Positive, Real, SceneTable, table
 from wear.load.blocks import Block, Blocks
 from wear.load.harmonics import Harmonics
 from wear.load.lines import HistoryLoad, Table
 from wear.load.phase import FloatArray, centred
+from wear.load.protocols import AperiodicLoad, Load
 
 __all__ = [
     "AperiodicLoad",
@@ -34,78 +36,8 @@ __all__ = [
 ]
 
 
-class Load(Protocol):
-    """A periodic displacement. One cycle is one unit of phase, whatever the period."""
-
-    @property
-    def period(self) -> float:
-        """T in s."""
-
-    def __call__(self, phase: FloatArray | float) -> FloatArray:
-        """U_a in mm at phase = t/T, any real number, of any shape."""
-
-    def slope(self, phase: FloatArray | float) -> FloatArray:
-        """dU_a/dphase in mm per cycle; at a kink the slope to its right."""
-
-    @property
-    def kinks(self) -> tuple[float, ...]:
-        """Phases in [0, 1), increasing, where U_a is not smooth."""
-
-    @property
-    def minimum(self) -> float:
-        """Least U_a, mm."""
-
-    @property
-    def maximum(self) -> float:
-        """Largest U_a, mm."""
-
-    @property
-    def mean(self) -> float:
-        """Mean of U_a over a period, mm."""
-
-    @property
-    def peaks(self) -> tuple[float, ...]:
-        """Phases in [0, 1), increasing, of the local maxima; a flat top counts at its start."""
-
-
-class AperiodicLoad(Protocol):
-    """A displacement that does not repeat, on 0 <= t <= duration."""
-
-    @property
-    def duration(self) -> float:
-        """s."""
-
-    @property
-    def cycles(self) -> float:
-        """How many cycles the load counts as."""
-
-    def time_at(self, cycles: float) -> float:
-        """The time in s at which that many cycles are done."""
-
-    def value(self, time: FloatArray | float) -> FloatArray:
-        """U_a in mm at a time in s."""
-
-    def slope(self, time: FloatArray | float) -> FloatArray:
-        """dU_a/dt in mm/s; at a breakpoint the slope to its right."""
-
-    def breakpoints(self, start: float, end: float) -> FloatArray:
-        """Times in (start, end), increasing, at which U_a has a kink or a jump."""
-
-    @property
-    def minimum(self) -> float:
-        """Least U_a, mm."""
-
-    @property
-    def maximum(self) -> float:
-        """Largest U_a, mm."""
-
-    @property
-    def mean(self) -> float:
-        """Mean of U_a over the duration, mm."""
-
-
-@dataclass(frozen=True)
-class Sine:
+@table("load", kind="sine")
+class Sine(SceneTable):
     """U_a = U sin(2 pi t/T).
 
     >>> load = Sine(5e-4, 0.06)
@@ -113,10 +45,10 @@ class Sine:
     (0.0005, (0.25,), -0.0005)
     """
 
-    amplitude_mm: float
-    period_s: float
-    kinks: tuple[float, ...] = field(default=(), init=False, repr=False)
-    mean: float = field(default=0.0, init=False, repr=False)
+    amplitude_mm: Real = Field(description="amplitude U")
+    period_s: Positive = Field(description="period T of a cycle")
+    kinks: ClassVar[tuple[float, ...]] = ()
+    mean: ClassVar[float] = 0.0
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
         return np.asarray(self.amplitude_mm * np.sin(2.0 * math.pi * centred(phase)))
@@ -144,14 +76,14 @@ class Sine:
         return (0.25,) if self.amplitude_mm > 0.0 else (0.75,)
 
 
-@dataclass(frozen=True)
-class Constant:
+@table("load", kind="constant")
+class Constant(SceneTable):
     """U_a constant; the period only counts cycles."""
 
-    value_mm: float
-    period_s: float
-    kinks: tuple[float, ...] = field(default=(), init=False, repr=False)
-    peaks: tuple[float, ...] = field(default=(0.0,), init=False, repr=False)
+    value_mm: Real = Field(description="displacement U_a")
+    period_s: Positive = Field(description="period T, only to count cycles")
+    kinks: ClassVar[tuple[float, ...]] = ()
+    peaks: ClassVar[tuple[float, ...]] = (0.0,)
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
         return np.full(np.shape(phase), self.value_mm)

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Annotated, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
+from pydantic_core import InitErrorDetails
 
+from wear.checked import MOST_CYCLES, Count, SceneTable, all_wrong, below, table, wrong
+from wear.faults import UsageError
 from wear.load.phase import FloatArray, inside
+from wear.load.protocols import Load
+from wear.load.tables import PERIODIC, load_from
 
-if TYPE_CHECKING:
-    from wear.load import Load
+MOST_BLOCKS = 1000
 
 
 class Block(NamedTuple):
@@ -24,15 +28,57 @@ class Block(NamedTuple):
     cycles: int
 
 
-@dataclass(frozen=True)
-class Blocks:
+@table("")
+class BlockCycles(SceneTable):
+    """What a block has beside its load."""
+
+    cycles: Count = Field(description="number of cycles of this block")
+
+
+def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
+    """Return blocks from tables of a load's entries and `cycles`, or from `Block`s."""
+    if not isinstance(raw, list | tuple) or not all(isinstance(b, Mapping | Block) for b in raw):
+        raise wrong("is not a list of tables", "write [[load.blocks]] for each")
+    if not 1 <= len(raw) <= MOST_BLOCKS:
+        raise wrong(f"has {len(raw)} blocks", f"give from 1 to {MOST_BLOCKS}; see repeat")
+    made: list[Block] = []
+    faults: list[InitErrorDetails] = []
+    for place, block in enumerate(raw):
+        rest = block._asdict() if isinstance(block, Block) else dict(block)
+        cycles = {key: rest.pop(key) for key in ("cycles",) if key in rest}
+        try:
+            checked = BlockCycles.__pydantic_validator__.validate_python(cycles)  # type: ignore[attr-defined]
+        except ValidationError as error:
+            faults += below(place, error)
+        try:
+            load = load_from(rest.get("load", rest), info, PERIODIC)
+        except ValidationError as error:
+            faults += below(place, error)
+        if not faults:
+            made.append(Block(load, checked.cycles))
+    if faults:
+        raise ValidationError.from_exception_data("blocks", faults)
+    return tuple(made)
+
+
+@table("load", kind="blocks")
+class Blocks(SceneTable):
     """Periodic loads one after the other, each from phase 0, and the list again `repeat` times.
 
     U_a may jump where one block gives way to the next; there the value is that of the new block.
     """
 
-    blocks: tuple[Block, ...]
-    repeat: int = 1
+    blocks: Annotated[tuple[Block, ...], PlainValidator(_blocks)] = Field(
+        description="[[load.blocks]] tables: a periodic load each, and its cycles"
+    )
+    repeat: Count = Field(default=1, description="how often the list is run")
+
+    @model_validator(mode="after")
+    def _countable(self) -> Self:
+        if self.cycles > MOST_CYCLES:
+            problem = f"makes {self.cycles:.3g} cycles in all"
+            raise all_wrong(("repeat", problem, f"stay below {MOST_CYCLES:.0e}"))
+        return self
 
     def stretches(self) -> Iterator[Block]:
         """Every block in the order in which it runs, repeats included."""
@@ -59,7 +105,7 @@ class Blocks:
 
     def time_at(self, cycles: float) -> float:
         if not 0.0 <= cycles <= self.cycles:
-            raise ValueError(f"cycle {cycles!r} outside the load, which has {self.cycles!r}")
+            raise UsageError(f"cycle {cycles!r} outside the load, which has {self.cycles!r}")
         rounds, rest = divmod(cycles, self._cycles_of_round)
         time = rounds * float(self._starts[-1])
         for block, start in zip(self.blocks, self._starts.tolist(), strict=False):

@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
+from wear.checked import Positive, Real, Reals, SceneTable, table
 from wear.load.phase import FloatArray, centred, within_cycle
 
+MOST_HARMONICS = 100
 
-@dataclass(frozen=True)
-class Harmonics:
+
+@table("load", kind="harmonics")
+class Harmonics(SceneTable):
     """U_a = mean + sum over j = 1, 2, ... of cosine_j cos(2 pi j t/T) + sine_j sin(2 pi j t/T)."""
 
-    mean_mm: float
-    cosine_mm: tuple[float, ...]
-    sine_mm: tuple[float, ...]
-    period_s: float
-    kinks: tuple[float, ...] = field(default=(), init=False, repr=False)
+    mean_mm: Real = Field(description="mean of U_a")
+    cosine_mm: Reals = Field(max_length=MOST_HARMONICS, description="cosine_1, cosine_2, ...")
+    sine_mm: Reals = Field(max_length=MOST_HARMONICS, description="sine_1, sine_2, ...")
+    period_s: Positive = Field(description="period T of a cycle")
+    kinks: ClassVar[tuple[float, ...]] = ()
+    left_out: ClassVar[Mapping[str, Any]] = {"mean_mm": 0.0, "cosine_mm": (), "sine_mm": ()}
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
         return self.mean_mm + _trigonometric_sum(self._terms(), phase)

@@ -2,13 +2,40 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Self
 
 import numpy as np
+from pydantic import BeforeValidator, Field, FiniteFloat, model_validator
 
+from wear.checked import Positive, SceneTable, all_wrong, listed, table
 from wear.load.phase import FloatArray, inside, within_cycle
+from wear.load.rows import HistoryFile, RowsFile, TableFile, order_faults, read_rows
+
+SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes but for their roundoff
+
+Column = Annotated[tuple[FiniteFloat, ...], BeforeValidator(listed)]
+
+
+@table("")
+class _Rows(SceneTable):
+    """Displacements in mm at times in s that rise from 0; `source` is the file they are from."""
+
+    times_s: Column = Field(description="times of the rows, from 0")
+    values_mm: Column = Field(description="U_a at these times")
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        rows = len(self.times_s)
+        if rows < 2 or len(self.values_mm) != rows:
+            problem = f"there are {rows} times and {len(self.values_mm)} displacements"
+            raise all_wrong(("times_s", problem, "give as many of both, from 2 on"))
+        if faults := order_faults(np.asarray(self.times_s)):
+            raise all_wrong(*(("times_s", problem, remedy) for _, problem, remedy in faults))
+        return self
 
 
 def _segment_slopes(times: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
@@ -23,21 +50,26 @@ def _mean_of_lines(times: FloatArray, values: FloatArray) -> float:
     return math.fsum(areas.tolist()) / float(times[-1] - times[0])
 
 
-@dataclass(frozen=True)
-class Table:
+@table("")
+class Table(_Rows):
     """Straight lines between rows over one period; the first row, at t = 0, is also the last.
 
-    `times_s` runs from 0 to the period. `file` and `sha256` say where the rows came from.
+    `times_s` runs from 0 to the period. `source` says which file the rows came from.
 
-    >>> saw = Table((0.0, 0.5, 2.0), (0.0, 1e-3, 0.0), "saw.csv")
+    >>> saw = Table((0.0, 0.5, 2.0), (0.0, 1e-3, 0.0))
     >>> saw.period, saw.kinks, saw.peaks, float(saw(0.125))
     (2.0, (0.0, 0.25), (0.25,), 0.0005)
     """
 
-    times_s: tuple[float, ...]
-    values_mm: tuple[float, ...]
-    file: str = ""
-    sha256: str = ""
+    source: TableFile | None = Field(default=None, repr=False)
+
+    @model_validator(mode="after")
+    def _closed(self) -> Self:
+        first, last = self.values_mm[0], self.values_mm[-1]
+        if first != last:
+            problem = f"U_a_mm jumps at the seam from {last!r} to {first!r}"
+            raise all_wrong(("values_mm", problem, "repeat the first in the last row"))
+        return self
 
     @cached_property
     def _phases(self) -> FloatArray:
@@ -83,18 +115,15 @@ class Table:
         return tuple(np.sort(self._phases[moving[falls_next] + 1] % 1.0).tolist())
 
 
-@dataclass(frozen=True)
-class HistoryLoad:
+@table("")
+class HistoryLoad(_Rows):
     """Straight lines between measured rows, from t = 0 to the last row; it does not repeat.
 
-    `period_s` only counts cycles. Times outside the rows are a `ValueError`.
+    `period_s` only counts cycles. Times outside the rows are a `UsageError`.
     """
 
-    times_s: tuple[float, ...]
-    values_mm: tuple[float, ...]
-    period_s: float
-    file: str = ""
-    sha256: str = ""
+    period_s: Positive = Field(description="time of a cycle")
+    source: HistoryFile | None = Field(default=None, repr=False)
 
     @cached_property
     def _times(self) -> FloatArray:
@@ -136,3 +165,55 @@ class HistoryLoad:
     @cached_property
     def mean(self) -> float:
         return _mean_of_lines(self._times, self._values)
+
+
+def load_of(form: RowsFile, folder: Path | None) -> Table | HistoryLoad:
+    """Return the load of a CSV file; raises pydantic's `ValidationError` with all that is wrong."""
+    repeat = isinstance(form, TableFile) and form.repeat
+    rows = read_rows(form, folder, from_first=repeat)
+    times, values = rows.times, rows.displacements
+    source = dataclasses.replace(form, sha256=rows.sha256)
+    if isinstance(source, HistoryFile):
+        return HistoryLoad(_floats(times), _floats(values), form.period_s or times[-1], source)
+    assert isinstance(source, TableFile)
+    times, values = (_one_period if repeat else _close)(times, values, form.period_s)
+    return Table(_floats(times), _floats(values), source)
+
+
+def _floats(array: FloatArray) -> tuple[float, ...]:
+    return tuple(array.tolist())
+
+
+def _close(
+    times: FloatArray, values: FloatArray, period: float | None
+) -> tuple[FloatArray, FloatArray]:
+    """Make the last row the seam, the first displacement again at the period."""
+    period = float(times[-1]) if period is None else period
+    if abs(period - times[-1]) <= SEAM_TOLERANCE * period:
+        times[-1] = period
+    elif period < times[-1]:
+        problem = f"the rows run to t_s = {float(times[-1])!r}, past the period"
+        remedy = "drop period_s or correct it, or take one period of the record by repeat = true"
+        raise all_wrong(("period_s", problem, remedy))
+    else:
+        times, values = np.append(times, period), np.append(values, values[0])
+    first, last = values[[0, -1]].tolist()
+    if abs(last - first) > SEAM_TOLERANCE * np.ptp(values):
+        problem = f"U_a_mm jumps at the seam from {last!r} to {first!r}"
+        remedy = "repeat the first U_a_mm in the last row, give a later period_s, or repeat = true"
+        raise all_wrong(("file", problem, remedy))
+    values[-1] = first
+    return times, values
+
+
+def _one_period(
+    times: FloatArray, values: FloatArray, period: float | None
+) -> tuple[FloatArray, FloatArray]:
+    """Take the rows before the period ends, and close it by a straight line to the first row."""
+    step = float(np.median(np.diff(times)))
+    period = float(times[-1]) + step if period is None else period
+    if period > (times[-1] + step) * (1.0 + SEAM_TOLERANCE):
+        problem = f"the record ends at t_s = {float(times[-1])!r}, before the period does"
+        raise all_wrong(("period_s", problem, "give a shorter period, or drop period_s"))
+    kept = times < period * (1.0 - SEAM_TOLERANCE)
+    return np.append(times[kept], period), np.append(values[kept], values[0])

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.faults import UsageError
+
 FloatArray = NDArray[np.float64]
 
 
@@ -25,5 +27,5 @@ def inside(time: FloatArray | float, duration: float) -> FloatArray:
     given = np.asarray(time, dtype=np.float64)
     slack = 1e-12 * duration
     if not np.all((given >= -slack) & (given <= duration + slack)):
-        raise ValueError(f"time outside the load, which lasts {duration!r} s")
+        raise UsageError(f"time outside the load, which lasts {duration!r} s")
     return np.clip(given, 0.0, duration)

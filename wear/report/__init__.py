@@ -1,10 +1,12 @@
-"""The report: one document tree, written as a page and as LaTeX.
+"""The report: a text in Markdown with computed values, written as a page and as LaTeX.
 
 Contents
-    document, words, walk, numbering, audit    what the report says
-    display, formula, breaking, mathml         formulas
-    html, html_prose, svg                      the page
-    tex, tex_text, typeset                     LaTeX and its PDF
-    publish                                    all files of a report
-    drawing                                    the picture of the system
+    paper.md, paper, values                    what the paper says, and its numbers
+    text, document, number                     Markdown with values, labels numbered
+    equations, derivations, markup             equations with titles, and how they follow
+    html, tex, svg, mathml, works, templates   the writers
+    typeset, publish, manifest                 the files of a report
+    runs, claims, reconcile, verification      what is computed for it
+    speed, figures_of_note, drawing            its measurements and figures
+    explorer                                   the interactive page
 """

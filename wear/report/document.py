@@ -1,179 +1,59 @@
-"""The document tree: what the report says, apart from how it is written.
+"""A report that was read: its text with the equations and figures that it shows, all numbered.
 
-Overview
-    A document is a tree of frozen nodes. Inline nodes make up prose, blocks make up sections.
-    `wear.report.numbering` gives every label its number, `wear.report.audit` finds numbers that
-    nobody computed, and the writers `wear.report.html` and `wear.report.tex` turn the same tree
-    into a page and into LaTeX.
-Rules
-    A label is unique in the document, made of letters, digits and ``: . -``, and starts with a
-    letter: ``eq:21``, ``fig:wear``, ``claim:C24``, ``ref:archard1953``.
-    A number in running text is a `Number` with the name of the computation that it came from.
-    Digits that are no result (a version, a year, a unit) are a `Given` with the reason.
-    LaTeX of formulas keeps to the subset described in `wear.report.display`.
+Both writers take the numbers from here, so that a label has the same one on the page and in LaTeX.
 """
 
 from __future__ import annotations
 
-import math
 import re
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from numbers import Integral
-from typing import TypeAlias
+from functools import cached_property
+from itertools import pairwise
 
-_LABEL = re.compile(r"[A-Za-z][A-Za-z0-9:.\-]*")
+from markdown_it.token import Token
 
+from wear.cite import REFERENCES
+from wear.report.text import Text
 
-@dataclass(frozen=True)
-class Text:
-    """Plain words."""
-
-    text: str
-
-
-@dataclass(frozen=True)
-class Emphasis:
-    """Words that carry stress."""
-
-    text: str
-
-
-@dataclass(frozen=True)
-class Code:
-    """A name or command, set in a fixed pitch."""
-
-    text: str
-
-
-@dataclass(frozen=True)
-class Math:
-    """A formula inside a line of text."""
-
-    latex: str
-
-
-@dataclass(frozen=True)
-class Reference:
-    """A link to a label, shown by its kind and number: Eq. (8), Figure 2, claim C24, [3]; `bare` by
-    the number alone, for the second and later of a list."""
-
-    label: str
-    bare: bool = False
-
-
-@dataclass(frozen=True)
-class Link:
-    """A link to somewhere outside the document."""
-
-    text: str
-    url: str
-
-
-@dataclass(frozen=True)
-class Given:
-    """Words with digits that are no result of the run; `reason` says what they are."""
-
-    text: str
-    reason: str
-
-
-@dataclass(frozen=True)
-class Number:
-    """A number that the run computed.
-
-    `digits` counts significant digits, `unit` is plain text such as ``mm`` or ``MPa/mm``, and
-    `source` names the computation. Integers below a million are shown in full.
-
-    >>> Number(4.63554742752e-8, 4, "mm", source="equation 21").decimal
-    ('4.636', -8)
-    >>> Number(9000, 4, source="scene").decimal
-    ('9000', None)
-    """
-
-    value: float
-    digits: int
-    unit: str = ""
-    source: str = field(kw_only=True)
-
-    def __post_init__(self) -> None:
-        if not math.isfinite(self.value):
-            raise ValueError(
-                f"a number in the text must be finite, got {self.value} ({self.source})"
-            )
-        if self.digits < 1:
-            raise ValueError(f"a number needs at least one digit, got {self.digits}")
-        if not self.source:
-            raise ValueError(f"the number {self.value} does not say where it comes from")
-
-    @property
-    def decimal(self) -> tuple[str, int | None]:
-        """Digits, with a sign if negative, and the power of ten if there is one."""
-        if isinstance(self.value, Integral) and abs(self.value) < 10**6:
-            return str(int(self.value)), None
-        if self.value == 0.0:
-            return "0", None
-        mantissa, _, power = f"{self.value:.{self.digits - 1}e}".partition("e")
-        exponent = int(power)
-        if -4 < exponent < 6:
-            return f"{self.value:.{max(self.digits - 1 - exponent, 0)}f}", None
-        return mantissa, exponent
-
-
-def grouped(digits: str, separator: str) -> str:
-    """Integers of more than four digits in groups of three.
-
-    >>> grouped("123456", " "), grouped("9000", " "), grouped("1.23456", " ")
-    ('123 456', '9000', '1.23456')
-    """
-    is_long = "." not in digits and len(digits.lstrip("-")) > 4
-    return f"{int(digits):,}".replace(",", separator) if is_long else digits
-
-
-Inline: TypeAlias = Text | Emphasis | Code | Math | Reference | Link | Given | Number
-Prose: TypeAlias = tuple[Inline, ...]
-
-
-@dataclass(frozen=True)
-class Paragraph:
-    """Sentences."""
-
-    content: Prose
-
-
-@dataclass(frozen=True)
-class Items:
-    """A list, with numbers before the entries if their order matters."""
-
-    entries: tuple[Prose, ...]
-    ordered: bool = False
+OWN_EQUATION = "D.{}"
+"""Number of an equation that the note does not have."""
+_NOTE = re.compile(r"\d+[a-g]?")
+_KINDS = {
+    "eq": "equation", "sec": "section", "app": "appendix", "fig": "figure", "tab": "table",
+    "claim": "claim", "der": "derivation", "ref": "work",
+}  # fmt: skip
+_NAMES = {
+    "equation": "Eq.\u00a0({})", "section": "Section\u00a0{}", "appendix": "Appendix\u00a0{}",
+    "figure": "Figure\u00a0{}", "table": "Table\u00a0{}", "claim": "claim\u00a0{}",
+    "derivation": "derivation of\u00a0({})", "work": "[{}]",
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Equation:
-    """A displayed formula.
+    """A displayed formula with its title and hypotheses in Markdown.
 
-    `number` is shown in parentheses; leave it empty for a result of the project's own, which is
-    then numbered D.1, D.2, ... `status` is one of the statuses of `derive`, `printed` the form in
-    the note where that is not the derived one, `macro` the name (letters only) of its macro in
-    ``equations.tex``.
+    `status` is one of the statuses of `derive`, `printed` the form in the note where that is not
+    the derived one, `macro` the name of its macro in ``equations.tex``; `also` are the ids of
+    equations that say the same.
     """
 
-    label: str
+    id: str
     latex: str
-    number: str = ""
-    title: Prose = ()
+    title: str = ""
     status: str = ""
     printed: str = ""
     macro: str = ""
+    also: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing as SVG and PDF. `description` tells it to those who do not see it, `file` is the
-    stem of its file names."""
+    """A drawing as SVG and PDF. `description` is for those who do not see it, `file` the stem of
+    its file names."""
 
-    label: str
-    caption: Prose
     description: str
     svg: str
     pdf: bytes = field(repr=False)
@@ -181,134 +61,159 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Column:
-    """A column of a table: its heading, whether it holds numbers (set to the right), and its share
-    of the text width where its cells are sentences that need several lines."""
+class Mark:
+    """What stands for a label in the text, and the label that a link leads to."""
 
-    heading: Prose
-    numeric: bool = False
-    width: float = 0.0
-
-
-@dataclass(frozen=True)
-class Table:
-    """Rows of cells; the first cell of a row is its heading. `long` tables may span pages."""
-
-    label: str
-    caption: Prose
-    columns: tuple[Column, ...]
-    rows: tuple[tuple[Prose, ...], ...]
-    long: bool = False
-
-    def __post_init__(self) -> None:
-        wrong = [i for i, row in enumerate(self.rows) if len(row) != len(self.columns)]
-        if wrong:
-            raise ValueError(
-                f"table {self.label}: {len(self.columns)} columns, but rows {wrong} have "
-                f"{[len(self.rows[i]) for i in wrong]} cells"
-            )
-
-
-@dataclass(frozen=True)
-class Claim:
-    """A claim of the note with its verdict and the evidence for it."""
-
-    id: str
-    where: Prose
-    statement: Prose
-    verdict: str
-    evidence: Prose
+    kind: str
+    number: str
+    target: str
 
     @property
-    def label(self) -> str:
-        return f"claim:{self.id}"
+    def bare(self) -> str:
+        """The number alone, as it stands in a list of references."""
+        if self.kind == "equation":
+            return f"({self.number})"
+        return self.name if self.kind == "work" else self.number
 
+    @property
+    def name(self) -> str:
+        """The words of a reference, with no-break spaces.
 
-@dataclass(frozen=True)
-class Claims:
-    """The ledger, or a part of it."""
-
-    label: str
-    caption: Prose
-    claims: tuple[Claim, ...]
-
-
-@dataclass(frozen=True)
-class Step:
-    """One move of a derivation: what is done, what comes out, and how that was checked."""
-
-    text: Prose
-    latex: str = ""
-    check: Prose = ()
-
-
-@dataclass(frozen=True)
-class Steps:
-    """The derivation of the equation `of`, folded until a reader asks for it."""
-
-    label: str
-    of: str
-    steps: tuple[Step, ...]
-
-
-@dataclass(frozen=True)
-class Work:
-    """A work that the text cites: author, title, where and when it appeared."""
-
-    label: str
-    entry: Prose
-
-
-@dataclass(frozen=True)
-class Bibliography:
-    """The works that the text cites; each is numbered by its place."""
-
-    works: tuple[Work, ...]
-
-
-@dataclass(frozen=True)
-class Listing:
-    """Commands or code, verbatim. `description` is its accessible name."""
-
-    code: str
-    description: str
-
-
-@dataclass(frozen=True)
-class Section:
-    """A heading and what stands under it; sections nest at most three deep."""
-
-    label: str
-    title: str
-    blocks: tuple[Block, ...]
-
-
-Block: TypeAlias = (
-    Paragraph
-    | Items
-    | Equation
-    | Figure
-    | Table
-    | Claims
-    | Steps
-    | Bibliography
-    | Listing
-    | Section
-)
-Labelled: TypeAlias = Equation | Figure | Table | Claims | Claim | Steps | Work | Section
+        >>> Mark("equation", "8", "eq:8").name.replace(chr(0xa0), " ")
+        'Eq. (8)'
+        """
+        return _NAMES[self.kind].format(self.number)
 
 
 @dataclass(frozen=True)
 class Document:
-    """A report. `subtitle` and `abstract` stand before the first section."""
+    """A text with all equations (by id) and figures (by label) that it may show."""
 
-    title: str
-    subtitle: Prose
-    abstract: Prose
-    sections: tuple[Section, ...]
-    colophon: Prose = ()
+    text: Text
+    equations: Mapping[str, Equation]
+    figures: Mapping[str, Figure]
+
+    @property
+    def title(self) -> str:
+        """The heading of the first level."""
+        tokens = self.text.tokens
+        return next(b.content for a, b in pairwise(tokens) if a.tag == "h1")
+
+    @property
+    def shown(self) -> Iterator[Equation]:
+        """The equations that the text shows, in reading order."""
+        for token in self.text.tokens:
+            if token.type == "fence" and token.info == "equations":
+                yield from (self.equations[identifier] for identifier in token.content.split())
+
+    @cached_property
+    def marks(self) -> Mapping[str, Mark]:
+        """The mark of every label.
+
+        Raises
+        ------
+        ValueError
+            with all faults at once: labels used twice, equations shown twice, references to what
+            is not there.
+        """
+        found = list(self._marks())
+        marks = {mark.target: mark for mark in found}
+        for equation in self.shown:
+            for other in equation.also:
+                label = f"eq:{other}"
+                marks[label] = Mark("equation", _own(other, marks, equation), f"eq:{equation.id}")
+        twice = [label for label, n in Counter(mark.target for mark in found).items() if n > 1]
+        faults = [f"{label!r} is used more than once" for label in twice]
+        faults += [
+            f"no {label!r} to refer to" for label in self._references() if label not in marks
+        ]
+        if faults:
+            raise ValueError("the document does not hold together:\n  " + "\n  ".join(faults))
+        return marks
+
+    @cached_property
+    def works(self) -> tuple[str, ...]:
+        """The keys of the works that the text cites, in that order."""
+        cited = (label for label in self._references() if label.startswith("ref:"))
+        return tuple(dict.fromkeys(label.removeprefix("ref:") for label in cited))
+
+    @cached_property
+    def mentions(self) -> Mapping[str, tuple[str, ...]]:
+        """For every equation its derivation and the claims that refer to it."""
+        found: dict[str, dict[str, None]] = {}
+        for where, label in self._places():
+            if where and label.startswith("eq:") and label in self.marks:
+                derives = where.startswith("der:") and where[4:] != label[3:]
+                if not derives:
+                    found.setdefault(self.marks[label].target, {})[where] = None
+        return {label: tuple(sources) for label, sources in found.items()}
+
+    def _references(self) -> Iterator[str]:
+        for token in self.text.inline:
+            if token.type == "reference":
+                yield token.content
+
+    def _places(self) -> Iterator[tuple[str, str]]:
+        """What stands where: the derivation or claim around each reference, and its label."""
+        where = ""
+        for token in self.text.tokens:
+            if token.type in ("heading_open", "tr_close", "table_close"):
+                where = str(token.meta.get("label", ""))
+                where = where if where.startswith("der:") else ""
+                if where:
+                    yield where, f"eq:{where[4:]}"
+            for piece in token.children or ():
+                if piece.type == "target" and piece.content.startswith("claim:"):
+                    where = piece.content
+                if piece.type == "reference" and where.startswith("claim:"):
+                    yield where, piece.content
+
+    def _marks(self) -> Iterator[Mark]:
+        counts: Counter[str] = Counter()
+        for token in self.text.tokens:
+            if token.type == "heading_open" and "label" in token.meta:
+                yield _heading(token, counts)
+            elif token.type == "caption_open" and "label" in token.meta:
+                yield _next("table", token.meta["label"], counts)
+            elif token.type == "fence" and token.info == "equations":
+                for identifier in token.content.split():
+                    number = identifier if _NOTE.fullmatch(identifier) else ""
+                    yield _next("equation", f"eq:{identifier}", counts, number)
+            for piece in token.children or ():
+                if piece.type == "image":
+                    yield _next("figure", str(piece.attrs["src"]), counts)
+                elif piece.type == "target":
+                    kind, _, number = piece.content.partition(":")
+                    yield Mark(_KINDS[kind], number, piece.content)
+        for place, key in enumerate(self.works, start=1):
+            if key in REFERENCES:
+                yield Mark("work", str(place), f"ref:{key}")
 
 
-def is_label(text: str) -> bool:
-    """Whether both writers can use it as a target of links."""
-    return _LABEL.fullmatch(text) is not None
+def _own(identifier: str, marks: Mapping[str, Mark], same: Equation) -> str:
+    """The number of an equation that says the same as one that is shown."""
+    return identifier if _NOTE.fullmatch(identifier) else marks[f"eq:{same.id}"].number
+
+
+def _next(kind: str, label: str, counts: Counter[str], number: str = "") -> Mark:
+    if not number:
+        counts[kind] += 1
+        number = str(counts[kind])
+        number = OWN_EQUATION.format(number) if kind == "equation" else number
+    return Mark(kind, number, label)
+
+
+def _heading(token: Token, counts: Counter[str]) -> Mark:
+    """The mark of a heading: 1, 1.1, A, A.1, or that of the equation derived below it."""
+    label = str(token.meta["label"])
+    kind = _KINDS[label.partition(":")[0]]
+    if kind == "derivation":
+        return Mark(kind, label[4:], label)
+    if token.tag == "h2":
+        counts[kind] += 1
+        counts["part"] = 0
+        numeral = str(counts[kind]) if kind == "section" else chr(ord("A") + counts[kind] - 1)
+        return Mark(kind, numeral, label)
+    counts["part"] += 1
+    numeral = str(counts[kind]) if kind == "section" else chr(ord("A") + counts[kind] - 1)
+    return Mark(kind, f"{numeral}.{counts['part']}", label)

@@ -57,10 +57,10 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "title": scene.title or scene.name,
         "description": " ".join(scene.description.split()),
         "law": key.law,
-        "pin": "bearing" if key.pin == "absent" else key.pin,
+        "pin": key.pin,
         "compliant": key.support == "compliant",
-        "opening": key.opening,
-        "cutoff": key.cutoff,
+        "opening": scene.contact.pin_wear_opens_gap,
+        "cutoff": key.ends_at_3_sigma,
         "parameters": {name: numbers[name] for group in GROUPS.values() for name in group},
         "load": _load_data(scene.periodic_load),
     }
@@ -90,7 +90,7 @@ def _load_data(load: Load) -> dict[str, Any]:
     values = [float(load(phase)) for phase in phases]
     return {
         "kind": "table",
-        "file": load.file,
+        "file": "" if load.source is None else load.source.file,
         "period_s": load.period,
         "phase": phases,
         "value": values,
@@ -111,7 +111,7 @@ def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
     for depth in depths:
         loads = scene.periodic_load(phases)
         found = model.rate(np.full_like(loads, depth), loads)
-        if model.cutoff and not model.compliant:
+        if model.ends_at_3_sigma and not model.compliant:
             found = np.where(model.margin(depth, loads) >= 0.0, found, 0.0)
         rates += [[float(depth), float(a), float(b)] for a, b in zip(loads, found, strict=True)]
     return {
@@ -149,26 +149,21 @@ def parameter_rows() -> list[dict[str, Any]]:
 
 def models() -> str:
     """Return a script with the generated functions of every variant and the formulas."""
-    from derive.codegen.formula_module import Formula
-    from derive.codegen.javascript import definitions, formula_function, guard_function
+    from derive.codegen.formulas import formula_script
+    from derive.codegen.sources import definitions
+    from derive.program import program
     from derive.results.asymptotics import formulas
     from derive.variant import VARIANTS
 
-    entries = []
-    for variant in VARIANTS:
-        text, names = definitions(variant)
-        body = f"{_without_comments(text)}\nreturn {{ {', '.join(names)} }};"
-        entries.append(f'"{variant.law.name}/{variant.module}": () => {{\n{body}\n}},')
-    closed = tuple(formulas())
-    written = (
-        formula_function(entry) if isinstance(entry, Formula) else guard_function(entry)
-        for entry in closed
+    entries = (
+        f'"{variant.law.name}/{variant.name}": () => {{\n'
+        f"{_without_comments(definitions(program(variant)))}}},\n"
+        for variant in VARIANTS
     )
-    text = "\n".join(_without_comments(function) for function in written)
-    names = tuple(formula.name for formula in closed)
+    closed = _without_comments(formula_script(tuple(formulas())))
     return (
-        '"use strict";\nconst MODELS = {\n' + "\n".join(entries) + "\n};\n"
-        f"const FORMULAS = (() => {{\n{text}\nreturn {{ {', '.join(names)} }};\n}})();\n"
+        f'"use strict";\nconst MODELS = {{\n{"".join(entries)}}};\n'
+        f"const FORMULAS = (() => {{\n{closed}}})();\n"
     )
 
 

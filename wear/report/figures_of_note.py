@@ -7,25 +7,28 @@ Contents
     wear_and_asymptote      Fig. 3a: section 4 with a line of the slope (21)
     wear_coefficients       Fig. 3b: section 5 for four wear coefficients
     approach                how rate and pressure approach (21) and (22)
-    regimes                 the asymptotic pressure over f_c, with the regimes
+    wear_curve              section 4 over all decades, with what the note has for it
+    regimes                 the map of regimes with the examples of the note
 """
 
 from __future__ import annotations
 
-import numpy as np
-from matplotlib.figure import Figure
+from collections.abc import Mapping
 
+import numpy as np
+import sympy as sp
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from derive.results.regime_map import REGIMES
 from wear import figures
-from wear.figure_data import Line, Regime, Threshold
-from wear.figure_style import COLUMN_AND_HALF, GREY, INK, PAGE, canvas, stroke, styled
-from wear.generated import asymptotics as formula
+from wear.figure_data import Example, Line
+from wear.figure_style import COLUMN_AND_HALF, GREY, INK, canvas, stroke, styled
 from wear.history import FloatArray, History
 from wear.report.reconcile import PRINTED
-from wear.report.runs import CUTOFF, SECTION_5, Approach, Runs, known
+from wear.report.runs import CUTOFF, SECTION_5, Approach, Runs, required
 
 WIDTH = COLUMN_AND_HALF
-_ONE_EIGHTH = 1.0 / 8.0
-_ONE_THIRD = 1.0 / 3.0
 
 
 def lines_of(history: History) -> tuple[list[Line], list[Line], list[Line]]:
@@ -41,46 +44,46 @@ def lines_of(history: History) -> tuple[list[Line], list[Line], list[Line]]:
 
 
 def wear_of_both(runs: Runs) -> Figure:
-    """Fig. 2a, with and without the cutoff."""
+    """Fig. 2a, with and without loss of contact."""
     return figures.wear_history(_both(runs, "u_c", "u_a"), width=WIDTH)
 
 
 def roughness_of_both(runs: Runs) -> Figure:
-    """Fig. 2b, with and without the cutoff."""
+    """Fig. 2b, with and without loss of contact."""
     return figures.roughness_history(_both(runs, "sigma_c", "sigma_a"), width=WIDTH)
 
 
 def _both(runs: Runs, bearing: str, pin: str) -> list[Line]:
-    """A field of both solids of section 3; the cutoff is dashed."""
+    """A field of both solids of section 3; loss of contact is dashed."""
     lines = []
     for variant, name in enumerate(("section3", "section3" + CUTOFF)):
         history = runs.history(name)
         cycles = history.cycles.astype(float)
-        said = ", cutoff" * variant
+        said = ", loss of contact" * variant
         lines.append(Line(f"bearing{said}", cycles, getattr(history, bearing), 0, variant))
         lines.append(Line(f"pin{said}", cycles, getattr(history, pin), 1, variant))
     return lines
 
 
 def wear_and_asymptote(runs: Runs) -> Figure:
-    """Fig. 3a: the solution, that with the cutoff, and a line of the slope (21) through the end."""
+    """Fig. 3a: the solution, with and without loss of contact, and a line of the slope (21)."""
     wear = [
         _wear(runs, "section4", "solution", 0, 0),
-        _wear(runs, "section4" + CUTOFF, "with cutoff", 0, 1),
+        _wear(runs, "section4" + CUTOFF, "loss of contact", 0, 1),
     ]
     last = wear[0]
-    per_cycle = known(runs.fate("section4").wear_per_cycle_mm)
+    per_cycle = required(runs.asymptote("section4").wear_per_cycle_mm)
     line = last.y[-1] + per_cycle * (last.x - last.x[-1])
     return figures.wear_with_asymptote(wear, [Line("slope (21)", last.x, line, 1, 2)], width=WIDTH)
 
 
 def wear_coefficients(runs: Runs) -> Figure:
-    """Fig. 3b: four wear coefficients, each with and without the cutoff, on an axis of ln N."""
+    """Fig. 3b: four wear coefficients, on an axis of ln N, one with loss of contact."""
     lines = []
     for family, name in enumerate(SECTION_5):
         power = round(np.log10(runs.cases[name].scene.bearing.wear_coefficient))
         lines.append(_wear(runs, name, rf"$K = 10^{{{power}}}$", family, 0))
-    lines.append(_wear(runs, SECTION_5[1] + CUTOFF, r"$10^{-6}$, cutoff", 1, 1))
+    lines.append(_wear(runs, SECTION_5[1] + CUTOFF, r"$10^{-6}$, loss of contact", 1, 1))
     return figures.wear_by_coefficient(lines, logarithmic=True, width=WIDTH)
 
 
@@ -132,26 +135,49 @@ def approach(found: Approach) -> Figure:
     return figure
 
 
-def regimes() -> Figure:
-    """The asymptotic pressure over f_c, the regimes and the thresholds between them."""
-    slopes = np.linspace(0.06, 0.6, 300)
-    pressure = Line("pressure", slopes, share(slopes))
-    return figures.regime_map(
-        pressure,
-        [
-            Regime("wear ends", -0.12, 0.0),
-            Regime("steady; with cutoff: arrest", 0.0, _ONE_THIRD),
-            Regime("steady, with or without cutoff", _ONE_THIRD, 0.6),
-        ],
-        [
-            Threshold(r"$f_c = 1/8$", _ONE_EIGHTH),
-            Threshold(r"$f_c = 1/3$", _ONE_THIRD),
-        ],
-        width=PAGE,
-    )
+def wear_curve(runs: Runs) -> Figure:
+    """Wear over all decades with what the note has for it: the curve of the first page."""
+    found, limit = runs.approach, runs.asymptote("section4")
+    stopped = runs.history("section4" + CUTOFF)
+    cycles = np.geomspace(1.0, found.cycles[-1], 200)
+    held = np.interp(np.log(cycles), np.log(stopped.cycles[1:]), stopped.u_c[1:])
+    wear = [
+        Line("solution", np.r_[1.0, found.cycles], np.r_[stopped.u_c[1], found.wear]),
+        Line("loss of contact", cycles, held, 0, 1),
+    ]
+    lines = [
+        Line("slope (21)", cycles, required(limit.wear_per_cycle_mm) * cycles, 1, 1),
+        Line("as printed", cycles, PRINTED.formula_mm * cycles, 4, 2),
+    ]
+    return figures.wear_by_decades(wear, lines, mark=(PRINTED.cycles, "the note's cycle"))
 
 
-def share(slope: FloatArray) -> FloatArray:
-    """p_inf/p_max of one solid for f_c > 0."""
-    ratio = formula.closure_ratio(q=slope, g=1.0)
-    return np.asarray(formula.share_tanh(ratio))
+def regimes(runs: Runs) -> Figure:
+    """The map of regimes with the examples of the note."""
+    points = []
+    for name in ("section3", "section4", "section5"):
+        scene = runs.cases[name].scene
+        gap = (scene.closure - scene.periodic_load.maximum) / scene.initial_roughness
+        slope = scene.bearing.roughness_growth
+        points.append(Example(name, slope, gap, one_solid=scene.pin is None))
+    return figures.regime_map(_regime, ("without loss of contact", "with loss of contact"), points)
+
+
+def _regime(slope: FloatArray, gap: FloatArray, cutoff: bool) -> NDArray[np.str_]:
+    """The names of the regimes by the map of the derivation; lengths in the initial roughness."""
+    values = {"f_c": slope, "h_0": gap, "sigma_c0": 1.0, "U_max": 0.0}
+    named = np.full(slope.shape, "", dtype="<U32")
+    for row in REGIMES:
+        if row.cutoff == cutoff:
+            holds = np.ones(slope.shape, dtype=bool)
+            for condition in row.conditions:
+                holds &= _holds(condition.relation, values)
+            named[holds] = row.name
+    return named
+
+
+def _holds(relation: sp.Basic, values: Mapping[str, object]) -> NDArray[np.bool_]:
+    """Where a relation between data holds."""
+    symbols = sorted(relation.free_symbols, key=str)
+    found = sp.lambdify(symbols, relation, "numpy")(*(values[s.name] for s in symbols))
+    return np.asarray(found, dtype=bool)

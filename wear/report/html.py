@@ -1,276 +1,246 @@
-"""The document as one page: no network, no script, formulas as MathML with their own font.
+"""The document as one page: no network, formulas as MathML with their own font.
 
 Overview
-    `page` writes the whole file. Every block has one function, named after it;
-    `wear.report.html_prose` writes what stands inside lines.
+    `page` writes the whole file. Tokens that Markdown knows are written by markdown-it; each of
+    ours has a method here, named after it. The frame is ``templates/page.html``, the look
+    ``assets/report.css``; a few lines of ``assets/report.js`` mark the section that is being read.
 On the page
     Landmarks and a link that skips to the content; headings in order without gaps; figures that
-    are announced by their description; headed rows and columns; derivations folded in
-    ``details`` on screen and open on paper. The look is in ``assets/report.css``.
+    are announced by their description; headed rows and columns.
 """
 
 from __future__ import annotations
 
 import base64
+import hashlib
+from collections.abc import Sequence
 from html import escape
 from importlib.resources import files
-from typing import assert_never
+from numbers import Integral
+from typing import Any
 
+import jinja2
+from markdown_it.token import Token
+
+from wear.cite import REFERENCES
 from wear.report import mathml, svg
-from wear.report.document import (
-    Bibliography,
-    Block,
-    Claim,
-    Claims,
-    Column,
-    Document,
-    Equation,
-    Figure,
-    Items,
-    Listing,
-    Paragraph,
-    Prose,
-    Section,
-    Step,
-    Steps,
-    Table,
-    Work,
-)
-from wear.report.html_prose import Page, link, prose
-from wear.report.numbering import mentioned_by, number
+from wear.report.document import Document
+from wear.report.number import grouped
+from wear.report.text import Writer
+from wear.report.works import entry
 
-#: Nothing may be fetched, nothing may run.
-_POLICY = "default-src 'none'; style-src 'unsafe-inline'; font-src data:; base-uri 'none'"
+_CLOSING = tuple(".,;:)?")
+_ASSETS = files("wear.report").joinpath("assets")
+
+
+def _hash(script: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+
+
+_TEMPLATES = jinja2.Environment(
+    loader=jinja2.PackageLoader("wear.report"),
+    undefined=jinja2.StrictUndefined,
+    autoescape=False,
+    trim_blocks=True,
+)
+_TEMPLATES.filters |= {"words": lambda text: text.replace("-", " "), "hash": _hash}
 
 
 def page(document: Document) -> str:
-    """The document as a self-contained HTML file.
+    """Return the document as a self-contained HTML file.
 
-    Raises `ValueError` for references that lead nowhere and formulas outside the subset.
+    Raises
+    ------
+    ValueError
+        for references that lead nowhere and formulas outside the subset of `wear.report.mathml`.
     """
-    here = Page(number(document), mentioned_by(document))
-    body = "\n".join(_section(here, section, level=2) for section in document.sections)
-    return f"""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="{_POLICY}">
-<meta name="color-scheme" content="light dark">
-<title>{escape(document.title)}</title>
-<style>
-{style()}
-</style>
-</head>
-<body>
-<a class="skip" href="#content">Skip to the content</a>
-<header>
-<h1>{escape(document.title)}</h1>
-<p class="subtitle">{prose(here, document.subtitle)}</p>
-</header>
-<nav aria-label="Contents">
-{_contents(here, document.sections)}
-</nav>
-<main id="content" tabindex="-1">
-<p class="abstract">{prose(here, document.abstract)}</p>
-{body}
-</main>
-<footer>
-<p>{prose(here, document.colophon)}</p>
-</footer>
-</body>
-</html>
-"""
-
-
-def _block(here: Page, block: Block, level: int) -> str:
-    match block:
-        case Paragraph(content):
-            return f"<p>{prose(here, content)}</p>"
-        case Items():
-            return _items(here, block)
-        case Equation():
-            return _equation(here, block)
-        case Figure():
-            return _figure(here, block)
-        case Table():
-            return _table(here, block)
-        case Claims():
-            return _claims(here, block)
-        case Steps():
-            return _steps(here, block)
-        case Bibliography(works):
-            return f'<ol class="works">{"".join(_work(here, work) for work in works)}</ol>'
-        case Listing(code, description):
-            name = escape(description)
-            return f'<pre role="region" aria-label="{name}" tabindex="0">{escape(code)}</pre>'
-        case Section():
-            return _section(here, block, level)
-    assert_never(block)
-
-
-def _section(here: Page, section: Section, level: int) -> str:
-    numeral = here.marks[section.label].number
-    inside = "\n".join(_block(here, block, level + 1) for block in section.blocks)
-    return (
-        f'<section id="{section.label}">\n'
-        f'<h{level}><span class="numeral">{numeral}</span> {escape(section.title)}</h{level}>\n'
-        f"{inside}\n</section>"
+    writer = _Writer(document)
+    body = writer.written(document.text.tokens)
+    return _TEMPLATES.get_template("page.html").render(
+        title=document.title,
+        style=style(),
+        script=_ASSETS.joinpath("report.js").read_text(encoding="utf-8"),
+        contents=writer.contents,
+        body=body + writer.end_of_sections(0),
     )
-
-
-def _contents(here: Page, sections: tuple[Section, ...]) -> str:
-    entries = []
-    for section in sections:
-        inner = tuple(block for block in section.blocks if isinstance(block, Section))
-        entries.append(
-            f'<li><a href="#{section.label}">{here.marks[section.label].number} '
-            f"{escape(section.title)}</a>{_contents(here, inner) if inner else ''}</li>"
-        )
-    return "<ol>" + "".join(entries) + "</ol>"
-
-
-def _items(here: Page, items: Items) -> str:
-    tag = "ol" if items.ordered else "ul"
-    entries = "".join(f"<li>{prose(here, entry)}</li>" for entry in items.entries)
-    return f"<{tag}>{entries}</{tag}>"
-
-
-def _equation(here: Page, equation: Equation) -> str:
-    name = here.marks[equation.label].number
-    named = f"{prose(here, equation.title)} {_badge(equation.status)}".strip()
-    title = f'<p class="title">{named}</p>' if named else ""
-    head = f'<div class="head">{title}{_mentions(here, equation.label)}</div>'
-    printed = (
-        f'<div class="printed"><p>As printed:</p><div class="formula">'
-        f"{mathml.block(equation.printed)}</div></div>"
-        if equation.printed
-        else ""
-    )
-    return (
-        f'<div class="equation" id="{equation.label}" role="group" aria-label="Equation {name}">'
-        f"{head}"
-        f'<div class="row"><div class="formula">{mathml.block(equation.latex)}</div>'
-        f'<a class="number" href="#{equation.label}">({name})</a></div>'
-        f"{printed}</div>"
-    )
-
-
-def _badge(status: str) -> str:
-    if not status:
-        return ""
-    return f'<span class="badge {escape(status)}">{escape(status.replace("-", " "))}</span>'
-
-
-def _mentions(here: Page, label: str) -> str:
-    """Links back to the derivation, figures, tables and claims that refer to a label."""
-    sources = here.mentioned_by.get(label, ())
-    claims = [source for source in sources if here.marks[source].kind == "claim"]
-    links = [link(here, source) for source in sources if source not in claims]
-    if claims:
-        word = "claims" if len(claims) > 1 else "claim"
-        told = (link(here, claim, bare=True) for claim in claims)
-        links.append(f"{word}\u00a0{', '.join(told)}")
-    return f'<p class="mentions">{" · ".join(links)}</p>' if links else ""
-
-
-def _figure(here: Page, figure: Figure) -> str:
-    name = here.marks[figure.label].name
-    return (
-        f'<figure id="{figure.label}">'
-        f'<div class="scroll">{svg.inline(figure.svg, figure.label, figure.description)}</div>'
-        f"<figcaption><b>{name}.</b> {prose(here, figure.caption)}</figcaption></figure>"
-    )
-
-
-def _table(here: Page, table: Table) -> str:
-    rows = "".join(_row(here, table.columns, row) for row in table.rows)
-    return _table_frame(here, table, rows)
-
-
-def _row(here: Page, columns: tuple[Column, ...], row: tuple[Prose, ...]) -> str:
-    first, *rest = (prose(here, cell) for cell in row)
-    cells = "".join(
-        f"<td{_kind(column)}>{cell}</td>" for column, cell in zip(columns[1:], rest, strict=True)
-    )
-    return f'<tr><th scope="row"{_kind(columns[0])}>{first}</th>{cells}</tr>'
-
-
-def _kind(column: Column) -> str:
-    if column.numeric:
-        return ' class="numeric"'
-    return ' class="text"' if column.width else ""
-
-
-def _table_frame(here: Page, table: Table, rows: str) -> str:
-    heads = "".join(
-        f'<th scope="col"{_kind(column)}>{prose(here, column.heading)}</th>'
-        for column in table.columns
-    )
-    name = here.marks[table.label].name
-    kind = ' class="long"' if table.long else ""
-    return (
-        f'<div class="scroll" id="{table.label}" role="region" aria-label="{name}" tabindex="0">'
-        f"<table{kind}><caption><div><b>{name}.</b> {prose(here, table.caption)}</div></caption>"
-        f"<thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table></div>"
-    )
-
-
-def _claims(here: Page, ledger: Claims) -> str:
-    """The ledger is a table, stacked on a phone; its roles are written out since browsers forget
-    those of a table that is not displayed as one."""
-    titles = ("Claim", "Where", "Statement", "Verdict", "Evidence")
-    heads = "".join(f'<th role="columnheader" scope="col">{title}</th>' for title in titles)
-    rows = "".join(_claim(here, claim) for claim in ledger.claims)
-    name = here.marks[ledger.label].name
-    return (
-        f'<div class="scroll" id="{ledger.label}"><table class="ledger" role="table">'
-        f"<caption><div><b>{name}.</b> {prose(here, ledger.caption)}</div></caption>"
-        f'<thead role="rowgroup"><tr role="row">{heads}</tr></thead>'
-        f'<tbody role="rowgroup">{rows}</tbody></table></div>'
-    )
-
-
-def _claim(here: Page, claim: Claim) -> str:
-    cells = (
-        prose(here, claim.where),
-        prose(here, claim.statement),
-        _badge(claim.verdict),
-        prose(here, claim.evidence) + _mentions(here, claim.label),
-    )
-    rest = "".join(f'<td role="cell">{cell}</td>' for cell in cells)
-    return (
-        f'<tr id="{claim.label}" role="row"><th role="rowheader" scope="row">{claim.id}</th>'
-        f"{rest}</tr>"
-    )
-
-
-def _steps(here: Page, steps: Steps) -> str:
-    count = f"{len(steps.steps)} step{'s' if len(steps.steps) > 1 else ''}"
-    entries = "".join(_step(here, step) for step in steps.steps)
-    # the label is inside: a link to it then opens what is folded
-    return (
-        f'<details class="steps"><summary>Derivation of '
-        f"Eq.\u00a0({here.marks[steps.of].number}), {count}</summary>"
-        f'<ol id="{steps.label}">{entries}</ol>'
-        f'<p class="mentions">Back to {link(here, steps.of)}</p></details>'
-    )
-
-
-def _step(here: Page, step: Step) -> str:
-    formula = f'<div class="formula">{mathml.block(step.latex)}</div>' if step.latex else ""
-    check = f'<p class="check">{prose(here, step.check)}</p>' if step.check else ""
-    return f"<li><p>{prose(here, step.text)}</p>{formula}{check}</li>"
-
-
-def _work(here: Page, work: Work) -> str:
-    number = here.marks[work.label].name
-    return f'<li id="{work.label}"><b>{number}</b> <span>{prose(here, work.entry)}</span></li>'
 
 
 def style() -> str:
-    """The look of a page, with the font of its formulas."""
-    assets = files("wear.report").joinpath("assets")
-    font = base64.b64encode(assets.joinpath("stix-two-math.woff2").read_bytes()).decode()
-    css = assets.joinpath("report.css").read_text(encoding="utf-8")
+    """Return the look of a page, with the font of its formulas."""
+    font = base64.b64encode(_ASSETS.joinpath("stix-two-math.woff2").read_bytes()).decode()
+    css = _ASSETS.joinpath("report.css").read_text(encoding="utf-8")
     return css.replace("url(stix-two-math.woff2)", f"url(data:font/woff2;base64,{font})")
+
+
+class _Writer(Writer):
+    """Writes tokens; the methods named like a kind of token are found by markdown-it."""
+
+    def __init__(self, document: Document) -> None:
+        super().__init__()
+        self._document = document
+        self._blocks: Any = _TEMPLATES.get_template("blocks.html").module
+        self._open: list[int] = []  # levels of the sections that are open
+        self.contents: list[tuple[Any, str, int]] = []
+
+    # sections
+
+    def end_of_sections(self, level: int) -> str:
+        """Close the sections of this level and below."""
+        closed = ""
+        while self._open and self._open[-1] >= level:
+            self._open.pop()
+            closed += "</section>\n"
+        return closed
+
+    def heading_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A section begins with its heading."""
+        token = tokens[i]
+        level = int(token.tag[1])
+        ended = self.end_of_sections(level)
+        if "label" not in token.meta:
+            return f"{ended}<{token.tag}>"
+        self._open.append(level)
+        mark = self._document.marks[token.meta["label"]]
+        start = f'{ended}<section id="{mark.target}">\n<{token.tag}>'
+        if mark.kind == "derivation":
+            return start
+        self.contents.append((mark, self.inside(tokens[i + 1].children), level))
+        return f'{start}<span class="numeral">{mark.number}</span> '
+
+    # blocks
+
+    def fence(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """Equations, a formula, the works cited, or code."""
+        token = tokens[i]
+        if token.info == "equations":
+            return "".join(map(self._equation, token.content.split()))
+        if token.info == "math":
+            return f'<div class="formula">{mathml.block(token.content.strip())}</div>\n'
+        if token.info == "works":
+            marks = self._document.marks
+            works = [
+                (marks[f"ref:{key}"], entry(REFERENCES[key]), REFERENCES[key].fields.get("doi"))
+                for key in self._document.works
+            ]
+            return str(self._blocks.works(works))
+        return (
+            f'<pre role="region" aria-label="Commands" tabindex="0">{escape(token.content)}</pre>\n'
+        )
+
+    def _equation(self, identifier: str) -> str:
+        found = self._document.equations[identifier]
+        mark = self._document.marks[f"eq:{identifier}"]
+        printed = mathml.block(found.printed) if found.printed else ""
+        mentions = " · ".join(
+            self._link(label) for label in self._document.mentions.get(mark.target, ())
+        )
+        formula = mathml.block(found.latex)
+        return str(
+            self._blocks.equation(
+                found, mark, self.of_line(found.title), mentions, formula, printed
+            )
+        )
+
+    def figures_open(self, *_: Any) -> str:
+        """Figures that stand side by side."""
+        return '<div class="figures">\n'
+
+    def figures_close(self, *_: Any) -> str:
+        """The end of a row of figures."""
+        return "</div>\n"
+
+    def image(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A figure with its caption."""
+        mark = self._document.marks[str(tokens[i].attrs["src"])]
+        figure = self._document.figures[mark.target]
+        drawing = svg.inline(figure.svg, mark.target, figure.description)
+        caption = self.inside(tokens[i].children)
+        return str(self._blocks.figure(mark, drawing, caption))
+
+    def caption_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A table begins with its caption."""
+        mark = self._document.marks[tokens[i].meta["label"]]
+        return (
+            f'<div class="scroll" id="{mark.target}" role="region" aria-label="{mark.name}" '
+            f'tabindex="0"><table><caption><div><b>{mark.name}.</b> '
+        )
+
+    def caption_close(self, *_: Any) -> str:
+        """The caption ends."""
+        return "</div></caption>\n"
+
+    def table_open(self, *_: Any) -> str:
+        """Nothing: the caption has opened the table."""
+        return ""
+
+    def table_close(self, *_: Any) -> str:
+        """The end of the table and of the box in which it scrolls."""
+        return "</table></div>\n"
+
+    def th_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """The heading of a column."""
+        return f'<th scope="col" class="{tokens[i].meta["kind"]}">'
+
+    def td_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A cell; the first of a row is its heading."""
+        meta = tokens[i].meta
+        return (
+            f'<th scope="row" class="{meta["kind"]}">'
+            if meta["first"]
+            else (f'<td class="{meta["kind"]}">')
+        )
+
+    def td_close(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """The end of a cell."""
+        start = max(j for j in range(i) if tokens[j].type == "td_open")
+        return "</th>\n" if tokens[start].meta["first"] else "</td>\n"
+
+    # inside lines
+
+    def math(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A formula; it stays on the line of the punctuation behind it."""
+        formula = mathml.inline(tokens[i].content)
+        behind = tokens[i + 1].content[:1] if i + 1 < len(tokens) else ""
+        if behind in _CLOSING and behind and tokens[i + 1].type == "text":
+            return f'<span class="kept">{formula}{behind}</span>'
+        return formula
+
+    def text(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """Words, without the punctuation that a formula has taken."""
+        words = tokens[i].content
+        taken = i > 0 and tokens[i - 1].type == "math" and words[:1] in _CLOSING
+        return escape(words[taken:], quote=False)
+
+    def reference(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A link by kind and number, or by the number alone."""
+        return self._link(tokens[i].content, bare=tokens[i].meta["bare"])
+
+    def _link(self, label: str, *, bare: bool = False) -> str:
+        mark = self._document.marks[label]
+        return f'<a href="#{mark.target}">{mark.bare if bare else mark.name}</a>'
+
+    def target(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """The place that links to a claim lead to."""
+        mark = self._document.marks[tokens[i].content]
+        return f'<b id="{mark.target}">{mark.number}</b>'
+
+    def verdict(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A verdict, coloured."""
+        said = tokens[i].content
+        return f'<span class="badge {said}">{said.replace("-", " ")}</span>'
+
+    def number(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A number that was computed; a pointer on it shows by what."""
+        node = self._document.text.numbers[int(tokens[i].content)]
+        digits, exponent = node.decimal
+        shown = grouped(digits, "\u202f")
+        if exponent is not None:
+            shown += f"\u202f×\u202f10<sup>{exponent}</sup>"
+        unit = f"\u00a0{escape(node.unit, quote=False)}" if node.unit else ""
+        value = int(node.value) if isinstance(node.value, Integral) else float(node.value)
+        shown = shown.replace("-", "\u2212")
+        return f'<data value="{value!r}" title="{escape(node.source)}">{shown}{unit}</data>'
+
+    def softbreak(self, *_: Any) -> str:
+        """The end of a line of the source."""
+        return "\n"

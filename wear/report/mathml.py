@@ -6,7 +6,7 @@ from functools import lru_cache
 
 from math_core import LatexError, LatexToMathML
 
-from wear.report.display import display
+from derive.typeset.breaking import broken
 
 #: Commands of amsmath that the converter lacks.
 _MACROS = {"substack": r"\begin{gathered}#1\end{gathered}"}
@@ -19,8 +19,8 @@ def inline(latex: str) -> str:
 
 
 def block(latex: str) -> str:
-    """A displayed formula, broken as `wear.report.display` describes."""
-    return _convert(display(latex), block=True)
+    """A displayed formula, broken where it is too wide (`derive.typeset.breaking`)."""
+    return _convert(broken(latex), block=True)
 
 
 @lru_cache(maxsize=4096)
@@ -30,5 +30,5 @@ def _convert(latex: str, *, block: bool) -> str:
     except LatexError as error:
         raise ValueError(
             f"the page cannot show this formula ({error}): {latex}\n"
-            "the subset that works is listed in wear.report.display"
+            "the subset that works is listed in math-core's documentation"
         ) from None

@@ -1,54 +1,29 @@
-"""The paper: what the report says, put together from its sections.
-
-Overview
-    `paper` makes the document from what was computed (`wear.report.material`). One module a
-    section, in the order of reading: introduction, model, derivation, asymptotics, beyond, figures,
-    crosscheck, claims, speed, hard, reproduce.
-"""
+"""The paper: its text (``paper.md``) with the values, equations and figures of a run."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+import re
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from wear.report import (
-    paper_asymptotics,
-    paper_beyond,
-    paper_claims,
-    paper_crosscheck,
-    paper_derivation,
-    paper_figures,
-    paper_hard,
-    paper_introduction,
-    paper_model,
-    paper_reproduce,
-    paper_speed,
-)
-from wear.report.document import Block, Document, Equation, Number, Prose, Reference, Section
-from wear.report.material import Material, count, mm
-from wear.report.paper_equations import blocks_of
-from wear.report.reconcile import PRINTED
-from wear.report.runs import known
-from wear.report.walk import all_prose
-from wear.report.words import words
+from wear.figure_style import pdf, svg
+from wear.report import drawing, figures_of_note, speed
+from wear.report.document import Document, Figure
+from wear.report.equations import shown
+from wear.report.text import parsed
+from wear.report.values import Material, values
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawn
+
     from derive import equations as derived
     from wear.benchmark import Measurement
     from wear.report.claims import Entry
     from wear.report.runs import Runs
     from wear.report.verification import Verification
 
-TITLE = "Wear of a bearing under cyclic contact: its stabilised response re-examined"
-
-#: Steps are shown below the first of these that needs them: what others rest on comes first.
-_FIRST = (
-    "1", "2a", "2b", "3", "4", "5", "6", "7a", "7b", "7c", "7d", "7e", "7f", "7g", "8", "9",
-    "pressure-root", "pressure-iteration", "10", "rigid-limit-error", "13", "bearing-rate",
-    "deviation", "growth", "general-rate", "closure-ratio", "general-law",
-    "17b", "18", "14", "20", "21", "22",
-)  # fmt: skip
+_EQUATIONS = re.compile(r"^```equations\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 def paper(
@@ -56,84 +31,75 @@ def paper(
     verification: Verification,
     runs: Runs,
     ledger: Sequence[Entry],
-    speed: Sequence[Measurement],
+    measured: Sequence[Measurement],
 ) -> Document:
-    """The document. Equations that no section names stand with the results beyond the note."""
-    order = (*_FIRST, *(e.id for e in equations if e.id not in _FIRST))
-    material = Material(
-        equations, verification, runs, ledger, speed, blocks_of(equations, order, verification)
-    )
-    before = (
-        paper_model.section(material),
-        paper_derivation.section(material),
-        paper_asymptotics.section(material),
-    )
-    placed = frozenset(block.label.removeprefix("eq:") for block in _equations(before))
-    written = Document(
-        title=TITLE,
-        subtitle=words("A machine-checked reading of a note on stabilised wear"),
-        abstract=_abstract(material),
-        sections=(
-            paper_introduction.section(material),
-            *before,
-            paper_beyond.section(material, placed),
-            paper_figures.section(material),
-            paper_crosscheck.section(material),
-            paper_claims.section(material),
-            paper_speed.section(material.speed),
-            paper_hard.section(material),
-            paper_reproduce.section(),
+    """Return the paper. Equations that its text does not name stand in the appendix."""
+    material = Material(equations, shown(equations), verification, runs, ledger, measured)
+    template = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
+    text = template.partition("{#app:")[0]
+    named = [name for names in _EQUATIONS.findall(text) for name in names.split()]
+    found = parsed(template, {**values(material), "in_text": named})
+    return Document(found, material.shown, _figures(runs, measured))
+
+
+def _figures(runs: Runs, measured: Sequence[Measurement]) -> Mapping[str, Figure]:
+    """Return the figures by label: each with a description for those who do not see it."""
+    drawn = {
+        "system": (drawing.system(), drawing.DESCRIPTION, "system"),
+        "wear": (
+            figures_of_note.wear_curve(runs),
+            "Wear over eleven decades of cycles: a curve that bends ever less and joins a straight "
+            "line from above only at the end; a dashed curve that becomes constant before the "
+            "cycle of the note; far above, the steep line of the printed wear per cycle.",
+            "wear-curve",
         ),
-        colophon=words("Written by `wear reproduce`."),
-    )
-    references = paper_reproduce.references(dict.fromkeys(_cited(written)))
-    return replace(written, sections=(*written.sections, references))
-
-
-def _cited(document: Document) -> Iterator[str]:
-    """The keys of the works that the text cites, in reading order."""
-    for text in all_prose(document):
-        for piece in text:
-            if isinstance(piece, Reference) and piece.label.startswith("ref:"):
-                yield piece.label.removeprefix("ref:")
-
-
-def _equations(blocks: Sequence[Block]) -> Iterator[Equation]:
-    for block in blocks:
-        if isinstance(block, Section):
-            yield from _equations(block.blocks)
-        elif isinstance(block, Equation):
-            yield block
-
-
-def _abstract(material: Material) -> Prose:
-    runs = material.runs
-    fate, stop = runs.fate("section4"), runs.fate("section4.cutoff")
-    per_cycle = known(fate.wear_per_cycle_mm)
-    return words(
-        "A published note models a pin on a bearing under cyclic load by an Archard law coupled "
-        "with roughness and gives formulas for the wear per cycle and the pressure in a "
-        "stabilised state. All its equations were derived anew by machine, in {steps} steps, each "
-        "of which was checked, and its {claims} claims judged. The limits [(eq:17b)], [(eq:18)], "
-        "[(eq:21)] and [(eq:22)] are *confirmed*, from weaker hypotheses and for any positive, "
-        "continuous, decreasing contact law. The step [(eq:16b)] that leads there in the note is "
-        "*false*; the condition $f_c>1/8$ is a limit of resolution, not of validity; the wear has "
-        "no straight asymptote but drifts logarithmically. The printed wear per cycle, {printed}, "
-        "does not follow from the data, which give {formula}; after the {cycles} cycles said to "
-        "suffice for stabilisation the wear per cycle is still {ratio} times its limit, and the "
-        "criterion of the note is met, on average over a cycle, after {needed} cycles. With the "
-        "cutoff of the contact law, which the note states and then drops, wear arrests in cycle "
-        "{stop}. *New* are the first integral, the closed solution under constant load, the "
-        "expansion for long times, the map of regimes, arrest, rigorous bounds, and a solver "
-        "whose cost does not grow with the number of cycles.",
-        steps=count(material.verification.steps, "verification"),
-        claims=count(len(material.ledger), "ledger"),
-        printed=mm(PRINTED.formula_mm, 3, "printed in the note"),
-        formula=mm(per_cycle, 5, "Eq. (21) with the data of section 4"),
-        cycles=count(PRINTED.cycles, "the note"),
-        ratio=Number(runs.printed_increment / per_cycle, 3, source="section 4"),
-        needed=Number(
-            known(fate.cycles_to_stabilise["mean_rate_within_1e-6"]), 2, source="A/u_cum"
+        "regimes": (
+            figures_of_note.regimes(runs),
+            "Two maps with coloured regions that are named for what becomes of the wear, over the "
+            "change of roughness and the gap at the peak of the load, with three dots for the "
+            "examples of the note.",
+            "regimes",
         ),
-        stop=count(known(stop.arrest_cycle), "section 4 with cutoff"),
-    )
+        "approach": (
+            figures_of_note.approach(runs.approach),
+            "Two rows of points that bend towards a straight line of slope minus one and follow it "
+            "over five decades.",
+            "approach",
+        ),
+        "speed": (
+            speed.figure(measured),
+            "Times of several methods against their errors on logarithmic axes: the exact cycle "
+            "jump is at the lower right, fast and accurate; the others need more time for fewer "
+            "digits.",
+            "speed",
+        ),
+        "2a": (
+            figures_of_note.wear_of_both(runs),
+            "Wear over cycles, that of the bearing above that of the pin: both rise steeply at "
+            "first and then ever more slowly; with loss of contact both become constant early.",
+            "figure-2a",
+        ),
+        "2b": (
+            figures_of_note.roughness_of_both(runs),
+            "Roughness over cycles: that of the bearing falls a little, that of the pin, far "
+            "below, rises a little; with loss of contact both become constant early.",
+            "figure-2b",
+        ),
+        "3a": (
+            figures_of_note.wear_and_asymptote(runs),
+            "A concave curve below a nearly horizontal straight line that it reaches at the end; a "
+            "dashed curve that becomes constant.",
+            "figure-3a",
+        ),
+        "3b": (
+            figures_of_note.wear_coefficients(runs),
+            "Four rising curves, each shifted to the left of the one for a tenth of the wear "
+            "coefficient; a dashed curve that becomes constant.",
+            "figure-3b",
+        ),
+    }
+    return {f"fig:{name}": _figure(*figure) for name, figure in drawn.items()}
+
+
+def _figure(figure: Drawn, description: str, file: str) -> Figure:
+    return Figure(description, svg(figure), pdf(figure), file)

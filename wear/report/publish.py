@@ -8,9 +8,8 @@ from tempfile import TemporaryDirectory
 
 from derive.files import write_atomically
 from wear.report import html, tex
-from wear.report.document import Document, Figure
+from wear.report.document import Document
 from wear.report.typeset import typeset
-from wear.report.walk import blocks
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,7 @@ def publish(document: Document, folder: Path) -> Published:
         "equations.tex": sources.equations,
         **sources.figures,
     }
-    drawings = {f"{b.file}.svg": b.svg for b in blocks(document) if isinstance(b, Figure)}
+    drawings = {f"{f.file}.svg": f.svg for f in document.figures.values()}
     contents: dict[str, str | bytes] = {"report.html": html.page(document), **for_tex, **drawings}
     with TemporaryDirectory() as name:  # TeX leaves much behind
         draft = Path(name)

@@ -21,11 +21,10 @@ from numpy.typing import NDArray
 
 from wear.bounds import Enclosure, static_bounds, wear_bounds
 from wear.count.cycle import drive, resolve, settings
-from wear.count.iteration import advance
 from wear.history import History
 from wear.load import Constant
 from wear.model import bind
-from wear.offset import Offset, offset
+from wear.offset import offset
 from wear.regime import Asymptote, asymptote
 from wear.report.reconcile import PRINTED, Reconciliation, reconciliations
 from wear.scene import Scene, builtin_scenes, load_scene
@@ -55,11 +54,11 @@ _HARD_CYCLES = 100
 
 
 class Case(NamedTuple):
-    """A scene of the note, its states over the cycles of the figures, and its long-time fate."""
+    """A scene of the note, its states over the cycles of the figures, and its asymptote."""
 
     scene: Scene
     history: History
-    fate: Asymptote
+    asymptote: Asymptote
 
 
 class Approach(NamedTuple):
@@ -75,6 +74,13 @@ class Approach(NamedTuple):
     excess: FloatArray
     pressure_excess: FloatArray
     predicted: FloatArray
+
+
+class Decay(NamedTuple):
+    """Wear (mm) of the cycle that follows each number of cycles, of two worn solids."""
+
+    cycles: FloatArray
+    increment: FloatArray
 
 
 class Static(NamedTuple):
@@ -118,10 +124,11 @@ class Runs:
 
     cases: Mapping[str, Case]
     approach: Approach
+    decay: Decay
     printed_increment: float
     reconciliation: Reconciliation
     threshold_excess: float
-    offset: Offset
+    offset: float
     phases: Phases
     static: Static
     integrated: Mapping[str, float]
@@ -133,9 +140,9 @@ class Runs:
         """The history of one case."""
         return self.cases[name].history
 
-    def fate(self, name: str) -> Asymptote:
-        """What becomes of one case."""
-        return self.cases[name].fate
+    def asymptote(self, name: str) -> Asymptote:
+        """Return the asymptote of one case."""
+        return self.cases[name].asymptote
 
 
 def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
@@ -147,7 +154,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
         cases[name + CUTOFF] = _case(name, cutoff=True)
     scene = cases["section4"].scene
     progress("approach to the asymptote")
-    foretold = cases["section4"].fate.cycles_to_stabilise["mean_rate_within_1e-6"]
+    foretold = cases["section4"].asymptote.cycles_to_stabilise["mean_rate_within_1e-6"]
     progress("closed solutions and bounds")
     (loose,) = static_bounds(scene, [PRINTED.cycles])
     (tight,) = wear_bounds(scene, [PRINTED.cycles])
@@ -155,10 +162,11 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     return Runs(
         cases=MappingProxyType(cases),
         approach=_approach(scene, _DECADES),
+        decay=_decay(cases["section3"].scene),
         printed_increment=_increment(scene, PRINTED.cycles),
         reconciliation=reconciliations()[0],
-        threshold_excess=float(_approach(scene, [round(known(foretold))]).excess[0]),
-        offset=known(offset(scene)),
+        threshold_excess=float(_approach(scene, [round(required(foretold))]).excess[0]),
+        offset=required(offset(scene)).value,
         phases=_steady_phases(cases["section4"]),
         static=_static(scene),
         integrated={name: _integrated(cases[name]) for name in INTEGRATED},
@@ -168,7 +176,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     )
 
 
-def known(value: Some | None) -> Some:
+def required(value: Some | None) -> Some:
     """A constant that the regime of the scene has.
 
     Raises
@@ -196,7 +204,7 @@ def _case(name: str, *, cutoff: bool) -> Case:
 
 def _approach(scene: Scene, decades: tuple[int, ...] | list[int]) -> Approach:
     fate = asymptote(scene)
-    per_cycle, drift = known(fate.wear_per_cycle_mm), known(fate.log_coefficient_mm)
+    per_cycle, drift = required(fate.wear_per_cycle_mm), required(fate.log_coefficient_mm)
     history = solve(scene, decades, rtol=RTOL)
     cycles = history.cycles.astype(float)
     increment = increments(scene, history.u_c)
@@ -205,9 +213,15 @@ def _approach(scene: Scene, decades: tuple[int, ...] | list[int]) -> Approach:
         wear=history.u_c,
         increment=increment,
         excess=increment / per_cycle - 1.0,
-        pressure_excess=history.p / known(fate.pressure_MPa) - 1.0,
+        pressure_excess=history.p / required(fate.pressure_MPa) - 1.0,
         predicted=drift / (cycles * per_cycle),
     )
+
+
+def _decay(scene: Scene) -> Decay:
+    cycles = _DECADES[1::2]
+    wear = solve(scene, cycles, rtol=RTOL).u_c
+    return Decay(np.array(cycles, dtype=float), increments(scene, wear))
 
 
 def increments(scene: Scene, wear: FloatArray) -> FloatArray:
@@ -215,7 +229,7 @@ def increments(scene: Scene, wear: FloatArray) -> FloatArray:
     model, load = bind(scene), scene.periodic_load
     size = settings(RTOL)
     over = resolve(model, load, wear, size.finer_nodes, size.strict_tolerance)
-    return advance(drive(model, load, over), wear).increment
+    return drive(model, load, over).advance(wear).increment
 
 
 def _increment(scene: Scene, cycle: int) -> float:
@@ -229,7 +243,7 @@ def _steady_phases(case: Case) -> Phases:
     rising = float(np.arcsin(level / load.maximum) / (2.0 * np.pi))
     phases = np.sort(np.mod([rising, 0.5 - rising], 1.0))
     rate = bind(scene).rate(case.history.u_c[:, None], load(phases)) * load.period
-    distance = np.max(np.abs(rate / known(case.fate.wear_per_cycle_mm) - 1.0))
+    distance = np.max(np.abs(rate / required(case.asymptote.wear_per_cycle_mm) - 1.0))
     return Phases(phases, float(distance))
 
 

@@ -1,50 +1,51 @@
 r"""The document as LaTeX: ``report.tex``, which inputs ``equations.tex``, and its figures.
 
 Overview
-    `report` writes all files. ``equations.tex`` holds one macro for each equation that has a name,
-    so that other reports may ``\input`` the same file. Equations carry their numbers as tags,
-    sections, figures and tables are numbered by LaTeX itself; a test compares the outcome with
-    `wear.report.numbering`. What the page folds, the derivations, stands in an appendix.
-Packages
-    amsmath, amssymb, booktabs, longtable, caption, graphicx, hyperref, microtype, cleveref. Without
-    cleveref (it is not in the smaller TeX installations) references fall back to those of hyperref.
+    `report` writes all files. ``equations.tex`` holds one macro for each equation that the text
+    shows, so that other reports may ``\input`` the same file. Equations carry their numbers as
+    tags; sections, figures and tables are numbered by LaTeX itself, and a test compares the outcome
+    with `wear.report.document`. The frame is ``templates/report.tex``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib.resources import files
-from typing import assert_never
+from typing import Any
 
-from wear.report.display import display
-from wear.report.document import (
-    Bibliography,
-    Block,
-    Claims,
-    Column,
-    Document,
-    Equation,
-    Figure,
-    Items,
-    Listing,
-    Paragraph,
-    Prose,
-    Section,
-    Step,
-    Steps,
-    Table,
-    Text,
-    Work,
-)
-from wear.report.numbering import mentioned_by, number
-from wear.report.tex_prose import Context, bare_link, link, prose
-from wear.report.tex_text import escape, heading, verbatim
-from wear.report.walk import blocks
+import jinja2
+from markdown_it.token import Token
 
-_HEADINGS = ("section", "subsection", "subsubsection")
+from derive.typeset.breaking import broken
+from wear.cite import REFERENCES
+from wear.report.document import Document
+from wear.report.number import grouped
+from wear.report.tex_text import escape, verbatim
+from wear.report.text import Writer
+from wear.report.works import entry
+
 #: Characters of ``\footnotesize\ttfamily`` in a line of text.
 _LISTING_WIDTH = 96
+_HEADINGS = {"h2": "section", "h3": "subsection"}
+_NUMBERED = ("section", "appendix", "equation", "figure", "table")
+_COLUMNS = {"narrow": "l", "numeric": "r", "text": "T"}
+_PLAIN = {
+    "paragraph_open": "\n", "paragraph_close": "\n", "em_open": r"\emph{", "em_close": "}",
+    "strong_open": r"\textbf{", "strong_close": "}", "softbreak": "\n", "hardbreak": r"\\",
+    "bullet_list_open": "\\begin{itemize}\n", "bullet_list_close": "\\end{itemize}\n",
+    "ordered_list_open": "\\begin{enumerate}\n", "ordered_list_close": "\\end{enumerate}\n",
+    "list_item_open": r"\item ", "list_item_close": "\n", "thead_open": "",
+    "thead_close": "\\midrule\n", "tbody_open": "", "tbody_close": "", "tr_open": "",
+    "tr_close": " \\\\\n", "th_close": "", "td_close": "", "link_close": "}",
+    "figures_open": "\n\\begin{figure}[htbp]\\centering\n", "figures_close": "\\end{figure}\n",
+}  # fmt: skip
+_TEMPLATES = jinja2.Environment(
+    loader=jinja2.PackageLoader("wear.report"), undefined=jinja2.StrictUndefined,
+    autoescape=False, variable_start_string="<<", variable_end_string=">>",
+    block_start_string="<%", block_end_string="%>", comment_start_string="<#",
+    comment_end_string="#>",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -57,211 +58,196 @@ class Sources:
 
 
 def report(document: Document) -> Sources:
-    """All files of the report. Raises `ValueError` for references that lead nowhere and characters
-    without a LaTeX form."""
-    here = Context(number(document), mentioned_by(document))
-    body = "\n".join(_section(here, section, depth=0) for section in document.sections)
-    derivations = [block for block in blocks(document) if isinstance(block, Steps)]
-    preamble = files("wear.report").joinpath("assets/preamble.tex").read_text(encoding="utf-8")
-    source = (
-        f"{preamble}\\input{{equations}}\n"
-        f"\\title{{{heading(document.title)}}}\n"
-        f"\\author{{{prose(here, document.subtitle)}}}\n\\date{{}}\n"
-        f"\\begin{{document}}\n\\maketitle\n"
-        f"\\begin{{abstract}}\\noindent {prose(here, document.abstract)}\\end{{abstract}}\n"
-        f"\\contents\n{body}\n"
-        f"{_appendix(here, derivations)}"
-        f"\\bigskip\\noindent{{\\footnotesize {prose(here, document.colophon)}\\par}}\n"
-        f"\\end{{document}}\n"
-    )
-    return Sources(source, equations(document), dict(_figures(document)))
+    """Return all files of the report.
+
+    Raises
+    ------
+    ValueError
+        for references that lead nowhere and characters without a LaTeX form.
+    """
+    body = _Writer(document).written(document.text.tokens)
+    title = re.sub(
+        r"[^A-Za-z0-9À-ÖØ-öø-ÿ ,.:()\-]", "", document.title
+    )  # an entry of the PDF, not typeset
+    source = _TEMPLATES.get_template("report.tex").render(title=title, body=body)
+    figures = {f"{figure.file}.pdf": figure.pdf for figure in document.figures.values()}
+    return Sources(source, equations(document), figures)
 
 
 def equations(document: Document) -> str:
-    """One macro for each equation that has a name: the formula alone, to be set in any display."""
-    here = number(document)
+    """Return one macro for each equation: the formula alone, to be set in any display."""
     lines = ["% Formulas of the report, one macro each. Needs amsmath and amssymb."]
-    for block in blocks(document):
-        if isinstance(block, Equation) and block.macro:
-            _check_macro(block)
-            title = prose(Context(here, {}), block.title)
-            lines.append(f"% ({here[block.label].number}) {title}".rstrip())
-            lines.append(f"\\providecommand{{\\{block.macro}}}{{{display(block.latex)}}}")
+    for found in document.shown:
+        if not (found.macro.isascii() and found.macro.isalpha()):
+            raise ValueError(f"{found.id}: a macro's name has letters only, not {found.macro!r}")
+        title = _Writer(document).of_line(found.title)
+        lines.append(f"% ({document.marks[f'eq:{found.id}'].number}) {title}")
+        lines.append(f"\\providecommand{{\\{found.macro}}}{{{broken(found.latex)}}}")
     return "\n".join(lines) + "\n"
 
 
-def _mentions(here: Context, label: str) -> str:
-    """Where else a label is spoken of: its derivation with the page, then the rest, claims last."""
-    sources = here.mentioned_by.get(label, ())
-    claims = [source for source in sources if here.marks[source].kind == "claim"]
-    told = [_mention(here, source) for source in sources if source not in claims]
-    if claims:
-        word = "claims" if len(claims) > 1 else "claim"
-        told.append(f"{word}~" + ", ".join(bare_link(here, claim) for claim in claims))
-    return ", ".join(told)
+class _Writer(Writer):
+    """Writes tokens as LaTeX: a table for those that are but text, a method for each other."""
 
+    def __init__(self, document: Document) -> None:
+        super().__init__()
+        self._document = document
+        self._in_appendix = False
+        for kind in _PLAIN:
+            self.rules[kind] = self._plain  # type: ignore[assignment]
 
-def _mention(here: Context, source: str) -> str:
-    if here.marks[source].kind == "derivation":
-        return f"\\linkto{{{source}}}{{derivation}} on p.~\\pageref{{{source}@page}}"
-    return link(here, source)
+    def _plain(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        return _PLAIN[tokens[i].type]
 
+    # blocks
 
-def _block(here: Context, block: Block, depth: int) -> str:
-    match block:
-        case Paragraph(content):
-            return f"\n{prose(here, content)}\n"
-        case Items(entries, ordered):
-            name = "enumerate" if ordered else "itemize"
-            items = "\n".join(f"\\item {prose(here, entry)}" for entry in entries)
-            return f"\\begin{{{name}}}\n{items}\n\\end{{{name}}}\n"
-        case Equation():
-            return _equation(here, block)
-        case Figure():
-            return _figure(here, block)
-        case Table():
-            return _table(here, block)
-        case Claims():
-            return _claims(here, block)
-        case Steps():
-            return ""  # see `_appendix`
-        case Bibliography(works):
-            cited = "\n".join(_work(here, work) for work in works)
-            return f"\\begin{{itemize}}\n{cited}\n\\end{{itemize}}\n"
-        case Listing(code):
-            return (
-                "\n{\\footnotesize\n\\begin{verbatim}\n"
-                f"{verbatim(code, _LISTING_WIDTH)}\n\\end{{verbatim}}\n}}\n"
-            )
-        case Section():
-            return _section(here, block, depth)
-    assert_never(block)
+    def heading_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """The title of the paper, a section, or a derivation."""
+        token = tokens[i]
+        if token.tag == "h1":
+            return "\\papertitle{"
+        if "label" not in token.meta:
+            return f"\n\\{_HEADINGS[token.tag]}*{{"
+        mark = self._document.marks[token.meta["label"]]
+        start = ""
+        if mark.kind == "appendix" and not self._in_appendix:
+            self._in_appendix = True
+            start = "\n\\appendix"
+        name = "subsubsection*" if mark.kind == "derivation" else _HEADINGS[token.tag]
+        return f"{start}\n\\{name}{{"
 
+    def heading_close(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """The end of a heading, with its label."""
+        label = tokens[i].meta.get("label", "")
+        if not label:
+            return "}\n"
+        is_derivation = self._document.marks[label].kind == "derivation"
+        return f"}}\\hypertarget{{{label}}}{{}}\n" if is_derivation else f"}}\\label{{{label}}}\n"
 
-def _section(here: Context, section: Section, depth: int) -> str:
-    inside = "".join(_block(here, block, depth + 1) for block in section.blocks)
-    return f"\n\\{_HEADINGS[depth]}{{{heading(section.title)}}}\\label{{{section.label}}}\n{inside}"
+    def fence(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """Equations, a formula, the works cited, or code."""
+        token = tokens[i]
+        if token.info == "equations":
+            return "".join(map(self._equation, token.content.split()))
+        if token.info == "math":
+            return f"\\[{broken(token.content.strip())}\\]\n"
+        if token.info == "works":
+            cited = "\n".join(map(self._work, self._document.works))
+            return f"\\begin{{itemize}}\\small\n{cited}\n\\end{{itemize}}\n"
+        code = verbatim(token.content, _LISTING_WIDTH)
+        return f"\n{{\\footnotesize\n\\begin{{verbatim}}\n{code}\n\\end{{verbatim}}\n}}\n"
 
-
-def _equation(here: Context, equation: Equation) -> str:
-    formula = f"\\{equation.macro}" if equation.macro else display(equation.latex)
-    tag = here.marks[equation.label].number
-    status = f"\\status{{{_spoken(equation.status)}}}" if equation.status else ""
-    title = f"{prose(here, equation.title)} {status}".strip()
-    printed = f"\\printed{{{display(equation.printed)}}}\n" if equation.printed else ""
-    told = _mentions(here, equation.label)
-    return (
-        "\n\\begingroup"
-        + (f"\\formulatitle{{{title}}}{{{told}}}\n" if title or told else "\n")
-        + ("\\keepwithnext\n" if printed else "")
-        + f"\\begin{{equation}}{formula}\\tag{{{tag}}}\\label{{{equation.label}}}"
-        + f"\\end{{equation}}\n{printed}\\endgroup\n"
-    )
-
-
-def _figure(here: Context, figure: Figure) -> str:
-    return (
-        "\\begin{figure}[htbp]\\centering\n"
-        f"\\includegraphics[width=\\naturalwidth]{{{figure.file}.pdf}}\n"
-        f"\\caption{{{prose(here, figure.caption)}}}\\label{{{figure.label}}}\n"
-        "\\end{figure}\n"
-    )
-
-
-def _figures(document: Document) -> Iterator[tuple[str, bytes]]:
-    for block in blocks(document):
-        if isinstance(block, Figure):
-            yield f"{block.file}.pdf", block.pdf
-
-
-def _table(here: Context, table: Table) -> str:
-    rows = [" & ".join(prose(here, cell) for cell in row) for row in table.rows]
-    if table.long:
-        return _long_table(here, table.label, table.caption, table.columns, rows)
-    head = " & ".join(prose(here, column.heading) for column in table.columns)
-    body = "".join(f"{row} \\\\\n" for row in rows)
-    return (
-        f"\\begin{{table}}[htbp]\\centering\\small\n"
-        f"\\caption{{{prose(here, table.caption)}}}\\label{{{table.label}}}\n"
-        f"\\begin{{tabular}}{{{_alignment(table.columns)}}}\\toprule\n"
-        f"{head} \\\\\\midrule\n{body}\\bottomrule\\end{{tabular}}\n"
-        "\\end{table}\n"
-    )
-
-
-def _long_table(
-    here: Context,
-    label: str,
-    caption: Prose,
-    columns: tuple[Column, ...],
-    rows: list[str],
-    *,
-    apart: bool = False,
-) -> str:
-    head = " & ".join(prose(here, column.heading) for column in columns)
-    end = "\\\\\\addlinespace\n" if apart else "\\\\\n"
-    body = "".join(f"{row} {end}" for row in rows)
-    return (
-        f"\n{{\\footnotesize\n\\begin{{longtable}}{{{_alignment(columns)}}}\n"
-        f"\\caption{{{prose(here, caption)}}}\\label{{{label}}}\\\\\\toprule\n"
-        f"{head} \\\\\\midrule\\endfirsthead\n"
-        f"\\toprule {head} \\\\\\midrule\\endhead\n"
-        f"\\bottomrule\\endfoot\n{body}\\end{{longtable}}}}\n"
-    )
-
-
-def _alignment(columns: tuple[Column, ...]) -> str:
-    def one(column: Column) -> str:
-        if column.width:
-            return f">{{\\raggedright\\arraybackslash}}p{{{column.width:g}\\linewidth}}"
-        return "r" if column.numeric else "l"
-
-    return "@{}" + "".join(one(column) for column in columns) + "@{}"
-
-
-def _spoken(status: str) -> str:
-    """A status or verdict as words."""
-    return escape(status.replace("-", " "))
-
-
-def _claims(here: Context, ledger: Claims) -> str:
-    """The ledger in three columns: on paper the evidence needs the room."""
-    heads = (("Claim", 0.11), ("Statement and verdict", 0.3), ("Evidence", 0.53))
-    columns = tuple(Column((Text(title),), width=width) for title, width in heads)
-    rows = [
-        f"\\hypertarget{{{claim.label}}}{{{escape(claim.id)}}}\\newline "
-        f"{prose(here, claim.where)} & "
-        f"{prose(here, claim.statement)}\\newline \\verdict{{{_spoken(claim.verdict)}}} & "
-        f"{prose(here, claim.evidence)}"
-        for claim in ledger.claims
-    ]
-    return _long_table(here, ledger.label, ledger.caption, columns, rows, apart=True)
-
-
-def _work(here: Context, work: Work) -> str:
-    mark = here.marks[work.label]
-    return f"\\item[{{\\hypertarget{{{work.label}}}{{{mark.name}}}}}] {prose(here, work.entry)}"
-
-
-def _appendix(here: Context, derivations: Sequence[Steps]) -> str:
-    told = "".join(_steps(here, steps) for steps in derivations)
-    return f"\n\\appendix\n\\section{{Derivations}}\n{told}" if told else ""
-
-
-def _steps(here: Context, steps: Steps) -> str:
-    entries = "\n".join(f"\\item {_step(here, step)}" for step in steps.steps)
-    title = f"Derivation of {link(here, steps.of)}, p.~\\pageref{{{steps.of}}}"
-    return f"\n\\begin{{derivation}}{{{steps.label}}}{{{title}}}\n{entries}\n\\end{{derivation}}\n"
-
-
-def _step(here: Context, step: Step) -> str:
-    formula = f"\\[{display(step.latex)}\\]" if step.latex else ""
-    check = f"{{\\footnotesize\\textit{{Check: {prose(here, step.check)}}}}}" if step.check else ""
-    return f"{prose(here, step.text)}{formula}{check}"
-
-
-def _check_macro(equation: Equation) -> None:
-    if not (equation.macro.isascii() and equation.macro.isalpha()):
-        raise ValueError(
-            f"{equation.label}: a macro's name has letters only, not {equation.macro!r}"
+    def _equation(self, identifier: str) -> str:
+        found = self._document.equations[identifier]
+        mark = self._document.marks[f"eq:{identifier}"]
+        mentions = self._document.mentions.get(mark.target, ())
+        where = ", ".join(self._link(label) for label in mentions)
+        title = self.of_line(found.title)
+        status = f" {{\\footnotesize\\sffamily\\upshape[{found.status}]}}" if found.status else ""
+        printed = f"\\printed{{{broken(found.printed)}}}\n" if found.printed else ""
+        return (
+            f"\n\\begingroup\\formulatitle{{{title}{status}}}{{{where}}}\n"
+            + ("\\keepwithnext\n" if printed else "")
+            + f"\\begin{{equation}}\\{found.macro}\\tag{{{mark.number}}}\\label{{{mark.target}}}"
+            + f"\\end{{equation}}\n{printed}\\endgroup\n"
         )
+
+    def _work(self, key: str) -> str:
+        mark, reference = self._document.marks[f"ref:{key}"], REFERENCES[key]
+        doi = reference.fields.get("doi", "")
+        link = f" doi:\\href{{https://doi.org/{doi}}}{{{escape(doi)}}}" if doi else ""
+        name = f"\\hypertarget{{{mark.target}}}{{{mark.name}}}"
+        return f"\\item[{{{name}}}] {escape(entry(reference))}{link}"
+
+    def image(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A figure with its caption; several in a paragraph stand side by side."""
+        label = str(tokens[i].attrs["src"])
+        several = sum(token.type == "image" for token in tokens)
+        width = 1.0 if several == 1 else 0.96 / several
+        caption = self.inside(tokens[i].children)
+        file = self._document.figures[label].file
+        return (
+            f"\\begin{{minipage}}[t]{{{width:.3g}\\linewidth}}\\centering\n"
+            f"\\includegraphics[width=\\naturalwidth]{{{file}.pdf}}\n"
+            f"\\caption{{{caption}}}\\label{{{label}}}\n\\end{{minipage}}\\hfill"
+        )
+
+    def caption_open(self, *_: Any) -> str:
+        """A table begins with its caption."""
+        return "\n\\begin{table}[htbp]\\centering\\footnotesize\n\\caption{"
+
+    def caption_close(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """The end of a caption."""
+        return f"}}\\label{{{tokens[i].meta['label']}}}\n"
+
+    def table_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """Columns: those with sentences share the width."""
+        kinds = tokens[i].meta["columns"]
+        columns = "@{}" + "".join(_COLUMNS[kind] for kind in kinds) + "@{}"
+        return (
+            f"\\begin{{tabularx}}{{\\linewidth}}{{{columns}}}\\toprule\n"
+            if "text" in kinds
+            else (f"\\begin{{tabular}}{{{columns}}}\\toprule\n")
+        )
+
+    def table_close(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """The end of a table."""
+        start = max(j for j in range(i) if tokens[j].type == "table_open")
+        name = "tabularx" if "text" in tokens[start].meta["columns"] else "tabular"
+        return f"\\bottomrule\\end{{{name}}}\n\\end{{table}}\n"
+
+    def th_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A cell begins where the one before it ends."""
+        return "" if tokens[i].meta["first"] else " & "
+
+    td_open = th_open
+
+    # inside lines
+
+    def text(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """Words."""
+        return escape(tokens[i].content)
+
+    def code_inline(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """Code, which may be broken after the signs that join its parts."""
+        shown = (escape(c) + (r"\allowbreak{}" if c in "/._-=" else "") for c in tokens[i].content)
+        return f"\\texttt{{{''.join(shown)}}}"
+
+    def math(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A formula."""
+        return f"${tokens[i].content}$"
+
+    def link_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A link to somewhere outside the document."""
+        url = str(tokens[i].attrs["href"])
+        for special in "%#&":
+            url = url.replace(special, f"\\{special}")
+        return f"\\href{{{url}}}{{"
+
+    def reference(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A link by kind and number, or by the number alone."""
+        return self._link(tokens[i].content, bare=tokens[i].meta["bare"])
+
+    def _link(self, label: str, *, bare: bool = False) -> str:
+        mark = self._document.marks[label]
+        name = escape(mark.bare if bare else mark.name)
+        if mark.kind in _NUMBERED:
+            return f"\\hyperref[{mark.target}]{{{name}}}"
+        return f"\\linkto{{{mark.target}}}{{{name}}}"
+
+    def target(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """The place that links to a claim lead to."""
+        mark = self._document.marks[tokens[i].content]
+        return f"\\hypertarget{{{mark.target}}}{{{escape(mark.number)}}}"
+
+    def verdict(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A verdict."""
+        return f"\\verdict{{{escape(tokens[i].content.replace('-', ' '))}}}"
+
+    def number(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
+        """A number that was computed."""
+        node = self._document.text.numbers[int(tokens[i].content)]
+        digits, exponent = node.decimal
+        power = "" if exponent is None else f"\\times10^{{{exponent}}}"
+        unit = f"~{escape(node.unit)}" if node.unit else ""
+        return f"${grouped(digits, chr(92) + ',')}{power}${unit}"

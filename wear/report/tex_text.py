@@ -59,16 +59,6 @@ def escape(text: str) -> str:
     return "".join(_character(character, text) for character in text)
 
 
-def heading(text: str) -> str:
-    """The text for a title, whose signs also go into the outline of the PDF."""
-    return "".join(
-        f'\\texorpdfstring{{{_SIGN[c]}}}{{\\unichar{{"{ord(c):04X}}}}}'
-        if "\\" in _SIGN.get(c, "")
-        else escape(c)
-        for c in text
-    )
-
-
 def verbatim(code: str, width: int) -> str:
     """Code for a `verbatim` environment: lines cut at `width`, the rest indented below."""
     if "\\end{verbatim}" in code:

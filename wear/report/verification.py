@@ -1,7 +1,7 @@
 """The checks of every derivation, each distinct step checked once.
 
 Different equations rest on the same steps, which `derive` builds anew for each variant of the
-model. A step is the same if claim, rule, parents' claims and conditions are.
+model. A step is the same if claim, rule, parents' claims and hypotheses are.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from derive.check import Check
     from derive.equations import Equation
-    from derive.statement import Statement
+    from derive.kernel import Judgement
 
 
 @dataclass(frozen=True)
@@ -43,22 +43,22 @@ class Verification:
         """How many of these are of one kind."""
         return sum(check.kind == kind for checks in self.outcomes.values() for check in checks)
 
-    def of(self, step: Statement) -> tuple[Check, ...]:
+    def of(self, step: Judgement) -> tuple[Check, ...]:
         """The checks of one step."""
         return self.outcomes[identity(step)]
 
 
-def identity(step: Statement) -> Hashable:
+def identity(step: Judgement) -> Hashable:
     """What makes two steps the same."""
-    parents = tuple(parent.claim for parent in step.parents)
-    return (step.claim, type(step.rule).__name__, repr(step.rule), parents, step.conditions)
+    parents = tuple(parent.relation for parent in step.parents)
+    return (step.relation, step.rule, parents, step.hypotheses)
 
 
 def verified(
     equations: Sequence[Equation], progress: Callable[[str], None] = lambda _: None
 ) -> Verification:
     """Check every step of these equations, and that what is typeset is what was derived."""
-    from derive.check import Check
+    from derive.check import Check, checks
 
     outcomes: dict[Hashable, tuple[Check, ...]] = {}
     failures: list[tuple[str, Check]] = []
@@ -69,7 +69,7 @@ def verified(
         for step in equation.steps:
             key = identity(step)
             if key not in outcomes:
-                outcomes[key] = step.checks
+                outcomes[key] = checks(step)
             found += outcomes[key]
         failures += [(equation.id, outcome) for outcome in found if not outcome.passed]
     return Verification(outcomes, tuple(failures), len(equations))

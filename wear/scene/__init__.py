@@ -1,118 +1,219 @@
-"""Scenes: what a user asks to be solved, from a TOML file or a built-in name.
+"""Scenes: what a user asks to be solved, from a TOML file, a built-in name, or Python.
 
-A `Scene` is frozen and holds the numbers of the file, in mm, s, MPa and rpm. `load_scene` reads and
-validates one; `Scene.to_toml` writes it back. The tables and keys stand in `wear.scene.schema`.
+A `Scene` is frozen and holds the numbers of the file, in mm, s, MPa and rpm. Every way to one
+checks it: the constructor, `dataclasses.replace`, `Scene.with_`, `Scene.from_dict`, `load_scene`.
+Its tables and entries, with their units, domains and meanings, are the classes of this module and
+of `wear.load`; the validation and the reference page of the documentation both read them there.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
+from pydantic import Field, PlainValidator, ValidationError
+
+from wear.checked import (
+    Flag,
+    NonNegative,
+    OneOf,
+    Positive,
+    Prose,
+    Real,
+    SceneTable,
+    Text,
+    did_you_mean,
+    problems,
+    shown,
+    table,
+)
 from wear.faults import Fault, SceneError, UsageError
 from wear.load import AperiodicLoad, Blocks, HistoryLoad, Load
-from wear.scene.build import build_load, load_table
-from wear.scene.check import Problem, check_scene
-from wear.scene.text import MOST_BYTES, Source, read_bytes, read_tables
-from wear.scene.value import did_you_mean, shown
+from wear.load.rows import read_bytes
+from wear.load.tables import as_table, load_from
+from wear.scene.text import MOST_BYTES, Source, read_tables, set_entry
 
 SCENES = Path(__file__).parents[1].joinpath("scenes")
+NO_ENTRY = Field(exclude=True, repr=False)
+CLOSURES = ("closure_mm", "closure_in_sigma")
 
 
-@dataclass(frozen=True)
-class Solid:
-    """A wearing or rough surface: H in MPa, K, sigma_0 in mm, f = d sigma/d u."""
-
-    hardness_MPa: float
-    wear_coefficient: float
-    roughness_mm: float
-    roughness_growth: float
+def contact_laws() -> tuple[str, ...]:
+    """Return the contact laws that can run: the packages of generated code, one a law."""
+    found = Path(__file__).parents[1].joinpath("generated").glob("[a-z]*/__init__.py")
+    return tuple(sorted(module.parent.name for module in found))
 
 
-class Bearing(Solid):
-    """The bearing (index c)."""
+@table("bearing")
+class Bearing(SceneTable):
+    """The bearing (index c), which wears."""
+
+    hardness_MPa: Positive = Field(description="hardness H_c")
+    wear_coefficient: Positive = Field(description="Archard's wear coefficient K_c")
+    roughness_mm: NonNegative = Field(
+        description="surface roughness sigma_c0 before any wear (not zero on both solids)"
+    )
+    roughness_growth: Real = Field(
+        description="f_c = d sigma_c / d u_c, change of roughness with own wear"
+    )
 
 
-class Pin(Solid):
-    """The pin (index a)."""
+@table("pin")
+class Pin(SceneTable):
+    """The pin (index a); without this table it is smooth and does not wear."""
+
+    hardness_MPa: Positive = Field(description="hardness H_a")
+    wear_coefficient: NonNegative = Field(description="Archard's wear coefficient K_a")
+    roughness_mm: NonNegative = Field(
+        description="surface roughness sigma_a0 before any wear (not zero on both solids)"
+    )
+    roughness_growth: Real = Field(
+        description="f_a = d sigma_a / d u_a, change of roughness with own wear"
+    )
 
 
-@dataclass(frozen=True)
-class Contact:
-    """Contact law and closure; exactly one of the two closures is given."""
+@table("contact")
+class Contact(SceneTable):
+    """How closure and roughness make a pressure; exactly one of the two closures is given."""
 
-    max_pressure_MPa: float
-    closure_mm: float | None = None
-    closure_in_sigma: float | None = None
-    law: str = "tanh"
-    ends_at_3_sigma: bool = False
-    pin_wear_opens_gap: bool = False
-    width_mm: float | None = None
-    length_mm: float | None = None
+    max_pressure_MPa: Positive = Field(description="largest contact pressure p_max")
+    closure_mm: NonNegative | None = Field(
+        default=None, description="initial closure h_0 (unloaded, if the support is compliant)"
+    )
+    closure_in_sigma: NonNegative | None = Field(
+        default=None,
+        description="h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
+    )
+    law: Annotated[str, OneOf(contact_laws())] = Field(
+        default="tanh", description="contact law p/p_max = phi(h/sigma)"
+    )
+    ends_at_3_sigma: Flag = Field(
+        default=False,
+        description="true: no pressure for h > 3 sigma, the text under (4); false: as in (8)",
+    )
+    pin_wear_opens_gap: Flag = Field(
+        default=False,
+        description="true: the physical sign of u_a; false: Eq. (1) as printed",
+    )
+    width_mm: Positive | None = Field(
+        default=None, description="contact width b; with length_mm, R_a = p b L is reported"
+    )
+    length_mm: Positive | None = Field(default=None, description="contact length L")
+
+    @classmethod
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+        """Yield the faults of closures and of the contact's two lengths."""
+        match [key in given for key in CLOSURES]:
+            case [False, False]:
+                yield "", f"{' or '.join(CLOSURES)} is missing", "give one of the two"
+            case [True, True]:
+                yield CLOSURES[1], f"{' and '.join(CLOSURES)} are both given", "keep one of the two"
+        for one, other in (("width_mm", "length_mm"), ("length_mm", "width_mm")):
+            if one in given and other not in given:
+                yield "", f"{other} is missing", f"give it too, or drop {one}"
 
 
-@dataclass(frozen=True)
-class Support:
-    """Springs of stiffness k per area under the bearing."""
+@table("support")
+class Support(SceneTable):
+    """The springs under the bearing; without this table the support is rigid."""
 
-    stiffness_MPa_per_mm: float
+    stiffness_MPa_per_mm: Positive = Field(description="stiffness k per area")
 
 
-@dataclass(frozen=True)
-class Motion:
-    """Radius R and rotation speed n of the pin."""
+@table("motion")
+class Motion(SceneTable):
+    """The rotation of the pin."""
 
-    radius_mm: float
-    speed_rpm: float
+    radius_mm: Positive = Field(description="pin radius R")
+    speed_rpm: Positive = Field(description="rotation speed n")
 
 
 class VariantKey(NamedTuple):
-    """Which generated module a scene needs: `wear.generated.<package>.<module>`.
+    """Which generated module a scene needs: `wear.generated.<law>.<module>`; `name` is the
+    variant's for users.
 
-    >>> VariantKey("tanh", "compliant", "worn_rough", True, True).module
-    'compliant_worn_rough_opening_cutoff'
-    >>> VariantKey("tanh", "rigid", "absent", False, False).module
-    'rigid_bearing'
+    >>> key = VariantKey("tanh", "compliant", "worn_rough", ends_at_3_sigma=True)
+    >>> key.module, key.name
+    ('compliant_worn_rough', 'compliant_worn_rough_ends_at_3_sigma')
     """
 
     law: str
     support: Literal["rigid", "compliant"]
-    pin: Literal["absent", "rough", "worn", "worn_rough"]
-    opening: bool
-    cutoff: bool
-
-    @property
-    def package(self) -> str:
-        return self.law
+    pin: Literal["bearing", "rough", "worn", "worn_rough"]
+    ends_at_3_sigma: bool
 
     @property
     def module(self) -> str:
-        pin = "bearing" if self.pin == "absent" else self.pin
-        flags = "_opening" * self.opening + "_cutoff" * self.cutoff
-        return f"{self.support}_{pin}{flags}"
+        return f"{self.support}_{self.pin}"
+
+    @property
+    def name(self) -> str:
+        return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
 
-@dataclass(frozen=True)
-class Scene:
-    """What to solve. A table that the file leaves out is None and is not modelled.
+@table("")
+class Scene(SceneTable):
+    """What to solve. A table that is left out is None and is not modelled.
 
-    `name` (a built-in name or the file's) takes no part in comparisons.
+    `name` (a built-in name or the file's) and `folder` (where CSV files are looked for) take no
+    part in comparisons.
     """
 
-    bearing: Bearing
-    contact: Contact
-    motion: Motion
-    load: Load | AperiodicLoad
-    pin: Pin | None = None
-    support: Support | None = None
-    title: str = ""
-    description: str = ""
-    name: str = field(default="scene", compare=False)
+    bearing: Bearing = Field(description="the bearing, which wears")
+    contact: Contact = Field(description="how closure and roughness make a pressure")
+    motion: Motion = Field(description="the rotation of the pin")
+    load: Annotated[Load | AperiodicLoad, PlainValidator(load_from)] = Field(
+        description="the motion U_a(t)"
+    )
+    pin: Pin | None = Field(default=None, description="the pin")
+    support: Support | None = Field(default=None, description="the springs under the bearing")
+    title: Text = Field(default="", description="one line that names the scene")
+    description: Prose = Field(default="", description="what the scene shows")
+    name: Annotated[str, NO_ENTRY] = dataclasses.field(default="scene", compare=False)
+    folder: Annotated[Path | None, NO_ENTRY] = dataclasses.field(default=None, compare=False)
+
+    @classmethod
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+        """Yield the fault of a roughness that is zero on both solids."""
+        solids = [given[name] for name in ("bearing", "pin") if name in given]
+        rough = [
+            solid.get("roughness_mm") if isinstance(solid, Mapping) else
+            getattr(solid, "roughness_mm", None)
+            for solid in solids
+        ]  # fmt: skip
+        if "bearing" in given and all(type(r) in (int, float) and r == 0 for r in rough):
+            which = "both solids" if len(rough) > 1 else "the only rough solid"
+            remedy = "give at least one solid a roughness_mm > 0"
+            yield "bearing.roughness_mm", f"the roughness is zero on {which}", remedy
+
+    @classmethod
+    def from_dict(
+        cls, tables: Mapping[str, Any], name: str = "scene", folder: Path | None = None
+    ) -> Scene:
+        """Return the scene of tables as `to_tables` gives them and TOML reads them.
+
+        Raises `SceneError` with every fault. `folder` is where CSV files are looked for.
+        """
+        return _checked(tables, Source(_place(name)), name, folder)
+
+    def with_(self, changes: Mapping[str, Any]) -> Scene:
+        """Return the scene with entries changed, as `--set` changes those of a file; None drops.
+
+        >>> load_scene("section4").with_({"bearing.roughness_growth": 0.3}).bearing.roughness_growth
+        0.3
+        """
+        tables = self.to_tables()
+        if not any(entry.split(".")[0] == "load" for entry in changes):
+            tables["load"] = self.load
+        for entry, value in changes.items():
+            set_entry(tables, tuple(entry.split(".")), value, keep=changes)
+        return Scene.from_dict(tables, self.name, self.folder)
 
     @property
     def initial_roughness(self) -> float:
@@ -133,7 +234,7 @@ class Scene:
     def periodic_load(self) -> Load:
         """The load, for a method that needs one that repeats; otherwise a `UsageError`."""
         if isinstance(self.load, Blocks | HistoryLoad):
-            kind = load_table(self.load)["kind"]
+            kind = as_table(self.load)["kind"]
             raise UsageError(
                 f'{self.name}: a load of kind "{kind}" does not repeat; this needs one that does'
             )
@@ -142,21 +243,24 @@ class Scene:
     @property
     def variant(self) -> VariantKey:
         """The generated module with what this scene needs, and no more."""
-        pin = self._pin_state
         return VariantKey(
             law=self.contact.law,
             support="rigid" if self.support is None else "compliant",
-            pin=pin,
-            opening=pin.startswith("worn") and self.contact.pin_wear_opens_gap,
-            cutoff=self.contact.ends_at_3_sigma,
+            pin=self._pin_state,
+            ends_at_3_sigma=self.contact.ends_at_3_sigma,
         )
 
     @property
-    def _pin_state(self) -> Literal["absent", "rough", "worn", "worn_rough"]:
+    def pin_wear_sign(self) -> float:
+        """+1 where wear of the pin opens the gap, -1 where it closes it, as printed in Eq. (1)."""
+        return 1.0 if self.contact.pin_wear_opens_gap else -1.0
+
+    @property
+    def _pin_state(self) -> Literal["bearing", "rough", "worn", "worn_rough"]:
         if self.pin is None:
-            return "absent"
+            return "bearing"
         if self.pin.wear_coefficient == 0.0:
-            return "rough" if self.pin.roughness_mm > 0.0 else "absent"
+            return "rough" if self.pin.roughness_mm > 0.0 else "bearing"
         rough = self.pin.roughness_mm > 0.0 or self.pin.roughness_growth != 0.0
         return "worn_rough" if rough else "worn"
 
@@ -199,28 +303,30 @@ class Scene:
         return notices(self)
 
     def to_tables(self) -> dict[str, Any]:
-        """The tables of the scene file as plain values, fit for JSON; what is absent is left out.
+        """Return the tables of the scene file as plain values, fit for JSON; what is absent is left
+        out.
 
         A load from a CSV file is given by the file's name and checksum, not by its rows.
         """
         tables: dict[str, Any] = {"title": self.title, "description": self.description}
         for name in ("bearing", "pin", "contact", "support", "motion"):
-            table = getattr(self, name)
-            if table is not None:
-                tables[name] = {k: v for k, v in asdict(table).items() if v is not None}
-        return tables | {"load": dict(load_table(self.load))}
+            entries = getattr(self, name)
+            if entries is not None:
+                tables[name] = {k: v for k, v in asdict(entries).items() if v is not None}
+        return tables | {"load": as_table(self.load)}
 
     def to_json(self) -> str:
-        """`to_tables` in one line, the same for equal scenes: an attribute of result files."""
+        """Return `to_tables` in one line, the same for equal scenes, as result files keep it."""
         return json.dumps(self.to_tables(), allow_nan=False)
 
     def to_toml(self) -> str:
-        """A scene file that reads back to an equal scene (CSV files are named, not copied)."""
+        """Return a scene file that reads back to an equal scene; CSV files are only named."""
         tables = self.to_tables()
         blocks = tables["load"].pop("blocks", [])
         texts = [f"{key} = {_toml(tables.pop(key))}" for key in ("title", "description")]
-        for name, table in tables.items():
-            texts += ["", f"[{name}]", *(f"{key} = {_toml(value)}" for key, value in table.items())]
+        for name, entries in tables.items():
+            lines = (f"{key} = {_toml(value)}" for key, value in entries.items())
+            texts += ["", f"[{name}]", *lines]
         for block in blocks:
             texts += ["", "[[load.blocks]]"]
             texts += [f"{key} = {_toml(value)}" for key, value in block.items()]
@@ -233,7 +339,7 @@ def _toml(value: object) -> str:
 
 
 def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Scene:
-    """The scene of a built-in name or of a TOML file.
+    """Return the scene of a built-in name or of a TOML file.
 
     `overrides` are texts TABLE.KEY=VALUE, each of which takes the place of one entry. Raises
     `SceneError` with every fault.
@@ -263,57 +369,32 @@ def parse_scene(
     folder: Path | None = None,
     overrides: Sequence[str] = (),
 ) -> Scene:
-    """The scene of a TOML text; `folder` is where the CSV files of its load are looked for.
+    """Return the scene of a TOML text; `folder` is where the CSV files of its load are looked for.
 
     Files that an override names are looked for in the current folder.
     """
     tables, source = read_tables(data, _place(name), overrides)
-    return _make(tables, source, name, folder)
+    return _checked(tables, source, name, folder)
 
 
-def scene_from_tables(
-    tables: Mapping[str, Any], name: str = "scene", folder: Path | None = None
-) -> Scene:
-    """The scene of tables as `Scene.to_tables` gives them, validated like a file."""
-    return _make(tables, Source(_place(name)), name, folder)
-
-
-def _make(tables: Mapping[str, Any], source: Source, name: str, folder: Path | None) -> Scene:
-    values, problems = check_scene(tables)
-    load: Load | AperiodicLoad | None = None
-    if "load" in values and not _touches(problems, "load"):
-        load, found = build_load(values["load"], _folder_of_rows(source, folder))
-        problems += found
-    faults = [*source.faults, *(source.fault(problem) for problem in problems)]
-    if faults or load is None:
-        raise SceneError(faults)
-    return Scene(
-        bearing=Bearing(**values["bearing"]),
-        contact=Contact(**values["contact"]),
-        motion=Motion(**values["motion"]),
-        load=load,
-        pin=Pin(**values["pin"]) if "pin" in values else None,
-        support=Support(**values["support"]) if "support" in values else None,
-        name=name,
-        title=values[""]["title"],
-        description=values[""]["description"],
-    )
-
-
-def _folder_of_rows(source: Source, folder: Path | None) -> Path | None:
-    """Where the load's CSV files are: beside the scene that names them, or, where an option names
-    them, in the current folder."""
+def _checked(tables: Mapping[str, Any], source: Source, name: str, folder: Path | None) -> Scene:
     named = (("load",), ("load", "file"), ("load", "blocks"))
-    return Path() if any(path in source.overrides for path in named) else folder
+    if any(path in source.overrides for path in named):
+        folder = Path()  # an option that names a file means the current folder
+    faults = list(source.faults)
+    try:
+        validator = Scene.__pydantic_validator__  # type: ignore[attr-defined]
+        scene: Scene = validator.validate_python(tables, context={"folder": folder})
+    except ValidationError as error:
+        faults += [source.fault(*problem) for problem in problems(error)]
+    if faults:
+        raise SceneError(faults)
+    return dataclasses.replace(scene, name=name, folder=folder)
 
 
 def _place(name: str) -> str:
     """A file's name in messages."""
     return shown(name, most=1000) or '""'
-
-
-def _touches(problems: Sequence[Problem], table: str) -> bool:
-    return any(problem.path[:1] == (table,) for problem in problems)
 
 
 # Built-in scenes
@@ -330,6 +411,9 @@ class BuiltinScene(NamedTuple):
     def hard(self) -> bool:
         """Whether it belongs to the catalogue of hard cases, not to the note's own sections."""
         return not self.name.startswith("section")
+
+
+scene_from_tables = Scene.from_dict
 
 
 def builtin_names() -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from wear.load import Blocks, HistoryLoad
+from wear.load import Blocks, HistoryLoad, Table
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -21,9 +21,9 @@ def notices(scene: Scene) -> tuple[str, ...]:
 def _pin_notices(scene: Scene) -> Iterator[str]:
     variant = scene.variant
     wears = variant.pin.startswith("worn")
-    if scene.pin is not None and variant.pin == "absent":
+    if scene.pin is not None and variant.pin == "bearing":
         yield "the pin neither wears nor is rough: it is not modelled"
-    if wears and not variant.opening:
+    if wears and not scene.contact.pin_wear_opens_gap:
         yield (
             "wear of the pin closes the gap, the sign of Eq. (1) as printed; "
             "for the physical sign set contact.pin_wear_opens_gap = true"
@@ -66,6 +66,14 @@ def initial_displacement(scene: Scene) -> float:
 
 
 def _load_notices(scene: Scene) -> Iterator[str]:
+    load = scene.load
+    if isinstance(load, Table) and load.source is not None and load.source.repeat:
+        rise = load.values_mm[-1] - load.values_mm[-2]
+        yield (
+            f"one period of {load.period:.6g} s out of {load.source.file}: {len(load.times_s)} "
+            f"rows with the seam, mean {load.mean:.6g} mm; there U_a changes by {rise:.4g} mm "
+            f"in {load.times_s[-1] - load.times_s[-2]:.4g} s (mean and drift are not removed)"
+        )
     if not isinstance(scene.load, Blocks):
         return
     starts = [float(block.load(0.0)) for block in scene.load.blocks]

@@ -8,22 +8,19 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path as FilePath
 from typing import Any
 
+from wear.checked import TABLES, Path, keys_of, shown
 from wear.faults import Fault, SceneError
-from wear.scene.check import Path, Problem
-from wear.scene.schema import CONTACT, LOADS, TABLES
-from wear.scene.value import shown
 
 MOST_BYTES = 256 * 1024
 LONGEST_LINE = 4096  # tomllib's time grows with the square of a dotted key's length
 
 _HEADER = re.compile(r"\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
 _ENTRY = re.compile(r"\s*([A-Za-z0-9_\-\"'. \t]+?)\s*=")
-_TABLE_PATHS = {(table.name,) for table in TABLES} | {("load",)}
+_TABLE_PATHS = {(name,) for name in ("bearing", "pin", "contact", "support", "motion", "load")}
 _AT_LINE = re.compile(r"\s*\(at line (\d+), column (\d+)\)")
 
 
@@ -39,9 +36,8 @@ class Source:
     overrides: Mapping[Path, str] = field(default_factory=dict)
     faults: tuple[Fault, ...] = ()
 
-    def fault(self, problem: Problem) -> Fault:
-        """`problem` with its place in the file, or the `--set` option that caused it."""
-        path = problem.path
+    def fault(self, path: Path, problem: str, remedy: str) -> Fault:
+        """Return a fault with its place in the file, or the `--set` option that caused it."""
         table, key = _table_and_key(path)
         prefixes = [path[:depth] for depth in range(len(path), 0, -1)]
         option = next((self.overrides[p] for p in prefixes if p in self.overrides), None)
@@ -50,8 +46,8 @@ class Source:
             option = next((o for p, o in self.overrides.items() if p[: len(path)] == path), None)
         if option is not None:
             place = f"--set {shown(option)}"
-            return Fault(place, None, table, key, problem.problem, problem.remedy)
-        return Fault(self.file, line, table, key, problem.problem, problem.remedy)
+            return Fault(place, None, table, key, problem, remedy)
+        return Fault(self.file, line, table, key, problem, remedy)
 
 
 def _table_and_key(path: Path) -> tuple[str, str]:
@@ -65,24 +61,6 @@ def _table_and_key(path: Path) -> tuple[str, str]:
     words = ".".join(shown(part) for part in tables if isinstance(part, str))
     block = "".join(f", block {part + 1}" for part in tables if isinstance(part, int))
     return words + block, shown(str(key))
-
-
-def read_bytes(path: FilePath, most: int) -> bytes | tuple[str, str]:
-    """At most `most` bytes of a file, or what is wrong with it and the remedy."""
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(most + 1)
-    except FileNotFoundError:
-        return "there is no such file", "check the name and the folder"
-    except IsADirectoryError:
-        return "is a folder", "give a file"
-    except PermissionError:
-        return "may not be read", "check its permissions"
-    except (OSError, ValueError) as error:
-        return f"cannot be read ({getattr(error, 'strerror', None) or error})", "check the file"
-    if len(data) > most:
-        return f"is larger than {most // 1024} KiB", "give a smaller file"
-    return data
 
 
 def read_tables(
@@ -102,7 +80,11 @@ def read_tables(
             faults.append(entry)
             continue
         path, value = entry
-        _set_entry(tables, path, value, keep=options)
+        dotted = ".".join(map(str, path))
+        if path in options:
+            problem, remedy = f"{shown(dotted)} is set twice", "keep one of the two"
+            faults.append(Fault(f"--set {shown(option)}", None, "", "", problem, remedy))
+        set_entry(tables, path, value, keep=options)
         options[path] = option
     return tables, Source(file, key_lines(text), options, tuple(faults))
 
@@ -199,7 +181,8 @@ def _read_override(option: str) -> tuple[Path, object] | Fault:
         return Fault(f"--set {shown(option)}", None, "", "", "is no TABLE.KEY=VALUE", remedy)
     value = _override_value(raw.strip())
     if path in _TABLE_PATHS and not isinstance(value, dict):
-        known = next((table.names for table in TABLES if table.name == path[0]), ("kind",))
+        known = next(([*keys_of(each)] for each in TABLES if (each.place,) == path), [])
+        known = ["kind"] if path == ("load",) else known
         problem = f"{path[0]} is a table with several entries"
         remedy = f"set one of them, such as --set {path[0]}.{known[0]}=VALUE"
         return Fault(f"--set {shown(option)}", None, "", "", problem, remedy)
@@ -216,30 +199,34 @@ def _override_value(raw: str) -> object:
         return raw
 
 
-def _set_entry(tables: dict[str, Any], path: Path, value: object, keep: Mapping[Path, str]) -> None:
-    """Sets one entry, and drops from the file what the entry takes the place of.
+def set_entry(
+    tables: dict[str, Any], path: Path, value: object, keep: Collection[Path | str] = ()
+) -> None:
+    """Set one entry, or drop it for None, and drop what it takes the place of.
 
     One closure takes the place of the other, a kind of load that of the keys which the new kind
     does not have, a file of rows that of the period and checksum of other rows; entries in `keep`,
-    set by an option too, stay and are validated.
+    set too, stay and are validated.
     """
-    if len(path) == 1:
-        tables[str(path[0])] = value
-        return
-    name, key = str(path[0]), str(path[1])
-    table = tables.setdefault(name, {})
-    if not isinstance(table, dict):
-        return  # the validation says that it is no table
-    table[key] = value
-    replaced: list[str] = []
-    if name == CONTACT.name and key in CONTACT.one_of:
-        replaced = [other for other in CONTACT.one_of if other != key]
+    name, key = str(path[0]), ".".join(map(str, path[1:]))
+    if not key:
+        tables[name] = value
+    elif isinstance(table := tables.setdefault(name, {}), dict):
+        table[key] = value
+        for other in _replaced(name, key, value):
+            if (name, other) not in keep and f"{name}.{other}" not in keep:
+                table.pop(other, None)
+        tables[name] = {each: entry for each, entry in table.items() if entry is not None}
+    if tables[name] is None:
+        del tables[name]
+
+
+def _replaced(name: str, key: str, value: object) -> list[str]:
+    """The entries whose place a new one takes."""
+    if name == "contact" and key in ("closure_mm", "closure_in_sigma"):
+        return [other for other in ("closure_mm", "closure_in_sigma") if other != key]
     if (name, key) == ("load", "kind"):
-        known = {load.name: load.names for load in LOADS}
-        every = {entry for names in known.values() for entry in names}
-        replaced = sorted(every - set(known.get(str(value), every)))
-    if (name, key) == ("load", "file"):
-        replaced = ["period_s", "sha256"]
-    for other in replaced:
-        if (name, other) not in keep:
-            table.pop(other, None)
+        known = [keys_of(each) for each in TABLES if each.kind == value]
+        every = {entry for each in TABLES if each.place == "load" for entry in keys_of(each)}
+        return [other for other in every if known and other not in known[0]]
+    return ["period_s", "sha256"] if (name, key) == ("load", "file") else []

@@ -4,26 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 import pytest
+from markdown_it.token import Token
 
 from tests.wear.report import quick
-from wear.report.document import (
-    Block,
-    Claims,
-    Document,
-    Equation,
-    Figure,
-    Items,
-    Math,
-    Paragraph,
-    Prose,
-    Reference,
-    Section,
-    Steps,
-    Table,
-)
-from wear.report.walk import all_prose, blocks, prose
+from wear.report.document import Document
+from wear.report.text import line
 
 _GREEK = "alpha|beta|theta|kappa|lambda|mu|nu|eta|zeta|rho|sigma|tau|omega|varepsilon|ell|phi"
 _UPRIGHT = re.compile(
@@ -35,7 +23,6 @@ _SYMBOL = re.compile(
     rf"|(?:\\bar ?\{{?\\sigma\}}?|\\(?:{_GREEK})(?![a-z])|(?<![\\a-zA-Z])[A-Za-z](?![a-z]))"
     r"(?:_(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\infty|[A-Za-z0-9]))?(?:\^(?:0|\*|\{0\}))?'?"
 )
-_TABLES = ("tab:nomenclature", "tab:symbols")
 #: No quantities: the imaginary unit and indices, the orders of Landau.
 _NONE = {"i", "j", "f_ij", "o", "O"}
 
@@ -45,29 +32,26 @@ def paper() -> Document:
     return quick.paper()
 
 
-def _references(text: Prose) -> set[str]:
-    return {piece.label for piece in text if isinstance(piece, Reference)}
-
-
-def _text(document: Document) -> Iterator[Prose]:
-    """Sentences, not captions."""
-    for block in blocks(document):
-        if isinstance(block, Paragraph | Items):
-            yield from prose(block)
+def _sentences(paper: Document) -> Iterator[Token]:
+    """What stands inside sentences, not captions or cells."""
+    kinds = {"paragraph_open", "heading_open"}
+    tokens = paper.text.tokens
+    for before, token in pairwise(tokens):
+        if token.type == "inline" and before.type in kinds:
+            yield from token.children or ()
 
 
 def test_every_figure_and_table_is_mentioned_in_the_text(paper: Document) -> None:
-    told = set().union(*map(_references, _text(paper)))
-    floats = {b.label for b in blocks(paper) if isinstance(b, Figure | Table | Claims)}
-    assert floats - told == set()
+    mentioned = {piece.content for piece in _sentences(paper) if piece.type == "reference"}
+    floats = {label for label, m in paper.marks.items() if m.kind in ("figure", "table")}
+    assert floats - mentioned == {"tab:nomenclature", "tab:symbols"}  # below their own heading
 
 
-def test_every_claim_is_linked_to_an_equation_or_told_in_the_text(paper: Document) -> None:
-    told = set().union(*map(_references, all_prose(paper)))
-    (ledger,) = (block for block in blocks(paper) if isinstance(block, Claims))
-    for claim in ledger.claims:
-        own = set().union(*map(_references, prose(claim)))
-        assert claim.label in told or any(label.startswith("eq:") for label in own), claim.id
+def test_every_claim_is_linked_to_an_equation_or_mentioned_in_the_text(paper: Document) -> None:
+    mentioned = {piece.content for piece in paper.text.inline if piece.type == "reference"}
+    linked = {claim for sources in paper.mentions.values() for claim in sources}
+    claims = {label for label, mark in paper.marks.items() if mark.kind == "claim"}
+    assert claims - mentioned - linked == set()
 
 
 def _symbols(latex: str) -> set[str]:
@@ -84,20 +68,17 @@ def _plain(symbol: str) -> str:
     return re.sub(r"[{} ]", "", symbol)
 
 
-def _formulas(block: Block) -> Iterator[str]:
-    if isinstance(block, Equation):
-        yield from (block.latex, block.printed)
-    if isinstance(block, Steps):
-        yield from (step.latex for step in block.steps)
-    for text in prose(block):
-        yield from (piece.latex for piece in text if isinstance(piece, Math))
-
-
 def _listed(paper: Document) -> set[str]:
-    """The symbols of the two tables of symbols."""
-    tables = [b for b in blocks(paper) if isinstance(b, Table) and b.label in _TABLES]
-    symbols = (row[0][0] for table in tables for row in table.rows)
-    return {_plain(symbol.latex) for symbol in symbols if isinstance(symbol, Math)}
+    """The symbols of the two tables of symbols: formulas in the first cell of a row."""
+    found, inside, first = set(), False, False
+    for token in paper.text.tokens:
+        if token.type == "caption_open":
+            inside = token.meta["label"] in ("tab:nomenclature", "tab:symbols")
+        first = token.meta.get("first", False) if token.type == "td_open" else first
+        if inside and first and token.type == "inline":
+            found |= {_plain(piece.content) for piece in token.children or ()}
+            first = False
+    return found
 
 
 #: A symbol, or a function with its argument, behind a word or none.
@@ -113,48 +94,65 @@ def _defined(latex: str) -> set[str]:
     return {s for part in left if _ALONE.fullmatch(part.strip(" &")) for s in _symbols(part)}
 
 
-def _sections(section: Section) -> Iterator[Section]:
-    yield section
-    for block in section.blocks:
-        if isinstance(block, Section):
-            yield from _sections(block)
+def _sections(paper: Document) -> Iterator[list[Token]]:
+    """The tokens under each heading."""
+    tokens: list[Token] = []
+    for token in paper.text.tokens:
+        if token.type == "heading_open":
+            yield tokens
+            tokens = []
+        tokens.append(token)
+    yield tokens
+
+
+def _formulas(paper: Document, token: Token) -> Iterator[tuple[str, bool]]:
+    """The formulas of a token, and whether they stand in sentences."""
+    if token.type == "fence" and token.info == "equations":
+        for equation in (paper.equations[name] for name in token.content.split()):
+            yield from ((latex, False) for latex in (equation.latex, equation.printed))
+            yield from ((p.content, False) for p in line(equation.title) if p.type == "math")
+    elif token.type == "fence" and token.info == "math":
+        yield token.content, False
+    for piece in token.children or ():
+        if piece.type == "math":
+            yield piece.content, True
 
 
 def test_every_symbol_is_in_a_table_or_defined_where_it_stands(paper: Document) -> None:
     listed = _listed(paper) | _NONE
     unknown: dict[str, set[str]] = {}
-    for section in (inner for outer in paper.sections for inner in _sections(outer)):
-        here = [block for block in section.blocks if not isinstance(block, Section)]
-        sentences = [block for block in here if isinstance(block, Paragraph | Items)]
-        told = {s for block in sentences for formula in _formulas(block) for s in _symbols(formula)}
-        own: set[str] = set()
-        for block in here:
-            formulas = tuple(_formulas(block))
-            defined = {symbol for formula in formulas for symbol in _defined(formula)}
-            own = defined if isinstance(block, Equation) else own | defined  # its steps follow it
-            found = {symbol for formula in formulas for symbol in _symbols(formula)}
-            if missing := found - listed - told - own:
-                unknown[getattr(block, "label", section.label)] = missing
+    outer: set[str] = set()  # what the section says before its parts
+    for section in _sections(paper):
+        formulas = [found for token in section for found in _formulas(paper, token)]
+        own = {symbol for latex, said in formulas if said for symbol in _symbols(latex)}
+        if section and section[0].tag == "h2":
+            outer = own
+        own |= outer
+        own |= {symbol for latex, _ in formulas for symbol in _defined(latex)}
+        used = {symbol for latex, _ in formulas for symbol in _symbols(latex)}
+        if missing := used - listed - own:
+            unknown[section[1].content if len(section) > 1 else ""] = missing
     assert unknown == {}
 
 
 def test_the_tables_of_symbols_have_none_that_does_not_occur(paper: Document) -> None:
-    used = {
-        symbol
-        for block in blocks(paper)
-        if getattr(block, "label", "") not in _TABLES
-        for formula in _formulas(block)
-        for symbol in _symbols(formula)
-    }
+    used: set[str] = set()
+    inside = False
+    for token in paper.text.tokens:
+        if token.type == "caption_open":
+            inside = token.meta["label"] in ("tab:nomenclature", "tab:symbols")
+        inside = inside and token.type != "table_close"
+        if not inside:
+            used |= {s for latex, _ in _formulas(paper, token) for s in _symbols(latex)}
     assert _listed(paper) - used == set()
 
 
 def test_nothing_of_the_machine_is_left_in_a_formula(paper: Document) -> None:
     """No truth value, no name of a class, no space between hypotheses."""
     left = re.compile(r"\\?text\{(?:True|False)\}|True|False|None|Symbol|Dummy|nan")
-    for block in blocks(paper):
-        for formula in _formulas(block):
-            assert not left.search(formula), formula
-        if isinstance(block, Equation):
-            for piece in block.title:
-                assert not (isinstance(piece, Math) and r"\quad" in piece.latex), piece
+    for token in paper.text.tokens:
+        for latex, _ in _formulas(paper, token):
+            assert not left.search(latex), latex
+    for equation in paper.equations.values():
+        for piece in line(equation.title):
+            assert not (piece.type == "math" and r"\quad" in piece.content), piece

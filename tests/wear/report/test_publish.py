@@ -12,7 +12,7 @@ from wear.report.publish import publish
 
 FILES = {
     "report.html", "report.tex", "equations.tex",
-    "system.svg", "system.pdf", "wear.svg", "wear.pdf",
+    *(f"{name}.{kind}" for name in ("system", "wear", "again") for kind in ("svg", "pdf")),
 }  # fmt: skip
 
 

@@ -9,21 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.wear.report.conftest import document
 from wear.report import tex
-from wear.report.document import (
-    Column,
-    Document,
-    Equation,
-    Listing,
-    Paragraph,
-    Section,
-    Table,
-    Text,
-)
-from wear.report.numbering import number
+from wear.report.document import Document, Equation
 from wear.report.tex_text import escape, verbatim
 from wear.report.typeset import Typeset, typeset, warnings
-from wear.report.words import words
 
 
 def _write(folder: Path, sources: tex.Sources) -> Path:
@@ -67,12 +57,12 @@ def test_tex_numbers_every_label_as_the_page_does(
 ) -> None:
     auxiliary = compiled[0].with_suffix(".aux").read_text(encoding="utf-8")
     numbers = dict(re.findall(r"\\newlabel\{([^}@]+)\}\{\{\{?([^}]*)\}", auxiliary))
-    expected = {
+    named = ("claim", "derivation", "work")  # these have names, not numbers
+    assert numbers == {
         label: mark.number
-        for label, mark in number(sample).items()
-        if mark.kind not in ("claim", "derivation", "work")  # these have names, not numbers
+        for label, mark in sample.marks.items()
+        if mark.kind not in named and mark.target == label
     }
-    assert numbers == expected
 
 
 def test_equations_can_be_put_into_another_report(
@@ -111,14 +101,14 @@ def test_without_an_engine_one_line_says_how_to_get_it(
     assert "\n" not in outcome.notice
 
 
-def test_every_special_compiles(
-    sample: Document, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_every_special_compiles(tmp_path: Path, need_tool: Callable[..., str]) -> None:
     need_tool("pdflatex")
     text = "\\ { } $ & # % _ ^ ~ < > | \" ' ` é ü Ł ő – — “ ” ‘ ’ … − · × ± ° µ → ≤ ≥ ≈ ∞ ² ³"
-    blocks = (Paragraph((Text(text),)), Listing("a" * 250 + "\n\\%{}_^", "code"))
-    document = replace(sample, sections=(Section("sec:a", text, blocks),), abstract=())
-    outcome = typeset(_write(tmp_path, tex.report(document)))
+    code = "a" * 250 + "\n\\%{}_^"
+    special = document(
+        "# {{ t | plain }}\n\n{{ t | plain }}\n\n```sh\n{{ c }}\n```\n", t=text, c=code
+    )
+    outcome = typeset(_write(tmp_path, tex.report(special)))
     assert (outcome.notice, outcome.warnings) == ("", ())
 
 
@@ -126,11 +116,10 @@ def test_a_caption_may_name_anything(
     sample: Document, tmp_path: Path, need_tool: Callable[..., str]
 ) -> None:
     need_tool("pdflatex")
-    caption = words("Seen in [claim:C24], [(claim:C29)], [der:8], [eq:21] and [tab:names].")
-    table = Table("tab:one", caption, (Column(()),), (((Text("a"),),),))
-    blocks = (table, replace(table, label="tab:two", long=True))
-    document = replace(sample, sections=(*sample.sections, Section("sec:a", "A", blocks)))
-    outcome = typeset(_write(tmp_path, tex.report(document)))
+    named = " ".join(f"[{label}] [({label})]" for label in sample.marks)
+    table = f"\n\nTable: Seen in {named}. {{#tab:one}}\n\n| a | b |\n| :-- | --- |\n| c | d |\n"
+    text = replace(sample.text, tokens=(*sample.text.tokens, *document(table).text.tokens))
+    outcome = typeset(_write(tmp_path, tex.report(replace(sample, text=text))))
     assert (outcome.notice, outcome.warnings) == ("", ())
 
 
@@ -147,10 +136,10 @@ def test_a_listing_loses_no_character() -> None:
 
 
 def test_a_macro_has_letters_only() -> None:
-    equation = Equation("eq:21", "a", macro="Eq21")
-    document = Document("T", (), (), (Section("sec:a", "A", (equation,)),))
+    wrong = {"21": Equation("21", "a", macro="Eq21")}
+    text = document("```equations\n21\n```\n").text
     with pytest.raises(ValueError, match="Eq21"):
-        tex.equations(document)
+        tex.equations(Document(text, wrong, {}))
 
 
 @pytest.mark.parametrize(

@@ -27,25 +27,28 @@ OPERATIONS = {
     "slope": 33,
     "fields": 16,
 }
-PARAMETERS = (
-    "h_0",
-    "sigma_a0",
-    "sigma_c0",
-    "f_a",
-    "f_c",
-    "K_a",
-    "K_c",
-    "H_a",
-    "H_c",
-    "p_max",
-    "k",
-    "R",
-    "n",
-)
+
+
+class Parameters(NamedTuple):
+    """The physical parameters."""
+
+    h_0: Array  # initial closure, mm
+    sigma_a0: Array  # initial roughness of the pin, mm
+    sigma_c0: Array  # initial roughness of the bearing, mm
+    f_a: Array  # roughness slope of the pin, d sigma_a/d u_a, dimensionless
+    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    K_a: Array  # wear coefficient of the pin, dimensionless
+    K_c: Array  # wear coefficient of the bearing, dimensionless
+    H_a: Array  # hardness of the pin, MPa
+    H_c: Array  # hardness of the bearing, MPa
+    p_max: Array  # largest admissible contact pressure, MPa
+    k: Array  # stiffness of the support per area, MPa/mm
+    R: Array  # radius of the pin, mm
+    n: Array  # speed of rotation, rpm
 
 
 class Constants(NamedTuple):
-    """What does not change during a run."""
+    """Constants of a run."""
 
     h_0: Array  # initial closure, mm
     sigma_a0: Array  # initial roughness of the pin, mm
@@ -59,42 +62,6 @@ class Constants(NamedTuple):
     wear_per_pressure: Array  # wear rate per contact pressure, mm/(s MPa)
 
 
-def bind(
-    *,
-    h_0: Array,
-    sigma_a0: Array,
-    sigma_c0: Array,
-    f_a: Array,
-    f_c: Array,
-    K_a: Array,
-    K_c: Array,
-    H_a: Array,
-    H_c: Array,
-    p_max: Array,
-    k: Array,
-    R: Array,
-    n: Array,
-) -> Constants:
-    """Compute the constants of a run from the physical parameters, in mm, s, MPa, rpm."""
-    kappa = H_c * K_a / (H_a * K_c)
-    gain = 1 - kappa
-    slope_a = f_a * kappa
-    compliance = 1 / k
-    wear_per_pressure = np.pi * K_c * R * n / (90 * H_c)
-    return Constants(
-        h_0=h_0,
-        sigma_a0=sigma_a0,
-        sigma_c0=sigma_c0,
-        f_c=f_c,
-        p_max=p_max,
-        kappa=kappa,
-        gain=gain,
-        slope_a=slope_a,
-        compliance=compliance,
-        wear_per_pressure=wear_per_pressure,
-    )
-
-
 class Fields(NamedTuple):
     """The fields that this variant has."""
 
@@ -105,6 +72,30 @@ class Fields(NamedTuple):
     h: Array  # closure of the mean surfaces, mm
     U_c: Array  # displacement of the bearing on its support, mm
     p: Array  # contact pressure, MPa
+
+
+def bind(data: Parameters, pin_wear_sign: float) -> Constants:
+    """Return the constants of a run.
+
+    ``pin_wear_sign`` is +1 where wear of the pin opens the gap, -1 where it closes it.
+    """
+    kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
+    gain = 1 + pin_wear_sign * kappa
+    slope_a = data.f_a * kappa
+    compliance = 1 / data.k
+    wear_per_pressure = np.pi * data.K_c * data.R * data.n / (90 * data.H_c)
+    return Constants(
+        data.h_0,
+        data.sigma_a0,
+        data.sigma_c0,
+        data.f_c,
+        data.p_max,
+        kappa,
+        gain,
+        slope_a,
+        compliance,
+        wear_per_pressure,
+    )
 
 
 def residual(p: Array, u: Array, U_a: Array, c: Constants) -> Array:

@@ -18,50 +18,32 @@ EQUATIONS = ("1", "2b", "3", "4", "5", "6", "13")
 OPERATIONS = {
     "rate": 8,
     "slope": 13,
+    "rate_and_slope": 14,
     "fields": 8,
 }
-PARAMETERS = (
-    "h_0",
-    "sigma_c0",
-    "f_c",
-    "K_c",
-    "H_c",
-    "p_max",
-    "R",
-    "n",
-)
+
+
+class Parameters(NamedTuple):
+    """The physical parameters."""
+
+    h_0: Array  # initial closure, mm
+    sigma_c0: Array  # initial roughness of the bearing, mm
+    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    K_c: Array  # wear coefficient of the bearing, dimensionless
+    H_c: Array  # hardness of the bearing, MPa
+    p_max: Array  # largest admissible contact pressure, MPa
+    R: Array  # radius of the pin, mm
+    n: Array  # speed of rotation, rpm
 
 
 class Constants(NamedTuple):
-    """What does not change during a run."""
+    """Constants of a run."""
 
     h_0: Array  # initial closure, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
     f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
     p_max: Array  # largest admissible contact pressure, MPa
     largest_rate: Array  # wear rate at the largest pressure, mm/s
-
-
-def bind(
-    *,
-    h_0: Array,
-    sigma_c0: Array,
-    f_c: Array,
-    K_c: Array,
-    H_c: Array,
-    p_max: Array,
-    R: Array,
-    n: Array,
-) -> Constants:
-    """Compute the constants of a run from the physical parameters, in mm, s, MPa, rpm."""
-    largest_rate = np.pi * K_c * R * n * p_max / (90 * H_c)
-    return Constants(
-        h_0=h_0,
-        sigma_c0=sigma_c0,
-        f_c=f_c,
-        p_max=p_max,
-        largest_rate=largest_rate,
-    )
 
 
 class Fields(NamedTuple):
@@ -71,6 +53,12 @@ class Fields(NamedTuple):
     sigma: Array  # equivalent roughness, mm
     h: Array  # closure of the mean surfaces, mm
     p: Array  # contact pressure, MPa
+
+
+def bind(data: Parameters) -> Constants:
+    """Return the constants of a run."""
+    largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
+    return Constants(data.h_0, data.sigma_c0, data.f_c, data.p_max, largest_rate)
 
 
 def rate(u: Array, U_a: Array, c: Constants) -> Array:
@@ -92,15 +80,20 @@ def slope(u: Array, U_a: Array, c: Constants) -> Array:
     return -c.largest_rate * ratio_u * share
 
 
+def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
+    """Wear rate in mm/s and its derivative with respect to u_c in 1/s."""
+    sigma = c.sigma_c0 + c.f_c * u
+    h = c.h_0 + u - U_a
+    ratio = h / sigma
+    ratio_u = (1 - c.f_c * ratio) / sigma
+    share = np.exp(-ratio)
+    return c.largest_rate * share, -c.largest_rate * ratio_u * share
+
+
 def fields(u: Array, U_a: Array, c: Constants) -> Fields:
     """Every field at given wear and load, in mm and MPa."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + u - U_a
     ratio = h / sigma
     share = np.exp(-ratio)
-    return Fields(
-        sigma_c=sigma,
-        sigma=sigma,
-        h=h,
-        p=c.p_max * share,
-    )
+    return Fields(sigma_c=sigma, sigma=sigma, h=h, p=c.p_max * share)

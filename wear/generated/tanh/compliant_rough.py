@@ -27,22 +27,25 @@ OPERATIONS = {
     "slope": 36,
     "fields": 12,
 }
-PARAMETERS = (
-    "h_0",
-    "sigma_a0",
-    "sigma_c0",
-    "f_c",
-    "K_c",
-    "H_c",
-    "p_max",
-    "k",
-    "R",
-    "n",
-)
+
+
+class Parameters(NamedTuple):
+    """The physical parameters."""
+
+    h_0: Array  # initial closure, mm
+    sigma_a0: Array  # initial roughness of the pin, mm
+    sigma_c0: Array  # initial roughness of the bearing, mm
+    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    K_c: Array  # wear coefficient of the bearing, dimensionless
+    H_c: Array  # hardness of the bearing, MPa
+    p_max: Array  # largest admissible contact pressure, MPa
+    k: Array  # stiffness of the support per area, MPa/mm
+    R: Array  # radius of the pin, mm
+    n: Array  # speed of rotation, rpm
 
 
 class Constants(NamedTuple):
-    """What does not change during a run."""
+    """Constants of a run."""
 
     h_0: Array  # initial closure, mm
     sigma_a0: Array  # initial roughness of the pin, mm
@@ -51,33 +54,6 @@ class Constants(NamedTuple):
     p_max: Array  # largest admissible contact pressure, MPa
     compliance: Array  # deflection of the support per pressure, mm/MPa
     wear_per_pressure: Array  # wear rate per contact pressure, mm/(s MPa)
-
-
-def bind(
-    *,
-    h_0: Array,
-    sigma_a0: Array,
-    sigma_c0: Array,
-    f_c: Array,
-    K_c: Array,
-    H_c: Array,
-    p_max: Array,
-    k: Array,
-    R: Array,
-    n: Array,
-) -> Constants:
-    """Compute the constants of a run from the physical parameters, in mm, s, MPa, rpm."""
-    compliance = 1 / k
-    wear_per_pressure = np.pi * K_c * R * n / (90 * H_c)
-    return Constants(
-        h_0=h_0,
-        sigma_a0=sigma_a0,
-        sigma_c0=sigma_c0,
-        f_c=f_c,
-        p_max=p_max,
-        compliance=compliance,
-        wear_per_pressure=wear_per_pressure,
-    )
 
 
 class Fields(NamedTuple):
@@ -89,6 +65,15 @@ class Fields(NamedTuple):
     h: Array  # closure of the mean surfaces, mm
     U_c: Array  # displacement of the bearing on its support, mm
     p: Array  # contact pressure, MPa
+
+
+def bind(data: Parameters) -> Constants:
+    """Return the constants of a run."""
+    compliance = 1 / data.k
+    wear_per_pressure = np.pi * data.K_c * data.R * data.n / (90 * data.H_c)
+    return Constants(
+        data.h_0, data.sigma_a0, data.sigma_c0, data.f_c, data.p_max, compliance, wear_per_pressure
+    )
 
 
 def residual(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
@@ -171,11 +156,4 @@ def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
     h = c.h_0 + u + c.compliance * p - U_a
-    return Fields(
-        sigma_a=sigma_a,
-        sigma_c=sigma_c,
-        sigma=sigma,
-        h=h,
-        U_c=c.compliance * p,
-        p=p,
-    )
+    return Fields(sigma_a=sigma_a, sigma_c=sigma_c, sigma=sigma, h=h, U_c=c.compliance * p, p=p)

@@ -18,24 +18,28 @@ EQUATIONS = ("1", "2b", "3", "4", "5", "6", "10")
 OPERATIONS = {
     "rate": 13,
     "slope": 21,
+    "rate_and_slope": 22,
     "fields": 14,
 }
-PARAMETERS = (
-    "h_0",
-    "sigma_c0",
-    "f_c",
-    "K_a",
-    "K_c",
-    "H_a",
-    "H_c",
-    "p_max",
-    "R",
-    "n",
-)
+
+
+class Parameters(NamedTuple):
+    """The physical parameters."""
+
+    h_0: Array  # initial closure, mm
+    sigma_c0: Array  # initial roughness of the bearing, mm
+    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    K_a: Array  # wear coefficient of the pin, dimensionless
+    K_c: Array  # wear coefficient of the bearing, dimensionless
+    H_a: Array  # hardness of the pin, MPa
+    H_c: Array  # hardness of the bearing, MPa
+    p_max: Array  # largest admissible contact pressure, MPa
+    R: Array  # radius of the pin, mm
+    n: Array  # speed of rotation, rpm
 
 
 class Constants(NamedTuple):
-    """What does not change during a run."""
+    """Constants of a run."""
 
     h_0: Array  # initial closure, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
@@ -46,34 +50,6 @@ class Constants(NamedTuple):
     largest_rate: Array  # wear rate at the largest pressure, mm/s
 
 
-def bind(
-    *,
-    h_0: Array,
-    sigma_c0: Array,
-    f_c: Array,
-    K_a: Array,
-    K_c: Array,
-    H_a: Array,
-    H_c: Array,
-    p_max: Array,
-    R: Array,
-    n: Array,
-) -> Constants:
-    """Compute the constants of a run from the physical parameters, in mm, s, MPa, rpm."""
-    kappa = H_c * K_a / (H_a * K_c)
-    gain = 1 - kappa
-    largest_rate = np.pi * K_c * R * n * p_max / (90 * H_c)
-    return Constants(
-        h_0=h_0,
-        sigma_c0=sigma_c0,
-        f_c=f_c,
-        p_max=p_max,
-        kappa=kappa,
-        gain=gain,
-        largest_rate=largest_rate,
-    )
-
-
 class Fields(NamedTuple):
     """The fields that this variant has."""
 
@@ -82,6 +58,17 @@ class Fields(NamedTuple):
     sigma: Array  # equivalent roughness, mm
     h: Array  # closure of the mean surfaces, mm
     p: Array  # contact pressure, MPa
+
+
+def bind(data: Parameters, pin_wear_sign: float) -> Constants:
+    """Return the constants of a run.
+
+    ``pin_wear_sign`` is +1 where wear of the pin opens the gap, -1 where it closes it.
+    """
+    kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
+    gain = 1 + pin_wear_sign * kappa
+    largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
+    return Constants(data.h_0, data.sigma_c0, data.f_c, data.p_max, kappa, gain, largest_rate)
 
 
 def rate(u: Array, U_a: Array, c: Constants) -> Array:
@@ -106,6 +93,18 @@ def slope(u: Array, U_a: Array, c: Constants) -> Array:
     return -4 * c.largest_rate * ratio_u * spread
 
 
+def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
+    """Wear rate in mm/s and its derivative with respect to u_c in 1/s."""
+    sigma = c.sigma_c0 + c.f_c * u
+    h = c.h_0 + c.gain * u - U_a
+    ratio = h / sigma
+    ratio_u = (c.gain - c.f_c * ratio) / sigma
+    odds = np.exp(np.minimum(8 - 4 * ratio, 709))
+    share = odds / (1 + odds)
+    spread = share / (1 + odds)
+    return c.largest_rate * share, -4 * c.largest_rate * ratio_u * spread
+
+
 def fields(u: Array, U_a: Array, c: Constants) -> Fields:
     """Every field at given wear and load, in mm and MPa."""
     sigma = c.sigma_c0 + c.f_c * u
@@ -113,10 +112,4 @@ def fields(u: Array, U_a: Array, c: Constants) -> Fields:
     ratio = h / sigma
     odds = np.exp(np.minimum(8 - 4 * ratio, 709))
     share = odds / (1 + odds)
-    return Fields(
-        u_a=c.kappa * u,
-        sigma_c=sigma,
-        sigma=sigma,
-        h=h,
-        p=c.p_max * share,
-    )
+    return Fields(u_a=c.kappa * u, sigma_c=sigma, sigma=sigma, h=h, p=c.p_max * share)

@@ -28,9 +28,8 @@ function readState() {
 }
 
 function variantOf(state) {
-  const wears = state.pin.startsWith("worn");
   return `${state.law}/${state.compliant ? "compliant" : "rigid"}_${state.pin}`
-    + (state.opening && wears ? "_opening" : "") + (state.cutoff ? "_cutoff" : "");
+    + (state.cutoff ? "_ends_at_3_sigma" : "");
 }
 
 // A load that is no sine is multiplied by the number on the slider of the amplitude.
@@ -87,7 +86,7 @@ function enableWhatActs(state) {
 
 function solveState(state) {
   const functions = functionsOf(variantOf(state));
-  const c = functions.bind(state.parameters);
+  const c = functions.bind(state.parameters, state.opening ? 1 : -1);
   const load = makeLoad(chosen.load, state.parameters.U);
   const solver = makeSolver(functions, c, load, state.parameters.T);
   const jumps = functions.margin !== undefined && functions.residual === undefined;

@@ -161,9 +161,10 @@ function makeSolver(functions, c, load, period) {
   // positive as long as none of both is passed.
   function unbent(x, u) {
     const branch = (phase, depth) => {
-      if (margin(phase, depth) <= 0) return 0;
-      const U_a = load.value(phase);
-      return functions.pressure(depth, U_a, c) < functions.limited(Infinity, depth, U_a, c) ? 2 : 1;
+      const left = margin(phase, depth);
+      if (left <= 0) return 0;
+      const most = functions.limited_pressure(Infinity, left, c.compliance, c);
+      return functions.pressure(depth, load.value(phase), c) < most ? 2 : 1;
     };
     const now = branch(x, u);
     return (phase, depth) => (branch(phase, depth) === now ? 1 : -1);

@@ -1,0 +1,221 @@
+"""Sources: a program as text in a language, by the template of that name.
+
+Key results
+    source        the source of a program in one of the languages
+    definitions   the JavaScript functions of a program, to stand inside another script
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import sympy as sp
+
+from ..program import Program
+from ..program.function import Function
+from .emit import NUMPY, TARGETS, Target, emit
+from .increment import increment
+from .wording import margin_title, meaning_of, remark_on, sentence, title_of
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+WIDTH = 96
+WIDEST = 100
+
+
+class Line(NamedTuple):
+    """``name = text``, and what it means."""
+
+    name: str
+    text: str
+    remark: str
+
+
+class Body(NamedTuple):
+    """A generated function in a language: its lines, its results, and the names that it ignores."""
+
+    name: str
+    meaning: str
+    arguments: tuple[str, ...]
+    lines: tuple[Line, ...]
+    results: tuple[str, ...]
+    unused: tuple[str, ...]
+
+
+def source(made: Program, target: str) -> str:
+    """Return the free-standing source of a program: formatted, and the same at every call.
+
+    Raises
+    ------
+    ValueError
+        if there is no such target.
+
+    >>> from derive.program import program
+    >>> from derive.variant import VARIANTS
+    >>> source(program(VARIANTS[0]), "c").splitlines()[1]
+    ' * Tanh contact law, rigid support, smooth pin that does not wear.'
+    """
+    if target not in TARGETS:
+        raise ValueError(f"{target!r} is no target; there are {', '.join(TARGETS)}")
+    return rendered(target, **_context(made, TARGETS[target]))
+
+
+def definitions(made: Program) -> str:
+    """Return the JavaScript of a program as the body of a function that returns its functions."""
+    return rendered("javascript", **_context(made, TARGETS["javascript"]) | {"within": True})
+
+
+def rendered(template: str, **context: Any) -> str:
+    """Return the text of a template."""
+    return _environment().get_template(f"{template}.jinja").render(**context)
+
+
+@cache
+def _environment() -> Environment:
+    """Return the templates; Jinja2 is imported when the first source is written."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    made = Environment(
+        loader=PackageLoader(__package__),
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        undefined=StrictUndefined,
+    )
+    made.filters |= {"remarked": remarked, "wrapped": wrapped, "called": called}
+    made.globals |= {"meaning_of": meaning_of, "sentence": sentence}
+    return made
+
+
+def _context(made: Program, target: Target) -> dict[str, Any]:
+    """Return all that a template speaks of."""
+    variant = made.variant
+    functions = _functions(made, target)
+    expressions = [expression for f in functions for expression in f.expressions]
+    return {
+        "made": made,
+        "variant": variant,
+        "title": title_of(variant) if made.fields else margin_title(variant.pin),
+        "header": _header(made, target),
+        "spelt": target.rename,
+        "parameters": [parameter.name for parameter in made.parameters],
+        "constants": [name.name for name, _ in made.constants],
+        "computed": _computed(made, target),
+        "plain": [name.name for name, value in made.constants if name == value],
+        "functions": [body(function, made, target) for function in functions],
+        "minimum": any(expression.has(sp.Min) for expression in expressions),
+        "maximum": any(expression.has(sp.Max) for expression in expressions),
+        "increment": increment(variant),
+        "emit": partial(emit, target=target),
+        "within": False,
+    }
+
+
+def _functions(made: Program, target: Target) -> list[Function]:
+    """Return the functions that a language has: a pair of numbers is one of NumPy's results."""
+    return [f for f in made.functions if f.name != "rate_and_slope" or target is NUMPY]
+
+
+def body(function: Function, made: Program, target: Target) -> Body:
+    """Write a function's expressions in a target's language."""
+    arguments = [argument.name for argument in function.arguments]
+    local = {*arguments, *(name.name for name, _ in function.assignments)}
+    constants = {name.name for name, _ in made.constants} - local
+    within = _reaching(target, constants, target.constant)
+    used = set().union(*(expression.free_symbols for expression in function.expressions))
+    names = {symbol.name for symbol in used}
+    unused = [name for name in arguments if name not in names]
+    return Body(
+        function.name,
+        sentence(function.meaning),
+        tuple(map(target.rename, arguments)),
+        tuple(
+            Line(target.rename(name.name), emit(value, within), remark_on(name.name))
+            for name, value in function.assignments
+        ),
+        tuple(emit(result, within) for result in function.results),
+        (*map(target.rename, unused), *["c"] * (not names & constants)),
+    )
+
+
+def _computed(made: Program, target: Target) -> list[Line]:
+    """Write the constants that are computed, in the language of ``bind``."""
+    within = _reaching(target, {parameter.name for parameter in made.parameters}, target.parameter)
+    return [
+        Line(target.rename(name.name), emit(value, within), "")
+        for name, value in made.constants
+        if name != value
+    ]
+
+
+def _reaching(target: Target, names: set[str], prefixed: str) -> Target:
+    """Return a target in which some names are reached through a prefix."""
+
+    def reached(name: str) -> str:
+        return prefixed.format(name) if name in names else target.rename(name)
+
+    return replace(target, rename=reached)
+
+
+def _header(made: Program, target: Target) -> list[str]:
+    """Return the lines that open a source: what it is, whence, its units and its cost."""
+    variant = made.variant
+    equations = ", ".join(f"({identifier})" for identifier in variant.equations)
+    cost = ", ".join(f"{f.name} {f.operations}" for f in _functions(made, target))
+    paragraphs = [
+        title_of(variant),
+        f"Written by derive code from equations {equations}; contact law: {variant.law.source}.",
+        f"Free-standing {target.language}. "
+        "Units: mm, s, MPa; the speed n in revolutions per minute.",
+        "u is the wear depth u_c of the bearing, U_a the prescribed displacement of the pin.",
+        f"Arithmetic operations of one call: {cost}.",
+    ]
+    if variant.ends_at_3_sigma:
+        paragraphs.append(
+            "Contact ends at h = 3 sigma: the pressure is the smaller of root and limit."
+            if variant.compliant
+            else "Contact ends at h = 3 sigma. The rate, its slope and the pressure among the "
+            "fields are those in contact; there is contact where the margin is not negative."
+        )
+    return [line for text in paragraphs for line in (*textwrap.wrap(text, WIDTH), "")][:-1]
+
+
+def remarked(code: str, remark: str, form: str) -> str:
+    """Put a comment beside a line of code, or above it where it finds no room.
+
+    >>> remarked("    h = 1;", "closure", "// {}")
+    '    h = 1; // closure'
+    """
+    comment = form.format(remark)
+    if len(code) + 1 + len(comment) <= WIDEST:
+        return f"{code} {comment}"
+    return f"{code[: len(code) - len(code.lstrip())]}{comment}\n{code}"
+
+
+def wrapped(text: str, width: int, indent: str = "", end: str = "") -> str:
+    """Break a text into lines, each but the first indented, each but the last with an ``end``."""
+    lines = textwrap.wrap(text, width, subsequent_indent=indent, break_on_hyphens=False)
+    return f"{end}\n".join(lines)
+
+
+def called(entries: Sequence[str], opening: str, closing: str, explode: bool = False) -> str:
+    """Write a bracket with its entries as Ruff lays it out: in a line, below it, or one a line.
+
+    ``explode`` leaves out the second, as for tuples and dictionaries.
+
+    >>> print(called(["a", "b"], "f(", ")"))
+    f(a, b)
+    """
+    inside = ", ".join(entries)
+    indent = " " * (len(opening) - len(opening.lstrip()))
+    if len(opening) + len(inside) + len(closing) <= WIDEST:
+        return f"{opening}{inside}{closing}"
+    if not explode and len(indent) + 4 + len(inside) <= WIDEST:
+        return f"{opening}\n{indent}    {inside}\n{indent}{closing}"
+    lines = "".join(f"{indent}    {entry},\n" for entry in entries)
+    return f"{opening}\n{lines}{indent}{closing}"

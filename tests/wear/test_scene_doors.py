@@ -1,0 +1,168 @@
+"""The same checks run on every way to a scene and to a load."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from wear.faults import SceneError
+from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
+from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
+
+SECTION4 = load_scene("section4")
+
+
+def changed(table: str, key: str, value: object) -> tuple[Callable[[], object], ...]:
+    """The ways to a scene whose entry has this value."""
+    tables = SECTION4.to_tables()
+    tables.setdefault(table, {})[key] = value
+
+    def rebuilt() -> object:
+        entries = tables[table]
+        kinds = {"bearing": Bearing, "contact": Contact, "motion": Motion, "support": Support}
+        if table == "load":
+            return Sine(**{name: each for name, each in entries.items() if name != "kind"})
+        return kinds[table](**entries)
+
+    part = getattr(SECTION4, table)
+    return (
+        lambda: Scene.from_dict(tables),
+        lambda: SECTION4.with_({f"{table}.{key}": value}),
+        rebuilt,
+        *([lambda: replace(SECTION4, **{table: replace(part, **{key: value})})] if part else []),
+    )
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "value", "problem"),
+    [
+        ("bearing", "wear_coefficient", -1e-6, "-1e-06 is negative"),
+        ("bearing", "hardness_MPa", 0, "is zero"),
+        ("bearing", "hardness_MPa", math.nan, "nan is not a finite number"),
+        ("bearing", "hardness_MPa", "200", "is text, not a number"),
+        ("bearing", "hardness_MPa", True, "is true or false"),
+        ("bearing", "hardness_MPa", 1j, "give a number, in MPa"),
+        ("bearing", "hardness", 200.0, "did you mean hardness_MPa?"),
+        ("bearing", "roughness_slope", 0.1, "renamed to roughness_growth"),
+        ("bearing", "radius_mm", 1.0, "it belongs to [motion]"),
+        ("contact", "law", "tan", "did you mean tanh?"),
+        ("contact", "closure_mm", -1.0, "-1.0 is negative"),
+        ("contact", "ends_at_3_sigma", 1, "is no flag"),
+        ("contact", "width_mm", 1.0, "length_mm is missing"),
+        ("motion", "speed_rpm", math.inf, "inf is not a finite number"),
+        ("motion", "radius_mm", 1e40, "out of range"),
+        ("support", "stiffness_MPa_per_mm", 0.0, "is zero"),
+        ("load", "period_s", -0.06, "-0.06 is negative"),
+        ("load", "amplitude_mm", [5e-4], "is a list"),
+        ("load", "value_mm", 1.0, 'it belongs to kind = "constant"'),
+    ],
+)
+def test_a_wrong_entry_is_refused_at_every_door(
+    table: str, key: str, value: object, problem: str
+) -> None:
+    for way in changed(table, key, value):
+        with pytest.raises(SceneError) as caught:
+            way()
+        assert problem in str(caught.value)
+        assert all(fault.remedy for fault in caught.value.faults)
+
+
+def test_all_faults_of_a_table_come_at_once() -> None:
+    with pytest.raises(SceneError) as caught:
+        Bearing(-200.0, "1e-6", math.nan, 1e99)  # type: ignore[arg-type]
+    assert [(fault.table, fault.key) for fault in caught.value.faults] == [
+        ("bearing", "hardness_MPa"),
+        ("bearing", "wear_coefficient"),
+        ("bearing", "roughness_mm"),
+        ("bearing", "roughness_growth"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("make", "problem"),
+    [
+        (lambda: Contact(300.0), "closure_mm or closure_in_sigma is missing"),
+        (lambda: Contact(300.0, 1e-3, 3.0), "are both given"),
+        (lambda: replace(SECTION4, load=None), "is not a table"),
+        (lambda: replace(SECTION4, load="sine"), "is not a table"),
+        (lambda: replace(SECTION4, bearing=None), "bearing: is not a table"),
+        (lambda: replace(SECTION4, motion=Pin(1.0, 0.0, 0.0, 0.0)), "motion: is not a table"),
+        (lambda: replace(SECTION4, title="a\x07b"), "control characters"),
+        (lambda: SECTION4.with_({"bearing": None}), "missing"),
+        (lambda: SECTION4.with_({"bering.hardness_MPa": 1.0}), "did you mean bearing?"),
+        (lambda: SECTION4.with_({"bearing.hardness_MPa.x": 1.0}), "unknown key"),
+        (lambda: SECTION4.with_({"name": "x"}), "unknown key"),
+        (lambda: Bearing(1.0, 1e-6, 1e-4), "missing"),  # type: ignore[call-arg]
+        (lambda: Bearing(1.0, 1e-6, 1e-4, 0.0, 5.0), "unknown key"),  # type: ignore[call-arg]
+        (
+            lambda: replace(SECTION4, bearing=replace(SECTION4.bearing, roughness_mm=0.0)),
+            "zero on the only rough solid",
+        ),
+        (lambda: Sine(math.nan, 0.06), "not a finite number"),
+        (lambda: Constant(0.0, 0.0), "is zero"),
+        (lambda: Harmonics(0.0, (1e-4,) * 101, (), 1.0), "101 entries"),
+        (lambda: Harmonics(0.0, 1e-4, (), 1.0), "is a number"),  # type: ignore[arg-type]
+        (lambda: Table((0.0, 2.0, 1.0), (0.0, 1e-4, 0.0)), "does not come after 2.0"),
+        (lambda: Table((0.1, 0.2, 1.0), (0.0, 1e-4, 0.0)), "starts at 0.1"),
+        (lambda: Table((0.0, 1.0), (0.0, 1e-4)), "jumps at the seam"),
+        (lambda: Table((0.0, 1.0), (0.0, math.nan)), "not a finite number"),
+        (lambda: Table((0.0, 1.0), (0.0,)), "2 times and 1 displacements"),
+        (lambda: HistoryLoad((0.0, 1.0), (0.0, 1.0), -1.0), "negative"),
+        (lambda: HistoryLoad((0.0, 0.0), (0.0, 1.0), 1.0), "does not come after"),
+        (lambda: Blocks(()), "has 0 blocks"),
+        (lambda: Blocks((Block(Sine(1e-4, 1.0), -3),)), "out of range"),
+        (lambda: Blocks((Block(None, 3),)), "is not a table"),  # type: ignore[arg-type]
+        (lambda: Blocks((Block(Sine(1e-4, 1.0), 10**9),), 10**9), "1e+18 cycles in all"),
+    ],
+)
+def test_what_no_constructor_takes(make: Callable[[], object], problem: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        make()
+    assert problem in str(caught.value)
+
+
+def test_changes_take_the_place_of_entries() -> None:
+    other = SECTION4.with_(
+        {
+            "bearing.roughness_growth": 0.3,
+            "contact.closure_in_sigma": 2.5,
+            "support.stiffness_MPa_per_mm": 1e5,
+            "load.kind": "constant",
+            "load.value_mm": 1e-4,
+        }
+    )
+    assert other.bearing == replace(SECTION4.bearing, roughness_growth=0.3)
+    assert (other.contact.closure_mm, other.contact.closure_in_sigma) == (None, 2.5)
+    assert other.support == Support(1e5)
+    assert other.load == Constant(1e-4, 0.06)
+    assert other.name == "section4"
+    assert other.with_({"support": None}).support is None
+    assert SECTION4.bearing.roughness_growth == 0.25
+
+
+def test_rows_are_kept_unless_the_load_changes(tmp_path: Path) -> None:
+    (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.01,1e-4\n0.06,0\n")
+    (tmp_path / "own.toml").write_text(
+        SECTION4.to_toml().partition("[load]")[0] + '[load]\nkind = "table"\nfile = "pin.csv"\n'
+    )
+    scene = load_scene(tmp_path / "own.toml")
+    other = scene.with_({"motion.speed_rpm": 1000.0})
+    assert other.load is scene.load
+    longer: Any = scene.with_({"load.period_s": 0.1}).load
+    assert longer.times_s == (0.0, 0.01, 0.06, 0.1)
+
+
+def test_numbers_of_other_kinds_are_numbers() -> None:
+    bearing = Bearing(np.float32(200), 1, np.float64(3.6e-4), np.int64(0))  # type: ignore[arg-type]
+    assert bearing == Bearing(200.0, 1.0, 3.6e-4, 0.0)
+    assert all(type(value) is float for value in vars(bearing).values())
+    assert Table(np.array([0.0, 1.0]), np.zeros(2)) == Table((0.0, 1.0), (0.0, 0.0))  # type: ignore[arg-type]
+
+
+def test_pieces_may_be_given_as_tables() -> None:
+    motion: Any = {"radius_mm": 22, "speed_rpm": 2000}
+    assert replace(SECTION4, motion=motion).motion == Motion(22.0, 2000.0)

@@ -1,0 +1,450 @@
+"""Tables of a scene as frozen dataclasses that are checked on every way to them.
+
+Pydantic collects the faults of all entries; this module puts them into words: what is wrong, and
+what to do about it. The same checks run for a file, for `Scene.from_dict`, for a constructor and
+for `dataclasses.replace`.
+
+Key results
+    table       class decorator: a frozen dataclass whose construction raises `SceneError`
+    Positive, NonNegative, Real, Count, Flag, Text     kinds of entries
+    problems    all that is wrong with tables, each with its path
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import functools
+import math
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, dataclass_transform, get_args
+
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    model_validator,
+)
+from pydantic.dataclasses import dataclass
+from pydantic_core import ArgsKwargs, InitErrorDetails, PydanticCustomError, core_schema
+
+from wear.faults import Fault, SceneError
+
+# Magnitudes are bounded so that no product of a scene's numbers can overflow or underflow.
+SMALLEST = 1e-30
+LARGEST = 1e30
+MOST_CYCLES = 10**12
+MOST_UNKNOWN_KEYS = 20
+
+# Keys of versions before the first release, each with its name of today.
+RENAMED = {"roughness_slope": "roughness_growth", "cutoff": "ends_at_3_sigma"}
+
+_UNITS = {"MPa_per_mm": "MPa/mm", "MPa": "MPa", "mm": "mm", "rpm": "rpm", "s": "s", "N": "N"}
+
+T = TypeVar("T")
+Path = tuple[str | int, ...]
+"""Where a value stands: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
+
+
+class Problem(NamedTuple):
+    """What is wrong at `path`, and what to do about it."""
+
+    path: Path
+    problem: str
+    remedy: str
+
+
+def unit_of(key: str) -> str:
+    """Return the unit that the name of a key ends in, '' if none.
+
+    >>> unit_of("stiffness_MPa_per_mm"), unit_of("radius_mm"), unit_of("roughness_growth")
+    ('MPa/mm', 'mm', '')
+    """
+    return next((unit for end, unit in _UNITS.items() if key.endswith(f"_{end}")), "")
+
+
+def shown(text: str, most: int = 60) -> str:
+    """Return `text` fit for a terminal: one line, no control characters, at most so long.
+
+    >>> shown("a\\x1b[31mb")
+    'a\\\\x1b[31mb'
+    """
+    cut = text if len(text) <= most else text[: most - 3] + "..."
+    return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in cut)
+
+
+def did_you_mean(word: str, candidates: Iterable[str]) -> str:
+    """Return the candidate that `word` seems to stand for, or ''.
+
+    >>> did_you_mean("stifness", ["stiffness", "hardness"])
+    'stiffness'
+    """
+    by_lower = {candidate.lower(): candidate for candidate in candidates}
+    close = difflib.get_close_matches(word[:80].lower(), by_lower, n=1)
+    return by_lower[close[0]] if close else ""
+
+
+# Kinds of entries
+
+
+def wrong(problem: str, remedy: str) -> PydanticCustomError:
+    """Return the error for a validator to raise: what is wrong, and the remedy."""
+    return PydanticCustomError("wrong", "{problem}", {"problem": problem, "remedy": remedy})
+
+
+def all_wrong(*faults: tuple[str, str, str]) -> ValidationError:
+    """Return the error for a validator to raise that finds (key, problem, remedy) many times."""
+    return ValidationError.from_exception_data(
+        "wrong",
+        [
+            {"type": wrong(problem, remedy), "loc": _path(key), "input": None}
+            for key, problem, remedy in faults
+        ],
+    )
+
+
+def _path(dotted: str) -> Path:
+    return tuple(dotted.split(".")) if dotted else ()
+
+
+def below(place: str | int, error: ValidationError) -> list[InitErrorDetails]:
+    """Return what was found in a table that stands at `place` of another."""
+    return [
+        {"type": wrong(*_wording(entry)), "loc": (place, *entry["loc"]), "input": entry["input"]}
+        for entry in error.errors(include_url=False)
+    ]
+
+
+def _sane(number: float) -> float:
+    if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST:
+        raise PydanticCustomError("magnitude", "out of range")
+    return number
+
+
+def _whole(raw: object) -> object:
+    remedy = f"give a whole number from 1 to {MOST_CYCLES:.0e}"
+    if isinstance(raw, bool) or not isinstance(raw, int | float):
+        raise wrong(f"is {kind_of(raw)}", remedy)
+    if not 1 <= raw <= MOST_CYCLES:  # also catches nan
+        raise wrong("is out of range", remedy)
+    if raw != int(raw):
+        raise wrong(f"{raw!r} is not a whole number", remedy)
+    return int(raw)
+
+
+def _printable(text: str) -> str:
+    if not text.replace("\n", "").isprintable():
+        raise wrong("has control characters", "use printable characters only")
+    return text
+
+
+def listed(raw: object) -> object:
+    """Return an array as a list, anything else as it is."""
+    return raw.tolist() if hasattr(raw, "tolist") else raw  # NumPy's arrays
+
+
+def _one_line(text: str) -> str:
+    if "\n" in text:
+        raise wrong("has control characters", "use printable characters only")
+    return text
+
+
+def choice(raw: object, known: Collection[str]) -> str:
+    """Return `raw` if it is one of the known names, otherwise raise what was perhaps meant."""
+    if isinstance(raw, str) and raw in known:
+        return raw
+    remedy = f"choose one of {', '.join(known)}"
+    if not isinstance(raw, str):
+        raise wrong("is not a name in quotes", remedy)
+    if meant := did_you_mean(raw, known):
+        remedy = f"did you mean {meant}? C{remedy[1:]}"
+    raise wrong(f'"{shown(raw)}" is unknown', remedy)
+
+
+class OneOf(NamedTuple):
+    """The names among which an entry chooses; in an annotation, after `str`."""
+
+    names: Collection[str]
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_plain_validator_function(lambda raw: choice(raw, self.names))
+
+
+_FINITE = Field(strict=True, allow_inf_nan=False)
+Positive = Annotated[float, _FINITE, Field(gt=0), AfterValidator(_sane)]
+NonNegative = Annotated[float, _FINITE, Field(ge=0), AfterValidator(_sane)]
+Real = Annotated[float, _FINITE, AfterValidator(_sane)]
+Count = Annotated[int, BeforeValidator(_whole)]
+Reals = Annotated[tuple[Real, ...], BeforeValidator(listed)]
+Flag = Annotated[bool, Field(strict=True)]
+Prose = Annotated[str, Field(strict=True, max_length=2000), AfterValidator(_printable)]
+Line = Annotated[str, Field(strict=True), AfterValidator(_printable), AfterValidator(_one_line)]
+Text = Annotated[Line, Field(max_length=200)]
+
+
+# Tables
+
+
+@dataclass(frozen=True)
+class SceneTable:
+    """A table of the scene file: `place` is its name, `kind` chooses among those of that name.
+
+    `left_out` are the values of entries that a file may leave out, but not a constructor.
+    """
+
+    place: ClassVar[str] = ""
+    kind: ClassVar[str] = ""
+    left_out: ClassVar[Mapping[str, Any]] = {}
+
+    @classmethod
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:  # noqa: ARG003
+        """Yield (key, problem, remedy) for entries that do not go together; they may be wrong."""
+        yield from ()
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _explained(cls, raw: Any, build: Callable[[Any], Any]) -> Any:
+        """Build the table, or raise every fault of its entries and relations in words."""
+        details: list[InitErrorDetails] = []
+        made = None
+        try:
+            made = build({**cls.left_out, **raw} if isinstance(raw, Mapping) else raw)
+        except ValidationError as error:
+            details = list(_details(cls, error))
+        given = _given(cls, raw)
+        if given is not None:
+            hidden = [] if isinstance(raw, ArgsKwargs) else [n for n in given if _is_hidden(cls, n)]
+            details += [
+                {"type": wrong(*_of_unknown(cls, name, given[name])), "loc": (name,), "input": None}
+                for name in hidden
+            ]
+            meant = {_meant_by(cls, name) for name in given} - {""}
+            details = [entry for entry in details if not _is_meant(entry, meant)]
+            present = {key: entry for key, entry in given.items() if entry is not None}
+            details += [
+                {"type": wrong(problem, remedy), "loc": _path(key), "input": None}
+                for key, problem, remedy in cls.relations(dict.fromkeys(meant, ...) | present)
+            ]
+        if details:
+            raise ValidationError.from_exception_data(cls.__name__, details)
+        return made
+
+
+TABLES: list[type[SceneTable]] = []
+"""Every table of the scene file."""
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(Field, dataclasses.field))
+def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
+    """Make a frozen dataclass of the table at `place`; a wrong entry raises `SceneError`."""
+
+    def make(plain: type[T]) -> type[T]:
+        made: Any = dataclass(frozen=True, config=ConfigDict(extra="forbid"))(plain)
+        made.place, made.kind = place, kind
+        checked_init = made.__init__
+
+        @functools.wraps(checked_init)
+        def init(self: T, *args: Any, **entries: Any) -> None:
+            try:
+                checked_init(self, *args, **entries)
+            except ValidationError as error:
+                raise SceneError(
+                    [
+                        Fault("", None, place, ".".join(map(str, path)), problem, remedy)
+                        for path, problem, remedy in problems(error)
+                    ]
+                ) from None
+
+        made.__init__ = init
+        TABLES.append(made)
+        return made  # type: ignore[no-any-return]
+
+    return make
+
+
+def keys_of(kind: type[SceneTable]) -> dict[str, Any]:
+    """Return the entries of a table in their order, each with pydantic's description of it."""
+    fields: Mapping[str, Any] = kind.__pydantic_fields__  # type: ignore[attr-defined]
+    return {name: entry for name, entry in fields.items() if not entry.exclude}
+
+
+def _is_hidden(kind: type[SceneTable], name: str) -> bool:
+    """Whether a name is a field of the class, but no entry of its table."""
+    fields: Mapping[str, Any] = kind.__pydantic_fields__  # type: ignore[attr-defined]
+    return name in fields and name not in keys_of(kind)
+
+
+def problems(error: ValidationError) -> list[Problem]:
+    """Return all that pydantic found, each with its path and in words."""
+    return [Problem(entry["loc"], *_wording(entry)) for entry in error.errors(include_url=False)]
+
+
+def _wording(entry: Any) -> tuple[str, str]:
+    if entry["type"] == "wrong":
+        return entry["ctx"]["problem"], entry["ctx"]["remedy"]
+    return entry["msg"], "correct it"  # a kind of error that no table brings about
+
+
+def _given(kind: type[SceneTable], raw: object) -> dict[str, Any] | None:
+    """Return the entries that were given by name or place, None if they are no table."""
+    if isinstance(raw, ArgsKwargs):
+        return {**dict(zip(keys_of(kind), raw.args, strict=False)), **(raw.kwargs or {})}
+    return {str(key): value for key, value in raw.items()} if isinstance(raw, Mapping) else None
+
+
+def _meant_by(kind: type[SceneTable], name: str) -> str:
+    """Return the known key that an unknown one seems to stand for, '' if none or known."""
+    known = keys_of(kind)
+    if name in known:
+        return ""
+    if RENAMED.get(name) in known:
+        return RENAMED[name]
+    return "" if _homes(kind, name) else did_you_mean(name, known)
+
+
+def _is_meant(entry: InitErrorDetails, meant: set[str]) -> bool:
+    """Whether an entry is missing only because its key is misspelt."""
+    kind = entry["type"]
+    context = (isinstance(kind, PydanticCustomError) and kind.context) or {}
+    return context.get("problem") == "missing" and entry["loc"][-1] in meant
+
+
+def _homes(kind: type[SceneTable], name: str) -> str:
+    """Return the tables to which a key belongs that stands in the wrong one."""
+    homes = [
+        f'kind = "{other.kind}"' if other.kind else f"[{other.place}]"
+        for other in TABLES
+        if other.place and name in keys_of(other) and (kind.kind or not other.kind)
+    ]
+    return " or ".join(homes)
+
+
+# Pydantic's findings in words
+
+
+def _details(kind: type[SceneTable], error: ValidationError) -> Iterator[InitErrorDetails]:
+    unknown = 0
+    entries = error.errors(include_url=False)
+    for entry in sorted(entries, key=lambda entry: "unexpected" not in entry["type"]):
+        loc, raw, key = entry["loc"], entry["input"], ""
+        if loc and isinstance(loc[0], int):  # an argument by place
+            loc = (list(keys_of(kind))[min(loc[0], len(keys_of(kind)) - 1)], *loc[1:])
+        if loc:
+            key = str(loc[0])
+        if entry["type"] == "wrong":
+            problem, remedy = _wording(entry)
+        elif entry["type"] in ("unexpected_keyword_argument", "unexpected_positional_argument"):
+            unknown += 1
+            if unknown == MOST_UNKNOWN_KEYS + 1:
+                loc, problem = (), "more unknown keys"
+                remedy = f"known here: {', '.join(keys_of(kind))}"
+            elif unknown > MOST_UNKNOWN_KEYS:
+                continue
+            else:
+                problem, remedy = _of_unknown(kind, key, raw)
+        else:
+            problem, remedy = _of_value(kind, key, entry)
+            if len(loc) > 1:  # in a list
+                loc, problem = loc[:1], f"entry {int(loc[1]) + 1}: {problem}"
+        yield {"type": wrong(problem, remedy), "loc": loc, "input": raw}
+
+
+def _of_unknown(kind: type, name: str, raw: object) -> tuple[str, str]:
+    meant = _meant_by(kind, name)
+    if RENAMED.get(name) == meant:
+        remedy = f"renamed to {meant}"
+    elif homes := _homes(kind, name):
+        remedy = f"it belongs to {homes}"
+    elif meant:
+        remedy = f"did you mean {meant}?"
+    else:
+        remedy = f"known here: {', '.join(keys_of(kind))}"
+    return f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy
+
+
+def _of_value(kind: type[SceneTable], key: str, entry: Any) -> tuple[str, str]:
+    raw, limits = entry["input"], entry.get("ctx", {})
+    match entry["type"]:
+        case "missing":
+            return "missing", _to_add(kind, key)
+        case "dataclass_type":
+            name = key or kind.place
+            return "is not a table", f"write [{name}] on a line of its own"
+        case "float_type" | "finite_number" | "greater_than" | "greater_than_equal" | "magnitude":
+            return of_number(raw, domain_of(keys_of(kind)[key]), unit_of(key))
+        case "bool_type":
+            return "is no flag", "write true or false"
+        case "string_type":
+            return f"is {kind_of(raw)}", f'give text in quotes: {key} = "..."'
+        case "tuple_type":
+            return f"is {kind_of(raw)}", "give a list of numbers in brackets, such as [1e-4, 2e-5]"
+        case "too_long" | "string_too_long":
+            things = "characters" if isinstance(raw, str) else "entries"
+            return f"has {len(raw)} {things}", f"give at most {limits['max_length']}"
+    return entry["msg"], "correct it"
+
+
+def _to_add(kind: type[SceneTable], key: str) -> str:
+    field = keys_of(kind)[key]
+    home = getattr(field.annotation, "place", None)
+    if home is not None:
+        return f"add a table [{key}] ({field.description})"
+    unit = unit_of(key)
+    return f"add {key} = ... ({field.description}{', in ' + unit if unit else ''})"
+
+
+def domain_of(field: Any) -> str:
+    """Return which numbers an entry takes: '> 0', '>= 0' or '' for all."""
+    inner = [each for part in get_args(field.annotation) for each in get_args(part)[1:]]
+    limits = [limit for each in inner for limit in getattr(each, "metadata", ())]
+    for limit in [*field.metadata, *limits]:
+        if getattr(limit, "gt", None) is not None:
+            return f"> {limit.gt:g}"
+        if getattr(limit, "ge", None) is not None:
+            return f">= {limit.ge:g}"
+    return ""
+
+
+def of_number(raw: object, domain: str, unit: str) -> tuple[str, str]:
+    """Return what is wrong with a number, or with what is none, and the remedy."""
+    ending = f", in {unit}" if unit else ""
+    if isinstance(raw, str):
+        if _reads_as_number(raw):
+            return f'"{shown(raw)}" is text, not a number', "drop the quotes"
+        return f'"{shown(raw)}" is text', f"give a number{ending}, such as 0.5 or 1e-6"
+    wanted = f"give a number {domain}{ending}" if domain else f"give any finite number{ending}"
+    try:
+        number = float("nan" if isinstance(raw, bool) else raw)  # type: ignore[arg-type]
+    except OverflowError:
+        return "is a whole number too large for a float", wanted
+    except (TypeError, ValueError):
+        return f"is {kind_of(raw)}", f"give a number{ending}"
+    if isinstance(raw, bool):
+        return f"is {kind_of(raw)}", f"give a number{ending}"
+    if not math.isfinite(number):
+        return f"{number} is not a finite number", wanted
+    if number < 0.0 and domain:
+        return f"{number!r} is negative", wanted
+    if number == 0.0:
+        return "is zero", wanted
+    bounds = f"magnitudes lie from {SMALLEST:g} to {LARGEST:g}"
+    return f"{number!r} is out of range", f"{wanted}; {bounds}"
+
+
+def kind_of(raw: object) -> str:
+    """Return what a value is, in words for the user."""
+    kinds: dict[type | tuple[type, ...], str] = {
+        bool: "true or false", (int, float): "a number", str: "text",
+        (list, tuple): "a list", Mapping: "a table", type(None): "nothing",
+    }  # fmt: skip
+    return next((words for kind, words in kinds.items() if isinstance(raw, kind)), "a date or time")
+
+
+def _reads_as_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

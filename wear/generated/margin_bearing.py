@@ -1,0 +1,74 @@
+"""Loss of contact at h = 3 sigma: smooth pin that does not wear.
+
+Written by ``derive generate`` from equations (1), (3), (5), (6); not to be edited.
+All functions broadcast over arrays; the constants may be arrays too.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+EQUATIONS = ("1", "3", "5", "6")
+OPERATIONS = {
+    "margin": 3,
+    "margin_slope": 0,
+    "margin_terms": 6,
+    "limited_pressure": 3,
+    "limited_slope": 2,
+}
+
+
+class Parameters(NamedTuple):
+    """The physical parameters."""
+
+    h_0: Array  # initial closure, mm
+    sigma_c0: Array  # initial roughness of the bearing, mm
+    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+
+
+class Constants(NamedTuple):
+    """Constants of a run."""
+
+    most_of_margin: Array  # fresh_margin less one roughness, mm
+    fresh_margin: Array  # 3 sigma - h before any wear or load, mm
+    most_of_gain: Array  # margin_gain less one roughness growth
+    margin_gain: Array  # 3 sigma - h per wear of the bearing, undeflected
+
+
+def bind(data: Parameters) -> Constants:
+    """Return the constants of a run."""
+    most_of_margin = 2 * data.sigma_c0 - data.h_0
+    fresh_margin = most_of_margin + data.sigma_c0
+    most_of_gain = 2 * data.f_c - 1
+    margin_gain = data.f_c + most_of_gain
+    return Constants(most_of_margin, fresh_margin, most_of_gain, margin_gain)
+
+
+def margin(u: Array, U_a: Array, c: Constants) -> Array:
+    """3 sigma - h with an undeflected support, in mm: contact where it is not negative."""
+    return U_a + c.fresh_margin + c.margin_gain * u
+
+
+def margin_slope(u: Array, c: Constants) -> Array:
+    """Derivative of the margin with respect to u_c; with respect to U_a it is 1."""
+    return c.margin_gain
+
+
+def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
+    """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
+    return np.abs(U_a) + np.abs(c.fresh_margin) + np.abs(c.margin_gain * u)
+
+
+def limited_pressure(p: Array, margin: Array, compliance: Array, c: Constants) -> Array:
+    """Contact pressure in MPa: the root of the residual, or what keeps h at 3 sigma."""
+    return np.minimum(p, np.maximum(margin / compliance, 0))
+
+
+def limited_slope(
+    margin_slope: Array, compliance: Array, wear_per_pressure: Array, c: Constants
+) -> Array:
+    """Derivative of the wear rate with respect to u_c while h stays at 3 sigma, in 1/s."""
+    return margin_slope * wear_per_pressure / compliance

@@ -1,0 +1,77 @@
+"""What a load has to offer, periodic or not."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from wear.load.phase import FloatArray
+
+
+class Load(Protocol):
+    """A periodic displacement. One cycle is one unit of phase, whatever the period."""
+
+    @property
+    def period(self) -> float:
+        """T in s."""
+
+    def __call__(self, phase: FloatArray | float) -> FloatArray:
+        """U_a in mm at phase = t/T, any real number, of any shape."""
+
+    def slope(self, phase: FloatArray | float) -> FloatArray:
+        """dU_a/dphase in mm per cycle; at a kink the slope to its right."""
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Phases in [0, 1), increasing, where U_a is not smooth."""
+
+    @property
+    def minimum(self) -> float:
+        """Least U_a, mm."""
+
+    @property
+    def maximum(self) -> float:
+        """Largest U_a, mm."""
+
+    @property
+    def mean(self) -> float:
+        """Mean of U_a over a period, mm."""
+
+    @property
+    def peaks(self) -> tuple[float, ...]:
+        """Phases in [0, 1), increasing, of the local maxima; a flat top counts at its start."""
+
+
+class AperiodicLoad(Protocol):
+    """A displacement that does not repeat, on 0 <= t <= duration."""
+
+    @property
+    def duration(self) -> float:
+        """s."""
+
+    @property
+    def cycles(self) -> float:
+        """How many cycles the load counts as."""
+
+    def time_at(self, cycles: float) -> float:
+        """The time in s at which that many cycles are done."""
+
+    def value(self, time: FloatArray | float) -> FloatArray:
+        """U_a in mm at a time in s."""
+
+    def slope(self, time: FloatArray | float) -> FloatArray:
+        """dU_a/dt in mm/s; at a breakpoint the slope to its right."""
+
+    def breakpoints(self, start: float, end: float) -> FloatArray:
+        """Times in (start, end), increasing, at which U_a has a kink or a jump."""
+
+    @property
+    def minimum(self) -> float:
+        """Least U_a, mm."""
+
+    @property
+    def maximum(self) -> float:
+        """Largest U_a, mm."""
+
+    @property
+    def mean(self) -> float:
+        """Mean of U_a over the duration, mm."""

@@ -1,0 +1,308 @@
+"""CSV files of loads: two columns by their names, bounded in size, every bad row with its line.
+
+Key results
+    TableFile, HistoryFile   the `[load]` tables that name a file and say how it is written
+    read_rows                the rows of one
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import stat
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+from pydantic import AfterValidator, Field
+
+from wear.checked import (
+    LARGEST,
+    SMALLEST,
+    Flag,
+    Line,
+    OneOf,
+    Positive,
+    SceneTable,
+    Text,
+    all_wrong,
+    shown,
+    table,
+    wrong,
+)
+from wear.load.phase import FloatArray
+
+MOST_BYTES = 64 * 1024 * 1024
+MOST_ROWS = 1_000_000
+MOST_WRONG_ROWS = 5
+MOST_HEAD_LINES = 100  # before the names of the columns, as instruments write them
+COLUMNS = ("t_s", "U_a_mm")
+CLOSEST_ROWS = 1e-12  # of the time: nearer rows could fall on the same phase
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
+MILLIMETRES = {"mm": 1.0, "um": 1e-3, "nm": 1e-6, "m": 1e3}
+
+
+def _encoding(name: str) -> str:
+    try:
+        "".encode(name)
+    except (LookupError, ValueError):
+        remedy = "give an encoding, such as utf-8 or latin-1"
+        raise wrong(f'"{shown(name)}" is unknown', remedy) from None
+    return name
+
+
+def _delimiter(text: str) -> str:
+    if len(text) != 1 or text.isalnum() or text in '.+-"':
+        raise wrong("is no delimiter", 'give one character, such as ";" or "\\t"')
+    return text
+
+
+Encoding = Annotated[Text, AfterValidator(_encoding)]
+Delimiter = Annotated[str, Field(strict=True, max_length=200), AfterValidator(_delimiter)]
+FileName = Annotated[Line, Field(max_length=1000)]
+
+
+@table("")
+class RowsFile(SceneTable):
+    """A CSV file of rows, and how it is written."""
+
+    file: FileName = Field(
+        description="CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
+        "in the current folder); t_s starts at 0"
+    )
+    period_s: Positive | None = Field(default=None, description="period T")
+    sha256: Text | None = Field(default=None, description="checksum that the file must have")
+    columns: tuple[Text, Text] = Field(
+        default=COLUMNS, description="names of the columns of time and displacement"
+    )
+    time_unit: Annotated[str, OneOf(SECONDS)] = Field(
+        default="s", description="unit of the time column"
+    )
+    unit: Annotated[str, OneOf(MILLIMETRES)] = Field(
+        default="mm", description="unit of the displacement column"
+    )
+    delimiter: Delimiter = Field(default=",", description="character between the columns")
+    decimal: Annotated[str, OneOf((".", ","))] = Field(
+        default=".", description="decimal sign of the numbers"
+    )
+    encoding: Encoding = Field(default="utf-8", description="encoding of the text")
+
+    @classmethod
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+        if given.get("decimal") == "," and given.get("delimiter", ",") == ",":
+            yield "decimal", "is the delimiter too", 'give the delimiter, such as delimiter = ";"'
+
+
+@table("load", kind="table")
+class TableFile(RowsFile):
+    """U_a by straight lines between the rows of a CSV file over one period."""
+
+    file: FileName = Field(
+        description="CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
+        "in the current folder); t_s starts at 0, the last row repeats the first U_a"
+    )
+    period_s: Positive | None = Field(
+        default=None,
+        description="period T; left out, the last t_s. If later, a straight line back to the "
+        "first row closes the period",
+    )
+    repeat: Flag = Field(
+        default=False,
+        description="true: take one period out of the record, from its first row on; a straight "
+        "line to the first row closes it. The period is period_s, or the last time plus one step",
+    )
+
+
+@table("load", kind="history")
+class HistoryFile(RowsFile):
+    """U_a by straight lines between the rows of a CSV file, not periodic."""
+
+    period_s: Positive | None = Field(
+        default=None, description="time of a cycle, only to count cycles; left out, the last t_s"
+    )
+
+
+class Rows(NamedTuple):
+    """Times in s from 0, increasing; displacements in mm; the sha256 of the file."""
+
+    times: FloatArray
+    displacements: FloatArray
+    sha256: str
+
+
+def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) -> Rows:
+    """Return the rows of a file, by its path from `folder`; times `from_first` row, if so wanted.
+
+    Raises pydantic's `ValidationError` with all that is wrong.
+    """
+    name = form.file
+    if folder is None:
+        raise all_wrong(("file", "there is no folder to look in", "load the scene by its path"))
+    path = folder / name
+    if _is_device(path):
+        raise all_wrong(("file", f"{shown(name)} is no ordinary file", "give a CSV file"))
+    data = read_bytes(path, MOST_BYTES)
+    if isinstance(data, tuple):
+        problem, remedy = data
+        place = shown(str(folder.absolute()), most=1000)
+        looked = "" if Path(name).is_absolute() else f" (looked for in {place})"
+        raise all_wrong(("file", f"{shown(name)}: {problem}{looked}", remedy))
+    try:
+        text = data.decode("utf-8-sig" if form.encoding == "utf-8" else form.encoding)
+    except UnicodeDecodeError:
+        known = form.encoding.upper()
+        raise all_wrong(
+            ("file", f"{shown(name)} is not {known} text",
+             f'save it as {known}, or give encoding = "latin-1"'),
+        ) from None  # fmt: skip
+    times, displacements, faults = _parse(text, form, from_first)
+    if faults:
+        raise all_wrong(
+            *(("file", f"{shown(name)} line {line}: {problem}", remedy)
+              for line, problem, remedy in faults)
+        )  # fmt: skip
+    digest = hashlib.sha256(data).hexdigest()
+    if form.sha256 not in (None, digest):
+        problem = f"{shown(name)} has changed: its sha256 is {digest}"
+        raise all_wrong(("sha256", problem, "restore the file, or drop this key"))
+    return Rows(times * SECONDS[form.time_unit], displacements * MILLIMETRES[form.unit], digest)
+
+
+def order_faults(times: FloatArray) -> list[tuple[int, str, str]]:
+    """Return (row, problem, remedy) for times that do not rise from 0."""
+    faults = []
+    if times[0] != 0.0:
+        problem = f"t_s starts at {float(times[0])!r}"
+        faults.append((0, problem, "subtract the first t_s from all"))
+    late = np.flatnonzero(~(np.diff(times) > CLOSEST_ROWS * np.abs(times[1:])))
+    for at in late[:MOST_WRONG_ROWS].tolist():
+        before, time = times[at : at + 2].tolist()
+        faults.append((at + 1, f"t_s = {time!r} does not come after {before!r}", "sort by time"))
+    return faults
+
+
+def read_bytes(path: Path, most: int) -> bytes | tuple[str, str]:
+    """Return at most `most` bytes of a file, or what is wrong with it and the remedy."""
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(most + 1)
+    except FileNotFoundError:
+        return "there is no such file", "check the name and the folder"
+    except IsADirectoryError:
+        return "is a folder", "give a file"
+    except PermissionError:
+        return "may not be read", "check its permissions"
+    except (OSError, ValueError) as error:
+        return f"cannot be read ({getattr(error, 'strerror', None) or error})", "check the file"
+    if len(data) > most:
+        return f"is larger than {most // 1024} KiB", "give a smaller file"
+    return data
+
+
+def _is_device(file: Path) -> bool:
+    """Whether reading the file might never end, or wait for ever."""
+    try:
+        mode = file.stat().st_mode
+    except OSError:
+        return False  # the attempt to read it says what is wrong
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
+Faults = list[tuple[int, str, str]]
+_NOTHING = np.empty(0)
+
+
+def _parse(text: str, form: RowsFile, from_first: bool) -> tuple[FloatArray, FloatArray, Faults]:
+    """The two columns, and the line, problem and remedy of the first few wrong lines."""
+    lines = [(n, line) for n, line in enumerate(text.split("\n"), start=1) if line.strip()]
+    heads = (_cells(line, form) for _, line in lines[:MOST_HEAD_LINES])
+    head = next((n for n, cells in enumerate(heads) if set(form.columns) <= set(cells)), None)
+    if head is None:
+        return _NOTHING, _NOTHING, [_header_fault(lines[0] if lines else (1, ""), form)]
+    cells = _cells(lines[head][1], form)
+    places = [cells.index(name) for name in form.columns]
+    rows = lines[head + 1 :]
+    if not 2 <= len(rows) <= MOST_ROWS:
+        return (
+            _NOTHING,
+            _NOTHING,
+            [(1, f"there are {len(rows)} rows", f"give from 2 to {MOST_ROWS}")],
+        )
+    columns = _all_at_once([line for _, line in rows], form, places, len(cells))
+    if columns is not None and from_first:
+        columns[0] -= columns[0, 0]
+    if columns is not None and not order_faults(columns[0]):
+        return columns[0], columns[1], []
+    return _one_by_one(rows, form, places, len(cells), from_first)
+
+
+def _cells(line: str, form: RowsFile) -> list[str]:
+    return [cell.strip().strip('"') for cell in line.split(form.delimiter)]
+
+
+def _all_at_once(
+    lines: list[str], form: RowsFile, places: list[int], width: int
+) -> FloatArray | None:
+    """Both columns if every row is right, at a tenth of the time that it takes to look at rows one
+    by one; None if one is wrong, or written in an unusual way."""
+    if form.decimal == ",":
+        lines = [line.replace(",", ".") for line in lines]
+    try:
+        values = np.loadtxt(lines, delimiter=form.delimiter, comments=None, ndmin=2)
+    except ValueError:
+        return None
+    if values.shape != (len(lines), width):
+        return None
+    columns, size = values.T[places], np.abs(values.T[places])
+    sane = np.all((size == 0.0) | ((size >= SMALLEST) & (size <= LARGEST)))
+    return columns if sane else None
+
+
+def _one_by_one(
+    rows: list[tuple[int, str]], form: RowsFile, places: list[int], width: int, from_first: bool
+) -> tuple[FloatArray, FloatArray, Faults]:
+    numbers: list[int] = []
+    found: list[list[float | None]] = []
+    faults: Faults = []
+    for number, line in rows:
+        cells = _cells(line, form)
+        row = [_number(cells[at], form) for at in places if len(cells) == width]
+        if not row or None in row:
+            problem = f'"{shown(line.strip())}" is no row'
+            faults.append((number, problem, "give two finite numbers of sane size"))
+        else:
+            numbers.append(number)
+            found.append(row)
+        if len(faults) == MOST_WRONG_ROWS:
+            break
+    times, displacements = np.array(found or [[0.0, 0.0]], dtype=float).T
+    if from_first:
+        times = times - times[0]
+    if found:
+        faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(times)]
+    return times, displacements, sorted(faults)[:MOST_WRONG_ROWS]
+
+
+def _header_fault(first: tuple[int, str], form: RowsFile) -> tuple[int, str, str]:
+    line, header = first[0], first[1].strip()
+    wanted = form.delimiter.join(form.columns)
+    if len(_cells(header, form)) > 1 and all(
+        _number(cell, form) is not None for cell in _cells(header, form)
+    ):
+        return line, "the columns have no names", f"put the line {wanted} above the numbers"
+    remedy = f"begin with {wanted}, or name the columns: columns = [...]"
+    if other := next((sign for sign in ";\t" if sign in header and sign != form.delimiter), ""):
+        remedy = (
+            f"begin with {wanted}, put commas between the columns and points in the numbers, or "
+            f"say how the file is written: delimiter = {json.dumps(other)}, decimal = ..."
+        )
+    return line, f"the columns are {shown(header) or 'missing'}", remedy
+
+
+def _number(cell: str, form: RowsFile) -> float | None:
+    try:
+        number = float(cell.replace(form.decimal, ".") if form.decimal == "," else cell)
+    except ValueError:
+        return None
+    return number if number == 0.0 or SMALLEST <= abs(number) <= LARGEST else None

@@ -1,0 +1,65 @@
+"""The `[load]` table of a scene: from it to a load, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from pydantic import ValidationInfo
+from pydantic_core import PydanticCustomError
+
+from wear.checked import TABLES, all_wrong, choice, did_you_mean, keys_of, shown
+from wear.load.lines import HistoryLoad, Table, load_of
+from wear.load.rows import RowsFile
+
+PERIODIC = ("sine", "constant", "harmonics", "table")
+KINDS = (*PERIODIC, "history", "blocks")
+
+
+def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS) -> Any:
+    """Return the load of a `[load]` table of one of these kinds; what is no table is a load.
+
+    The context's `folder` is where CSV files are looked for. Raises pydantic's `ValidationError`.
+    """
+    if not isinstance(raw, Mapping):
+        if all(hasattr(raw, name) for name in ("minimum", "maximum", "mean")):
+            return raw
+        raise all_wrong(("", "is not a table", "write [load] on a line of its own"))
+    if "kind" not in raw:
+        meant = did_you_mean("kind", raw)
+        remedy = f"did you mean kind instead of {shown(meant)}?" if meant else "add kind = ..."
+        raise all_wrong(("kind", "missing", f"{remedy} ({', '.join(kinds)})"))
+    kind = _kind(raw["kind"], kinds)
+    entries = {key: value for key, value in raw.items() if key != "kind"}
+    inline = {"table": Table, "history": HistoryLoad} if "times_s" in entries else {}
+    tables = {each.kind: each for each in TABLES} | inline
+    validator = tables[kind].__pydantic_validator__  # type: ignore[attr-defined]
+    made = validator.validate_python(entries, context=info.context)
+    return load_of(made, (info.context or {}).get("folder")) if isinstance(made, RowsFile) else made
+
+
+def _kind(raw: object, kinds: Collection[str]) -> str:
+    try:
+        return choice(raw, kinds)
+    except PydanticCustomError as fault:
+        found = fault.context or {}
+        raise all_wrong(("kind", found["problem"], found["remedy"])) from None
+
+
+def as_table(load: Any) -> dict[str, Any]:
+    """Return the `[load]` table that `load_from` reads back to an equal load.
+
+    >>> as_table(Table((0.0, 1.0), (0.0, 0.0)))
+    {'kind': 'table', 'times_s': [0.0, 1.0], 'values_mm': [0.0, 0.0]}
+    """
+    table = getattr(load, "source", None) or load
+    kind = table.kind or ("table" if isinstance(load, Table) else "history")
+    entries = {name: getattr(table, name) for name in keys_of(type(table))}
+    if kind == "blocks":
+        entries["blocks"] = [as_table(load) | {"cycles": cycles} for load, cycles in load.blocks]
+    defaults = {name: entry.default for name, entry in keys_of(type(table)).items()}
+    return {"kind": kind} | {
+        name: list(value) if isinstance(value, tuple) else value
+        for name, value in entries.items()
+        if value != defaults[name]
+    }

@@ -1,0 +1,1 @@
+"""Numerical methods that know no model: quadrature, collocation, Chebyshev series."""

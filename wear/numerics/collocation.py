@@ -1,0 +1,285 @@
+"""Collocation of u' = f(t, u) at the Gauss nodes of a mesh, for many scenes and starts at once.
+
+Overview
+    With v the increment since the start, v = integral of f(t, u + v) is solved at all nodes of all
+    intervals together. The increment is carried as such, so that one of 1e-12 of the state keeps
+    all its digits. Arrays are (..., starts, intervals, nodes); leading axes are those of scenes.
+Key results
+    iterate             Newton's method for all intervals at once
+    solve               the same, interval by interval where that diverges
+    truncation_error    quadrature error of every interval, from its Legendre coefficients
+    endpoint_defect     what lies hidden between the ends of an interval and its nodes
+References
+    E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential Equations I*, Springer 1993,
+    II.7; superconvergence: II.7, theorem 7.9.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from wear.numerics.gauss import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+    Mesh,
+    between_nodes,
+    integral,
+    mesh,
+    running,
+)
+from wear.numerics.tolerances import ROUNDOFF, TINY
+
+NOISE = 8 * ROUNDOFF  # the change from one iteration to the next by rounding alone
+GRAIN = 4 * ROUNDOFF  # of the state: smaller steps give no slope, for they drown in its rounding
+MOST_ITERATIONS = 60
+PATIENCE = 8  # iterations that may diverge at first
+NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
+
+
+class Rates(Protocol):
+    """The rate f on a mesh."""
+
+    @property
+    def over(self) -> Mesh: ...
+
+    @property
+    def tolerance(self) -> float:
+        """Relative error of the increment at which the iteration may end."""
+
+    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+        """Return the rate times the length of each interval at states `u` (..., k, q, m), or
+        (..., k, 1, 1) if frozen; `near` is an approximation to it."""
+
+
+class SplittableRates(Rates, Protocol):
+    """Rates of which each interval can be taken by itself."""
+
+    def interval(self, i: int) -> SplittableRates: ...
+
+
+class InitialGuess(NamedTuple):
+    """An approximate solution: the `increment` at the nodes (..., k, q, m), and the `rate` (same
+    shape, per unit of time) at states that are less by `shift` (broadcasts) than they will be."""
+
+    increment: FloatArray
+    rate: FloatArray
+    shift: FloatArray
+
+
+class CycleSolution(NamedTuple):
+    """The `increment` (..., k) over the mesh from each start; at the nodes (..., k, q, m) the
+    increment since the start, `inside`, and the `rate`; the number of right-hand sides evaluated;
+    on which intervals (..., q) the iteration converged; and the relative `iteration_error` (..., k)
+    of the increments."""
+
+    increment: FloatArray
+    inside: FloatArray
+    rate: FloatArray
+    evaluations: int
+    converged: BoolArray
+    iteration_error: FloatArray
+
+    def take(self, which: IntArray) -> CycleSolution:
+        """Return the solution of some scenes."""
+        return CycleSolution(
+            self.increment[which],
+            self.inside[which],
+            self.rate[which],
+            self.evaluations,
+            self.converged[which],
+            self.iteration_error[which],
+        )
+
+    def guess(self, m: int) -> InitialGuess:
+        """Return this solution as a guess for `m` nodes on each interval."""
+        matrix = between_nodes(self.inside.shape[-1], m)
+        shift = np.zeros_like(self.inside[..., :1, :1])
+        return InitialGuess(self.inside @ matrix, self.rate @ matrix, shift)
+
+
+def solve(
+    rates: SplittableRates, starts: FloatArray, guess: InitialGuess | None = None
+) -> CycleSolution:
+    """Return the solution over the mesh from each start (..., k).
+
+    All intervals at once where the iteration converges, that is, where the state changes its own
+    rate moderately within the mesh; else one interval after the other.
+    """
+    found = iterate(rates, starts, guess)
+    if found.converged.all() or found.converged.shape[-1] == 1:
+        return found
+    return _interval_by_interval(rates, starts, found.evaluations)
+
+
+def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None) -> CycleSolution:
+    """Solve v = integral of f(u + v) by Newton's method with the slope of the last two rates.
+
+    The iteration ends when the next step, predicted from the last contraction, is below the
+    tolerance. States that rise from start to start often change their rate less and less: the last
+    starts converge first, and the iteration goes on with those before.
+    """
+    lengths, u = rates.over.lengths[..., None], starts[..., None, None]
+    evaluations = 0
+    if guess is None:
+        before = rates.rate_per_interval(u)
+        evaluations = before.size
+        v, contraction = _damped_guess(starts, running(before))
+        shift = v
+    else:
+        v, before, shift = guess.increment, guess.rate * lengths, guess.shift
+        contraction = np.ones(starts.shape)
+    inside, rate_found, error = np.empty_like(v), np.empty_like(v), np.empty(starts.shape)
+    active, last = starts.shape[-1], None
+    for iteration in range(MOST_ITERATIONS):
+        state = u + v
+        rate = rates.rate_per_interval(state, before)
+        evaluations += rate.size
+        slope = rate - before
+        slope *= shift
+        shift = shift * shift
+        shift += (GRAIN * state[..., -1:, -1:]) ** 2 + TINY
+        slope /= shift
+        residual = running(rate)
+        residual -= v
+        step = _linear_solution(slope, residual)
+        v = v + step
+        change = np.max(np.abs(step).reshape(*step.shape[:-2], -1), axis=-1)
+        change /= np.abs(v[..., -1, -1]) + TINY
+        if last is not None:
+            contraction = change / last
+        elif guess is None:
+            contraction = np.maximum(contraction, change)  # the prediction may be too good
+        predicted = change * np.minimum(contraction, 1.0)
+        done = predicted <= rates.tolerance
+        if iteration > PATIENCE:
+            done |= ~(contraction < 1.0)
+        more = np.nonzero(~done)[-1]
+        left = int(more.max()) + 1 if len(more) and iteration + 1 < MOST_ITERATIONS else 0
+        if left < active:
+            error[..., left:active] = predicted[..., left:]
+            inside[..., left:active, :, :] = v[..., left:, :, :]
+            part = (..., slice(left, None), slice(None), slice(None))
+            rate_found[..., left:active, :, :] = (rate[part] + slope[part] * step[part]) / lengths
+        if left == 0:
+            break
+        v, before, shift, u = (x[..., :left, :, :] for x in (v, rate, step, u))
+        last, active = np.minimum(change, 1.0)[..., :left] + TINY, left
+    converged = np.all(error <= rates.tolerance, axis=-1)[..., None]
+    everywhere = np.repeat(converged, lengths.shape[-2], axis=-1)
+    increment = integral(rate_found, rates.over)
+    return CycleSolution(increment, inside, rate_found, evaluations, everywhere, error)
+
+
+def _damped_guess(starts: FloatArray, frozen: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the increments from the `starts` (..., k), estimated from those without feedback,
+    `frozen` (..., k, q, m), and the expected contraction of the first step (..., k), zero where
+    that is not known.
+
+    If the rate fell by a factor e over the increment 1/a, the increment would be
+    ln(1 + a frozen)/a.
+    """
+    ends = frozen[..., -1, -1]
+    feedback = np.zeros(starts.shape)
+    if starts.shape[-1] > 2:
+        fall = -np.diff(np.log(ends)) / np.diff(starts)
+        feedback[..., 1:-1] = (fall[..., 1:] + fall[..., :-1]) / 2
+        feedback[..., 0], feedback[..., -1] = fall[..., 0], fall[..., -1]
+        feedback *= ends
+        feedback[~np.isfinite(feedback)] = 0.0
+        np.clip(feedback, -1.0, 20.0, out=feedback)
+    shape = (feedback / (2 * ends + TINY))[..., None, None]
+    return frozen / (1.0 + shape * frozen), feedback**2
+
+
+def _linear_solution(slope: FloatArray, residual: FloatArray) -> FloatArray:
+    """Return the solution x of x = residual + integral of slope x, all (..., q, m)."""
+    factor = running(slope)
+    np.exp(factor, out=factor)
+    part = slope * residual
+    part /= factor
+    x = running(part)
+    x *= factor
+    x += residual
+    return x
+
+
+def _interval_by_interval(
+    rates: SplittableRates, starts: FloatArray, evaluations: int
+) -> CycleSolution:
+    """Iterate on each interval of the mesh in its turn."""
+    parts: list[CycleSolution] = []
+    added = np.zeros(starts.shape)
+    for i in range(rates.over.lengths.shape[-1]):
+        part = iterate(rates.interval(i), starts + added)
+        parts.append(part._replace(inside=added[..., None, None] + part.inside))
+        added = added + part.increment
+        evaluations += part.evaluations
+    return CycleSolution(
+        added,
+        np.concatenate([part.inside for part in parts], axis=-2),
+        np.concatenate([part.rate for part in parts], axis=-2),
+        evaluations,
+        np.concatenate([part.converged for part in parts], axis=-1),
+        np.sum([part.iteration_error for part in parts], axis=0),
+    )
+
+
+def truncation_error(rate: FloatArray, over: Mesh) -> FloatArray:
+    """Return the error (..., k, q) of the integral of the rate (..., k, q, m) over each interval.
+
+    Gauss quadrature leaves the product of two truncated series: on an interval, the square of its
+    last Legendre coefficients over its largest.
+    """
+    flat = rate.reshape(-1, rate.shape[-1])
+    series = np.abs(flat @ over.rule.coefficients.T).reshape(rate.shape)
+    largest = np.max(series, axis=-1) + TINY
+    last = np.max(series[..., -2:], axis=-1)
+    error: FloatArray = last**2 / largest * over.lengths
+    # Rounding of the largest coefficients looks like a tail: it is none.
+    error[largest * ROUNDOFF * 100 > last] = 0.0
+    return error
+
+
+def unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
+    """Return which intervals (..., q) do not resolve the rate (..., k, q, m) of every start."""
+    error = truncation_error(rate, over)
+    found: BoolArray = np.any(error > tolerance * integral(rate, over)[..., None], axis=-2)
+    return found
+
+
+def endpoint_defect(
+    rate: FloatArray, left: FloatArray, right: FloatArray, over: Mesh
+) -> FloatArray:
+    """Return the part (..., k, q) of the integral of the rate (..., k, q, m) that may be missed
+    between an end of an interval and its nodes; `left` and `right` (..., k, q) are the rates there.
+
+    A fast change of the state may be over before the first node: then only the rate at the start of
+    the interval shows it. The measure is that of `truncation_error`.
+    """
+    m = rate.shape[-1]
+    series = (rate.reshape(-1, m) @ over.rule.coefficients.T).reshape(rate.shape)
+    defect = np.maximum(
+        np.abs(series @ (-1.0) ** np.arange(m) - left), np.abs(np.sum(series, axis=-1) - right)
+    )
+    largest = np.max(np.abs(series), axis=-1) + TINY
+    missed: FloatArray = defect * (defect / largest) * over.lengths
+    missed[defect < NOISE_AT_ENDS * largest] = 0.0
+    return missed
+
+
+def hidden(
+    rate: FloatArray, left: FloatArray, right: FloatArray, over: Mesh, tolerance: float
+) -> BoolArray:
+    """Return which intervals (..., q) may hide more than the tolerance permits at their ends."""
+    missed = endpoint_defect(rate, left, right, over)
+    found: BoolArray = np.any(missed > tolerance * integral(rate, over)[..., None], axis=-2)
+    return found
+
+
+def refined(over: Mesh, marked: BoolArray) -> Mesh:
+    """Return the mesh with the `marked` intervals (q,) cut in two."""
+    middles = (over.edges[:-1] + over.edges[1:])[marked] / 2
+    return mesh(np.sort(np.concatenate([over.edges, middles])), len(over.rule.nodes))

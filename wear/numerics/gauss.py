@@ -1,0 +1,171 @@
+"""Gauss-Legendre and Radau collocation on [0, 1], and meshes of intervals with such nodes.
+
+Overview
+    Within a cycle, functions of the phase are known at Gauss nodes. A rule holds the nodes, the
+    quadrature weights and the matrix that integrates the interpolant from 0 to each node.
+Key results
+    gauss, radau        rules; Radau's last node is the end, which damps stiff transients
+    Mesh                a stretch of time cut into intervals, each with the nodes of one rule
+    running, integral   integrals over a mesh, up to each node or over all of it
+References
+    E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, IV.5.
+"""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.intp]
+
+ONE_PRODUCT = 192  # nodes of a mesh up to which one matrix product is the quickest
+ONE_THREAD = 250_000  # multiplications that OpenBLAS leaves to one thread
+
+
+class Gauss(NamedTuple):
+    """Collocation with m nodes on [0, 1], Gauss-Legendre or Radau.
+
+    `nodes` and `weights` have shape (m,). `integrate` (m, m) maps values at the nodes to the
+    integrals of their interpolant from 0 to each node; `coefficients` (m, m) maps them to the
+    interpolant's coefficients in Legendre polynomials of 2 x - 1, each scaled to maximum 1.
+    """
+
+    nodes: FloatArray
+    weights: FloatArray
+    integrate: FloatArray
+    coefficients: FloatArray
+
+
+@lru_cache(maxsize=32)
+def gauss(m: int) -> Gauss:
+    """The m-point Gauss-Legendre rule of [0, 1] and its integration matrix.
+
+    >>> rule = gauss(8)
+    >>> bool(np.allclose(rule.integrate @ rule.nodes**3, rule.nodes**4 / 4, rtol=1e-14))
+    True
+    """
+    return _with_matrices(*np.polynomial.legendre.leggauss(m))
+
+
+@lru_cache(maxsize=32)
+def radau(m: int) -> Gauss:
+    """The same for the m-point Radau rule, whose last node is the end.
+
+    Collocation with it damps what decays within less than the interval, however fast: E. Hairer,
+    G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, section IV.5.
+
+    >>> rule = radau(8)
+    >>> bool(np.allclose(rule.integrate @ rule.nodes**3, rule.nodes**4 / 4, rtol=1e-14))
+    True
+    """
+    series = np.zeros(m + 1)
+    series[-2:] = -1.0, 1.0
+    x = np.sort(np.polynomial.legendre.legroots(series).real)
+    slope = np.polynomial.legendre.legder(series)
+    for _ in range(2):
+        x -= np.polynomial.legendre.legval(x, series) / np.polynomial.legendre.legval(x, slope)
+    x[-1] = 1.0
+    weights = np.linalg.solve(np.polynomial.legendre.legvander(x, m - 1).T, 2 * np.eye(m)[0])
+    return _with_matrices(x, weights)
+
+
+def _with_matrices(x: FloatArray, w: FloatArray) -> Gauss:
+    """The rule with nodes x and weights w of [-1, 1], exact to degree 2 m - 2 at least."""
+    m = len(x)
+    values = np.polynomial.legendre.legvander(x, m).T  # (m + 1, m): P_k at the nodes
+    order = np.arange(m)
+    coefficients = (order[:, None] + 0.5) * values[:m] * w
+    # The integral of P_k from -1 is (P_{k+1} - P_{k-1}) / (2 k + 1), and x + 1 for k = 0.
+    below = np.vstack([-np.ones(m), values[: m - 1]])
+    primitives = (values[1:] - below) / (2 * order[:, None] + 1)
+    integrate = 0.5 * primitives.T @ coefficients
+    rule = Gauss((x + 1) / 2, w / 2, integrate, coefficients)
+    for array in rule:
+        array.setflags(write=False)
+    return rule
+
+
+class Mesh(NamedTuple):
+    """A cycle cut into intervals of phase, each with the nodes of one Gauss-Legendre rule.
+
+    `edges` has shape (q + 1,), rising from the first phase to the last; `lengths` (q,);
+    `phases` (q, m): all nodes. Leading axes, if any, are those of many scenes.
+    """
+
+    edges: FloatArray
+    lengths: FloatArray
+    phases: FloatArray
+    rule: Gauss
+
+    def interval(self, i: int) -> "Mesh":
+        """One interval alone."""
+        return Mesh(
+            self.edges[..., i : i + 2],
+            self.lengths[..., i : i + 1],
+            self.phases[..., i : i + 1, :],
+            self.rule,
+        )
+
+
+def mesh(edges: FloatArray, m: int) -> Mesh:
+    """The mesh with these edges and m nodes on each interval."""
+    rule = gauss(m)
+    lengths = np.diff(edges)
+    return Mesh(edges, lengths, edges[..., :-1, None] + lengths[..., None] * rule.nodes, rule)
+
+
+@lru_cache(maxsize=64)
+def _running_matrix(q: int, m: int) -> FloatArray:
+    """Matrix (q m, q m) of `running` for q intervals with m nodes each."""
+    rule = gauss(m)
+    before = np.kron(np.triu(np.ones((q, q)), 1), np.outer(rule.weights, np.ones(m)))
+    matrix: FloatArray = before + np.kron(np.eye(q), rule.integrate.T)
+    return matrix
+
+
+def product(values: FloatArray, matrix: FloatArray) -> FloatArray:
+    """The rows `values` (k, m) times a `matrix` (m, n), in pieces that BLAS leaves to one thread:
+    several would wait for each other longer than they work."""
+    rows = max(1, ONE_THREAD // matrix.size)
+    if len(values) <= rows:
+        return values @ matrix
+    result = np.empty((len(values), matrix.shape[1]))
+    for at in range(0, len(values), rows):
+        np.matmul(values[at : at + rows], matrix, out=result[at : at + rows])
+    return result
+
+
+def running(values: FloatArray) -> FloatArray:
+    """Integral of `values` (..., q, m), per interval of a mesh, from the first edge to each node,
+    in the same shape."""
+    q, m = values.shape[-2:]
+    if q * m <= ONE_PRODUCT:
+        return product(values.reshape(-1, q * m), _running_matrix(q, m)).reshape(values.shape)
+    rule, flat = gauss(m), values.reshape(-1, m)
+    local = product(flat, rule.integrate.T).reshape(values.shape)
+    whole = (flat @ rule.weights).reshape(values.shape[:-1])
+    local[..., 1:, :] += np.cumsum(whole[..., :-1], axis=-1)[..., None]
+    return local
+
+
+def running_integral(values: FloatArray, over: Mesh) -> FloatArray:
+    """Integral of `values` (..., q, m) from the first edge to each node, in the same shape."""
+    return running(values * over.lengths[..., None])
+
+
+def integral(values: FloatArray, over: Mesh) -> FloatArray:
+    """Integral of `values` (..., q, m) over the whole mesh, shape (...)."""
+    whole = (values.reshape(-1, values.shape[-1]) @ over.rule.weights).reshape(values.shape[:-1])
+    total: FloatArray = np.sum(whole * over.lengths, axis=-1)
+    return total
+
+
+@lru_cache(maxsize=32)
+def between_nodes(m: int, finer: int) -> FloatArray:
+    """Matrix (m, finer) from values at the m nodes of an interval to those at `finer` nodes."""
+    basis = np.polynomial.legendre.legvander(2 * gauss(finer).nodes - 1, m - 1)
+    matrix: FloatArray = (basis @ gauss(m).coefficients).T
+    return matrix

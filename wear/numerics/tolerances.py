@@ -1,0 +1,7 @@
+"""The limits of double precision."""
+
+import numpy as np
+
+ROUNDOFF = float(np.finfo(float).eps)
+TINY = float(np.finfo(float).tiny)
+SMALLEST = 100 * float(np.finfo(float).smallest_subnormal)  # below, digits are lost

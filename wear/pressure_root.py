@@ -1,0 +1,94 @@
+"""The contact pressure on a compliant support: the root of p = p_max phi(at + give p).
+
+`at` is the closure over the roughness with an undeflected support, `give` the roughnesses that the
+support gives way per pressure. The left side rises with p and the right side falls, so that there
+is exactly one root.
+
+It lies between two pressures that are known, `lower` and `upper`: that at which h/sigma is at the
+law's inflection, and that which the law has there. Between them the residual is concave (the law
+convex) or convex all over. So Newton's iteration converges from anywhere between: the first step
+ends on the side of the root from which tangents do not cross it, or is brought back to the nearer
+bound, which is on that side too; every further step goes towards the root and never beyond. A good
+start only saves iterations: the generated one solves the law's exponential tail by Lambert's
+function, so that four iterations do but where a soft support is pressed down to nearly p_max.
+
+After a step the error is at most half its square times the curvature over the slope of the
+residual, that is at most
+
+    give step^2/2 times the largest |phi''/phi'|
+
+as |phi'| grows towards the inflection. The iteration ends where give step^2 is a quarter of the
+roundoff of p. What is left is then below what rounding of h/sigma makes of p, which is a roundoff
+of h/sigma times |phi'/phi|. See `derive.results.pressure_root`.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from wear.faults import AccuracyError
+
+MOST_ITERATIONS = 200  # a factor e each where the start is bad: more than any double needs
+CLOSE = float(np.finfo(float).eps) / 4.0
+
+Real = Any  # a float or an array of floats
+
+
+class CompliantModule(Protocol):
+    """A generated module for a compliant support; `c` are its constants."""
+
+    def undeflected(self, u: Real, U_a: Real, c: Any) -> Real: ...
+
+    def softness(self, u: Real, c: Any) -> Real: ...
+
+    def start(self, at: Real, give: Real, c: Any) -> Real: ...
+
+    def lower(self, at: Real, give: Real, c: Any) -> Real: ...
+
+    def upper(self, at: Real, give: Real, c: Any) -> Real: ...
+
+    def newton(self, p: Real, at: Real, give: Real, c: Any) -> Real: ...
+
+
+class Root(NamedTuple):
+    """The pressure in MPa, and how many iterations the slowest of its elements took."""
+
+    p: Real
+    iterations: int
+
+
+def pressure(module: CompliantModule, u: Real, U_a: Real, c: Any, near: Real | None = None) -> Root:
+    """Solve for the contact pressure at wear `u` and displacement `U_a` (mm), which broadcast.
+
+    `near` is a pressure to start from in place of the general start; any number will do. The
+    relative accuracy is that of the law's value: a few units of roundoff, times the argument of
+    the law where that is large, however small the pressure. Among many states, one without a
+    pressure (trial states may hold no number, or a negative roughness) gets no number.
+
+    Raises
+    ------
+    AccuracyError
+        if a single state has no pressure.
+    """
+    at, give = module.undeflected(u, U_a, c), module.softness(u, c)
+    low, high = module.lower(at, give, c), module.upper(at, give, c)
+    p = module.start(at, give, c) if near is None else near
+    # Python's own functions take a tenth of the time of NumPy's on scalars.
+    scalar = isinstance(at, float)
+    smaller, larger, some = (min, max, bool) if scalar else (np.minimum, np.maximum, np.any)
+    count = 0
+    moves: Real = True
+    while moves and count < MOST_ITERATIONS:
+        last = smaller(larger(p, low), high)
+        p = module.newton(last, at, give, c)
+        step = p - last
+        moves = some(give * step * step > CLOSE * p)
+        count += 1
+    lost = moves or some(p != p)
+    if lost and near is not None:  # so far off that the law had no value there
+        return pressure(module, u, U_a, c)
+    if lost and (scalar or moves):
+        raise AccuracyError("the contact pressure on the compliant support could not be solved for")
+    return Root(p, count)

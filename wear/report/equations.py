@@ -1,0 +1,90 @@
+"""The equations of the catalogue as a report shows them, and how they were derived."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.hypotheses import Hypothesis, Kind
+from derive.typeset.formula import width
+from derive.typeset.macros import macro_name
+from wear.report.document import Equation
+from wear.report.markup import markup
+
+if TYPE_CHECKING:
+    from derive import equations as derived
+
+#: Width in em up to which a hypothesis is shown as a formula.
+_SHORT = 12.0
+
+
+def shown(equations: Sequence[derived.Equation]) -> Mapping[str, Equation]:
+    """Return the equations by id, each with the ids of those that say the same."""
+    same: dict[Hashable, list[str]] = {}
+    for equation in equations:
+        same.setdefault(_content(equation), []).append(equation.id)
+    return {e.id: _shown(e, same[_content(e)]) for e in equations}
+
+
+def _content(equation: derived.Equation) -> Hashable:
+    """What an equation says, and when."""
+    return equation.latex, frozenset(equation.conditions)
+
+
+def _shown(equation: derived.Equation, same: Sequence[str]) -> Equation:
+    corrected = not equation.agrees or equation.refutation is not None
+    return Equation(
+        id=equation.id,
+        latex=equation.latex,
+        title=_title(equation),
+        status=str(equation.status),
+        printed=equation.printed_latex if corrected else "",
+        macro=macro_name(equation),
+        also=tuple(identifier for identifier in same if identifier != equation.id),
+    )
+
+
+def capital(text: str) -> str:
+    """Return the text with a capital, unless it begins with the name of a quantity.
+
+    >>> capital("wear per cycle"), capital("f_c = 0")
+    ('Wear per cycle', 'f_c = 0')
+    """
+    return text[0].upper() + text[1:] if text[1:2].isalpha() or text[1:2] == " " else text
+
+
+def _title(equation: derived.Equation) -> str:
+    """What an equation is called, and its hypotheses but for that of the whole paper."""
+    known = (Kind.SETTING, Kind.LOAD)
+    words = [c for c in equation.conditions if c.kind in known and not _short(c)]
+    formulas = [f"${part}$" for c in equation.conditions if _short(c) for part in _parts(c)]
+    said = [markup(c.text) for c in equation.conditions if c not in words and not _short(c)]
+    parts = [markup(capital(equation.title))]
+    for word, hypotheses in (("for", formulas), ("if", said)):
+        if hypotheses:
+            parts.append(f"{word} {listed(dict.fromkeys(hypotheses))}")
+    title = ", ".join(parts)
+    settings = ", ".join(dict.fromkeys(markup(c.text) for c in words))
+    return f"{title} ({settings})" if settings else title
+
+
+def _short(hypothesis: Hypothesis) -> bool:
+    """Whether a formula says it better than words."""
+    formula = hypothesis.relation is not sp.true and not hypothesis.typeset
+    return formula and hypothesis.kind is not Kind.SETTING and width(hypothesis.latex) < _SHORT
+
+
+def _parts(hypothesis: Hypothesis) -> list[str]:
+    return hypothesis.latex.split(r", \quad ")
+
+
+def listed(entries: Iterable[str]) -> str:
+    """Return entries with commas, and a word before the last one.
+
+    >>> listed(["a", "b", "c"])
+    'a, b and c'
+    """
+    *most, last = entries
+    return f"{', '.join(most)} and {last}" if most else last

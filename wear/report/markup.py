@@ -1,0 +1,82 @@
+r"""Plain text of the derivation as Markdown: formulas and numbers typeset, equations referred to.
+
+Titles, remarks and evidence are written as one types them into a terminal: ``h/sigma -> 1/f_c``,
+``4.6e-8 mm``, ``(16)``, ``C36``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container
+
+from derive.typeset.reading import Part, read
+from wear.report.number import Number, grouped
+from wear.report.text import escaped
+
+_MARK = re.compile(
+    r"``(?P<code>[^`]+)``"
+    r"|(?:Eqs?\. |(?<![\w)]))\((?P<equation>\d+[a-g]?|[a-z]{3,}(?:-[a-z]+)*)\)"
+    r"|\b(?P<claim>C\d+)\b"
+)
+#: The line that is meant where the number of a system is given.
+_MEANT = {"16": "16b", "17": "17b"}
+
+
+def markup(text: str, labels: Container[str] = ()) -> str:
+    r"""Return the text as Markdown.
+
+    An equation's number or id in brackets and a claim's id become references if their labels are
+    among `labels`.
+
+    >>> print(markup("u_cum is 2.5e-5 mm by (21)", {"eq:21"}))
+    $u_{\mathrm{cum}}$ is $2.5\times10^{-5}$ mm by [eq:21]
+    """
+    shown, end = "", 0
+    for mark in _MARK.finditer(text):
+        shown += _between(text[end : mark.start()]) + _marked(mark, labels)
+        end = mark.end()
+    return shown + _between(text[end:])
+
+
+def _marked(mark: re.Match[str], labels: Container[str]) -> str:
+    """Code, a reference, or what stands in brackets as it is."""
+    if mark["code"]:
+        return f"`{mark['code']}`"
+    if mark["claim"]:
+        return f"[claim:{mark[0]}]" if f"claim:{mark[0]}" in labels else escaped(mark[0])
+    named = mark["equation"]
+    for label in (f"eq:{_MEANT.get(named, named)}", f"eq:{named}a"):
+        if label in labels:
+            return f"[{label}]"
+    return escaped(mark[0])
+
+
+def _between(text: str) -> str:
+    return "".join(map(_part, read(text)))
+
+
+def _part(part: Part) -> str:
+    match part.kind:
+        case "formula":
+            return f"${part.text}$"
+        case "number":
+            return number(part.text)
+        case "identifier":
+            return f"`{part.text}`"
+        case "words":
+            return escaped(part.text)
+
+
+def number(digits: str) -> str:
+    r"""Return a number as it is written, its power of ten typeset.
+
+    >>> print(number("1.50e-3"), number("123456"))
+    $0.00150$ $123\,456$
+    """
+    if digits.lstrip("+-").isdigit():
+        return f"${grouped(digits, chr(92) + ',')}$"
+    mantissa = digits.lower().partition("e")[0].lstrip("+-")
+    significant = len(mantissa.replace(".", "").lstrip("0")) or 1
+    shown, exponent = Number(float(digits), "as written", significant).decimal
+    power = "" if exponent is None else rf"\times10^{{{exponent}}}"
+    return f"${shown}{power}$"

@@ -1,0 +1,63 @@
+"""Numbers of the text: each knows its digits, its unit and the computation that it came from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from numbers import Integral
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number that the run computed.
+
+    `digits` counts significant digits, `unit` is plain text such as ``mm`` or ``MPa/mm``, and
+    `source` names the computation. Integers below a million are shown in full.
+
+    >>> Number(4.63554742752e-8, "equation 21", 4, "mm").decimal
+    ('4.636', -8)
+    >>> Number(9000, "scene").decimal
+    ('9000', None)
+    """
+
+    value: float
+    source: str
+    digits: int = 12
+    unit: str = ""
+
+    def __post_init__(self) -> None:
+        if not math.isfinite(self.value):
+            raise ValueError(
+                f"a number in the text must be finite, got {self.value} ({self.source})"
+            )
+        if self.digits < 1:
+            raise ValueError(f"a number needs at least one digit, got {self.digits}")
+        if not self.source:
+            raise ValueError(f"the number {self.value} does not say where it comes from")
+
+    def to(self, digits: int) -> Number:
+        """Return the same number, shown to so many significant digits."""
+        return replace(self, digits=digits)
+
+    @property
+    def decimal(self) -> tuple[str, int | None]:
+        """Digits, with a sign if negative, and the power of ten if there is one."""
+        if isinstance(self.value, Integral) and abs(self.value) < 10**6:
+            return str(int(self.value)), None
+        if self.value == 0.0:
+            return "0", None
+        mantissa, _, power = f"{self.value:.{self.digits - 1}e}".partition("e")
+        exponent = int(power)
+        if -4 < exponent < 6:
+            return f"{self.value:.{max(self.digits - 1 - exponent, 0)}f}", None
+        return mantissa, exponent
+
+
+def grouped(digits: str, separator: str) -> str:
+    """Return integers of more than four digits in groups of three.
+
+    >>> grouped("123456", " "), grouped("9000", " "), grouped("1.23456", " ")
+    ('123 456', '9000', '1.23456')
+    """
+    is_long = "." not in digits and len(digits.lstrip("-")) > 4
+    return f"{int(digits):,}".replace(",", separator) if is_long else digits

@@ -1,0 +1,193 @@
+r"""The text of a report: Markdown with values, read into tokens.
+
+Overview
+    A report is written in Markdown (``paper.md``) and filled in by Jinja2. `read` returns the
+    tokens of markdown-it; the writers `wear.report.html` and `wear.report.tex` turn the same tokens
+    into a page and into LaTeX.
+Marks, besides those of Markdown
+    {{ wear.to(5) }}        a `Number`, shown to five digits
+    $u_c$                   a formula
+    [eq:21], [(eq:18)]      a reference by kind and number, or by the number alone; ``sec: app: fig:
+                            tab: claim: der: ref:`` likewise
+    {#tab:data}             what the reference leads to: at the end of a heading or caption, or
+                            anywhere in a line
+    {verdict refuted}       a status or verdict
+    Table: Data. {#tab:x}   the caption of the table below it; a column ``:--`` is narrow, ``---``
+                            holds sentences, ``--:`` numbers
+    ![Caption.](fig:wear)   a figure; several in a paragraph stand side by side
+    ```equations            the equations of these ids
+    ```math                 one formula in a display, without a number
+    ```works                the works that the text cites
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import Any
+
+import jinja2
+from markdown_it import MarkdownIt
+from markdown_it.renderer import RendererHTML
+from markdown_it.rules_core import StateCore
+from markdown_it.rules_inline import StateInline
+from markdown_it.token import Token
+
+from wear.report.number import Number
+
+_LABEL = r"(?:eq|sec|app|fig|tab|claim|der|ref):[A-Za-z0-9.\-]+"
+_MARK = re.compile(
+    r"\$(?P<math>[^$]+)\$"
+    rf"|\[(?P<bare>\()?(?P<reference>{_LABEL})(?(bare)\))\]"
+    rf"|\{{#(?P<target>{_LABEL})\}}"
+    r"|\{number (?P<number>\d+)\}|\{verdict (?P<verdict>[a-z\-]+)\}"
+)
+_NAMED = re.compile(rf"\s*\{{#(?P<label>{_LABEL})\}}$")
+_CAPTION = "Table: "
+_SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#])")
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text that was read: its tokens, and the numbers that occur in it."""
+
+    tokens: tuple[Token, ...]
+    numbers: tuple[Number, ...]
+
+    @property
+    def inline(self) -> Iterator[Token]:
+        """All tokens inside lines, in reading order."""
+        for token in self.tokens:
+            yield from token.children or ()
+
+
+def read(name: str, values: Mapping[str, Any]) -> Text:
+    """Return the text of a file of this package, filled in.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        if the text asks for a value that is not there.
+    """
+    return parsed(files("wear.report").joinpath(name).read_text(encoding="utf-8"), values)
+
+
+def parsed(template: str, values: Mapping[str, Any]) -> Text:
+    """Return a text, filled in."""
+    numbers: list[Number] = []
+
+    def shown(value: Any) -> Any:
+        if not isinstance(value, Number):
+            return value
+        numbers.append(value)
+        return f"{{number {len(numbers) - 1}}}"
+
+    environment = jinja2.Environment(
+        finalize=shown, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+        keep_trailing_newline=True, autoescape=False, comment_start_string="{##",
+    )  # fmt: skip
+    environment.filters["plain"] = escaped
+    source = environment.from_string(template).render(values)
+    return Text(tuple(_MARKDOWN.parse(source)), tuple(numbers))
+
+
+def escaped(text: str) -> str:
+    r"""Return plain words as Markdown.
+
+    >>> print(escaped("sigma_c0 * 2"))
+    sigma\_c0 \* 2
+    """
+    return _SPECIAL.sub(r"\\\1", text)
+
+
+def line(text: str) -> Sequence[Token]:
+    """Return the tokens of one line of Markdown, a title say."""
+    (inline,) = _MARKDOWN.parseInline(text)
+    return inline.children or ()
+
+
+class Writer(RendererHTML):
+    """What both writers do: a method for each kind of token is found by markdown-it."""
+
+    def written(self, tokens: Sequence[Token]) -> str:
+        """Return a whole text."""
+        return str(self.render(tokens, _MARKDOWN.options, {}))
+
+    def inside(self, tokens: Sequence[Token] | None) -> str:
+        """Return what stands in a line."""
+        return str(self.renderInline(tokens or (), _MARKDOWN.options, {}))
+
+    def of_line(self, text: str) -> str:
+        """Return a line of Markdown, a title say."""
+        return self.inside(line(text))
+
+
+def _mark(state: StateInline, silent: bool) -> bool:
+    """Read one of our marks inside a line."""
+    found = _MARK.match(state.src, state.pos)
+    if found is None:
+        return False
+    if not silent:
+        kind = found.lastgroup or ""
+        token = state.push(kind, "", 0)
+        token.content = found[kind]
+        token.meta["bare"] = found["bare"] is not None
+    state.pos = found.end()
+    return True
+
+
+def _labels(state: StateCore) -> None:
+    """Give headings and captions their labels, and tables the kinds of their columns."""
+    for before, inline, after in zip(
+        state.tokens, state.tokens[1:], state.tokens[2:], strict=False
+    ):
+        if inline.type != "inline":
+            continue
+        is_caption = before.type == "paragraph_open" and inline.content.startswith(_CAPTION)
+        if is_caption:
+            before.type, after.type = "caption_open", "caption_close"
+            inline.content = inline.content.removeprefix(_CAPTION)
+        label = _NAMED.search(inline.content)
+        if label and (is_caption or before.type == "heading_open"):
+            before.meta["label"] = after.meta["label"] = label["label"]
+            inline.content = inline.content[: label.start()]
+        if before.type == "paragraph_open" and _is_figure(inline.content):
+            before.type, after.type = "figures_open", "figures_close"
+
+
+_FIGURES = re.compile(r"(?:\s*!\[(?:[^\]]|\[[^\]]*\])*\]\(fig:[^)]*\))+\s*", re.DOTALL)
+
+
+def _is_figure(text: str) -> bool:
+    return _FIGURES.fullmatch(text) is not None
+
+
+def _columns(state: StateCore) -> None:
+    """Tell a table the kinds of its columns: ``narrow``, ``text`` or ``numeric``."""
+    kinds = {"text-align:left": "narrow", "text-align:right": "numeric", None: "text"}
+    table: Token | None = None
+    for token in state.tokens:
+        if token.type == "table_open":
+            table = token
+            table.meta["columns"] = []
+        elif token.type == "tr_open":
+            column = 0
+        elif token.type in ("th_open", "td_open") and table is not None:
+            token.meta["kind"] = kinds[token.attrs.pop("style", None)]  # type: ignore[index]
+            token.meta["first"] = column == 0
+            column += 1
+            if token.type == "th_open":
+                table.meta["columns"].append(token.meta["kind"])
+
+
+def _markdown() -> MarkdownIt:
+    markdown = MarkdownIt("commonmark").enable("table")
+    markdown.inline.ruler.before("escape", "mark", _mark)
+    markdown.core.ruler.before("inline", "labels", _labels)
+    markdown.core.ruler.before("inline", "columns", _columns)
+    return markdown
+
+
+_MARKDOWN = _markdown()
