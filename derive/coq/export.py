@@ -13,26 +13,23 @@ Key results
 
 from __future__ import annotations
 
-import json
 import re
 import shutil
 import subprocess
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 from ..equations import Equation
 from ..kernel import Judgement
 from . import printer, proofs, refutations
+from .record import Record, record
 from .statements import statement, world
 from .steps import Step, steps
 
 LIBRARY = Path(__file__).parent / "library"
-THEOREMS = ("Tanh", "Limits", "Drift", "Bounds", "Tactics")
+THEOREMS = ("Tanh", "Limits", "Drift", "Tactics")
 """The files of the library, each after those that it needs."""
-RECORD = Path(__file__).parent / "record.json"
 
 AXIOMS = frozenset(
     {
@@ -49,37 +46,21 @@ From Coquelicot Require Import Coquelicot.
 From Wear Require Import {" ".join(THEOREMS)}.
 """
 
-Record = Mapping[str, Mapping[str, Any]]
-
-
 class MissingError(OSError):
     """Coq or a library of it is not installed; the message says how to install it."""
 
 
-@cache
-def record() -> Record:
-    """Return the committed record: by the hash of a statement, closed or why not."""
-    return json.loads(RECORD.read_text(encoding="utf-8")) if RECORD.exists() else {}
-
-
-def closed(judgement: Judgement) -> bool:
-    """Return whether Coq has closed a judgement, as the record has it."""
-    try:
-        return bool(record().get(statement(judgement).hash, {}).get("closed"))
-    except printer.UntranslatableError:
-        return False
-
-
 @dataclass(frozen=True)
 class Export:
-    """The files of some equations; ``known`` says which way closes a step, None tries all."""
+    """The files of some equations; without a record, every way of a proof is tried."""
 
     equations: tuple[Equation, ...]
     known: Record | None = field(default_factory=record)
 
     @cached_property
     def _stated(self) -> tuple[list[Step], dict[str, str]]:
-        return steps(step for equation in self.equations for step in equation.steps)
+        unproved = () if self.known is None else [h for h, r in self.known.items() if not r["closed"]]
+        return steps((step for e in self.equations for step in e.steps), unproved)
 
     @property
     def steps(self) -> list[Step]:
@@ -91,37 +72,134 @@ class Export:
         """Return the claims that Coq's library has no words for, with the reason."""
         return self._stated[1]
 
-    @cached_property
-    def groups(self) -> dict[str, list[Step]]:
-        """Return the steps by the section of the first equation that needs them."""
-        known = {step.statement.hash: step for step in self.steps}
-        groups: dict[str, list[Step]] = {}
-        for equation in self.equations:
-            made = groups.setdefault(_file(equation.section), [])
-            for judgement in equation.steps:
-                try:
-                    found = known.pop(statement(judgement).hash, None)
-                except printer.UntranslatableError:
-                    continue
-                made += [found] if found else []
-        return {name: made for name, made in groups.items() if made}
+    @property
+    def counts(self) -> dict[str, int]:
+        """Return how many steps there are, how many are closed, and cannot be stated."""
+        proved = sum(text.count("\nLemma ") for text in self.lemmas.values())
+        return {"steps": len(self.steps) + len(self.refused), "closed": proved, "unstated": len(self.refused)}
+
+    @property
+    def unrecorded(self) -> str:
+        """Return what the record does not say of these steps."""
+        rows = self.known or {}
+        missing = (s for s in self.steps if s.statement.hash not in rows)
+        return "".join(f"not in the record: {s.rule} {s.relation}\n" for s in missing)
 
     @cached_property
-    def files(self) -> dict[str, str]:
-        """Return the exported files by name."""
-        said = [h.relation for step in self._stated[0] for h in step.judgement.hypotheses]
-        texts = {"World": f"{_HEAD}Open Scope R_scope.\n\n{world([*said, *(s.relation for s in self._stated[0])])}"}
-        earlier = ["World"]
-        for name, group in self.groups.items():
-            lemmas = "\n".join(map(self._lemma, group))
-            texts[name] = f"{_HEAD}From Wear Require Import {' '.join(earlier)}.\nOpen Scope R_scope.\n\n{lemmas}"
-            earlier.append(name)
-        return texts
+    def lemmas(self) -> dict[str, str]:
+        """Return the text of each step, by its name."""
+        return {step.name: self._lemma(step) for step in self.steps}
 
     def _lemma(self, step: Step) -> str:
+        said = f"{{w : world}} :\n  {step.statement.text}"
+        title = f"(* {step.rule}: {step.judgement.name or step.statement.hash} *)\n"
         row = {} if self.known is None else self.known.get(step.statement.hash, {})
-        text = f"(* {step.rule}: {step.judgement.name or step.statement.hash} *)\n"
         if self.known is not None and not row.get("closed"):
-            return f"{text}Definition open_{step.name} {{w : world}} : Prop :=\n  {step.statement.text}.\n"
+            said = said.replace(" :\n", " : Prop :=\n", 1)
+            return f"{title}Definition open_{step.name} {said}.\n"
         proof = proofs.script(step, row.get("way"))
-        return f"{text}Lemma {step.name} {{w : world}} :\n  {step.statement.text}.\nProof.\n{proof}\nQed.\n"
+        return f"{title}Lemma {step.name} {said}.\nProof.\n{proof}\nQed.\n"
+
+    @cached_property
+    def groups(self) -> dict[str, list[str]]:
+        """Return the names of steps by the section of the first equation that needs them."""
+        left = {step.statement.hash: step.name for step in self.steps}
+        groups: dict[str, list[str]] = {}
+        for equation in self.equations:
+            made = groups.setdefault(_file_name(equation.section), [])
+            for judgement in equation.steps:
+                made += _popped(left, judgement)
+        return {name: sorted(made, key=_number) for name, made in groups.items() if made}
+
+    @property
+    def world(self) -> str:
+        """Return the file that declares the quantities."""
+        relations = [s.relation for s in self._stated[0]]
+        relations += [h.relation for s in self._stated[0] for h in s.judgement.hypotheses]
+        return f"{_HEAD}Open Scope R_scope.\n\n{world(relations)}"
+
+    @cached_property
+    def files(self) -> dict[str, tuple[str, list[str]]]:
+        """Return the exported files, with the others that each needs."""
+        home = {name: group for group, names in self.groups.items() for name in names}
+        files = {"World": (self.world, [])}
+        for group, names in self.groups.items():
+            text = "\n".join(self.lemmas[name] for name in names)
+            cited = {home[name] for name in re.findall(r"step_\d+", text)} - {group}
+            needs = ["World", *(g for g in self.groups if g in cited)]
+            head = f"{_HEAD}From Wear Require Import {' '.join(needs)}.\nOpen Scope R_scope.\n\n"
+            files[group] = head + text, needs
+        refuting = self._refuting
+        if refuting:
+            needs = list(dict.fromkeys(("World", *(home[s.name] for s in refuting.values()))))
+            head = f"From Interval Require Import Tactic.\n{_HEAD}From Wear Require Import {' '.join(needs)}.\n"
+            files["Refutations"] = f"{head}Open Scope R_scope.\n\n{refutations.text(refuting)}", needs
+        files["Assumptions"] = self._assumptions(list(files)), list(files)
+        return files
+
+    @property
+    def _refuting(self) -> dict[str, Step]:
+        """Return the steps that contradict the note's claims, where all are closed."""
+        known = {step.statement.hash: step for step in self.steps if not step.open}
+        wanted = {e.id: e.statements[0] for e in self.equations if e.id in refutations.NEEDS}
+        found = {i: known.get(statement(judgement).hash) for i, judgement in wanted.items()}
+        steps = {i: step for i, step in found.items() if step is not None}
+        return steps if len(steps) == len(refutations.NEEDS) else {}
+
+    def _assumptions(self, files: list[str]) -> str:
+        """Return the file that prints what all theorems together rest on."""
+        proved = [name for name, text in self.lemmas.items() if "\nLemma " in text]
+        proved += refutations.NAMES.values() if "Refutations" in files else []
+        everything = ", ".join(f"@{name}" for name in proved)
+        return (
+            f"From Wear Require Import {' '.join(files)}.\n"
+            f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
+        )
+
+    def write(self, folder: Path) -> None:
+        """Write library, files and a Makefile that compiles them."""
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in THEOREMS:
+            shutil.copy(LIBRARY / f"{name}.v", folder / f"{name}.v")
+        rules = [f"{b}.vo: {' '.join(f'{a}.vo' for a in THEOREMS[:i])}" for i, b in enumerate(THEOREMS)]
+        for name, (text, needs) in self.files.items():
+            (folder / f"{name}.v").write_text(text, encoding="utf-8")
+            rules.append(f"{name}.vo: {' '.join(f'{n}.vo' for n in (*THEOREMS, *needs))}")
+        targets = " ".join(f"{name}.vo" for name in self.files)
+        lines = [f"all: {targets}", "%.vo: %.v\n\t@coqc -q -w none -Q . Wear $< > $*.log 2>&1 || (cat $*.log; exit 1)", *rules]
+        (folder / "Makefile").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _popped(left: dict[str, str], judgement: Judgement) -> list[str]:
+    try:
+        found = left.pop(statement(judgement).hash, None)
+    except printer.UntranslatableError:
+        return []
+    return [found] if found else []
+
+
+def _number(name: str) -> int:
+    return int(name.removeprefix("step_"))
+
+
+def _file_name(section: str) -> str:
+    return "Section_" + re.sub(r"\W+", "_", section).strip("_")
+
+
+def compiled(folder: Path, jobs: int = 2) -> str:
+    """Compile an export; return what Coq says against it, empty where all is proved.
+
+    MissingError where Coq or a library is not installed.
+    """
+    if shutil.which("coqc") is None or shutil.which("make") is None:
+        raise MissingError(f"coqc and make are needed: apt install make {PACKAGES}")
+    done = subprocess.run(
+        ["make", "-s", "-k", f"-j{jobs}"], cwd=folder, capture_output=True, text=True, check=False
+    )
+    if "Cannot find a physical path" in done.stdout:
+        raise MissingError(f"a library of Coq is missing: apt install {PACKAGES}")
+    if done.returncode:
+        return done.stdout + done.stderr
+    said = (folder / "Assumptions.log").read_text(encoding="utf-8")
+    found = set(re.findall(r"^([\w.]+)\s*:", said, re.MULTILINE))
+    return "".join(f"an axiom that is not pinned: {name}\n" for name in sorted(found - AXIOMS))

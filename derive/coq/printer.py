@@ -49,6 +49,11 @@ def field(expr: AppliedUndef) -> str:
     return name(text) if text in QUANTITIES or text == "phi" else f"{name(text)}_of"
 
 
+def binder(variable: sp.Symbol) -> str:
+    """Return the name of a bound variable."""
+    return "t" if variable == t else name(str(variable))
+
+
 def term(expr: sp.Expr) -> str:
     """Return an expression as a Coq term.
 
@@ -146,10 +151,8 @@ def _derivative(expr: sp.Derivative) -> str:
     if count != 1:
         raise UntranslatableError("a derivative of higher order")
     bare = isinstance(inner, AppliedUndef) and inner.args == (variable,)
-    function = term(inner).split(" ")[0] if bare else f"(fun {name(str(variable))} => {term(inner)})"
-    if variable == t and bare:
-        return f"Derive {function} t"
-    return f"Derive {function} {name(str(variable))}"
+    function = term(inner).split(" ")[0] if bare else f"(fun {binder(variable)} => {term(inner)})"
+    return f"Derive {function} {binder(variable)}"
 
 
 def _at(expr: sp.Subs) -> str:
@@ -171,7 +174,7 @@ def _piecewise(expr: sp.Piecewise) -> str:
 
 def _integral(expr: sp.Integral) -> str:
     inner, (variable, low, high) = expr.args
-    return f"RInt (fun {name(str(variable))} => {term(inner)}) {_inner(low)} {_inner(high)}"
+    return f"RInt (fun {binder(variable)} => {term(inner)}) {_inner(low)} {_inner(high)}"
 
 
 _WRITERS: dict[type, Callable[[sp.Expr], str]] = {
@@ -223,7 +226,7 @@ def limit(expr: sp.Limit, value: str | None) -> str:
     inner, variable, point, _ = expr.args
     if point != sp.oo:
         raise UntranslatableError(f"a limit at {point}")
-    function = f"(fun {'t' if variable == t else name(str(variable))} => {term(inner)})"
+    function = f"(fun {binder(variable)} => {term(inner)})"
     return f"diverges {function}" if value is None else f"tends {function} {value}"
 
 

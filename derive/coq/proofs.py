@@ -12,7 +12,8 @@ Key results
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -34,11 +35,22 @@ def script(step: Step, way: int | None = None) -> str:
         return "\n".join((step.introduction, *cited))
     lines = [step.introduction, *now(step)]
     found = _equation(step) if isinstance(step.relation, sp.Equality) else _inequality(step)
-    ways = list(dict.fromkeys(found))
     if way is not None:
-        return "\n".join((*lines, f"{ways[way]}."))
-    tried = (f'timeout 6 ({text}); idtac "WAY {step.name} {i}"' for i, text in enumerate(ways))
+        return "\n".join((*lines, f"{next(islice(_different(found), way, None))}."))
+    tried = (
+        f'timeout 6 ({text}); idtac "WAY {step.name} {i}"'
+        for i, text in enumerate(_different(found))
+    )
     return "\n".join((*lines, "first [\n  " + "\n| ".join(tried) + "]."))
+
+
+def _different(ways: Iterable[str]) -> Iterator[str]:
+    """Return the ways, each once."""
+    seen = set()
+    for way in ways:
+        if way not in seen:
+            seen.add(way)
+            yield way
 
 
 def now(step: Step) -> list[str]:

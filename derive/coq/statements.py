@@ -74,10 +74,21 @@ def statement(judgement: Judgement) -> Statement:
     premises = [_premise(h) for h in judgement.hypotheses]
     premises += [_domain(h) for h in judgement.domains if _of_quantity(h.relation.args[0])]
     premises += _smooth(judgement)
-    conclusion = printer.always(judgement.relation)
+    conclusion = printer.always(claim(judgement))
     if any(re.search(r"\bphi\b", text) for text in (conclusion, *(p.said for p in premises))):
         premises += [Premise(label, said) for label, said in _LAW]
     return Statement(_numbered(premises), conclusion)
+
+
+def claim(judgement: Judgement) -> sp.Basic:
+    """Return the claim; the derivative of a result is that of the function its premise gives."""
+    relation = judgement.relation
+    for slope in relation.atoms(sp.Derivative):
+        if isinstance(slope.expr, sp.Symbol):
+            given = judgement.parents[0].relation.rhs
+            function = sp.Derivative(given, *slope.variables, evaluate=False)
+            relation = relation.func(*(a.xreplace({slope: function}) for a in relation.args), evaluate=False)
+    return relation
 
 
 def _premise(hypothesis: Hypothesis) -> Premise:

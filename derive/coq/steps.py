@@ -7,7 +7,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,7 +15,7 @@ import sympy as sp
 
 from ..kernel import Judgement
 from .printer import UntranslatableError
-from .statements import Premise, Statement, statement
+from .statements import Premise, Statement, claim, statement
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,11 +26,14 @@ class Step:
     judgement: Judgement
     statement: Statement
     parents: tuple[Step, ...]
+    claim: sp.Basic
+    open: bool = False
+    """Whether it has no proof, and cannot be cited."""
 
     @property
     def relation(self) -> sp.Basic:
         """Return the claim."""
-        return self.judgement.relation
+        return self.claim
 
     @property
     def rule(self) -> str:
@@ -64,7 +67,7 @@ class Step:
 
     def usable(self, other: Step) -> bool:
         """Return whether another step's premises are all among those of this one."""
-        return all(p.said in self.labels for p in other.statement.premises)
+        return not other.open and all(p.said in self.labels for p in other.statement.premises)
 
     def cited(self, other: Step) -> str:
         """Return the proof term of another step, from this one's premises."""
@@ -109,7 +112,7 @@ class Step:
     def hypotheses(self) -> list[Step]:
         """Return the premises with a relation, as steps to cite."""
         return [
-            Step(p.label, _Said(p.relation), Statement((p,), p.said), ())  # type: ignore[arg-type]
+            Step(p.label, self.judgement, Statement((p,), p.said), (), p.relation)
             for p in self.statement.premises
             if p.relation is not sp.true
         ]
@@ -120,15 +123,12 @@ class Step:
         return [s for s in self.frontier if isinstance(s.relation, sp.Equality) and s.relation.has(sp.Limit)]
 
 
-@dataclass(frozen=True)
-class _Said:
-    relation: sp.Basic
-
-
-def steps(judgements: Iterable[Judgement]) -> tuple[list[Step], dict[str, str]]:
+def steps(
+    judgements: Iterable[Judgement], unproved: Collection[str] = ()
+) -> tuple[list[Step], dict[str, str]]:
     """Return judgements as steps, premises first, and what cannot be stated, with the reason.
 
-    Judgements that say the same are one step.
+    Judgements that say the same are one step; ``unproved`` are the hashes of open ones.
     """
     made: dict[int, Step] = {}
     known: dict[str, Step] = {}
@@ -140,6 +140,6 @@ def steps(judgements: Iterable[Judgement]) -> tuple[list[Step], dict[str, str]]:
             refused[str(judgement.relation)] = str(reason)
             continue
         parents = tuple(made[id(p)] for p in judgement.parents if id(p) in made)
-        new = Step(f"step_{len(known)}", judgement, said, parents)
+        new = Step(f"step_{len(known)}", judgement, said, parents, claim(judgement), said.hash in unproved)
         made[id(judgement)] = known.setdefault(said.hash, new)
     return list(known.values()), refused

@@ -225,3 +225,51 @@ Proof.
   replace ((0 + b) * 0) with 0 in G by ring; revert G; apply tends_ext; intros t Ht.
   unfold Rdiv; f_equal; ring.
 Qed.
+
+(** ** Loads: what is affine in a bounded or periodic load *)
+
+Lemma affine_bounded (U : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
+  forall t, 0 <= t -> Rabs (c0 + c1 * U t) <= Rabs c0 + Rabs c1 * b.
+Proof.
+  intros H t Ht; eapply Rle_trans; [apply Rabs_triang |]; rewrite Rabs_mult.
+  apply Rplus_le_compat_l, Rmult_le_compat_l; [apply Rabs_pos | auto].
+Qed.
+
+(** [(c0 + c1 U)/s] tends to 0 where U is bounded and s diverges. *)
+Lemma vanishes_affine (U s : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
+  diverges s -> tends (fun t => / s t * (c0 + c1 * U t)) 0.
+Proof.
+  intros HU Hs; apply (bounded_vanishes (fun t => c0 + c1 * U t) _ _ (affine_bounded U b c0 c1 HU)).
+  apply (tends_inv_diverges s Hs).
+Qed.
+
+Lemma first_order_affine (u q U F : R -> R) (l d r b c0 c1 : R) :
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> Derive u t = F (q t)) ->
+  is_derive F l d -> F l = r -> r <> 0 -> (forall t, 0 <= t -> Rabs (U t) <= b) ->
+  tends q l -> tends (Derive u) r -> tends (fun t => u t * (q t - l) - (c0 + c1 * U t)) 0 ->
+  tends (fun t => t * (Derive u t - r) - d / r * (c0 + c1 * U t)) 0.
+Proof.
+  intros Hu Hr Hd Hl Hr0 HU.
+  apply (first_order u q (fun t => c0 + c1 * U t) F l d r (Rabs c0 + Rabs c1 * b) Hu Hr Hd Hl Hr0).
+  apply (affine_bounded U b c0 c1 HU).
+Qed.
+
+Lemma logarithmic_drift_affine (u U : R -> R) (r c0 c1 m T : R) : 0 < T ->
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> continuous U t) ->
+  (forall t, 0 <= t -> U (T + t) = U t) -> RInt U 0 T = m * T ->
+  tends (fun t => t * (Derive u t - r) - (c0 + c1 * U t)) 0 ->
+  tends (fun t => (u t - r * t) / ln (t / T)) (c0 + c1 * m).
+Proof.
+  intros HT Hu Hc Hp Hm H; apply (logarithmic_drift u (fun t => c0 + c1 * U t)); trivial.
+  - intros t Ht; apply (continuous_plus (fun _ => c0)); [apply continuous_const |].
+    apply (continuous_scal_r c1 U); auto.
+  - intros t Ht; replace (t + T) with (T + t) by ring; rewrite Hp by assumption; reflexivity.
+  - assert (I : ex_RInt U 0 T).
+    { apply (ex_RInt_continuous U); intros z Hz; apply Hc; rewrite Rmin_left in Hz; lra. }
+    assert (S : RInt (fun t => c1 * U t) 0 T = c1 * (m * T)).
+    { rewrite <- Hm; apply (RInt_scal U 0 T c1 I). }
+    transitivity (RInt (fun _ => c0) 0 T + RInt (fun t => c1 * U t) 0 T).
+    + apply (RInt_plus (fun _ => c0) (fun t => c1 * U t));
+        [apply ex_RInt_const | apply (ex_RInt_scal U 0 T c1 I)].
+    + rewrite S, RInt_const; unfold scal; simpl; unfold mult; simpl; ring.
+Qed.
