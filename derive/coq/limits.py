@@ -97,17 +97,20 @@ def _squeezed(step: Step, inside: sp.Expr, value: sp.Expr) -> Iterator[str]:
 def _known(step: Step) -> list[str]:
     """State the limits of the parents, now and one period later."""
     lines = []
+    moves = step.relation.has(t + _T)
     for i, limit in enumerate(step.limits):
         inside, value = limit.relation.lhs.args[0], limit.relation.rhs
         later = term(one_period_later(inside))
+        if not isinstance(limit.relation.lhs, sp.Limit):
+            continue
         if value == sp.oo:
             lines.append(f"pose proof (tends_inv_diverges _ ({step.cited(limit)})) as L{i}; cbv beta in L{i}.")
-            lines.append(f"pose proof (later _ _ T L{i}) as M{i}; cbv beta in M{i}.")
-        elif not isinstance(limit.relation.lhs, sp.Limit):
-            continue
+            later, value = f"/ ({later})", sp.S.Zero
         else:
             lines.append(f"pose proof ({step.cited(limit)}) as L{i}.")
-            lines.append(f"assert (M{i} : tends (fun t => {later}) ({term(value)})) by exact (later _ _ T L{i}).")
+        if moves:
+            proof = f"generalize (later _ _ T L{i}); apply tends_ext; intros; rewrite ?derive_later; reflexivity"
+            lines.append(f"assert (M{i} : tends (fun t => {later}) ({term(value)})) by ({proof}).")
     return lines
 
 

@@ -19,7 +19,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ..symbols import t
+from ..symbols import symbol, t
 from . import limits, theorems
 from .printer import term
 from .steps import Step
@@ -69,7 +69,7 @@ def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
     lines = []
     for i, other in enumerate(step.ancestors):
         if isinstance(other.relation, Relational) and not isinstance(other.relation, sp.Equality):
-            at = f" {time} {proof}" if other.timed else ""
+            at = f" ({time}) {proof}" if other.timed else ""
             lines.append(f"pose proof ({step.cited(other)}{at}).")
     claims = [step.relation, *(p.relation for p in step.ancestors)]
     below = {e.base for c in claims for e in c.atoms(sp.Pow) if not e.exp.is_positive or not e.exp.is_Integer}
@@ -228,12 +228,18 @@ def _manifest(goal: sp.Basic) -> Iterator[sp.Expr]:
     """Return forms of the difference of the sides that may show its sign."""
     if isinstance(goal, Relational):
         difference = goal.gts - goal.lts
-        functions = {f: sp.Dummy(real=True) for f in difference.atoms(sp.Function, sp.Derivative)}
+        hidden = difference.atoms(sp.Function, sp.Derivative) - {symbol("U_a")}
+        functions = {f: sp.Dummy(positive=True) for f in hidden}
         back = {dummy: f for f, dummy in functions.items()}
         flat = difference.xreplace(functions)
         yield sp.factor(flat).xreplace(back)
         numerator, denominator = sp.fraction(sp.together(flat))
         yield (sp.expand(numerator) / sp.factor(denominator)).xreplace(back)
+        load, bound, rest = symbol("U_a"), symbol("U"), sp.Symbol("rest", positive=True)
+        for sign in (1, -1) if numerator.has(load) and numerator.has(bound) else ():
+            inside = sp.expand(sp.expand(numerator).subs(load, sign * (rest - bound)))
+            if all(c > 0 for c in sp.Poly(inside, *inside.free_symbols).coeffs()):
+                yield (inside / sp.factor(denominator)).xreplace({rest: bound + sign * load, **back})
 
 
 def _ordered(goal: sp.Basic) -> Iterator[str]:

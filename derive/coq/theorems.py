@@ -122,13 +122,13 @@ def _first_order(step: Step) -> Iterator[str]:
     quantity, end = ratio.relation.lhs.args[0], ratio.relation.rhs
     y = sp.Symbol("ratio", real=True)
     function = law.relation.rhs.subs(quantity, y)
-    parts = _affine(sp.simplify(_WEAR * (quantity - end) - deviation.relation.lhs.args[0]))
+    parts = _affine(sp.expand(_WEAR * (quantity - end) - deviation.relation.lhs.args[0]))
     if parts is None or function.has(t):
         return
     slope = sp.diff(function, y).subs(y, end).doit()
     speed = limit.relation.rhs
     yield f"assert (D : is_derive (fun ratio => {term(function)}) ({term(end)}) ({term(slope)})) by (auto_derive; [repeat split; positive | identity])."
-    yield f"assert (E : tends (fun t => u_c t * ({term(quantity)} - {term(end)}) - ({parts[0]} + {parts[1]} * U_a t)) 0) by (generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht; field; positive)."
+    yield f"assert (E : tends (fun t => u_c t * ({term(quantity)} - {term(end)}) - ({parts[0]} + ({parts[1]}) * U_a t)) 0) by (generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht; field; positive)."
     yield f"assert (N : {term(speed)} <> 0) by (apply Rgt_not_eq, Rlt_gt; positive)."
     yield f"generalize (first_order_affine u_c (fun t => {term(quantity)}) U_a _ _ _ ({term(speed)}) _ ({parts[0]}) ({parts[1]}) smooth_u_c ({step.cited(law)}) D eq_refl N {_bounded(step)} ({step.cited(ratio)}) ({step.cited(limit)}) E)."
     yield "apply tends_ext; intros t Ht; bounds; identity."
@@ -151,10 +151,12 @@ def _drift(step: Step) -> Iterator[str]:
     mean = next(p for p in step.statement.premises if isinstance(p.relation, sp.Equality) and p.relation.lhs == symbol("U_mean"))
     periodic = next(p for p in step.statement.premises if isinstance(p.relation, sp.Equality) and p.relation.rhs == _LOAD)
     smooth = next(p for p in step.statement.premises if p.said.endswith("continuous U_a t"))
-    yield f"assert (M : RInt U_a 0 T = U_mean * T) by (rewrite {mean.label}; change (fun t => U_a t) with U_a; field; positive)."
-    yield f"assert (E : tends (fun t => t * (Derive u_c t - ({term(speed)})) - ({parts[0]} + {parts[1]} * U_a t)) 0) by (generalize ({step.cited(approach)}); apply tends_ext; intros t Ht; field; positive)."
+    yield f"assert (M : RInt U_a 0 T = U_mean * T) by (rewrite {mean.label}; exact (mean_times _ T domain_T))."
+    yield f"assert (E : tends (fun t => t * (Derive u_c t - ({term(speed)})) - ({parts[0]} + ({parts[1]}) * U_a t)) 0) by (generalize ({step.cited(approach)}); apply tends_ext; intros t Ht; field; positive)."
     yield f"pose proof (logarithmic_drift_affine u_c U_a _ _ _ _ T domain_T smooth_u_c {smooth.label} {periodic.label} M E) as L."
-    yield "eapply tends_value; [| revert L; apply tends_ext; intros t Ht; unfold Rdiv; f_equal; field; positive]; field; positive."
+    yield f"apply (tends_value _ (({parts[0]}) + ({parts[1]}) * U_mean)); [field; positive |]."
+    yield f"apply (tends_ext (fun t => (u_c t - ({term(speed)}) * t) / ln (t / T))); [| exact L]."
+    yield "intros t Ht; unfold Rdiv; f_equal; field; positive."
 
 
 def _derivative(step: Step) -> Iterator[str]:

@@ -254,6 +254,9 @@ Proof.
   apply (affine_bounded U b c0 c1 HU).
 Qed.
 
+Lemma mean_times (x T : R) : 0 < T -> x = x / T * T.
+Proof. intros; field; lra. Qed.
+
 Lemma logarithmic_drift_affine (u U : R -> R) (r c0 c1 m T : R) : 0 < T ->
   (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> continuous U t) ->
   (forall t, 0 <= t -> U (T + t) = U t) -> RInt U 0 T = m * T ->

@@ -85,6 +85,9 @@ Proof.
   exists (t0 - T); intros t Ht; apply Ht0; lra.
 Qed.
 
+Lemma derive_later (u : R -> R) T t : Derive (fun t => u (T + t)) t = Derive u (T + t).
+Proof. unfold Derive; f_equal; apply Lim_ext; intros; rewrite Rplus_assoc; reflexivity. Qed.
+
 Lemma diverges_later f T : diverges f -> diverges (fun t => f (T + t)).
 Proof.
   rewrite !diverges_iff; intros H m; destruct (H m) as [t0 Ht0].
