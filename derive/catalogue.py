@@ -116,6 +116,16 @@ def _place(found: Equation) -> tuple[int, str]:
     return (int(number.group()) if number else 10**6, found.id)
 
 
+def equations_up_to(identifier: str) -> tuple[Equation, ...]:
+    """Return the equations of the catalogue up to one of them: all that it may rest on."""
+    found: list[Equation] = []
+    for one in _in_order():
+        found.append(one)
+        if one.id == identifier:
+            break
+    return tuple(found)
+
+
 def equation(identifier: str) -> Equation:
     """Return one equation; UnknownEquationError, with a suggestion, if there is none.
 

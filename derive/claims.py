@@ -14,6 +14,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -45,6 +46,10 @@ class Claim(ABC):
     @abstractmethod
     def relation(self) -> sp.Basic:
         """Return the claim as SymPy writes it."""
+
+    def __getattr__(self, part: str) -> Any:
+        """Refuse to read a part that a claim of this type does not have."""
+        raise AttributeError(f"{type(self).__name__.lower()} has no {part}")
 
     def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Claim:
         """Return the claim of the same type with another form of its expressions."""
@@ -227,7 +232,8 @@ def claim_of(relation: sp.Basic, definition: bool = False) -> Claim:
         if definition:
             return Definition(left, right)
         if isinstance(left, sp.Limit) and not right.has(sp.Limit):
-            return Limit(*left.args[:3], right)
+            expr, variable, point = left.args[:3]
+            return Limit(expr, variable, point, right)
         return Equality(left, right)
     if isinstance(relation, sp.Unequality):
         return Inequation(*relation.args)

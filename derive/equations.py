@@ -130,8 +130,6 @@ class Equation:
             return Status.CORRECTED
         if all(isinstance(s.rule, Assume) for s in self.statements):
             return Status.DEFINITION
-        if any(getattr(s.rule, "numeric", False) for s in self.steps):
-            return Status.NUMERIC
         return Status.DERIVED
 
 

@@ -83,9 +83,7 @@ class Hypothesis:
         ('f_c > 0', '|U_a| <= U')
         """
         parts = self.relation.args if isinstance(self.relation, sp.And) else (self.relation,)
-        written = (
-            f"{p.lhs} != {p.rhs}" if isinstance(p, sp.Unequality) else str(p) for p in parts
-        )
+        written = (f"{p.lhs} != {p.rhs}" if isinstance(p, sp.Unequality) else str(p) for p in parts)
         said = ", ".join(_MODULUS.sub(r"|\1|", part.replace("(t)", "")) for part in written)
         words = self.relation is sp.true or isinstance(self.relation, sp.Equality)
         return self.text if words or len(said) > _SHORT else said

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import InitVar, dataclass
 
 import sympy as sp
@@ -40,13 +40,13 @@ def plain(expr: sp.Basic) -> str:
     return str(expr).replace("(t)", "")
 
 
-def listed(labels: Sequence[str]) -> str:
+def listed(labels: Iterable[str]) -> str:
     """Return labels with commas, and a word before the last one.
 
     >>> listed(["(1)", "(2)", "(3)"])
     '(1), (2) and (3)'
     """
-    *first, last = dict.fromkeys(labels) or ("nothing else",)
+    *first, last = dict.fromkeys(labels) or ("no others",)
     return f"{', '.join(first)} and {last}" if first else last
 
 

@@ -190,7 +190,12 @@ _TABLE = (
 )
 
 DATA = frozenset(
-    "h_0 sigma_a0 sigma_c0 f_a f_c f_aa f_ac f_cc f_ca K_a K_c H_a H_c p_max k b L R n V U T".split()
+    name
+    for names in (
+        "h_0 sigma_a0 sigma_c0 f_a f_c f_aa f_ac f_cc f_ca K_a K_c H_a H_c",
+        "p_max k b L R n V U T",
+    )
+    for name in names.split()
 )
 """Parameters that may vary each by itself: all others are made of them."""
 

@@ -109,7 +109,7 @@ wear_history([Line("left of $u_c$", cycles.astype(float), left)], logarithmic=Tr
 # The note's Fig. 3b compares four wear coefficients. That is one call, and so are four hundred:
 
 # %%
-from wear.count.sweep import sweep
+from wear.cycles import sweep
 
 names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
 found = sweep([wear.load_scene(name) for name in names], np.array([100.0, 9000.0]))

@@ -19,9 +19,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from derive.catalogue import equations
 from derive.note.claims import Verdict
-from derive.typeset.macros import macro_name, macros
 from tests import pages
 from tests.derive import test_claims as symbolic
 from tests.wear.browser import browser
@@ -93,27 +91,6 @@ def test_another_contact_law_is_one_entry(workplace):
         module = command._replace(line=f"{sys.executable} -m {program} {arguments}")
         failures.append(pages.difference(module, run))
     report("\n".join(failures))
-
-
-def test_so_many_equations_are_wider_than_a_column(tmp_path, need_tool):
-    engine = need_tool("pdflatex")
-    page = (DOCS / "how-to" / "latex-report.md").read_text(encoding="utf-8")
-    told = re.search(r"At 10 pt, (\d+) of the (\d+) equations are wider .* of (\d+) pt", page)
-    (tmp_path / "equations.tex").write_text(macros(equations()), encoding="utf-8")
-    shown = "".join(
-        rf"\setbox0\hbox{{$\displaystyle\{macro_name(e)}$}}\typeout{{width \the\wd0}}" + "\n"
-        for e in equations()
-    )
-    (tmp_path / "widths.tex").write_text(
-        "\\documentclass{article}\\usepackage{amsmath}\\input{equations}\n"
-        f"\\begin{{document}}\n{shown}\\end{{document}}\n"
-    )
-    subprocess.run([engine, "-interaction=batchmode", "widths.tex"], cwd=tmp_path, check=True)
-    log = (tmp_path / "widths.log").read_text(encoding="latin-1")
-    widths = [float(width) for width in re.findall(r"^width ([\d.]+)pt$", log, re.M)]
-    wide = sum(width > float(told[3]) for width in widths)
-    assert (wide, len(widths)) == (int(told[1]), int(told[2]))
-    assert max(widths) < 345  # the text of `article` in one column
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)

@@ -1,7 +1,7 @@
 """Wear of bearings under cyclic contact, for any number of cycles.
 
 >>> import wear
->>> history = wear.solve(wear.load_scene("section4"), [1, 9000])
+>>> history = wear.solve("section4", [1, 9000])
 >>> [f"{depth:.6e}" for depth in history.u_c]
 ['3.025336e-05', '4.413329e-03']
 
@@ -14,24 +14,56 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from wear.faults import (
+        AccuracyError,
+        Interrupted,
+        SceneError,
+        UsageError,
+        WearError,
+        WorkersLost,
+    )
     from wear.history import History
+    from wear.life import cycles_until
+    from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
     from wear.regime import Asymptote, asymptote
-    from wear.scene import Scene, load_scene
+    from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
     from wear.solver import solve
-
-__all__ = ["Asymptote", "History", "Scene", "asymptote", "load_scene", "solve"]
+    from wear.studies.indices import sobol_indices
+    from wear.studies.run import study
 
 _HOMES = {
-    "Asymptote": "wear.regime",
-    "History": "wear.history",
-    "Scene": "wear.scene",
-    "asymptote": "wear.regime",
-    "load_scene": "wear.scene",
-    "solve": "wear.solver",
+    "wear.faults": (
+        "AccuracyError",
+        "Interrupted",
+        "SceneError",
+        "UsageError",
+        "WearError",
+        "WorkersLost",
+    ),
+    "wear.history": ("History",),
+    "wear.life": ("cycles_until",),
+    "wear.load": ("Block", "Blocks", "Constant", "Harmonics", "HistoryLoad", "Sine", "Table"),
+    "wear.regime": ("Asymptote", "asymptote"),
+    "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
+    "wear.solver": ("solve",),
+    "wear.studies.indices": ("sobol_indices",),
+    "wear.studies.run": ("study",),
 }
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Harmonics",
+    "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene", "SceneError", "Sine",
+    "Support", "Table", "UsageError", "WearError", "WorkersLost", "asymptote", "cycles_until",
+    "load_scene", "sobol_indices", "solve", "study",
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:
-    if name in _HOMES:
-        return getattr(import_module(_HOMES[name]), name)
+    if name in _HOME_OF:
+        return getattr(import_module(_HOME_OF[name]), name)
     raise AttributeError(f"module 'wear' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

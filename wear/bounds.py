@@ -142,7 +142,7 @@ class _Flow(NamedTuple):
         module = generated(scene.variant)
         numbers = {name: arb(value) for name, value in scene.parameters().items()}
         numbers["n"] *= arb.pi() / arb(np.pi)  # bind multiplies by np.pi
-        constants = bound(module, numbers, int(scene.pin_wear_sign))
+        constants = bound(module, numbers, int(scene.pin_wear_sign)).constants
         mean, terms = _terms(load)
         wave = [(j, arb(cosine), arb(sine)) for j, cosine, sine in terms]
         period, count = arb(load.period), PHASES if terms else 1

@@ -191,12 +191,14 @@ Text = Annotated[Line, Field(max_length=200)]
 class SceneTable:
     """A table of the scene file: `place` is its name, `kind` chooses among those of that name.
 
-    `left_out` are the values of entries that a file may leave out, but not a constructor.
+    `entries` are its keys with pydantic's description of each, `left_out` the values of those that
+    a file may leave out, but not a constructor.
     """
 
     place: ClassVar[str] = ""
     kind: ClassVar[str] = ""
     left_out: ClassVar[Mapping[str, Any]] = {}
+    entries: ClassVar[Mapping[str, Any]] = {}
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:  # noqa: ARG003
@@ -215,12 +217,14 @@ class SceneTable:
             details = list(_details(cls, error))
         given = _given(cls, raw)
         if given is not None:
-            hidden = [] if isinstance(raw, ArgsKwargs) else [n for n in given if _is_hidden(cls, n)]
+            fields: Mapping[str, Any] = cls.__pydantic_fields__  # type: ignore[attr-defined]
+            known = fields if isinstance(raw, ArgsKwargs) else keys_of(cls)
+            unknown = given.keys() - known.keys()
             details += [
                 {"type": wrong(*_of_unknown(cls, name, given[name])), "loc": (name,), "input": None}
-                for name in hidden
+                for name in unknown & fields.keys()
             ]
-            meant = {_meant_by(cls, name) for name in given} - {""}
+            meant = {_meant_by(cls, name) for name in unknown} - {""}
             details = [entry for entry in details if not _is_meant(entry, meant)]
             present = {key: entry for key, entry in given.items() if entry is not None}
             details += [
@@ -243,6 +247,8 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
     def make(plain: type[T]) -> type[T]:
         made: Any = dataclass(frozen=True, config=ConfigDict(extra="forbid"))(plain)
         made.place, made.kind = place, kind
+        fields = made.__pydantic_fields__
+        made.entries = {name: entry for name, entry in fields.items() if not entry.exclude}
         checked_init = made.__init__
 
         @functools.wraps(checked_init)
@@ -252,7 +258,7 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
             except ValidationError as error:
                 raise SceneError(
                     [
-                        Fault("", None, place, ".".join(map(str, path)), problem, remedy)
+                        Fault("", None, *_table_and_key(place, path), problem, remedy)
                         for path, problem, remedy in problems(error)
                     ]
                 ) from None
@@ -264,16 +270,15 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
     return make
 
 
-def keys_of(kind: type[SceneTable]) -> dict[str, Any]:
+def keys_of(kind: type[SceneTable]) -> Mapping[str, Any]:
     """Return the entries of a table in their order, each with pydantic's description of it."""
-    fields: Mapping[str, Any] = kind.__pydantic_fields__  # type: ignore[attr-defined]
-    return {name: entry for name, entry in fields.items() if not entry.exclude}
+    return kind.entries
 
 
-def _is_hidden(kind: type[SceneTable], name: str) -> bool:
-    """Whether a name is a field of the class, but no entry of its table."""
-    fields: Mapping[str, Any] = kind.__pydantic_fields__  # type: ignore[attr-defined]
-    return name in fields and name not in keys_of(kind)
+def _table_and_key(place: str, path: Path) -> tuple[str, str]:
+    """Where an argument of a constructor would stand in a file."""
+    *tables, key = (*([place] if place else []), *map(str, path), *([] if path else [""]))
+    return ".".join(tables), key
 
 
 def problems(error: ValidationError) -> list[Problem]:

@@ -16,8 +16,9 @@ from wear.commands import (
     reproduce,
     run,
     scenes,
+    study,
 )
-from wear.faults import AccuracyError, Interrupted, SceneError, UsageError
+from wear.faults import AccuracyError, Interrupted, SceneError, UsageError, WorkersLost
 
 # In the order in which a newcomer needs them.
 COMMANDS = (
@@ -25,6 +26,7 @@ COMMANDS = (
     run.COMMAND,
     asymptote.COMMAND,
     figure.COMMAND,
+    study.COMMAND,
     explore.COMMAND,
     reproduce.COMMAND,
     claims.COMMAND,
@@ -44,6 +46,7 @@ EXPECTED = {
     SceneError: terminal.USAGE,
     AccuracyError: terminal.INACCURATE,
     Interrupted: terminal.INTERRUPTED,
+    WorkersLost: terminal.INTERRUPTED,
 }
 
 

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from wear.history import History
+from typing import Any
 
 MOST_FAULTS_SHOWN = 50
 
@@ -39,7 +36,14 @@ class Fault:
         )
 
 
-class SceneError(ValueError):
+class WearError(Exception):
+    """What this package raises where the request is at fault, or the accuracy out of reach.
+
+    `SceneError` and `UsageError` are also `ValueError`s, `AccuracyError` an `ArithmeticError`.
+    """
+
+
+class SceneError(WearError, ValueError):
     """Every fault of a scene at once (exit status 2); `str` is the text for the user."""
 
     def __init__(self, faults: Sequence[Fault]) -> None:
@@ -52,21 +56,31 @@ class SceneError(ValueError):
         return "\n".join([*shown, f"... and {rest} more faults"] if rest else shown)
 
 
-class UsageError(ValueError):
+class UsageError(WearError, ValueError):
     """A request that makes no sense, in words for the user (exit status 2)."""
 
 
-class AccuracyError(ArithmeticError):
-    """A solver could not reach the requested accuracy (exit status 3); `best` is what it has."""
+class AccuracyError(WearError, ArithmeticError):
+    """A solver could not reach the requested accuracy (exit status 3).
 
-    def __init__(self, message: str, best: History | None = None) -> None:
+    `best` is what it has: a `History` where `solve` raises it, else None.
+    """
+
+    def __init__(self, message: str, best: Any = None) -> None:
         super().__init__(message)
         self.best = best
 
 
-class Interrupted(Exception):  # noqa: N818  # no error: what was computed is good
-    """Ctrl-C or a time limit ended a run early (exit status 130); `history` is what it has."""
+class Interrupted(WearError):  # noqa: N818  # no error: what was computed is good
+    """Ctrl-C or a time limit ended a run early (exit status 130).
 
-    def __init__(self, message: str, history: History) -> None:
+    `history` is the `History` that it has.
+    """
+
+    def __init__(self, message: str, history: Any) -> None:
         super().__init__(message)
         self.history = history
+
+
+class WorkersLost(WearError):  # noqa: N818  # no error of ours: what was computed is kept
+    """The workers of a study went away (exit status 130); the same command goes on."""

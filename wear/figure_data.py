@@ -58,7 +58,7 @@ def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> 
     UsageError
         if the load does not repeat, or the scene's cycles cannot be counted.
     """
-    from wear.count.inside import fields_inside
+    from wear.inside import fields_inside
     from wear.model import bind
 
     load = scene.periodic_load

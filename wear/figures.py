@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from wear.figure_data import Example, FloatArray, Line, Method, spans_decades
 from wear.figure_style import (
     COLUMN,
+    COLUMN_AND_HALF,
     GREY,
     INK,
     PAGE,
@@ -138,11 +139,13 @@ def wear_by_decades(
                 linewidth=0.9 if line in lines else 1.4, label=line.name,
             )  # fmt: skip
         axes.axvline(mark[0], color=GREY, linewidth=0.6, linestyle=(0, (4.0, 2.0)))
-        axes.text(mark[0], 0.02, f" {mark[1]}", transform=axes.get_xaxis_transform(), va="bottom")
+        axes.text(
+            mark[0], 0.98, f"{mark[1]} ", transform=axes.get_xaxis_transform(), va="top", ha="right"
+        )
         low = 0.1 * _MICROMETRES_PER_MM * float(wear[0].y[0])
         axes.set(xlabel=r"Cycles  $N$", ylabel=_BEARING_WEAR, ylim=(low, top))
         axes.set_xlim(float(wear[0].x[0]), float(wear[0].x[-1]))
-        axes.legend(loc="upper left")
+        axes.legend(loc="lower right", borderpad=0.0, handlelength=2.5)
     return figure
 
 
@@ -197,7 +200,7 @@ def regime_map(
     titles: tuple[str, str],
     examples: Sequence[Example],
     *,
-    width: float = PAGE,
+    width: float = COLUMN_AND_HALF,
 ) -> Figure:
     """Regions of f_c against the gap at the peak over the roughness, without and with loss of
     contact.
@@ -206,7 +209,7 @@ def regime_map(
     """
     slopes, gaps = np.meshgrid(np.linspace(-0.6, 0.6, 480), np.linspace(-3.0, 4.0, 560))
     with styled():
-        figure, [left, right] = side_by_side(2, width, 0.42 * width)
+        figure, [left, right] = side_by_side(2, width, 0.5 * width)
         for axes, title, ends in ((left, titles[0], False), (right, titles[1], True)):
             named = regime(slopes, gaps, ends)
             for name, colour in _REGIMES.items():

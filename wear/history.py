@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wear import history_files
 from wear.faults import UsageError
+from wear.history_files import Column
+
+if TYPE_CHECKING:
+    from wear.cycle_pressures import CyclePressures
+    from wear.scene import Scene
 
 FloatArray = NDArray[np.float64]
-
-
-class Column(NamedTuple):
-    """One quantity of a history: its name in files (with the unit), unit, meaning, values."""
-
-    name: str
-    unit: str
-    meaning: str
-    values: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +44,7 @@ class History:
     R_a
         Reaction force on the pin in N, None unless the scene has the contact's width and length.
     scene, definition
-        Its title, and the whole of it as JSON.
+        Its title, and the whole of it.
     variant, operations
         The generated module that ran and the arithmetic operations of its functions.
     method, rtol, seconds
@@ -54,6 +53,8 @@ class History:
         `cycles_integrated` and `rhs_evaluations`, those for the error estimate included.
     notices
         What a reader should know, in sentences.
+    stopped
+        Whether the run ended before its last cycle.
     """
 
     cycles: NDArray[np.int64]
@@ -67,7 +68,7 @@ class History:
     U_c: FloatArray | None
     R_a: FloatArray | None
     scene: str
-    definition: str
+    definition: Scene
     variant: str
     operations: Mapping[str, int]
     method: str
@@ -75,9 +76,28 @@ class History:
     cost: Mapping[str, int]
     seconds: float
     notices: tuple[str, ...]
+    stopped: bool = False
+
+    @cached_property
+    def pressures(self) -> CyclePressures:
+        """Peak, mean and share of contact of the cycle that ends after each of the `cycles`.
+
+        Computed when asked for; no numbers where they could not be found: before the first cycle,
+        under a load that does not repeat, of a run that was stopped.
+        """
+        from wear.cycle_pressures import CyclePressures, cycle_pressures
+
+        nothing = CyclePressures(*np.full((3, len(self.cycles)), np.nan))
+        if self.stopped:
+            return nothing
+        try:
+            return cycle_pressures(self.definition, self.cycles.astype(float), self.rtol)
+        except (ArithmeticError, ValueError):
+            return nothing
 
     def columns(self) -> tuple[Column, ...]:
         """The quantities along `cycles`, as they are named in files and JSON."""
+        peak, mean, fraction = self.pressures
         columns = [
             Column("bearing_wear_mm", "mm", "wear of the bearing", self.u_c),
             Column("pin_wear_mm", "mm", "wear of the pin", self.u_a),
@@ -85,12 +105,22 @@ class History:
             Column("pin_roughness_mm", "mm", "roughness of the pin", self.sigma_a),
             Column("closure_mm", "mm", "closure of the mean surfaces", self.h),
             Column("pressure_at_start_MPa", "MPa", "contact pressure", self.p),
+            Column("peak_pressure_MPa", "MPa", "largest pressure in the cycle", peak),
+            Column("mean_pressure_MPa", "MPa", "mean pressure over the cycle", mean),
+            Column("contact_fraction", "1", "share of the cycle in contact", fraction),
         ]
         if self.U_c is not None:
             displacement = "displacement of the bearing"
             columns.append(Column("bearing_displacement_mm", "mm", displacement, self.U_c))
         if self.R_a is not None:
+            from wear.states import reaction_of
+
             columns.append(Column("pin_reaction_N", "N", "reaction force on the pin", self.R_a))
+            for word, pressure in (("peak", peak), ("mean", mean)):
+                force = reaction_of(self.definition, pressure)
+                assert force is not None
+                name, meaning = f"{word}_pin_reaction_N", f"{word} reaction force over the cycle"
+                columns.append(Column(name, "N", meaning, force))
         meaning = "estimated relative error of the bearing wear"
         return (*columns, Column("error_estimate", "1", meaning, self.error))
 
@@ -127,15 +157,24 @@ class History:
 
     def write_csv(self, path: str | os.PathLike[str]) -> None:
         """Write a line a cycle, floats to round-trip, below comments with scene and method."""
-        from wear import history_files
-
-        history_files.write_csv(self, Path(path))
+        history_files.write_csv(self.cycles, self.columns(), self._attributes(), Path(path))
 
     def write_netcdf(self, path: str | os.PathLike[str]) -> None:
         """Write NetCDF-3 with the coordinate `cycle`; units and the scene are attributes."""
-        from wear import history_files
+        history_files.write_netcdf(self.cycles, self.columns(), self._attributes(), Path(path))
 
-        history_files.write_netcdf(self, Path(path))
+    def _attributes(self) -> history_files.Attributes:
+        return {
+            "title": json.dumps(self.scene, ensure_ascii=True).strip('"') or "untitled",
+            "scene": self.definition.to_json(),
+            "variant": self.variant,
+            "operations": json.dumps(dict(self.operations)),
+            "method": self.method,
+            "rtol": repr(self.rtol),
+            "cost": json.dumps(dict(self.cost)),
+            "seconds": repr(self.seconds),
+            "notices": json.dumps(self.notices),
+        }
 
 
 def _finite(values: FloatArray) -> list[float | None]:

@@ -3,32 +3,46 @@
 from __future__ import annotations
 
 import csv
-import json
 import secrets
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from wear.count.inside import Inside
-    from wear.history import Column, History
+    from wear.inside import Inside
+
+Attributes = Mapping[str, str]
+"""What describes a result, each in one line and none empty."""
 
 
-def write_csv(history: History, path: Path) -> None:
+class Column(NamedTuple):
+    """One quantity of a history: its name in files (with the unit), unit, meaning, values."""
+
+    name: str
+    unit: str
+    meaning: str
+    values: NDArray[Any]
+
+
+def write_csv(
+    cycles: NDArray[np.int64], columns: Sequence[Column], attributes: Attributes, path: Path
+) -> None:
     """Write comments (`# key: value`), a header and a line a cycle."""
-    columns = history.columns()
     values = (column.values.tolist() for column in columns)
     with _replacing(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
-        file.writelines(f"# {key}: {value}\n" for key, value in _attributes(history).items())
+        file.writelines(f"# {key}: {value}\n" for key, value in attributes.items())
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["cycle", *(column.name for column in columns)])
-        writer.writerows(zip(history.cycles.tolist(), *values, strict=True))
+        writer.writerows(zip(cycles.tolist(), *values, strict=True))
 
 
-def write_netcdf(history: History, path: Path) -> None:
+def write_netcdf(
+    cycles: NDArray[np.int64], columns: Sequence[Column], attributes: Attributes, path: Path
+) -> None:
     """Write variables along the dimension `cycle`, with `units` and `long_name`.
 
     NetCDF-3 has no 64-bit integers: cycles are doubles, exact up to 2**53.
@@ -36,19 +50,19 @@ def write_netcdf(history: History, path: Path) -> None:
     from scipy.io import netcdf_file
 
     with _replacing(path) as draft, netcdf_file(draft, "w") as file:
-        for key, value in _attributes(history).items():
+        for key, value in attributes.items():
             setattr(file, key, value)
-        file.createDimension("cycle", len(history.cycles))
+        file.createDimension("cycle", len(cycles))
         number = file.createVariable("cycle", "d", ("cycle",))
-        number[:] = history.cycles
+        number[:] = cycles
         number.units, number.long_name = "1", "number of load cycles"
-        for column in history.columns():
+        for column in columns:
             variable = file.createVariable(column.name, "d", ("cycle",))
             variable[:] = column.values
             variable.units, variable.long_name = column.unit, column.meaning
 
 
-def write_inside(parts: Iterable[Inside], path: Path, attributes: Mapping[str, str]) -> None:
+def write_inside(parts: Iterable[Inside], path: Path, attributes: Attributes) -> None:
     """Write the chunks of a history inside the cycles as they come, so that memory holds one at a
     time: to NetCDF-3, or to CSV if the name ends so."""
     with _replacing(path) as draft:
@@ -58,7 +72,7 @@ def write_inside(parts: Iterable[Inside], path: Path, attributes: Mapping[str, s
             _write_records(parts, draft, attributes)
 
 
-def _write_lines(parts: Iterable[Inside], path: Path, attributes: Mapping[str, str]) -> None:
+def _write_lines(parts: Iterable[Inside], path: Path, attributes: Attributes) -> None:
     """Comments (`# key: value`), a header and a line a state."""
     with path.open("w", encoding="utf-8", newline="") as file:
         file.writelines(f"# {key}: {value}\n" for key, value in attributes.items())
@@ -77,7 +91,7 @@ def _write_lines(parts: Iterable[Inside], path: Path, attributes: Mapping[str, s
             writer.writerows(zip(cycles, phases, *values, errors, strict=True))
 
 
-def _write_records(parts: Iterable[Inside], path: Path, attributes: Mapping[str, str]) -> None:
+def _write_records(parts: Iterable[Inside], path: Path, attributes: Attributes) -> None:
     """Variables with the dimensions `cycle` and `phase`; `cycle` is the record dimension.
 
     SciPy writes the header and the first cycle; the records of the others follow in the same
@@ -101,7 +115,7 @@ _NUMBER_OF_RECORDS = 4  # where it stands in a NetCDF-3 file, behind "CDF" and t
 
 
 def _write_first_cycle(
-    part: Inside, columns: tuple[Column, ...], attributes: Mapping[str, str], path: Path
+    part: Inside, columns: tuple[Column, ...], attributes: Attributes, path: Path
 ) -> None:
     from scipy.io import netcdf_file
 
@@ -125,8 +139,6 @@ def _write_first_cycle(
 
 
 def _columns_inside(part: Inside) -> tuple[Column, ...]:
-    from wear.history import Column
-
     fields = part.fields
     return (
         Column("bearing_wear_mm", "mm", "wear of the bearing", part.u),
@@ -137,21 +149,6 @@ def _columns_inside(part: Inside) -> tuple[Column, ...]:
         Column("pressure_at_start_MPa", "MPa", "contact pressure", fields.p),
         Column("bearing_displacement_mm", "mm", "displacement of the bearing", fields.U_c),
     )
-
-
-def _attributes(history: History) -> dict[str, str]:
-    """What describes a result, each in one line and none empty."""
-    return {
-        "title": json.dumps(history.scene, ensure_ascii=True).strip('"') or "untitled",
-        "scene": history.definition or "{}",
-        "variant": history.variant,
-        "operations": json.dumps(dict(history.operations)),
-        "method": history.method,
-        "rtol": repr(history.rtol),
-        "cost": json.dumps(dict(history.cost)),
-        "seconds": repr(history.seconds),
-        "notices": json.dumps(history.notices),
-    }
 
 
 @contextmanager

@@ -8,7 +8,7 @@ ends at h = 3 sigma the margin of contact.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -34,25 +34,48 @@ class Fields(NamedTuple):
     p: Real
 
 
-class Loss(NamedTuple):
-    """The generated functions of the margin of contact, with their constants bound."""
+class Bound(NamedTuple):
+    """The functions of a generated module with their numbers: the constants of a run, and the
+    physical parameters and the sign of pin wear that these come from."""
 
     module: ModuleType
     constants: Any
+    data: Any
+    signs: tuple[Real, ...]
+
+    def changed(self, change: Callable[[Real], Real]) -> Bound:
+        """Return the module with all its numbers changed."""
+        constants = self.constants._make(map(change, self.constants))
+        data = self.data._make(map(change, self.data))
+        return Bound(self.module, constants, data, tuple(map(change, self.signs)))
+
+    def gradient(self, by_constants: Any) -> dict[str, Real]:
+        """Return derivatives with respect to the parameters from those to the constants."""
+        found = self.module.parameter_gradient(by_constants, self.data, *self.signs)
+        return dict(found._asdict())
 
 
 @dataclass(frozen=True)
 class Model:
-    """A generated variant with its constants bound.
+    """A generated variant with its numbers bound.
 
     `u` is the wear u_c of the bearing and `U_a` the displacement of the pin, both in mm; they
     broadcast with each other and with the constants, which for a model of many scenes are arrays
     of shape (scenes, 1). `loss` is None where contact is never lost.
     """
 
-    module: ModuleType
-    constants: Any
-    loss: Loss | None = None
+    bound: Bound
+    loss: Bound | None = None
+
+    @property
+    def module(self) -> Any:
+        """The generated module."""
+        return self.bound.module
+
+    @property
+    def constants(self) -> Any:
+        """The constants of a run."""
+        return self.bound.constants
 
     @property
     def variant(self) -> str:
@@ -81,17 +104,14 @@ class Model:
 
     def select(self, index: Any) -> Model:
         """Return the model of some of many scenes, chosen by an index of the scene axis."""
-        return self._with_constants(lambda value: value[index])
+        return self._changed(lambda value: value[index])
 
     def reshaped(self, shape: tuple[int, ...]) -> Model:
-        """Return the model of many scenes with its constants in this shape."""
-        return self._with_constants(lambda value: value.reshape(shape))
+        """Return the model of many scenes with its numbers in this shape."""
+        return self._changed(lambda value: value.reshape(shape))
 
-    def _with_constants(self, change: Callable[[Real], Real]) -> Model:
-        loss = self.loss
-        if loss is not None:
-            loss = loss._replace(constants=loss.constants._make(map(change, loss.constants)))
-        return replace(self, constants=self.constants._make(map(change, self.constants)), loss=loss)
+    def _changed(self, change: Callable[[Real], Real]) -> Model:
+        return Model(self.bound.changed(change), self.loss and self.loss.changed(change))
 
     def rate(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
         """Return the wear rate du_c/dt in mm/s, Eq. (9) or (10).
@@ -108,7 +128,7 @@ class Model:
     def slope(self, u: Real, U_a: Real) -> Real:
         """Return the derivative of the wear rate with respect to u_c, in 1/s."""
         if not self.compliant:
-            return self.module.slope(u, U_a, self.constants)
+            return self.law_rate_and_slope(u, U_a)[1]
         p = self._law_pressure(u, U_a)
         by_law = self.module.slope(p, u, U_a, self.constants)
         if self.loss is None:
@@ -116,6 +136,16 @@ class Model:
         margin = self.margin(u, U_a)
         limited = self._limited(p, margin) < p
         return np.where(limited, np.where(margin > 0.0, self._edge_slope(u), 0.0), by_law)
+
+    def rate_gradient(self, u: Real, U_a: Real) -> dict[str, Real]:
+        """Return the derivatives of the wear rate by the contact law with respect to the load
+        `U_a` and to every physical parameter, by symbol, as if contact were never lost."""
+        if self.compliant:
+            p = self._law_pressure(u, U_a)
+            by_load, by_constants = self.module.rate_gradient(p, u, U_a, self.constants)
+        else:
+            by_load, by_constants = self.module.rate_gradient(u, U_a, self.constants)
+        return {"U_a": by_load, **self.bound.gradient(by_constants)}
 
     def pressure(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
         """Return the contact pressure in MPa on a compliant support, sought from a pressure `near`
@@ -177,13 +207,19 @@ class Model:
         """Return the derivative of the margin with respect to u_c; with respect to U_a it is 1."""
         return self._loss.module.margin_slope(u, self._loss.constants) + np.zeros_like(U_a)
 
+    def margin_gradient(self, u: Real, U_a: Real) -> dict[str, Real]:
+        """Return the derivatives of the margin with respect to `U_a` and to every physical
+        parameter that it depends on, by symbol."""
+        found = self._loss.module.margin_gradient(u, U_a, self._loss.constants)
+        return {"U_a": 1.0 + 0.0 * u, **self._loss.gradient(found)}
+
     def margin_terms(self, u: Real, U_a: Real) -> Real:
         """Return the sum of the absolute terms of the margin, in mm: its rounding error is at most
         as many roundoffs."""
         return self._loss.module.margin_terms(u, U_a, self._loss.constants)
 
     @property
-    def _loss(self) -> Loss:
+    def _loss(self) -> Bound:
         if self.loss is None:
             raise UsageError("this scene never loses contact: it has no margin")
         return self.loss
@@ -192,14 +228,15 @@ class Model:
         return pressure_root.pressure(self.module, u, U_a, self.constants, near).p
 
     def _limited(self, p: Real, margin: Real) -> Real:
-        module, constants = self._loss
-        return module.limited_pressure(p, margin, self.constants.compliance, constants)
+        compliance = self.constants.compliance
+        return self._loss.module.limited_pressure(p, margin, compliance, self._loss.constants)
 
     def _edge_slope(self, u: Real) -> Real:
-        module, constants = self._loss
-        change = module.margin_slope(u, constants)
-        of = self.constants
-        return module.limited_slope(change, of.compliance, of.wear_per_pressure, constants)
+        loss, of = self._loss, self.constants
+        change = loss.module.margin_slope(u, loss.constants)
+        return loss.module.limited_slope(
+            change, of.compliance, of.wear_per_pressure, loss.constants
+        )
 
 
 def _complete(found: Any, u: Real, U_a: Real) -> Fields:
@@ -213,19 +250,19 @@ def generated(key: VariantKey) -> ModuleType:
     return import_module(f"wear.generated.{key.law}.{key.module}")
 
 
-def bound(module: ModuleType, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Any:
-    """Return the constants of a generated module; the sign is for a pin that wears."""
-    parameters = module.Parameters._make(numbers[name] for name in module.Parameters._fields)
+def bound(module: ModuleType, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Bound:
+    """Return a generated module with its numbers; the sign is for a pin that wears."""
+    data = module.Parameters._make(numbers[name] for name in module.Parameters._fields)
     signs = (pin_wear_sign,) if "K_a" in module.Parameters._fields else ()
-    return module.bind(parameters, *signs)
+    return Bound(module, module.bind(data, *signs), data, signs)
 
 
 def _bind(key: VariantKey, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Model:
-    module, loss = generated(key), None
+    loss = None
     if key.ends_at_3_sigma:
         margin = import_module(f"wear.generated.margin_{key.pin}")
-        loss = Loss(margin, bound(margin, numbers, pin_wear_sign))
-    return Model(module, bound(module, numbers, pin_wear_sign), loss)
+        loss = bound(margin, numbers, pin_wear_sign)
+    return Model(bound(generated(key), numbers, pin_wear_sign), loss)
 
 
 def bind(scene: Scene) -> Model:

@@ -123,12 +123,11 @@ def expand(scene: Scene, order: int = ORDER) -> Expansion | None:
 def offset(scene: Scene, rtol: float = 1e-13) -> Offset | None:
     """Return B of a scene in mm; None if its wear does not become steady within 1e12 cycles.
 
-    With a cutoff that takes contact which lasts throughout the cycle in the end; on a compliant
-    support every cycle until then would have to be integrated, and there is None too.
+    Where contact may be lost that takes contact which lasts throughout the cycle in the end.
 
-    The wear after 10, 100, ... cycles gives B as many times.  The estimated error is that of
-    the wear and of rounding, which grow with the number of cycles, and the last terms of the
-    expansion, which fall; the cycle with the least of both is taken.
+    The wear after 10, 100, ... cycles gives B as many times, once contact is never lost.  The
+    estimated error is that of the wear and of rounding, which grow with the number of cycles, and
+    the last terms of the expansion, which fall; the cycle with the least of both is taken.
     """
     expansion = expand(scene) if _contact_lasts(scene) else None
     if expansion is None:
@@ -136,11 +135,12 @@ def offset(scene: Scene, rtol: float = 1e-13) -> Offset | None:
     history = _history(scene, rtol)
     if history is None:
         return None
-    found = []
+    found, model = [], bind(scene)
     for cycle, u, error in zip(history.cycles, history.u_c, history.error, strict=True):
         value, last = expansion.offset(float(u), float(cycle))
         rounding = float(u) * (float(error) + 4.0 * np.finfo(float).eps)
-        if last + rounding <= _RESOLVED * abs(value):
+        known = last + rounding <= _RESOLVED * abs(value)
+        if known and _is_permanent(model, scene, float(u)):
             found.append(Offset(value, last + rounding, float(cycle)))
     return min(found, key=lambda each: each.error, default=None)
 
@@ -149,10 +149,14 @@ def _contact_lasts(scene: Scene) -> bool:
     """Whether cycles can be counted until contact, once for all, lasts throughout the cycle."""
     if not scene.contact.ends_at_3_sigma:
         return True
-    if scene.support is not None:
-        return False
-    model, load = bind(scene), scene.periodic_load
-    return bool(model.margin(_FAR * scene.initial_roughness, load.minimum) > 0.0)
+    return _is_permanent(bind(scene), scene, _FAR * scene.initial_roughness)
+
+
+def _is_permanent(model: Model, scene: Scene, u: float) -> bool:
+    """Whether contact by the law lasts throughout the cycle at the wear `u` (mm) and beyond."""
+    if not model.ends_at_3_sigma:
+        return True
+    return bool(model.margin(u, scene.periodic_load.minimum) > model.held_margin)
 
 
 def _history(scene: Scene, rtol: float) -> History | None:
@@ -160,7 +164,8 @@ def _history(scene: Scene, rtol: float) -> History | None:
     try:
         return solve(scene, _CYCLES, rtol, method="abel")
     except AccuracyError as fault:
-        return fault.best
+        best: History | None = fault.best
+        return best
 
 
 def _roughness(model: Model, u: Laurent) -> Laurent:

@@ -16,6 +16,7 @@ from __future__ import annotations
 import decimal
 import inspect
 import math
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -115,19 +116,21 @@ def _named(function: Callable[..., Any], known: Mapping[str, Any]) -> dict[str, 
     return {name: known[name] for name in inspect.getfullargspec(function).kwonlyargs}
 
 
-def asymptote(scene: Scene) -> Asymptote:
-    """Return the long-time behaviour of a scene.
+def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
+    """Return the long-time behaviour of a scene, or of that of a built-in name or a path.
 
     Raises
     ------
     UsageError
         if the load does not repeat.
 
-    >>> from wear.scene import load_scene
-    >>> found = asymptote(load_scene("section4"))
+    >>> found = asymptote("section4")
     >>> found.regime, f"{found.wear_per_cycle_mm:.10e}"
     ('steady', '4.6355474275e-08')
     """
+    from wear.scene import as_scene
+
+    scene = as_scene(scene)
     with decimal.localcontext(_DIGITS):
         case = _Case(scene)
         return _with_cutoff(case) if scene.contact.ends_at_3_sigma else _without_cutoff(case)
@@ -294,9 +297,9 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """The cycle in which wear stops, from the cycle count, as far as its error lets it be told."""
-    from wear.count import MOST_CYCLES
     from wear.count.stage import evaluate_stages
     from wear.count.stages import counted_stages
+    from wear.cycles import MOST_CYCLES
 
     found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0)
     arrest = found.arrest

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import numbers
+import os
 import time
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -15,6 +18,7 @@ from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history import History
 from wear.load import HistoryLoad
+from wear.scene.plausibility import implausible_results
 from wear.states import fields_at, negative_roughness, reaction_of
 
 if TYPE_CHECKING:
@@ -26,6 +30,7 @@ __all__ = ["METHODS", "MOST_CYCLES", "solve"]
 FloatArray = NDArray[np.float64]
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)
 MOST_CYCLES = 10**12
+LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
 
@@ -47,8 +52,8 @@ class Wear(NamedTuple):
 
 
 def solve(
-    scene: Scene,
-    cycles: Sequence[int | float],
+    scene: Scene | str | os.PathLike[str],
+    cycles: float | Iterable[float],
     rtol: float = 1e-10,
     method: str = "auto",
     time_limit: float | None = None,
@@ -57,8 +62,10 @@ def solve(
 
     Parameters
     ----------
+    scene
+        A scene, the name of a built-in one, or the path of a scene file.
     cycles
-        Whole numbers from 0 (the fresh state) to 1e12, in any order.
+        Whole numbers from 0 (the fresh state) to 1e12, in any order; or one such number.
     rtol
         Requested relative error of the bearing's wear.
     method
@@ -77,14 +84,15 @@ def solve(
     Interrupted
         on Ctrl-C or at the time limit; `history` has the cycles that were reached.
 
-    >>> from wear.scene import load_scene
-    >>> history = solve(load_scene("section4"), [1, 10], rtol=1e-6)
+    >>> history = solve("section4", [1, 10], rtol=1e-6)
     >>> [f"{wear:.4e}" for wear in history.u_c]
     ['3.0253e-05', '2.3692e-04']
     """
     from wear.model import bind
+    from wear.scene import as_scene
 
     start = time.monotonic()
+    scene = as_scene(scene)
     wanted = _check(scene, cycles, rtol, method, time_limit)
     model = bind(scene)
     deadline = np.inf if time_limit is None else start + time_limit
@@ -101,17 +109,18 @@ def solve(
 
 def _check(
     scene: Scene,
-    cycles: Sequence[int | float],
+    cycles: float | Iterable[float],
     rtol: float,
     method: str,
     time_limit: float | None,
 ) -> tuple[int, ...]:
     """The numbers of cycles as integers; everything that is wrong with the request at once."""
     faults: list[str] = []
-    wanted = tuple(_whole(number, faults) for number in cycles)
+    several = cycles if isinstance(cycles, Iterable) else (cycles,)
+    wanted = tuple(_whole(number, faults) for number in several)
     if not wanted:
         faults.append("cycles: give at least one number of cycles")
-    if not 1e-15 <= rtol <= 0.1:
+    if not is_number(rtol) or not LEAST_RTOL <= rtol <= LARGEST_RTOL:
         faults.append(f"rtol: {rtol!r} is not between 1e-15 and 0.1")
     if method not in METHODS:
         faults.append(f"method: {method!r} is none of {', '.join(METHODS)}")
@@ -119,7 +128,7 @@ def _check(
         faults.append(f"method: abel is not for this scene: {obstacle(scene)}; take auto")
     elif method == "collocation" and not _is_smooth_history(scene):
         faults.append("method: collocation is for a measured history without cutoff; take auto")
-    if time_limit is not None and not time_limit > 0.0:
+    if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
         faults.append(f"time_limit: {time_limit!r} is no positive number of seconds")
     if max(wanted, default=0) > most_cycles(scene.load):
         faults.append(f"cycles: the load ends after {most_cycles(scene.load)} whole cycles")
@@ -128,8 +137,13 @@ def _check(
     return wanted
 
 
-def _whole(number: int | float, faults: list[str]) -> int:
-    whole = int(number) if math.isfinite(number) else -1
+def is_number(given: object) -> bool:
+    """Return whether something is a real number and no truth value."""
+    return isinstance(given, numbers.Real) and not isinstance(given, bool)
+
+
+def _whole(number: float, faults: list[str]) -> int:
+    whole = int(number) if is_number(number) and math.isfinite(number) else -1
     if whole != number or not 0 <= whole <= MOST_CYCLES:
         faults.append(f"cycles: {number!r} is no whole number from 0 to 1e12")
         return 0
@@ -192,11 +206,13 @@ def _worst(wear: Wear) -> float:
 def _cycle_count(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
-    from wear.count.blocks import wear_after
+    from wear.cycles import wear_after
 
     cycles = tuple(sorted(set(wanted)))
     try:
-        found = wear_after(model, scene.load, np.array(cycles, dtype=float), rtol, deadline)
+        found = wear_after(
+            model, scene.load, np.array(cycles, dtype=float), rtol, deadline=deadline
+        )
     except KeyboardInterrupt:
         return _nothing(name, "interrupted", interrupted=True)
     except (AccuracyError, ArithmeticError, ValueError) as fault:  # LinAlgError is a ValueError
@@ -224,7 +240,7 @@ def _nothing(name: str, stopped: str, interrupted: bool) -> Wear:
 def _collocation(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
 ) -> Wear:
-    from wear.count.record import follow
+    from wear.records import follow
 
     assert isinstance(scene.load, HistoryLoad)
     found = follow(model, scene.load, wanted, rtol, deadline)
@@ -286,12 +302,26 @@ def _history(
         U_c=fields.U_c if model.compliant else None,
         R_a=reaction_of(scene, fields.p),
         scene=scene.title or scene.name,
-        definition=scene.to_json(),
+        definition=scene,
         variant=model.variant,
         operations=model.operations,
         method=wear.method,
         rtol=rtol,
         cost=wear.cost,
         seconds=seconds,
-        notices=(*scene.notices, *wear.notices, *negative_roughness(model, fields, u)),
+        notices=(
+            *_repeated(wanted),
+            *scene.notices,
+            *wear.notices,
+            *negative_roughness(model, fields, u),
+            *implausible_results(scene, np.array(cycles), u, fields.sigma_c, fields.sigma_a),
+        ),
+        stopped=wear.stopped is not None,
     )
+
+
+def _repeated(wanted: Sequence[int]) -> tuple[str, ...]:
+    """Which numbers of cycles were asked for more than once."""
+    twice = [str(cycle) for cycle, times in Counter(wanted).items() if times > 1]
+    shown = ", ".join(twice[:10]) + (", ..." if len(twice) > 10 else "")
+    return (f"cycles: {shown} given more than once",) if twice else ()

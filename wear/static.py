@@ -59,9 +59,15 @@ class StaticSolution:
         return -self.data["sigma_c0"] / slope if slope < 0.0 else math.inf
 
     def cycles(self, u: ArrayLike) -> FloatArray:
-        """The number of cycles to a wear of u mm; infinite if that is never reached.
+        """Return the number of cycles to a wear of u mm; infinite if that is never reached.
 
-        Relative error: a few units of roundoff times 4 h/sigma, the condition of the problem.
+        The relative error is at most six roundoffs times the condition of the problem: 8 plus
+        the larger of the values at the wears 0 and u of
+
+            4 |h|/sigma (sigma_c0 + |f_c| u)/sigma
+
+        where the last factor is one unless the roughness decreases: near the wear at which it
+        vanishes sigma = sigma_c0 + f_c u is a small difference.
         """
         u = np.asarray(u, dtype=np.float64)
         if np.any(u < 0.0):

@@ -17,6 +17,7 @@ import sympy as sp
 
 from ..program import Program
 from ..program.function import Function
+from ..program.gradient import by_constant
 from .emit import NUMPY, TARGETS, Target, emit
 from .increment import increment
 from .wording import margin_title, meaning_of, remark_on, sentence, title_of
@@ -116,9 +117,9 @@ def _context(made: Program, target: Target) -> dict[str, Any]:
     }
 
 
-def _functions(made: Program, target: Target) -> list[Function]:
-    """Return the functions that a language has: a pair of numbers is one of NumPy's results."""
-    return [f for f in made.functions if f.name != "rate_and_slope" or target is NUMPY]
+def _functions(made: Program, target: Target) -> tuple[Function, ...]:
+    """Return the functions that a language has."""
+    return made.array_functions if target is NUMPY else made.functions
 
 
 def body(function: Function, made: Program, target: Target) -> Body:
@@ -127,6 +128,8 @@ def body(function: Function, made: Program, target: Target) -> Body:
     local = {*arguments, *(name.name for name, _ in function.assignments)}
     constants = {name.name for name, _ in made.constants} - local
     within = _reaching(target, constants, target.constant)
+    if function.name == "parameter_gradient":  # from the constants back, within no run
+        within = _within_bind(made, target)
     used = set().union(*(expression.free_symbols for expression in function.expressions))
     names = {symbol.name for symbol in used}
     unused = [name for name in arguments if name not in names]
@@ -138,14 +141,29 @@ def body(function: Function, made: Program, target: Target) -> Body:
             Line(target.rename(name.name), emit(value, within), remark_on(name.name))
             for name, value in function.assignments
         ),
-        tuple(emit(result, within) for result in function.results),
+        tuple(_constant(result) or emit(result, within) for result in function.results),
         (*map(target.rename, unused), *["c"] * (not names & constants)),
     )
 
 
+def _constant(result: sp.Expr) -> str:
+    """Write a number as one of the shape of the wear, anything else not at all."""
+    if not result.is_number:
+        return ""
+    return "0 * u" if result == 0 else f"{result} + 0 * u"
+
+
+def _within_bind(made: Program, target: Target) -> Target:
+    """Return a target that reaches parameters, and derivatives with respect to constants."""
+    parameters = {parameter.name for parameter in made.parameters}
+    derivatives = {by_constant(name.name).name: f"by.{name}" for name, _ in made.constants}
+    within = _reaching(target, parameters, target.parameter)
+    return replace(within, rename=lambda name: derivatives.get(name) or within.rename(name))
+
+
 def _computed(made: Program, target: Target) -> list[Line]:
     """Write the constants that are computed, in the language of ``bind``."""
-    within = _reaching(target, {parameter.name for parameter in made.parameters}, target.parameter)
+    within = _within_bind(made, target)
     return [
         Line(target.rename(name.name), emit(value, within), "")
         for name, value in made.constants

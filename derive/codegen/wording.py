@@ -102,4 +102,6 @@ def remark_on(name: str) -> str:
     """
     if name not in _INTERMEDIATES and name.endswith("_u"):
         return f"d {name.removesuffix('_u')}/d u_c"
-    return _INTERMEDIATES[name]
+    if name.startswith(("rate_", "margin_", "total_")):
+        return f"derivative with respect to {name.partition('_')[2]}"
+    return _INTERMEDIATES[name] if name in _INTERMEDIATES else meaning_of(name)

@@ -35,9 +35,9 @@ def execute(options: argparse.Namespace) -> int:
     if options.json:
         terminal.print_json(rows)
         return terminal.DONE
-    widths = [max(len(row[key]) for row in rows) for key in ("id", "status", "section")]
+    widths = [max(len(str(row[key])) for row in rows) for key in ("id", "status", "section")]
     for row in rows:
-        cells = (row[key] for key in ("id", "status", "section"))
+        cells = (str(row[key]) for key in ("id", "status", "section"))
         padded = "  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True))
         print(f"{padded}  {row['title']}")
     found = Counter(row["status"] for row in rows)

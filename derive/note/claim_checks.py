@@ -17,6 +17,7 @@ import sympy as sp
 
 from .. import catalogue
 from ..equations import Status
+from ..hypotheses import Kind
 from ..laws import TANH, r
 from ..results import validity
 from ..rules.algebra import solve
@@ -39,15 +40,14 @@ def _holds(*ids: str) -> tuple[bool, str, bool]:
     verdicts = catalogue.verify(ids)
     good = all(v.passed and v.status in (Status.DERIVED, Status.DEFINITION) for v in verdicts)
     count = sum(len(v.checks) for v in verdicts)
-    found = (c for i in ids for c in catalogue.equation(i).conditions if c != ROUGH_BEARING)
-    conditions = dict.fromkeys(c.typed for c in found)  # a rough bearing is what the model is about
+    found = [c for i in ids for c in catalogue.equation(i).conditions if c != ROUGH_BEARING]
+    settings = dict.fromkeys(c.text for c in found if c.kind is Kind.SETTING)
+    conditions = dict.fromkeys(c.typed for c in found if c.kind is not Kind.SETTING)
     shown = ", ".join(f"({i}) {v.status}" for i, v in zip(ids, verdicts, strict=True))
+    setting = f"; setting: {', '.join(settings)}" if settings else ""
     needed = f"; needs {', '.join(conditions)}" if conditions else ""
-    return (
-        good,
-        f"{shown}; {count} checks{' hold' if good else ', some fail'}{needed}",
-        bool(needed),
-    )
+    outcome = f"{count} checks{' hold' if good else ', some fail'}"
+    return good, f"{shown}; {outcome}{setting}{needed}", bool(needed)
 
 
 def _equations(*ids: str) -> Callable[[], Finding]:
@@ -206,7 +206,7 @@ def bracket() -> Finding:
 
 def affine_asymptote() -> Finding:
     """C27: the coefficient of ln t."""
-    drift = Stabilised().asymptote.claim.rhs
+    drift = Stabilised().asymptote.claim.value
     (free,) = sp.solve(sp.numer(sp.together(drift)), sigma_c0)
     status = catalogue.equation("19").status
     only = sp.sstr(presentable(free), order="none")

@@ -42,12 +42,8 @@ f_a, f_c, f_aa, f_ac, f_cc, f_ca = symbols("f_a f_c f_aa f_ac f_cc f_ca")
 K_a, K_c, H_a, H_c = symbols("K_a K_c H_a H_c")
 
 ROUGH_BEARING = Hypothesis("the bearing is rough", sp.Gt(sigma_c, 0), kind=Kind.STATE)
-SMOOTH_PIN = Hypothesis(
-    "smooth pin", sp.Eq(sigma_a, 0), r"\text{smooth pin}", Kind.SETTING
-)
-UNWORN_PIN = Hypothesis(
-    "unworn pin", sp.Eq(u_a, 0), r"\text{unworn pin}", Kind.SETTING
-)
+SMOOTH_PIN = Hypothesis("smooth pin", sp.Eq(sigma_a, 0), r"\text{smooth pin}", Kind.SETTING)
+UNWORN_PIN = Hypothesis("unworn pin", sp.Eq(u_a, 0), r"\text{unworn pin}", Kind.SETTING)
 UNCOUPLED = tuple(
     Hypothesis("no cross coupling of roughness", sp.Eq(name, 0), kind=Kind.SETTING)
     for name in (f_ac, f_ca)

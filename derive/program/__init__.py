@@ -13,7 +13,7 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import sympy as sp
@@ -22,7 +22,7 @@ from ..laws import TANH
 from ..note.governing import Pin
 from ..symbols import QUANTITIES
 from ..variant import Variant
-from . import fields, margin, rate, root
+from . import fields, gradient, margin, rate, root
 from .function import Assignment, Function
 from .relations import Relations, groups
 from .symbols import pin_wear_sign
@@ -34,7 +34,8 @@ class Program:
 
     ``constants`` are computed once, by ``bind``, from ``parameters`` and, where the pin wears,
     the sign of its wear; ``fields`` names the results of the function of that name, if there is
-    one.
+    one.  ``joint_functions`` have several results each and are written for NumPy alone, where
+    that of rate and slope takes the place of the slope's.
     """
 
     variant: Variant
@@ -42,6 +43,7 @@ class Program:
     constants: tuple[Assignment, ...]
     functions: tuple[Function, ...]
     fields: tuple[str, ...] = ()
+    joint_functions: tuple[Function, ...] = ()
 
     @property
     def equations(self) -> tuple[str, ...]:
@@ -64,7 +66,14 @@ class Program:
     @property
     def operations(self) -> dict[str, int]:
         """Return how many arithmetic operations one call of each function costs."""
-        return {function.name: function.operations for function in self.functions}
+        return {function.name: function.operations for function in self.array_functions}
+
+    @property
+    def array_functions(self) -> tuple[Function, ...]:
+        """Return the functions that are written in NumPy."""
+        joint = {function.name for function in self.joint_functions}
+        left_out = {"slope"} if "rate_and_slope" in joint else set()
+        return (*(f for f in self.functions if f.name not in left_out), *self.joint_functions)
 
 
 @cache
@@ -80,7 +89,13 @@ def program(variant: Variant) -> Program:
         functions += margin.limited() if variant.compliant else ()
         hoisted += margin.constants(relations)
     functions += (fields.fields(relations),)
-    return _program(variant, hoisted, functions, fields.names(variant))
+    made = _program(variant, hoisted, functions, fields.names(variant))
+    pair = () if variant.compliant else (rate.rate_and_slope(*functions[:2]),)
+    gradients = (
+        gradient.rate_gradient(relations, [name for name, _ in made.constants]),
+        gradient.parameter_gradient(made.constants, made.parameters),
+    )
+    return replace(made, joint_functions=(*pair, *gradients))
 
 
 @cache
@@ -88,7 +103,14 @@ def margin_program(pin: Pin) -> Program:
     """Return what loss of contact adds: no law and no support takes part in it."""
     relations = Relations(Variant(TANH, compliant=False, pin=pin, ends_at_3_sigma=True))
     hoisted = (*groups(relations.variant), *margin.constants(relations))
-    return _program(relations.variant, hoisted, (*margin.margin(relations), *margin.limited()))
+    functions = (*margin.margin(relations), *margin.limited())
+    made = _program(relations.variant, hoisted, functions)
+    names = [name for name, _ in made.constants]
+    gradients = (
+        gradient.margin_gradient(margin.margin(relations)[0], names),
+        gradient.parameter_gradient(made.constants, made.parameters),
+    )
+    return replace(made, joint_functions=gradients)
 
 
 def _program(

@@ -4,6 +4,7 @@ Key results
     law         the contact law at ``ratio``, in a form to compute with
     to_ratio    the assignments that lead to ``ratio``
     rigid       rate and slope with a rigid support
+    rate_and_slope   both at once
     compliant   rate and slope at the pressure with a compliant support
 """
 
@@ -47,7 +48,7 @@ def to_ratio(relations: Relations, deflected: bool) -> tuple[Assignment, ...]:
 
 
 def rigid(relations: Relations) -> tuple[Function, ...]:
-    """Return the rate of wear, its slope, and both at the cost of little more than one."""
+    """Return the rate of wear and its slope."""
     names, value, slope = law(relations.variant)
     sloped, slopes = with_slopes(to_ratio(relations, deflected=False))
     assignments = (*sloped, *names)
@@ -67,13 +68,17 @@ def rigid(relations: Relations) -> tuple[Function, ...]:
             (change,),
             "derivative of the wear rate with respect to u_c, in 1/s",
         ),
-        Function.made(
-            "rate_and_slope",
-            (u, load),
-            assignments,
-            (rate, change),
-            "wear rate in mm/s and its derivative with respect to u_c in 1/s",
-        ),
+    )
+
+
+def rate_and_slope(rate: Function, slope: Function) -> Function:
+    """Return the rate and its slope at the cost of little more than one."""
+    return Function.made(
+        "rate_and_slope",
+        rate.arguments,
+        tuple(dict.fromkeys((*slope.assignments, *rate.assignments))),
+        (*rate.results, *slope.results),
+        "wear rate in mm/s and its derivative with respect to u_c in 1/s",
     )
 
 

@@ -25,7 +25,7 @@ def with_slopes(
     slopes: dict[sp.Symbol, sp.Expr] = {}
     for name, expr in assignments:
         made.append((name, expr))
-        slope = _reusing(_total(expr, slopes), name, expr)
+        slope = reusing(_total(expr, slopes), name, expr)
         if slope == 0:
             continue
         slopes[name] = slope if slope.is_Atom else number(f"{name}_u")
@@ -40,7 +40,7 @@ def _total(expr: sp.Expr, slopes: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
     return sp.Add(sp.diff(expr, u), *inner)
 
 
-def _reusing(slope: sp.Expr, name: sp.Symbol, expr: sp.Expr) -> sp.Expr:
+def reusing(slope: sp.Expr, name: sp.Symbol, expr: sp.Expr) -> sp.Expr:
     """Write the slope of a root or a quotient with the name that this has already."""
     root = expr.is_Pow and expr.exp == sp.Rational(1, 2)
     quotient = expr.is_Mul and not expr.as_numer_denom()[1].is_number

@@ -28,7 +28,7 @@ from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
 from ..rules.inequalities import arithmetic
 from ..rules.limits import at_infinity, diverges, forever, passes
-from ..symbols import rate, symbols, t
+from ..symbols import rate, symbols
 from ..typeset.display import as_written
 from .first_integral import UNSATURATED
 from .steady_state import SteadyState, roughness
@@ -91,9 +91,7 @@ class CompliantSteadyState(SteadyState):
         wear = diverges(u_c, self.growth, self.roughening)
         claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
         deviation = at_infinity(claim, wear, *self.facts)
-        near = first_order(
-            self.rate_at_wear, deviation, self.ratio, self.rate, self.deflected
-        )
+        near = first_order(self.rate_at_wear, deviation, self.ratio, self.rate, self.deflected)
         settled = passes(
             sp.Eq(forever(U_c), p_inf / k), bearing_only(self.law).deflection, self.steady
         )

@@ -41,7 +41,11 @@ mu, eta, nu, zeta, lamda = sp.symbols("mu eta nu zeta lambda", positive=True)
 """The groups: M, h_0, U and sigma_a0 over sigma_c0, and p_max/(k sigma_c0)."""
 
 SCALES = tuple(
-    assume(Hypothesis(f"{name.func} in units of {unit}", sp.Eq(name, unit * value), kind=Kind.DEFINITION))
+    assume(
+        Hypothesis(
+            f"{name.func} in units of {unit}", sp.Eq(name, unit * value), kind=Kind.DEFINITION
+        )
+    )
     for name, unit, value in ((u_c, sigma_c0, v), (U_a, U, a), (p, p_max, q))
 )
 CLOCK = defined(t, T * tau, "time in periods")

@@ -34,9 +34,7 @@ K_c, H_c, V, p_max = symbols("K_c H_c V p_max")
 roughness = sigma_c0 + f_c * u_c
 closure = h_0 + u_c - U_a
 
-APART = Hypothesis(
-    "the mean surfaces do not interpenetrate", sp.Gt(closure, 0), kind=Kind.STATE
-)
+APART = Hypothesis("the mean surfaces do not interpenetrate", sp.Gt(closure, 0), kind=Kind.STATE)
 
 INCREASING = (K_c, V, p_max, U_a, sigma_c0, f_c)
 DECREASING = (H_c, h_0)

@@ -31,13 +31,13 @@ from ..rules.algebra import consequence, discharge, solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import last_cycles, logarithmic_growth
 from ..rules.inequalities import arithmetic, monotone
-from ..rules.limits import T, at_infinity, forever, unbounded
+from ..rules.limits import at_infinity, forever, unbounded
 from ..rules.reading import CONSTANT, SINE
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus
 from .steady_state import closure, roughness, wear_rate
 
-h_0, U_a, u_c, U, N, M, h_star = symbols("h_0 U_a u_c U N M h_star")
+h_0, U_a, u_c, U, N, M, h_star, T = symbols("h_0 U_a u_c U N M h_star T")
 sigma_c0, sigma_c, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 sigma_c f_c p_max K_c H_c V")
 
 SMOOTHING = Hypothesis("the bearing smoothens as it wears", sp.Lt(f_c, 0))

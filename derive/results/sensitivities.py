@@ -75,8 +75,7 @@ def _differentiated(
     result: Judgement, parameter: sp.Symbol, left: sp.Expr, right: sp.Expr
 ) -> Judgement:
     claim = sp.Eq(left, right, evaluate=False)
-    names = (pressure,) if right.has(p_inf) else ()
-    names += (largest_wear,) if right.has(M) else ()
+    names = [name for s, name in ((p_inf, pressure), (M, largest_wear)) if right.has(s)]
     return differentiated(claim, parameter, result, *names, name="sensitivity")
 
 

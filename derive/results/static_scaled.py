@@ -17,8 +17,8 @@ import sympy as sp
 
 from ..codegen.formulas import Formula, formula_module
 from ..equations import Equation
-from ..note.condensed import bearing_only
 from ..kernel import Judgement
+from ..note.condensed import bearing_only
 from ..rules.algebra import insert, inserted, substitute
 from ..rules.assumption import assume, defined
 from ..symbols import symbols

@@ -140,7 +140,9 @@ class SteadyState:
     def squeeze(self) -> Judgement:
         """The deviation of h/sigma is at most a constant over the roughness."""
         offset = self.excess / roughness
-        claim = sp.And(sp.Le(offset, self.bound / roughness), sp.Ge(offset, -self.bound / roughness))
+        claim = sp.And(
+            sp.Le(offset, self.bound / roughness), sp.Ge(offset, -self.bound / roughness)
+        )
         return arithmetic(claim, *self.facts, name="bound of the deviation")
 
     @cached_property

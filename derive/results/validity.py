@@ -44,9 +44,7 @@ RESOLUTIONS = MappingProxyType(
 )
 """Half of the 1 + tanh at which a correctly rounded tanh becomes -1."""
 
-RESOLVED = Hypothesis(
-    "epsilon is below the largest possible share", epsilon < 1 / (1 + sp.exp(-8))
-)
+RESOLVED = Hypothesis("epsilon is below the largest possible share", epsilon < 1 / (1 + sp.exp(-8)))
 TEN_DIGITS = Hypothesis("resolution of ten digits", sp.Eq(epsilon, 1 / (1 + sp.exp(24))))
 
 

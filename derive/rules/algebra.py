@@ -118,9 +118,10 @@ class Restrict(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, condition = premises
         relation = condition.relation
+        written = (relation, getattr(relation, "reversed", relation))
         claim = first.claim.map(
             lambda side: side.replace(
-                lambda e: isinstance(e, sp.Piecewise) and e.args[0].cond == relation,
+                lambda e: isinstance(e, sp.Piecewise) and e.args[0].cond in written,
                 lambda e: e.args[0].expr,
             )
         )
@@ -174,6 +175,8 @@ def _identical(
     relation: sp.Equality, known: tuple[Judgement, ...], premises: tuple[Judgement, ...]
 ) -> Claim:
     require_defined(relation, *premises)
+    if not isinstance(relation, sp.Equality):
+        raise RuleError(f"missing premise: {relation} is an equality")
     left, right = relation.args
     if not is_zero(inserted(left - right, known)):
         raise RuleError(f"missing premise: {relation} is no identity")

@@ -25,9 +25,7 @@ from .reading import LOAD, constant, equality, field_of_rate, fields, inequality
 U_c, p, k, T, tau = symbols("U_c p k T tau")
 
 SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", sp.Eq(k * U_c - p, 0), kind=Kind.MODEL)
-RIGID = Hypothesis(
-    "rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING
-)
+RIGID = Hypothesis("rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING)
 
 
 @dataclass(frozen=True)

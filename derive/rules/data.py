@@ -18,7 +18,7 @@ from ..symbols import DATA
 from ..zero import is_zero
 from .algebra import inserted
 from .inequalities import smooth
-from .proving import facts_of, holds, require_defined, sign
+from .proving import facts_of, holds, require_defined
 from .reading import equality, fields
 
 _OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)

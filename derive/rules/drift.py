@@ -33,7 +33,6 @@ from .reading import (
     field_of_rate,
     fields,
     has_hypothesis,
-    initial_value,
     limit_in_time,
     rate_law,
 )

@@ -21,13 +21,24 @@ from ..zero import is_zero
 from .proving import LAW, continuity, facts_of, holds, require, require_defined, sign
 from .reading import inequality
 
-_SMOOTH = (sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, LAW, sp.Symbol, sp.Number, sp.NumberSymbol)
+_SMOOTH = (
+    sp.Add,
+    sp.Mul,
+    sp.Pow,
+    sp.exp,
+    sp.tanh,
+    sp.log,
+    LAW,
+    sp.Symbol,
+    sp.Number,
+    sp.NumberSymbol,
+)
 
 
 def smooth(expr: sp.Expr) -> bool:
-    """Return whether an expression is differentiable wherever it has a value and roots are not 0."""
+    """Return whether an expression is differentiable where it has a value, roots but at 0."""
     parts = sp.preorder_traversal(expr)
-    return all(isinstance(part, (*_SMOOTH, AppliedUndef)) for part in parts)
+    return all(isinstance(part, (*_SMOOTH, sp.NumberSymbol, AppliedUndef)) for part in parts)
 
 
 @dataclass(frozen=True)
@@ -100,7 +111,8 @@ class Lipschitz(Rule):
         for nonnegative in (self.step, self.factor):
             require(sp.Ge(nonnegative, 0), *premises)
         change = self.factor * (self.function(self.at) - self.function(self.at + self.step))
-        bounds = sp.Ge(change, 0), sp.Le(change, self.factor * self.step)
+        most = self.factor * self.step
+        bounds = sp.Ge(change, 0, evaluate=False), sp.Le(change, most, evaluate=False)
         return Conclusion(claim_of(sp.And(*bounds, evaluate=False)))
 
 

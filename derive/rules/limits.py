@@ -25,9 +25,9 @@ from sympy.core.relational import Relational
 
 from ..claims import Equality, Limit
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
-from ..symbols import symbol, t
+from ..symbols import t
 from ..zero import is_zero
-from .proving import LAW, continuity, continuous, facts_of, holds, require, require_defined
+from .proving import LAW, continuity, continuous, facts_of, holds, require
 from .reading import (
     CONTINUOUS,
     LOAD,
@@ -54,6 +54,7 @@ def forever(expr: sp.Expr) -> sp.Limit:
 def later(expr: sp.Basic) -> sp.Basic:
     """Return ``expr`` one period later.
 
+    >>> from derive.symbols import symbol
     >>> later(symbol("u_c")) == symbol("u_c").subs(t, t + T)
     True
     """
@@ -117,14 +118,14 @@ def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
             else:
                 continue
             small, large = pair
-            if small == sp.Abs(field) and _fixed(large):
-                return (sp.Le(small, large),)
+            if small == sp.Abs(field) != field and _fixed(large):
+                return (sp.Le(small, large, evaluate=False),)
             if small == field and _fixed(large):
-                found.append((1, sp.Le(field, large)))
+                found.append((1, sp.Le(field, large, evaluate=False)))
             if large == field and _fixed(small):
-                found.append((0, sp.Ge(field, small)))
+                found.append((0, sp.Ge(field, small, evaluate=False)))
     if field.is_nonnegative:
-        found.append((0, sp.Ge(field, 0)))
+        found.append((0, sp.Ge(field, 0, evaluate=False)))
     if {side for side, _ in found} != {0, 1}:
         raise RuleError(f"missing premise: {field.func} is bounded")
     return tuple(relation for _, relation in found)
@@ -209,9 +210,7 @@ class AtInfinity(Rule):
 
     claim: sp.Equality
     small: sp.Expr
-    words = (
-        "By {0} let {small} tend to zero in an expansion that is uniform in bounded loads."
-    )
+    words = "By {0} let {small} tend to zero in an expansion that is uniform in bounded loads."
     source = "Taylor's theorem"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -222,7 +221,6 @@ class AtInfinity(Rule):
             inside.subs(dict.fromkeys(fields(inside), z))
         ):
             raise RuleError(f"missing premise: {inside} depends on {u} and bounded fields alone")
-        require_defined(inside, *premises)
         plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(inside) if f != u}
         for field in plain:
             bounds(field, *premises)
@@ -359,7 +357,6 @@ class Passes(Rule):
             back = back.subs(stand_in, quantity)
         if not constant(expr) or fields(expr) or not is_zero(back - rewritten):
             raise RuleError(f"missing premise: the limit of all that varies in {whole}")
-        require_defined(whole, *premises, known=[later(p.relation) for p in premises])
         if not continuous(expr, ends, *premises):
             raise RuleError(f"missing premise: {whole} is continuous where the limits end")
         if not is_zero(expr.subs(ends) - self.claim.rhs):
@@ -438,8 +435,8 @@ class Intermittent(Rule):
         room = sp.expand(contact.gts - contact.lts)
         if fields(room) != {LOAD} or not isinstance(contact, (sp.Le, sp.Ge)):
             raise RuleError("missing premise: contact depends on the load alone")
-        inside = [c for e, c in _indicators(meaning.rhs) if e == 1]
-        share = [_same_side(c, room) for c in inside]
+        contacts = [c for e, c in _indicators(meaning.rhs) if e == 1]
+        share = [_same_side(c, room) for c in contacts]
         if share != [True] or not meaning.lhs.is_positive:
             raise RuleError("missing premise: the fraction of the period in contact")
         plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(on)}

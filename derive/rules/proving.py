@@ -19,7 +19,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import cache
 
 import flint
@@ -28,7 +28,7 @@ import z3
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ..claims import Property
+from ..claims import Asymptotic, Limit, Property
 from ..kernel import Judgement, RuleError
 from ..laws import GENERAL
 
@@ -54,13 +54,27 @@ _RELATIONS = {
 
 
 def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
-    """Return what premises give: their claims, and all of their hypotheses."""
+    """Return what premises give: their claims, all of their hypotheses, and that every part of a
+    claim has a value."""
     found: set[sp.Basic] = set()
     for premise in premises:
         if not isinstance(premise.claim, Property):
             found.add(premise.relation)
+        if _valued(premise):
+            found |= set(_needed(premise.relation, set())) - {sp.false}
         found |= {h.relation for h in premise.hypotheses if h.relation is not sp.true}
     return frozenset(found)
+
+
+def _valued(premise: Judgement) -> bool:
+    """Return whether all that stands in a claim has a value at every time, not just in the end."""
+    return not isinstance(premise.claim, (Asymptotic, Limit, Property))
+
+
+def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
+    """Return the parts of claims, all of which have a value."""
+    wholes = (premise.relation for premise in premises if _valued(premise))
+    return {part for whole in wholes for part in sp.preorder_traversal(whole)}
 
 
 @cache
@@ -214,22 +228,15 @@ def require(goal: sp.Basic, *premises: Judgement) -> None:
         raise RuleError(f"missing premise: {goal}")
 
 
-def require_defined(
-    expr: sp.Basic, *premises: Judgement, known: Iterable[sp.Basic] = ()
-) -> None:
-    """Raise RuleError unless every part of an expression has a value under the premises.
-
-    What stands in the claim of a premise has one, and so have the parts of ``known``.
-    """
+def require_defined(expr: sp.Basic, *premises: Judgement) -> None:
+    """Raise RuleError unless every part of an expression has a value under the premises."""
     facts = facts_of(premises)
-    wholes = (*known, *(p.relation for p in premises))
-    parts = {part for whole in wholes for part in sp.preorder_traversal(whole)}
-    for goal in _needed(expr, parts):
+    for goal in _needed(expr, _parts(premises)):
         if not holds(goal, facts):
             raise RuleError(f"missing premise: {goal}")
 
 
-def _needed(expr: sp.Basic, known: set[sp.Basic]) -> list[sp.Basic]:
+def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:
     """Return the relations that give every part of an expression a value."""
     if expr in known or not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative, sp.Limit)):
         if expr in (sp.zoo, sp.nan):
@@ -241,7 +248,7 @@ def _needed(expr: sp.Basic, known: set[sp.Basic]) -> list[sp.Basic]:
         if exponent.is_Integer:
             return [*needs, sp.Ne(base, 0)] if exponent.is_negative else needs
         relation = sp.Ge if exponent.is_positive else sp.Gt
-        return [*needs, relation(base, 0)]
+        return [*needs, relation(base, 0, evaluate=False)]
     if isinstance(expr, sp.log):
         return [*needs, sp.Gt(expr.args[0], 0)]
     if isinstance(expr, sp.LambertW):
@@ -260,15 +267,14 @@ def continuous(expr: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgeme
 
     It must be made of continuous functions, which have a value at the point and near it.
     """
-    known = {part for p in premises for part in sp.preorder_traversal(p.relation)}
-    goals = continuity(expr, set(at), known)
+    goals = continuity(expr, set(at), _parts(premises))
     points = [goal.subs(dict(at)) for goal in goals]
     facts = facts_of(premises)
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
 
 
 def continuity(
-    expr: sp.Expr, unknowns: set[sp.Basic], known: set[sp.Basic] = frozenset()
+    expr: sp.Expr, unknowns: set[sp.Basic], known: Collection[sp.Basic] = ()
 ) -> list[sp.Basic]:
     """Return the relations, true on open sets, where an expression is continuous in unknowns."""
     changing = [part for part in sp.preorder_traversal(expr) if part.has(*unknowns)]

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
-from .formula import Piece, fence, parse, rows, source, total
+from .formula import Piece, fence, parse, rows, source, total, width
 
 #: Room for a formula beside its number, in em of the text: 160 mm of 11 pt type are 41 em.
 LIMIT = 34.0
@@ -21,6 +21,9 @@ LIMIT = 34.0
 _INDENT = 2.5  # of a line that is not the first, and begins with a sign
 #: Width, as a share of a line, from which on pieces are opened: smaller until all lines fit.
 _SHARES = (1.0, 0.75, 0.5, 0.25)
+#: The widest left side of a system, as a share of a line, that other rows are aligned with.
+_LEFT = 0.3
+_SPACED = re.compile(r"\s*&")
 _SIZES = ((r"\bigl", r"\bigr"), (r"\biggl", r"\biggr"), (r"\Biggl", r"\Biggr"))
 _SYSTEM = re.compile(
     r"(?P<open>(?:\\left\\\{\s*)?\\begin\{aligned\})(?P<rows>.*)"
@@ -39,7 +42,7 @@ def broken(latex: str, limit: float = LIMIT) -> str:
     """
     system = _SYSTEM.fullmatch(latex.strip())
     if system is not None and r"\begin{aligned}" not in system["rows"]:
-        lines = [line for row in rows(system["rows"]) for line in _lines(row, limit)]
+        lines = _system(rows(system["rows"]), limit)
         return system["open"] + r"\\".join(lines) + system["close"]
     lines = _lines(latex, limit)
     if len(lines) == 1:
@@ -47,14 +50,39 @@ def broken(latex: str, limit: float = LIMIT) -> str:
     return r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}"
 
 
-def _lines(row: str, limit: float) -> list[str]:
-    """One row as lines for a table with one alignment point."""
+def _system(system: list[str], limit: float) -> list[str]:
+    """Rows with a common point of alignment: what stands left of it is as wide as the widest.
+
+    Where that leaves too little, rows with a wide left side start at the point of alignment.
+    """
+    sides = [tuple(width(side) for side in _sides(row)) for row in system]
+    left = max(side[0] for side in sides)
+    if left + max(side[1] for side in sides) <= limit:
+        return system
+    left = max((side[0] for side in sides if side[0] <= _LEFT * limit), default=0.0)
+    lines: list[str] = []
+    for row, (own, _) in zip(system, sides, strict=True):
+        if own > left:
+            lines += _lines("&" + _SPACED.sub("", row), limit - left)
+        else:
+            lines += _lines(row, limit - left + own, own + _INDENT)
+    return lines
+
+
+def _sides(row: str) -> tuple[str, str]:
+    """What stands left and right of a row's point of alignment."""
+    left, mark, right = row.partition("&")
+    return (left, right) if mark else ("", left)
+
+
+def _lines(row: str, limit: float, indent: float = _INDENT) -> list[str]:
+    """One row as lines for a table with one alignment point; all but the first are indented."""
     pieces = parse(row)
     if total(pieces) <= limit:
         return [row]
     for share in _SHARES:
-        first, *others = _fill(_open_up(pieces, share * (limit - _INDENT)), limit)
-        if max(map(total, (first, *others))) <= limit - _INDENT:
+        first, *others = _fill(_open_up(pieces, share * (limit - indent)), limit, indent)
+        if total(first) <= limit and max(map(total, others), default=0.0) <= limit - indent:
             break
     start = source(first) if any(piece.tex == "&" for piece in first) else _aligned(first)
     return [start.strip(), *(rf"&\qquad {_unaligned(line).strip()}" for line in others)]
@@ -125,7 +153,7 @@ def _bracketed(pieces: tuple[Piece, ...], depth: int) -> Piece:
     return replace(fence("[", pieces, "]"), depth=depth)
 
 
-def _fill(pieces: tuple[Piece, ...], limit: float) -> list[tuple[Piece, ...]]:
+def _fill(pieces: tuple[Piece, ...], limit: float, indent: float) -> list[tuple[Piece, ...]]:
     """Lines that fit, full but broken as little inside brackets as can be."""
     lines, rest, room = [], pieces, limit
     while total(rest) > room:
@@ -136,7 +164,7 @@ def _fill(pieces: tuple[Piece, ...], limit: float) -> list[tuple[Piece, ...]]:
         cost = {i: _cost(possible[i], total(rest[:i]) / room) for i in fitting}
         best = min(fitting, key=lambda i: (cost[i], -i))
         lines.append(rest[:best])
-        rest, room = rest[best:], limit - _INDENT
+        rest, room = rest[best:], limit - indent
     return [*lines, rest]
 
 

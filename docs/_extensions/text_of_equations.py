@@ -59,7 +59,8 @@ def _entry(found: Equation) -> str:
         _block(found.latex),
     ]
     if found.conditions:
-        parts.append("If " + ", ".join(dict.fromkeys(condition.text for condition in found.conditions)) + ".")
+        needed = dict.fromkeys(condition.text for condition in found.conditions)
+        parts.append(f"If {', '.join(needed)}.")
     if found.printed and not found.agrees:
         parts += ["As printed, which does not hold:", _block(found.printed_latex)]
     if found.remark:

@@ -26,6 +26,7 @@ from derive.laws import LAWS, ContactLaw, r
 from derive.note.condensed import Condensed
 from derive.note.governing import Model, Pin
 from derive.program import margin_program
+from derive.program.gradient import by_constant
 from derive.program.root import tail
 from derive.program.symbols import pin_wear_sign
 from derive.stable import STABLE, proof
@@ -180,11 +181,72 @@ def derivatives(variant, functions, values):
 
 @every_variant
 def test_a_pair_is_what_its_halves_are(variant):
-    functions = {f.name: f for f in exact.made(variant).functions}
+    functions = {f.name: f for f in (*exact.made(variant).functions, *joint(variant).values())}
     if not variant.compliant:
         pair, halves = functions["rate_and_slope"], [functions["rate"], functions["slope"]]
         assert pair.results == tuple(half.results[0] for half in halves)
         assert pair.operations < sum(half.operations for half in halves)
+
+
+def joint(variant):
+    return {f.name: f for f in exact.made(variant).joint_functions}
+
+
+@every_variant
+def test_gradients_are_derivatives(variant):
+    """With respect to the load and each constant, by dual numbers to 40 digits."""
+    made = exact.made(variant)
+    functions = {f.name: exact.composed(f)[0] for f in made.functions if f.name != "fields"}
+    gradient = exact.composed(joint(variant)["rate_gradient"])
+    names = ["U_a", *(name.name for name, _ in made.constants)]
+    for at in exact.points(variant, 12)[7:]:
+        values = exact.exact_values(variant, at)
+        if variant.compliant:  # a pressure is the root for the load that belongs to it
+            values["p_max"] = values["p"] / exact.dual(share(variant), values).value
+        rate = exact.dual(functions["rate"], values).slopes
+        with mpmath.workdps(3 * exact.DIGITS):
+            wanted = {name: rate.get(name, 0) for name in names}
+            if variant.compliant:
+                residual = exact.dual(functions["residual"], values).slopes
+                for name in names:
+                    wanted[name] -= rate["p"] * residual.get(name, 0) / residual["p"]
+        for name, expr in zip(names, gradient, strict=True):
+            found = exact.dual(expr, values).value
+            with mpmath.workdps(exact.DIGITS):
+                assert mpmath.almosteq(found, wanted[name], rel_eps=mpmath.mpf(10) ** -40), name
+
+
+def share(variant):
+    """p/p_max by the contact law, from the residual p - p_max phi."""
+    residual = next(f for f in exact.made(variant).functions if f.name == "residual")
+    p, p_max = (
+        next(s for s in exact.composed(residual)[0].free_symbols if s.name == name)
+        for name in ("p", "p_max")
+    )
+    return ((p - exact.composed(residual)[0]) / p_max).expand()
+
+
+@pytest.mark.parametrize("pin", Pin)
+def test_the_gradient_of_the_margin_is_its_derivative(pin):
+    made = margin_program(pin)
+    margin = made.functions[0].composed()[0]
+    gradient = next(f for f in made.joint_functions if f.name == "margin_gradient").composed()
+    for (name, _), found in zip(made.constants, gradient, strict=True):
+        assert sp.simplify(found - sp.diff(margin, name)) == 0
+
+
+PROGRAMS = [*map(exact.made, VARIANTS), *map(margin_program, Pin)]
+
+
+@pytest.mark.parametrize("made", PROGRAMS, ids=lambda made: source(made, "numpy")[3:70])
+def test_gradients_go_back_through_bind(made):
+    """By the chain rule from the constants, differentiated one by one, to the parameters."""
+    gradient = next(f for f in made.joint_functions if f.name == "parameter_gradient")
+    constants = made.exact_constants
+    for parameter, found in zip(made.parameters, gradient.composed(), strict=True):
+        chain = (by_constant(c.name) * sp.diff(v, parameter) for c, v in constants.items())
+        exactly = found.xreplace(constants)
+        assert sp.simplify(exactly - sp.Add(*chain)) == 0, parameter
 
 
 @pytest.mark.parametrize("pin", Pin)
@@ -278,7 +340,7 @@ def test_a_variant_has_what_it_needs_and_no_more(variant):
     assert ("k" in module.Parameters._fields) == variant.compliant
     assert "tanh(" not in text
     assert ("pin_wear_sign" in text) == variant.pin.wears
-    assert {f.name: f.operations for f in exact.made(variant).functions} == module.OPERATIONS
+    assert exact.made(variant).operations == module.OPERATIONS
 
 
 def test_what_is_not_modelled_costs_nothing():
@@ -337,11 +399,16 @@ def test_functions_are_accurate_to_roundoff(case):
     """At most 8 units of roundoff times the sum of the absolute terms, for every function."""
     variant, at = case
     module, constants = numbers(variant, at)
-    for function in exact.made(variant).functions:
+    made = exact.made(variant)
+    for function in made.array_functions:
+        if function.name == "parameter_gradient":
+            continue
         values = exact.inputs(function, at, constants._asdict())
         arguments = [np.float64(values[a.name]) for a in function.arguments]
         found = getattr(module, function.name)(*arguments, constants)
         results = tuple(found) if len(function.results) > 1 else (found,)
+        if function.name == "rate_gradient":
+            results = (found[0], *found[1])
         for index, result in enumerate(results):
             units = exact.judge(function, values, index).units(float(result))
             assert units <= exact.UNITS, function.name

@@ -10,13 +10,13 @@ import mpmath
 import pytest
 import sympy as sp
 
+from derive.averaging import average
+from derive.harmonics import Harmonics, constant, sine, total
+from derive.kernel import Judgement
 from derive.laws import TANH
 from derive.note.stabilised import Stabilised
-from derive.results.averaging import average
 from derive.results.compliant import drift_coefficient
 from derive.results.expansion import Expansion
-from derive.results.harmonics import Harmonics, constant, sine, total
-from derive.statement import Statement
 from derive.symbols import symbols
 from derive.zero import is_zero
 
@@ -30,7 +30,7 @@ HALF = {1000: "u(1000T)", 100000: "u(100000T)"}
 """Cycles for which the wear at f_c = 1/2 is known to 24 digits."""
 
 
-def _of_section_4(statement: Statement, slope: sp.Expr) -> mpmath.mpf:
+def _of_section_4(statement: Judgement, slope: sp.Expr) -> mpmath.mpf:
     known = {**DATA, f_c: slope, tau: sp.S.Zero}
     saturation = sp.tanh(4 - 2 / slope)
     names = {
@@ -85,7 +85,7 @@ def test_the_drift_of_section_4() -> None:
 
 def test_the_limit_and_the_expansion_give_one_drift() -> None:
     """Proved as a limit on the way to (19), and found again as c_1/f_c."""
-    limit = Stabilised().asymptote.claim.rhs.subs(U_mean, 0)
+    limit = Stabilised().asymptote.claim.value.subs(U_mean, 0)
     names = {b_0: sigma_c0 / f_c - h_0, theta: sp.tanh(4 - 2 / f_c)}
     assert is_zero(limit - Expansion().drift(1).claim.rhs.subs(names) / f_c)
 

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from derive import catalogue
-from derive.typeset.macros import macro_name, macros
+from derive.typeset.derivation import prose
+from derive.typeset.macros import macro_name, macros, room
 
 _HEAD = {
     "article": r"\documentclass{article}",
@@ -60,6 +61,51 @@ def test_what_is_quoted_most_fits_with_its_symbols(
     shown = "".join(rf"\begin{{equation}}\{macro_name(e)}\end{{equation}}" for e in chosen)
     log = _log(tmp_path, engine, head, shown + r"\begin{table*}\WearNomenclature\end{table*}")
     assert _too_wide(log) == []
+
+
+@pytest.mark.parametrize("width", ["246pt", "345pt"])
+def test_every_equation_fits_a_column(
+    width: str, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    """Beside its number, by its name and by its id."""
+    engine = need_tool("pdflatex")
+    equations = catalogue.equations()
+    (tmp_path / "equations.tex").write_text(macros(equations, room(width)), encoding="utf-8")
+    shown = (
+        rf"\begin{{equation}}\{macro_name(e)}\tag{{D.10}}\end{{equation}}\[\EqNote{{{e.id}}}\]"
+        for e in equations
+    )
+    head = rf"\documentclass{{article}}\setlength{{\textwidth}}{{{width}}}"
+    log = _log(tmp_path, engine, head, "\n".join(shown))
+    assert [float(too_wide) for too_wide in _WIDE.findall(log)] == []
+
+
+@pytest.mark.parametrize("identifier", ["7c", "8", "first-integral"])
+def test_a_derivation_fits_a_column(
+    identifier: str, tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    """Prose with equations: starting points, every step, the equation with its number."""
+    engine = need_tool("pdflatex")
+    text = prose(catalogue.equations_up_to(identifier), room("246pt"))
+    assert rf"\tag{{{identifier}}}" in text
+    assert not re.search(r"\[(?:eq|der):", text)
+    steps = [int(number) for number in re.findall(r"Step (\d+)\.", text)]
+    assert steps == sorted(set(steps))
+    (tmp_path / "equations.tex").write_text(text, encoding="utf-8")
+    head = r"\documentclass{article}\setlength{\textwidth}{246pt}"
+    source = head + r"\usepackage{amsmath,booktabs}\begin{document}\input{equations}\end{document}"
+    (tmp_path / "other.tex").write_text(source, encoding="utf-8")
+    done = subprocess.run(
+        [engine, "-interaction=nonstopmode", "-halt-on-error", "other.tex"],
+        cwd=tmp_path, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert [float(too_wide) for too_wide in _WIDE.findall(done.stdout)] == []
+
+
+@pytest.mark.parametrize("length", ["246", "3 cm", "wide", "-246pt", "1e9pt"])
+def test_what_is_no_width_is_refused(length: str) -> None:
+    with pytest.raises(ValueError, match="such as 246pt"):
+        room(length)
 
 
 def test_names_can_be_guessed() -> None:

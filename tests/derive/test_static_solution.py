@@ -10,10 +10,10 @@ import mpmath
 import pytest
 import sympy as sp
 
+from derive.kernel import Judgement
 from derive.results.static_compliant import StaticCompliant
 from derive.results.static_scaled import scaled_primitive
 from derive.results.static_solution import StaticSolution
-from derive.statement import Statement
 from derive.symbols import symbols, t
 
 VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
@@ -25,7 +25,7 @@ SECTION_4 = {sigma_c0: sp.Rational("3.6e-4"), h_0: sp.Rational("1.08e-3"), C: M 
 """Time is counted in cycles: C T = M/2."""
 
 
-def _number(statement: Statement, slope: str, load: str, more: dict[sp.Expr, sp.Expr]) -> sp.Expr:
+def _number(statement: Judgement, slope: str, load: str, more: dict[sp.Expr, sp.Expr]) -> sp.Expr:
     known = {**SECTION_4, f_c: sp.Rational(slope), U_a: sp.Rational(load), **more}
     offset = 2 * (sigma_c0 / f_c - h_0 + U_a)
     right = statement.claim.rhs.subs({beta: offset, x_inf: 4 - 2 / f_c})

@@ -1,4 +1,4 @@
-"""The benchmark: statuses, order of runs, medians, what readers are told, peers, the command."""
+"""The benchmark: statuses, order of runs, medians, what readers learn, peers, the command."""
 
 import csv
 import io
@@ -10,15 +10,24 @@ import pytest
 
 from tests.wear.reference_scenes import REFERENCE
 from wear import benchmark, cli
-from wear.benchmark import Effort, Status, judge, output, peers, summary
-from wear.benchmark.cases import CYCLES, Case, cases, names
+from wear.benchmark import Effort, Status, judge, results
 from wear.benchmark.machine import footer, machine, missing
-from wear.benchmark.method import Answer, Method, UnsuitableError
-from wear.benchmark.own import OWN
+from wear.benchmark.methods import (
+    CYCLES,
+    OWN,
+    Answer,
+    Case,
+    Method,
+    UnsuitableError,
+    cases,
+    names,
+)
+from wear.commands import bench
 from wear.direct.problem import problem
 from wear.model import bind
 from wear.scene import load_scene
 
+peers = bench.load_peers()
 EFFORT = Effort(cap=10.0, repeated=5.0, rounds=3, rest=1e9)
 
 
@@ -63,9 +72,9 @@ def test_statuses():
     assert judge(-2e-6, 1e-6)[0] is Status.MISSED
     assert judge(0.02, 1e-6)[0] is Status.WRONG
     assert judge(1e-15, 1e-16)[0] is Status.MET  # nothing is better than roundoff
-    assert judge(1e-9, 1e-6, Answer(1.0, complaint="gave up")) == (Status.TOLD, "gave up")
+    assert judge(1e-9, 1e-6, Answer(1.0, complaint="gave up")) == (Status.REPORTED, "gave up")
     assert judge(1e-9, 1e-6, Answer(1.0, complaint="late", stopped=True))[0] is Status.STOPPED
-    assert judge(math.nan, 1e-6)[0] is Status.TOLD
+    assert judge(math.nan, 1e-6)[0] is Status.REPORTED
 
 
 def test_rounds_go_through_all_methods(clock):
@@ -122,37 +131,37 @@ def result(clock):
         method("wrong", clock, [], -0.4, lambda *_: 0.001),
     ]
     runs, starts = benchmark.benchmark(makers, made_cases(1, 100, 9000), EFFORT)
-    return output.Result(runs, starts, {"quick": 0.1}, {"absent": ("nothing",)}, machine())
+    return results.Result(runs, starts, {"quick": 0.1}, {"absent": ("nothing",)}, machine())
 
 
 def test_times_are_compared_at_equal_true_error(result):
-    here = summary.at(result.runs, "made", 100)
-    assert [entry.method for entry in summary.best(here, 6)] == ["quick", "slow"]
-    assert [entry.method for entry in summary.best(here, 3)] == ["off", "quick", "slow"]
-    cells = [summary.cell(here, name, 6) for name in ("quick", "slow", "off", "wrong")]
+    here = results.at(result.runs, "made", 100)
+    assert [entry.method for entry in results.best(here, 6)] == ["quick", "slow"]
+    assert [entry.method for entry in results.best(here, 3)] == ["off", "quick", "slow"]
+    cells = [results.cell(here, name, 6) for name in ("quick", "slow", "off", "wrong")]
     assert cells == ["2 ms", "2 s (1000x)", "off by 1e-4", "off by 40 %"]
-    assert summary.cell(summary.at(result.runs, "made", 9000), "slow", 6) == "~ 3 min"
+    assert results.cell(results.at(result.runs, "made", 9000), "slow", 6) == "~ 3 min"
 
 
 def test_the_sentence_names_the_fastest_and_the_ratio(result):
-    one, hundred, many = summary.sentences(result.runs, "made")
+    one, hundred, many = results.sentences(result.runs, "made")
     assert "use quick: it takes 2 ms; slow takes 10 times as long" in one
     assert "100 cycles" in hundred
     assert "1000 times" in hundred
     assert "nothing else got there" in many
-    assert "nothing that was tried" in summary.sentences(result.runs, "made", 14)[0]
+    assert "nothing that was tried" in results.sentences(result.runs, "made", 14)[0]
 
 
 def test_silent_failures_are_listed(result):
-    assert [run.method for run in summary.silent_failures(result.runs)] == ["wrong"]
+    assert [run.method for run in results.silent_failures(result.runs)] == ["wrong"]
 
 
 def test_figures_are_drawn_where_there_is_something_to_compare(result):
-    assert summary.figure_cycles(result.runs, "made") == (100,)
+    assert results.figure_cycles(result.runs, "made") == (100,)
 
 
 def test_the_raw_csv_reads_back(result):
-    rows = list(csv.DictReader(io.StringIO(output.csv_text(result.runs))))
+    rows = list(csv.DictReader(io.StringIO(results.csv_text(result.runs))))
     assert len(rows) == len(result.runs)
     for row, run in zip(rows, result.runs, strict=True):
         assert row["method"] == run.method
@@ -161,8 +170,8 @@ def test_the_raw_csv_reads_back(result):
 
 
 def test_markdown_tables_have_no_loose_ends(result):
-    text = output.markdown(result, "made")
-    widths = {line.count("|") for line in output.markdown_table(output.tables(result)[0]).split()}
+    text = results.markdown(result, "made")
+    widths = {line.count("|") for line in results.markdown_table(results.tables(result)[0]).split()}
     assert "quick" in text
     assert "absent: not measured, nothing not installed" in text
     assert footer(dict(result.facts)) in text
@@ -227,7 +236,7 @@ def test_installed_peers_agree():
 
 @pytest.fixture
 def wear(capsys, monkeypatch):
-    """Run `wear bench` with the least effort; give status and output."""
+    """Run `wear bench` with the least effort; give status and results."""
     monkeypatch.setattr(benchmark, "QUICK", Effort(cap=0.0, repeated=1.0, rounds=1, rest=0.5))
 
     def call(*arguments: str) -> tuple[int, str, str]:
@@ -264,6 +273,12 @@ def test_a_place_that_cannot_be_written_is_told_before_the_work(wear, tmp_path):
     assert status == 2
     assert "file" in message
     assert place.read_text() == "mine"
+
+
+def test_an_installation_says_where_the_peers_are(wear, monkeypatch, tmp_path):
+    monkeypatch.setattr(bench, "PEERS", tmp_path / "peers.py")
+    status, _, message = wear("--quick", "--peers")
+    assert (status, "docs/bench/peers.py" in message) == (2, True)
 
 
 def test_the_hard_cases_have_no_peers(wear):

@@ -25,6 +25,7 @@ from wear.solver import METHODS, solve
 CONTRACT = {
     "scene", "model", "method", "rtol", "cycles", "bearing_wear_mm", "pin_wear_mm",
     "bearing_roughness_mm", "pin_roughness_mm", "closure_mm", "pressure_at_start_MPa",
+    "peak_pressure_MPa", "mean_pressure_MPa", "contact_fraction",
     "error_estimate", "cost", "seconds", "notices",
 }  # fmt: skip
 

@@ -4,8 +4,8 @@ import numpy as np
 from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import REFERENCE, reference_scene
-from wear import count
-from wear.count.blocks import cycles_until, wear_after
+from wear import cycles as count
+from wear.cycles import cycles_until, wear_after
 from wear.load import Block, Blocks, Sine
 from wear.model import bind
 

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from tests.independent import Problem
 from tests.independent import wear_after as independent
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
-from wear import count
+from wear import cycles as count
 from wear.load import Harmonics, Sine, Table
 from wear.model import bind
 from wear.numerics.gauss import (

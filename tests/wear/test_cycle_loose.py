@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 
 from tests.wear.reference_scenes import CONSTANT, tables
 from tests.wear.test_cycle_count import counted
-from wear.count.blocks import cycles_until, wear_after
-from wear.count.sweep import sweep
+from wear.cycles import cycles_until, sweep, wear_after
 from wear.load import Block, Blocks, Constant
 from wear.model import bind
 from wear.scene import Scene, scene_from_tables

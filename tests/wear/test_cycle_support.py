@@ -12,7 +12,8 @@ from tests.independent_support import SupportJudge
 from tests.wear.reference_scenes import tables
 from tests.wear.test_cycle_count import between, problem
 from tests.wear.test_cycle_cutoff import loads, supported
-from wear import count, direct
+from wear import cycles as count
+from wear import direct
 from wear.count.edge import edge_of_contact, phase_of
 from wear.load import Harmonics, Load, Sine, Table
 from wear.model import bind

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wear import count, direct
+from wear import cycles as count
+from wear import direct
 from wear.direct.cutoff import Mode, first_mode, is_arrested, pieces, pressure_share
 from wear.direct.problem import problem
 from wear.load import Harmonics, Sine, Table

@@ -15,7 +15,7 @@ from derive.codegen.sources import definitions
 from tests.derive.exact import made, variant_of
 from tests.wear.browser import browser
 from wear.cli import main
-from wear.report import explorer, explorer_data
+from wear.report import explorer, explorer_data, explorer_derived
 from wear.scene import builtin_names, load_scene, parse_scene
 
 READY = "document.documentElement?.dataset.ready >= 1"
@@ -50,6 +50,12 @@ def page(window, page_file):
     assert window.complaints == []
     fetched = [url for url in window.requests if not url.startswith("data:font/woff2;")]
     assert set(fetched) == {page_file.as_uri()}
+
+
+def test_what_the_page_has_of_the_derivation_is_up_to_date() -> None:
+    """Else: python -m wear.report.explorer_derived."""
+    file = Path(explorer.__file__).parent / "assets" / explorer_derived.FILE
+    assert file.read_text(encoding="utf-8") == explorer_derived.derived()
 
 
 def put(page, name, value, event="input"):
@@ -137,7 +143,9 @@ def test_a_title_cannot_become_markup(tmp_path):
 
 
 def test_changed_scene_does_not_hide_the_built_in_one():
-    data = explorer._data(load_scene("section4", ["bearing.roughness_growth=0.3"]))
+    written = explorer.page(load_scene("section4", ["bearing.roughness_growth=0.3"]))
+    (encoded,) = re.findall(r'id="data">(.*?)</script>', written, flags=re.DOTALL)
+    data = json.loads(encoded)
     names = [scene["name"] for scene in data["scenes"]]
     assert data["first"] == names[0] == "section4 (changed)"
     assert "section4" in names
@@ -306,7 +314,7 @@ def test_page_says_when_nothing_wears(page):
 def test_every_slider_that_acts_moves_a_curve(page):
     put(page, "scene", "section3")
     click(page, "compliant")
-    for row in explorer_data.parameter_rows():
+    for row in explorer_derived.parameter_rows():
         before = curves(page)
         slider = f"slider-{row['name']}"
         read = "(({ min, max, value }) => [min, max, value].map(Number))"
@@ -402,22 +410,22 @@ def test_regimes_at_the_edges_are_those_of_python(page, name):
         "number-h_0": "contact.closure_mm",
         "number-U": "load.amplitude_mm",
     }
-    settings = []
+    settings = {}
     put(page, "cycles", "1")
     for control, value in REGIMES[name].items():
         if control == "cutoff":
             click(page, control)
-            settings.append("contact.ends_at_3_sigma=true")
+            settings["contact.ends_at_3_sigma"] = "true"
         elif control == "pin":
             put(page, control, value)
             pin = {"hardness_MPa": 200, "wear_coefficient": 1e-6, "roughness_mm": 0}
-            settings += [f"pin.{key}={number}" for key, number in pin.items()]
-            settings.append("pin.roughness_growth=0")
+            settings |= {f"pin.{key}": number for key, number in pin.items()}
+            settings["pin.roughness_growth"] = "0"
             put(page, "number-H_a", "200", event="change")
         else:
             put(page, control, value, event="change")
-            settings.append(f"{overrides[control]}={value}")
-    found = wear.asymptote(load_scene("section4", settings))
+            settings[overrides[control]] = value
+    found = wear.asymptote(load_scene("section4", [f"{k}={v}" for k, v in settings.items()]))
     assert text(page, "value-regime").startswith(found.regime)
     shown = {
         "limit-cycle": found.wear_per_cycle_mm,

@@ -95,7 +95,7 @@ def test_pdf_holds_no_date(drawn: dict[str, Figure]) -> None:
 
 
 def test_width_is_the_width_of_a_column(written: dict[str, str]) -> None:
-    for name, millimetres in (("wear", 90.0), ("speed", 190.0), ("system", 120.0)):
+    for name, millimetres in (("wear", 90.0), ("speed", 190.0), ("system", 90.0)):
         width = re.search(r'width="([\d.]+)pt"', written[name])
         assert width is not None
         assert float(width[1]) == pytest.approx(millimetres / 25.4 * 72.0, rel=1e-5)

@@ -2,7 +2,6 @@
 
 import tracemalloc
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,21 +10,18 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
-from wear.count import inside, wear_after
-from wear.count.build import cycle_count
-from wear.count.course import course
-from wear.count.cycle import drive
-from wear.count.cycle import settings as sizes
-from wear.count.inside import Inside, fields_inside
-from wear.count.march import march
-from wear.count.stages import counted_stages
+from wear import inside
+from wear.cycles import InContact, count_cycles, wear_after
+from wear.equation import equation_of
 from wear.faults import UsageError
+from wear.inside import Inside, fields_inside
 from wear.load import Harmonics, HistoryLoad, Table
 from wear.model import bind
-from wear.numerics.gauss import (
-    FloatArray,
-    mesh,
-)
+from wear.numerics.gauss import FloatArray
+from wear.numerics.initial_value import Rules, integrate
+from wear.orbit.dense_output import dense_output
+from wear.orbit.iterates import Iterates
+from wear.orbit.period_map import PeriodMap, period_map
 from wear.scene import Scene, builtin_names, load_scene, scene_from_tables
 from wear.solver import solve
 from wear.static import static_solution
@@ -57,9 +53,9 @@ def history(scene: Scene, cycles: FloatArray, phases: FloatArray = PHASES) -> In
 def integrated(scene: Scene, start: float) -> FloatArray:
     """Wear (mm) at PHASES of one cycle by collocation between every two of them."""
     edges = np.unique(np.concatenate([PHASES, np.linspace(0.0, 1.0, 241)]))
-    over = mesh(edges, 12)
-    run = drive(bind(scene), scene.periodic_load, over).advance(np.array(start))
-    added = np.cumsum(run.rate @ over.rule.weights * over.lengths)
+    maps = period_map(equation_of([scene]), edges[None], 12)
+    run = maps.advance(np.array([[start]]))
+    added = np.cumsum(run.rate @ maps.over.rule.weights * maps.over.lengths)
     at = np.searchsorted(edges, PHASES[1:] - 1e-9) - 1
     return start + np.concatenate([[0.0], added[at]])
 
@@ -134,13 +130,16 @@ def test_few_cycles_come_in_order() -> None:
 
 
 def marched(scene: Scene, start: float) -> FloatArray:
-    """Wear (mm) at PHASES of one cycle, taken interval by interval, cut in two until sound."""
-    load, size, wear = scene.periodic_load, sizes(1e-14), [start]
-    for begin, end in pairwise(PHASES.tolist()):
-        cuts = [phase for phase in load.peaks if begin < phase < end]
-        cycle = drive(bind(scene), load, mesh(np.array([begin, *cuts, end]), size.phase_nodes))
-        wear.append(wear[-1] + march(cycle, wear[-1], np.inf, size).added)
-    return np.array(wear)
+    """Wear (mm) at PHASES of one cycle by the adaptive integrator."""
+    equation = equation_of([scene])
+
+    def sampled(edges: FloatArray, m: int, tolerance: float) -> PeriodMap:
+        return period_map(equation, edges[None], m, tolerance)
+
+    edges = np.unique(np.concatenate([PHASES, equation.breakpoints[0]]))
+    parts = integrate(sampled, edges, start, Rules(24, 30, 1e-14))
+    added = np.concatenate([np.zeros(1), *(part.increment for part in parts)])
+    return start + added[np.searchsorted(edges, PHASES)]
 
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-12])
@@ -215,7 +214,9 @@ def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
     made["contact"]["closure_mm"] = 7.3 * 3.6e-4
     scene = scene_from_tables(made, "faster")
     cycles = np.array([0.0, 100.0, 12_823.0, 12_824.0, 12_830.0, 1e5, 1e7])
-    assert len(counted_stages(bind(scene), scene.periodic_load, 1e7, 1e-12, 0.0).stages) > 1
+    counted = count_cycles(bind(scene), scene.periodic_load, 1e7, 1e-12)
+    assert isinstance(counted, InContact)
+    assert len(counted.found.segments) > 1
     phases = np.array([0.0, 0.4, 1.0])
     found = history(scene, cycles, phases)
     exact = static_solution(scene).wear((cycles[:, None] + phases).ravel()).reshape(found.u.shape)
@@ -311,6 +312,10 @@ def test_no_wear_inside_cycles_without_pressure() -> None:
 def test_panels_from_the_first_cycle_on_are_not_cut_for_it(name: str) -> None:
     """The wear they begin with is no measure of an error: it is zero."""
     scene = scene_of(name)
-    model, load = bind(scene), scene.periodic_load
-    prepared = course(model, load, cycle_count(model, load, 9000.0, 1e-12), PHASES, 1e-12)
-    assert len(prepared.panels.starts) == 1
+    counted = count_cycles(bind(scene), scene.periodic_load, 9000.0, 1e-12)
+    assert isinstance(counted, InContact)
+    (segment,) = counted.found.segments
+    assert isinstance(segment.counted, Iterates)
+    prepared = dense_output(equation_of([scene]), segment.counted, PHASES, 1e-12)
+    assert prepared.panels is not None
+    assert len(prepared.panels.series) == 1

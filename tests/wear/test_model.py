@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wear.faults import UsageError
-from wear.model import Fields, bind, bind_many
+from wear.model import Fields, Model, bind, bind_many, bound
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 
@@ -72,7 +72,13 @@ def test_the_fields_satisfy_the_governing_equations(scene: Scene) -> None:
 def test_a_scene_has_only_the_operations_that_it_needs() -> None:
     section4, section3 = bind(load_scene("section4")), bind(load_scene("section3"))
     assert section4.operations["rate"] < section3.operations["rate"]
-    assert set(section4.operations) == {"rate", "slope", "rate_and_slope", "fields"}
+    assert set(section4.operations) == {
+        "rate",
+        "rate_and_slope",
+        "rate_gradient",
+        "parameter_gradient",
+        "fields",
+    }
     assert "residual" in bind(load_scene("soft-support")).operations
     assert "margin" in bind(load_scene("section4-cutoff")).operations
 
@@ -114,3 +120,32 @@ def test_an_exponential_law_runs() -> None:
         middle = u + dt / 2 * float(model.rate(u, 0.0))
         u += dt * float(model.rate(middle, 0.0))
     assert solve(scene, [1], rtol=1e-10).u_c[0] == pytest.approx(u, rel=1e-8)
+
+
+@pytest.mark.parametrize("scene", _scenes(), ids=lambda s: bind(s).law + " " + bind(s).variant)
+def test_gradients_are_difference_quotients(scene: Scene) -> None:
+    """With respect to the load and to every number of the variant, for many states at once."""
+    numbers, sign = scene.parameters(), scene.pin_wear_sign
+    u, load = np.array([[1e-5], [4e-4]]), np.array([-1e-4, 2e-4, 4e-4])
+
+    def changed(name: str, by: float) -> Model:
+        more = numbers | {name: numbers[name] + by}
+        parts = (part and bound(part.module, more, sign) for part in (model.bound, model.loss))
+        return Model(*parts)
+
+    model = bind(scene)
+    pairs = [(Model.law_rate, model.rate_gradient(u, load))]
+    if model.ends_at_3_sigma:
+        pairs.append((Model.margin, model.margin_gradient(u, load)))
+    for function, gradient in pairs:
+        assert set(gradient) - {"U_a"} <= set(numbers)
+        for name, found in gradient.items():
+            if name == "U_a":
+                step, ends = 1e-8, [function(model, u, load + d) for d in (-1e-8, 1e-8)]
+            else:
+                step = 1e-5 * (abs(numbers[name]) or 1e-4)
+                ends = [function(changed(name, d), u, load) for d in (-step, step)]
+            quotient = (ends[1] - ends[0]) / (2 * step)
+            scale = np.abs(quotient).max() + np.abs(ends[0]).max() * 1e-7 / step
+            np.testing.assert_allclose(found + 0.0 * quotient, quotient, 1e-5, 1e-6 * scale, name)
+    assert set(pairs[0][1]) == {"U_a"} | set(model.bound.data._fields)

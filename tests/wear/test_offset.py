@@ -107,10 +107,11 @@ def test_no_offset_where_the_steady_state_is_out_of_reach(scene: str) -> None:
     assert offset(load_scene(scene)) is None
 
 
-def test_the_offset_with_a_cutoff_that_contact_outgrows() -> None:
+@pytest.mark.parametrize("k", [None, 1e5])
+def test_the_offset_with_a_cutoff_that_contact_outgrows(k: float | None) -> None:
     """Beyond some wear contact is permanent, and remembers the cycles in which it was not."""
-    scene = _scene(tables(f_c=0.5, cutoff=True))
-    found, without = offset(scene), offset(_scene(HALF))
+    scene = _scene(tables(f_c=0.5, cutoff=True, k=k))
+    found, without = offset(scene), offset(_scene(tables(f_c=0.5, k=k)))
     expansion = expand(scene)
     assert found is not None
     assert without is not None
@@ -126,10 +127,9 @@ def test_the_offset_with_a_cutoff_that_contact_outgrows() -> None:
     "made",
     [
         tables(f_c=0.25, cutoff=True),
-        tables(f_c=0.5, cutoff=True, k=1e5),
         load_scene("f-one-third").to_tables(),
     ],
-    ids=["arrest", "compliant", "contact in a fixed part of the cycle"],
+    ids=["arrest", "contact in a fixed part of the cycle"],
 )
 def test_no_offset_with_a_cutoff_that_stays(made: dict[str, object]) -> None:
     assert offset(_scene(made)) is None

@@ -16,16 +16,13 @@ from numpy.testing import assert_allclose
 from tests.independent import wear_after as independent
 from tests.wear.reference_scenes import CONSTANT, tables
 from tests.wear.test_cycle_count import ROUNDING, between, problem
-from wear import direct
-from wear.count import lines
-from wear.count.lines import Lines, integrated
-from wear.count.record import Followed, follow
+from wear import direct, records
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.load import HistoryLoad
 from wear.model import bind
-from wear.numerics.gauss import (
-    FloatArray,
-)
+from wear.numerics.collocation import iterate
+from wear.numerics.gauss import FloatArray
+from wear.records import Followed, follow
 from wear.scene import Scene, scene_from_tables
 from wear.solver import solve
 
@@ -70,7 +67,7 @@ def truth(of: Scene, load: HistoryLoad) -> float:
 
 
 @st.composite
-def records(draw: st.DrawFn) -> Scene:
+def drawn_records(draw: st.DrawFn) -> Scene:
     """Few rows, far apart or close together, under wear slow and violent."""
     roughness = 10 ** draw(between(-4, -3))
     made = tables(
@@ -92,7 +89,7 @@ def records(draw: st.DrawFn) -> Scene:
 
 
 @settings(max_examples=25, deadline=None)
-@given(records(), st.sampled_from([1e-6, 1e-9, 1e-12]))
+@given(drawn_records(), st.sampled_from([1e-6, 1e-9, 1e-12]))
 def test_drawn_records_against_an_independent_integrator(drawn: Scene, rtol: float) -> None:
     assert isinstance(drawn.load, HistoryLoad)
     found = follow(bind(drawn), drawn.load, [1], rtol)
@@ -191,20 +188,18 @@ def test_no_contact_no_wear() -> None:
 
 def test_lines_converge_as_gauss_collocation_does(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two nodes on each line: the error falls by 2^4 where lines are half as long, and is known."""
-    monkeypatch.setattr(lines, "NODES", 2)
-    monkeypatch.setattr(lines, "FINER_NODES", 3)
+    monkeypatch.setattr(records, "NODES", 2)
+    monkeypatch.setattr(records, "FINER_NODES", 3)
     load = record(2, rows=16)
-    model = bind(scene(load, K=1e-5))
-    now = Lines(np.diff(load.times_s), np.array(load.values_mm), np.full(33, True))
     want = float(followed_exactly(load, 2))
-    errors = []
+    times, errors = np.array(load.times_s), []
     for _ in range(5):
-        along = integrated(model, now, 0.0, 1.0, np.inf).along
-        assert along is not None
-        true = abs(along.wear[-1] - want)
-        assert true <= along.error[-1] <= 30 * true
+        rows = HistoryLoad(tuple(times.tolist()), tuple(load.value(times).tolist()), PERIOD)
+        found = followed(rows, [2], 100.0, K=1e-5)
+        true = abs(found.u[0] - want)
+        assert true <= found.error[0] * found.u[0] <= 30 * true
         errors.append(true)
-        now = now.cut(np.full(len(now.lengths), True))
+        times = np.sort(np.append(times, (times[:-1] + times[1:]) / 2))
     rates: FloatArray = np.log2(np.array(errors[1:-1]) / errors[2:])
     assert_allclose(rates, 4.0, atol=0.3)
 
@@ -216,8 +211,8 @@ def test_what_early_rows_miss_is_not_forgotten(monkeypatch: pytest.MonkeyPatch) 
     times = np.append(busy.times_s, PERIOD * rest)
     load = history(times, np.append(busy.values_mm, np.full(rest.shape, -5e-4)))
     want = followed(load, [34], 1e-12).u[0]
-    monkeypatch.setattr(lines, "NODES", 2)
-    monkeypatch.setattr(lines, "FINER_NODES", 3)
+    monkeypatch.setattr(records, "NODES", 2)
+    monkeypatch.setattr(records, "FINER_NODES", 3)
     found = followed(load, [34], 0.1)
     assert 1e-8 < abs(found.u[0] / want - 1) <= found.error[0] <= 1e-3
 
@@ -253,7 +248,7 @@ def test_out_of_time_the_cycles_so_far_are_kept(monkeypatch: pytest.MonkeyPatch)
     whole = followed(load, [*range(1, 21)])
     clock = itertools.count()
     monkeypatch.setattr(
-        "wear.count.record.time", types.SimpleNamespace(monotonic=lambda: next(clock))
+        "wear.numerics.initial_value.time", types.SimpleNamespace(monotonic=lambda: next(clock))
     )
     found = follow(bind(scene(load)), load, [*range(1, 21)], 1e-12, deadline=2.5)
     assert found.stopped == "the time limit has passed"
@@ -274,11 +269,11 @@ def test_an_interrupt_keeps_the_cycles_so_far(monkeypatch: pytest.MonkeyPatch) -
     def interrupted(*arguments: Any) -> Any:
         nonlocal calls
         calls += 1
-        if calls > 2:
+        if calls > 4:  # two rules for each part
             raise KeyboardInterrupt
-        return integrated(*arguments)
+        return iterate(*arguments)
 
-    monkeypatch.setattr("wear.count.record.integrated", interrupted)
+    monkeypatch.setattr("wear.numerics.initial_value.iterate", interrupted)
     load = record(20)
     with pytest.raises(Interrupted, match="interrupted; cycle 3 was reached") as stop:
         solve(scene(load), [1, 2, 3, 20])

@@ -16,8 +16,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
-from wear.benchmark.cases import Case
-from wear.benchmark.method import Answer, Method, Run, UnsuitableError
+from wear.benchmark.methods import Answer, Case, Method, Run, UnsuitableError
 
 __all__ = ["DEFAULT", "FULL", "QUICK", "Effort", "Measurement", "StartUp", "Status", "benchmark"]
 
@@ -43,12 +42,12 @@ FULL = Effort(cap=20.0, repeated=1.0, rounds=9, rest=300.0)
 
 
 class Status(StrEnum):
-    """What became of a run."""
+    """The outcome of a run."""
 
     MET = "met"  # the true error is within the tolerance
-    MISSED = "missed"  # it is not, and the method did not say so
-    WRONG = "wrong"  # by more than a percent, and the method did not say so
-    TOLD = "told"  # the method says that it failed
+    MISSED = "missed"  # it is not, and the method did not report it
+    WRONG = "wrong"  # by more than a percent, and the method did not report it
+    REPORTED = "reported"  # the method reports that it failed
     STOPPED = "slow"  # the time limit has passed
     SKIPPED = "skipped"  # it would have taken longer than the cap
     UNSUITABLE = "unsuitable"  # the method cannot solve such a scene
@@ -123,20 +122,20 @@ Outcome = Job | Measurement | StartUp
 
 
 def judge(error: float, tolerance: float, answer: Answer = NO_ANSWER) -> tuple[Status, str]:
-    """What to call a true relative error, given what the method says of its answer.
+    """Return the status of a true relative error and a remark, given what the method reports.
 
     >>> judge(-0.41, 1e-3)
-    (<Status.WRONG: 'wrong'>, 'off by -41 % without a word')
+    (<Status.WRONG: 'wrong'>, 'silently off by -41 %')
     """
     if answer.stopped:
         return Status.STOPPED, answer.complaint
     if answer.complaint or not math.isfinite(error):
-        return Status.TOLD, answer.complaint or "no number"
+        return Status.REPORTED, answer.complaint or "no number"
     if abs(error) <= max(tolerance, ROUNDING):
         return Status.MET, ""
     if abs(error) <= WRONG:
         return Status.MISSED, f"true error {abs(error) / tolerance:.2g} times the tolerance"
-    return Status.WRONG, f"off by {100.0 * error:+.3g} % without a word"
+    return Status.WRONG, f"silently off by {100.0 * error:+.3g} %"
 
 
 def benchmark(
@@ -145,12 +144,9 @@ def benchmark(
     effort: Effort = DEFAULT,
     progress: Callable[[str], None] = lambda _: None,
 ) -> tuple[tuple[Measurement, ...], tuple[StartUp, ...]]:
-    """Measure `methods` on `cases`; what each takes to start is told apart.
+    """Measure `methods` on `cases`, and apart from that how long each takes to start.
 
-    Parameters
-    ----------
-    progress
-        Is told what is being done, a line at a time.
+    `progress` is called with a line at each step.
     """
     outcomes: list[Outcome] = []
     for method in methods:

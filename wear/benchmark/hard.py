@@ -12,10 +12,26 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from wear.benchmark import ROUNDING, Status, judge
-from wear.benchmark.cases import Case, cases, names
-from wear.benchmark.method import Answer, UnsuitableError
-from wear.benchmark.own import AS_IT_COMES, DEFAULT_TOLERANCE, SCIPY, as_it_comes, solver
+from wear.benchmark.methods import (
+    DEFAULT_TOLERANCE,
+    SCIPY,
+    WITH_DEFAULTS,
+    Answer,
+    Case,
+    UnsuitableError,
+    cases,
+    names,
+    solver,
+    with_defaults,
+)
+from wear.benchmark.results import Table, cycle_count, magnitude, markdown_table, unique
 
+LEGEND = (
+    "Largest true relative error over the numbers of cycles tried. reported: the method "
+    "reported that it did not reach its tolerance; slow: its time limit passed; missed, wrong: it "
+    "was beyond its tolerance and did not report it (wrong: by more than a percent); estimate: its "
+    "own error estimate was smaller than the error."
+)
 EVERY_CYCLE = 100  # up to which the methods that go through every cycle are tried
 STEPPED_TOLERANCE = 1e-6
 COUNTED_TOLERANCE = 1e-10
@@ -40,8 +56,8 @@ class Hard(NamedTuple):
     @property
     def honest(self) -> bool:
         """Whether the method's own estimate, if it has one, covers its true error."""
-        told = self.estimate is None or not math.isfinite(self.error)
-        return told or abs(self.error) <= max(self.estimate or 0.0, ROUNDING)
+        silent = self.estimate is None or not math.isfinite(self.error)
+        return silent or abs(self.error) <= max(self.estimate or 0.0, ROUNDING)
 
 
 def catalogue() -> tuple[Case, ...]:
@@ -54,7 +70,7 @@ def methods_of(case: Case) -> Iterator[tuple[str, float]]:
     yield "auto", COUNTED_TOLERANCE
     if case.cycles <= EVERY_CYCLE:
         yield from ((name, STEPPED_TOLERANCE) for name in SCIPY)
-        yield from ((f"solve_ivp {name}", DEFAULT_TOLERANCE) for name in AS_IT_COMES)
+        yield from ((f"solve_ivp {name}", DEFAULT_TOLERANCE) for name in WITH_DEFAULTS)
 
 
 def attempt(case: Case, method: str, tolerance: float, time_limit: float) -> Hard:
@@ -63,7 +79,7 @@ def attempt(case: Case, method: str, tolerance: float, time_limit: float) -> Har
     start = time.perf_counter()
     try:
         if plain != method:
-            run = as_it_comes(case.scene, plain)
+            run = with_defaults(case.scene, plain)
         else:
             run = solver(case.scene, method, time_limit)
         answer = run(case.cycles, tolerance)
@@ -71,7 +87,7 @@ def attempt(case: Case, method: str, tolerance: float, time_limit: float) -> Har
         status, remark = judge(error, tolerance, answer)
     except (UnsuitableError, ArithmeticError, ValueError) as fault:
         answer, error = Answer(math.nan), math.nan
-        status, remark = Status.TOLD, str(fault)
+        status, remark = Status.REPORTED, str(fault)
     seconds = time.perf_counter() - start
     return Hard(
         case.name,
@@ -119,9 +135,56 @@ def _ran_out(entry: Hard, case: Case, time_limit: float) -> bool:
 def worst(found: Sequence[Hard], scene: str, method: str) -> Hard | None:
     """The case of a scene that shows a method from its worst side."""
     entries = [entry for entry in found if (entry.scene, entry.method) == (scene, method)]
-    order = (Status.WRONG, Status.TOLD, Status.MISSED, Status.STOPPED, Status.MET)
+    order = (Status.WRONG, Status.REPORTED, Status.MISSED, Status.STOPPED, Status.MET)
     return min(
         entries,
         key=lambda entry: (entry.honest, order.index(entry.status), -abs(entry.error)),
         default=None,
     )
+
+
+def overview(found: Sequence[Hard]) -> Table:
+    """Scenes against methods."""
+    methods = unique(entry.method for entry in found)
+    rows = []
+    for scene in unique(entry.scene for entry in found):
+        entries = [worst(found, scene, method) for method in methods]
+        rows.append((scene, *map(_cell, entries)))
+    tolerances = {entry.method: f"{entry.method}\n{entry.tolerance:g}" for entry in found}
+    return Table("Hard cases", ("scene", *(tolerances[name] for name in methods)), tuple(rows))
+
+
+def _cell(entry: Hard | None) -> str:
+    if entry is None:
+        return "-"
+    if not math.isfinite(entry.error):
+        return entry.status
+    size = magnitude(entry.error) if entry.error else "0"
+    if not entry.honest:
+        return f"{size} estimate"
+    return size if entry.status is Status.MET else f"{size} {entry.status}"
+
+
+def failures(found: Sequence[Hard]) -> Table:
+    """How methods failed: once a scene and method, at its worst."""
+    rows = []
+    for scene in unique(entry.scene for entry in found):
+        for method in unique(entry.method for entry in found):
+            entry = worst(found, scene, method)
+            if entry is not None and (entry.status is not Status.MET or not entry.honest):
+                rows.append((scene, cycle_count(entry.cycles), method, _how(entry)))
+    return Table("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
+
+
+def _how(entry: Hard) -> str:
+    if entry.honest:
+        return entry.remark
+    return f"claims an error of {entry.estimate:.1e}, has one of {abs(entry.error):.1e}"
+
+
+def markdown(found: Sequence[Hard], footer: str) -> str:
+    """The part of the hard-case page that is computed."""
+    table = overview(found)
+    flat = table._replace(header=tuple(head.replace("\n", " ") for head in table.header))
+    parts = [LEGEND, markdown_table(flat), "**How they fail**", markdown_table(failures(found))]
+    return "\n\n".join([*parts, f"*{footer}*"]) + "\n"

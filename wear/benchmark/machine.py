@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from wear.benchmark.method import Method
+from wear.benchmark.methods import Method
 
 DISTRIBUTIONS = ("derive-wear", "numpy", "scipy")
 PEER_DISTRIBUTIONS = ("heyoka", "diffrax", "jax", "jitcode", "scikit-sundae", "numba")

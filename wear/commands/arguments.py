@@ -42,6 +42,11 @@ def add_scene(parser: argparse.ArgumentParser, default: str | None = None) -> No
         help="override one entry of the scene, as in bearing.hardness_MPa=200; may be repeated",
     )
     completion.suggest(overrides, _entries)
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="refuse what is legal but implausible (a notice otherwise), with status 2",
+    )
 
 
 def built_in_names() -> Sequence[str]:
@@ -83,10 +88,19 @@ class Faults:
         from wear.scene import load_scene
 
         try:
-            return load_scene(options.scene, options.overrides)
+            scene = load_scene(options.scene, options.overrides)
         except SceneError as fault:
             self.add(str(fault))
             return None
+        if options.strict:
+            self.refuse_implausible(scene.notices)
+        return scene
+
+    def refuse_implausible(self, notices: Sequence[str]) -> None:
+        """Make faults of the notices about magnitudes that are hardly meant."""
+        from wear.scene.plausibility import WORD
+
+        self._messages += [notice for notice in notices if notice.startswith(WORD)]
 
     def cycles(self, name: str, text: str) -> tuple[int, ...]:
         """Return numbers of cycles, 0 being the fresh state, from a list of numbers and ranges.

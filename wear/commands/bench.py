@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
 from derive.command_line import Command
 from wear.commands.arguments import Faults
+from wear.faults import UsageError
 
 if TYPE_CHECKING:
     from wear.benchmark.hard import Hard
-    from wear.benchmark.method import Method
-    from wear.benchmark.output import Result, Table
+    from wear.benchmark.methods import Method
+    from wear.benchmark.results import Result, Table
 
 READER = "section4"  # the scene of the sentences and of the figure
+PEERS = Path(__file__).parents[2] / "docs" / "bench" / "peers.py"
 HARD_SECONDS, HARD_SECONDS_QUICK = 2.0, 0.3
 
 EXAMPLE = """\
@@ -33,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--peers",
         action="store_true",
         help="also what is installed of heyoka, diffrax, JiTCODE, SUNDIALS, numba "
-        "(pip install 'derive-wear[peers]')",
+        "(pip install 'derive-wear[peers]'); in a checkout of the source",
     )
     effort = parser.add_mutually_exclusive_group()
     effort.add_argument("--quick", action="store_true", help="one scene, short runs")
@@ -58,9 +62,8 @@ def execute(options: argparse.Namespace) -> int:
 
 
 def _speed(options: argparse.Namespace) -> int:
-    from wear.benchmark import output
+    from wear.benchmark import results as output
     from wear.benchmark.machine import footer
-    from wear.benchmark.summary import sentences
 
     result = _measure(options)
     if options.output is not None:
@@ -69,16 +72,16 @@ def _speed(options: argparse.Namespace) -> int:
         terminal.print_json(output.document(result, READER))
     else:
         _print_tables(output.tables(result))
-        print("\n".join(sentences(result.runs, READER)))
+        print("\n".join(output.sentences(result.runs, READER)))
         print("\n".join(["", *output.absences(result), footer(dict(result.facts))]))
     return terminal.DONE
 
 
 def _measure(options: argparse.Namespace) -> Result:
     from wear import benchmark
-    from wear.benchmark.cases import CYCLES, FEW, ONE, cases, names
     from wear.benchmark.machine import import_seconds, machine
-    from wear.benchmark.output import Result
+    from wear.benchmark.methods import CYCLES, FEW, ONE, cases, names
+    from wear.benchmark.results import Result
 
     methods, absent = _methods(peers=options.peers)
     facts = machine(options.peers)
@@ -99,16 +102,36 @@ def _measure(options: argparse.Namespace) -> Result:
 def _methods(*, peers: bool) -> tuple[Sequence[Method], dict[str, tuple[str, ...]]]:
     """The methods that can run here, and what the others lack."""
     from wear.benchmark.machine import missing
-    from wear.benchmark.own import OWN
-    from wear.benchmark.peers import PEERS
+    from wear.benchmark.methods import OWN
 
-    wanted = (*OWN, *PEERS) if peers else OWN
+    wanted = (*OWN, *load_peers().PEERS) if peers else OWN
     absent = {method.name: lack for method in wanted if (lack := missing(method))}
     return [method for method in wanted if method.name not in absent], absent
 
 
+def load_peers() -> ModuleType:
+    """Return the benchmark of other people's integrators, which lies beside the documentation.
+
+    Raises
+    ------
+    UsageError
+        if this is no checkout of the source.
+    """
+    if not PEERS.is_file():
+        raise UsageError(
+            "--peers: the other integrators are set up in docs/bench/peers.py of the source, "
+            "which is not installed; run `wear bench --peers` in a checkout of the repository"
+        )
+    specification = spec_from_file_location("peers", PEERS)
+    assert specification is not None
+    assert specification.loader is not None
+    module = module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
 def _write_speed(result: Result, folder: Path) -> None:
-    from wear.benchmark import output
+    from wear.benchmark import results as output
 
     with files.replacing_in(folder) as draft:
         _write(draft / "speed.csv", output.csv_text(result.runs))
@@ -121,8 +144,7 @@ def _write_speed(result: Result, folder: Path) -> None:
 
 def _figures(result: Result) -> dict[str, bytes]:
     """Time against true error, by name of the file, for the numbers of cycles worth a figure."""
-    from wear.benchmark.curves import curves
-    from wear.benchmark.summary import at, figure_cycles
+    from wear.benchmark.results import at, curves, figure_cycles
     from wear.figure_style import encoded
     from wear.figures import speed_against_error
 
@@ -138,33 +160,32 @@ def _figures(result: Result) -> dict[str, bytes]:
 
 
 def _hard(options: argparse.Namespace) -> int:
-    from wear.benchmark import hard_output as output
-    from wear.benchmark.hard import catalogue, hard_cases
+    from wear.benchmark import hard
     from wear.benchmark.machine import footer, machine
 
-    chosen = [case for case in catalogue() if not options.quick or case.cycles <= 10]
+    chosen = [case for case in hard.catalogue() if not options.quick or case.cycles <= 10]
     limit = HARD_SECONDS_QUICK if options.quick else HARD_SECONDS
     facts = machine()
-    found = hard_cases(chosen, limit, terminal.progress)
+    found = hard.hard_cases(chosen, limit, terminal.progress)
     terminal.progress("")
     if options.output is not None:
         _write_hard(found, footer(facts), Path(options.output))
     if options.json:
         terminal.print_json({"machine": facts, "cases": [entry._asdict() for entry in found]})
     else:
-        _print_tables([output.overview(found), output.failures(found)])
-        print(output.LEGEND)
+        _print_tables([hard.overview(found), hard.failures(found)])
+        print(hard.LEGEND)
         print(footer(facts))
     return terminal.DONE
 
 
 def _write_hard(found: Sequence[Hard], footer: str, folder: Path) -> None:
-    from wear.benchmark import hard_output as output
-    from wear.benchmark.output import csv_text
+    from wear.benchmark import hard
+    from wear.benchmark.results import csv_text
 
     with files.replacing_in(folder) as draft:
         _write(draft / "hard-cases.csv", csv_text(found))
-        _write(draft / "hard-cases.md", output.markdown(found, footer))
+        _write(draft / "hard-cases.md", hard.markdown(found, footer))
 
 
 def _print_tables(tables: Sequence[Table]) -> None:

@@ -36,7 +36,7 @@ def execute(options: argparse.Namespace) -> int:
         faults.add(f"--output: {problem}")
     faults.stop_if_any()
     assert scene is not None
-    terminal.progress("deriving the model and its equations ...")
+    terminal.progress("solving the scenes that the page checks itself against ...")
     text = page(scene)
     terminal.progress("")
     files.write_atomically(options.output, text)

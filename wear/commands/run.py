@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -98,6 +99,9 @@ def execute(options: argparse.Namespace) -> int:
         if miss.best is None:
             raise
         history, status, fault = miss.best, terminal.INACCURATE, str(miss)
+    if options.strict:
+        faults.refuse_implausible(history.notices)
+        faults.stop_if_any()
     until = {} if wears is None else _cycles_until(scene, wears, rtol)
     if options.json:
         terminal.print_json(history.as_json() | until)
@@ -119,20 +123,16 @@ def _read_wears(text: str, faults: Faults) -> tuple[float, ...]:
 
 
 def _cycles_until(scene: Scene, wears: Sequence[float], rtol: float) -> dict[str, Any]:
-    """The part of the JSON that tells after how many cycles wears are reached, null for never."""
-    import numpy as np
+    """The part of the JSON with the cycles after which wears are reached, null where unknown."""
+    from wear.life import cycles_until
 
-    from wear.count.blocks import cycles_until
-    from wear.model import bind
-
-    found = cycles_until(bind(scene), scene.load, np.array(wears), rtol)
-    reached = np.isfinite(found.cycles) & np.isfinite(found.error)
-    rows = list(zip(found.cycles.tolist(), found.error.tolist(), reached.tolist(), strict=True))
+    found = cycles_until(scene, wears, rtol)
     return {
         "cycles_until": {
             "bearing_wear_mm": list(wears),
-            "cycles": [int(cycles) if told else None for cycles, _, told in rows],
-            "error_estimate": [error if told else None for _, error, told in rows],
+            "cycles": [None if math.isnan(cycles) else int(cycles) for cycles in found.cycles],
+            "error_estimate": found.error,
+            "reached": [way.value for way in found.reached],
         }
     }
 

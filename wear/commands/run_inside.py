@@ -11,7 +11,7 @@ from derive import files, terminal
 from wear.commands.arguments import Faults
 
 if TYPE_CHECKING:
-    from wear.count.inside import Inside
+    from wear.inside import Inside
     from wear.scene import Scene
 
 SUFFIXES = (".csv", ".nc")
@@ -56,8 +56,8 @@ def execute(
     """Write the states inside the cycles, and tell how many they are and how accurate."""
     import numpy as np
 
-    from wear.count.inside import fields_inside
     from wear.history_files import write_inside
+    from wear.inside import fields_inside
     from wear.model import bind
 
     worst, done = 0.0, 0

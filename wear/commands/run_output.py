@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 from derive import files, terminal
 
 if TYPE_CHECKING:
-    from wear.history import Column, History
+    from wear.history import History
+    from wear.history_files import Column
 
-SYMBOLS = {
+SYMBOLS = {  # of the columns for which a page is wide enough
     "bearing_wear_mm": "u_c",
     "pin_wear_mm": "u_a",
     "bearing_roughness_mm": r"\sigma_c",
@@ -31,7 +32,7 @@ def text(history: History) -> str:
     rows = [
         [
             str(cycle),
-            *(f"{column.values[row]:.10g}" for column in quantities),
+            *(_shown(float(column.values[row])) for column in quantities),
             f"{history.error[row]:.1e}",
         ]
         for row, cycle in enumerate(history.cycles.tolist())
@@ -49,6 +50,10 @@ def text(history: History) -> str:
     )
 
 
+def _shown(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.10g}"
+
+
 def worth_telling(history: History) -> tuple[str, ...]:
     """Return the notices but that of the usual choice of a method, which the table's head names."""
     usual = f"auto: {history.method}, because the load repeats"
@@ -59,15 +64,19 @@ def until_text(until: Mapping[str, Any]) -> str:
     """Return a table of the cycles after which wears are reached."""
     found = until["cycles_until"]
     rows = [
-        [f"{wear:.10g}", "never" if cycles is None else str(cycles)]
-        for wear, cycles in zip(found["bearing_wear_mm"], found["cycles"], strict=True)
-    ]
+        [f"{wear:.10g}", str(cycles) if reached == "counted" else
+         f"{cycles:.6g} (± {error * cycles:.1g})" if reached == "extrapolated" else reached]
+        for wear, cycles, error, reached in zip(
+            *(found[name] for name in ("bearing_wear_mm", "cycles", "error_estimate", "reached")),
+            strict=True,
+        )
+    ]  # fmt: skip
     return terminal.table(["bearing\nwear\n(mm)", "reached\nafter\ncycle"], rows)
 
 
 def latex(history: History) -> str:
     r"""Return a `tabular` to `\input` into a document that loads booktabs."""
-    quantities = _modelled(history)
+    quantities = [column for column in _modelled(history) if column.name in SYMBOLS]
     symbols = ["$N$", *(f"${SYMBOLS[column.name]}$" for column in quantities)]
     units = ["", *(rf"\textnormal{{{column.unit}}}" for column in quantities)]
     rows = [
@@ -128,14 +137,20 @@ def write(history: History, path: Path) -> None:
 
 
 def _modelled(history: History) -> Sequence[Column]:
-    """Return the physical columns; those of a pin that is not modelled are zero and left out."""
+    """Return the physical columns that say something: not those of a pin that is not modelled, nor
+    of contact that is never lost or of cycles whose pressures are unknown."""
+    import numpy as np
+
     return [
         column
         for column in history.columns()
-        if column.name in SYMBOLS and (not column.name.startswith("pin") or column.values.any())
+        if column.name != "error_estimate"
+        and not np.isnan(column.values).all()
+        and (not column.name.startswith("pin") or column.values.any())
+        and (column.name != "contact_fraction" or np.any(column.values < 1.0))
     ]
 
 
 def _heading(column: Column) -> str:
     words = column.name.removesuffix(f"_{column.unit}").split("_")
-    return "\n".join([*words, f"({column.unit})"])
+    return "\n".join(words if column.unit == "1" else [*words, f"({column.unit})"])

@@ -12,11 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.numerics.chebyshev import (
-    chebyshev_analysis,
-    chebyshev_nodes,
-    chebyshev_values,
-)
+from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import (
     FloatArray,
     gauss,

@@ -23,6 +23,7 @@ from wear.numerics.gauss import (
     BoolArray,
     FloatArray,
     Gauss,
+    IntArray,
 )
 from wear.numerics.tolerances import (
     ROUNDOFF,
@@ -38,6 +39,7 @@ STALLED = 1e-7  # what rounding may change from one iteration to the next, at th
 BLUR = 4 * ROUNDOFF  # of the margin's terms and of the phase: what the end of contact is known to
 LAYER = 0.25  # of the roughness: wear that changes the pressure by a factor of order one
 BY_PHASE = 0.02  # share of the phase's rounding in that of a series of the rate
+STIFF = 3.0  # decay over a part, as an exponent: then a system of equations is solved
 FLAT = 1e-30  # mm per cycle: a margin that does not change
 
 
@@ -122,31 +124,37 @@ def worn(
 ) -> Worn:
     """Wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm so far.
 
-    Stretches are cut in two until the rate is resolved to `tolerance` of what the cycle adds.
+    Each stretch is cut in two until the rate is resolved to `tolerance` of what the cycle adds.
     """
-    added, length, going = np.zeros(len(u)), np.zeros(len(u)), np.full(len(u), True)
-    done, todo = 0.0, [1.0]
+    added, length = np.zeros(len(u)), np.zeros(len(u))
+    todo: list[tuple[IntArray, float, float]] = [(np.arange(len(u)), 0.0, 1.0)]
     evaluations, parts, sound = 0, 0, True
-    while todo and going.any():
-        span = todo[-1] - done
-        at = (over.begin + done * over.whole)[going]
-        whole = span * over.whole[going]
-        left = (over.expected - done * over.whole)[going]
-        start = (u + added)[going]
-        expected = np.minimum(np.where(left > 0.0, left, LEAST * whole), whole)
-        part = _part(contact, rule, start, Stretch(at, whole, expected))
-        evaluations, parts = evaluations + part.evaluations, parts + 1
-        fine = part.sound and _is_fine(
-            contact, rule, part, start, tolerance, (before + added)[going]
-        )
-        if not fine and span > SHORTEST and parts < MOST_PARTS:
-            todo.append(done + span / 2)
+    ended = np.zeros(len(u), dtype=bool)
+    while todo:
+        rows, begin, end = todo.pop()
+        rows = rows[~ended[rows]]
+        if len(rows) == 0:
             continue
-        sound &= fine
-        added[going] += np.maximum(part.added, 0.0)  # a margin that is rounding may be negative
-        length[going] += part.length
-        going[going] = part.length >= whole
-        done = todo.pop()
+        whole = (end - begin) * over.whole[rows]
+        left = over.expected[rows] - begin * over.whole[rows]
+        start, earlier = (u + added)[rows], (before + added)[rows]
+        expected = np.minimum(np.where(left > 0.0, left, LEAST * whole), whole)
+        stretch = Stretch(over.begin[rows] + begin * over.whole[rows], whole, expected)
+        part = _part(contact, rule, start, stretch)
+        evaluations, parts = evaluations + part.evaluations, parts + 1
+        fine = part.sound & _is_fine(contact, rule, part, start, tolerance, earlier)
+        if end - begin <= SHORTEST or parts >= MOST_PARTS:
+            sound &= bool(fine.all())
+            fine[:] = True
+        some = rows[fine]
+        added[some] += np.maximum(
+            part.added[fine], 0.0
+        )  # a margin that is rounding may be negative
+        length[some] += part.length[fine]
+        ended[some] = part.length[fine] < whole[fine]
+        if not fine.all():
+            middle, again = (begin + end) / 2, rows[~fine]
+            todo += [(again, middle, end), (again, begin, middle)]
     return Worn(added, length, sound, evaluations)
 
 
@@ -159,7 +167,7 @@ class _Part(NamedTuple):
     rate: FloatArray
     noise: FloatArray
     stiffness: FloatArray
-    sound: bool
+    sound: BoolArray
     evaluations: int
 
 
@@ -170,8 +178,8 @@ def _is_fine(
     u: FloatArray,
     tolerance: float,
     before: FloatArray,
-) -> bool:
-    """Whether the nodes resolve the rate, as measured by what this cycle has added (k,).
+) -> BoolArray:
+    """Whether the nodes resolve the rate, as measured by what this cycle has added (k,), (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
     foretells. Where the wear follows the load within less than the distance of two nodes, it leaves
@@ -190,7 +198,8 @@ def _is_fine(
     roughness = _roughness(contact.model, u)
     skipped = part.length * rule.nodes[0] * np.max(part.rate, axis=1)
     seen = skipped <= LAYER * roughness
-    return bool(np.all(seen & (left <= tolerance * np.maximum(before + part.added, 0.0))))
+    resolved: BoolArray = seen & (left <= tolerance * np.maximum(before + part.added, 0.0))
+    return resolved
 
 
 def _roughness(model: Model, u: FloatArray) -> FloatArray:
@@ -232,13 +241,24 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
         if done.all() or grows or not np.max(apart) < 1e30:
             break
         last = apart
-    return _Part(added, length, rate, noise, stiffness, bool(done.all()), evaluations)
+    return _Part(added, length, rate, noise, stiffness, done, evaluations)
 
 
 def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatArray) -> FloatArray:
-    """The solution x (k, m) of x = missing + length times the integral of slope x."""
-    matrix = np.eye(len(rule.nodes)) - length[:, None, None] * rule.integrate * slope[:, None, :]
-    return np.asarray(np.linalg.solve(matrix, missing[..., None])[..., 0], dtype=float)
+    """The solution x (k, m) of x = missing + length times the integral of slope x.
+
+    Where nothing decays much it is missing + E times the integral of slope missing/E, with
+    E = exp(integral of slope): but for a truncation error, of which the next iteration takes care.
+    """
+    scaled = length[:, None] * slope
+    decay = scaled @ rule.integrate.T
+    stiff = ~(np.max(np.abs(decay), axis=1) < STIFF)
+    factor = np.exp(np.where(stiff[:, None], 0.0, decay))
+    x = missing + factor * ((scaled * missing / factor) @ rule.integrate.T)
+    if stiff.any():
+        matrix = np.eye(len(rule.nodes)) - rule.integrate * scaled[stiff][:, None, :]
+        x[stiff] = np.linalg.solve(matrix, missing[stiff][..., None])[..., 0]
+    return np.asarray(x)
 
 
 def _has_settled(apart: FloatArray, last: FloatArray, noise: FloatArray) -> BoolArray:

@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.course import Added
 from wear.count.cutoff import CutoffCycle, cutoff_cycle
 from wear.count.cycle import settings
 from wear.count.edge import PIECE_SAMPLES, Piece
@@ -22,6 +21,7 @@ from wear.numerics.gauss import (
     FloatArray,
     mesh,
 )
+from wear.orbit.dense_output import Added
 
 NODES = 8  # on each part of a piece, most of which are short
 NEARLY = 1e-12  # of a cycle: phases that are one

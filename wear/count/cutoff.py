@@ -94,16 +94,20 @@ class CutoffCycle(NamedTuple):
 
     def frozen(self, wear: FloatArray) -> FloatArray:
         """Wear added by one cycle if the rate did not feel it, any shape."""
-        flat = wear.ravel()
-        added = np.zeros(len(flat))
+        return np.asarray(self.frozen_upto(wear.ravel())[-1].reshape(wear.shape))
+
+    def frozen_upto(self, wear: FloatArray) -> FloatArray:
+        """The same of each wear (k,) up to every piece and to the end, (pieces + 1, k)."""
         x = self.over.phases.ravel()
         weights = (self.over.lengths[:, None] * self.over.rule.weights).ravel()
-        for piece in self.edge.pieces:
-            for begin, end in _frozen_contact(self, piece, flat):
+        added = np.zeros((len(self.edge.pieces) + 1, len(wear)))
+        for i, piece in enumerate(self.edge.pieces):
+            added[i + 1] = added[i]
+            for begin, end in _frozen_contact(self, piece, wear):
                 length = end - begin
                 U_a = self.load(begin[:, None] + length[:, None] * x)
-                added += length * (self.rate(flat[:, None], U_a) @ weights)
-        return added.reshape(wear.shape)
+                added[i + 1] += length * (self.rate(wear[:, None], U_a) @ weights)
+        return added
 
     def rate(self, u: FloatArray, U_a: FloatArray) -> FloatArray:
         """Wear rate in contact, mm per cycle."""

@@ -14,8 +14,8 @@ from wear.numerics.collocation import (
     NOISE,
     CycleSolution,
     InitialGuess,
+    iterate,
     refined,
-    solve,
     unresolved,
 )
 from wear.numerics.gauss import (
@@ -136,7 +136,7 @@ class Drive(NamedTuple):
         """Wear added over the mesh from each start, any shape."""
         if near is not None:
             near = InitialGuess(*(array.reshape(starts.size, *array.shape[-2:]) for array in near))
-        run = solve(self, starts.ravel(), near)
+        run = iterate(self, starts.ravel(), near)
         shape = (*starts.shape, *self.over.phases.shape)
         return run._replace(
             increment=run.increment.reshape(starts.shape),
@@ -157,7 +157,7 @@ class Drive(NamedTuple):
         """Cycles on end, all at once on copies of the mesh of one."""
         over = self.over
         edges = np.concatenate([over.edges[:-1] + k for k in range(number)] + [[float(number)]])
-        run = solve(self.on(mesh(edges, len(over.rule.nodes))), np.array([start]))
+        run = iterate(self.on(mesh(edges, len(over.rule.nodes))), np.array([start]))
         rate = run.rate.reshape(number, *over.phases.shape)
         added = integral(rate, over)
         before = np.cumsum(added) - added

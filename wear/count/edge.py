@@ -17,10 +17,7 @@ import numpy as np
 
 from wear.load import Load
 from wear.model import Model
-from wear.numerics.gauss import (
-    BoolArray,
-    FloatArray,
-)
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.tolerances import (
     ROUNDOFF,
 )
@@ -76,6 +73,7 @@ class Edge(NamedTuple):
     highest: float
     held: float
     grazing: FloatArray
+    before: IntArray
 
     def is_over(self, start: FloatArray, wear: FloatArray, U_a: FloatArray) -> BoolArray:
         """Whether contact from the wear `start` has come to wear at which it closes anew, on the
@@ -103,8 +101,10 @@ def edge_of_contact(model: Model, load: Load) -> Edge:
     # Wear goes on at the bend: there contact turns not with the load but where its pull does.
     sharp = turns[np.isin(turns, [0.0, *load.kinks, 1.0])]
     bending = np.concatenate([sharp, appears, closings])
-    grazing = np.unique(np.concatenate([load(bending) - held, load(turns)]))
-    return Edge(pieces, crest, highest, held, grazing)
+    heights = np.concatenate([load(bending) - held, load(turns)])
+    grazing, first = np.unique(heights, return_index=True)
+    before = np.searchsorted(cuts, np.concatenate([bending, turns])[first])
+    return Edge(pieces, crest, highest, held, grazing, before)
 
 
 def turning_points(load: Load) -> FloatArray:

@@ -98,6 +98,8 @@ def on_support(
     differ by less than `blur` (k,), mm, cannot be told apart."""
     edge, load = support.edge, support.load
     touching = displacement_at(support.model, wear)
+    if np.all(max(piece.heights[[0, -1]]) - touching <= blur):
+        return Worn(np.zeros_like(wear), np.zeros_like(wear), True, 0)
     begins = np.full_like(wear, piece.begin)
     opens, bends = (phase_of(load, piece, touching + level) for level in (0.0, edge.held))
     lawful, held = _kinds(support, piece, wear, blur)

@@ -1,61 +1,61 @@
 """The wears at which contact grazes: there the one-cycle map has a kink, and at the last of them
 wear ends or fades."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from wear.count.cutoff import TOUCH, CutoffCycle, touch
-from wear.count.edge import NEARLY, Piece
+from wear.count.edge import BISECTIONS, NEARLY, Piece
 from wear.count.tail import Rest
 from wear.load import Load
 from wear.model import Model
-from wear.numerics.gauss import (
-    FloatArray,
-)
 from wear.numerics.tolerances import (
     ROUNDOFF,
     TINY,
 )
 
 
-def kinks(cycle: CutoffCycle, shift: float) -> FloatArray:
-    """Wear (mm), rising, at which the edge of contact passes an end of a piece; on a compliant
-    support also that at which the bend of the rate does.
+class Kink(NamedTuple):
+    """A `wear` (mm) at which contact grazes, when so many pieces of the cycle lie `before`."""
+
+    wear: float
+    before: int
+
+
+def kinks(cycle: CutoffCycle, shift: float) -> list[Kink]:
+    """Wears, rising, at which the edge of contact passes an end of a piece; on a compliant support
+    also those at which the bend of the rate does.
 
     Where the margin is hardly more than its own rounding, the map does not feel the kink.
     """
     wear = shift * np.expm1(np.linspace(0.0, 40.0, 400))
-    blur = touch(cycle.model, cycle.load, wear)
-    found = []
-    for height in cycle.edge.grazing:
-        margin = cycle.model.margin(wear, np.full_like(wear, height))
-        told = np.abs(margin) > blur
-        crossed = np.sign(margin[:-1]) * np.sign(margin[1:]) < 0
-        for i in np.flatnonzero(crossed & (told[:-1] | told[1:])):
-            found.append(_root(cycle, wear[i], wear[i + 1], float(height)))
-    return np.array(sorted(kink for kink in found if kink > TOUCH * ROUNDOFF * shift))
-
-
-def _root(cycle: CutoffCycle, low: float, high: float, height: float) -> float:
-    """The wear between `low` and `high` at which the margin vanishes, by bisection."""
-
-    def inside(wear: float) -> bool:
-        return bool(cycle.model.margin(np.array(wear), np.array(height)) > 0.0)
-
-    contact = inside(low)
-    while low < (middle := (low + high) / 2) < high:
-        low, high = (middle, high) if inside(middle) == contact else (low, middle)
-    return low if contact else high
+    resolved = touch(cycle.model, cycle.load, wear)
+    heights = cycle.edge.grazing[:, None]
+    margin = cycle.model.margin(wear, heights)
+    known = np.abs(margin) > resolved
+    crossed = np.sign(margin[:, :-1]) * np.sign(margin[:, 1:]) < 0
+    which, at = np.nonzero(crossed & (known[:, :-1] | known[:, 1:]))
+    low, high = wear[at], wear[at + 1]
+    contact = margin[which, at] > 0.0
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        before = (cycle.model.margin(middle, heights[which, 0]) > 0.0) == contact
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    found = np.where(contact, low, high)
+    some = found > TOUCH * ROUNDOFF * shift
+    return sorted(map(Kink, found[some].tolist(), cycle.edge.before[which[some]].tolist()))
 
 
 def rest_of(model: Model, load: Load, wear: float) -> Rest | None:
     """The wear (mm) at which the peak of the load just fails to make contact, a root of the margin,
     with what rounding makes of it; None if this is not such a wear."""
     peak, worn = np.array(load.maximum), np.array(wear)
-    blur = ROUNDOFF * float(model.margin_terms(worn, peak))
+    rounding = ROUNDOFF * float(model.margin_terms(worn, peak))
     left = abs(float(model.margin(worn, peak)))
-    if wear <= 0 or left > TOUCH * blur:
+    if wear <= 0 or left > TOUCH * rounding:
         return None
-    return Rest(wear, (left + blur) / (abs(float(model.margin_slope(worn, peak))) + TINY))
+    return Rest(wear, (left + rounding) / (abs(float(model.margin_slope(worn, peak))) + TINY))
 
 
 def fades(cycle: CutoffCycle, rest: float) -> bool:

@@ -6,7 +6,7 @@ import numpy as np
 
 from wear.count.build import CycleCount, evaluate, until
 from wear.count.cycle import Cost
-from wear.count.tail import Tail
+from wear.count.tail import Between
 from wear.numerics.gauss import (
     FloatArray,
 )
@@ -24,6 +24,11 @@ class Leap(NamedTuple):
     reach: float
     cost: Cost = Cost(0, 0)
     limit: float = np.inf
+
+    @property
+    def ran(self) -> float:
+        """How many whole cycles it counts."""
+        return float(np.ceil(self.reach))
 
     @property
     def pace(self) -> float:
@@ -51,7 +56,7 @@ class Stage(NamedTuple):
     it begins with."""
 
     begins: float
-    counted: CycleCount | Tail | Leap
+    counted: CycleCount | Between | Leap
     inherited: float
     adrift: float = 0.0
 
@@ -70,7 +75,7 @@ class Stage(NamedTuple):
     def ran(self) -> float:
         """How many whole cycles it counts."""
         if not isinstance(self.counted, CycleCount):
-            return float(np.ceil(self.counted.reach))
+            return self.counted.ran
         if self.counted.table is None:
             return float(len(self.counted.first) - 1)
         return float(np.floor(self.counted.table.last_cycles))
@@ -122,6 +127,7 @@ class Stages(NamedTuple):
     arrested: bool
     at_rest: float
     cost: Cost
+    fades: bool = False
 
     @property
     def last_wear(self) -> float:
@@ -139,12 +145,12 @@ class Stages(NamedTuple):
         blur = max([last.blur, *moving[-1:]])
         if not np.isfinite(blur):
             return None
-        if isinstance(last.counted, Tail):
-            return Arrest(int(last.begins + last.ran), round(blur + last.counted.blur), True)
+        if isinstance(last.counted, Between):
+            return Arrest(int(last.begins + last.ran), round(blur + last.counted.uncertainty), True)
         if isinstance(last.counted, Leap) or not np.isfinite(last.counted.first_error).all():
             return None
         idle = int(np.argmax(np.diff(last.counted.first) <= 0))
-        return Arrest(int(last.begins) + idle, round(blur))
+        return Arrest(int(last.begins) + idle, round(blur), self.fades)
 
 
 def evaluate_stages(found: Stages, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:

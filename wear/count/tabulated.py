@@ -10,10 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.abel import Panels, folded, level_and_shape, way
-from wear.numerics.chebyshev import (
-    chebyshev_nodes,
-    chebyshev_values,
-)
+from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import (
     FloatArray,
     IntArray,

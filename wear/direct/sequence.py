@@ -1,7 +1,7 @@
 """Loads that do not repeat, as a sequence of loads that do, each from some cycle to another.
 
 A load made of blocks is periodic inside each. A measured history is taken cycle by cycle, every
-row a kink where the integrator stops: `wear.count.record` is faster by far where contact is smooth.
+row a kink where the integrator stops: `wear.records` is faster by far where contact is smooth.
 """
 
 from __future__ import annotations

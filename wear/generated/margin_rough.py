@@ -18,6 +18,8 @@ OPERATIONS = {
     "margin_terms": 14,
     "limited_pressure": 3,
     "limited_slope": 2,
+    "margin_gradient": 13,
+    "parameter_gradient": 0,
 }
 
 
@@ -77,3 +79,16 @@ def limited_slope(
 ) -> Array:
     """Derivative of the wear rate with respect to u_c while h stays at 3 sigma, in 1/s."""
     return margin_slope * wear_per_pressure / compliance
+
+
+def margin_gradient(u: Array, U_a: Array, c: Constants) -> Constants:
+    """Derivatives of the margin with respect to each of the constants; to U_a it is 1."""
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
+    margin_sigma_c = 3 * sigma_c / sigma
+    return Constants(-1 + 0 * u, 3 * c.sigma_a0 / sigma, margin_sigma_c, margin_sigma_c * u)
+
+
+def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    return Parameters(by.h_0, by.sigma_a0, by.sigma_c0, by.f_c)

@@ -18,6 +18,8 @@ OPERATIONS = {
     "margin_terms": 6,
     "limited_pressure": 3,
     "limited_slope": 2,
+    "margin_gradient": 0,
+    "parameter_gradient": 23,
 }
 
 
@@ -83,3 +85,26 @@ def limited_slope(
 ) -> Array:
     """Derivative of the wear rate with respect to u_c while h stays at 3 sigma, in 1/s."""
     return margin_slope * wear_per_pressure / compliance
+
+
+def margin_gradient(u: Array, U_a: Array, c: Constants) -> Constants:
+    """Derivatives of the margin with respect to each of the constants; to U_a it is 1."""
+    return Constants(0 * u, 0 * u, 0 * u, 1 + 0 * u, 0 * u, u)
+
+
+def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
+    total_most_of_gain = by.margin_gain + by.most_of_gain
+    total_most_of_margin = by.fresh_margin + by.most_of_margin
+    total_gain = by.gain - total_most_of_gain
+    total_kappa = by.kappa + pin_wear_sign * total_gain
+    return Parameters(
+        -total_most_of_margin,
+        by.fresh_margin + 2 * total_most_of_margin,
+        by.margin_gain + 2 * total_most_of_gain,
+        total_kappa * kappa / data.K_a,
+        -total_kappa * kappa / data.K_c,
+        -total_kappa * kappa / data.H_a,
+        total_kappa * kappa / data.H_c,
+    )

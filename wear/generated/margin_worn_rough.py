@@ -18,6 +18,8 @@ OPERATIONS = {
     "margin_terms": 17,
     "limited_pressure": 3,
     "limited_slope": 2,
+    "margin_gradient": 17,
+    "parameter_gradient": 20,
 }
 
 
@@ -94,3 +96,39 @@ def limited_slope(
 ) -> Array:
     """Derivative of the wear rate with respect to u_c while h stays at 3 sigma, in 1/s."""
     return margin_slope * wear_per_pressure / compliance
+
+
+def margin_gradient(u: Array, U_a: Array, c: Constants) -> Constants:
+    """Derivatives of the margin with respect to each of the constants; to U_a it is 1."""
+    sigma_a = c.sigma_a0 + c.slope_a * u
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
+    margin_sigma_c = 3 * sigma_c / sigma
+    margin_sigma_a = 3 * sigma_a / sigma
+    return Constants(
+        -1 + 0 * u,
+        margin_sigma_a,
+        margin_sigma_c,
+        margin_sigma_c * u,
+        0 * u,
+        -u,
+        margin_sigma_a * u,
+    )
+
+
+def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
+    slope_a = data.f_a * kappa
+    total_kappa = by.kappa + by.gain * pin_wear_sign + by.slope_a * slope_a / kappa
+    return Parameters(
+        by.h_0,
+        by.sigma_a0,
+        by.sigma_c0,
+        by.slope_a * kappa,
+        by.f_c,
+        total_kappa * kappa / data.K_a,
+        -total_kappa * kappa / data.K_c,
+        -total_kappa * kappa / data.H_a,
+        total_kappa * kappa / data.H_c,
+    )

@@ -3,7 +3,7 @@
 Overview
     With v the increment since the start, v = integral of f(t, u + v) is solved at all nodes of all
     intervals together. The increment is carried as such, so that one of 1e-12 of the state keeps
-    all its digits. Arrays are (..., starts, intervals, nodes); leading axes are those of scenes.
+    all its digits. Arrays are (scenes, starts, intervals, nodes).
 Key results
     iterate             Newton's method for all intervals at once
     solve               the same, interval by interval where that diverges
@@ -55,7 +55,9 @@ class Rates(Protocol):
 
 
 class SplittableRates(Rates, Protocol):
-    """Rates of which each interval can be taken by itself."""
+    """Rates of scenes, each of which can be taken by itself, and each interval as well."""
+
+    def take(self, rows: IntArray) -> SplittableRates: ...
 
     def interval(self, i: int) -> SplittableRates: ...
 
@@ -103,15 +105,20 @@ class CycleSolution(NamedTuple):
 def solve(
     rates: SplittableRates, starts: FloatArray, guess: InitialGuess | None = None
 ) -> CycleSolution:
-    """Return the solution over the mesh from each start (..., k).
+    """Return the solution over the mesh from each start (scenes, k).
 
     All intervals at once where the iteration converges, that is, where the state changes its own
     rate moderately within the mesh; else one interval after the other.
     """
     found = iterate(rates, starts, guess)
-    if found.converged.all() or found.converged.shape[-1] == 1:
+    rows = np.flatnonzero(~found.converged.all(axis=-1))
+    if len(rows) == 0 or found.converged.shape[-1] == 1:
         return found
-    return _interval_by_interval(rates, starts, found.evaluations)
+    again = _interval_by_interval(rates.take(rows), starts[rows])
+    for whole, part in zip(found, again, strict=True):
+        if isinstance(whole, np.ndarray):
+            whole[rows] = part
+    return found._replace(evaluations=found.evaluations + again.evaluations)
 
 
 def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None) -> CycleSolution:
@@ -206,12 +213,10 @@ def _linear_solution(slope: FloatArray, residual: FloatArray) -> FloatArray:
     return x
 
 
-def _interval_by_interval(
-    rates: SplittableRates, starts: FloatArray, evaluations: int
-) -> CycleSolution:
+def _interval_by_interval(rates: SplittableRates, starts: FloatArray) -> CycleSolution:
     """Iterate on each interval of the mesh in its turn."""
     parts: list[CycleSolution] = []
-    added = np.zeros(starts.shape)
+    added, evaluations = np.zeros(starts.shape), 0
     for i in range(rates.over.lengths.shape[-1]):
         part = iterate(rates.interval(i), starts + added)
         parts.append(part._replace(inside=added[..., None, None] + part.inside))
@@ -243,8 +248,9 @@ def truncation_error(rate: FloatArray, over: Mesh) -> FloatArray:
     return error
 
 
-def unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
-    """Return which intervals (..., q) do not resolve the rate (..., k, q, m) of every start."""
+def unresolved(rate: FloatArray, over: Mesh, tolerance: float | FloatArray) -> BoolArray:
+    """Return which intervals (..., q) do not resolve the rate (..., k, q, m) of every start to the
+    `tolerance` (broadcasts against (..., k, q)), relative to its integral."""
     error = truncation_error(rate, over)
     found: BoolArray = np.any(error > tolerance * integral(rate, over)[..., None], axis=-2)
     return found

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, FancyArrowPatch
 from numpy.typing import NDArray
 
-from wear.figure_style import GREY, INK, canvas, stroke, styled
+from wear.figure_style import COLUMN, GREY, INK, canvas, stroke, styled
 
 #: What the drawing shows, for those who do not see it.
 DESCRIPTION = (
@@ -28,10 +28,10 @@ _TOP = 6.6
 
 
 def system() -> Figure:
-    """The drawing, 120 mm wide."""
+    """The drawing, as wide as a column."""
     with styled():
-        figure, axes = canvas(120.0, 78.0)
-        axes.set(xlim=(-0.2, 11.4), ylim=(0.3, 7.85), aspect="equal")
+        figure, axes = canvas(COLUMN, 62.0)
+        axes.set(xlim=(1.2, 11.6), ylim=(0.3, 7.85), aspect="equal")
         axes.axis("off")
         _solids(axes)
         _springs(axes)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import sympy as sp
 
 from derive.hypotheses import Hypothesis, Kind
+from derive.kernel import listed
 from derive.typeset.formula import width
 from derive.typeset.macros import macro_name
 from wear.report.document import Equation
@@ -64,7 +65,7 @@ def _title(equation: derived.Equation) -> str:
     parts = [markup(capital(equation.title))]
     for word, hypotheses in (("for", formulas), ("if", said)):
         if hypotheses:
-            parts.append(f"{word} {listed(dict.fromkeys(hypotheses))}")
+            parts.append(f"{word} {listed(hypotheses)}")
     title = ", ".join(parts)
     settings = ", ".join(dict.fromkeys(markup(c.text) for c in words))
     return f"{title} ({settings})" if settings else title
@@ -78,13 +79,3 @@ def _short(hypothesis: Hypothesis) -> bool:
 
 def _parts(hypothesis: Hypothesis) -> list[str]:
     return hypothesis.latex.split(r", \quad ")
-
-
-def listed(entries: Iterable[str]) -> str:
-    """Return entries with commas, and a word before the last one.
-
-    >>> listed(["a", "b", "c"])
-    'a, b and c'
-    """
-    *most, last = entries
-    return f"{', '.join(most)} and {last}" if most else last

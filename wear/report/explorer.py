@@ -19,7 +19,7 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
-from wear.report import explorer_data, explorer_equations, mathml
+from wear.report import explorer_data, mathml
 from wear.report.html import style
 from wear.scene import Scene, builtin_names, load_scene
 
@@ -69,8 +69,9 @@ def page(scene: Scene) -> str:
     UsageError
         if the load does not repeat.
     """
-    data = _data(scene)
-    scripts = [explorer_data.models(), *(_asset(name) for name in SCRIPTS)]
+    derived = json.loads(_asset("explorer.derived.json"))
+    data = _data(scene, derived)
+    scripts = [derived["models"], *(_asset(name) for name in SCRIPTS)]
     styles = f"{style()}\n{_asset('explorer.css')}"
     tags = "\n".join(f"<script>{text}</script>" for text in scripts)
     encoded = json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")
@@ -96,7 +97,7 @@ cycles, by this page alone. The model on it is generated from the derivation.</p
 <div class="workbench">
 {_plots()}
 <form class="controls" autocomplete="off" aria-label="Parameters">
-{_controls(data["parameters"])}
+{_controls(data["parameters"], derived["laws"])}
 </form>
 </div>
 <div class="details">
@@ -104,7 +105,7 @@ cycles, by this page alone. The model on it is generated from the derivation.</p
 {_SCENE_FILE}
 <section class="equations" aria-labelledby="equations">
 <h2 id="equations">Equations</h2>
-{explorer_equations.rows()}
+{derived["equations"]}
 </section>
 </div>
 </main>
@@ -115,9 +116,7 @@ cycles, by this page alone. The model on it is generated from the derivation.</p
 """
 
 
-def _data(first: Scene) -> dict[str, Any]:
-    from derive.laws import LAWS
-
+def _data(first: Scene, derived: Mapping[str, Any]) -> dict[str, Any]:
     scenes = {name: load_scene(name) for name in builtin_names()}
     if first.name not in scenes or scenes[first.name] != first:
         first = replace(first, name=_free_name(first.name, scenes))
@@ -126,11 +125,11 @@ def _data(first: Scene) -> dict[str, Any]:
     return {
         "first": first.name,
         "scenes": [explorer_data.scene_data(scene) for scene in scenes.values()],
-        "parameters": explorer_data.parameter_rows(),
+        "parameters": derived["parameters"],
         "keys": explorer_data.KEYS,
         "checks": explorer_data.checked([*(scenes[name] for name in CHECKED), *own]),
         "agreement": AGREEMENT,
-        "cutoff": int(LAWS["tanh"].cutoff),
+        "cutoff": derived["cutoff"],
     }
 
 
@@ -188,7 +187,7 @@ def _values() -> str:
     )
 
 
-def _controls(rows: Sequence[Mapping[str, Any]]) -> str:
+def _controls(rows: Sequence[Mapping[str, Any]], laws: Sequence[str]) -> str:
     by_name = {row["name"]: row for row in rows}
     parts = [
         '<fieldset><legend>Scene</legend><div class="control"><label for="scene">Start from</label>'
@@ -201,7 +200,7 @@ def _controls(rows: Sequence[Mapping[str, Any]]) -> str:
         '<label for="logarithmic">logarithmic axis</label><input type="radio" name="axis" '
         'id="linear"><label for="linear">linear axis</label></div></fieldset>',
     ]
-    extra = {"Pin": _pin(), "Contact": _contact(), "Support": _support()}
+    extra = {"Pin": _pin(), "Contact": _contact(laws), "Support": _support()}
     for group, names in explorer_data.GROUPS.items():
         sliders = "\n".join(_slider(by_name[name]) for name in names)
         inner = extra.get(group, "")
@@ -218,10 +217,8 @@ def _pin() -> str:
     )
 
 
-def _contact() -> str:
-    from derive.laws import LAWS
-
-    options = "".join(f"<option>{escape(name)}</option>" for name in LAWS)
+def _contact(laws: Sequence[str]) -> str:
+    options = "".join(f"<option>{escape(name)}</option>" for name in laws)
     return (
         '<div class="control"><label for="law">Contact law</label>'
         f'<select id="law">{options}</select></div>'

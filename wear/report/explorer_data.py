@@ -1,15 +1,12 @@
-"""What the explorer's page knows: scenes, ranges of the sliders, values to check itself against.
+"""What the explorer's page knows of scenes: their numbers, and values to check itself against.
 
 Key results
     scene_data      a scene in the numbers that the sliders show
     check_data      wear and wear rates of a scene, computed in Python
-    parameter_rows  what can be moved, from the vocabulary
-    models          the generated functions of every variant, as JavaScript
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -120,57 +117,6 @@ def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
         "wear_mm": history.u_c.tolist(),
         "rates": rates,
     }
-
-
-def parameter_rows() -> list[dict[str, Any]]:
-    """Return name, range, scale and unit of every slider."""
-    from derive.symbols import QUANTITIES
-
-    rows = []
-    for name in (name for group in GROUPS.values() for name in group):
-        quantity = QUANTITIES[name]
-        domain = quantity.domain
-        unit = "" if quantity.unit == "1" else quantity.unit
-        rows.append(
-            {
-                "name": name,
-                "meaning": quantity.meaning.split(", ")[0],
-                "latex": quantity.latex,
-                "unit": unit,
-                "low": domain.low,
-                "high": domain.high,
-                "logarithmic": domain.logarithmic,
-                "positive": domain.positive,
-                "negative": not domain.positive and name not in NOT_NEGATIVE,
-            }
-        )
-    return rows
-
-
-def models() -> str:
-    """Return a script with the generated functions of every variant and the formulas."""
-    from derive.codegen.formulas import formula_script
-    from derive.codegen.sources import definitions
-    from derive.program import program
-    from derive.results.asymptotics import formulas
-    from derive.variant import VARIANTS
-
-    entries = (
-        f'"{variant.law.name}/{variant.name}": () => {{\n'
-        f"{_without_comments(definitions(program(variant)))}}},\n"
-        for variant in VARIANTS
-    )
-    closed = _without_comments(formula_script(tuple(formulas())))
-    return (
-        f'"use strict";\nconst MODELS = {{\n{"".join(entries)}}};\n'
-        f"const FORMULAS = (() => {{\n{closed}}})();\n"
-    )
-
-
-def _without_comments(text: str) -> str:
-    """Leave out what readers of the page's source find in `derive code --target javascript`."""
-    blocks = re.sub(r"/\*\*.*?\*/\n", "", text, flags=re.DOTALL)
-    return re.sub(r"\n{2,}", "\n", re.sub(r" // .*", "", blocks))
 
 
 def checked(scenes: Iterable[Scene]) -> list[dict[str, Any]]:

@@ -23,12 +23,10 @@ from numpy.typing import NDArray
 from derive.results.regime_map import REGIMES
 from wear import figures
 from wear.figure_data import Example, Line
-from wear.figure_style import COLUMN_AND_HALF, GREY, INK, canvas, stroke, styled
+from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, INK, canvas, stroke, styled
 from wear.history import FloatArray, History
 from wear.report.reconcile import PRINTED
 from wear.report.runs import CUTOFF, SECTION_5, Approach, Runs, required
-
-WIDTH = COLUMN_AND_HALF
 
 
 def lines_of(history: History) -> tuple[list[Line], list[Line], list[Line]]:
@@ -45,12 +43,12 @@ def lines_of(history: History) -> tuple[list[Line], list[Line], list[Line]]:
 
 def wear_of_both(runs: Runs) -> Figure:
     """Fig. 2a, with and without loss of contact."""
-    return figures.wear_history(_both(runs, "u_c", "u_a"), width=WIDTH)
+    return figures.wear_history(_both(runs, "u_c", "u_a"), width=COLUMN)
 
 
 def roughness_of_both(runs: Runs) -> Figure:
     """Fig. 2b, with and without loss of contact."""
-    return figures.roughness_history(_both(runs, "sigma_c", "sigma_a"), width=WIDTH)
+    return figures.roughness_history(_both(runs, "sigma_c", "sigma_a"), width=COLUMN)
 
 
 def _both(runs: Runs, bearing: str, pin: str) -> list[Line]:
@@ -74,7 +72,7 @@ def wear_and_asymptote(runs: Runs) -> Figure:
     last = wear[0]
     per_cycle = required(runs.asymptote("section4").wear_per_cycle_mm)
     line = last.y[-1] + per_cycle * (last.x - last.x[-1])
-    return figures.wear_with_asymptote(wear, [Line("slope (21)", last.x, line, 1, 2)], width=WIDTH)
+    return figures.wear_with_asymptote(wear, [Line("slope (21)", last.x, line, 1, 2)], width=COLUMN)
 
 
 def wear_coefficients(runs: Runs) -> Figure:
@@ -84,7 +82,7 @@ def wear_coefficients(runs: Runs) -> Figure:
         power = round(np.log10(runs.cases[name].scene.bearing.wear_coefficient))
         lines.append(_wear(runs, name, rf"$K = 10^{{{power}}}$", family, 0))
     lines.append(_wear(runs, SECTION_5[1] + CUTOFF, r"$10^{-6}$, loss of contact", 1, 1))
-    return figures.wear_by_coefficient(lines, logarithmic=True, width=WIDTH)
+    return figures.wear_by_coefficient(lines, logarithmic=True, width=COLUMN)
 
 
 def _wear(runs: Runs, case: str, name: str, family: int, variant: int) -> Line:
@@ -95,7 +93,7 @@ def _wear(runs: Runs, case: str, name: str, family: int, variant: int) -> Line:
 def approach(found: Approach) -> Figure:
     """Relative excess of wear per cycle and of pressure over (21) and (22) against cycles."""
     with styled():
-        figure, axes = canvas(WIDTH, 0.6 * WIDTH)
+        figure, axes = canvas(COLUMN_AND_HALF, 0.55 * COLUMN_AND_HALF)
         axes.loglog(
             found.cycles,
             found.predicted,
@@ -159,7 +157,7 @@ def regimes(runs: Runs) -> Figure:
         scene = runs.cases[name].scene
         gap = (scene.closure - scene.periodic_load.maximum) / scene.initial_roughness
         slope = scene.bearing.roughness_growth
-        points.append(Example(name, slope, gap, one_solid=scene.pin is None))
+        points.append(Example(f"§ {name[-1]}", slope, gap, one_solid=scene.pin is None))
     return figures.regime_map(_regime, ("without loss of contact", "with loss of contact"), points)
 
 

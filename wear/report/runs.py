@@ -20,11 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.bounds import Enclosure, static_bounds, wear_bounds
-from wear.count.cycle import drive, resolve, settings
+from wear.equation import equation_of
 from wear.history import History
 from wear.load import Constant
 from wear.model import bind
 from wear.offset import offset
+from wear.orbit.period_map import resolved, settings
 from wear.regime import Asymptote, asymptote
 from wear.report.reconcile import PRINTED, Reconciliation, reconciliations
 from wear.scene import Scene, builtin_scenes, load_scene
@@ -226,10 +227,9 @@ def _decay(scene: Scene) -> Decay:
 
 def increments(scene: Scene, wear: FloatArray) -> FloatArray:
     """Wear (mm) that one more cycle adds to each wear (mm): integrated, not subtracted."""
-    model, load = bind(scene), scene.periodic_load
-    size = settings(RTOL)
-    over = resolve(model, load, wear, size.finer_nodes, size.strict_tolerance)
-    return drive(model, load, over).advance(wear).increment
+    equation, size = equation_of([scene]), settings(RTOL)
+    ((_, maps),) = resolved(equation, equation.breakpoints, wear[None], size)
+    return np.asarray(maps.finer(size).advance(wear[None]).increment[0])
 
 
 def _increment(scene: Scene, cycle: int) -> float:

@@ -7,12 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from wear.benchmark import QUICK, Measurement, benchmark
-from wear.benchmark.cases import CYCLES, ONE, cases
-from wear.benchmark.curves import curves
 from wear.benchmark.machine import footer, machine
-from wear.benchmark.output import DIGITS, speed_table
-from wear.benchmark.own import OWN
-from wear.benchmark.summary import at, best, cycles_of, duration
+from wear.benchmark.methods import CYCLES, ONE, OWN, cases
+from wear.benchmark.results import DIGITS, at, best, curves, cycles_of, duration, speed_table
 from wear.report.number import Number
 from wear.report.text import escaped
 

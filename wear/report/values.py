@@ -9,17 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from derive.kernel import listed
 from derive.results.regime_map import REGIMES
 from derive.results.validity import RESOLUTIONS
 from derive.symbols import QUANTITIES
 from derive.typeset.display import inline
 from derive.typeset.nomenclature import occurring, unit
 from derive.typeset.present import presentable
-from wear.benchmark.cases import cases
+from wear.benchmark.methods import cases
 from wear.generated import asymptotics as formula
 from wear.report import speed
 from wear.report.derivations import Derivations
-from wear.report.equations import capital, listed
+from wear.report.equations import capital
 from wear.report.manifest import versions
 from wear.report.markup import markup
 from wear.report.number import Number

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from wear.load import Blocks, HistoryLoad, Table
+from wear.scene.plausibility import implausible_entries
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -15,7 +16,12 @@ CONTACT_REACH = 3  # contact needs h <= 3 sigma, the text under (4); a test hold
 
 def notices(scene: Scene) -> tuple[str, ...]:
     """One sentence for each thing worth knowing before the scene is solved."""
-    return (*_pin_notices(scene), *_closure_notices(scene), *_load_notices(scene))
+    return (
+        *implausible_entries(scene),
+        *_pin_notices(scene),
+        *_closure_notices(scene),
+        *_load_notices(scene),
+    )
 
 
 def _pin_notices(scene: Scene) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import copy
 import dataclasses
 import json
 import re
@@ -207,12 +208,11 @@ def test_a_constant_that_the_regime_lacks_is_an_error() -> None:
 
 
 def test_the_verification_finds_a_wrong_step() -> None:
-    """A statement whose claim was changed fails, and is named."""
+    """A judgement whose claim was changed fails, and is named."""
     (good,) = (e for e in equations() if e.id == "7c")
-    (statement,) = good.statements
-    wrong = dataclasses.replace(statement, claim=statement.claim.func(
-        statement.claim.lhs, 2 * statement.claim.rhs
-    ))  # fmt: skip
+    (judgement,) = good.statements
+    wrong, claim = copy.copy(judgement), judgement.claim
+    object.__setattr__(wrong, "claim", dataclasses.replace(claim, rhs=2 * claim.rhs))
     bad = dataclasses.replace(good, statements=(wrong,))
     assert verified([good]).passed
     outcome = verified([good, bad])

@@ -26,6 +26,8 @@ OPERATIONS = {
     "rate": 1,
     "slope": 21,
     "fields": 7,
+    "rate_gradient": 26,
+    "parameter_gradient": 18,
 }
 
 
@@ -140,3 +142,35 @@ def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + u + c.compliance * p - U_a
     return Fields(sigma_c=sigma, sigma=sigma, h=h, U_c=c.compliance * p, p=p)
+
+
+def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
+    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
+    sigma = c.sigma_c0 + c.f_c * u
+    h = c.h_0 + u + c.compliance * p - U_a
+    ratio = h / sigma
+    share = np.exp(-ratio)
+    residual_p = 1 + c.compliance * c.p_max * share / sigma
+    rate_ratio = -c.wear_per_pressure * c.p_max * share / residual_p
+    rate_h = rate_ratio / sigma
+    rate_sigma = -rate_ratio * ratio / sigma
+    return -rate_h, Constants(
+        rate_h, rate_sigma, rate_sigma * u, c.wear_per_pressure * share / residual_p, p * rate_h, p
+    )
+
+
+def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    compliance = 1 / data.k
+    wear_per_pressure = np.pi * data.K_c * data.R * data.n / (90 * data.H_c)
+    return Parameters(
+        by.h_0,
+        by.sigma_c0,
+        by.f_c,
+        by.wear_per_pressure * wear_per_pressure / data.K_c,
+        -by.wear_per_pressure * wear_per_pressure / data.H_c,
+        by.p_max,
+        -by.compliance * compliance / data.k,
+        by.wear_per_pressure * wear_per_pressure / data.R,
+        by.wear_per_pressure * wear_per_pressure / data.n,
+    )

@@ -26,6 +26,8 @@ OPERATIONS = {
     "rate": 1,
     "slope": 33,
     "fields": 16,
+    "rate_gradient": 40,
+    "parameter_gradient": 38,
 }
 
 
@@ -185,4 +187,56 @@ def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:
         h=h,
         U_c=c.compliance * p,
         p=p,
+    )
+
+
+def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
+    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
+    sigma_a = c.sigma_a0 + c.slope_a * u
+    sigma_c = c.sigma_c0 + c.f_c * u
+    sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
+    h = c.h_0 + c.compliance * p + c.gain * u - U_a
+    ratio = h / sigma
+    share = np.exp(-ratio)
+    residual_p = 1 + c.compliance * c.p_max * share / sigma
+    rate_ratio = -c.wear_per_pressure * c.p_max * share / residual_p
+    rate_h = rate_ratio / sigma
+    rate_sigma = -rate_ratio * ratio / sigma
+    rate_sigma_c = rate_sigma * sigma_c / sigma
+    rate_sigma_a = rate_sigma * sigma_a / sigma
+    return -rate_h, Constants(
+        rate_h,
+        rate_sigma_a,
+        rate_sigma_c,
+        rate_sigma_c * u,
+        c.wear_per_pressure * share / residual_p,
+        0 * u,
+        rate_h * u,
+        rate_sigma_a * u,
+        p * rate_h,
+        p,
+    )
+
+
+def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
+    slope_a = data.f_a * kappa
+    compliance = 1 / data.k
+    wear_per_pressure = np.pi * data.K_c * data.R * data.n / (90 * data.H_c)
+    total_kappa = by.kappa + by.gain * pin_wear_sign + by.slope_a * slope_a / kappa
+    return Parameters(
+        by.h_0,
+        by.sigma_a0,
+        by.sigma_c0,
+        by.slope_a * kappa,
+        by.f_c,
+        total_kappa * kappa / data.K_a,
+        by.wear_per_pressure * wear_per_pressure / data.K_c - total_kappa * kappa / data.K_c,
+        -total_kappa * kappa / data.H_a,
+        total_kappa * kappa / data.H_c - by.wear_per_pressure * wear_per_pressure / data.H_c,
+        by.p_max,
+        -by.compliance * compliance / data.k,
+        by.wear_per_pressure * wear_per_pressure / data.R,
+        by.wear_per_pressure * wear_per_pressure / data.n,
     )

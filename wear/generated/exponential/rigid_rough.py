@@ -17,9 +17,10 @@ LAW = "exponential"
 EQUATIONS = ("1", "2b", "3", "4", "5", "6", "10")
 OPERATIONS = {
     "rate": 13,
-    "slope": 20,
-    "rate_and_slope": 21,
     "fields": 13,
+    "rate_and_slope": 21,
+    "rate_gradient": 24,
+    "parameter_gradient": 18,
 }
 
 
@@ -74,16 +75,15 @@ def rate(u: Array, U_a: Array, c: Constants) -> Array:
     return c.largest_rate * share
 
 
-def slope(u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the wear rate with respect to u_c, in 1/s."""
+def fields(u: Array, U_a: Array, c: Constants) -> Fields:
+    """Every field at given wear and load, in mm and MPa."""
+    sigma_a = c.sigma_a0
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
-    sigma_u = c.f_c * sigma_c / sigma
     h = c.h_0 + u - U_a
     ratio = h / sigma
-    ratio_u = (1 - ratio * sigma_u) / sigma
     share = np.exp(-ratio)
-    return -c.largest_rate * ratio_u * share
+    return Fields(sigma_a=sigma_a, sigma_c=sigma_c, sigma=sigma, h=h, p=c.p_max * share)
 
 
 def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
@@ -98,12 +98,33 @@ def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
     return c.largest_rate * share, -c.largest_rate * ratio_u * share
 
 
-def fields(u: Array, U_a: Array, c: Constants) -> Fields:
-    """Every field at given wear and load, in mm and MPa."""
-    sigma_a = c.sigma_a0
+def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
+    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
     h = c.h_0 + u - U_a
     ratio = h / sigma
     share = np.exp(-ratio)
-    return Fields(sigma_a=sigma_a, sigma_c=sigma_c, sigma=sigma, h=h, p=c.p_max * share)
+    rate_ratio = -c.largest_rate * share
+    rate_h = rate_ratio / sigma
+    rate_sigma = -rate_ratio * ratio / sigma
+    rate_sigma_c = rate_sigma * sigma_c / sigma
+    return -rate_h, Constants(
+        rate_h, c.sigma_a0 * rate_sigma / sigma, rate_sigma_c, rate_sigma_c * u, 0 * u, share
+    )
+
+
+def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
+    return Parameters(
+        by.h_0,
+        by.sigma_a0,
+        by.sigma_c0,
+        by.f_c,
+        by.largest_rate * largest_rate / data.K_c,
+        -by.largest_rate * largest_rate / data.H_c,
+        by.p_max + by.largest_rate * largest_rate / data.p_max,
+        by.largest_rate * largest_rate / data.R,
+        by.largest_rate * largest_rate / data.n,
+    )

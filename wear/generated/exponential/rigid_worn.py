@@ -17,9 +17,10 @@ LAW = "exponential"
 EQUATIONS = ("1", "2b", "3", "4", "5", "6", "10")
 OPERATIONS = {
     "rate": 9,
-    "slope": 14,
-    "rate_and_slope": 15,
     "fields": 10,
+    "rate_and_slope": 15,
+    "rate_gradient": 17,
+    "parameter_gradient": 33,
 }
 
 
@@ -80,14 +81,13 @@ def rate(u: Array, U_a: Array, c: Constants) -> Array:
     return c.largest_rate * share
 
 
-def slope(u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the wear rate with respect to u_c, in 1/s."""
+def fields(u: Array, U_a: Array, c: Constants) -> Fields:
+    """Every field at given wear and load, in mm and MPa."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + c.gain * u - U_a
     ratio = h / sigma
-    ratio_u = (c.gain - c.f_c * ratio) / sigma
     share = np.exp(-ratio)
-    return -c.largest_rate * ratio_u * share
+    return Fields(u_a=c.kappa * u, sigma_c=sigma, sigma=sigma, h=h, p=c.p_max * share)
 
 
 def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
@@ -100,10 +100,32 @@ def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
     return c.largest_rate * share, -c.largest_rate * ratio_u * share
 
 
-def fields(u: Array, U_a: Array, c: Constants) -> Fields:
-    """Every field at given wear and load, in mm and MPa."""
+def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
+    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + c.gain * u - U_a
     ratio = h / sigma
     share = np.exp(-ratio)
-    return Fields(u_a=c.kappa * u, sigma_c=sigma, sigma=sigma, h=h, p=c.p_max * share)
+    rate_ratio = -c.largest_rate * share
+    rate_h = rate_ratio / sigma
+    rate_sigma = -rate_ratio * ratio / sigma
+    return -rate_h, Constants(rate_h, rate_sigma, rate_sigma * u, 0 * u, 0 * u, rate_h * u, share)
+
+
+def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
+    largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
+    total_kappa = by.kappa + by.gain * pin_wear_sign
+    return Parameters(
+        by.h_0,
+        by.sigma_c0,
+        by.f_c,
+        total_kappa * kappa / data.K_a,
+        by.largest_rate * largest_rate / data.K_c - total_kappa * kappa / data.K_c,
+        -total_kappa * kappa / data.H_a,
+        total_kappa * kappa / data.H_c - by.largest_rate * largest_rate / data.H_c,
+        by.p_max + by.largest_rate * largest_rate / data.p_max,
+        by.largest_rate * largest_rate / data.R,
+        by.largest_rate * largest_rate / data.n,
+    )

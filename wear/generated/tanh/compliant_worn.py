@@ -26,6 +26,8 @@ OPERATIONS = {
     "rate": 1,
     "slope": 30,
     "fields": 9,
+    "rate_gradient": 36,
+    "parameter_gradient": 33,
 }
 
 
@@ -157,3 +159,48 @@ def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + c.compliance * p + c.gain * u - U_a
     return Fields(u_a=c.kappa * u, sigma_c=sigma, sigma=sigma, h=h, U_c=c.compliance * p, p=p)
+
+
+def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
+    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
+    sigma = c.sigma_c0 + c.f_c * u
+    h = c.h_0 + c.compliance * p + c.gain * u - U_a
+    ratio = h / sigma
+    odds = np.exp(np.minimum(8 - 4 * ratio, 709))
+    share = odds / (1 + odds)
+    spread = share / (1 + odds)
+    residual_p = 1 + 4 * c.compliance * c.p_max * spread / sigma
+    rate_ratio = -4 * c.wear_per_pressure * c.p_max * spread / residual_p
+    rate_h = rate_ratio / sigma
+    rate_sigma = -rate_ratio * ratio / sigma
+    return -rate_h, Constants(
+        rate_h,
+        rate_sigma,
+        rate_sigma * u,
+        c.wear_per_pressure * share / residual_p,
+        0 * u,
+        rate_h * u,
+        p * rate_h,
+        p,
+    )
+
+
+def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
+    compliance = 1 / data.k
+    wear_per_pressure = np.pi * data.K_c * data.R * data.n / (90 * data.H_c)
+    total_kappa = by.kappa + by.gain * pin_wear_sign
+    return Parameters(
+        by.h_0,
+        by.sigma_c0,
+        by.f_c,
+        total_kappa * kappa / data.K_a,
+        by.wear_per_pressure * wear_per_pressure / data.K_c - total_kappa * kappa / data.K_c,
+        -total_kappa * kappa / data.H_a,
+        total_kappa * kappa / data.H_c - by.wear_per_pressure * wear_per_pressure / data.H_c,
+        by.p_max,
+        -by.compliance * compliance / data.k,
+        by.wear_per_pressure * wear_per_pressure / data.R,
+        by.wear_per_pressure * wear_per_pressure / data.n,
+    )

@@ -17,9 +17,10 @@ LAW = "tanh"
 EQUATIONS = ("1", "2b", "3", "4", "5", "6", "13")
 OPERATIONS = {
     "rate": 12,
-    "slope": 20,
-    "rate_and_slope": 21,
     "fields": 12,
+    "rate_and_slope": 21,
+    "rate_gradient": 22,
+    "parameter_gradient": 18,
 }
 
 
@@ -71,16 +72,14 @@ def rate(u: Array, U_a: Array, c: Constants) -> Array:
     return c.largest_rate * share
 
 
-def slope(u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the wear rate with respect to u_c, in 1/s."""
+def fields(u: Array, U_a: Array, c: Constants) -> Fields:
+    """Every field at given wear and load, in mm and MPa."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + u - U_a
     ratio = h / sigma
-    ratio_u = (1 - c.f_c * ratio) / sigma
     odds = np.exp(np.minimum(8 - 4 * ratio, 709))
     share = odds / (1 + odds)
-    spread = share / (1 + odds)
-    return -4 * c.largest_rate * ratio_u * spread
+    return Fields(sigma_c=sigma, sigma=sigma, h=h, p=c.p_max * share)
 
 
 def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
@@ -95,11 +94,30 @@ def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
     return c.largest_rate * share, -4 * c.largest_rate * ratio_u * spread
 
 
-def fields(u: Array, U_a: Array, c: Constants) -> Fields:
-    """Every field at given wear and load, in mm and MPa."""
+def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
+    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + u - U_a
     ratio = h / sigma
     odds = np.exp(np.minimum(8 - 4 * ratio, 709))
     share = odds / (1 + odds)
-    return Fields(sigma_c=sigma, sigma=sigma, h=h, p=c.p_max * share)
+    spread = share / (1 + odds)
+    rate_ratio = -4 * c.largest_rate * spread
+    rate_h = rate_ratio / sigma
+    rate_sigma = -rate_ratio * ratio / sigma
+    return -rate_h, Constants(rate_h, rate_sigma, rate_sigma * u, 0 * u, share)
+
+
+def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
+    return Parameters(
+        by.h_0,
+        by.sigma_c0,
+        by.f_c,
+        by.largest_rate * largest_rate / data.K_c,
+        -by.largest_rate * largest_rate / data.H_c,
+        by.p_max + by.largest_rate * largest_rate / data.p_max,
+        by.largest_rate * largest_rate / data.R,
+        by.largest_rate * largest_rate / data.n,
+    )

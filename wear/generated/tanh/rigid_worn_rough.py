@@ -17,9 +17,10 @@ LAW = "tanh"
 EQUATIONS = ("1", "2b", "3", "4", "5", "6", "10")
 OPERATIONS = {
     "rate": 20,
-    "slope": 32,
-    "rate_and_slope": 33,
     "fields": 21,
+    "rate_and_slope": 33,
+    "rate_gradient": 36,
+    "parameter_gradient": 38,
 }
 
 
@@ -99,19 +100,18 @@ def rate(u: Array, U_a: Array, c: Constants) -> Array:
     return c.largest_rate * share
 
 
-def slope(u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the wear rate with respect to u_c, in 1/s."""
+def fields(u: Array, U_a: Array, c: Constants) -> Fields:
+    """Every field at given wear and load, in mm and MPa."""
     sigma_a = c.sigma_a0 + c.slope_a * u
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
-    sigma_u = (c.f_c * sigma_c + c.slope_a * sigma_a) / sigma
     h = c.h_0 + c.gain * u - U_a
     ratio = h / sigma
-    ratio_u = (c.gain - ratio * sigma_u) / sigma
     odds = np.exp(np.minimum(8 - 4 * ratio, 709))
     share = odds / (1 + odds)
-    spread = share / (1 + odds)
-    return -4 * c.largest_rate * ratio_u * spread
+    return Fields(
+        u_a=c.kappa * u, sigma_a=sigma_a, sigma_c=sigma_c, sigma=sigma, h=h, p=c.p_max * share
+    )
 
 
 def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
@@ -129,8 +129,8 @@ def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
     return c.largest_rate * share, -4 * c.largest_rate * ratio_u * spread
 
 
-def fields(u: Array, U_a: Array, c: Constants) -> Fields:
-    """Every field at given wear and load, in mm and MPa."""
+def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
+    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
     sigma_a = c.sigma_a0 + c.slope_a * u
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
@@ -138,6 +138,42 @@ def fields(u: Array, U_a: Array, c: Constants) -> Fields:
     ratio = h / sigma
     odds = np.exp(np.minimum(8 - 4 * ratio, 709))
     share = odds / (1 + odds)
-    return Fields(
-        u_a=c.kappa * u, sigma_a=sigma_a, sigma_c=sigma_c, sigma=sigma, h=h, p=c.p_max * share
+    spread = share / (1 + odds)
+    rate_ratio = -4 * c.largest_rate * spread
+    rate_h = rate_ratio / sigma
+    rate_sigma = -rate_ratio * ratio / sigma
+    rate_sigma_c = rate_sigma * sigma_c / sigma
+    rate_sigma_a = rate_sigma * sigma_a / sigma
+    return -rate_h, Constants(
+        rate_h,
+        rate_sigma_a,
+        rate_sigma_c,
+        rate_sigma_c * u,
+        0 * u,
+        0 * u,
+        rate_h * u,
+        rate_sigma_a * u,
+        share,
+    )
+
+
+def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
+    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
+    slope_a = data.f_a * kappa
+    largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
+    total_kappa = by.kappa + by.gain * pin_wear_sign + by.slope_a * slope_a / kappa
+    return Parameters(
+        by.h_0,
+        by.sigma_a0,
+        by.sigma_c0,
+        by.slope_a * kappa,
+        by.f_c,
+        total_kappa * kappa / data.K_a,
+        by.largest_rate * largest_rate / data.K_c - total_kappa * kappa / data.K_c,
+        -total_kappa * kappa / data.H_a,
+        total_kappa * kappa / data.H_c - by.largest_rate * largest_rate / data.H_c,
+        by.p_max + by.largest_rate * largest_rate / data.p_max,
+        by.largest_rate * largest_rate / data.R,
+        by.largest_rate * largest_rate / data.n,
     )

@@ -1,0 +1,1 @@
+"""The second route: models that satisfy hypotheses, and perhaps not the claim."""

@@ -1,0 +1,188 @@
+"""Truth: whether a relation holds in a model, at an instant and for all time.
+
+Overview
+    A relation is meant for all times, as hypotheses and claims are.  It is evaluated at the
+    model's times; equations to 20 digits and more, inequalities wherever the balls of the two
+    sides part (with four times the precision if they do not at first).  A limit is judged by
+    its trend.  What has no value (0/0) does not hold.
+Key results
+    judged(relation, moment, variable)   at one moment; Undecided, Undefined are raised
+    truth(relation, model)               True, False or None (no verdict), and where
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+from flint import arb, fmpq
+from sympy.core.relational import Relational
+from sympy.logic.boolalg import And, BooleanFunction, Equivalent, Implies, Not, Or, Xor
+
+from .balls import (
+    BITS,
+    NOTHING,
+    Moment,
+    NearZero,
+    Undecided,
+    Undefined,
+    ball,
+    compiled,
+    head,
+    precision,
+)
+
+if TYPE_CHECKING:
+    from .models import Model
+
+EARLY = 5
+"""So many of a model's times are within three periods."""
+_AGREE = arb(10) ** -20
+_RESOLVED = arb(10) ** -2
+"""Relative width up to which balls that overlap are taken for equal: values, limits."""
+
+
+@dataclass(frozen=True)
+class Truth:
+    """Whether a relation holds in a model; None where no time decides.  ``where``: a witness."""
+
+    holds: bool | None
+    where: str = ""
+
+
+def judged(relation: sp.Basic, moment: Moment, variable: sp.Symbol) -> bool:
+    """Return whether a relation holds at a moment."""
+    if relation in (sp.true, sp.false):
+        return bool(relation)
+    if isinstance(relation, BooleanFunction):
+        return _composed(relation, moment, variable)
+    if not isinstance(relation, Relational):
+        raise Undecided(f"{relation} is no relation")
+    for bits in (BITS, 4 * BITS):
+        final = bits > BITS
+        with precision(bits):
+            try:
+                outcome = _compared(relation, moment, variable, final)
+            except Undecided:
+                if final:
+                    raise
+                continue
+        if outcome is not None:
+            return outcome
+    raise Undecided("the two sides cannot be distinguished")
+
+
+def _composed(relation: BooleanFunction, moment: Moment, variable: sp.Symbol) -> bool:
+    parts = relation.args
+    if isinstance(relation, Not):
+        return not judged(parts[0], moment, variable)
+    if isinstance(relation, Implies):
+        return not judged(parts[0], moment, variable) or judged(parts[1], moment, variable)
+    if isinstance(relation, (Equivalent, Xor)):
+        sides = [judged(part, moment, variable) for part in parts]
+        return (len(set(sides)) == 1) == isinstance(relation, Equivalent)
+    if isinstance(relation, (And, Or)):
+        return _joined(relation, moment, variable)
+    raise Undecided(f"{type(relation).__name__} has no truth")
+
+
+def _joined(relation: BooleanFunction, moment: Moment, variable: sp.Symbol) -> bool:
+    """Return the truth of an 'and' or an 'or', though parts of it may be undecided."""
+    decisive, unknown = isinstance(relation, Or), None
+    for part in relation.args:
+        try:
+            if judged(part, moment, variable) == decisive:
+                return decisive
+        except Undecided as found:
+            unknown = found
+    if unknown is not None:
+        raise unknown
+    return not decisive
+
+
+def _compared(
+    relation: Relational, moment: Moment, variable: sp.Symbol, final: bool
+) -> bool | None:
+    left, right = relation.lhs, relation.rhs
+    if isinstance(relation, (sp.Eq, sp.Ne)) and isinstance(right, sp.Limit):
+        left, right = right, left
+    if left.is_infinite or right.is_infinite or isinstance(left, sp.Limit):
+        outcome = _at_infinity(relation, left, right, moment, variable)
+        if outcome is not None:
+            return outcome
+    a, b = (head(compiled(side, variable)(moment)) for side in (left, right))
+    gap = a - b
+    if isinstance(gap, fmpq) or gap.is_zero() or not gap.contains(0):
+        return bool(relation.func(_sign(gap), 0))
+    gap = ball(gap)
+    size = max(_size(side, moment, variable) for side in (left, right))
+    wide = relation.has(sp.Limit) or moment.model.derived_by_limit(relation)
+    close = gap.rad() <= max((_RESOLVED if wide else _AGREE) * size, NOTHING)
+    if not final and not wide:
+        return None  # perhaps more digits part them
+    if close and isinstance(relation, (sp.Eq, sp.Ge, sp.Le)):
+        return True
+    if close and isinstance(relation, sp.Ne):
+        return False
+    return None
+
+
+def _size(side: sp.Expr, moment: Moment, variable: sp.Symbol) -> arb:
+    """Return the size of the largest term."""
+    terms = sp.Add.make_args(side)
+    return max(abs(ball(compiled(term, variable)(moment))).upper() for term in terms)
+
+
+def _sign(gap: fmpq | arb) -> int:
+    return 0 if gap == 0 else 1 if gap > 0 else -1
+
+
+def _at_infinity(
+    relation: Relational, left: sp.Expr, right: sp.Expr, moment: Moment, variable: sp.Symbol
+) -> bool | None:
+    """Return the truth of a claim on a limit; None where it is a comparison of numbers."""
+    equal = isinstance(relation, (sp.Eq, sp.Ne))
+    if not equal:
+        return True if right == sp.oo and isinstance(relation, (sp.Lt, sp.Le)) else None
+    if not isinstance(left, sp.Limit):
+        return None
+    if right.is_infinite:
+        outcome = moment.model.diverges(left, 1 if right == sp.oo else -1)
+    else:
+        if varies(right, variable):
+            raise Undefined("a limit in time that still depends on time")
+        outcome = moment.model.tends(left, ball(compiled(right, variable)(moment)))
+    if outcome is None:
+        raise Undecided("the trend is not clear")
+    return outcome == isinstance(relation, sp.Eq)
+
+
+def truth(relation: sp.Basic, model: Model) -> Truth:
+    """Return whether a relation holds in a model for all its times."""
+    timeless = not varies(relation, model.variable)
+    decided, doubtful = False, False
+    for number, time in enumerate(model.times[:1] if timeless else model.times):
+        try:
+            if not judged(relation, Moment(model, time), model.variable):
+                return Truth(False, "" if timeless else f"at {model.variable} = {time}")
+            decided = True
+        except NearZero as reason:
+            if number < EARLY:  # later on, an exponential may be that small
+                return Truth(
+                    False, f"{reason}" + ("" if timeless else f" at {model.variable} = {time}")
+                )
+        except Undefined as reason:
+            return Truth(
+                False, f"{reason}" + ("" if timeless else f" at {model.variable} = {time}")
+            )
+        except (ArithmeticError, ValueError, RecursionError):
+            doubtful = doubtful or number < EARLY
+    return Truth(True if decided and not doubtful else None)
+
+
+def varies(expr: sp.Basic, variable: sp.Symbol) -> bool:
+    """Return whether an expression depends on the running variable, limits aside."""
+    if isinstance(expr, sp.Limit):
+        return False
+    return expr == variable or any(varies(part, variable) for part in expr.args)

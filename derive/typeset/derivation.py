@@ -1,0 +1,162 @@
+r"""Derivations in words: what each step did with which relation, and what came out.
+
+Overview
+    A sentence may hold formulas, ``$...$``, and names equations as ``[eq:21]``.  Every step stands
+    once, in the derivation of the first equation that needs it; others refer to it.
+Key results
+    Derivations    the derivations of some equations, in the order in which they are asked for
+    prose          the whole chain to one equation as LaTeX, to \input into a text of one's own
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import sympy as sp
+
+from ..kernel import Judgement
+from .breaking import broken
+from .display import latex
+from .macros import macro_name, macros
+from .present import presentable
+
+if TYPE_CHECKING:
+    from ..equations import Equation
+
+
+class Step(NamedTuple):
+    """A step: a sentence, the author's remark on it, and the formula that came out; `equation` is
+    the id if the formula is an equation with a number, `latex` is empty then."""
+
+    sentence: str
+    remark: str
+    latex: str
+    equation: str
+
+
+class Derivations:
+    """The derivations of some equations; a step that was told once is referred to."""
+
+    def __init__(self, equations: Iterable[Equation]) -> None:
+        self._equations = {equation.id: equation for equation in equations}
+        self._named: dict[sp.Basic, str] = {}
+        for equation in self._equations.values():
+            for statement in equation.statements:
+                self._named.setdefault(statement.relation, equation.id)
+        self._told: dict[sp.Basic, tuple[str, int]] = {}
+
+    def steps(self, identifier: str) -> tuple[Step, ...]:
+        """Return the steps to an equation that have not been told yet."""
+        steps: list[Step] = []
+        for statement in self._equations[identifier].steps:
+            name = self._named.get(statement.relation, identifier)
+            if statement.relation in self._told or name != identifier or is_hypothesis(statement):
+                continue
+            step = self._step(statement, identifier)
+            if step not in steps:
+                steps.append(step)
+            self._told[statement.relation] = (identifier, steps.index(step) + 1)
+        return tuple(steps)
+
+    def chain(self, identifier: str) -> tuple[Step, ...]:
+        """Return all steps to an equation, hypotheses and other equations on the way included."""
+        steps: list[Step] = []
+        for statement in self._equations[identifier].steps:
+            name = self._named.get(statement.relation, "")
+            if is_hypothesis(statement):
+                formula = "" if name else latex(presentable(statement.relation))
+                step = Step("", "", formula, name)
+            else:
+                step = self._step(statement, identifier)
+            if step not in steps:
+                steps.append(step)
+            self._told.setdefault(statement.relation, (identifier, steps.index(step) + 1))
+        return tuple(steps)
+
+    def origins(self, identifier: str) -> tuple[str, ...]:
+        """Return the equations from which this one follows, none for definitions."""
+        found: dict[str, None] = {}
+        for statement in self._equations[identifier].statements:
+            for parent in statement.parents:
+                found |= dict.fromkeys(self._nearest(parent, identifier))
+        return tuple(found)
+
+    def _nearest(self, statement: Judgement, of: str) -> Iterator[str]:
+        name = self._named.get(statement.relation, of)
+        if name != of:
+            yield name
+            return
+        for parent in statement.parents:
+            yield from self._nearest(parent, of)
+
+    def _step(self, statement: Judgement, of: str) -> Step:
+        parents = [self._name(parent, of) for parent in statement.parents]
+        name = self._named.get(statement.relation, "")
+        formula = "" if name else latex(presentable(statement.relation))
+        return Step(
+            statement.rule.sentence(*parents, write=_written), statement.remark, formula, name
+        )
+
+    def _name(self, parent: Judgement, of: str) -> str:
+        """How a step refers to another relation."""
+        numbered = self._named.get(parent.relation)
+        if numbered is not None and numbered != of:
+            return f"[eq:{numbered}]"
+        equation, place = self._told.get(parent.relation, ("", 0))
+        if not equation:
+            return f"[eq:{numbered}]" if numbered else "the hypotheses"
+        return f"step {place}" if equation == of else f"step {place} of the [der:{equation}]"
+
+
+def is_hypothesis(statement: Judgement) -> bool:
+    """Return whether a statement is taken from the note, or assumed."""
+    return type(statement.rule).__name__ == "Assume"
+
+
+_REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
+
+
+def prose(equations: Sequence[Equation], width: float) -> str:
+    r"""Return the chain of steps to the last of some equations as LaTeX, its formulas as macros.
+
+    ``width`` is that of a line in em; formulas are broken to fit beside their numbers.
+    """
+    *_, target = equations
+    by_id = {equation.id: equation for equation in equations}
+    steps = Derivations(equations).chain(target.id)
+    shown = dict.fromkeys(step.equation for step in steps if step.equation)
+    lines = [
+        f"% How ({target.id}) follows: {target.title}.",
+        macros([by_id[name] for name in shown], width).rstrip(),
+        rf"\paragraph{{Derivation of ({target.id}).}}",
+    ]
+    told: set[str] = set()
+    start = [step for step in steps if not step.sentence]
+    lines.append("The starting points are")
+    lines += [line for step in start for line in _formula(step, by_id, told, width)]
+    for place, step in enumerate(steps, start=1):
+        if step.sentence:
+            said = _REFERENCE.sub(r"(\1)", step.sentence)
+            lines.append(rf"\par\noindent\textit{{Step {place}.}} {said}")
+            lines += _formula(step, by_id, told, width)
+    return "\n".join(lines) + "\n"
+
+
+def _formula(
+    step: Step, equations: dict[str, Equation], told: set[str], width: float
+) -> Iterator[str]:
+    """Yield the display of what a step gave, an equation with its number and only once."""
+    if not step.equation:
+        yield rf"\[{broken(step.latex, width)}\]"
+    elif step.equation in told:
+        yield f"This belongs to ({step.equation})."
+    else:
+        told.add(step.equation)
+        macro = macro_name(equations[step.equation])
+        yield rf"\begin{{equation*}}\{macro}\tag{{{step.equation}}}\end{{equation*}}"
+
+
+def _written(expr: sp.Basic) -> str:
+    return f"${latex(expr)}$"

@@ -1,0 +1,59 @@
+"""The number of cycles to a wear depth: counted, extrapolated, or never."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from wear.faults import UsageError
+from wear.life import Reached, cycles_until
+from wear.load import Block, Blocks, HistoryLoad, Sine
+from wear.scene import load_scene
+from wear.solver import solve
+
+SECTION4 = load_scene("section4")
+
+
+def test_life_is_the_inverse_of_the_wear() -> None:
+    """Wear that the references give after 1000 and after 9000 cycles."""
+    life = cycles_until("section4", [2.0235737896319597e-03, 4.4133292056883764e-03])
+    assert life.cycles.tolist() == [1000.0, 9000.0]
+    assert life.reached == (Reached.COUNTED, Reached.COUNTED)
+    assert cycles_until(SECTION4, 0.0).cycles.tolist() == [0.0]
+
+
+def test_the_extrapolation_goes_on_where_the_count_ends() -> None:
+    """Both ways give the same just above the wear of 1e12 cycles, within their errors."""
+    last = float(solve(SECTION4, 10**12).u_c[0])
+    life = cycles_until(SECTION4, [last * (1.0 - 1e-6), last * (1.0 + 1e-6), 5e4])
+    assert life.reached == (Reached.COUNTED, Reached.EXTRAPOLATED, Reached.EXTRAPOLATED)
+    assert_allclose(life.cycles[:2], [1e12 * (1.0 - 1e-6), 1e12 * (1.0 + 1e-6)], rtol=1e-9)
+    assert life.cycles[2] == pytest.approx(5e4 / 4.6355474275e-8, rel=1e-4)  # issue: 1.08e12
+    assert np.all(life.error < 1e-6)
+
+
+def test_never_is_said_where_wear_ends_below() -> None:
+    life = cycles_until("roughness-vanishing", [1e-3, 1.0])
+    assert life.reached[1] is Reached.NEVER
+    assert np.isnan(life.cycles[1])
+
+
+def test_numbers_that_are_none_are_not_given() -> None:
+    life = cycles_until("section4", 1e306)
+    assert (life.reached, np.isnan(life.cycles[0])) == ((Reached.LATER,), True)
+
+
+def test_a_load_that_ends_is_said_to() -> None:
+    blocks = Blocks((Block(Sine(5e-4, 0.06), 10),))
+    life = cycles_until(replace(SECTION4, load=blocks), [1e-5, 1.0])
+    assert life.reached == (Reached.COUNTED, Reached.LOAD_ENDS)
+
+
+def test_what_is_no_depth_is_refused() -> None:
+    with pytest.raises(UsageError) as refused:
+        cycles_until(SECTION4, [-1.0, float("nan"), "3", True])  # type: ignore[list-item]
+    assert len(str(refused.value).splitlines()) == 4
+    record = HistoryLoad((0.0, 1.0), (0.0, 0.0), 1.0)
+    with pytest.raises(UsageError, match="does not repeat"):
+        cycles_until(replace(SECTION4, load=record), 1e-3)

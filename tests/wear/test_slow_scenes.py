@@ -1,0 +1,101 @@
+"""Ordinary scenes that once took minutes, or were refused; and analysis against numerics."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from tests import independent_support
+from tests.wear.test_cycle_count import between, problem
+from tests.wear.test_cycle_cutoff import loads, supported, with_load
+from wear import cycles as count
+from wear.load import Load, Sine, Table
+from wear.model import bind
+from wear.regime import asymptote
+from wear.scene import Scene
+from wear.solver import solve
+
+SLOW = json.loads((Path(__file__).parents[1] / "data" / "slow.json").read_text())
+CYCLES: list[int] = SLOW["cycles"]
+RESOLVED = 1e-11
+MOST_CYCLES_INTEGRATED = 4000
+
+
+def scene_of(i: int) -> Scene:
+    """The scene of that number, its table of rows as a load."""
+    tables: dict[str, Any] = json.loads(json.dumps(SLOW["scenes"][i]["scene"]))
+    load = tables["load"]
+    if load["kind"] != "table":
+        return Scene.from_dict(tables)
+    rows = load["rows"]
+    tables["load"] = {"kind": "sine", "amplitude_mm": 1e-4, "period_s": rows[-1][0]}
+    times, values = zip(*rows, strict=True)
+    return replace(Scene.from_dict(tables), load=Table(times, values))
+
+
+@pytest.mark.parametrize("i", [0, 1, 2, 3, 5, 6])
+def test_slow_wear_with_loss_of_contact_is_counted(i: int) -> None:
+    found = solve(scene_of(i), CYCLES, rtol=RESOLVED)
+    assert np.all(found.error <= RESOLVED)
+    assert found.cost["cycles_integrated"] <= MOST_CYCLES_INTEGRATED
+
+
+@pytest.mark.parametrize(("i", "cycle"), [(0, 1456392), (3, 1855967), (6, 247238)])
+def test_the_cycle_of_arrest_is_known_to_analysis_and_to_numerics(i: int, cycle: int) -> None:
+    scene = scene_of(i)
+    found = asymptote(scene)
+    assert found.arrest_cycle == cycle
+    before, after, long_after = solve(scene, [cycle - 1, cycle, 10**12], rtol=1e-12).u_c
+    assert before < after == long_after
+    assert after == pytest.approx(found.arrest_wear_mm, rel=1e-13)
+
+
+def agree(scene: Scene) -> None:
+    """The long-time formulas and the wear after many cycles."""
+    found = asymptote(scene)
+    wear = solve(scene, [10**9, 10**12], rtol=1e-12).u_c
+    if found.regime == "arrest":
+        assert found.arrest_wear_mm is not None
+        assert np.all(wear <= found.arrest_wear_mm * (1 + 1e-12))
+        if found.arrest_cycle is not None and found.arrest_cycle < 10**9:
+            assert wear == pytest.approx(found.arrest_wear_mm, rel=1e-12)
+    elif found.offset_mm is not None:
+        steady, drift = found.wear_per_cycle_mm, found.log_coefficient_mm
+        assert steady is not None
+        assert drift is not None
+        # What is left of the expansion falls like 1/u; rounding of u grows with it.
+        left = wear[0] - steady * 1e9 - drift * np.log(1e9) - found.offset_mm
+        size = scene.initial_roughness + abs(found.offset_mm) + abs(drift) * np.log(1e9)
+        assert abs(left) <= 1e3 * size**2 / wear[0] + 1e-14 * wear[0]
+
+
+def test_the_offset_is_read_once_contact_is_never_lost() -> None:
+    agree(scene_of(5))
+
+
+@settings(max_examples=8)
+@given(loads(), between(-7.5, -4), between(-0.2, 1.0), st.booleans(), st.booleans())
+def test_analysis_and_numerics_agree_on_random_scenes(
+    load: Load, K: float, f_c: float, pin: bool, exponential: bool
+) -> None:
+    scene = with_load(load, 10**K, f_c, pin)
+    if exponential:
+        scene = scene.with_({"contact.law": "exponential"})
+    assume(float(bind(scene).margin(0.0, load.maximum)) > 1e-6)
+    agree(scene)
+
+
+@settings(max_examples=4)
+@given(between(-8.5, -7.9), between(-0.2, 0.6), between(-4.3, -3.3))
+def test_two_rough_solids_on_a_nearly_rigid_support(K: float, f_c: float, swing: float) -> None:
+    scene = supported(10**K, f_c, True, 5e10, Sine(10**swing, 0.06))
+    assume(float(bind(scene).margin(0.0, scene.periodic_load.maximum)) > 1e-6)
+    found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0, 3.0]), 1e-12)
+    true = independent_support.wear_after(problem(scene), [1, 3])
+    want = np.array([true[1], true[3]])
+    assert np.all(np.abs(found.u_c - want) <= (found.error + 3e-15) * want)

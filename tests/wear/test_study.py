@@ -1,0 +1,408 @@
+"""Studies: designs, whole chunks or none, the same bits however they come about."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+
+import wear
+from wear.faults import UsageError, WorkersLost
+from wear.studies import design as designs
+from wear.studies.design import Design, permuted
+from wear.studies.rows import Status
+from wear.studies.run import study
+from wear.studies.vary import Distribution, Levels, parse
+
+GROWTH, HARDNESS = "bearing.roughness_growth", "bearing.hardness_MPa"
+
+
+@pytest.fixture
+def small_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(designs, "ROWS", 8)
+
+
+def same(one: xarray.Dataset, other: xarray.Dataset) -> bool:
+    return bool(one.load().identical(other.load()))
+
+
+# What varies
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a.b=1,3,2", Levels("a.b", (1.0, 3.0, 2.0))),
+        ("a.b=0.1:0.3:3", Levels("a.b", (0.1, 0.2, 0.3))),
+        ("a.b = 1e-8:1e-6:3:log", Levels("a.b", (1e-8, 1e-7, 1e-6))),
+        ("a.b=normal(2, 0.5)", Distribution("a.b", "normal", (2.0, 0.5))),
+    ],
+)
+def test_what_varies_is_read(text: str, expected: Levels | Distribution) -> None:
+    assert parse(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("bearing.hardness_MPa", "KEY=VALUES"),
+        ("a.b=1:2", "low:high:count"),
+        ("a.b=2:1:5", "low < high"),
+        ("a.b=0:1:5:log", "0 < low"),
+        ("a.b=1:2:2.5", "whole number"),
+        ("a.b=1,nan", "finite"),
+        ("a.b=1,1", "twice"),
+        ("a.b=gauss(1,2)", "choose one of"),
+        ("a.b=uniform(2,1)", "low < high"),
+        ("a.b=lognormal(1,0.5)", "factor > 1"),
+        ("a.b=normal(1)", "normal(mean,sd)"),
+        ("a.b=__import__('os')", "finite"),
+    ],
+)
+def test_what_cannot_vary_is_refused_with_the_remedy(text: str, word: str) -> None:
+    with pytest.raises(UsageError, match=word.replace("(", r"\(").replace(")", r"\)")):
+        parse(text)
+
+
+def test_two_thirds_of_a_lognormal_quantity_are_within_its_factor() -> None:
+    law = Distribution("a.b", "lognormal", (3.0, 2.0))
+    low, high = stats.norm.cdf([-1.0, 1.0])
+    np.testing.assert_allclose(law.quantile(np.array([low, 0.5, high])), [1.5, 3.0, 6.0])
+
+
+# Designs
+
+
+@pytest.mark.usefixtures("small_chunks")
+@given(st.lists(st.integers(1, 9), min_size=1, max_size=3))
+def test_the_chunks_of_a_grid_cover_it_once(lengths: list[int]) -> None:
+    vary = tuple(Levels(f"k.{i}", tuple(range(n))) for i, n in enumerate(lengths))  # type: ignore[arg-type]
+    plan = Design("grid", vary)
+    seen = np.zeros(plan.shape, dtype=int)
+    for chunk in plan.chunks():
+        columns = plan.columns(chunk)
+        places = tuple(columns[v.key].astype(int) for v in vary)
+        assert len(places[0]) <= designs.ROWS
+        np.add.at(seen, places, 1)
+    assert np.all(seen == 1)
+
+
+@pytest.mark.usefixtures("small_chunks")
+@pytest.mark.parametrize("kind", ["sobol", "latin-hypercube", "random"])
+def test_samples_follow_their_distribution_whatever_the_chunks(kind: str) -> None:
+    vary = (Distribution("a.b", "uniform", (0.0, 1.0)), Distribution("a.c", "normal", (0.0, 1.0)))
+    plan = Design(kind, vary, samples=512, seed=7)
+    columns = [plan.columns(chunk) for chunk in plan.chunks()]
+    uniform = np.concatenate([column["a.b"] for column in columns])
+    normal = np.concatenate([column["a.c"] for column in columns])
+    assert stats.kstest(uniform, "uniform").pvalue > 1e-3
+    assert stats.kstest(normal, "norm").pvalue > 1e-3
+    assert abs(np.corrcoef(uniform, normal)[0, 1]) < 0.15
+    if kind != "random":  # every 512th of the range is met once
+        assert len(set(np.floor(uniform * 512).astype(int))) == 512
+    other = Design(kind, vary, samples=512, seed=8)
+    assert not np.array_equal(other.columns((slice(0, 8),))["a.b"], uniform[:8])
+
+
+@given(st.integers(1, 3000), st.integers(0, 2**40))
+def test_a_permutation_meets_everything_once(size: int, key: int) -> None:
+    assert sorted(permuted(np.arange(size), size, (key,)).tolist()) == list(range(size))
+
+
+# Results
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_a_study_is_what_its_scenes_give_one_by_one(tmp_path: Path) -> None:
+    vary = [f"{GROWTH}=0.1:0.3:3", f"{HARDNESS}=100:300:5"]
+    found = study("section4", vary, [10, 9000], tmp_path / "a.zarr", until_wear=1e-3)
+    assert found["bearing_wear_mm"].dims == (GROWTH, HARDNESS, "cycle")
+    assert found["bearing_wear_mm"].attrs["units"] == "mm"
+    assert found[HARDNESS].attrs["units"] == "MPa"
+    scene = wear.load_scene("section4").with_({GROWTH: 0.2, HARDNESS: 250.0})
+    history = wear.solve(scene, [10, 9000], rtol=1e-12)
+    row = found.sel({GROWTH: 0.2, HARDNESS: 250.0})
+    off = np.abs(row["bearing_wear_mm"].values / history.u_c - 1.0)
+    assert np.all(off <= row["error_estimate"].values + 1e-12)
+    count = int(row["cycles_to_wear"])
+    around = wear.solve(scene, [count - 1, count], rtol=1e-12).u_c
+    assert around[0] < 1e-3 <= around[1]
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_an_invalid_scene_is_a_row_with_its_reason(tmp_path: Path) -> None:
+    found = study("section4", [f"{HARDNESS}=100,-1"], [10], tmp_path / "a.zarr")
+    assert found["status"].values.tolist() == [Status.DONE, Status.INVALID_SCENE]
+    assert "hardness_MPa" in str(found["reason"].values[1])
+    assert np.isnan(found["bearing_wear_mm"].values[1, 0])
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_what_is_missing_is_all_that_is_solved_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from wear.studies import run
+
+    request: dict[str, Any] = {"design": "latin-hypercube", "samples": 40, "seed": 3}
+    vary = [f"{GROWTH}=uniform(0.1,0.3)"]
+    whole = study("section4", vary, [9000], tmp_path / "whole.zarr", **request)
+    solved = run.solve_rows
+
+    def fails_at_the_third(*arguments: Any) -> Any:
+        if (tmp_path / "part.zarr" / "status" / "c" / "1").exists():
+            raise KeyboardInterrupt
+        return solved(*arguments)
+
+    monkeypatch.setattr(run, "solve_rows", fails_at_the_third)
+    with pytest.raises(KeyboardInterrupt):
+        study("section4", vary, [9000], tmp_path / "part.zarr", **request)
+    kept = sorted((tmp_path / "part.zarr" / "status" / "c").iterdir())
+    written = [file.stat().st_mtime_ns for file in kept]
+    assert len(kept) == 2
+    monkeypatch.setattr(run, "solve_rows", solved)
+    part = study("section4", vary, [9000], tmp_path / "part.zarr", **request)
+    assert [file.stat().st_mtime_ns for file in kept] == written
+    assert same(part, whole)
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_another_study_at_the_same_place_is_refused(tmp_path: Path) -> None:
+    study("section4", [f"{GROWTH}=0.1,0.2"], [10], tmp_path / "a.zarr")
+    with pytest.raises(UsageError, match=r"another study, which differs in: vary, cycles"):
+        study("section4", [f"{GROWTH}=0.1,0.3"], [11], tmp_path / "a.zarr")
+    (tmp_path / "b.zarr").mkdir()
+    with pytest.raises(UsageError, match="is no study"):
+        study("section4", [f"{GROWTH}=0.1,0.2"], [10], tmp_path / "b.zarr")
+    with pytest.raises(UsageError, match="make it first"):
+        study("section4", [f"{GROWTH}=0.1,0.2"], [10], tmp_path / "no" / "a.zarr")
+
+
+def test_all_that_is_wrong_with_a_request_is_said_at_once(tmp_path: Path) -> None:
+    with pytest.raises(UsageError) as caught:
+        study("section4", ["bearing.hardnes_MPa=1,2", f"{GROWTH}=2:1:3", "support.x=1,2"], [],
+              tmp_path / "a.zarr", rtol=1.0, until_wear=-1.0)  # fmt: skip
+    for word in ("hardness_MPa", "low < high", "support", "cycles", "rtol", "until_wear"):
+        assert word in str(caught.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_study_larger_than_the_disk_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from wear.studies import store
+
+    free = type("Usage", (), {"free": 1000})
+    monkeypatch.setattr(store.shutil, "disk_usage", lambda _: free)
+    with pytest.raises(UsageError, match="are free"):
+        study("section4", [f"{GROWTH}=0.1:0.2:1000"], [10], tmp_path / "a.zarr")
+    assert list(tmp_path.iterdir()) == []
+
+
+# Workers
+
+
+class Unreliable(ProcessPoolExecutor):
+    """A pool whose workers are killed once two chunks were handed over."""
+
+    submitted = 0
+
+    def submit(self, *arguments: Any, **named: Any) -> Any:
+        future = super().submit(*arguments, **named)
+        self.submitted += 1
+        if self.submitted == 2:
+            for process in self._processes.values():
+                os.kill(process.pid, signal.SIGKILL)
+        return future
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_lost_workers_are_said_and_the_study_goes_on_to_the_same_bits(tmp_path: Path) -> None:
+    vary = [f"{GROWTH}=0.1:0.3:40"]
+    whole = study("section4", vary, [9000], tmp_path / "whole.zarr")
+    with Unreliable(2) as pool, pytest.raises(WorkersLost, match="goes on"):
+        study("section4", vary, [9000], tmp_path / "part.zarr", executor=pool)
+    with ProcessPoolExecutor(2) as pool:
+        part = study("section4", vary, [9000], tmp_path / "part.zarr", executor=pool)
+    assert same(part, whole)
+
+
+def _command(*words: str, rows: int = 8) -> list[str]:
+    """Return the command line `wear study` with small chunks."""
+    code = (
+        "import sys; from wear.studies import design; design.ROWS = int(sys.argv.pop(1)); "
+        "from wear.cli import main; sys.exit(main(sys.argv[1:]))"
+    )
+    return [sys.executable, "-c", code, str(rows), "study", *words]
+
+
+def test_a_study_killed_at_random_moments_ends_with_the_same_bits(tmp_path: Path) -> None:
+    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:160", "--cycles", "9000", "--workers", "1"]
+    subprocess.run(_command(*words, "-o", str(tmp_path / "whole.zarr")), check=True)
+    random = np.random.default_rng(5)
+    part = tmp_path / "part.zarr"
+    for _ in range(10):
+        process = subprocess.Popen(_command(*words, "-o", str(part)))
+        begun = time.monotonic()
+        while not part.exists() and process.poll() is None and time.monotonic() < begun + 60:
+            time.sleep(0.01)
+        time.sleep(random.uniform(0.0, 0.15))
+        process.kill()
+        process.wait()
+    subprocess.run(_command(*words, "-o", str(part)), check=True)
+    assert same(xarray.open_zarr(part, consolidated=False),
+                xarray.open_zarr(tmp_path / "whole.zarr", consolidated=False))  # fmt: skip
+
+
+def test_a_worker_of_a_cluster_is_killed_and_nothing_is_lost(tmp_path: Path) -> None:
+    from distributed import LocalCluster
+
+    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:400", "--cycles", "9000"]
+    subprocess.run(
+        _command(*words, "--workers", "1", "-o", str(tmp_path / "whole.zarr")), check=True
+    )
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL"
+    ) as cluster:
+        process = subprocess.Popen(
+            _command(
+                *words, "--scheduler", cluster.scheduler_address, "-o", str(tmp_path / "c.zarr")
+            )
+        )
+        first = tmp_path / "c.zarr" / "status" / "c" / "0"
+        while not first.exists() and process.poll() is None:
+            time.sleep(0.01)
+        victim = next(iter(cluster.workers.values()))
+        os.kill(victim.pid, signal.SIGKILL)
+        assert process.wait(timeout=120) == 0
+    assert same(xarray.open_zarr(tmp_path / "c.zarr", consolidated=False),
+                xarray.open_zarr(tmp_path / "whole.zarr", consolidated=False))  # fmt: skip
+
+
+def test_a_full_disk_keeps_what_is_finished(tmp_path: Path) -> None:
+    import resource
+
+    out = str(tmp_path / "a.zarr")
+    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:1024", "--cycles", "9000", "--workers", "1"]
+    limit = (4096, resource.getrlimit(resource.RLIMIT_FSIZE)[1])
+    full = subprocess.run(
+        _command(*words, "-o", out, rows=1024),
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, limit),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert full.returncode == 2
+    assert "File too large" in full.stderr
+    assert "Traceback" not in full.stderr
+    subprocess.run(_command(*words, "-o", out, rows=1024), check=True)
+    found = xarray.open_zarr(out, consolidated=False)
+    assert bool((found["status"] == Status.DONE).all())
+
+
+def test_a_scheduler_that_goes_away_is_a_clear_error(tmp_path: Path) -> None:
+    from distributed import LocalCluster
+
+    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:4000", "--cycles", "9000"]
+    cluster = LocalCluster(
+        n_workers=1, threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL"
+    )
+    out = tmp_path / "c.zarr"
+    process = subprocess.Popen(
+        _command(*words, "--scheduler", cluster.scheduler_address, "-o", str(out)),
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    while not (out / "status" / "c" / "0").exists() and process.poll() is None:
+        time.sleep(0.01)
+    cluster.close()
+    _, complaint = process.communicate(timeout=120)
+    assert process.returncode == 130
+    assert "the same command goes on" in complaint
+    assert "Traceback" not in complaint
+
+
+def test_a_scheduler_that_is_not_there_is_a_clear_error(capfd: pytest.CaptureFixture[str]) -> None:
+    from wear.cli import main
+    from wear.commands import study as command
+
+    command_wait = command.LONGEST_WAIT
+    command.LONGEST_WAIT = 1
+    try:
+        status = main(["study", "section4", "--vary", f"{GROWTH}=0.1,0.2", "-o", "never.zarr",
+                       "--scheduler", "tcp://127.0.0.1:9"])  # fmt: skip
+    finally:
+        command.LONGEST_WAIT = command_wait
+    assert status == 2
+    assert "nothing answers at tcp://127.0.0.1:9" in capfd.readouterr().err
+
+
+# Sobol' indices
+
+
+def test_the_indices_of_a_product_are_those_of_its_logarithms() -> None:
+    """After one cycle of little wear u ~ K p_max/H: a product, whose indices are known."""
+    from wear.studies.figures import indices
+    from wear.studies.indices import sobol_indices
+
+    spread = (0.2, 0.1)
+    vary = [f"bearing.wear_coefficient=lognormal(1e-10,{np.exp(spread[0])})",
+            f"{HARDNESS}=lognormal(200,{np.exp(spread[1])})"]  # fmt: skip
+    found = sobol_indices("section4", vary, [1], samples=512, seed=2)
+    each = np.expm1(np.square(spread))
+    total = np.prod(1 + each) - 1
+    for place in range(2):
+        row = found.isel(key=place, cycle=0)
+        assert float(row["first_order_low"]) < each[place] / total < float(row["first_order_high"])
+        assert float(row["first_order_high"] - row["first_order_low"]) < 0.5
+    assert indices(found).axes
+
+
+def test_indices_of_scenes_without_an_answer_are_refused() -> None:
+    from wear.studies.indices import sobol_indices
+
+    with pytest.raises(UsageError, match="narrow what varies"):
+        sobol_indices("section4", [f"{HARDNESS}=normal(10,10)"], [1], samples=16)
+
+
+# The command
+
+
+def test_a_dry_run_says_what_a_study_takes_and_writes_nothing(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    from wear.cli import main
+
+    out = tmp_path / "a.zarr"
+    words = ["study", "section4", "--vary", f"{GROWTH}=0.1:0.3:21", "-o", str(out), "--dry-run"]
+    assert main([*words, "--json"]) == 0
+    said = json.loads(capfd.readouterr().out)
+    assert said["scenes"] == 21
+    assert said["core_seconds"] > 0
+    assert said["disk_bytes"] == 21 * 17
+    assert not out.exists()
+
+
+def test_the_command_writes_a_picture_and_says_what_became_of_the_rows(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    from wear.cli import main
+
+    out, figure = tmp_path / "a.zarr", tmp_path / "a.svg"
+    words = ["study", "section4", "--vary", f"{HARDNESS}=normal(200,20)", "--design", "sobol"]
+    words += ["--samples", "16", "--cycles", "9000", "--until-wear", "0.001", "-o", str(out)]
+    assert main([*words, "--workers", "1", "--figure", str(figure), "--json"]) == 0
+    assert json.loads(capfd.readouterr().out)["rows"]["done"] == 16
+    assert figure.read_text().startswith("<?xml")

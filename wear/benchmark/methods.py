@@ -1,0 +1,176 @@
+"""The cases and methods of the benchmark.
+
+A case is a scene with the wear that is known of it, far beyond double precision's need;
+`wear/data/reference.json` says how the values were computed: no code of the package took part. A
+run of an own method is all that a user waits for: binding the model, solving, checking the error
+estimate and computing the fields.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+if TYPE_CHECKING:
+    from wear.scene import Scene
+
+REFERENCE = Path(__file__).parents[1] / "data" / "reference.json"
+CYCLES = (1, 100, 9000, 10**6, 10**8)
+ONE = ("section4",)
+FEW = ("section3", "section4", "fast-wear")
+LONGEST_RUN = 30.0  # s, of one that can be stopped
+SCIPY = ("DOP853", "Radau", "BDF", "LSODA", "RK45")
+WITH_DEFAULTS = ("RK45", "LSODA")
+DEFAULT_TOLERANCE = 1e-3  # `solve_ivp`'s rtol
+
+
+class Case(NamedTuple):
+    """A scene, a number of cycles and the true wear in mm after them."""
+
+    name: str
+    scene: Scene
+    cycles: int
+    wear: float
+
+
+@cache
+def _reference() -> Any:
+    return json.loads(REFERENCE.read_text(encoding="utf-8"))
+
+
+def names(kind: Literal["speed", "hard"]) -> tuple[str, ...]:
+    """The scenes of the speed comparison or of the hard catalogue."""
+    return tuple(_reference()[kind])
+
+
+def cases(
+    kind: Literal["speed", "hard"], scenes: Sequence[str], cycles: Sequence[int] | None = None
+) -> tuple[Case, ...]:
+    """The cases of some scenes, at those numbers of cycles whose wear is known.
+
+    >>> [case.cycles for case in cases("speed", ["section4"], CYCLES)]
+    [1, 100, 9000, 1000000, 100000000]
+    """
+    from wear.scene import load_scene
+
+    made = []
+    for name in scenes:
+        entry = _reference()[kind][name]
+        scene = load_scene(entry["scene"], entry["set"])
+        for text, wear in entry["u_c_mm"].items():
+            if cycles is None or int(text) in cycles:
+                made.append(Case(name, scene, int(text), wear))
+    return tuple(made)
+
+
+class Answer(NamedTuple):
+    """Wear in mm after the last cycle.
+
+    `estimate` is the method's own estimate of the relative error and `evaluations` the number of
+    right-hand sides, None where it tells none; `complaint` is empty if it says that all went well;
+    `stopped` if it was cut short by its time limit.
+    """
+
+    wear: float
+    estimate: float | None = None
+    evaluations: int | None = None
+    complaint: str = ""
+    stopped: bool = False
+
+
+Run = Callable[[int, float], Answer]
+"""Solve from the fresh state for the wear after so many cycles, to a relative tolerance."""
+
+
+class Method(NamedTuple):
+    """A way to solve a scene.
+
+    `imports` are the modules whose import is part of its start-up, all of which have to be
+    installed. `prepare` does what is done once a scene (bind, compile) and raises `UnsuitableError`
+    for a scene that the method cannot solve. `tolerances` are those worth trying. `steps`: it goes
+    through every cycle, so that time is expected to grow with their number.
+    """
+
+    name: str
+    imports: tuple[str, ...]
+    prepare: Callable[[Scene], Run]
+    tolerances: tuple[float, ...]
+    steps: bool = True
+
+
+class UnsuitableError(Exception):
+    """The method cannot solve the scene; the message says why."""
+
+
+def solver(scene: Scene, method: str, time_limit: float = LONGEST_RUN) -> Run:
+    """`wear.solve` by one of its methods."""
+    from wear.faults import AccuracyError, Interrupted, UsageError
+    from wear.solver import solve
+
+    def run(cycles: int, tolerance: float) -> Answer:
+        complaint, stopped, start = "", False, time.monotonic()
+        try:
+            history = solve(scene, [cycles], tolerance, method, time_limit)
+        except UsageError as fault:
+            raise UnsuitableError(str(fault)) from fault
+        except Interrupted as stop:
+            if time.monotonic() - start < time_limit:
+                raise KeyboardInterrupt from stop  # by a person: the whole benchmark ends
+            history, complaint, stopped = stop.history, str(stop), True
+        except AccuracyError as miss:
+            if miss.best is None:
+                raise UnsuitableError(str(miss)) from miss
+            history, complaint = miss.best, str(miss)
+        if len(history.u_c) == 0:
+            return Answer(math.nan, complaint=complaint, stopped=stopped)
+        error = float(history.error[0])  # not a number where there is no estimate
+        estimate = None if math.isnan(error) else error
+        evaluations = history.cost["rhs_evaluations"]
+        return Answer(float(history.u_c[0]), estimate, evaluations, complaint, stopped)
+
+    return run
+
+
+def with_defaults(scene: Scene, method: str) -> Run:
+    """`solve_ivp` on the raw equation with its default tolerances, which the run ignores."""
+    from wear.direct.plain import plain
+    from wear.load import Blocks, HistoryLoad
+    from wear.model import bind
+
+    load = scene.load
+    if isinstance(load, Blocks | HistoryLoad):
+        raise UnsuitableError("the load does not repeat")
+    model = bind(scene)
+
+    def run(cycles: int, _: float) -> Answer:
+        found = plain(model, scene.periodic_load, cycles, method)
+        return Answer(found.u, evaluations=found.rhs_evaluations)
+
+    return run
+
+
+def _own(name: str, method: str, tolerances: tuple[float, ...]) -> Method:
+    steps = method in SCIPY
+    imports = ("wear.solver", "scipy.integrate") if steps else ("wear.solver",)
+    return Method(name, imports, lambda scene: solver(scene, method), tolerances, steps)
+
+
+def _plain(method: str) -> Method:
+    return Method(
+        f"solve_ivp {method}, defaults",
+        ("scipy.integrate",),
+        lambda scene: with_defaults(scene, method),
+        (DEFAULT_TOLERANCE,),
+    )
+
+
+OWN = (
+    _own("abel", "abel", (1e-4, 1e-6, 1e-9, 1e-12)),
+    *(_own(f"wear {method}", method, (1e-4, 1e-6, 1e-9)) for method in SCIPY),
+    *map(_plain, WITH_DEFAULTS),
+)

@@ -1,0 +1,288 @@
+"""Results of a benchmark: times at equal true error, ratios, sentences, tables, curves, files."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wear.benchmark import Measurement, StartUp, Status
+from wear.benchmark.machine import footer
+from wear.figure_data import Method
+
+FEWEST_DRAWN = 4  # methods in a figure
+YEAR = 3.15576e7  # s
+UNITS = (
+    (1e-3, 1e-6, "µs"),
+    (1.0, 1e-3, "ms"),
+    (120.0, 1.0, "s"),
+    (7200.0, 60.0, "min"),
+    (172800.0, 3600.0, "h"),
+    (YEAR, 86400.0, "days"),
+)
+
+
+def best(runs: Sequence[Measurement], digits: int) -> tuple[Measurement, ...]:
+    """Return each method's fastest run with a true relative error of at most 10^-digits, fastest
+    first; `runs` are those of one scene and number of cycles."""
+    good = [run for run in runs if abs(run.error) <= 10.0**-digits and run.repeats]
+    found: dict[str, Measurement] = {}
+    for run in sorted(good, key=lambda run: run.seconds):
+        found.setdefault(run.method, run)
+    return tuple(found.values())
+
+
+def at(runs: Sequence[Measurement], scene: str, cycles: int) -> tuple[Measurement, ...]:
+    """The runs of one case."""
+    return tuple(run for run in runs if (run.scene, run.cycles) == (scene, cycles))
+
+
+def unique(names: Iterable[str]) -> tuple[str, ...]:
+    """Return names without repetition, in order of appearance."""
+    return tuple(dict.fromkeys(names))
+
+
+def cycles_of(runs: Sequence[Measurement]) -> tuple[int, ...]:
+    """The numbers of cycles that were asked for."""
+    return tuple(sorted({run.cycles for run in runs}))
+
+
+def cell(runs: Sequence[Measurement], method: str, digits: int) -> str:
+    """A method's time to so many digits with its ratio to the fastest, or what became of it."""
+    ranking = best(runs, digits)
+    for run in ranking:
+        if run.method == method:
+            ratio = run.seconds / ranking[0].seconds
+            return duration(run.seconds) + ("" if ratio == 1.0 else f" ({_rounded(ratio)}x)")
+    own = [run for run in runs if run.method == method]
+    errors = [abs(run.error) for run in own if math.isfinite(run.error)]
+    waits = [run.seconds for run in own if run.status is Status.SKIPPED]
+    if waits:
+        return f"~ {duration(min(waits))}"
+    if errors:
+        return f"off by {magnitude(min(errors))}"
+    return "-"
+
+
+def duration(seconds: float) -> str:
+    """A time in the unit that suits.
+
+    >>> duration(0.00213), duration(47.0), duration(9e4), duration(3e5), duration(4e9)
+    ('2.1 ms', '47 s', '25 h', '3.5 days', '127 years')
+    """
+    for limit, unit, name in UNITS:
+        if seconds < limit:
+            return f"{_rounded(seconds / unit)} {name}"
+    return f"{_rounded(seconds / YEAR)} years"
+
+
+def magnitude(error: float) -> str:
+    """The size of a relative error.
+
+    >>> magnitude(0.41), magnitude(-2.3e-7), magnitude(17.0)
+    ('41 %', '2e-7', '17-fold')
+    """
+    if abs(error) >= 10.0:
+        return f"{_rounded(abs(error))}-fold"
+    if abs(error) >= 0.01:
+        return f"{_rounded(100.0 * abs(error))} %"
+    return f"{abs(error):.0e}".replace("e-0", "e-")
+
+
+def cycle_count(cycles: int) -> str:
+    """A number of cycles, short.
+
+    >>> cycle_count(9000), cycle_count(10**8)
+    ('9000', '1e8')
+    """
+    return str(cycles) if cycles < 10**5 else f"{cycles:.3g}".replace("e+0", "e")
+
+
+def _rounded(number: float) -> str:
+    return f"{number:.2g}" if number < 99.5 else f"{number:.0f}"
+
+
+def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple[str, ...]:
+    """Return a sentence a number of cycles: for so many digits use X, it takes Y."""
+    found = []
+    for cycles in cycles_of(runs):
+        ranking = best(at(runs, scene, cycles), digits)
+        if not ranking:
+            found.append(
+                f"{cycle_count(cycles)} cycles, {digits} digits: nothing that was tried gets there."
+            )
+            continue
+        first, *others = ranking
+        text = (
+            f"For {digits} digits of the wear after {cycle_count(cycles)} "
+            f"{'cycle' if cycles == 1 else 'cycles'} use {first.method}: "
+            f"it takes {duration(first.seconds)}"
+        )
+        if others:
+            ratio = others[0].seconds / first.seconds
+            text += f"; {others[0].method} takes {_rounded(ratio)} times as long."
+        else:
+            text += "; nothing else got there in the time given to it."
+        found.append(text)
+    return tuple(found)
+
+
+def silent_failures(runs: Sequence[Measurement]) -> tuple[Measurement, ...]:
+    """Runs that were off by more than a percent and did not say so, the worst of each method and
+    scene."""
+    wrong = [run for run in runs if run.status is Status.WRONG]
+    worst: dict[tuple[str, str], Measurement] = {}
+    for run in sorted(wrong, key=lambda run: -abs(run.error)):
+        worst.setdefault((run.method, run.scene), run)
+    return tuple(run for run in wrong if run is worst[run.method, run.scene])
+
+
+def figure_cycles(runs: Sequence[Measurement], scene: str) -> tuple[int, ...]:
+    """The numbers of cycles, beyond one, at which enough methods have run to compare them."""
+    ran = {
+        cycles: {run.method for run in at(runs, scene, cycles) if run.repeats}
+        for cycles in cycles_of(runs)
+    }
+    return tuple(cycles for cycles in ran if cycles > 1 and len(ran[cycles]) >= FEWEST_DRAWN)
+
+
+def curves(runs: Sequence[Measurement]) -> list[Method]:
+    """The runs of one case that took place, by method and rising tolerance."""
+    shown = [run for run in runs if run.repeats and math.isfinite(run.error)]
+    shown.sort(key=lambda run: run.tolerance)
+    return [
+        Method(
+            name,
+            np.array([abs(run.error) for run in shown if run.method == name]),
+            np.array([run.seconds for run in shown if run.method == name]),
+            np.array([run.status is not Status.MET for run in shown if run.method == name]),
+        )
+        for name in unique(run.method for run in runs if run in shown)
+    ]
+
+
+class Result(NamedTuple):
+    """A benchmark with all that belongs to it.
+
+    `imports` are the seconds that each method's imports take in a fresh process, `absent` what a
+    peer needs and is not installed, `facts` those of `wear.benchmark.machine.machine`.
+    """
+
+    runs: tuple[Measurement, ...]
+    starts: tuple[StartUp, ...]
+    imports: Mapping[str, float]
+    absent: Mapping[str, tuple[str, ...]]
+    facts: Mapping[str, Any]
+
+
+DIGITS = (6, 10)
+EXPLANATION = (
+    "Time to so many correct digits (d digits: a true relative error of at most 1e-d) against the "
+    "number of cycles N; in brackets the ratio to the fastest. ~: what it would have taken at the "
+    "loosest tolerance, not tried; off by: the best true error that was reached."
+)
+
+
+WORDS = ("scene", "method", "what happened")  # headings of columns of words
+
+
+class Table(NamedTuple):
+    """A caption, a heading a column and rows of text."""
+
+    caption: str
+    header: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def speed_table(runs: Sequence[Measurement], scene: str, digits: int) -> Table:
+    """Methods against numbers of cycles."""
+    here = [run for run in runs if run.scene == scene]
+    counts = cycles_of(here)
+    rows = [
+        (method, *(cell(at(here, scene, n), method, digits) for n in counts))
+        for method in unique(run.method for run in here)
+    ]
+    header = ("method", *(f"N = {cycle_count(n)}" for n in counts))
+    return Table(f"{scene}, {digits} digits", header, tuple(rows))
+
+
+def start_table(result: Result) -> Table:
+    """What happens once: imports in a fresh process, then getting ready for a scene."""
+    rows = []
+    for method in unique(start.method for start in result.starts):
+        ready = [start.seconds for start in result.starts if start.method == method]
+        imports = result.imports.get(method)
+        shown = "-" if imports is None else duration(imports)
+        rows.append((method, shown, duration(min(ready)), duration(max(ready))))
+    header = ("method", "imports", "ready, least", "ready, most")
+    return Table("Start-up, apart from the times above", header, tuple(rows))
+
+
+def failure_table(runs: Sequence[Measurement]) -> Table:
+    """Return the answers that were silently wrong."""
+    rows = [
+        (run.method, run.scene, cycle_count(run.cycles), f"{run.tolerance:g}", f"{run.error:+.0%}")
+        for run in silent_failures(runs)
+    ]
+    header = ("method", "scene", "cycles", "tolerance", "true error")
+    return Table("Silently wrong by more than a percent", header, tuple(rows))
+
+
+def tables(result: Result) -> tuple[Table, ...]:
+    """All tables, those of the scenes first."""
+    scenes = unique(run.scene for run in result.runs)
+    made = [speed_table(result.runs, scene, digits) for digits in DIGITS for scene in scenes]
+    made += [failure_table(result.runs), start_table(result)]
+    return tuple(table for table in made if table.rows)
+
+
+def markdown_table(table: Table) -> str:
+    """A table of Markdown, its columns of words left-aligned."""
+    rule = ["---" if name in WORDS else "---:" for name in table.header]
+    lines = [table.header, rule, *table.rows]
+    return "\n".join("| " + " | ".join(entries) + " |" for entries in lines)
+
+
+def markdown(result: Result, scene: str) -> str:
+    """The part of a page that is computed: sentences on one scene, tables, the machine."""
+    parts = ["\n".join(f"- {sentence}" for sentence in sentences(result.runs, scene))]
+    parts.append(EXPLANATION)
+    for table in tables(result):
+        parts += [f"**{table.caption}**", markdown_table(table)]
+    parts += absences(result)
+    parts.append(f"*{footer(dict(result.facts))}*")
+    return "\n\n".join(parts) + "\n"
+
+
+def absences(result: Result) -> list[str]:
+    """A line for each method that could not take part."""
+    return [
+        f"{method}: not measured, {' and '.join(packages)} not installed"
+        for method, packages in result.absent.items()
+    ]
+
+
+def csv_text(rows: Sequence[NamedTuple]) -> str:
+    """A line a row below the names of the fields; floats round-trip, None is empty."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    if rows:
+        writer.writerow(rows[0]._fields)
+    writer.writerows(rows)
+    return stream.getvalue()
+
+
+def document(result: Result, scene: str) -> dict[str, Any]:
+    """The JSON document of `wear bench`."""
+    return {
+        "machine": dict(result.facts),
+        "sentences": list(sentences(result.runs, scene)),
+        "measurements": [run._asdict() for run in result.runs],
+        "start_up": [start._asdict() for start in result.starts],
+        "import_seconds": dict(result.imports),
+        "not_installed": {name: list(packages) for name, packages in result.absent.items()},
+    }

@@ -1,0 +1,219 @@
+"""`wear study`: many scenes that differ in a few numbers, on this machine or on a cluster."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import multiprocessing
+import os
+import signal
+import time
+from collections.abc import Iterator
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derive import completion, files, terminal
+from derive.command_line import Command
+from wear.commands.arguments import Faults, add_scene
+
+if TYPE_CHECKING:
+    from wear.studies.design import Design
+    from wear.studies.rows import Question
+    from wear.studies.run import Progress
+    from wear.studies.store import Store
+
+EXAMPLE = """\
+  wear study section4 --vary bearing.roughness_growth=0.1:0.4:31 \\
+      --vary bearing.wear_coefficient=1e-8:1e-5:31:log --cycles 1e6 -o map.zarr
+  wear study section4 --vary "bearing.hardness_MPa=normal(200,15)" --design sobol \\
+      --samples 4096 --seed 1 --cycles 9000,1e6 --until-wear 0.01 -o life.zarr
+  wear study ... --dry-run              scenes, time and disk, nothing solved
+  wear study ... --workers 8            eight processes
+  wear study ... --scheduler tcp://host:8786    the workers of a Dask cluster
+  wear study ... --figure map.png       a picture of the answers
+
+The same command again goes on where it stopped.
+"""
+LONGEST_WAIT = 10  # seconds for a scheduler to answer
+TRIED = 64  # rows that a dry run solves
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the scene, what varies, what is asked, and where it runs."""
+    from wear.studies.design import DESIGNS
+
+    add_scene(parser)
+    parser.add_argument(
+        "--vary",
+        metavar="KEY=VALUES",
+        action="append",
+        default=[],
+        help="a number of the scene that varies: KEY=low:high:count, KEY=low:high:count:log or "
+        "KEY=a,b,c in a grid; KEY=uniform(a,b), loguniform(a,b), normal(mean,sd) or "
+        "lognormal(median,factor) in samples; may be repeated",
+    )
+    parser.add_argument(
+        "--cycles", metavar="N,...", default="9000", help="numbers of cycles (default: %(default)s)"
+    )
+    design = parser.add_argument(
+        "--design", default="grid", help=f"{', '.join(DESIGNS)} (default: %(default)s)"
+    )
+    completion.suggest(design, lambda: DESIGNS)
+    parser.add_argument("--samples", default="0", metavar="N", help="number of samples")
+    parser.add_argument("--seed", default="0", help="seed of the samples (default: %(default)s)")
+    parser.add_argument(
+        "--until-wear", metavar="MM", help="also the number of cycles to this wear depth"
+    )
+    parser.add_argument(
+        "--rtol", default="1e-7", help="requested relative accuracy (default: %(default)s)"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="OUT.zarr", required=True, help="folder of the results"
+    )
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--workers", metavar="N", help="processes on this machine (default: cores)")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="of a running Dask scheduler")
+    parser.add_argument(
+        "--dry-run", action="store_true", help="say how many scenes, how long, how much disk"
+    )
+    parser.add_argument("--figure", metavar="FILE", help="also draw the answers: .png, .svg, .pdf")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Run a study, or say what it takes."""
+    from wear.studies.run import prepare, run
+
+    faults = Faults()
+    scene = faults.scene(options)
+    cycles = faults.cycles("--cycles", options.cycles)
+    rtol = faults.number("--rtol", options.rtol, 1e-13, 0.1)
+    samples = faults.number("--samples", options.samples, 0, 1e9)
+    seed = faults.number("--seed", options.seed, 0, 2**63)
+    cores = os.process_cpu_count() if hasattr(os, "process_cpu_count") else os.cpu_count()
+    workers = faults.number("--workers", options.workers or str(cores or 1), 1, 1024)
+    wear = None
+    if options.until_wear is not None:
+        wear = faults.number("--until-wear", options.until_wear, 1e-30, 1e30)
+    if options.figure is not None and (problem := files.obstacle(Path(options.figure))):
+        faults.add(f"--figure: {problem}")
+    faults.stop_if_any()
+    assert scene is not None
+    request = (options.design, int(samples), int(seed), wear, rtol)
+    plan, question = prepare(scene, options.vary, cycles, *request)
+    if options.dry_run:
+        return _dry_run(options, plan, question, int(workers))
+    with _executor(options.scheduler, int(workers)) as executor:
+        store = run(plan, question, Path(options.output), executor, _show)
+    terminal.progress("")
+    if options.figure is not None:
+        from wear.figure_style import encoded
+        from wear.studies.figures import picture
+
+        path = Path(options.figure)
+        files.write_atomically(path, encoded(picture(store.dataset()), path.suffix))
+    _print(options, store)
+    return terminal.DONE
+
+
+def _dry_run(options: argparse.Namespace, plan: Design, question: Question, workers: int) -> int:
+    """Solve a few rows, and print what all of them would take."""
+    from wear.studies.rows import solve_rows
+    from wear.studies.store import disk_bytes
+
+    start = time.process_time()
+    solve_rows(question, plan.some(TRIED))
+    seconds = (time.process_time() - start) / TRIED * plan.rows
+    size = disk_bytes(plan, question)
+    if options.json:
+        terminal.print_json({"scenes": plan.rows, "core_seconds": seconds, "disk_bytes": size})
+        return terminal.DONE
+    print(
+        f"{plan.rows} scenes, about {_duration(seconds)} of one core "
+        f"({_duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
+    )
+    return terminal.DONE
+
+
+@contextmanager
+def _executor(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
+    """Give the workers: of a Dask cluster, processes of this machine, or none for a single core."""
+    if scheduler is not None:
+        with _cluster(scheduler) as executor:
+            yield executor
+    elif workers == 1:
+        yield None
+    else:
+        context = multiprocessing.get_context("spawn")
+        pool = ProcessPoolExecutor(workers, mp_context=context, initializer=_ignore_interrupts)
+        try:
+            yield pool
+            pool.shutdown()
+        except BaseException:  # also Ctrl-C: what is half done is not waited for
+            pool.shutdown(wait=False, cancel_futures=True)
+            for process in multiprocessing.active_children():
+                process.terminate()
+            raise
+
+
+def _ignore_interrupts() -> None:
+    """Leave Ctrl-C to the process that the user started."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def _cluster(address: str) -> Iterator[Executor]:
+    """Give the workers of a running Dask scheduler."""
+    from wear.faults import UsageError
+
+    try:
+        from distributed import Client
+    except ImportError as fault:
+        raise UsageError("--scheduler needs Dask: pip install 'derive-wear[study]'") from fault
+    for name in ("distributed", "tornado"):  # what goes wrong is said once, in our words
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    try:
+        client = Client(address, timeout=LONGEST_WAIT, set_as_default=False)
+    except (OSError, ValueError) as fault:
+        raise UsageError(
+            f"--scheduler: nothing answers at {address}: start one, or correct it"
+        ) from fault
+    try:
+        yield client.get_executor()
+    finally:
+        client.close(timeout=LONGEST_WAIT)
+
+
+def _show(progress: Progress) -> None:
+    """Show how far the study is on one line of a terminal."""
+    share = progress.done / progress.rows
+    left = _duration(progress.seconds_left)
+    terminal.progress(f"{progress.done} of {progress.rows} scenes ({share:.0%}), {left} left")
+
+
+def _duration(seconds: float) -> str:
+    """
+    >>> _duration(0.5), _duration(90.0), _duration(7200.0)
+    ('0.5 s', '90 s', '2 h')
+    """
+    if seconds < 120:
+        return f"{seconds:.2g} s"
+    return f"{seconds / 60:.3g} min" if seconds < 7200 else f"{seconds / 3600:.3g} h"
+
+
+def _print(options: argparse.Namespace, store: Store) -> None:
+    """Print how many rows have which status, and where they are."""
+    counts = store.counts()
+    if options.json:
+        terminal.print_json({"output": options.output, "rows": counts})
+        return
+    done = ", ".join(
+        f"{number} {name.replace('_', ' ')}" for name, number in counts.items() if number
+    )
+    print(f"{options.output}: {done}")
+
+
+COMMAND = Command(
+    "study", "many scenes that differ in a few numbers", EXAMPLE, add_arguments, execute
+)

@@ -1,0 +1,165 @@
+"""Pressures over a whole cycle: the peak, the mean that Archard integrates, the share in contact.
+
+Overview
+    A cycle is cut at the kinks and turning points of its load and sampled at the nodes of a Gauss
+    rule, with the wear that it has made up to there. The mean follows from the wear of the cycle by
+    Archard's law, Eq. (5), or where that is lost in rounding from the rule; the peak is the largest
+    value of the interpolant; contact begins and ends at roots of the margin.
+Key results
+    cycle_pressures    all three for many cycles of a scene
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial.legendre import legvander
+from numpy.typing import NDArray
+
+from wear.direct.sequence import span
+from wear.inside import Inside, fields_inside
+from wear.load import Blocks, HistoryLoad
+from wear.load.protocols import Load
+from wear.model import Model, bind
+from wear.numerics.gauss import Mesh, mesh
+from wear.numerics.tolerances import ROUNDOFF
+from wear.scene import Scene
+from wear.scene.notices import CONTACT_REACH
+
+FloatArray = NDArray[np.float64]
+
+NODES = 12  # on each interval
+INTERVALS = 32  # of a cycle, at least: pulses of a hundredth of the period are resolved
+FEW_NODES = 3  # on each interval of a load of many rows
+MOST_KINKS = 200  # with all nodes
+RESOLVED = 1e-6  # of the peak: a larger tail of the interpolant rings
+FINE = 4 * NODES  # points of an interval at which its interpolant is searched for the peak
+
+
+class CyclePressures(NamedTuple):
+    """Peak and mean pressure (n,) in MPa over n cycles, and the share (n,) of the period with
+    p > 0; no numbers where there is no such cycle."""
+
+    peak: FloatArray
+    mean: FloatArray
+    contact_fraction: FloatArray
+
+
+def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePressures:
+    """Return the pressures over the cycles that end after each of these numbers of cycles (n,).
+
+    There is no such cycle before the first, nor under a load that does not repeat: no number.
+    """
+    found = CyclePressures(*np.full((3, len(cycles)), np.nan))
+    begun = np.unique(cycles[cycles > 0]) - 1.0
+    if isinstance(scene.load, HistoryLoad) or not len(begun):
+        return found
+    model = bind(scene)
+    over = _mesh(scene)
+    phases = np.concatenate([over.edges, over.phases.ravel()])
+    per_cycle = CyclePressures(*np.full((3, len(begun)), np.nan))
+    rate = _wear_of_unit(model, scene)
+    for part in fields_inside(model, scene.load, begun, phases, rtol):
+        rows = np.searchsorted(begun, part.cycles)
+        periods = np.array([span(scene.load, int(cycle))[0].period for cycle in part.cycles])
+        for all_, some in zip(per_cycle, _of(part, over, rate * periods), strict=True):
+            all_[rows] = some
+    place = np.searchsorted(begun, cycles - 1.0)
+    for all_, values in zip(found, per_cycle, strict=True):
+        all_[cycles > 0] = values[place[cycles > 0]]
+    return found
+
+
+def _mesh(scene: Scene) -> Mesh:
+    """The intervals of a cycle, on which every load of the scene is smooth."""
+    loads: list[Load] = [scene.periodic_load] if not isinstance(scene.load, Blocks) else [
+        block.load for block in scene.load.blocks
+    ]  # fmt: skip
+    marks = {0.0, 1.0, *(x for load in loads for x in (*load.kinks, *load.peaks))}
+    edges = np.unique(np.concatenate([sorted(marks), np.arange(INTERVALS) / INTERVALS]))
+    keep = np.append(np.diff(edges) > 1e-12, True)
+    return mesh(edges[keep], NODES if len(marks) <= MOST_KINKS else FEW_NODES)
+
+
+def _wear_of_unit(model: Model, scene: Scene) -> float:
+    """Wear rate per pressure, Eq. (5), mm/s per MPa: that of the closed gap."""
+    closed = np.array(scene.closure)
+    rate, pressure = model.rate(np.array(0.0), closed), model.fields(np.array(0.0), closed).p
+    return float(rate) / float(pressure)
+
+
+class _Sampled(NamedTuple):
+    """A quantity of n cycles at the edges (n, q + 1) and nodes (n, q, m) of a mesh."""
+
+    edges: FloatArray
+    nodes: FloatArray
+
+    def fine(self, over: Mesh, points: int = FINE) -> FloatArray:
+        """The interpolant of each interval at its ends and between, (n, q, points)."""
+        m = self.nodes.shape[-1]
+        basis = legvander(2.0 * np.linspace(0.0, 1.0, points + 1)[1:-1] - 1.0, m - 1)
+        inner = self.nodes @ over.rule.coefficients.T @ basis.T
+        return np.concatenate([self.edges[:, :-1, None], inner, self.edges[:, 1:, None]], axis=-1)
+
+
+def _sampled(values: FloatArray, over: Mesh) -> _Sampled:
+    edges = len(over.edges)
+    return _Sampled(values[:, :edges], values[:, edges:].reshape(len(values), *over.phases.shape))
+
+
+def _of(part: Inside, over: Mesh, wear_of_unit: FloatArray) -> CyclePressures:
+    """Peak, mean and share of contact of cycles sampled at the edges and nodes; `wear_of_unit` is
+    the wear of each (n,) under a mean pressure of 1 MPa, mm."""
+    fields, p = part.fields, _sampled(part.fields.p, over)
+    touching = _sampled(np.where(part.fields.p > 0.0, 1.0, -1.0), over)
+    whole = np.min(touching.nodes, axis=-1) > 0.0
+    whole &= (touching.edges[:, :-1] > 0.0) & (touching.edges[:, 1:] > 0.0)
+    fraction = np.ones(len(part.cycles))
+    if not whole.all():
+        margin = CONTACT_REACH * fields.sigma - fields.h + fields.U_c
+        fraction = _share_above_zero(_sampled(margin, over), touching, over, whole)
+    tail = np.max(np.abs(p.nodes @ over.rule.coefficients.T)[..., -2:], axis=-1)
+    largest = np.maximum(np.max(p.edges, axis=1), np.max(p.nodes, axis=(1, 2)))
+    smooth = whole & (tail <= RESOLVED * largest[:, None])
+    inside = np.max(np.where(smooth, _largest(p.fine(over)), 0.0), axis=1)
+    peak = np.where(fraction > 0.0, np.maximum(largest, inside), 0.0)
+    missed = np.where(whole, tail, np.max(p.nodes, axis=-1)) @ over.lengths
+    return CyclePressures(peak, _mean(part, p, over, missed, wear_of_unit), fraction)
+
+
+def _largest(values: FloatArray) -> FloatArray:
+    """The largest value (n, q) of values (n, q, points), from the parabola through three."""
+    at = np.clip(np.argmax(values, axis=-1), 1, values.shape[-1] - 2)[..., None]
+    before, middle, after = (
+        np.take_along_axis(values, at + step, axis=-1)[..., 0] for step in (-1, 0, 1)
+    )
+    bend = before - 2.0 * middle + after
+    rise = np.divide((after - before) ** 2, -8.0 * bend, out=np.zeros_like(bend), where=bend < 0.0)
+    between = np.abs(after - before) <= -2.0 * bend  # the vertex
+    return np.where(between, middle + rise, np.maximum(middle, np.maximum(before, after)))
+
+
+def _mean(
+    part: Inside, p: _Sampled, over: Mesh, missed: FloatArray, wear_of_unit: FloatArray
+) -> FloatArray:
+    """From the wear of the cycle, or by the rule where that has `missed` (n,) less, MPa."""
+    last = len(over.edges) - 1
+    worn = part.u[:, last] - part.u[:, 0]
+    by_wear, by_rule = worn / wear_of_unit, p.nodes @ over.rule.weights @ over.lengths
+    lost = (part.error + ROUNDOFF) * part.u[:, last] / wear_of_unit
+    return np.where(lost < missed, by_wear, by_rule)
+
+
+def _share_above_zero(
+    margin: _Sampled, touching: _Sampled, over: Mesh, whole: NDArray[np.bool_]
+) -> FloatArray:
+    """The share (n,) of the cycle in which the margin is positive, or contact is held at zero."""
+    fine = margin.fine(over, 4 * FINE)
+    held = np.max(touching.nodes, axis=-1, keepdims=True) > 0.0
+    left, right = fine[..., :-1], fine[..., 1:]
+    above = np.maximum(left, right), np.minimum(left, right)
+    span = np.where(above[0] > above[1], above[0] - above[1], 1.0)
+    share = np.where(above[1] >= 0.0, 1.0, np.clip(above[0], 0.0, None) / span)
+    shares = np.where(whole, 1.0, np.mean(np.where(held, share, 0.0), axis=-1))
+    return shares @ over.lengths

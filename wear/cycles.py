@@ -1,0 +1,406 @@
+"""Any number of cycles from a few: wear after N cycles, and the cycles to a wear depth.
+
+Overview
+    The load of a scene repeats, or consists of blocks that do. One scene is a batch of one; scenes
+    of one variant of the model are solved together. See docs/method.md.
+Key results
+    wear_after      wear after whole numbers of cycles
+    cycles_until    cycles to a wear depth
+    sweep           the wear of many scenes after the same cycles
+    cycles_to_depth the cycles of many scenes to the same wear depths
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.count.cutoff import CutoffCycle, one_cycle
+from wear.count.stage import Stages, evaluate_stages
+from wear.count.stages import counted_stages
+from wear.direct.sequence import most_cycles, span
+from wear.equation import WearEquation, equation_of
+from wear.load import AperiodicLoad, Blocks, Load
+from wear.model import Model, bind
+from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
+
+if TYPE_CHECKING:
+    from wear.scene import Scene
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
+
+MOST_CYCLES = 1e12
+FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
+TOGETHER = 1024  # scenes in one set of arrays
+PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
+
+
+class Wear(NamedTuple):
+    """Wear `u_c` (mm) after the cycles asked for, and its estimated relative error."""
+
+    u_c: FloatArray
+    error: FloatArray
+    cost: Cost
+    notices: tuple[str, ...]
+
+
+class Cycles(NamedTuple):
+    """Whole numbers of cycles after which a wear is first reached, infinite where it is not, and
+    the estimated relative error of the count."""
+
+    cycles: FloatArray
+    error: FloatArray
+    cost: Cost
+
+
+class Sweep(NamedTuple):
+    """Bearing wear `u_c` (scenes, cycles) in mm and its estimated relative `error`."""
+
+    u_c: FloatArray
+    error: FloatArray
+
+
+class CyclesToDepth(NamedTuple):
+    """Whole numbers of `cycles` (scenes, depths) after which each wear is first reached, infinite
+    where it is not within 1e12 cycles, and their estimated relative `error`."""
+
+    cycles: FloatArray
+    error: FloatArray
+
+
+class Counted(Protocol):
+    """The cycles of one scene, counted from some wear under a load that repeats."""
+
+    @property
+    def cost(self) -> Cost: ...
+
+    @property
+    def last_wear(self) -> float:
+        """Return the wear (mm) up to which it counts."""
+
+    @property
+    def ended(self) -> bool:
+        """Return whether wear has stopped for good."""
+
+    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after `cycles` (n,) and its relative error."""
+
+    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the whole cycles to each wear (mm, (n,)), infinite where it is not reached, and
+        their error in cycles."""
+
+    def notices(self, wear: FloatArray) -> Iterator[str]:
+        """Return what is worth knowing beside the wear (mm)."""
+
+
+class InContact(NamedTuple):
+    """A count without loss of contact."""
+
+    found: Orbit
+
+    @property
+    def cost(self) -> Cost:
+        return self.found.cost
+
+    @property
+    def last_wear(self) -> float:
+        return float(self.found.last(0).counted.last_state[0])
+
+    @property
+    def ended(self) -> bool:
+        return bool(self.found.last(0).counted.at_rest[0])
+
+    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        wear, error = self.found.after(cycles[None])
+        return wear[0], error[0]
+
+    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        count, error = self.found.until(wear[None])
+        return count[0], error[0]
+
+    def notices(self, wear: FloatArray) -> Iterator[str]:
+        last = self.found.last(0)
+        limit = float(last.counted.limit[0])
+        if np.any(wear >= NEARLY * limit):
+            yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
+        elif self.ended:
+            idle = int(last.begins[0]) + last.counted.first_idle_cycle
+            yield f"from cycle {idle} on a cycle adds less than double precision resolves"
+
+
+class WithLossOfContact(NamedTuple):
+    """A count where contact ends at 3 sigma."""
+
+    found: Stages
+    model: Model
+
+    @property
+    def cost(self) -> Cost:
+        return Cost(*self.found.cost)
+
+    @property
+    def last_wear(self) -> float:
+        return self.found.last_wear
+
+    @property
+    def ended(self) -> bool:
+        return self.found.arrested
+
+    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return evaluate_stages(self.found, cycles)
+
+    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
+        for stage in reversed(self.found.stages):
+            after, missed = stage.cycles_until(wear)
+            here = np.isfinite(after)
+            count[here], error[here] = after[here], missed[here]
+        return count, error
+
+    def notices(self, wear: FloatArray) -> Iterator[str]:
+        arrest, limit = self.found.arrest, self.found.stages[-1].counted.limit
+        if np.any(wear >= NEARLY * limit):
+            yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
+        elif arrest is not None:
+            # On springs the pressure vanishes with the distance that is left: no cycle is the last.
+            fades = arrest.fades or (self.model.compliant and arrest.cycle > 0)
+            yield str(arrest._replace(fades=fades))
+
+
+# Trial states far off the solution may overflow; what is no number fails the estimate of error.
+@np.errstate(all="ignore")
+def count_cycles(
+    model: Model,
+    load: Load,
+    cycles: float,
+    rtol: float,
+    start: float = 0.0,
+    start_error: float = 0.0,
+    deadline: float = np.inf,
+) -> Counted:
+    """Count up to `cycles` of a load that repeats, from the wear `start` (mm), known up to
+    `start_error`; after the `deadline` (`time.monotonic()`) nothing is refined any more."""
+    if isinstance(one_cycle(model, load), CutoffCycle):
+        found = counted_stages(model, load, cycles, rtol, start, deadline, start_error)
+        return WithLossOfContact(found, model)
+    equation = WearEquation(model, (load,))
+    one = np.ones(1)
+    return InContact(orbit(equation, cycles * one, rtol, start * one, start_error * one, deadline))
+
+
+def wear_after(
+    model: Model,
+    load: Load | AperiodicLoad,
+    cycles: FloatArray,
+    rtol: float,
+    start: float = 0.0,
+    deadline: float = np.inf,
+) -> Wear:
+    """Return the wear u_c (mm) after whole numbers of cycles (n,), to relative accuracy `rtol`.
+
+    The load repeats or consists of blocks; `start` is the wear (mm) before. An error that a block
+    starts with is carried on, in proportion to the wear rate where that grows: two solutions of one
+    equation keep their distance in time. After the `deadline` (`time.monotonic()`) nothing is
+    refined and no other block begun; wear in a block that was not begun is no number, with an
+    infinite error. Where the accuracy was not reached the estimated error says so.
+    """
+    cycles = np.asarray(cycles, dtype=float)
+    last = float(np.max(cycles, initial=0.0))
+    u, error = np.full(cycles.shape, np.nan), np.full(cycles.shape, np.inf)
+    missed, done, cost = 0.0, 0, Cost(0, 0)
+    notices: list[str] = []
+    while True:
+        acting, until = span(load, done)
+        end = min(float(until), last)
+        here = (cycles >= done) & (cycles <= end)
+        wanted = np.append(cycles[here], end) - done
+        found = count_cycles(model, acting, end - done, rtol, start, deadline=deadline)
+        with np.errstate(all="ignore"):
+            wear, relative = found.after(wanted)
+        absolute = relative * wear
+        if missed:
+            absolute += missed * growth(model, acting, start, float(wear[-1]))
+        u[here] = wear[:-1]
+        error[here] = (absolute / np.where(wear > 0, wear, 1.0))[:-1]
+        start, missed = float(wear[-1]), float(absolute[-1])
+        cost = cost.plus(*found.cost)
+        notices += [_since(text, done) for text in found.notices(wear)]
+        if end >= last or not missed < np.inf or time.monotonic() > deadline:
+            return Wear(u, error, cost, tuple(dict.fromkeys(notices)))
+        done = until
+
+
+def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rtol: float) -> Cycles:
+    """Return the whole cycles after which each wear u_c (mm, (n,)) is first reached, infinite where
+    it is not within the load or 1e12 cycles, and the estimated relative error of their number.
+
+    What is reached but for the estimated error counts as reached. If a block did not, one after it
+    does, at its own rate: that is part of the error.
+    """
+    wear = np.asarray(wear, dtype=float)
+    count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
+    start, missed, done, cost = 0.0, 0.0, 0, Cost(0, 0)
+    most = min(MOST_CYCLES, float(most_cycles(load)))
+    doubtful = np.full(wear.shape, False)
+    while (np.isinf(count) | doubtful).any() and done < most:
+        acting, until = span(load, done)
+        length = min(float(until), most) - done
+        still = np.isinf(count)
+        if doubtful.any():
+            late = _until(model, acting, wear[doubtful], rtol, max(start - missed, 0.0), length)
+            largest = done + late.cycles * (1.0 + late.error)
+            known = np.where(np.isfinite(largest), largest / count[doubtful] - 1.0, 0.0)
+            error[doubtful] = np.maximum(error[doubtful], known)
+            doubtful[doubtful] = np.isinf(largest)
+            cost = cost.plus(*late.cost)
+        found = _until(model, acting, wear[still], rtol, start, length, missed)
+        count[still] = done + found.cycles
+        own = np.where(np.isfinite(found.cycles), found.cycles, 0.0)  # what the error refers to
+        error[still] = found.error * np.maximum(own, 1.0) / np.maximum(done + own, 1.0)
+        cost = cost.plus(*found.cost)
+        if until < most:
+            ended = wear_after(model, acting, np.array([length]), rtol, start)
+            begun, start = start, float(ended.u_c[0])
+            missed *= growth(model, acting, begun, start)
+            missed += float(ended.error[0]) * start
+            doubtful = np.isfinite(count) & (wear > start - missed)
+        done = until
+    error[doubtful] = np.inf
+    return Cycles(count, error, cost)
+
+
+def _until(
+    model: Model,
+    load: Load,
+    wear: FloatArray,
+    rtol: float,
+    start: float,
+    most: float,
+    start_error: float = 0.0,
+) -> Cycles:
+    """Return the cycles under a load that repeats, up to `most`, from the wear `start` (mm)."""
+    reach, cost = min(LEAST, most), Cost(0, 0)
+    while True:
+        found = count_cycles(model, load, reach, rtol, start, start_error)
+        cost = cost.plus(*found.cost)
+        if reach >= most or found.ended or np.max(wear, initial=0.0) <= found.last_wear:
+            break
+        reach = min(reach * FARTHER, most)
+    with np.errstate(all="ignore"):
+        count, missed = found.until(wear)
+    late = count > most
+    count[late], missed[late] = np.inf, 0.0
+    return Cycles(count, np.where(late, 0.0, missed / np.maximum(count, 1.0)), cost)
+
+
+def growth(model: Model, load: Load, start: float, end: float) -> float:
+    """Return by how much a small difference in wear grows between `start` and `end`; at least 1."""
+    U_a = load(PHASES)
+    before, after = (float(np.mean(model.rate(u, U_a))) for u in (start, end))
+    return max(1.0, after / before) if before > 0.0 else 1.0
+
+
+def _since(notice: str, done: int) -> str:
+    """Return a notice of one block, whose cycles are counted from its start."""
+    return f"in the block after {done} cycles: {notice}" if done else notice
+
+
+def sweep(scenes: Sequence[Scene], cycles: FloatArray, rtol: float = 1e-7) -> Sweep:
+    """Return the wear of many scenes after the same whole numbers of cycles (n,).
+
+    Scenes of one variant of the model whose loads repeat are solved together; variants may be
+    mixed.
+
+    >>> from wear.scene import load_scene
+    >>> names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
+    >>> found = sweep([load_scene(name) for name in names], np.array([1.0, 9000.0]))
+    >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
+    ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
+    """
+    cycles = np.asarray(cycles, dtype=float)
+    last = float(np.max(cycles, initial=0.0))
+
+    def together(equation: WearEquation) -> tuple[FloatArray, FloatArray]:
+        some = equation.scenes
+        none = np.zeros(some)
+        found = orbit(equation, np.full(some, last), rtol, none, none)
+        return found.after(np.broadcast_to(cycles, (some, len(cycles))))
+
+    def alone(scene: Scene) -> tuple[FloatArray, FloatArray]:
+        return wear_after(bind(scene), scene.load, cycles, rtol)[:2]
+
+    return Sweep(*_each(scenes, len(cycles), together, alone))
+
+
+def cycles_to_depth(scenes: Sequence[Scene], wear: FloatArray, rtol: float = 1e-7) -> CyclesToDepth:
+    """Return the whole cycles after which each of many scenes first reaches each wear (n,), mm.
+
+    >>> from wear.scene import load_scene
+    >>> scenes = [load_scene("section4"), load_scene("section5")]
+    >>> cycles_to_depth(scenes, np.array([1e-3])).cycles.tolist()
+    [[140.0], [484.0]]
+    """
+    wear = np.asarray(wear, dtype=float)
+
+    def together(equation: WearEquation) -> tuple[FloatArray, FloatArray]:
+        count, error = np.full((2, equation.scenes, len(wear)), np.inf)
+        todo, reach = np.arange(equation.scenes), LEAST
+        while len(todo):
+            none, reach = np.zeros(len(todo)), min(reach * FARTHER, MOST_CYCLES)
+            found = orbit(equation.take(todo), np.full(len(todo), reach), rtol, none, none)
+            cycles, missed = found.until(np.broadcast_to(wear, (len(todo), len(wear))))
+            cycles[cycles > reach] = np.inf
+            count[todo], error[todo] = cycles, missed / np.maximum(cycles, 1.0)
+            ended = np.array([found.last(i).counted.at_rest.all() for i in range(len(todo))])
+            more = np.isinf(cycles).any(axis=1) & ~ended
+            todo = todo[more] if reach < MOST_CYCLES else todo[:0]
+        return count, np.where(np.isinf(count), 0.0, error)
+
+    def alone(scene: Scene) -> tuple[FloatArray, FloatArray]:
+        return cycles_until(bind(scene), scene.load, wear, rtol)[:2]
+
+    return CyclesToDepth(*_each(scenes, len(wear), together, alone))
+
+
+Answer = tuple[FloatArray, FloatArray]
+
+
+@np.errstate(all="ignore")
+def _each(
+    scenes: Sequence[Scene],
+    number: int,
+    together: Callable[[WearEquation], Answer],
+    alone: Callable[[Scene], Answer],
+) -> Answer:
+    """Return two numbers (scenes, number) of every scene: of those of one variant `together`, of
+    those with loss of contact or a load in blocks each `alone`."""
+    first, second = np.empty((2, len(scenes), number))
+    for which in _groups(scenes):
+        some = [scenes[i] for i in which.tolist()]
+        if _is_alone(some[0]):
+            answers = [alone(scene) for scene in some]
+            first[which] = np.stack([answer[0] for answer in answers])
+            second[which] = np.stack([answer[1] for answer in answers])
+        else:
+            first[which], second[which] = together(equation_of(some))
+    return first, second
+
+
+def _groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
+    """Return which scenes are of one kind, no more than go together."""
+    kinds: dict[object, list[int]] = {}
+    for i, scene in enumerate(scenes):
+        kinds.setdefault((scene.variant, _is_alone(scene)), []).append(i)
+    for which in kinds.values():
+        for at in range(0, len(which), TOGETHER):
+            yield np.array(which[at : at + TOGETHER])
+
+
+def _is_alone(scene: Scene) -> bool:
+    """Return whether a scene is solved by itself."""
+    return scene.contact.ends_at_3_sigma or isinstance(scene.load, Blocks)

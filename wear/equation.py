@@ -1,0 +1,148 @@
+"""The wear of scenes as an equation for `wear.orbit`: du/dphase = T r(u, U_a(phase)).
+
+The state u is the bearing wear in mm, the forcing the displacement U_a in mm. Scenes of one variant
+of the model go together: their constants are arrays along the first axis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.load import Load, sampled
+from wear.model import Model, bind, bind_many
+from wear.numerics.tolerances import ROUNDOFF, SMALLEST, TINY
+
+if TYPE_CHECKING:
+    from wear.scene import Scene
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
+
+FAR = 1e12  # roughnesses of wear: further than any count goes
+APART = 1e-4  # of the roughness: displacements between which the rate's steepness is taken
+NEARLY = 0.99  # of the wear at which the roughness vanishes
+
+
+@dataclass(frozen=True)
+class WearEquation:
+    """The wear of scenes of one variant: the model of all, its constants of shape (scenes, 1), or
+    plain numbers for one scene; and the load of each."""
+
+    model: Model
+    loads: tuple[Load, ...]
+
+    @property
+    def scenes(self) -> int:
+        """Return how many scenes there are."""
+        return len(self.loads)
+
+    def take(self, rows: slice | IntArray) -> WearEquation:
+        """Return some of the scenes."""
+        if self.scenes == 1:
+            return self
+        loads = tuple(self.loads[i] for i in np.arange(self.scenes)[rows].tolist())
+        return WearEquation(self.model.select(rows), loads)
+
+    def forcing(self, phases: FloatArray) -> FloatArray:
+        """Return the displacement in mm at phases (scenes, ...)."""
+        if len(phases) == 1:
+            return self.loads[0](phases)
+        return sampled(self.loads, phases)
+
+    def rate(
+        self, u: FloatArray, forcing: FloatArray, near: FloatArray | None = None
+    ) -> FloatArray:
+        """Return the wear per cycle in mm at wear (scenes, starts, intervals, nodes) under a
+        displacement, both in mm, sought from a rate `near` by."""
+        known = near / self._period if self.model.compliant and near is not None else None
+        rate: FloatArray = self._model.rate(u, forcing, known) * self._period
+        return rate
+
+    def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:
+        """Return the derivative of the rate with respect to the wear."""
+        slope: FloatArray = self._model.slope(u, forcing) * self._period
+        return slope
+
+    def roundoff(self, u: FloatArray) -> FloatArray:
+        """Return the relative error (scenes, k) by rounding of the rate at the peak of the load."""
+        peak = np.array([load.maximum for load in self.loads])[:, None] + np.zeros_like(u)
+        return roundoff(self.model, peak, u)
+
+    @cached_property
+    def scale(self) -> FloatArray:
+        """Return the wear (scenes,) in mm that changes the pressure by a factor of order one: a
+        quarter of the roughness."""
+        return self._roughness(np.zeros((self.scenes, 1))) / 4
+
+    @cached_property
+    def limit(self) -> FloatArray:
+        """Return nearly the wear (scenes,) in mm at which the equivalent roughness vanishes,
+        infinite if it does not.
+
+        The roughness of one solid is linear in the wear; that of two never vanishes.
+        """
+        upto = FAR * self.scale
+        start, end = 4 * self.scale, self._roughness(upto[:, None])
+        lost = np.where(end <= 0, start - end, 1.0)
+        return np.where(end <= 0, NEARLY * upto * start / lost, np.inf)
+
+    @cached_property
+    def breakpoints(self) -> list[FloatArray]:
+        """Return where the load of each scene cuts the cycle."""
+        return [breakpoints(load) for load in self.loads]
+
+    def _roughness(self, u: FloatArray) -> FloatArray:
+        sigma: FloatArray = self.model.fields(u, np.zeros_like(u)).sigma
+        return sigma.ravel()
+
+    @cached_property
+    def _model(self) -> Model:
+        """Return the model with its constants along the first of four axes."""
+        if self.scenes == 1:
+            return self.model
+        return self.model.reshaped((-1, 1, 1, 1))
+
+    @cached_property
+    def _period(self) -> FloatArray | float:
+        if self.scenes == 1:
+            return self.loads[0].period
+        return np.array([load.period for load in self.loads]).reshape(-1, 1, 1, 1)
+
+
+def equation_of(scenes: Sequence[Scene]) -> WearEquation:
+    """Return the equation of scenes of one variant, whose loads repeat."""
+    loads = tuple(scene.periodic_load for scene in scenes)
+    return WearEquation(bind(scenes[0]) if len(scenes) == 1 else bind_many(scenes), loads)
+
+
+def breakpoints(load: Load) -> FloatArray:
+    """Return the phases from 0 to 1 that no node may straddle (kinks), at which nodes should
+    cluster (peaks), or where a smooth pulse ends, about: a quarter of the way to the next peak."""
+    inner = {*load.kinks, *load.peaks}
+    if not load.kinks and load.minimum < load.maximum:
+        for peak, after in pairwise([*load.peaks, load.peaks[0] + 1.0]):
+            quarter = (after - peak) / 4
+            inner |= {(peak + quarter) % 1.0, (after - quarter) % 1.0}
+    return np.array([0.0, *sorted(x for x in inner if 1e-9 < x < 1.0 - 1e-9), 1.0])
+
+
+def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatArray:
+    """Return the relative error of the rate by rounding: its condition with respect to the terms of
+    the closure and the roughness, of which the contact law takes the quotient."""
+    fields = model.fields(wear, displacement)
+    sigma, fresh = fields.sigma, model.fields(np.zeros_like(wear), displacement).sigma
+    cancelled = (fresh + np.abs(sigma - fresh)) / sigma  # where roughness vanishes
+    terms = np.abs(fields.h) * (1 + cancelled) + np.abs(displacement) + np.abs(fields.U_c)
+    apart = APART * sigma
+    more, less = (model.rate(wear, displacement + sign * apart) for sign in (1.0, -1.0))
+    steepness = np.abs(more - less) / (2 * apart * (np.minimum(more, less) + TINY))
+    lost = SMALLEST / np.maximum(less, SMALLEST)
+    result: FloatArray = ROUNDOFF * (8 + steepness * terms) + lost
+    return result

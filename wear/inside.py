@@ -1,0 +1,167 @@
+"""Inside the cycles: the wear and the fields at any phases of any cycles."""
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.count.course_cutoff import CutoffCourse, cutoff_course
+from wear.cycles import Counted, InContact, WithLossOfContact, count_cycles, growth
+from wear.direct.sequence import span
+from wear.equation import WearEquation
+from wear.faults import AccuracyError, UsageError
+from wear.load import AperiodicLoad, HistoryLoad, Load
+from wear.model import Fields, Model
+from wear.numerics.initial_value import SAFETY
+from wear.numerics.tolerances import TINY
+from wear.orbit.dense_output import Added, DenseOutput, dense_output
+from wear.orbit.iterates import Iterates
+from wear.states import fields_under_load
+
+FloatArray = NDArray[np.float64]
+
+CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
+BATCH = 10_000  # cycles of which the wear at the start is found at once
+
+
+class Inside(NamedTuple):
+    """A chunk of a history: whole `cycles` (n,), `phases` (m,) in [0, 1], bearing wear `u` (n, m)
+    in mm at (cycles + phases) T, all `fields` (n, m), in mm and MPa, and the estimated `error`
+    (n,) of u, relative to the wear at the end of the cycle."""
+
+    cycles: FloatArray
+    phases: FloatArray
+    u: FloatArray
+    fields: Any
+    error: FloatArray
+
+
+def fields_inside(
+    model: Model,
+    load: Load | AperiodicLoad,
+    cycles: FloatArray,
+    phases: FloatArray,
+    rtol: float = 1e-12,
+    chunk: int = CHUNK,
+) -> Iterator[Inside]:
+    """The state at every phase of every cycle, some `chunk` states at a time.
+
+    Parameters
+    ----------
+    load
+        One that repeats, or blocks of such.
+    cycles
+        Whole numbers of cycles (n,) that lie behind, each less than the load has.
+    phases
+        In [0, 1], (m,), of the cycle that begins then.
+
+    Yields
+    ------
+    Inside
+        rows of the history, by rising numbers of cycles; memory is bounded by the chunk.
+
+    Raises
+    ------
+    AccuracyError
+        if the wear that a block begins with could not be found.
+    UsageError
+        if the cycles cannot be counted.
+    """
+    if isinstance(load, HistoryLoad):
+        raise UsageError("the load does not repeat: its cycles cannot be counted")
+    cycles, phases = np.sort(np.asarray(cycles, dtype=float)), np.asarray(phases, dtype=float)
+    rows = max(1, chunk // max(1, len(phases)))
+    for stretch in _stretches(model, load, float(cycles[-1]), rtol):
+        for begin, end, within in stretch.dense(model, phases, rtol, cycles):
+            wanted = cycles[(cycles >= begin) & (cycles < end)]
+            part = _Part(model, stretch, within, phases, begin)
+            for at in range(0, len(wanted), BATCH):
+                yield from part.rows(wanted[at : at + BATCH], rows, rtol)
+
+
+class _Stretch(NamedTuple):
+    """Cycles from `begins` to `ends`, that excluded, of one load that repeats, counted from wear
+    that may be wrong by `inherited` (mm)."""
+
+    load: Load
+    begins: float
+    ends: float
+    found: Counted
+    inherited: float
+
+    def dense(
+        self, model: Model, phases: FloatArray, rtol: float, cycles: FloatArray
+    ) -> Iterator[tuple[float, float, DenseOutput | CutoffCourse]]:
+        """Return the parts of the stretch in which some of the `cycles` lie: from which cycle to
+        which, that excluded, and what these add up to the phases."""
+        if isinstance(self.found, WithLossOfContact):
+            if np.any((cycles >= self.begins) & (cycles < self.ends)):
+                yield self.begins, self.ends, cutoff_course(model, self.load, phases, rtol)
+            return
+        assert isinstance(self.found, InContact)
+        equation, segments = WearEquation(model, (self.load,)), self.found.found.segments
+        begins = [self.begins + float(segment.begins[0]) for segment in segments]
+        observable = model.pressure if model.compliant else None
+        for begin, end, segment in zip(begins, [*begins[1:], self.ends], segments, strict=True):
+            if np.any((cycles >= begin) & (cycles < end)):
+                assert isinstance(segment.counted, Iterates)
+                yield begin, end, dense_output(equation, segment.counted, phases, rtol, observable)
+
+
+def _stretches(
+    model: Model, load: Load | AperiodicLoad, last: float, rtol: float
+) -> Iterator[_Stretch]:
+    """Return the blocks up to cycle `last` and over it."""
+    wear, missed, done = 0.0, 0.0, 0
+    while done <= last:
+        acting, until = span(load, done)
+        length = min(float(until), last + 1.0) - done
+        found = count_cycles(model, acting, length, rtol, wear)
+        after, error = (float(x[0]) for x in found.after(np.array([length])))
+        missed *= growth(model, acting, wear, after)
+        yield _Stretch(acting, float(done), done + length, found, missed)
+        wear, missed, done = after, missed + error * after, until
+        if done <= last and not missed < np.inf:
+            raise AccuracyError(f"the wear after {done} cycles could not be found")
+
+
+class _Part(NamedTuple):
+    """A part of a stretch, from the cycle that it `begins` with, and what its cycles add up to
+    some `phases`."""
+
+    model: Model
+    stretch: _Stretch
+    within: DenseOutput | CutoffCourse
+    phases: FloatArray
+    begins: float
+
+    def rows(self, cycles: FloatArray, at_once: int, rtol: float) -> Iterator[Inside]:
+        """Return the states in `cycles` (n,), so many cycles at once."""
+        # Where the wear rate rises or contact grazes, an error grows within the cycle.
+        ends = np.unique(np.concatenate([cycles, cycles + 1.0]))
+        wear, wrong = self._before(ends)
+        first, last = np.searchsorted(ends, cycles), np.searchsorted(ends, cycles + 1.0)
+        starts, wrong = wear[first], np.maximum(wrong[first], wrong[last])
+        for at in range(0, len(cycles), at_once):
+            here = slice(at, at + at_once)
+            added = self.within.added(cycles[here] - self.begins, starts[here])
+            u = starts[here, None] + added.increment
+            missed = wrong[here] + SAFETY * added.missed
+            error = np.nan_to_num(missed / (wear[last[here]] + TINY), nan=np.inf)
+            yield Inside(cycles[here], self.phases, u, self.fields(u, added, rtol), error)
+
+    def _before(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear after `cycles` (n,) and what it may be wrong by, mm."""
+        with np.errstate(all="ignore"):
+            wear, error = self.stretch.found.after(cycles - self.stretch.begins)
+        return wear, error * wear + self.stretch.inherited
+
+    def fields(self, u: FloatArray, added: Added, rtol: float) -> Fields:
+        """Return all fields; on a compliant support from the interpolated pressure, if right."""
+        load = self.stretch.load
+        if added.observable is not None and np.max(added.off) <= rtol:
+            return self.model.fields_under(added.observable, u, load(self.phases))
+        return fields_under_load(
+            self.model, u, load(self.phases), load.slope(self.phases) / load.period
+        )

@@ -1,0 +1,237 @@
+"""The adaptive integrator of u' = f(t, u): a mesh of given intervals, cut where that is needed.
+
+Overview
+    As many intervals as converge are taken at once: half as many where the iteration fails, half an
+    interval where it fails on one, twice as many where it is easy. A rule with more nodes judges
+    every interval, and says which to cut in two. Errors are carried on by the linearised equation.
+Key results
+    integrate    the increments and their errors, part after part
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from wear.numerics.collocation import NOISE, CycleSolution, Rates, iterate
+from wear.numerics.gauss import BoolArray, FloatArray, Mesh
+
+MOST_AT_ONCE = 1024  # intervals: the arrays of more fall out of the processor's cache
+MOST_CUT = 4 * MOST_AT_ONCE  # intervals and parts of intervals at once
+FIRST_AT_ONCE = 64
+MOST_ROUNDS = 12  # of cutting
+SHORTEST = 1e-12  # part of an interval, of the longest
+FEW_ITERATIONS = 6  # so many, and twice as many intervals would be no harder
+SAFETY = 3.0  # on measured discrepancies
+
+
+class StoppedError(Exception):
+    """The integration ends at a `state`: intervals cannot be cut any shorter there."""
+
+    def __init__(self, state: float) -> None:
+        super().__init__(f"the state could not be followed beyond {state:.6g}")
+        self.state = state
+
+
+class JudgedRates(Rates, Protocol):
+    """Rates on a mesh with what their errors need; arrays are (1, 1, intervals, nodes)."""
+
+    def slope(self, u: FloatArray) -> FloatArray:
+        """Return the derivative of the rate with respect to u, per unit of time."""
+
+    def endpoint_defect(self, starts: FloatArray, run: CycleSolution) -> FloatArray: ...
+
+
+Sampled = Callable[[FloatArray, int, float], JudgedRates]
+"""Rates on the mesh with these edges (q + 1,), nodes on each interval, and this tolerance."""
+
+
+class Rules(NamedTuple):
+    """The `nodes` on each interval, those of the rule that judges, and the relative error of an
+    increment that is permitted."""
+
+    nodes: int
+    finer_nodes: int
+    tolerance: float
+
+
+class Reached(NamedTuple):
+    """What there is at the ends of some intervals (k,), all since the start: the `increment`, its
+    `error`, the `derivative` of the state with respect to that at the start, the `response` of the
+    state to a relative error of the rate, at most; and the number of right-hand sides evaluated
+    since the ends before."""
+
+    increment: FloatArray
+    error: FloatArray
+    derivative: FloatArray
+    response: FloatArray
+    evaluations: int
+
+    def then(self, more: Reached) -> Reached:
+        """Return what `more` is that has started where this ends."""
+        derivative = self.derivative[-1]
+        return Reached(
+            self.increment[-1] + more.increment,
+            self.error[-1] * more.derivative + more.error,
+            derivative * more.derivative,
+            self.response[-1] * more.derivative + more.response,
+            self.evaluations + more.evaluations,
+        )
+
+    def take(self, which: BoolArray) -> Reached:
+        """Return what there is at some of the ends."""
+        return Reached(
+            self.increment[which],
+            self.error[which],
+            self.derivative[which],
+            self.response[which],
+            self.evaluations,
+        )
+
+
+class _Intervals(NamedTuple):
+    """Intervals one after the other: their `edges` (q + 1,), and which (q,) end where the state is
+    asked for."""
+
+    edges: FloatArray
+    asked: BoolArray
+
+    def parted(self, count: int) -> tuple[_Intervals, _Intervals]:
+        """Return the first of them, and the rest."""
+        first = _Intervals(self.edges[: count + 1], self.asked[:count])
+        return first, _Intervals(self.edges[count:], self.asked[count:])
+
+    def cut(self, marked: BoolArray) -> _Intervals:
+        """Return the same, with those that are `marked` (q,) cut in two."""
+        middles = (self.edges[:-1] + self.edges[1:])[marked] / 2
+        at = np.flatnonzero(marked)
+        return _Intervals(np.insert(self.edges, at + 1, middles), np.insert(self.asked, at, False))
+
+
+def integrate(
+    sampled: Sampled,
+    edges: FloatArray,
+    start: float,
+    rules: Rules,
+    roundoff: Callable[[float], float] = lambda _: 0.0,
+    limit: float = np.inf,
+    deadline: float = np.inf,
+) -> Iterator[Reached]:
+    """Integrate from the state `start` over intervals between `edges` (q + 1,), part after part.
+
+    `roundoff` is the relative error of the rate by rounding from a state on, at most.
+
+    Raises
+    ------
+    StoppedError
+        where the intervals cannot be cut any shorter, or the state would pass the `limit`.
+    TimeoutError
+        after the deadline (`time.monotonic()`).
+    """
+    todo = [_Intervals(edges, np.ones(len(edges) - 1, dtype=bool))] if len(edges) > 1 else []
+    shortest, size = SHORTEST * np.max(np.diff(edges), initial=0.0), FIRST_AT_ONCE
+    zero, one = np.zeros(1), np.ones(1)
+    done, evaluations = Reached(zero, zero, one, zero, 0), 0
+    while todo:
+        if time.monotonic() > deadline:
+            raise TimeoutError
+        now, state = todo.pop(), start + float(done.increment[-1])
+        if len(now.asked) > size:
+            now, rest = now.parted(size)
+            todo.append(rest)
+        attempt = _attempt(sampled, now, state, rules, roundoff(state), limit)
+        evaluations += attempt.evaluations
+        if attempt.part is None:
+            size = max(1, len(now.asked) // 2)
+            if len(now.asked) == 1:
+                if now.edges[1] - now.edges[0] <= shortest:
+                    raise StoppedError(state)
+                now = now.cut(np.array([True]))
+            todo.append(now)
+            continue
+        part = done.then(attempt.part)
+        if attempt.asked.any():
+            yield part.take(attempt.asked)._replace(evaluations=evaluations)
+            evaluations = 0
+        done = part.take(np.arange(len(attempt.asked)) == len(attempt.asked) - 1)
+        if attempt.easy:
+            size = min(2 * size, MOST_AT_ONCE)
+
+
+class _Attempt(NamedTuple):
+    """The right-hand sides evaluated; what is at the end of each interval, None if the iteration
+    failed; which ends (q,) are `asked` for; and whether twice as many would be no harder."""
+
+    evaluations: int
+    part: Reached | None
+    asked: BoolArray
+    easy: bool
+
+
+def _attempt(
+    sampled: Sampled,
+    intervals: _Intervals,
+    start: float,
+    rules: Rules,
+    blur: float,
+    limit: float,
+) -> _Attempt:
+    """Integrate all the intervals at once from the state `start`, cutting those that are not
+    resolved; `blur` is the relative error of the rate by rounding."""
+    evaluations, at = 0, np.array([[start]])
+    for _ in range(MOST_ROUNDS):
+        coarse = sampled(intervals.edges, rules.nodes, max(NOISE, blur))
+        fine = sampled(intervals.edges, rules.finer_nodes, max(NOISE, blur))
+        try:
+            run = iterate(coarse, at)
+            judge = iterate(fine, at, run.guess(rules.finer_nodes))
+        except ArithmeticError:  # a trial state so far off that it has no rate
+            break
+        own, judged = _on_each(run.rate, coarse.over), _on_each(judge.rate, fine.over)
+        hidden = fine.endpoint_defect(at, judge)[0, 0]
+        evaluations += run.evaluations + judge.evaluations + len(intervals.edges)
+        sound = run.converged.all() and judge.converged.all()
+        if not (sound and start + np.sum(own) < limit):
+            break
+        permitted = rules.tolerance * np.sum(own) / len(own)
+        marked = np.abs(judged - own) > np.maximum(permitted, 4 * blur * own)
+        marked |= hidden > permitted
+        if not marked.any():
+            part = _judged(coarse, start, run, judge, own, judged, hidden, blur)
+            quick = run.evaluations <= FEW_ITERATIONS * run.rate.size
+            easy = quick and 3 * len(own) <= MOST_CUT  # some of them may be cut once more
+            return _Attempt(evaluations + run.rate.size, part, intervals.asked, easy)
+        intervals = intervals.cut(marked)
+        if len(intervals.asked) > MOST_CUT:
+            break
+    return _Attempt(evaluations, None, intervals.asked, False)
+
+
+def _judged(
+    coarse: JudgedRates,
+    start: float,
+    run: CycleSolution,
+    judge: CycleSolution,
+    own: FloatArray,
+    judged: FloatArray,
+    hidden: FloatArray,
+    blur: float,
+) -> Reached:
+    """Return what intervals that are resolved add, with its error: by the rules, by what the
+    iterations have left, and by rounding."""
+    increment = np.cumsum(own)
+    growth = np.cumsum(_on_each(coarse.slope(start + run.inside), coarse.over))  # its logarithm
+    most = growth - np.minimum(np.minimum.accumulate(growth), 0.0)  # since any interval
+    missed = SAFETY * np.abs(np.cumsum(judged) - increment) + np.cumsum(hidden)
+    left = float(run.iteration_error[0, 0] + judge.iteration_error[0, 0]) * increment[-1]
+    error = missed + (left + blur * increment) * np.exp(most)
+    return Reached(increment, error, np.exp(growth), increment * np.exp(most), 0)
+
+
+def _on_each(values: FloatArray, over: Mesh) -> FloatArray:
+    """Return the integral of `values` (1, 1, q, m) over each interval of a mesh, (q,)."""
+    whole: FloatArray = ((values @ over.rule.weights) * over.lengths)[0, 0]
+    return whole

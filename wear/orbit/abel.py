@@ -1,0 +1,235 @@
+"""Abel's equation n(P(u)) = n(u) + 1: the number of cycles n as a function of the state u.
+
+Overview
+    The unknown is the logarithm of the density dn/du, a Chebyshev series in u/(u + c) on each panel
+    of states: one panel may reach to infinity. Where a cycle adds d to u, the equation is: the
+    integral of the density from u to u + d is 1. Collocated at the Chebyshev nodes it is solved by
+    Newton's method, all panels at once.
+Key results
+    Frame              panels of states and their coordinates
+    solve              the density on them, from increments at their nodes
+    residual           the logarithm of what a cycle counts as, off the nodes
+    matching_defect    by how much the counts of neighbours differ where they meet
+References
+    M. Kuczma, B. Choczewski, R. Ger, *Iterative Functional Equations*, Cambridge University Press
+    1990, chapter 3.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray, gauss
+
+ACROSS_A_CYCLE = 6  # Gauss nodes where the density changes by less than a factor 2 in a cycle
+ACROSS_A_FAST_CYCLE = 12  # good to rounding for a factor of 1e3
+ACROSS_JUDGED = 24  # more than in any solution, or both would miss the same
+GENTLE = 0.5  # change of ln(density) within a cycle for which the fewest nodes do
+MOST_ITERATIONS = 30
+STEADY = 0.3  # change of ln(density) after which Newton's method goes on with the same slope
+CONVERGED = 1e-13  # change of ln(density): the next one would be its square
+
+WHOLE = np.ones(1)  # a cycle
+
+
+class Frame(NamedTuple):
+    """Panels of states from `starts` (panels,) over `widths` in y = ln(u + c), with the scale `c`
+    (panels,) of each. The coordinate x = (u - start)/(u + c) is 1 - exp(-y) with y from the start;
+    or y itself where c is zero: then the states have no scale."""
+
+    c: FloatArray
+    starts: FloatArray
+    widths: FloatArray
+
+    def take(self, which: slice | IntArray | BoolArray) -> Frame:
+        """Return some of the panels."""
+        return Frame(self.c[which], self.starts[which], self.widths[which])
+
+    @property
+    def ends(self) -> FloatArray:
+        """Return where the panels end."""
+        ends: FloatArray = self.starts + (self.starts + self.c) * np.expm1(self.widths)
+        return ends
+
+    @property
+    def x_ends(self) -> FloatArray:
+        """Return the coordinate x (panels,) of the ends."""
+        return self.x_of(self.widths[:, None])[:, 0]
+
+    def x_of(self, y: FloatArray) -> FloatArray:
+        """Return the coordinate x of y, (panels, k)."""
+        return y if self._without_scale else -np.expm1(-y)
+
+    def y_at(self, t: FloatArray) -> FloatArray:
+        """Return y from the start of each panel at the positions `t` (k,) in [-1, 1]."""
+        x = self.x_ends[:, None] * ((t + 1) / 2)
+        y: FloatArray = x if self._without_scale else -np.log1p(-x)
+        return y
+
+    def states(self, t: FloatArray) -> FloatArray:
+        """Return the states (panels, k) at the positions `t` (k,).
+
+        Written so that states much smaller than c keep their digits. Of much larger ones only the
+        position is exact, which is all that a series in x feels.
+        """
+        scale = (self.starts + self.c)[:, None]
+        states: FloatArray = self.starts[:, None] + scale * np.expm1(self.y_at(t))
+        return states
+
+    def positions(self, u: FloatArray) -> FloatArray:
+        """Return the positions t of the states u (panels, k)."""
+        y = np.log1p((u - self.starts[:, None]) / (self.starts + self.c)[:, None])
+        result: FloatArray = 2 * self.x_of(y) / self.x_ends[:, None] - 1
+        return result
+
+    def step(self, t: FloatArray, increments: FloatArray, parts: FloatArray = WHOLE) -> FloatArray:
+        """Return how far in t the `parts` (n,) of a cycle lead from the positions `t` (k,),
+        (panels, k, n), if the cycle adds `increments` (panels, k)."""
+        left = np.exp(-self.y_at(t))
+        part = (left * increments / (self.starts + self.c)[:, None])[..., None] * parts
+        log = np.log1p(part)
+        if self._without_scale:
+            return np.asarray(log * (2 / self.x_ends)[:, None, None])
+        return np.asarray(-np.expm1(-log) * (2 / self.x_ends)[:, None, None] * left[..., None])
+
+    def cut(self, share: FloatArray | float) -> tuple[Frame, Frame]:
+        """Return every panel cut in two, the first part a `share` of it in x."""
+        x = share * self.x_ends
+        first = x if self._without_scale else -np.log1p(-x)
+        middles = self.starts + (self.starts + self.c) * np.expm1(first)
+        return self._replace(widths=first), Frame(self.c, middles, self.widths - first)
+
+    @property
+    def _without_scale(self) -> bool:
+        return not self.c.any()
+
+
+class Panels(NamedTuple):
+    """A `frame` of panels with the Chebyshev coefficients `series` (panels, m) of ln(dn/du)."""
+
+    frame: Frame
+    series: FloatArray
+
+    def take(self, which: slice | IntArray | BoolArray) -> Panels:
+        """Return some of the panels."""
+        return Panels(self.frame.take(which), self.series[which])
+
+
+def frame(c: float | FloatArray, starts: FloatArray, ends: FloatArray) -> Frame:
+    """Return panels between two states each, with the scale c, one or one a panel."""
+    c = np.broadcast_to(np.asarray(c, dtype=float), starts.shape)
+    return Frame(c, starts, np.log1p((ends - starts) / (starts + c)))
+
+
+def solve(frame: Frame, increments: FloatArray) -> Panels:
+    """Return the density on every panel, from the increments at its Chebyshev nodes (panels, m).
+
+    Newton's method, from the density 1/increment, which is exact when the density does not change
+    within a cycle; near the solution its slope hardly changes.
+    """
+    m = increments.shape[1]
+    nodes = chebyshev_nodes(m)
+    with np.errstate(all="ignore"):  # far too wide a panel: its series is no number
+        step = frame.step(nodes, increments)[..., 0]
+        gentle = np.max(change_in_a_cycle(np.log(increments), step)) < GENTLE
+        rule = gauss(ACROSS_A_CYCLE if gentle else ACROSS_A_FAST_CYCLE)
+        basis = _within(nodes, frame.step(nodes, increments, rule.nodes), m)
+        last = increments[:, -1:]
+        weights = (increments / last)[..., None] * rule.weights
+        series = -np.log(increments / last) @ chebyshev_analysis(m).T
+        change, inverse = np.zeros_like(series), None
+        for _ in range(MOST_ITERATIONS):
+            density, cycles = _density(series, basis, weights)
+            if inverse is None or np.any(np.abs(change) > STEADY):
+                inverse = _inverse_slope(density, cycles, basis)
+            change = (inverse @ -np.log(cycles)[..., None])[..., 0]
+            series = series + change
+            if not np.any(np.abs(change) >= CONVERGED):
+                break
+        series[:, :1] -= np.log(last)
+    return Panels(frame, series)
+
+
+def change_in_a_cycle(density: FloatArray, step: FloatArray) -> FloatArray:
+    """Return the largest change (panels,) of the logarithm of the `density` (panels, m), known at
+    the Chebyshev nodes, within a cycle that takes a `step` in t (panels, m)."""
+    slope = np.abs(np.diff(density, axis=1)) / np.diff(chebyshev_nodes(density.shape[1]))
+    change: FloatArray = np.max(slope * np.maximum(step[:, 1:], step[:, :-1]), axis=1)
+    return change
+
+
+def _within(t: FloatArray, steps: FloatArray, m: int) -> FloatArray:
+    """Return the Chebyshev polynomials within cycles that start at the positions `t` (k,) of each
+    panel, the `steps` (panels, k, nodes) beyond: shape (panels, m, k, nodes)."""
+    return np.moveaxis(chebyshev_values(t[:, None] + steps, m), -1, 1)
+
+
+def _density(
+    series: FloatArray, basis: FloatArray, weights: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the density dn/du times `weights` (panels, k, nodes) and its sums, the cycles
+    (panels, k)."""
+    panels, m, *rest = basis.shape
+    logarithm = (series[:, None] @ basis.reshape(panels, m, math.prod(rest))).reshape(panels, *rest)
+    density = np.exp(logarithm) * weights
+    return density, np.sum(density, axis=-1)
+
+
+def _inverse_slope(density: FloatArray, cycles: FloatArray, basis: FloatArray) -> FloatArray:
+    """Return the inverse (panels, m, m) of the derivative of ln(cycles) with respect to the series;
+    no number where there is none."""
+    slope = np.einsum("pig,pkig->pik", density, basis) / cycles[..., None]
+    lost = ~np.isfinite(slope).all(axis=(1, 2))
+    slope[lost] = np.eye(slope.shape[1])
+    inverse: FloatArray = np.linalg.inv(slope)
+    inverse[lost] = np.nan
+    return inverse
+
+
+def residual(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArray:
+    """Return ln(n(P(u)) - n(u)) at the positions `t` of each panel: zero for the exact n.
+
+    `increments` (panels, len(t)) are those of a finer period map. A residual r means that the
+    density is wrong by a factor 1 - r, about.
+    """
+    rule = gauss(ACROSS_JUDGED)
+    with np.errstate(all="ignore"):  # of a panel far too wide: infinite or no number
+        steps = panels.frame.step(t, increments, rule.nodes)
+        basis = _within(t, steps, panels.series.shape[1])
+        level, shape = level_and_shape(panels.series)
+        cycles = _density(shape, basis, (level * increments)[..., None] * rule.weights)[1]
+        result: FloatArray = np.log(cycles)
+    return result
+
+
+def matching_defect(before: Panels, after: Panels) -> FloatArray:
+    """Return by how many cycles (panels,) the counts of neighbours differ within a cycle of where
+    they meet; one value for every panel of `before` and its neighbour in `after`.
+
+    Abel's equation leaves a function of period 1 in n free. Every panel picks its own: that does
+    no harm within a panel, but where two meet it shifts the count.
+    """
+    m = before.series.shape[1]
+    rule = gauss(ACROSS_A_FAST_CYCLE)
+    level, shape = level_and_shape(after.series)
+    steps = np.exp(-shape @ chebyshev_values(np.array([-1.0]), m).T) / level
+    apart = np.zeros((len(steps), len(rule.nodes)))
+    for side, t in ((before, 1.0), (after, -1.0)):
+        at = np.array([t])
+        basis = _within(at, side.frame.step(at, steps, rule.nodes), m)
+        level, shape = level_and_shape(side.series)
+        apart += t * _density(shape, basis, (level * steps)[..., None])[0][:, 0]
+    result: FloatArray = np.max(np.abs(apart @ rule.integrate.T), axis=1)
+    return result
+
+
+def level_and_shape(series: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the mean level of the density (panels, 1) and the series of the logarithm less it: a
+    large constant would cost the logarithm its last digits."""
+    shape = series.copy()
+    shape[:, 0] = 0.0
+    return np.exp(series[:, :1]), shape

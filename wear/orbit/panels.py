@@ -1,0 +1,235 @@
+"""Abel's equation on panels that adapt: solved with one period map, judged by a finer one.
+
+What the series misses is largest between the nodes, where the last polynomials are. What the mesh
+of phase misses changes its sign with the state, so the rates at all nodes have a say. A residual
+that exceeds the tolerance says what to refine: where the two maps differ, the phase; else the panel
+is cut in two.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
+from wear.numerics.collocation import CycleSolution, InitialGuess
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.tolerances import TINY
+from wear.orbit import abel
+from wear.orbit.period_map import TAIL_SHARE, PeriodMap, Settings
+
+CHECKS = -np.cos(np.pi * np.array([0, 1 / 6, 3 / 8, 5 / 8, 7 / 8, 1]))  # extrema of T_24 and T_48
+FAR_OUT = 10.0  # times the residual elsewhere: then the fault lies at the end of the panel
+SPLIT = 0.4  # of a panel, in its coordinate: the density is sharper at low states
+FASTER = 2.0  # than on average may the state change at the end of a panel
+MOST_ROUNDS = 12  # of refinement
+SHARP = 0.3  # change of the logarithm of the density within a cycle
+MOST_LOG = 650.0  # of a density: its exponential is a number
+MOST_PLANNED = 150  # panels of a scene
+MOST_PANELS = 200  # of a scene
+
+
+class SolvedPanels(NamedTuple):
+    """Panels of many scenes, in rising order scene by scene: the `scene` (panels,) of each, its
+    density, the greatest `residual` (panels,) off the nodes, and whether it is `short` (panels,):
+    cut in two it would hold too few cycles, and might hide an oscillation."""
+
+    scene: IntArray
+    density: abel.Panels
+    residual: FloatArray
+    short: BoolArray
+
+    def take(self, which: BoolArray | IntArray) -> SolvedPanels:
+        """Return some of the panels."""
+        return SolvedPanels(
+            self.scene[which], self.density.take(which), self.residual[which], self.short[which]
+        )
+
+
+class Judged(NamedTuple):
+    """Panels that were solved and judged, the `share` (panels,) of each at which to cut it, the
+    intervals of phase (panels, q) to be refined instead, and the right-hand sides evaluated."""
+
+    panels: SolvedPanels
+    share: FloatArray
+    marked: BoolArray
+    evaluations: int
+    increments: int
+
+
+class Filled(NamedTuple):
+    """Panels of all scenes; the intervals of phase `marked` (scenes, q) to be refined before they
+    are any good; right-hand sides evaluated and increments found, by all scenes together."""
+
+    panels: SolvedPanels
+    marked: BoolArray
+    evaluations: int
+    increments: int
+
+
+def fill(
+    coarse: PeriodMap,
+    fine: PeriodMap,
+    scene: IntArray,
+    frame: abel.Frame,
+    size: Settings,
+    tolerance: FloatArray,
+    widest: float,
+) -> Filled:
+    """Solve Abel's equation on panels, each of a `scene` (panels,), and cut those with a residual
+    above the `tolerance` (scenes,). Faults of a panel with a residual above `widest` say nothing
+    about the phase."""
+    done: list[SolvedPanels] = []
+    marked = np.zeros((len(tolerance), coarse.over.lengths.shape[-1]), dtype=bool)
+    evaluations = increments = 0
+    for rounds in range(MOST_ROUNDS):
+        judged = _judged(coarse, fine, scene, frame, size, tolerance, widest)
+        fresh = judged.panels
+        evaluations += judged.evaluations
+        increments += judged.increments
+        np.logical_or.at(marked, scene, judged.marked)
+        bad = ~(fresh.residual <= tolerance[scene])
+        # Beyond a panel that cannot be cut nothing is wanted; the phase is to be refined first.
+        end = np.full(len(marked), np.inf)
+        stuck = [part.take(part.short & ~(part.residual <= tolerance[part.scene])) for part in done]
+        for part in [*stuck, fresh.take(bad & fresh.short)]:
+            np.minimum.at(end, part.scene, part.density.frame.starts)
+        unclear = np.any(marked, axis=1)
+        cut = bad & ~fresh.short & (frame.starts < end[scene]) & ~unclear[scene]
+        number = sum(len(part.scene) for part in done) + len(scene)
+        if rounds == MOST_ROUNDS - 1 or number > MOST_PANELS * len(marked) or not cut.any():
+            done.append(fresh)
+            break
+        done.append(fresh.take(~cut))
+        first, second = frame.take(cut).cut(judged.share[cut])
+        frame = abel.Frame(*(np.concatenate(pair) for pair in zip(first, second, strict=True)))
+        scene = np.tile(scene[cut], 2)
+    return Filled(_in_order(done), marked, evaluations, increments)
+
+
+def _in_order(parts: list[SolvedPanels]) -> SolvedPanels:
+    """Return all the panels, scene by scene and rising."""
+    frames = zip(*(part.density.frame for part in parts), strict=True)
+    joined = SolvedPanels(
+        np.concatenate([part.scene for part in parts]),
+        abel.Panels(
+            abel.Frame(*(np.concatenate(arrays) for arrays in frames)),
+            np.concatenate([part.density.series for part in parts]),
+        ),
+        np.concatenate([part.residual for part in parts]),
+        np.concatenate([part.short for part in parts]),
+    )
+    return joined.take(np.lexsort((joined.density.frame.starts, joined.scene)))
+
+
+def _judged(
+    coarse: PeriodMap,
+    fine: PeriodMap,
+    scene: IntArray,
+    frame: abel.Frame,
+    size: Settings,
+    tolerance: FloatArray,
+    widest: float,
+) -> Judged:
+    """Solve Abel's equation with the coarse map, and test it off the nodes with the fine one."""
+    coarse, fine, allowed = coarse.take(scene), fine.take(scene), tolerance[scene]
+    nodes, checks = chebyshev_nodes(size.panel_nodes), frame.states(CHECKS)
+    ahead = coarse.advance(frame.states(nodes))
+    density = abel.solve(frame, ahead.increment)
+    judge = fine.advance(checks, _at_checks(ahead, size.finer_nodes))
+    residuals = np.abs(abel.residual(density, CHECKS, judge.increment))
+    far = np.max(residuals[:, -2:], axis=1) > FAR_OUT * np.max(residuals[:, :-2], axis=1)
+    far &= frame.c > 0.0
+    iteration = judge.iteration_error.max(axis=1) + ahead.iteration_error.max(axis=1)
+    by_phase = np.max(coarse.phase_error(ahead), axis=1)
+    residual = np.maximum(np.max(residuals, axis=1) + iteration, by_phase)
+    taken = 2 / frame.step(nodes, ahead.increment)[..., 0]
+    share = np.where(far, frame.x_of(frame.widths[:, None] / 2)[:, 0] / frame.x_ends, SPLIT)
+    short = _cycles_if_cut(taken, share) < size.panel_nodes
+    evaluations = ahead.evaluations + judge.evaluations
+    increments = ahead.increment.size + judge.increment.size
+    wide = ~(residual <= widest) if np.isfinite(widest) else np.full(len(scene), False)
+    marked = np.logical_not(ahead.converged) & ~wide[:, None]
+    hazy = np.flatnonzero((by_phase > allowed) & ~wide)
+    if len(hazy):
+        shares = allowed[hazy, None, None] / (TAIL_SHARE * marked.shape[1])
+        marked[hazy] |= coarse.take(hazy).unresolved_phase(ahead.rate[hazy], shares)
+    worst = np.flatnonzero(~(residual <= allowed) & ~wide)
+    if len(worst):
+        some = coarse.take(worst)
+        again = some.advance(checks[worst])
+        evaluations += again.evaluations
+        increments += again.increment.size
+        apart = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
+        # Only what the two maps differ by is a fault of the phase.
+        at_fault = ~(apart < np.maximum(allowed[worst] / 4, residual[worst] / 10))[:, None]
+        rough = at_fault & some.unresolved_phase(again.rate, size.phase_tolerance)
+        marked[worst] |= rough
+        marked[worst] |= at_fault & ~marked[worst].any(axis=1)[:, None]
+    panels = SolvedPanels(scene, density, residual, short)
+    return Judged(panels, share, marked, evaluations, increments)
+
+
+class Planned(NamedTuple):
+    """Panels, each of a `scene` (panels,), scene by scene and rising, and how many `cycles`
+    (panels,) each holds, roughly; none where a cycle changes its own rate much."""
+
+    scene: IntArray
+    frame: abel.Frame
+    cycles: FloatArray
+
+
+def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> Planned:
+    """Cut panels until their coefficients resolve the density without feedback, and none ends at a
+    rate at which it would hold few cycles: the last node looks a cycle ahead."""
+    m = size.panel_nodes
+    nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
+    done: list[Planned] = []
+    number = 0
+    while len(scene):
+        frozen = maps.take(scene).increment_without_feedback(frame.states(nodes))
+        density = np.minimum(-np.log(frozen + TINY), MOST_LOG)
+        # Less a constant, whose rounding would look like a tail.
+        tail = np.max(np.abs((density - density[:, :1]) @ analysis), axis=1)
+        step = frame.step(nodes, np.exp(-density))[..., 0]
+        taken = 2 / step
+        cycles, at_end = np.mean(taken, axis=1), FASTER * taken[:, -1]
+        sharp = abel.change_in_a_cycle(density, step) > SHARP
+        cut = (tail > size.tail_tolerance) | ((cycles > 2 * m) & ((at_end < m) | sharp))
+        number += len(scene)
+        cut &= number < MOST_PLANNED * maps.scenes
+        cycles = np.where(sharp, 0.0, np.minimum(cycles, at_end))
+        done.append(Planned(scene[~cut], frame.take(~cut), cycles[~cut]))
+        first, second = frame.take(cut).cut(SPLIT)
+        frame = abel.Frame(*(np.concatenate(pair) for pair in zip(first, second, strict=True)))
+        scene = np.tile(scene[cut], 2)
+    scene = np.concatenate([part.scene for part in done])
+    frames = zip(*(part.frame for part in done), strict=True)
+    frame = abel.Frame(*(np.concatenate(arrays) for arrays in frames))
+    order = np.lexsort((frame.starts, scene))
+    cycles = np.concatenate([part.cycles for part in done])
+    return Planned(scene[order], frame.take(order), cycles[order])
+
+
+def _at_checks(ahead: CycleSolution, m: int) -> InitialGuess:
+    """Return the cycles from the CHECKS as a guess for m nodes on each interval: interpolated
+    between those `ahead` from the nodes of panels."""
+    nodes = ahead.increment.shape[1]
+    to_checks = chebyshev_values(CHECKS, nodes) @ chebyshev_analysis(nodes)
+    inside, rate = (
+        (to_checks @ x.reshape(*x.shape[:2], -1)).reshape(len(x), -1, *x.shape[2:])
+        for x in (ahead.inside, ahead.rate)
+    )
+    return ahead._replace(inside=inside, rate=rate).guess(m)
+
+
+def _cycles_if_cut(taken: FloatArray, share: FloatArray) -> FloatArray:
+    """Return roughly how many cycles the first part of each panel, a `share` (panels,) of it, would
+    take, and no more than at the rate of its end, from `taken` (panels, m) cycles at the rates of
+    its nodes."""
+    rows, m = np.arange(len(taken)), taken.shape[1]
+    inside = np.minimum(np.searchsorted(chebyshev_nodes(m), 2 * share - 1), m - 1)
+    mean = np.cumsum(taken, axis=1)[rows, inside - 1] / inside
+    fewer: FloatArray = share * np.minimum(mean, FASTER * taken[rows, inside])
+    return fewer

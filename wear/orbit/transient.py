@@ -1,0 +1,128 @@
+"""The first cycles, integrated one by one: until panels are long against a cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.tolerances import ROUNDOFF
+from wear.orbit.period_map import PeriodMap, Settings
+
+BLOCK = 5  # cycles integrated at once
+SAFETY = 3.0  # on measured discrepancies
+
+
+class Transient(NamedTuple):
+    """Cycles of some scenes (s,): the `states` (s, k + 1) after 0, 1, ... k of them; and what each
+    cycle (s, k) `missed` of its increment, its `derivative` dP/du, and its `response` to a relative
+    error of the rate, at most."""
+
+    states: FloatArray
+    missed: FloatArray
+    derivative: FloatArray
+    response: FloatArray
+
+    @property
+    def cycles(self) -> int:
+        """Return how many cycles there are."""
+        return int(self.missed.shape[1])
+
+    @property
+    def last(self) -> FloatArray:
+        """Return the states (s,) after them."""
+        return self.states[:, -1]
+
+    @property
+    def last_increment(self) -> FloatArray:
+        """Return what the last cycle has added (s,)."""
+        return self.states[:, -1] - self.states[:, -2]
+
+    def take(self, which: IntArray) -> Transient:
+        """Return some of the scenes."""
+        return Transient(*(array[which] for array in self))
+
+    def then(self, increment: FloatArray, *each: FloatArray) -> Transient:
+        """Return some cycles more (s, j)."""
+        states = self.last[:, None] + np.cumsum(increment, axis=1)
+        pairs = zip(self, (states, *each), strict=True)
+        return Transient(*(np.concatenate(pair, axis=1) for pair in pairs))
+
+    def error(self, start_error: FloatArray, roundoff: FloatArray) -> FloatArray:
+        """Return the errors (s, k + 1) of the states: what each cycle has missed, by its mesh and
+        by the relative `roundoff` (s, k) of its rate, as the cycles after it change it."""
+        error = [start_error]
+        missed = SAFETY * self.missed + roundoff * self.response
+        for k in range(self.cycles):
+            error.append(error[-1] * self.derivative[:, k] + missed[:, k])
+        return np.stack(error, axis=1) + ROUNDOFF * self.states
+
+
+def no_cycle(starts: FloatArray) -> Transient:
+    """Return the transient of no cycle from the `starts` (s,)."""
+    none = np.empty((len(starts), 0))
+    return Transient(starts[:, None], none, none, none)
+
+
+class Extended(NamedTuple):
+    """The scenes `which`, with the period map that suits them, and their transient after more
+    cycles, or after none where the map has been refined first; evaluations by all of them, and the
+    cycles integrated."""
+
+    which: IntArray
+    maps: PeriodMap
+    transient: Transient
+    evaluations: int
+    increments: int
+
+
+def extended(
+    maps: PeriodMap, begun: Transient, limit: FloatArray, size: Settings, tolerance: FloatArray
+) -> Iterator[Extended]:
+    """Integrate BLOCK more cycles of some scenes; one where the rate is so fast that the iteration
+    over cycles fails; or refine the meshes of those that they do not resolve.
+
+    States beyond the `limit` (s,) have no meaning.
+    """
+    run = maps.consecutive(begun.last, BLOCK)
+    states = begun.last[:, None] + np.cumsum(run.increment, axis=1)
+    starts = np.concatenate([begun.last[:, None], states[:, :-1]], axis=1)
+    sound = run.converged.all(axis=1) & (states[:, -1] < limit)
+    for i in np.flatnonzero(~sound).tolist():
+        which = np.array([i])
+        alone = maps.take(which)
+        *cycle, evaluations = alone.violent_cycle(float(begun.last[i]), float(limit[i]), size)
+        more = begun.take(which).then(*(np.array([[value]]) for value in cycle))
+        yield Extended(which, alone, more, evaluations, BLOCK + 1)
+    marked = maps.unresolved(starts, run, size) & sound[:, None]
+    if maps.full:
+        marked[:] = False
+    calm = np.flatnonzero(sound & ~marked.any(axis=1))
+    evaluations = run.evaluations
+    if len(calm):
+        some, found, starts = maps.take(calm), run.take(calm), starts[calm]
+        fine = some.finer(size)
+        judge = fine.advance(starts, found.guess(size.finer_nodes))
+        evaluations += judge.evaluations
+        missed = np.abs(judge.increment - found.increment)
+        # What both meshes miss, and what the iterations of the judge have left.
+        missed += np.sum(fine.endpoint_defect(starts, judge), axis=2)
+        missed += judge.iteration_error * judge.increment
+        missed[~judge.converged.all(axis=1)] = np.inf
+        coarse = np.any(missed > tolerance[calm, None] * states[calm], axis=1)
+        coarse &= not maps.full
+        marked[calm[coarse]] = True
+        derivative = some.derivative(starts, found)
+        each = found.increment, missed, derivative, some.response(found.increment, derivative)
+        good = np.flatnonzero(~coarse)
+        if len(good):
+            more = begun.take(calm[good]).then(*(array[good] for array in each))
+            yield Extended(calm[good], some.take(good), more, evaluations, 2 * BLOCK * len(calm))
+            evaluations = 0
+    rest = np.flatnonzero(marked.any(axis=1))
+    for which, finer in maps.take(rest).refined(marked[rest]) if len(rest) else ():
+        group = rest[which]
+        yield Extended(group, finer, begun.take(group), evaluations, 0)
+        evaluations = 0

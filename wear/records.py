@@ -1,0 +1,115 @@
+"""The wear along a measured history: straight lines between its rows, many at once.
+
+A record does not repeat: there is nothing to count. But on a line the rate is smooth, so that few
+Gauss nodes do, and a thousand lines are one mesh for `wear.numerics.initial_value`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.equation import WearEquation, roundoff
+from wear.load import HistoryLoad
+from wear.model import Model
+from wear.numerics.gauss import mesh
+from wear.numerics.initial_value import Rules, StoppedError, integrate
+from wear.numerics.tolerances import ROUNDOFF
+from wear.orbit.period_map import PeriodMap
+from wear.orbit.segments import Cost
+
+FloatArray = NDArray[np.float64]
+
+NODES, FINER_NODES = 8, 12  # on each line: for the result, and for its judge
+NEARLY = 0.9  # of the wear at which the roughness vanishes
+STRICTER = 0.01  # tolerance on lines, over the requested accuracy
+
+
+class Followed(NamedTuple):
+    """Wear `u` (mm) after those `cycles` that were reached, in rising order, its estimated relative
+    `error`, and what it cost. `stopped` says why cycles are missing (None: none are) and
+    `interrupted` whether that was the user or the clock."""
+
+    cycles: tuple[int, ...]
+    u: FloatArray
+    error: FloatArray
+    cost: Cost
+    stopped: str | None
+    interrupted: bool
+
+
+class Record(NamedTuple):
+    """A measured history as a load whose phase is the time in s."""
+
+    history: HistoryLoad
+    period: float = 1.0
+
+    def __call__(self, phase: FloatArray | float) -> FloatArray:
+        """Return U_a (mm) at a time (s)."""
+        return self.history.value(phase)
+
+    @property
+    def maximum(self) -> float:
+        """Return the largest U_a, mm."""
+        return self.history.maximum
+
+
+@np.errstate(all="ignore")  # trial states far off the solution may overflow
+def follow(
+    model: Model,
+    load: HistoryLoad,
+    cycles: Sequence[int],
+    rtol: float,
+    deadline: float = np.inf,
+) -> Followed:
+    """Return the wear after whole numbers of `cycles`, in any order, along a history, without loss
+    of contact.
+
+    After the `deadline` (`time.monotonic()`) or on Ctrl-C the cycles reached by then are kept.
+    """
+    marks = tuple(sorted(set(cycles)))
+    ends = np.array([load.time_at(mark) for mark in marks])
+    times = np.union1d(np.append(load.breakpoints(0.0, ends[-1]), 0.0), ends)
+    asked = np.isin(times[1:], ends)
+    equation = WearEquation(model, (Record(load),))  # type: ignore[arg-type]  # all that it asks of one
+    limit = float(equation.limit[0])
+
+    def sampled(edges: FloatArray, m: int, tolerance: float) -> PeriodMap:
+        over, levels = mesh(edges[None, None], m), load.value(edges)
+        # Straight between the levels at the ends: no rounding of the time enters.
+        forcing = levels[:-1, None] + np.diff(levels)[:, None] * over.rule.nodes
+        return PeriodMap(equation, over, forcing[None, None], tolerance)
+
+    def rounding(wear: float) -> float:
+        return float(roundoff(model, np.array([load.maximum]), np.array([wear]))[0])
+
+    u, error = ([0.0], [0.0]) if ends[0] == 0.0 else ([], [])
+    evaluations, stopped, interrupted, number = 0, None, False, 0
+    rules = Rules(NODES, FINER_NODES, STRICTER * rtol)
+    try:
+        for part in integrate(sampled, times, 0.0, rules, rounding, limit, deadline):
+            here = asked[number : number + len(part.increment)]
+            u += part.increment[here].tolist()
+            error += part.error[here].tolist()
+            number += len(here)
+            evaluations += part.evaluations
+    except StoppedError as end:
+        stopped = _why(end.state, limit)
+    except TimeoutError:
+        stopped, interrupted = "the time limit has passed", True
+    except KeyboardInterrupt:
+        stopped, interrupted = "interrupted", True
+    reached, found = marks[: len(u)], np.array(u)
+    relative = np.where(found > 0.0, np.array(error) / found + ROUNDOFF, 0.0)
+    cost = Cost(2 * max(reached, default=0), evaluations)
+    return Followed(reached, found, relative, cost, stopped, interrupted)
+
+
+def _why(wear: float, limit: float) -> str:
+    """Return why the lines cannot be followed any further than to a `wear` (mm)."""
+    if wear > NEARLY * limit:
+        return f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
+    return f"the wear could not be followed beyond u_c = {wear:.6g} mm"

@@ -1,0 +1,191 @@
+"""What the explorer's page takes from the derivation, written once into a file beside its scripts.
+
+Deriving all variants and equations takes ten seconds and more, so ``explorer.derived.json`` is
+committed.  A test fails when it is out of date; ``python -m wear.report.explorer_derived`` writes
+it.
+
+Key results
+    derived           all of it, as the file has it
+    models            the generated functions of every variant, as JavaScript
+    parameter_rows    what can be moved, from the vocabulary
+    rows              the equations as HTML, each with the choices for which it holds
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from wear.report import mathml
+from wear.report.explorer_data import GROUPS, NOT_NEGATIVE
+
+FILE = "explorer.derived.json"
+
+Choices = dict[str, tuple[str | bool, ...]]
+"""Values of the controls, and of the regime, for which an equation holds; the others are free."""
+
+_SMOOTH: Choices = {"pin": ("bearing",)}
+_ROUGH: Choices = {"pin": ("rough", "worn_rough")}
+_TWO_SOLIDS: Choices = {"pin": ("rough", "worn", "worn_rough")}
+_RIGID: Choices = {"compliant": (False,)}
+_COMPLIANT: Choices = {"compliant": (True,)}
+_AS_PRINTED: Choices = {"opening": (False,)}
+_OPENING: Choices = {"opening": (True,)}
+_TANH: Choices = {"law": ("tanh",)}
+_CUTOFF: Choices = {"cutoff": (True,)}
+_NO_CUTOFF: Choices = {"cutoff": (False,)}
+_STEADY: Choices = {"regime": ("steady",)}
+_PARTIAL: Choices = {"regime": ("partial",)}
+_ARREST: Choices = {"regime": ("arrest",)}
+
+
+class _Row(NamedTuple):
+    """An equation of the catalogue, under a title of this page."""
+
+    title: str
+    identifier: str
+    holds: Choices
+
+
+_MODEL = (
+    _Row("Closure", "1", _AS_PRINTED),
+    _Row("Equivalent roughness", "3", _ROUGH),
+    _Row("Contact law", "7e", _TANH | _NO_CUTOFF),
+    _Row("Contact law", "4", _TANH | _CUTOFF),
+    _Row("Deflection of the support", "7c", _COMPLIANT),
+    _Row("Wear and change of roughness", "7f", {}),
+    _Row("All in one", "13", _TANH | _SMOOTH | _RIGID | _NO_CUTOFF),
+    _Row("All in one", "10", _TANH | _TWO_SOLIDS | _RIGID | _AS_PRINTED | _NO_CUTOFF),
+    _Row("All in one", "8", _TANH | _COMPLIANT | _AS_PRINTED | _NO_CUTOFF),
+)
+_LONG_RUN = (
+    _Row("Wear per cycle in the end", "21", _TANH | _STEADY | _SMOOTH),
+    _Row("Pressure in the end", "22", _TANH | _STEADY | _SMOOTH),
+    _Row("Logarithm in the wear", "log-drift", _TANH | _STEADY | _SMOOTH | _RIGID),
+    _Row("Coefficient of ln N", "log-drift-compliant", _TANH | _STEADY | _SMOOTH | _COMPLIANT),
+    _Row("Growth of gap and roughness", "two-solids", _STEADY | _TWO_SOLIDS | _AS_PRINTED),
+    _Row("Growth of gap and roughness", "two-solids-opening", _STEADY | _TWO_SOLIDS | _OPENING),
+    _Row("Closure over roughness in the end", "two-solids-closure-ratio", _STEADY | _TWO_SOLIDS),
+    _Row("Wear rate in the end", "two-solids-rate", _TANH | _STEADY | _TWO_SOLIDS),
+    _Row("Logarithm in the wear", "two-solids-log-drift", _TANH | _STEADY | _TWO_SOLIDS | _RIGID),
+    _Row("Wear per cycle in the end", "one-third", _TANH | _PARTIAL),
+    _Row("Wear at arrest", "arrest-depth", _ARREST | _SMOOTH),
+    _Row("Wear at arrest", "arrest-depth-two-solids", _ARREST | _TWO_SOLIDS),
+)
+
+
+def rows() -> str:
+    """Return all equations, in the order of the argument."""
+    from derive.laws import LAWS, TANH
+
+    others = tuple(name for name in LAWS if name != TANH.name)
+    other: Choices = {"law": others}
+    limit = _Row("Pressure in the end", "general-law", other | _STEADY | _SMOOTH)
+    found = (*_forms(others), *_listed((*_MODEL, limit, *_LONG_RUN)))
+    return "\n".join(_html(*row) for row in found)
+
+
+_Formula = tuple[str, str, str, Choices]  # title, LaTeX, number, where it holds
+
+
+def _listed(listed: tuple[_Row, ...]) -> Iterator[_Formula]:
+    from derive.catalogue import equation
+
+    for title, identifier, holds in listed:
+        number = f"({identifier})" if identifier[0].isdigit() else ""
+        yield title, equation(identifier).latex, number, holds
+
+
+def _forms(laws: tuple[str, ...]) -> Iterator[_Formula]:
+    """The closure with the physical sign, and the contact laws other than the note's."""
+    from derive.laws import LAWS
+    from derive.note.governing import Model
+    from derive.typeset.display import latex
+
+    yield "Closure", latex(Model(opening=True).closure.claim), "", _OPENING
+    for name in laws:
+        model = Model(LAWS[name])
+        for cutoff, statement in (False, model.pressure), (True, model.pressure_with_cutoff):
+            holds: Choices = {"law": (name,), "cutoff": (cutoff,)}
+            yield "Contact law", latex(statement.claim), "", holds
+
+
+def _html(title: str, latex: str, number: str, holds: Choices) -> str:
+    chosen = escape(json.dumps(holds))
+    return (
+        f'<div data-holds="{chosen}"><p>{title}</p><div class="row">'
+        f'<div class="formula">{mathml.block(latex)}</div><span>{number}</span></div></div>'
+    )
+
+
+def derived() -> str:
+    """Return the file: models, equations, rows of the sliders, contact laws."""
+    from derive.laws import LAWS
+
+    content = {
+        "models": models(),
+        "equations": rows(),
+        "parameters": parameter_rows(),
+        "laws": list(LAWS),
+        "cutoff": int(LAWS["tanh"].cutoff),
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def models() -> str:
+    """Return a script with the generated functions of every variant and the formulas."""
+    from derive.codegen.formulas import formula_script
+    from derive.codegen.sources import definitions
+    from derive.program import program
+    from derive.results.asymptotics import formulas
+    from derive.variant import VARIANTS
+
+    entries = (
+        f'"{variant.law.name}/{variant.name}": () => {{\n'
+        f"{_without_comments(definitions(program(variant)))}}},\n"
+        for variant in VARIANTS
+    )
+    closed = _without_comments(formula_script(tuple(formulas())))
+    return (
+        f'"use strict";\nconst MODELS = {{\n{"".join(entries)}}};\n'
+        f"const FORMULAS = (() => {{\n{closed}}})();\n"
+    )
+
+
+def _without_comments(text: str) -> str:
+    """Leave out what readers of the page's source find in `derive code --target javascript`."""
+    blocks = re.sub(r"/\*\*.*?\*/\n", "", text, flags=re.DOTALL)
+    return re.sub(r"\n{2,}", "\n", re.sub(r" // .*", "", blocks))
+
+
+def parameter_rows() -> list[dict[str, Any]]:
+    """Return name, range, scale and unit of every slider."""
+    from derive.symbols import QUANTITIES
+
+    rows = []
+    for name in (name for group in GROUPS.values() for name in group):
+        quantity = QUANTITIES[name]
+        domain = quantity.domain
+        unit = "" if quantity.unit == "1" else quantity.unit
+        rows.append(
+            {
+                "name": name,
+                "meaning": quantity.meaning.split(", ")[0],
+                "latex": quantity.latex,
+                "unit": unit,
+                "low": domain.low,
+                "high": domain.high,
+                "logarithmic": domain.logarithmic,
+                "positive": domain.positive,
+                "negative": not domain.positive and name not in NOT_NEGATIVE,
+            }
+        )
+    return rows
+
+
+if __name__ == "__main__":
+    (Path(__file__).parent / "assets" / FILE).write_text(derived(), encoding="utf-8")

@@ -1,0 +1,101 @@
+"""The rows of one chunk, solved together: a pure function, fit for any worker anywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from wear.scene import Scene
+
+FloatArray = NDArray[np.float64]
+LONGEST_REASON = 200  # characters
+
+
+class Status(IntEnum):
+    """What became of a row. `PENDING` is what a chunk has before it is solved."""
+
+    DONE = 0
+    INVALID_SCENE = 1
+    ACCURACY_MISSED = 2
+    FAILED = 3
+    PENDING = 255
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked of every row: the scene that is varied, numbers of cycles, a wear depth."""
+
+    scene: Scene
+    cycles: tuple[int, ...]
+    until_wear: float | None  # mm
+    rtol: float
+
+
+class Answers(NamedTuple):
+    """Results of some rows: wear in mm and its relative error (rows, cycles), cycles to the wear
+    depth (rows,), status and reason (rows,)."""
+
+    bearing_wear_mm: FloatArray
+    error_estimate: FloatArray
+    cycles_to_wear: FloatArray
+    status: NDArray[np.uint8]
+    reason: list[str]
+
+
+def solve_rows(question: Question, columns: Mapping[str, FloatArray]) -> Answers:
+    """Return the answers for scenes in which each key takes the values (rows,) of its column.
+
+    A scene that is invalid, misses the accuracy or fails is a row with its status and reason.
+    """
+    rows = len(next(iter(columns.values())))
+    answers = _empty(rows, len(question.cycles))
+    scenes: dict[int, Scene] = {}
+    for row in range(rows):
+        try:
+            scenes[row] = question.scene.with_(
+                {key: float(column[row]) for key, column in columns.items()}
+            )
+        except ValueError as fault:  # SceneError is one
+            _fail(answers, row, Status.INVALID_SCENE, str(fault))
+    if scenes:
+        _solve(question, scenes, answers)
+    return answers
+
+
+def _empty(rows: int, cycles: int) -> Answers:
+    return Answers(
+        np.full((rows, cycles), np.nan),
+        np.full((rows, cycles), np.nan),
+        np.full(rows, np.nan),
+        np.zeros(rows, dtype=np.uint8),
+        [""] * rows,
+    )
+
+
+def _fail(answers: Answers, row: int, status: Status, reason: str) -> None:
+    answers.status[row] = status
+    answers.reason[row] = " ".join(reason.split())[:LONGEST_REASON]
+
+
+def _solve(question: Question, scenes: Mapping[int, Scene], answers: Answers) -> None:
+    """Fill in the answers of the rows whose scenes are valid."""
+    from wear.cycles import cycles_to_depth, sweep
+
+    places = np.array(list(scenes))
+    found = sweep(list(scenes.values()), np.array(question.cycles, dtype=float), question.rtol)
+    answers.bearing_wear_mm[places] = found.u_c
+    answers.error_estimate[places] = found.error
+    for row, error in zip(places.tolist(), found.error.max(axis=1).tolist(), strict=True):
+        if not error <= question.rtol:
+            reason = f"the estimated error is {error:.1e}, {question.rtol:.1e} was requested"
+            _fail(answers, row, Status.ACCURACY_MISSED, reason)
+    if question.until_wear is not None:
+        depth = np.array([question.until_wear])
+        reached = cycles_to_depth(list(scenes.values()), depth, question.rtol)
+        answers.cycles_to_wear[places] = reached.cycles[:, 0]

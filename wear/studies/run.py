@@ -1,0 +1,217 @@
+"""`study`: the chunks of a study through any executor, results on disk as they come."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    wait,
+)
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from wear.faults import UsageError, WorkersLost
+from wear.studies.design import Chunk, Design
+from wear.studies.rows import Answers, Question, solve_rows
+from wear.studies.vary import Vary, parse
+
+if TYPE_CHECKING:
+    import xarray
+
+    from wear.scene import Scene
+    from wear.studies.store import Store
+
+IN_FLIGHT = 64  # chunks handed over at once: enough for a cluster, few enough for memory
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a study is: rows done, rows in all, and seconds left."""
+
+    done: int
+    rows: int
+    seconds_left: float
+
+
+def study(
+    scene: Scene | str,
+    vary: Sequence[str | Vary],
+    cycles: Sequence[int],
+    output: str | Path,
+    *,
+    design: str = "grid",
+    samples: int = 0,
+    seed: int = 0,
+    until_wear: float | None = None,
+    rtol: float = 1e-7,
+    executor: Executor | None = None,
+    report: Callable[[Progress], None] | None = None,
+) -> xarray.Dataset:
+    """Solve a scene for many combinations of its numbers; go on where an earlier call stopped.
+
+    Parameters
+    ----------
+    scene
+        The scene that is varied, or its name or path.
+    vary
+        What varies: for a grid `KEY=low:high:count[:log]` or `KEY=a,b,c`; for samples
+        `KEY=uniform(low,high)`, `loguniform(low,high)`, `normal(mean,sd)` or
+        `lognormal(median,factor)`. Or `Levels` and `Distribution`.
+    cycles
+        Numbers of cycles after which the wear is wanted.
+    output
+        Zarr folder of the results.
+    design, samples, seed
+        "grid", or "sobol", "latin-hypercube", "random" with their number of samples and seed.
+    until_wear
+        Wear depth (mm) to which the cycles are counted as well.
+    rtol
+        Requested relative error of the wear.
+    executor
+        Anything with the interface of `concurrent.futures.Executor`: a process pool, Dask's
+        `client.get_executor()`, mpi4py's. None solves the chunks here, one after the other.
+    report
+        Called with the progress after every chunk.
+
+    Returns
+    -------
+    xarray.Dataset
+        `bearing_wear_mm`, `error_estimate`, `cycles_to_wear`, `status` and `reason`, with a
+        dimension for each key of a grid or one of samples, and one of cycles.
+
+    Raises
+    ------
+    UsageError
+        for everything that is wrong with the request, at once.
+    WorkersLost
+        if the executor lost its workers; the same call goes on.
+    """
+    plan, question = prepare(scene, vary, cycles, design, samples, seed, until_wear, rtol)
+    return run(plan, question, Path(output), executor, report).dataset()
+
+
+def run(
+    plan: Design,
+    question: Question,
+    output: Path,
+    executor: Executor | None,
+    report: Callable[[Progress], None] | None,
+) -> Store:
+    """Solve the chunks that are missing at `output` and return the store of all, see `study`."""
+    from wear.studies.store import Store
+
+    store = Store(output, plan, question)
+    left = list(store.missing())
+    clock = _Clock(plan.rows, sum(map(_rows, left)), report)
+    for chunk, answers in _answers(plan, question, left, executor):
+        store.write(chunk, answers)
+        clock.add(_rows(chunk))
+    return store
+
+
+def prepare(
+    scene: Scene | str,
+    vary: Sequence[str | Vary],
+    cycles: Sequence[int],
+    design: str,
+    samples: int,
+    seed: int,
+    until_wear: float | None,
+    rtol: float,
+) -> tuple[Design, Question]:
+    """Return the design and the question of a study, or raise all that is wrong with them."""
+    from wear.scene import load_scene
+
+    base = load_scene(scene) if isinstance(scene, str) else scene
+    faults: list[str] = []
+    parsed: list[Vary] = []
+    for entry in vary:
+        try:
+            parsed.append(parse(entry) if isinstance(entry, str) else entry)
+            base.with_({parsed[-1].key: parsed[-1].example})
+        except ValueError as fault:
+            faults.append(str(fault))
+    plan = None
+    try:
+        plan = Design(design, tuple(parsed), samples, seed)
+    except UsageError as fault:
+        faults += [] if faults and not parsed else [str(fault)]
+    if not cycles or any(n != int(n) or not 1 <= n <= 10**12 for n in cycles):
+        faults.append("cycles: give whole numbers from 1 to 1e12")
+    elif len(set(cycles)) < len(cycles):
+        faults.append("cycles: a number is given twice")
+    if until_wear is not None and not 0.0 < until_wear < 1e30:
+        faults.append(f"until_wear: {until_wear!r} is no positive number of mm")
+    if not 1e-13 <= rtol <= 0.1:
+        faults.append(f"rtol: {rtol!r} is not between 1e-13 and 0.1")
+    if faults or plan is None:
+        raise UsageError("\n".join(faults))
+    return plan, Question(base, tuple(int(n) for n in cycles), until_wear, rtol)
+
+
+def _rows(chunk: Chunk) -> int:
+    rows = 1
+    for part in chunk:
+        rows *= part.stop - part.start
+    return rows
+
+
+def _answers(
+    plan: Design, question: Question, left: Sequence[Chunk], executor: Executor | None
+) -> Iterator[tuple[Chunk, Answers]]:
+    """Yield every chunk that is left with its answers, as they come."""
+    if executor is None:
+        for chunk in left:
+            yield chunk, solve_rows(question, plan.columns(chunk))
+        return
+    running: dict[Future[Answers], Chunk] = {}
+    try:
+        for chunk in left:
+            running[executor.submit(solve_chunk, plan, question, chunk)] = chunk
+            if len(running) >= IN_FLIGHT:
+                yield from _finished(running)
+        while running:
+            yield from _finished(running)
+    except (BrokenExecutor, CancelledError, OSError) as fault:
+        raise WorkersLost(
+            f"the workers went away ({type(fault).__name__}); finished chunks are kept: "
+            "the same command goes on where this one stopped"
+        ) from fault
+    finally:
+        for future in running:
+            future.cancel()
+
+
+def solve_chunk(plan: Design, question: Question, chunk: Chunk) -> Answers:
+    """Return the answers of one chunk: what a worker runs."""
+    return solve_rows(question, plan.columns(chunk))
+
+
+def _finished(running: dict[Future[Answers], Chunk]) -> Iterator[tuple[Chunk, Answers]]:
+    """Yield what is done of the running chunks, at least one of them."""
+    done, _ = wait(running, return_when=FIRST_COMPLETED)
+    for future in done:
+        yield running[future], future.result()
+        del running[future]
+
+
+class _Clock:
+    """Reports progress, with the time left by the pace so far."""
+
+    def __init__(self, rows: int, left: int, report: Callable[[Progress], None] | None) -> None:
+        self._rows, self._left, self._todo, self._report = rows, left, left, report
+        self._start = time.monotonic()
+
+    def add(self, rows: int) -> None:
+        """Count rows that are done."""
+        self._left -= rows
+        if self._report is not None:
+            solved = self._todo - self._left
+            seconds = (time.monotonic() - self._start) * self._left / solved
+            self._report(Progress(self._rows - self._left, self._rows, seconds))

@@ -1,0 +1,231 @@
+"""Results of a study on disk: a Zarr group that xarray opens; a chunk is there whole or not at all.
+
+Each array is cut into the chunks of the design, a file each. Every file is written under another
+name first and the status of a chunk last, so a chunk without a status is one that is not there.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import tempfile
+from collections.abc import Iterator
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from wear.checked import unit_of
+from wear.faults import UsageError
+from wear.studies.design import Chunk, Design
+from wear.studies.rows import Answers, Question, Status
+from wear.studies.vary import Levels
+
+if TYPE_CHECKING:
+    import xarray
+
+
+class Variable(NamedTuple):
+    """One array of a study, its type, whether it has a dimension of cycles, unit and meaning."""
+
+    name: str
+    kind: str
+    per_cycle: bool
+    unit: str
+    meaning: str
+
+
+VARIABLES = (
+    Variable("bearing_wear_mm", "float64", True, "mm", "wear of the bearing"),
+    Variable("error_estimate", "float64", True, "1", "estimated relative error of the wear"),
+    Variable("cycles_to_wear", "float64", False, "1", "number of cycles to the wear depth"),
+    Variable("reason", "string", False, "", "why the row has no answer"),
+    Variable("status", "uint8", False, "", "what became of the row"),
+)
+
+
+class Store:
+    """The results of one study at a path.
+
+    Raises
+    ------
+    UsageError
+        if another study, or something else, is there already, the disk is too small, or zarr and
+        xarray are not installed.
+    """
+
+    def __init__(self, path: Path, design: Design, question: Question) -> None:
+        if not (find_spec("zarr") and find_spec("xarray")):
+            raise UsageError("a study needs zarr and xarray: pip install 'derive-wear[study]'")
+        self.path, self.design, self.question = path, design, question
+        self._identity = identity(design, question)
+        if path.exists():
+            self._group: Any = self._opened()
+        else:
+            self._require_space()
+            self._group = self._created()
+
+    @property
+    def _variables(self) -> tuple[Variable, ...]:
+        asked = self.question.until_wear is not None
+        return tuple(v for v in VARIABLES if asked or v.name != "cycles_to_wear")
+
+    def missing(self) -> Iterator[Chunk]:
+        """Yield every chunk that has not been written."""
+        status = self._group["status"]
+        for chunk in self.design.chunks():
+            if np.any(np.asarray(status[chunk]) == Status.PENDING):
+                yield chunk
+
+    def write(self, chunk: Chunk, answers: Answers) -> None:
+        """Write the answers of a chunk, the status last."""
+        shape = tuple(part.stop - part.start for part in chunk)
+        if self.design.kind != "grid":
+            for key, values in self.design.columns(chunk).items():
+                self._group[key][chunk] = values
+        for variable in self._variables:
+            values = np.asarray(getattr(answers, variable.name))
+            whole = (*chunk, slice(None)) if variable.per_cycle else chunk
+            self._group[variable.name][whole] = values.reshape(*shape, *values.shape[1:])
+
+    def counts(self) -> dict[str, int]:
+        """Return how many rows have each status, by its name."""
+        totals = dict.fromkeys(Status, 0)
+        for chunk in self.design.chunks():
+            found = np.asarray(self._group["status"][chunk])
+            for status in Status:
+                totals[status] += int(np.count_nonzero(found == status))
+        return {status.name.lower(): number for status, number in totals.items()}
+
+    def dataset(self) -> xarray.Dataset:
+        """Return the results as a labelled dataset, read from disk as they are used."""
+        import xarray
+
+        results: xarray.Dataset = xarray.open_zarr(self.path, consolidated=False, chunks=None)
+        return results
+
+    def _opened(self) -> Any:
+        import zarr
+
+        try:
+            group = zarr.open_group(self.path, mode="r+")
+            found = json.loads(str(group.attrs["study"]))
+        except (KeyError, ValueError, OSError) as fault:
+            raise UsageError(f"{self.path}: is there already and is no study") from fault
+        if found != self._identity:
+            differ = ", ".join(
+                key for key in self._identity if found.get(key) != self._identity[key]
+            )
+            raise UsageError(
+                f"{self.path}: belongs to another study, which differs in: {differ}; "
+                "give another name, or remove it"
+            )
+        return group
+
+    def _created(self) -> Any:
+        """Make the arrays under another name, then move them to their place."""
+        import zarr
+
+        folder = Path(tempfile.mkdtemp(prefix=f".{self.path.name}.", dir=self.path.parent))
+        try:
+            group: Any = zarr.open_group(folder, mode="w", zarr_format=3)
+            for name, dimensions, kind, attributes in self._arrays():
+                self._make(group, name, dimensions, kind, attributes)
+            group["cycle"][:] = np.array(self.question.cycles)
+            if self.design.kind == "grid":
+                for vary in self.design.vary:
+                    assert isinstance(vary, Levels)
+                    group[vary.key][:] = np.array(vary.values)
+            group.attrs["study"] = json.dumps(self._identity)
+            group.attrs["scene"] = self.question.scene.to_toml()
+            folder.chmod(0o755)
+            folder.rename(self.path)
+        except BaseException:
+            shutil.rmtree(folder, ignore_errors=True)
+            raise
+        return zarr.open_group(self.path, mode="r+")
+
+    def _arrays(self) -> Iterator[tuple[str, tuple[str, ...], str, dict[str, Any]]]:
+        """Yield name, dimensions, type and attributes of every array."""
+        rows = self.design.dimensions
+        yield "cycle", ("cycle",), "int64", {"units": "1", "long_name": "number of cycles"}
+        for vary in self.design.vary:
+            own = (vary.key,) if self.design.kind == "grid" else rows
+            yield vary.key, own, "float64", {"units": unit_of(vary.key) or "1"}
+        for variable in self._variables:
+            attributes: dict[str, Any] = {"units": variable.unit, "long_name": variable.meaning}
+            if variable.name == "status":
+                named = [status for status in Status if status is not Status.PENDING]
+                attributes["flag_values"] = [int(status) for status in named]
+                attributes["flag_meanings"] = " ".join(status.name.lower() for status in named)
+            if self.design.kind != "grid":
+                attributes["coordinates"] = " ".join(vary.key for vary in self.design.vary)
+            dimensions = (*rows, "cycle") if variable.per_cycle else rows
+            yield variable.name, dimensions, variable.kind, attributes
+
+    def _make(
+        self,
+        group: Any,
+        name: str,
+        dimensions: tuple[str, ...],
+        kind: str,
+        attributes: dict[str, Any],
+    ) -> None:
+        lengths = dict(zip(self.design.dimensions, self.design.shape, strict=True))
+        chunks = dict(zip(self.design.dimensions, self.design.chunk_shape, strict=True))
+        if dimensions == (name,):  # a coordinate: known beforehand, and written whole
+            chunks = {}
+        lengths["cycle"] = len(self.question.cycles)
+        fill = {"uint8": int(Status.PENDING), "string": "", "int64": 0}.get(kind, math.nan)
+        group.create_array(
+            name,
+            shape=tuple(lengths[dimension] for dimension in dimensions),
+            chunks=tuple(chunks.get(d, lengths[d]) for d in dimensions),
+            dtype=kind,
+            fill_value=fill,
+            dimension_names=dimensions,
+            attributes={key: value for key, value in attributes.items() if value},
+        )
+
+    def _require_space(self) -> None:
+        parent = self.path.parent
+        if not parent.is_dir():
+            raise UsageError(f"{self.path}: there is no folder {parent}; make it first")
+        needed, free = disk_bytes(self.design, self.question), shutil.disk_usage(parent).free
+        if needed > free:
+            raise UsageError(
+                f"{self.path}: the study needs up to {needed / 1e9:.3g} GB, "
+                f"{free / 1e9:.3g} GB are free"
+            )
+
+
+def disk_bytes(design: Design, question: Question) -> int:
+    """Return the bytes that all results take before they are compressed."""
+    numbers = 2 * len(question.cycles) + (question.until_wear is not None)
+    keys = len(design.vary) if design.kind != "grid" else 0
+    return design.rows * (8 * (numbers + keys) + 1)
+
+
+def identity(design: Design, question: Question) -> dict[str, Any]:
+    """Return what makes two studies the same: their results agree in every bit."""
+    made = {
+        "scene": question.scene.to_tables(),
+        "vary": [
+            {"key": v.key, "values": list(v.values)}
+            if isinstance(v, Levels)
+            else {"key": v.key, "law": v.law, "parameters": list(v.parameters)}
+            for v in design.vary
+        ],
+        "design": design.kind,
+        "samples": design.samples,
+        "seed": design.seed,
+        "cycles": list(question.cycles),
+        "until_wear_mm": question.until_wear,
+        "rtol": question.rtol,
+        "rows_of_a_chunk": list(design.chunk_shape),
+        "version": version("derive-wear"),
+    }
+    return dict(json.loads(json.dumps(made)))

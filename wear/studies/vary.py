@@ -1,0 +1,150 @@
+"""Numbers of a scene that vary in a study: levels of a grid, or a distribution to sample.
+
+Key results
+    Levels          the values of one key, for a grid
+    Distribution    the distribution of one key, for samples
+    parse           either of them from `KEY=...` as a command line has it
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.faults import UsageError
+
+FloatArray = NDArray[np.float64]
+MOST_LEVELS = 10**7  # of one key
+_CALL = re.compile(r"(\w+)\(([^()]*)\)")
+
+
+@dataclass(frozen=True)
+class Levels:
+    """The values that a key takes in a grid, in the order given."""
+
+    key: str
+    values: tuple[float, ...]
+
+    @property
+    def example(self) -> float:
+        """Return a value that the key takes."""
+        return self.values[0]
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """The distribution of a key.
+
+    `law` is one of `uniform(low, high)`, `loguniform(low, high)`, `normal(mean, standard
+    deviation)` and `lognormal(median, factor)`; two thirds of a lognormal quantity lie between
+    median/factor and median*factor.
+    """
+
+    key: str
+    law: str
+    parameters: tuple[float, float]
+
+    @property
+    def example(self) -> float:
+        """Return the median."""
+        return float(self.quantile(np.array(0.5)))
+
+    @property
+    def frozen(self) -> Any:
+        """Return the distribution of `scipy.stats`."""
+        from scipy import stats
+
+        first, second = self.parameters
+        match self.law:
+            case "uniform":
+                return stats.uniform(first, second - first)
+            case "loguniform":
+                return stats.loguniform(first, second)
+            case "normal":
+                return stats.norm(first, second)
+        return stats.lognorm(math.log(second), scale=first)
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Return the values that the key does not exceed with these probabilities."""
+        return np.asarray(self.frozen.ppf(probability), dtype=float)
+
+
+Vary = Levels | Distribution
+
+# What the two parameters of a distribution must satisfy, and how to say so.
+_LAWS = {
+    "uniform": (lambda low, high: low < high, "uniform(low,high) needs low < high"),
+    "loguniform": (lambda low, high: 0 < low < high, "loguniform(low,high) needs 0 < low < high"),
+    "normal": (lambda _, deviation: deviation > 0, "normal(mean,sd) needs sd > 0"),
+    "lognormal": (
+        lambda median, factor: median > 0 and factor > 1,
+        "lognormal(median,factor) needs median > 0 and factor > 1",
+    ),
+}
+
+
+def parse(text: str) -> Vary:
+    """Return what varies from `KEY=low:high:count[:log]`, `KEY=a,b,c` or `KEY=law(x,y)`.
+
+    Raises
+    ------
+    UsageError
+        with what is wrong and the forms that there are.
+
+    >>> parse("bearing.roughness_growth=0.1:0.3:3")
+    Levels(key='bearing.roughness_growth', values=(0.1, 0.2, 0.3))
+    >>> parse("bearing.wear_coefficient=loguniform(1e-8,1e-5)").parameters
+    (1e-08, 1e-05)
+    """
+    key, equals, value = (part.strip() for part in text.partition("="))
+    if not equals or not key:
+        raise UsageError(f"{text!r}: write KEY=VALUES, as in bearing.hardness_MPa=100:300:21")
+    if call := _CALL.fullmatch(value):
+        return _distribution(key, call[1], _numbers(text, call[2].split(",")))
+    if ":" in value:
+        return _range(key, text, value.split(":"))
+    return Levels(key, _distinct(text, _numbers(text, value.split(","))))
+
+
+def _distribution(key: str, law: str, parameters: tuple[float, ...]) -> Distribution:
+    if law not in _LAWS:
+        raise UsageError(f"{key}: {law} is unknown; choose one of {', '.join(_LAWS)}")
+    meets, rule = _LAWS[law]
+    if len(parameters) != 2 or not meets(*parameters):
+        raise UsageError(f"{key}: {rule}")
+    return Distribution(key, law, (parameters[0], parameters[1]))
+
+
+def _range(key: str, text: str, parts: list[str]) -> Levels:
+    spacing = parts[3].strip() if len(parts) == 4 else "linear"
+    if not 3 <= len(parts) <= 4 or spacing not in ("linear", "log"):
+        raise UsageError(f"{text}: write low:high:count or low:high:count:log")
+    low, high, count = _numbers(text, parts[:3])
+    if not (count.is_integer() and 2 <= count <= MOST_LEVELS):
+        raise UsageError(f"{text}: the count must be a whole number from 2 to {MOST_LEVELS:.0e}")
+    if not low < high or (spacing == "log" and not low > 0.0):
+        raise UsageError(f"{text}: {'0 < ' if spacing == 'log' else ''}low < high is needed")
+    made = np.geomspace if spacing == "log" else np.linspace
+    # As short as the ends are given, so that 0.2 is 0.2 and not 0.20000000000000004.
+    return Levels(key, tuple(float(f"{value:.15g}") for value in made(low, high, int(count))))
+
+
+def _numbers(text: str, words: list[str]) -> tuple[float, ...]:
+    try:
+        numbers = tuple(float(word) for word in words)
+    except ValueError:
+        numbers = (math.nan,)
+    if not all(map(math.isfinite, numbers)):
+        raise UsageError(f"{text}: every value must be a finite number")
+    return numbers
+
+
+def _distinct(text: str, values: tuple[float, ...]) -> tuple[float, ...]:
+    if len(set(values)) < len(values):
+        raise UsageError(f"{text}: a value is given twice")
+    return values
