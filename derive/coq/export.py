@@ -46,6 +46,7 @@ From Coquelicot Require Import Coquelicot.
 From Wear Require Import {" ".join(THEOREMS)}.
 """
 
+
 class MissingError(OSError):
     """Coq or a library of it is not installed; the message says how to install it."""
 
@@ -59,7 +60,9 @@ class Export:
 
     @cached_property
     def _stated(self) -> tuple[list[Step], dict[str, str]]:
-        unproved = () if self.known is None else [h for h, r in self.known.items() if not r["closed"]]
+        unproved = (
+            () if self.known is None else [h for h, r in self.known.items() if not r["closed"]]
+        )
         return steps((step for e in self.equations for step in e.steps), unproved)
 
     @property
@@ -76,7 +79,11 @@ class Export:
     def counts(self) -> dict[str, int]:
         """Return how many steps there are, how many are closed, and cannot be stated."""
         proved = sum(text.count("\nLemma ") for text in self.lemmas.values())
-        return {"steps": len(self.steps) + len(self.refused), "closed": proved, "unstated": len(self.refused)}
+        return {
+            "steps": len(self.steps) + len(self.refused),
+            "closed": proved,
+            "unstated": len(self.refused),
+        }
 
     @property
     def unrecorded(self) -> str:
@@ -132,8 +139,12 @@ class Export:
         refuting = self._refuting
         if refuting:
             needs = list(dict.fromkeys(("World", *(home[s.name] for s in refuting.values()))))
-            head = f"From Interval Require Import Tactic.\n{_HEAD}From Wear Require Import {' '.join(needs)}.\n"
-            files["Refutations"] = f"{head}Open Scope R_scope.\n\n{refutations.text(refuting)}", needs
+            interval = "From Interval Require Import Tactic.\n"
+            head = f"{interval}{_HEAD}From Wear Require Import {' '.join(needs)}.\n"
+            files["Refutations"] = (
+                f"{head}Open Scope R_scope.\n\n{refutations.text(refuting)}",
+                needs,
+            )
         files["Assumptions"] = self._assumptions(list(files)), list(files)
         return files
 
@@ -161,12 +172,18 @@ class Export:
         folder.mkdir(parents=True, exist_ok=True)
         for name in THEOREMS:
             shutil.copy(LIBRARY / f"{name}.v", folder / f"{name}.v")
-        rules = [f"{b}.vo: {' '.join(f'{a}.vo' for a in THEOREMS[:i])}" for i, b in enumerate(THEOREMS)]
+        rules = [
+            f"{b}.vo: {' '.join(f'{a}.vo' for a in THEOREMS[:i])}" for i, b in enumerate(THEOREMS)
+        ]
         for name, (text, needs) in self.files.items():
             (folder / f"{name}.v").write_text(text, encoding="utf-8")
             rules.append(f"{name}.vo: {' '.join(f'{n}.vo' for n in (*THEOREMS, *needs))}")
         targets = " ".join(f"{name}.vo" for name in self.files)
-        lines = [f"all: {targets}", "%.vo: %.v\n\t@coqc -q -w none -Q . Wear $< > $*.log 2>&1 || (cat $*.log; exit 1)", *rules]
+        lines = [
+            f"all: {targets}",
+            "%.vo: %.v\n\t@coqc -q -w none -Q . Wear $< > $*.log 2>&1 || (cat $*.log; exit 1)",
+            *rules,
+        ]
         (folder / "Makefile").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 

@@ -33,9 +33,8 @@ def proof(step: Step) -> list[str]:
         return list(_diverges(step, left.args[0]))
     if isinstance(left, sp.Limit) and not right.has(sp.Limit):
         inside = left.args[0]
-        for way in (_accumulates, _squeezed):
-            if lines := list(way(step, inside, right)):
-                return lines
+        if lines := [*_accumulates(step, inside), *(_squeezed(step, inside) if right == 0 else ())]:
+            return lines
         return [*_known(step), *_passes(step, inside)]
     return _exists(step, left, right)
 
@@ -43,7 +42,7 @@ def proof(step: Step) -> list[str]:
 def _named(step: Step) -> Iterator[str]:
     """A name for a limit: limits are unique."""
     name = step.relation.lhs
-    for limit in step.limits:
+    for limit in (s for s in step.limits if isinstance(s.relation.lhs, sp.Limit)):
         for premise in step.statement.premises:
             defined = isinstance(premise.relation, sp.Equality) and premise.relation.lhs == name
             if defined and premise.relation.has(sp.Limit):
@@ -70,7 +69,7 @@ def _in(expr: sp.Expr) -> str:
     return f"({term(expr)})"
 
 
-def _accumulates(step: Step, inside: sp.Expr, value: sp.Expr) -> Iterator[str]:
+def _accumulates(step: Step, inside: sp.Expr) -> Iterator[str]:
     for limit in step.limits:
         rate = limit.relation.lhs.args[0]
         if isinstance(rate, sp.Derivative):
@@ -82,10 +81,10 @@ def _accumulates(step: Step, inside: sp.Expr, value: sp.Expr) -> Iterator[str]:
                 yield f"apply accumulates; [assumption | assumption | exact ({step.cited(limit)})]."
 
 
-def _squeezed(step: Step, inside: sp.Expr, value: sp.Expr) -> Iterator[str]:
+def _squeezed(step: Step, inside: sp.Expr) -> Iterator[str]:
     between = [s for s in step.frontier if isinstance(s.relation, sp.And)]
     diverging = [s for s in step.limits if s.relation.rhs == sp.oo]
-    if between and diverging and value == 0:
+    if between and diverging:
         size = diverging[0].relation.lhs.args[0]
         above = next(part for part in between[0].relation.args if part.lts == inside)
         bound = above.gts * size
@@ -104,7 +103,9 @@ def _known(step: Step) -> list[str]:
         if not isinstance(limit.relation.lhs, sp.Limit):
             continue
         if value == sp.oo:
-            lines.append(f"pose proof (tends_inv_diverges _ ({step.cited(limit)})) as L{i}; cbv beta in L{i}.")
+            lines.append(
+                f"pose proof (tends_inv_diverges _ ({step.cited(limit)})) as L{i}; cbv beta in L{i}."
+            )
             later, value = f"/ ({later})", sp.S.Zero
         else:
             lines.append(f"pose proof ({step.cited(limit)}) as L{i}.")
@@ -124,7 +125,11 @@ def _passes(step: Step, inside: sp.Expr) -> list[str]:
     from .proofs import divisors, stated
 
     found, _ = _composed(step, inside)
-    equations = [s for s in step.frontier if isinstance(s.relation, sp.Equality) and not s.relation.has(sp.Limit)]
+    equations = [
+        s
+        for s in step.frontier
+        if isinstance(s.relation, sp.Equality) and not s.relation.has(sp.Limit)
+    ]
     text, named = stated(step, [s for s in equations if s.timed])
     lines = [f"apply (tends_ext (fun t => {found})).", "{ intros t Ht."]
     lines += divisors(step)
@@ -149,18 +154,25 @@ def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
             stand_in = sp.Symbol(f"known{i}{'now' if now else 'later'}", positive=True)
             infinite = value == sp.oo
             text = f"(/ ({term(quantity)}))" if infinite else f"({term(quantity)})"
-            replaced = _in_terms_of(inside, quantity, 1 / stand_in if infinite else stand_in)
+            replaced = in_terms_of(inside, quantity, 1 / stand_in if infinite else stand_in)
             if replaced != inside:
-                inside, texts[stand_in.name], values[stand_in] = replaced, text, sp.S.Zero if infinite else value
+                inside, texts[stand_in.name], values[stand_in] = (
+                    replaced,
+                    text,
+                    sp.S.Zero if infinite else value,
+                )
     found = term(inside)
     for name, text in texts.items():
         found = found.replace(name, text)
     return found, inside.xreplace(values)
 
 
-def _in_terms_of(expr: sp.Expr, quantity: sp.Expr, stand_in: sp.Expr) -> sp.Expr:
+def in_terms_of(expr: sp.Expr, quantity: sp.Expr, stand_in: sp.Expr) -> sp.Expr:
+    """Write an expression with a name for a quantity, by eliminating the load or a field."""
     expr = expr.subs(quantity, stand_in)
     fields = [f for f in quantity.atoms(AppliedUndef) if expr.has(f)]
+    if any(f.func == _LOAD and not expr.has(f) for f in quantity.atoms(AppliedUndef)):
+        return expr
     for each in sorted(fields, key=lambda f: (f.func != _LOAD, str(f))):
         flat = sp.Dummy()
         solutions = sp.solve(quantity.xreplace({each: flat}) - stand_in, flat)
@@ -183,7 +195,13 @@ def _exists(step: Step, left: sp.Expr, right: sp.Expr) -> list[str]:
     _, value = _composed(step, inner[0].args[0])
     lines = [*_known(step), f"exists ({term(value)})."]
     if len(inner) == 2:
-        lines += ["split.", "{", *_passes(step, inner[0].args[0]), "}", *_passes(step, inner[1].args[0])]
+        lines += [
+            "split.",
+            "{",
+            *_passes(step, inner[0].args[0]),
+            "}",
+            *_passes(step, inner[1].args[0]),
+        ]
     else:
         lines += ["split.", "{", *_passes(step, inner[0].args[0]), "}", "ring."]
     return lines

@@ -18,7 +18,27 @@ from sympy.core.function import AppliedUndef
 
 from ..symbols import QUANTITIES, t
 
-_TAKEN = frozenset("R C I S O N E t l fun forall exists let in if then else PI ln exp".split())
+_TAKEN = frozenset(
+    (
+        "R",
+        "C",
+        "I",
+        "S",
+        "O",
+        "N",
+        "E",
+        "t",
+        "l",
+        "fun",
+        "forall",
+        "exists",
+        "let",
+        "in",
+        "if",
+        "then",
+    )
+    + ("else", "PI", "ln", "exp")
+)
 _FUNCTIONS = {
     sp.tanh: "tanh", sp.exp: "exp", sp.log: "ln", sp.Abs: "Rabs", sp.cos: "cos", sp.sin: "sin",
     sp.Min: "Rmin", sp.Max: "Rmax",
@@ -69,7 +89,7 @@ def term(expr: sp.Expr) -> str:
 def _inner(expr: sp.Expr) -> str:
     """Return a term that may stand as an argument."""
     text = term(expr)
-    return text if text.replace("_", "").isalnum() or expr.is_Number and expr < 0 else f"({text})"
+    return text if text.replace("_", "").isalnum() or (expr.is_Number and expr < 0) else f"({text})"
 
 
 def _number(value: sp.Rational) -> str:
@@ -142,7 +162,9 @@ def _call(expr: sp.Function) -> str:
         raise UntranslatableError(f"Coq's library has no {expr.func.__name__}")
     text = _inner(expr.args[-1])
     for argument in reversed(expr.args[:-1]):
-        text = f"{_inner(argument)} {text if text.startswith('(') or ' ' not in text else f'({text})'}"
+        text = (
+            f"{_inner(argument)} {text if text.startswith('(') or ' ' not in text else f'({text})'}"
+        )
     return f"{head} {text}"
 
 
@@ -188,8 +210,8 @@ _WRITERS: dict[type, Callable[[sp.Expr], str]] = {
     sp.Piecewise: _piecewise,
     sp.Integral: _integral,
     sp.Function: _call,
-    type(sp.pi): lambda e: "PI",
-    type(sp.E): lambda e: "exp 1",
+    type(sp.pi): lambda _: "PI",
+    type(sp.E): lambda _: "exp 1",
 }  # Piecewise, Subs and Integral come before the heads that contain them
 
 

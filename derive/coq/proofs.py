@@ -30,7 +30,9 @@ Named = tuple[str, sp.Basic]
 
 def script(step: Step, way: int | None = None) -> str:
     """Return the proof of a step; by one of its ways, or by the first that succeeds."""
-    cited = theorems.proof(step) or (limits.proof(step) if step.limits or step.relation.has(sp.Limit) else [])
+    cited = theorems.proof(step) or (
+        limits.proof(step) if step.limits or step.relation.has(sp.Limit) else []
+    )
     if cited:
         return "\n".join((step.introduction, *cited))
     lines = [step.introduction, *now(step)]
@@ -59,7 +61,11 @@ def now(step: Step) -> list[str]:
         return []
     lines = ["intros t Ht."]
     for premise in step.statement.premises:
-        if premise.timed and not isinstance(premise.relation, sp.Equality) and premise.relation is not sp.true:
+        if (
+            premise.timed
+            and not isinstance(premise.relation, sp.Equality)
+            and premise.relation is not sp.true
+        ):
             lines.append(f"pose proof ({premise.label} t Ht) as {premise.label}_now.")
     return lines + divisors(step)
 
@@ -72,7 +78,12 @@ def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
             at = f" ({time}) {proof}" if other.timed else ""
             lines.append(f"pose proof ({step.cited(other)}{at}).")
     claims = [step.relation, *(p.relation for p in step.ancestors)]
-    below = {e.base for c in claims for e in c.atoms(sp.Pow) if not e.exp.is_positive or not e.exp.is_Integer}
+    below = {
+        e.base
+        for c in claims
+        for e in c.atoms(sp.Pow)
+        if not e.exp.is_positive or not e.exp.is_Integer
+    }
     below |= {sp.sqrt(e) for e in below}
     for other in step.ancestors:
         relation = other.relation
@@ -81,7 +92,9 @@ def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
         for premise in step.statement.premises:
             if isinstance(premise.relation, sp.Gt) and premise.relation.args == (relation.lhs, 0):
                 at = term(relation.rhs if time == "t" else limits.one_period_later(relation.rhs))
-                said = f"rewrite <- ({step.cited(other)} _ {proof}); exact ({premise.label} _ {proof})"
+                said = (
+                    f"rewrite <- ({step.cited(other)} _ {proof}); exact ({premise.label} _ {proof})"
+                )
                 lines.append(f"assert (0 < {at}) by ({said}).")
     return list(dict.fromkeys(lines))
 
@@ -202,7 +215,10 @@ def _inequality(step: Step) -> Iterator[str]:
         known = [label for label, e in named if not isinstance(e, sp.Equality)]
         lines, goal = _inserted(step.relation, equations)
         insert = "".join(f"{line}; " for line in lines)
-        into = [f"{''.join(f'rewrite ?{e} in {label}; ' for e, _ in equations)}same_inequality {label}" for label in known]
+        into = [
+            f"{''.join(f'rewrite ?{e} in {label}; ' for e, _ in equations)}same_inequality {label}"
+            for label in known
+        ]
         if isinstance(goal, sp.And):
             parts = " | ".join(f"first [{' | '.join(_parts(part, known))}]" for part in goal.args)
             yield f"{text}{insert}split; [{parts}]"
@@ -214,6 +230,14 @@ def _inequality(step: Step) -> Iterator[str]:
             order = list(_ordered(goal))
             for way in (*order, *into, *(w for w in _parts(goal, []) if w not in order)):
                 yield f"{text}{insert}{way}"
+    yield from _last_ways(step)
+
+
+def _last_ways(step: Step) -> Iterator[str]:
+    for text, named in _sources(step):
+        for form in _loaded(step.relation):
+            yield f"{text}manifest ({term(form)})"
+        return
 
 
 def _parts(goal: sp.Basic, known: list[str]) -> Iterator[str]:
@@ -228,18 +252,25 @@ def _manifest(goal: sp.Basic) -> Iterator[sp.Expr]:
     """Return forms of the difference of the sides that may show its sign."""
     if isinstance(goal, Relational):
         difference = goal.gts - goal.lts
-        hidden = difference.atoms(sp.Function, sp.Derivative) - {symbol("U_a")}
-        functions = {f: sp.Dummy(positive=True) for f in hidden}
+        hidden = difference.atoms(sp.Function, sp.Derivative)
+        functions = {f: sp.Dummy(real=True) for f in hidden}
         back = {dummy: f for f, dummy in functions.items()}
         flat = difference.xreplace(functions)
         yield sp.factor(flat).xreplace(back)
         numerator, denominator = sp.fraction(sp.together(flat))
         yield (sp.expand(numerator) / sp.factor(denominator)).xreplace(back)
-        load, bound, rest = symbol("U_a"), symbol("U"), sp.Symbol("rest", positive=True)
-        for sign in (1, -1) if numerator.has(load) and numerator.has(bound) else ():
-            inside = sp.expand(sp.expand(numerator).subs(load, sign * (rest - bound)))
-            if all(c > 0 for c in sp.Poly(inside, *inside.free_symbols).coeffs()):
-                yield (inside / sp.factor(denominator)).xreplace({rest: bound + sign * load, **back})
+
+
+def _loaded(goal: sp.Basic) -> Iterator[sp.Expr]:
+    """Return forms of the difference that are positive for every load between -U and U."""
+    if not isinstance(goal, Relational):
+        return
+    numerator, denominator = sp.fraction(sp.together(goal.gts - goal.lts))
+    load, bound, rest = symbol("U_a"), symbol("U"), sp.Symbol("rest", positive=True)
+    for sign in (1, -1) if numerator.has(load) and numerator.has(bound) else ():
+        inside = sp.expand(sp.expand(numerator).subs(load, sign * (rest - bound)))
+        if all(term.as_coeff_Mul()[0] > 0 for term in sp.Add.make_args(inside)):
+            yield (inside / sp.factor(denominator)).xreplace({rest: bound + sign * load})
 
 
 def _ordered(goal: sp.Basic) -> Iterator[str]:

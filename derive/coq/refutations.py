@@ -40,18 +40,31 @@ _SECTION_4 = (sp.Eq(f_c, sp.Rational(1, 4)), sp.Eq(h_0, sp.Rational(27, 25000)))
 
 def text(steps: Mapping[str, Step]) -> str:
     """Return the lemmas; ``steps`` are those of the equations in NEEDS."""
-    made = (_bracket(), _asymptote(steps["19"], steps["18"]), _validity(), _wear(), _contact(steps["closure-ratio"]))
+    made = (
+        _bracket(),
+        _asymptote(steps["19"], steps["18"]),
+        _validity(),
+        _wear(),
+        _contact(steps["closure-ratio"]),
+    )
     return "\n".join(made)
 
 
 def _lemma(claim: str, premises: list[str], conclusion: str, proof: str) -> str:
     said = " ->\n  ".join((*(f"({p})" for p in premises), conclusion))
-    return f"(* {claim} *)\nLemma {NAMES[claim]} {{w : world}} :\n  {said}.\nProof.\n{proof}\nQed.\n"
+    return (
+        f"(* {claim} *)\nLemma {NAMES[claim]} {{w : world}} :\n  {said}.\nProof.\n{proof}\nQed.\n"
+    )
 
 
 def _bracket() -> str:
     """(16), second line: the bracket of section 4, with the load at rest, is a constant."""
-    data = (sp.Eq(U_a, 0, evaluate=False), *_SECTION_4, sp.Eq(sigma_c0, sp.Rational(9, 25000)), u_cum > 0)
+    data = (
+        sp.Eq(U_a, 0, evaluate=False),
+        *_SECTION_4,
+        sp.Eq(sigma_c0, sp.Rational(9, 25000)),
+        u_cum > 0,
+    )
     bracket = term(printed.BRACKET)
     proof = f"""intros rest f h s c [l [L E]].
 assert (K : tends (fun t => {bracket}) (- (9 / 50000))).
@@ -92,11 +105,13 @@ def _wear() -> str:
     (formula,) = printed.EQ_21
     total = sp.Eq(M, sp.simplify(2 * formula.rhs / (1 + sp.tanh(4 - 2 / f_c))), evaluate=False)
     data = (formula, total, sp.Eq(M, 44 * sp.pi / 10**6, evaluate=False), _SECTION_4[0])
-    proof = f"""intros wear total size f.
+    proof = """intros wear total size f.
 assert (E : u_cum = M * ((1 + tanh (4 - 2 / f_c)) / 2)) by (rewrite total, wear; unfold Rdiv; rewrite ?Rinv_mult; field).
 rewrite share_exp, size, f in E; replace (- (2 * (4 - 2 / (1 / 4)))) with 8 in E by field.
 rewrite E; split; interval with (i_prec 60)."""
-    return _lemma("C36", [proposition(d) for d in data], "4.6355474e-8 <= u_cum <= 4.6355475e-8", proof)
+    return _lemma(
+        "C36", [proposition(d) for d in data], "4.6355474e-8 <= u_cum <= 4.6355475e-8", proof
+    )
 
 
 def _contact(ratio: Step) -> str:

@@ -87,13 +87,17 @@ def claim(judgement: Judgement) -> sp.Basic:
         if isinstance(slope.expr, sp.Symbol):
             given = judgement.parents[0].relation.rhs
             function = sp.Derivative(given, *slope.variables, evaluate=False)
-            relation = relation.func(*(a.xreplace({slope: function}) for a in relation.args), evaluate=False)
+            relation = relation.func(
+                *(a.xreplace({slope: function}) for a in relation.args), evaluate=False
+            )
     return relation
 
 
 def _premise(hypothesis: Hypothesis) -> Premise:
     if hypothesis.relation is not sp.true:
-        return Premise(_label(hypothesis.text), printer.always(hypothesis.relation), hypothesis.relation)
+        return Premise(
+            _label(hypothesis.text), printer.always(hypothesis.relation), hypothesis.relation
+        )
     for word, said in _WORDS.items():
         if word in hypothesis.text:
             return Premise(_label(hypothesis.text), said)

@@ -105,7 +105,10 @@ class Step:
     @property
     def missing(self) -> list[tuple[Step, list[Premise]]]:
         """Return parents that rest on more than this step does, with what it lacks."""
-        lacking = ((p, [q for q in p.statement.premises if q.said not in self.labels]) for p in self.parents)
+        lacking = (
+            (p, [q for q in p.statement.premises if q.said not in self.labels])
+            for p in self.parents
+        )
         return [(parent, premises) for parent, premises in lacking if premises]
 
     @cached_property
@@ -120,7 +123,11 @@ class Step:
     @cached_property
     def limits(self) -> list[Step]:
         """Return the nearest usable steps whose claims are limits."""
-        return [s for s in self.frontier if isinstance(s.relation, sp.Equality) and s.relation.has(sp.Limit)]
+        return [
+            s
+            for s in self.frontier
+            if isinstance(s.relation, sp.Equality) and s.relation.has(sp.Limit)
+        ]
 
 
 def steps(
@@ -140,6 +147,8 @@ def steps(
             refused[str(judgement.relation)] = str(reason)
             continue
         parents = tuple(made[id(p)] for p in judgement.parents if id(p) in made)
-        new = Step(f"step_{len(known)}", judgement, said, parents, claim(judgement), said.hash in unproved)
+        new = Step(
+            f"step_{len(known)}", judgement, said, parents, claim(judgement), said.hash in unproved
+        )
         made[id(judgement)] = known.setdefault(said.hash, new)
     return list(known.values()), refused

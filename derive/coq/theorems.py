@@ -12,6 +12,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..symbols import symbol, t
+from .limits import in_terms_of
 from .printer import binder, field, term
 from .steps import Step
 
@@ -34,11 +35,18 @@ def _discharges(step: Step) -> Iterator[str]:
     (first, premises), *_ = step.missing
     usable = [s for s in step.frontier if s in step.parents and not s.relation.has(sp.Limit)]
     for premise in premises:
-        facts = "".join(f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''}) as P{i}; " for i, s in enumerate(usable))
+        facts = "".join(
+            f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''}) as P{i}; "
+            for i, s in enumerate(usable)
+        )
         fixed = "intros t Ht; " if premise.timed else ""
         yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}{facts}arithmetic)."
     labels = step.labels | {p.said: f"{p.label}_met" for p in premises}
-    yield "exact (" + " ".join((first.name, *(labels[p.said] for p in first.statement.premises))) + ")."
+    yield (
+        "exact ("
+        + " ".join((first.name, *(labels[p.said] for p in first.statement.premises)))
+        + ")."
+    )
 
 
 def _grows(step: Step) -> Iterator[str]:
@@ -66,7 +74,11 @@ def _integrates(step: Step) -> Iterator[str]:
         return
     for other in step.frontier:
         rate = other.relation
-        if isinstance(rate, sp.Equality) and _atom(relation.lhs) and rate.lhs == sp.Derivative(relation.lhs, t):
+        if (
+            isinstance(rate, sp.Equality)
+            and _atom(relation.lhs)
+            and rate.lhs == sp.Derivative(relation.lhs, t)
+        ):
             driving = list(rate.rhs.atoms(sp.Derivative))
             factor = sp.cancel(rate.rhs / driving[0]) if len(driving) == 1 else t
             if factor.has(t):
@@ -91,7 +103,11 @@ def _affine(expr: sp.Expr) -> tuple[str, str, sp.Expr] | None:
 
 def _bounded(step: Step) -> str:
     """Return the label of the premise that bounds the load."""
-    found = (p for p in step.statement.premises if isinstance(p.relation, sp.Le) and p.relation.lhs == sp.Abs(_LOAD))
+    found = (
+        p
+        for p in step.statement.premises
+        if isinstance(p.relation, sp.Le) and p.relation.lhs == sp.Abs(_LOAD)
+    )
     premise = next(found, None)
     return premise.label if premise else ""
 
@@ -101,7 +117,16 @@ def _bounded_load(step: Step) -> Iterator[str]:
     if step.rule != "AtInfinity" or step.relation.rhs != 0 or not _bounded(step):
         return
     inside = sp.together(step.relation.lhs.args[0])
-    size = next((d for d in step.relation.lhs.args[0].atoms(sp.Add) if sp.denom(inside).has(_WEAR) and sp.diff(d, _WEAR).is_Symbol and (1 / d) in step.relation.lhs.args[0].atoms(sp.Pow)), None)
+    size = next(
+        (
+            d
+            for d in step.relation.lhs.args[0].atoms(sp.Add)
+            if sp.denom(inside).has(_WEAR)
+            and sp.diff(d, _WEAR).is_Symbol
+            and (1 / d) in step.relation.lhs.args[0].atoms(sp.Pow)
+        ),
+        None,
+    )
     parts = _affine(sp.cancel(inside * size)) if size is not None else None
     if parts is None:
         return
@@ -121,7 +146,7 @@ def _first_order(step: Step) -> Iterator[str]:
     law, deviation, ratio, limit = step.parents[:4]
     quantity, end = ratio.relation.lhs.args[0], ratio.relation.rhs
     y = sp.Symbol("ratio", real=True)
-    function = law.relation.rhs.subs(quantity, y)
+    function = in_terms_of(law.relation.rhs, quantity, y)
     parts = _affine(sp.expand(_WEAR * (quantity - end) - deviation.relation.lhs.args[0]))
     if parts is None or function.has(t):
         return
@@ -143,13 +168,29 @@ def _drift(step: Step) -> Iterator[str]:
     (rate,) = inside.atoms(sp.Derivative)
     speed_now = sp.Symbol("speed_now", real=True)
     flat = inside.xreplace({rate: speed_now})
-    parts = _affine(-flat.subs(t, 0)) if not flat.has(_LOAD) else _affine(-flat.xreplace({_LOAD: sp.Symbol("load", real=True)}).subs(t, 0).xreplace({sp.Symbol("load", real=True): _LOAD}))
+    parts = (
+        _affine(-flat.subs(t, 0))
+        if not flat.has(_LOAD)
+        else _affine(
+            -flat.xreplace({_LOAD: sp.Symbol("load", real=True)})
+            .subs(t, 0)
+            .xreplace({sp.Symbol("load", real=True): _LOAD})
+        )
+    )
     if parts is None:
         return
     load = flat.xreplace({_LOAD: sp.Symbol("load", real=True)})
     speed = sp.expand(speed_now - sp.diff(load, t))
-    mean = next(p for p in step.statement.premises if isinstance(p.relation, sp.Equality) and p.relation.lhs == symbol("U_mean"))
-    periodic = next(p for p in step.statement.premises if isinstance(p.relation, sp.Equality) and p.relation.rhs == _LOAD)
+    mean = next(
+        p
+        for p in step.statement.premises
+        if isinstance(p.relation, sp.Equality) and p.relation.lhs == symbol("U_mean")
+    )
+    periodic = next(
+        p
+        for p in step.statement.premises
+        if isinstance(p.relation, sp.Equality) and p.relation.rhs == _LOAD
+    )
     smooth = next(p for p in step.statement.premises if p.said.endswith("continuous U_a t"))
     yield f"assert (M : RInt U_a 0 T = U_mean * T) by (rewrite {mean.label}; exact (mean_times _ T domain_T))."
     yield f"assert (E : tends (fun t => t * (Derive u_c t - ({term(speed)})) - ({parts[0]} + ({parts[1]}) * U_a t)) 0) by (generalize ({step.cited(approach)}); apply tends_ext; intros t Ht; field; positive)."
@@ -165,10 +206,18 @@ def _derivative(step: Step) -> Iterator[str]:
         return
     (slope,) = step.relation.atoms(sp.Derivative)
     value = term(sp.diff(slope.expr, *slope.variables))
-    named = [s for s in (*step.frontier, *step.hypotheses) if isinstance(s.relation, sp.Equality) and not s.timed and not s.relation.has(sp.Limit)]
+    named = [
+        s
+        for s in (*step.frontier, *step.hypotheses)
+        if isinstance(s.relation, sp.Equality) and not s.timed and not s.relation.has(sp.Limit)
+    ]
     variable = binder(slope.variables[0])
     yield f"assert (D : is_derive (fun {variable} => {term(slope.expr)}) {variable} ({value})) by (auto_derive; [repeat split; positive | identity])."
     yield "rewrite (is_derive_unique _ _ _ D)."
-    used = {s.relation.lhs: s for s in named if isinstance(s.relation.lhs, sp.Symbol) and step.judgement.relation.has(s.relation.lhs)}
+    used = {
+        s.relation.lhs: s
+        for s in named
+        if isinstance(s.relation.lhs, sp.Symbol) and step.judgement.relation.has(s.relation.lhs)
+    }
     yield from (f"rewrite ?({step.cited(s)})." for s in used.values())
     yield "bounds; same_exponentials; field; repeat split; positive."

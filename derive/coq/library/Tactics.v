@@ -129,11 +129,13 @@ Ltac same_inequality H := revert H; same_functions; intro H; arithmetic.
 
 (** The goal by the order of [f a] and [f b], where e is the difference of its sides. *)
 Ltac ordered a b e :=
-  assert (tanh a <= tanh b) by (apply tanh_order; arithmetic) ||
-  assert (tanh (- a) <= tanh b) by (apply tanh_order; arithmetic) ||
-  assert (tanh a <= tanh (- b)) by (apply tanh_order; arithmetic) ||
-  match goal with H : forall r r', r < r' -> ?f r' < ?f r |- _ =>
-    assert (f a <= f b) by (destruct (Req_dec a b) as [-> | ?]; [lra | left; apply H; arithmetic]) end;
+  first
+  [ assert (tanh a <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
+  | assert (tanh (- a) <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
+  | assert (tanh a <= tanh (- b)) by (apply tanh_order; unfold Rdiv in *; lra)
+  | match goal with H : forall r r', r < r' -> ?f r' < ?f r |- _ =>
+      assert (f a <= f b) by (destruct (Req_dec a b) as [-> | ?];
+        [lra | left; apply H; unfold Rdiv in *; lra]) end ];
   rewrite ?tanh_opp in *; manifest e.
 
 (** ** Limits of expressions, part by part *)
