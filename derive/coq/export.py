@@ -22,7 +22,7 @@ from pathlib import Path
 
 from ..equations import Equation
 from ..kernel import Judgement
-from . import printer, proofs, refutations
+from . import printer, proofs
 from .record import Record, record
 from .statements import statement, world
 from .steps import Step, steps
@@ -136,31 +136,12 @@ class Export:
             needs = ["World", *(g for g in self.groups if g in cited)]
             head = f"{_HEAD}From Wear Require Import {' '.join(needs)}.\nOpen Scope R_scope.\n\n"
             files[group] = head + text, needs
-        refuting = self._refuting
-        if refuting:
-            needs = list(dict.fromkeys(("World", *(home[s.name] for s in refuting.values()))))
-            interval = "From Interval Require Import Tactic.\n"
-            head = f"{interval}{_HEAD}From Wear Require Import {' '.join(needs)}.\n"
-            files["Refutations"] = (
-                f"{head}Open Scope R_scope.\n\n{refutations.text(refuting)}",
-                needs,
-            )
         files["Assumptions"] = self._assumptions(list(files)), list(files)
         return files
-
-    @property
-    def _refuting(self) -> dict[str, Step]:
-        """Return the steps that contradict the note's claims, where all are closed."""
-        known = {step.statement.hash: step for step in self.steps if not step.open}
-        wanted = {e.id: e.statements[0] for e in self.equations if e.id in refutations.NEEDS}
-        found = {i: known.get(statement(judgement).hash) for i, judgement in wanted.items()}
-        steps = {i: step for i, step in found.items() if step is not None}
-        return steps if len(steps) == len(refutations.NEEDS) else {}
 
     def _assumptions(self, files: list[str]) -> str:
         """Return the file that prints what all theorems together rest on."""
         proved = [name for name, text in self.lemmas.items() if "\nLemma " in text]
-        proved += refutations.NAMES.values() if "Refutations" in files else []
         everything = ", ".join(f"@{name}" for name in proved)
         return (
             f"From Wear Require Import {' '.join(files)}.\n"

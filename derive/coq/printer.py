@@ -18,27 +18,7 @@ from sympy.core.function import AppliedUndef
 
 from ..symbols import QUANTITIES, t
 
-_TAKEN = frozenset(
-    (
-        "R",
-        "C",
-        "I",
-        "S",
-        "O",
-        "N",
-        "E",
-        "t",
-        "l",
-        "fun",
-        "forall",
-        "exists",
-        "let",
-        "in",
-        "if",
-        "then",
-    )
-    + ("else", "PI", "ln", "exp")
-)
+_TAKEN = frozenset("RCISONEtl") | {"fun", "forall", "exists", "let", "in", "if", "then", "else"}
 _FUNCTIONS = {
     sp.tanh: "tanh", sp.exp: "exp", sp.log: "ln", sp.Abs: "Rabs", sp.cos: "cos", sp.sin: "sin",
     sp.Min: "Rmin", sp.Max: "Rmax",

@@ -19,7 +19,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ..symbols import symbol, t
+from ..symbols import symbol
 from . import limits, theorems
 from .printer import term
 from .steps import Step
@@ -73,7 +73,7 @@ def now(step: Step) -> list[str]:
 def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
     """State that what the claim divides by is positive, where it is a field that is."""
     lines = []
-    for i, other in enumerate(step.ancestors):
+    for other in step.ancestors:
         if isinstance(other.relation, Relational) and not isinstance(other.relation, sp.Equality):
             at = f" ({time}) {proof}" if other.timed else ""
             lines.append(f"pose proof ({step.cited(other)}{at}).")
@@ -234,10 +234,9 @@ def _inequality(step: Step) -> Iterator[str]:
 
 
 def _last_ways(step: Step) -> Iterator[str]:
-    for text, named in _sources(step):
-        for form in _loaded(step.relation):
-            yield f"{text}manifest ({term(form)})"
-        return
+    """Return the ways of a bound that a bounded load gives."""
+    text, _ = next(_sources(step))
+    yield from (f"{text}manifest ({term(form)})" for form in _loaded(step.relation))
 
 
 def _parts(goal: sp.Basic, known: list[str]) -> Iterator[str]:
