@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 
-from .check import Check, checks
+from .check import Check, checks, on_models
 from .equations import Equation, Status
 from .kernel import Judgement
 from .note import condensed, governing, problems, stabilised
@@ -142,13 +142,16 @@ def equation(identifier: str) -> Equation:
 
 
 def verify(
-    identifiers: str | Iterable[str] = (), progress: Callable[[int, int, str], None] | None = None
+    identifiers: str | Iterable[str] = (),
+    progress: Callable[[int, int, str], None] | None = None,
+    deep: bool = False,
 ) -> tuple[Verdict, ...]:
     """Re-run every check on which the named equations rest (all of them if none is named); a text
     is one identifier.
 
     A statement on which several equations rest is checked once.  ``progress`` is told how many
-    of how many equations are done, and which is next.
+    of how many equations are done, and which is next.  With ``deep`` the
+    falsifier tries every step on models too, which takes minutes.
     """
     named = (identifiers,) if isinstance(identifiers, str) else identifiers
     chosen = [equation(identifier) for identifier in named] or list(equations())
@@ -161,7 +164,7 @@ def verify(
         outcomes: list[Check] = []
         for step, place in _numbered(found.steps, numbers):
             if place not in done:
-                done[place] = checks(step)
+                done[place] = (*checks(step), *(on_models(step) if deep else ()))
             outcomes += done[place]
         shown = Check("typeset", found.typeset_agrees, "the display form equals the claim")
         verdicts.append(Verdict(found.id, found.status, (*outcomes, shown)))

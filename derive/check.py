@@ -10,7 +10,9 @@ from typing import NamedTuple
 
 from .coq.record import proved_by_coq
 from .dimensions import homogeneous
+from .falsifier.judgements import tried
 from .kernel import Judgement, replayed
+from .rules.assumption import Assume
 
 
 class Check(NamedTuple):
@@ -31,3 +33,11 @@ def checks(judgement: Judgement) -> tuple[Check, ...]:
     )
     closed = Check("coq", True, "closed by Coq, as its record says")
     return (*found, closed) if proved_by_coq(judgement) else found
+
+
+def on_models(judgement: Judgement) -> tuple[Check, ...]:
+    """Return what models say of a step that is no hypothesis: none may break it."""
+    if isinstance(judgement.rule, Assume):
+        return ()
+    answer = tried(judgement)
+    return (Check("falsifier", answer.passed, str(answer)),)

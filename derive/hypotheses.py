@@ -7,7 +7,7 @@ is a guard that can be asked with numbers.  A relation between fields holds at e
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -30,6 +30,14 @@ class Kind(StrEnum):
     STATE = "state"  # a relation that the fields satisfy: contact is active, p < p_max
     DEFINITION = "definition"  # a name for an expression
     DOMAIN = "domain"  # of a symbol, from its definition in the vocabulary
+
+
+def sentences(hypotheses: Iterable[Hypothesis]) -> list[str]:
+    """Return hypotheses as a reader is told them: settings in one line, each other by itself."""
+    shown = [h for h in hypotheses if h.shown]
+    settings = dict.fromkeys(h.text for h in shown if h.kind is Kind.SETTING)
+    others = dict.fromkeys(f"if {h.text}" for h in shown if h.kind is not Kind.SETTING)
+    return [*([f"setting: {', '.join(settings)}"] if settings else []), *others]
 
 
 @dataclass(frozen=True)

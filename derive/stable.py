@@ -98,8 +98,9 @@ def proof(law_name: str) -> tuple[Judgement, Judgement]:
     value, slope = row.value, row.slope
     for name, form in reversed(row.names):
         value, slope = (e.xreplace({name: released(form)}) for e in (value, slope))
-    value, slope = sp.Eq(law.phi, value), sp.Eq(sp.diff(law.phi, r), slope)
-    return identity(value), identity(slope)
+    pairs = ((law.phi, value), (sp.diff(law.phi, r), slope))
+    of_value, of_slope = (identity(sp.Eq(*pair, evaluate=False)) for pair in pairs)
+    return of_value, of_slope
 
 
 def released(expr: sp.Expr) -> sp.Expr:

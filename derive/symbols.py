@@ -110,9 +110,9 @@ _TABLE = (
     Quantity(
         "sigma_c0", r"\sigma_c^0", "mm", "initial roughness of the bearing", _positive(1e-4, 1e-3)
     ),
-    Quantity("f_a", "f_a", "1", "roughness slope of the pin, d sigma_a/d u_a", _real(-0.05, 0.6)),
+    Quantity("f_a", "f_a", "1", "roughness growth of the pin, d sigma_a/d u_a", _real(-0.05, 0.6)),
     Quantity(
-        "f_c", "f_c", "1", "roughness slope of the bearing, d sigma_c/d u_c", _real(-0.05, 0.6)
+        "f_c", "f_c", "1", "roughness growth of the bearing, d sigma_c/d u_c", _real(-0.05, 0.6)
     ),
     Quantity("f_aa", "f_{aa}", "1", "slope of sigma_a with u_a", _real(-0.05, 0.6)),
     Quantity("f_ac", "f_{ac}", "1", "slope of sigma_a with u_c", _real(-0.05, 0.6)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 from collections.abc import Mapping
@@ -18,13 +19,17 @@ from wear.faults import UsageError
 from wear.history_files import Column
 
 if TYPE_CHECKING:
+    import pandas
+    import xarray
+
     from wear.cycle_pressures import CyclePressures
     from wear.scene import Scene
 
 FloatArray = NDArray[np.float64]
+MOST_SHOWN = 50  # rows in a notebook
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class History:
     """Wear, roughness, closure and pressure at the ends of cycles, that is at times N T.
 
@@ -123,6 +128,45 @@ class History:
                 columns.append(Column(name, "N", meaning, force))
         meaning = "estimated relative error of the bearing wear"
         return (*columns, Column("error_estimate", "1", meaning, self.error))
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Return a row a number of cycles, with the columns of the files; needs pandas."""
+        import pandas
+
+        columns = {column.name: column.values for column in self.columns()}
+        return pandas.DataFrame(columns, index=pandas.Index(self.cycles, name="cycle"))
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return the columns along `cycle`, with units and meanings; needs xarray."""
+        import xarray
+
+        made = xarray.Dataset(coords={"cycle": self.cycles}, attrs=dict(self._attributes()))
+        for column in self.columns():
+            about = {"units": column.unit, "long_name": column.meaning}
+            made[column.name] = ("cycle", column.values, about)
+        return made
+
+    def __repr__(self) -> str:
+        reached = "no cycle reached"
+        if len(self.cycles):
+            last = int(np.argmax(self.cycles))
+            reached = f"u_c = {self.u_c[last]:.6g} mm after cycle {self.cycles[last]}"
+        return f"<History of {self.scene!r}: {reached}; {self.method}, rtol {self.rtol:g}>"
+
+    def _repr_html_(self) -> str:
+        """Return the table that a notebook shows."""
+        columns = self.columns()
+        heads = "".join(f"<th>{column.name}</th>" for column in columns)
+        rows = "".join(
+            f"<tr><th>{cycle}</th>"
+            + "".join(f"<td>{column.values[row]:.6g}</td>" for column in columns)
+            + "</tr>"
+            for row, cycle in enumerate(self.cycles[:MOST_SHOWN].tolist())
+        )
+        more = len(self.cycles) - MOST_SHOWN
+        rest = f"<p>and {more} more</p>" if more > 0 else ""
+        title = html.escape(self.scene)
+        return f"<p>{title}</p><table><tr><th>cycle</th>{heads}</tr>{rows}</table>{rest}"
 
     def as_json(self) -> dict[str, Any]:
         """The document of `wear run --json`, in plain values; what does not exist is None."""

@@ -23,7 +23,7 @@ from wear.history import History
 from wear.load import Blocks
 from wear.regime import Asymptote, asymptote
 from wear.scene import Scene, as_scene
-from wear.solver import MOST_CYCLES, is_number, obstacle, solve
+from wear.solver import LARGEST_RTOL, LEAST_RTOL, MOST_CYCLES, is_number, obstacle, solve
 
 MOST_ITERATIONS = 50
 LARGEST_ERROR = 1e-3  # of an extrapolation that is worth a number
@@ -76,7 +76,7 @@ def cycles_until(
     from wear.model import bind
 
     scene = as_scene(scene)
-    depths = _checked(scene, wear_mm)
+    depths = _checked(scene, wear_mm, rtol)
     found = count_until(bind(scene), scene.load, np.array(depths), rtol)
     cycles, error = found.cycles.copy(), found.error.copy()
     known = np.isfinite(cycles) & np.isfinite(error)
@@ -88,13 +88,15 @@ def cycles_until(
     return Life(depths, cycles, error, tuple(reached))
 
 
-def _checked(scene: Scene, wear_mm: float | Iterable[float]) -> tuple[float, ...]:
+def _checked(scene: Scene, wear_mm: float | Iterable[float], rtol: float) -> tuple[float, ...]:
     depths = tuple(wear_mm if isinstance(wear_mm, Iterable) else (wear_mm,))
     faults = [
         f"wear: {depth!r} is no depth in mm; give a number >= 0"
         for depth in depths
         if not (is_number(depth) and 0.0 <= depth < math.inf)
     ]
+    if not (is_number(rtol) and LEAST_RTOL <= rtol <= LARGEST_RTOL):
+        faults.append(f"rtol: {rtol!r} is not between {LEAST_RTOL:g} and {LARGEST_RTOL:g}")
     if (against := obstacle(scene)) is not None:
         faults.append(f"cycles cannot be counted: {against}")
     if faults:

@@ -192,7 +192,7 @@ def _average(terms: FloatArray, rate: float, over: Mesh) -> tuple[FloatArray, Fl
     """Average ``dz/dtau = rate * sum of terms_n(tau)/z^n`` order by order.
 
     Returns the drift c_n and the oscillation w_n at phase 0, for n = 1, 2, ...  See
-    ``derive.results.averaging``, which does the same with symbols.
+    ``derive.averaging``, which does the same with symbols.
     """
     terms = np.broadcast_to(terms, (len(terms), *over.phases.shape))
     flat = np.zeros(over.phases.shape)

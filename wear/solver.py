@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import numbers
 import os
 import time
@@ -143,11 +142,10 @@ def is_number(given: object) -> bool:
 
 
 def _whole(number: float, faults: list[str]) -> int:
-    whole = int(number) if is_number(number) and math.isfinite(number) else -1
-    if whole != number or not 0 <= whole <= MOST_CYCLES:
+    if not is_number(number) or not 0 <= number <= MOST_CYCLES or number != int(number):
         faults.append(f"cycles: {number!r} is no whole number from 0 to 1e12")
         return 0
-    return whole
+    return int(number)
 
 
 def obstacle(scene: Scene) -> str | None:

@@ -67,7 +67,9 @@ class StaticSolution:
             4 |h|/sigma (sigma_c0 + |f_c| u)/sigma
 
         where the last factor is one unless the roughness decreases: near the wear at which it
-        vanishes sigma = sigma_c0 + f_c u is a small difference.
+        vanishes sigma = sigma_c0 + f_c u is a small difference. On a rigid support the argument
+        of the exponential integral, 4 (h_0 - U_a - sigma_c0/f_c)/sigma, takes their place where it
+        is larger and lies between 0 and 40 (see `wear.special`).
         """
         u = np.asarray(u, dtype=np.float64)
         if np.any(u < 0.0):

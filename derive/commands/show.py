@@ -53,11 +53,13 @@ def document(found: Equation) -> dict[str, Any]:
 def _text(found: Equation) -> str:
     import sympy as sp
 
+    from derive.hypotheses import sentences
+
     style = {"use_unicode": terminal.shows_formulas(), "wrap_line": False}
     lines = [f"({found.id})  {found.title}  [{found.status.value}]", ""]
     for claim in found.claims:
         lines += [sp.pretty(claim, **style), ""]
-    lines += dict.fromkeys(f"if {condition.text}" for condition in found.conditions)
+    lines += sentences(found.conditions)
     if found.printed and not found.agrees:
         lines += ["", "as printed in the note (does not hold):", ""]
         lines += [sp.pretty(claim, **style) for claim in found.printed]

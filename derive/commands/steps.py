@@ -77,11 +77,13 @@ def _text(row: Mapping[str, Any], step: Judgement) -> str:
     """Return what was done and to what, above the claim as it is read on paper."""
     import sympy as sp
 
+    from derive.hypotheses import sentences
+
     by_coq = ", checked by Coq" if row["coq"] else ""
     status = "" if row["status"] == "given" else f" [{row['status']}{by_coq}]"
     claim = sp.pretty(step.relation, use_unicode=terminal.shows_formulas(), wrap_line=False)
     lines = ["", *claim.splitlines(), ""]
-    lines += [f"if {condition}" for condition in row["assumptions"]]
+    lines += sentences(step.hypotheses)
     if row["remark"]:
         lines.append(row["remark"])
     shown = textwrap.indent("\n".join(lines).rstrip(), _INDENT)

@@ -11,7 +11,16 @@ from derive.commands import arguments
 EXAMPLE = """\
   derive verify             every check of every equation; status 1 if one does not hold
   derive verify 8 10 21     those on which these equations rest
+  derive verify --deep 17   models try to break each step too
 """
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare ids, and whether models are tried."""
+    arguments.add_ids(parser)
+    parser.add_argument(
+        "--deep", action="store_true", help="try every step on models too (minutes)"
+    )
 
 
 def execute(options: argparse.Namespace) -> int:
@@ -20,7 +29,9 @@ def execute(options: argparse.Namespace) -> int:
 
     arguments.equations(options.ids)
     verdicts = catalogue.verify(
-        options.ids, lambda done, total, name: terminal.progress(f"{done}/{total} {name}")
+        options.ids,
+        lambda done, total, name: terminal.progress(f"{done}/{total} {name}"),
+        options.deep,
     )
     terminal.progress("")
     failed = [verdict for verdict in verdicts if not verdict.passed]
@@ -53,6 +64,4 @@ def execute(options: argparse.Namespace) -> int:
     return terminal.FAILED if failed else terminal.DONE
 
 
-COMMAND = Command(
-    "verify", "check every step of equations again", EXAMPLE, arguments.add_ids, execute
-)
+COMMAND = Command("verify", "check every step of equations again", EXAMPLE, add_arguments, execute)

@@ -32,7 +32,7 @@ BITS = 200
 _LEFT_OUT = math.log(1e-30)
 _SHORTEST = math.log(1e-6)
 _TRUSTED = arb(10) ** -24
-MOST_STEPS = 400
+MOST_STEPS = 250
 
 
 @dataclass(eq=False)

@@ -181,8 +181,17 @@ def truth(relation: sp.Basic, model: Model) -> Truth:
     return Truth(True if decided and not doubtful else None)
 
 
+def _ends(expr: sp.Integral | sp.Subs) -> tuple[sp.Basic, ...]:
+    """Return where an integral ends, or the point of a substitution."""
+    if isinstance(expr, sp.Subs):
+        return tuple(expr.point)
+    return tuple(end for limits in expr.limits for end in limits[1:])
+
+
 def varies(expr: sp.Basic, variable: sp.Symbol) -> bool:
     """Return whether an expression depends on the running variable, limits aside."""
     if isinstance(expr, sp.Limit):
         return False
+    if isinstance(expr, (sp.Integral, sp.Subs)) and variable in expr.variables:
+        return any(varies(end, variable) for end in _ends(expr))
     return expr == variable or any(varies(part, variable) for part in expr.args)

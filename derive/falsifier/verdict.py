@@ -64,6 +64,13 @@ class Answer:
         """Whether no model satisfies the hypotheses."""
         return self.models == 0
 
+    def __str__(self) -> str:
+        if self.counterexample is not None:
+            return f"false for {self.counterexample}"
+        if self.vacuous:
+            return "vacuous as far as models go: none of those drawn satisfies the hypotheses"
+        return f"holds in {self.decided} of {self.models} models of the hypotheses, fails in none"
+
 
 def falsify(
     hypotheses: Iterable[sp.Basic], claim: sp.Basic, draws: int = DRAWS, enough: int = ENOUGH

@@ -1,7 +1,7 @@
 """The map of regimes: what becomes of the wear of one solid, with the formula of each.
 
 Overview
-    Without cutoff the roughness slope f_c decides, and for f_c < 0 the gap that is left where
+    Without cutoff the roughness growth f_c decides, and for f_c < 0 the gap that is left where
     the roughness would vanish; with the cutoff 1/3 takes the part of 0.  The conditions are
     relations between data, so that the map can be asked with numbers; it covers all of them,
     each once.

@@ -71,7 +71,7 @@ def meaning(quantity: Quantity) -> str:
     r"""Return the meaning in LaTeX, names of other quantities as formulas.
 
     >>> print(meaning(QUANTITIES["f_c"]))
-    roughness slope of the bearing, $\mathrm{d}\sigma_c/\mathrm{d}u_c$
+    roughness growth of the bearing, $\mathrm{d}\sigma_c/\mathrm{d}u_c$
     >>> print(meaning(QUANTITIES["c_2"]))
     drift at order $1/m^2$
     """

@@ -33,7 +33,7 @@ def test_no_name_is_left_outside_a_formula(quantity):
 def test_a_row_has_symbol_meaning_and_unit():
     rows = nomenclature([derive.equation("22")]).splitlines()
     assert (
-        r"$f_c$ & roughness slope of the bearing, $\mathrm{d}\sigma_c/\mathrm{d}u_c$ & -- \\"
+        r"$f_c$ & roughness growth of the bearing, $\mathrm{d}\sigma_c/\mathrm{d}u_c$ & -- \\"
         in rows
     )
     assert r"$p_\infty$ & asymptotic contact pressure & $\mathrm{MPa}$ \\" in rows

@@ -315,3 +315,22 @@ def test_a_history_inside_the_cycles_that_stops_leaves_nothing(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         write_inside(interrupted(), tmp_path / "inside.nc", {})
     assert list(tmp_path.iterdir()) == []
+
+
+def test_labelled_tables_hold_the_columns(compliant):
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    frame, labelled = compliant.to_dataframe(), compliant.to_xarray()
+    assert frame.index.tolist() == labelled["cycle"].values.tolist() == [0, 1]
+    for column in compliant.columns():
+        np.testing.assert_array_equal(frame[column.name], column.values)
+        np.testing.assert_array_equal(labelled[column.name], column.values)
+        assert labelled[column.name].attrs["units"] == column.unit
+    assert scene_from_tables(json.loads(labelled.attrs["scene"])) == reference_scene("S8_2")
+
+
+def test_a_history_is_shown_in_short(section3):
+    assert "u_c = 0.000200172 mm after cycle 10" in repr(section3)
+    assert len(repr(section3)) < 200
+    assert section3._repr_html_().count("<tr>") == 5
+    assert "rows" in repr(Table((0.0, 1.0), (0.0, 0.0)))

@@ -54,6 +54,8 @@ def test_what_is_no_depth_is_refused() -> None:
     with pytest.raises(UsageError) as refused:
         cycles_until(SECTION4, [-1.0, float("nan"), "3", True])  # type: ignore[list-item]
     assert len(str(refused.value).splitlines()) == 4
+    with pytest.raises(UsageError, match="rtol: 2"):
+        cycles_until(SECTION4, 1e-3, rtol=2.0)
     record = HistoryLoad((0.0, 1.0), (0.0, 0.0), 1.0)
     with pytest.raises(UsageError, match="does not repeat"):
         cycles_until(replace(SECTION4, load=record), 1e-3)

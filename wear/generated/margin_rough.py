@@ -29,7 +29,7 @@ class Parameters(NamedTuple):
     h_0: Array  # initial closure, mm
     sigma_a0: Array  # initial roughness of the pin, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
-    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    f_c: Array  # roughness growth of the bearing, d sigma_c/d u_c, dimensionless
 
 
 class Constants(NamedTuple):
@@ -38,7 +38,7 @@ class Constants(NamedTuple):
     h_0: Array  # initial closure, mm
     sigma_a0: Array  # initial roughness of the pin, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
-    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    f_c: Array  # roughness growth of the bearing, d sigma_c/d u_c, dimensionless
 
 
 def bind(data: Parameters) -> Constants:

@@ -27,6 +27,11 @@ class _Rows(SceneTable):
     times_s: Column = Field(description="times of the rows, from 0")
     values_mm: Column = Field(description="U_a at these times")
 
+    def __repr__(self) -> str:
+        values, duration = self.values_mm, self.times_s[-1]
+        within = f"{min(values):g} to {max(values):g} mm in {duration:g} s"
+        return f"<{type(self).__name__}: {len(values)} rows, {within}>"
+
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         rows = len(self.times_s)
@@ -61,7 +66,8 @@ class Table(_Rows):
     (2.0, (0.0, 0.25), (0.25,), 0.0005)
     """
 
-    source: TableFile | None = Field(default=None, repr=False)
+    source: TableFile | None = None
+    __repr__ = _Rows.__repr__
 
     @model_validator(mode="after")
     def _closed(self) -> Self:
@@ -123,7 +129,8 @@ class HistoryLoad(_Rows):
     """
 
     period_s: Positive = Field(description="time of a cycle")
-    source: HistoryFile | None = Field(default=None, repr=False)
+    source: HistoryFile | None = None
+    __repr__ = _Rows.__repr__
 
     @cached_property
     def _times(self) -> FloatArray:

@@ -37,7 +37,7 @@ class Parameters(NamedTuple):
     h_0: Array  # initial closure, mm
     sigma_a0: Array  # initial roughness of the pin, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
-    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    f_c: Array  # roughness growth of the bearing, d sigma_c/d u_c, dimensionless
     K_c: Array  # wear coefficient of the bearing, dimensionless
     H_c: Array  # hardness of the bearing, MPa
     p_max: Array  # largest admissible contact pressure, MPa
@@ -52,7 +52,7 @@ class Constants(NamedTuple):
     h_0: Array  # initial closure, mm
     sigma_a0: Array  # initial roughness of the pin, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
-    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    f_c: Array  # roughness growth of the bearing, d sigma_c/d u_c, dimensionless
     p_max: Array  # largest admissible contact pressure, MPa
     compliance: Array  # deflection of the support per pressure, mm/MPa
     wear_per_pressure: Array  # wear rate per contact pressure, mm/(s MPa)

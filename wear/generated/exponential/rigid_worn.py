@@ -29,7 +29,7 @@ class Parameters(NamedTuple):
 
     h_0: Array  # initial closure, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
-    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    f_c: Array  # roughness growth of the bearing, d sigma_c/d u_c, dimensionless
     K_a: Array  # wear coefficient of the pin, dimensionless
     K_c: Array  # wear coefficient of the bearing, dimensionless
     H_a: Array  # hardness of the pin, MPa
@@ -44,7 +44,7 @@ class Constants(NamedTuple):
 
     h_0: Array  # initial closure, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
-    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    f_c: Array  # roughness growth of the bearing, d sigma_c/d u_c, dimensionless
     p_max: Array  # largest admissible contact pressure, MPa
     kappa: Array  # wear of the pin per wear of the bearing, dimensionless
     gain: Array  # closure per wear of the bearing at a fixed pin

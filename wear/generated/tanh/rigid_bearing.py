@@ -29,7 +29,7 @@ class Parameters(NamedTuple):
 
     h_0: Array  # initial closure, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
-    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    f_c: Array  # roughness growth of the bearing, d sigma_c/d u_c, dimensionless
     K_c: Array  # wear coefficient of the bearing, dimensionless
     H_c: Array  # hardness of the bearing, MPa
     p_max: Array  # largest admissible contact pressure, MPa
@@ -42,7 +42,7 @@ class Constants(NamedTuple):
 
     h_0: Array  # initial closure, mm
     sigma_c0: Array  # initial roughness of the bearing, mm
-    f_c: Array  # roughness slope of the bearing, d sigma_c/d u_c, dimensionless
+    f_c: Array  # roughness growth of the bearing, d sigma_c/d u_c, dimensionless
     p_max: Array  # largest admissible contact pressure, MPa
     largest_rate: Array  # wear rate at the largest pressure, mm/s
 

@@ -1,0 +1,124 @@
+"""Whatever is wrong with a request is one of the documented errors, by command line and Python."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import wear
+from wear import cli
+
+NAN, INF = float("nan"), float("inf")
+SECTION4 = wear.load_scene("section4")
+OPEN: Any = wear  # whose calls below are wrong on purpose
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: OPEN.solve("section4", "abc"),
+        lambda: OPEN.solve("section4", "9000"),
+        lambda: OPEN.solve("section4", None),
+        lambda: OPEN.solve("section4", []),
+        lambda: OPEN.solve("section4", [[1, 2]]),
+        lambda: OPEN.solve("section4", [True]),
+        lambda: OPEN.solve("section4", {1: 2, "a": 3}),
+        lambda: OPEN.solve("section4", -1),
+        lambda: OPEN.solve("section4", 1.5),
+        lambda: OPEN.solve("section4", np.array([1.0, NAN])),
+        lambda: OPEN.solve("section4", INF),
+        lambda: OPEN.solve("section4", 10**400),
+        lambda: OPEN.solve("section4", 1j),
+        lambda: OPEN.solve("section4", 1, rtol="1e-8"),
+        lambda: OPEN.solve("section4", 1, rtol=NAN),
+        lambda: OPEN.solve("section4", 1, rtol=0.0),
+        lambda: OPEN.solve("section4", 1, rtol=None),
+        lambda: OPEN.solve("section4", 1, method="Euler"),
+        lambda: OPEN.solve("section4", 1, method=None),
+        lambda: OPEN.solve("section4", 1, method=["abel"]),
+        lambda: OPEN.solve("section4", 1, time_limit="1"),
+        lambda: OPEN.solve("section4", 1, time_limit=-1.0),
+        lambda: OPEN.solve("secton4", 1),
+        lambda: OPEN.solve(Path("nowhere.toml"), 1),
+        lambda: OPEN.solve(None, 1),
+        lambda: OPEN.solve(4, 1),
+        lambda: OPEN.solve({"bearing": {}}, 1),
+        lambda: OPEN.asymptote("nowhere"),
+        lambda: OPEN.asymptote(None),
+        lambda: OPEN.cycles_until("section4", -1.0),
+        lambda: OPEN.cycles_until("section4", "1e-3"),
+        lambda: OPEN.cycles_until("section4", None),
+        lambda: OPEN.cycles_until("section4", 1e-3, rtol=NAN),
+        lambda: OPEN.load_scene("section4", ["bearing.hardness_MPa"]),
+        lambda: OPEN.load_scene("a\0b"),
+        lambda: OPEN.Scene.from_dict({}),
+        lambda: OPEN.Scene.from_dict({"bearing": None, 3: 4}),
+        lambda: OPEN.Scene.from_dict("section4"),
+        lambda: OPEN.Scene.from_dict(None),
+        lambda: SECTION4.with_({"": 1}),
+        lambda: SECTION4.with_({"bearing.": 1}),
+        lambda: SECTION4.with_({"bearing.hardness_MPa": np.array([1.0, 2.0])}),
+        lambda: SECTION4.with_({"load.kind": None}),
+        lambda: SECTION4.with_({"load.kind": 3}),
+        lambda: replace(SECTION4, pin={}),  # type: ignore[arg-type]
+        lambda: OPEN.Table("ab", "cd"),
+        lambda: OPEN.Table(None, None),
+        lambda: OPEN.Sine(object(), 1.0),
+        lambda: OPEN.Blocks([{"kind": "sine"}]),
+        lambda: OPEN.Blocks(3),
+        lambda: OPEN.Bearing({}, [], None, "x"),
+        lambda: OPEN.solve("section4", 1).write("wear.xlsx"),
+    ],
+)
+def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call: Callable[[], object]) -> None:
+    with pytest.raises(wear.WearError) as caught:
+        call()
+    assert str(caught.value).strip()
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "run section4 --cycles abc",
+        "run section4 --cycles 1e400",
+        "run section4 --cycles -5",
+        "run section4 --rtol 1",
+        "run section4 --rtol nan",
+        "run section4 --method 3",
+        "run section4 --time-limit 0",
+        "run section4 --until-wear -1",
+        "run section4 --until-wear x",
+        "run section4 --phases 0 -o a.nc",
+        "run section4 -o wear.doc",
+        "run section4 --set bearing=3",
+        "run section4 --set bearing.hardness_MPa=",
+        "run section4 --set bearing.hardness_MPa=nan",
+        "run section4 --set load.kind=table",
+        "run section4 --set load.kind=table --set load.file=/dev/zero",
+        "run section4 --set name=x",
+        "run /dev/zero",
+        "run .",
+        "asymptote nowhere.toml",
+        "asymptote section4 --set contact.law=3",
+        "figure section4 -o a.txt",
+        "figure section4 -o a.svg --cycles 0",
+        "figure section4 -o a.svg --inside x",
+        "explore nowhere",
+        "scenes nowhere",
+    ],
+)
+def test_no_command_ends_otherwise_than_by_status_2(
+    line: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    try:
+        status = cli.main(line.split())
+    except SystemExit as stop:
+        status = int(str(stop.code))
+    shown = capsys.readouterr()
+    assert (status, shown.out) == (2, "")
+    assert shown.err.startswith(("wear", "usage"))
+    assert not list(tmp_path.iterdir())
