@@ -47,10 +47,10 @@ def deviation(tmp_path_factory):
 @pytest.mark.parametrize(
     ("expr", "written"),
     [
-        (sp.tanh(4 - 2 * h / sigma), "tanh (4 - 2 * h t / sigma t)"),
+        (sp.tanh(4 - 2 * h / sigma), "- (tanh (2 * h t / sigma t - 4))"),
         (1 / (sp.Symbol("x") * (1 + sp.Symbol("y"))), "1 / (x * (y + 1))"),
-        (sp.Pow(h**2 + 1, sp.Rational(-3, 2)), "1 / (sqrt ((h t) ^ 2 + 1)) ^ 3"),
-        (-sp.exp(-p_max) - sp.Rational(1, 2), "- exp (- p_max) - 1 / 2"),
+        (sp.Pow(h**2 + 1, sp.Rational(-3, 2)), "/ ((sqrt ((h t) ^ 2 + 1)) ^ 3)"),
+        (-sp.exp(-p_max) - sp.Rational(1, 2), "- 1 / 2 - exp (- (p_max))"),
         (sp.Derivative(h.subs(t, t + 1), t), "Derive (fun t => h (t + 1)) t"),
         (sp.Integral(U_a, (t, 0, 1)), "RInt (fun t => U_a t) 0 1"),
     ],
