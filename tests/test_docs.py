@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import io
 import json
 import os
 import re
@@ -17,7 +16,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
 
 from derive.note.claims import Verdict
 from tests import pages
@@ -162,29 +160,11 @@ def pictures():
 
 
 def test_every_picture_is_retaken_and_used(pictures):
-    taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS, pictures.OF_A_BROWSER}
+    taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS}
     kept = {path.name for path in (DOCS / "_static").iterdir() if path.suffix in (".png", ".svg")}
     assert taken == kept
     texts = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
     assert not [name for name in taken if f"_static/{name})" not in texts]
-
-
-def test_the_picture_of_the_report_is_its_model(pictures, need_tool, tmp_path):
-    """From the heading to the end of the first figure below it, in their colours."""
-    page = tmp_path / "report.html"
-    page.write_text(
-        "<body style='margin:0'><figure>before</figure><h2 style='margin:0'>2 The model</h2>"
-        "<p style='height:1000px; margin:0'></p>"
-        "<figure style='height:300px; margin:0; background:#f00'></figure><p>after</p>"
-    )
-    chromium = need_tool("chromium", "chromium-browser", "google-chrome")
-    taken = Image.open(io.BytesIO(pictures.model_page(page, chromium))).convert("RGB")
-    assert taken.width == pictures.WIDTH
-    heading = taken.height - 1300 - 2 * pictures.MARGIN
-    assert 10 < heading < 60
-    red = [y for y in range(taken.height) if taken.getpixel((300, y)) == (255, 0, 0)]
-    end = taken.height - pictures.MARGIN
-    assert (red[0], red[-1] + 1) == pytest.approx((end - 300, end), abs=1)
 
 
 def test_every_example_is_used():

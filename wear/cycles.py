@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.count.cutoff import CutoffCycle, one_cycle
 from wear.count.stage import Stages, evaluate_stages
 from wear.count.stages import counted_stages
 from wear.direct.sequence import most_cycles, span
@@ -185,7 +184,7 @@ def count_cycles(
 ) -> Counted:
     """Count up to `cycles` of a load that repeats, from the wear `start` (mm), known up to
     `start_error`; after the `deadline` (`time.monotonic()`) nothing is refined any more."""
-    if isinstance(one_cycle(model, load), CutoffCycle):
+    if model.ends_at_3_sigma:
         found = counted_stages(model, load, cycles, rtol, start, deadline, start_error)
         return WithLossOfContact(found, model)
     equation = WearEquation(model, (load,))
@@ -222,7 +221,7 @@ def wear_after(
         found = count_cycles(model, acting, end - done, rtol, start, deadline=deadline)
         with np.errstate(all="ignore"):
             wear, relative = found.after(wanted)
-        absolute = relative * wear
+            absolute = np.where(np.isfinite(relative), relative * wear, np.inf)
         if missed:
             absolute += missed * growth(model, acting, start, float(wear[-1]))
         u[here] = wear[:-1]

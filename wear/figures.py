@@ -142,7 +142,7 @@ def wear_by_decades(
         axes.text(
             mark[0], 0.98, f"{mark[1]} ", transform=axes.get_xaxis_transform(), va="top", ha="right"
         )
-        low = 0.1 * _MICROMETRES_PER_MM * float(wear[0].y[0])
+        low = 1e-3 * _MICROMETRES_PER_MM * float(wear[0].y[0])  # room for the legend
         axes.set(xlabel=r"Cycles  $N$", ylabel=_BEARING_WEAR, ylim=(low, top))
         axes.set_xlim(float(wear[0].x[0]), float(wear[0].x[-1]))
         axes.legend(loc="lower right", borderpad=0.0, handlelength=2.5)

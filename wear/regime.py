@@ -172,7 +172,7 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
     tanh = case.scene.contact.law == "tanh"
     found = offset(case.scene)
     if found is None:
-        notices = (*notices, f"the offset cannot be told: {_no_offset(case.scene)}")
+        notices = (*notices, f"offset unknown: {_no_offset(case.scene)}")
     return _result(
         case,
         "steady",

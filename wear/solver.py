@@ -259,7 +259,7 @@ def _direct(
     notices: list[str] = []
     if found.fades:
         cycle = found.arrested_in
-        notices.append(f"wear fades: from cycle {cycle} on it cannot be told from its end")
+        notices.append(f"wear approaches its limit; within rounding from cycle {cycle} on")
     elif found.arrested_in is not None:
         notices.append(f"wear stops for good in cycle {found.arrested_in}")
     return Wear(

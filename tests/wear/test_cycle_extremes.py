@@ -15,11 +15,13 @@ from hypothesis import strategies as st
 from tests.independent import wear_after as independent
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
 from tests.wear.test_cycle_count import ROUNDING, between, counted, problem, scenes
+from wear.faults import AccuracyError
 from wear.load import Table
 from wear.numerics.gauss import (
     FloatArray,
 )
 from wear.scene import Scene, load_scene, scene_from_tables
+from wear.solver import solve
 from wear.static import static_solution
 
 TO_THE_END = np.array([1.0, 30.0, 1e3, 1e6, 1e12])
@@ -262,3 +264,13 @@ def test_the_estimate_is_within_a_factor_of_a_thousand_nine_times_of_ten() -> No
     ratio = np.concatenate(ratios)
     assert np.mean(ratio <= 1000) >= 0.9
     assert np.median(ratio) <= 100
+
+
+def test_a_rate_beyond_all_numbers_ends_with_a_reason() -> None:
+    """An exponential law under a swing of 167 roughnesses: the first rate is exp(500) of the
+    largest that the note means."""
+    swing = {"kind": "harmonics", "cosine_mm": [0.06], "period_s": 0.06}
+    made_ = tables(load=swing)
+    made_["contact"]["law"] = "exponential"
+    with pytest.raises(AccuracyError, match="estimated error is inf"):
+        solve(scene_from_tables(made_, "swing"), [1, 1000], 1e-10, method="abel")

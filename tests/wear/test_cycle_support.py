@@ -94,7 +94,7 @@ def test_at_a_plateau_wear_on_springs_fades_within_a_cycle() -> None:
     """As exp(-decay tau), which rounding ends in the first cycle: even so it does not stop."""
     scene = supported(4e-4, -0.1, True, 4e5, STEPS)
     found = count.wear_after(bind(scene), STEPS, np.array([1.0, 1e9]), 1e-10)
-    assert found.notices == ("wear fades: from cycle 1 on it cannot be told from its end",)
+    assert found.notices == ("wear approaches its limit; within rounding from cycle 1 on",)
     assert np.all(found.error <= 1e-10)
 
 

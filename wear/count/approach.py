@@ -20,7 +20,7 @@ from wear.count.cutoff import CutoffCycle
 from wear.count.cycle import Cost, Settings
 from wear.count.increments import Increments, Span, fitted, middle
 from wear.count.kinks import rest_of
-from wear.count.panels import NONE, SAFETY
+from wear.count.panels import SAFETY
 from wear.count.plan import GRAIN, Way, planned, prepared
 from wear.count.rounding import roundoff, roundoff_of_cycles
 from wear.count.scan import SHIFT
@@ -34,6 +34,7 @@ FEW = 4.0  # cycles to the next grazing wear: they are integrated
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
 MOST_WALKED = 250  # cycles on a series that are taken one by one
 LOOKS = 65  # at a series, for how many cycles it takes
+KEPT = 5  # cycles integrated one by one even when there is no time left
 MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
 MOST_CUTS = 16  # rounds of cutting panels in two
 ENOUGH = 1.5  # cycles per coefficient of a panel
@@ -56,7 +57,7 @@ def count_between_kinks(
     """Count from the wear `start` (mm), known up to `begun_with`, up to `cycles`, or until wear
     ends.
 
-    After the `deadline` (`time.monotonic()`) nothing is prepared any more.
+    After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
     """
     way = prepared(cycle, rtol, deadline)
     runs = _Runs(way, start)
@@ -141,7 +142,8 @@ class _Runs:
 
     def go(self, cycles: float) -> None:
         """Go on for so many `cycles`, or less."""
-        if self.wear >= self.prepared and cycles > FEW:
+        in_time = time.monotonic() <= self.way.deadline
+        if self.wear >= self.prepared and cycles > FEW and in_time:
             self._prepare(cycles)
             return
         for span, series in self.known:
@@ -199,7 +201,7 @@ class _Runs:
             self._append(part, self.wear + added)
         self.arrested = not added > 0.0
         self.fades = self.arrested and self.way.rest is not None
-        late = time.monotonic() > self.way.deadline
+        late = time.monotonic() > self.way.deadline and self.singles >= KEPT
         failed = not run.converged.all() or not self.wear < self.way.end
         self.over = self.arrested or failed or late or self.singles >= MOST_SINGLE
 
@@ -375,5 +377,4 @@ def _one_by_one(way: Way, part: Single, missed: FloatArray, growth: FloatArray) 
     for more, factor in zip(SAFETY * missed + lost, growth, strict=True):
         error.append(error[-1] * factor + more)
     estimate = np.array(error) + ROUNDOFF * wear
-    over = way.both.coarse.over
-    return CycleCount(wear, estimate, None, None, NONE, over, way.end, Cost(0, 0))
+    return CycleCount(wear, estimate, way.end)

@@ -142,14 +142,12 @@ def worn(
         stretch = Stretch(over.begin[rows] + begin * over.whole[rows], whole, expected)
         part = _part(contact, rule, start, stretch)
         evaluations, parts = evaluations + part.evaluations, parts + 1
-        fine = part.sound & _is_fine(contact, rule, part, start, tolerance, earlier)
+        fine = part.sound & _is_fine(rule, part, tolerance, earlier)
         if end - begin <= SHORTEST or parts >= MOST_PARTS:
             sound &= bool(fine.all())
             fine[:] = True
         some = rows[fine]
-        added[some] += np.maximum(
-            part.added[fine], 0.0
-        )  # a margin that is rounding may be negative
+        added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
         length[some] += part.length[fine]
         ended[some] = part.length[fine] < whole[fine]
         if not fine.all():
@@ -171,20 +169,12 @@ class _Part(NamedTuple):
     evaluations: int
 
 
-def _is_fine(
-    contact: Contact,
-    rule: Gauss,
-    part: _Part,
-    u: FloatArray,
-    tolerance: float,
-    before: FloatArray,
-) -> BoolArray:
+def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> BoolArray:
     """Whether the nodes resolve the rate, as measured by what this cycle has added (k,), (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
     foretells. Where the wear follows the load within less than the distance of two nodes, it leaves
-    those from m on, over that time. No node sees a layer before the first, where wear opens the
-    gap: up to there wear must be small against the roughness.
+    those from m on, over that time.
     """
     series = np.abs(part.rate @ rule.coefficients.T)
     half = series.shape[1] // 2
@@ -195,10 +185,7 @@ def _is_fine(
     left = tail * gain * part.length
     told = part.noise / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
     left[tail < 100 * told] = 0.0
-    roughness = _roughness(contact.model, u)
-    skipped = part.length * rule.nodes[0] * np.max(part.rate, axis=1)
-    seen = skipped <= LAYER * roughness
-    resolved: BoolArray = seen & (left <= tolerance * np.maximum(before + part.added, 0.0))
+    resolved: BoolArray = left <= tolerance * np.maximum(before + part.added, 0.0)
     return resolved
 
 

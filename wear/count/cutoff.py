@@ -14,10 +14,7 @@ import numpy as np
 
 from wear.count.contact import Contact, Stretch, Worn, worn
 from wear.count.cycle import (
-    OneCycle,
     Settings,
-    drive,
-    first_edges,
 )
 from wear.count.edge import Edge, Piece, displacement_at, edge_of_contact, phase_of, wear_at
 from wear.count.held import Support, on_support
@@ -146,13 +143,6 @@ class CutoffCycle(NamedTuple):
             np.all([run.converged for run in runs], axis=0),
             np.concatenate([run.iteration_error for run in runs]),
         )
-
-
-def one_cycle(model: Model, load: Load) -> OneCycle:
-    """The map of one cycle that a model needs, on a mesh yet to be resolved."""
-    if not model.ends_at_3_sigma:
-        return drive(model, load, mesh(first_edges(load), 8))
-    return cutoff_cycle(model, load)
 
 
 def cutoff_cycle(model: Model, load: Load) -> CutoffCycle:

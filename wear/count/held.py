@@ -95,7 +95,7 @@ def on_support(
     support: Support, piece: Piece, wear: FloatArray, before: FloatArray, blur: FloatArray
 ) -> Worn:
     """A piece from each wear (k,), `before` (k,) of it added by this cycle already; margins that
-    differ by less than `blur` (k,), mm, cannot be told apart."""
+    differ by less than `blur` (k,), mm, are the same."""
     edge, load = support.edge, support.load
     touching = displacement_at(support.model, wear)
     if np.all(max(piece.heights[[0, -1]]) - touching <= blur):

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from wear.equation import APART
+from wear.equation import roundoff as rate_roundoff
 from wear.load import Load
 from wear.model import Model
 from wear.numerics.gauss import (
@@ -11,9 +13,6 @@ from wear.numerics.tolerances import (
     ROUNDOFF,
     TINY,
 )
-
-SMALLEST = 100 * float(np.finfo(float).smallest_subnormal)  # below, digits are lost
-APART = 1e-4  # of the roughness: displacements between which the rate's steepness is taken
 
 
 def roundoff(model: Model, load: Load, wear: FloatArray) -> FloatArray:
@@ -37,7 +36,7 @@ def roundoff_of_cycles(model: Model, load: Load, wear: FloatArray) -> FloatArray
 def _of_rate(model: Model, load: Load, wear: FloatArray) -> FloatArray:
     """The part of the rate at the peak of the load, contact assumed."""
     peak = np.full_like(wear, load.maximum)
-    error = roundoff_of(model, peak, wear)
+    error = rate_roundoff(model, peak, wear)
     if model.ends_at_3_sigma and model.compliant:
         # The pressure vanishes with the margin, and no steepness can be taken there.
         told = model.margin(wear, peak) > 2 * APART * model.fields(wear, peak).sigma
@@ -52,19 +51,4 @@ def _of_contact(model: Model, load: Load, wear: FloatArray) -> FloatArray:
     peak = np.full_like(wear, load.maximum)
     margin, terms = model.margin(wear, peak), model.margin_terms(wear, peak)
     result: FloatArray = np.minimum(ROUNDOFF * terms / (np.abs(margin) + TINY), 1e-9)
-    return result
-
-
-def roundoff_of(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatArray:
-    """Relative error of the rate by rounding: its condition with respect to the terms of the
-    closure and the roughness, of which the contact law takes the quotient."""
-    fields = model.fields(wear, displacement)
-    sigma, fresh = fields.sigma, model.fields(np.zeros_like(wear), displacement).sigma
-    cancelled = (fresh + np.abs(sigma - fresh)) / sigma  # where roughness vanishes
-    terms = np.abs(fields.h) * (1 + cancelled) + np.abs(displacement) + np.abs(fields.U_c)
-    apart = APART * sigma
-    more, less = (model.rate(wear, displacement + sign * apart) for sign in (1.0, -1.0))
-    steepness = np.abs(more - less) / (2 * apart * (np.minimum(more, less) + TINY))
-    lost = SMALLEST / np.maximum(less, SMALLEST)
-    result: FloatArray = ROUNDOFF * (8 + steepness * terms) + lost
     return result

@@ -6,13 +6,8 @@ good enough for a plan; what the plan misses, the residual of Abel's equation fi
 
 import numpy as np
 
-from wear.count.abel import Shift, change_in_a_cycle, folded, panel_wear, reach, widths
 from wear.count.cycle import OneCycle, settings
 from wear.model import Model
-from wear.numerics.chebyshev import (
-    chebyshev_analysis,
-    chebyshev_nodes,
-)
 from wear.numerics.gauss import (
     FloatArray,
 )
@@ -79,57 +74,3 @@ def scan(cycle: OneCycle, scale: float, start: float, cycles: float, limit: floa
     end = wear[last] + share * (wear[last + 1] - wear[last])
     ahead: FloatArray = np.append(wear[: last + 1], end)
     return ahead
-
-
-def plan_panels(
-    cycle: OneCycle, shift: float, start: float, end: float, m: int, tolerance: float
-) -> tuple[FloatArray, FloatArray]:
-    """Ends (in mm of wear) of panels on which m coefficients resolve the frozen density, and
-    roughly how many cycles each takes; no more than it would at the pace of its end, since the
-    last node looks a cycle beyond, and none where a cycle changes its own pace much."""
-    nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
-    done: list[tuple[float, float]] = []
-    starts, ends = np.array([start]), np.array([end])
-    while len(starts):
-        across = widths(shift, starts, ends)
-        density = frozen_density(cycle, panel_wear(shift, starts, across, nodes))
-        # Less a constant, whose rounding would look like a tail.
-        tail = np.max(np.abs((density - density[:, :1]) @ analysis), axis=1)
-        step = reach(shift, starts, across, nodes, np.exp(-np.minimum(density, 650.0)))[..., 0]
-        taken = 2 / step
-        cycles, at_end = np.mean(taken, axis=1), FASTER * taken[:, -1]
-        sharp = change_in_a_cycle(density, step) > SHARP
-        rough = (tail > tolerance) | ((cycles > 2 * m) & ((at_end < m) | sharp))
-        rough &= len(done) + len(starts) < MOST_PLANNED
-        cycles = np.where(sharp, 0.0, np.minimum(cycles, at_end))
-        done.extend(zip(starts[~rough], cycles[~rough], strict=True))
-        starts, ends = halves(shift, starts[rough], ends[rough])
-    ordered = np.array(sorted(done))
-    return np.append(ordered[:, 0], end), ordered[:, 1]
-
-
-def cycles_if_cut(taken: FloatArray, share: Shift = SPLIT) -> FloatArray:
-    """How many cycles the first part of each panel, a `share` of it, would take if it were cut in
-    two, and no more than at the pace of its end, from `taken` (panels, m) cycles at the pace of its
-    nodes."""
-    rows, m = np.arange(len(taken)), taken.shape[1]
-    t = np.broadcast_to(2 * np.asarray(share) - 1, rows.shape)
-    inside = np.minimum(np.searchsorted(chebyshev_nodes(m), t), m - 1)
-    mean = np.cumsum(taken, axis=1)[rows, inside - 1] / inside
-    fewer: FloatArray = share * np.minimum(mean, FASTER * taken[rows, inside])
-    return fewer
-
-
-def halves(
-    shift: Shift, starts: FloatArray, ends: FloatArray, share: Shift = SPLIT
-) -> tuple[FloatArray, FloatArray]:
-    """Every panel cut in two, the first part a `share` of it."""
-    way = -np.log1p(-share * folded(shift, widths(shift, starts, ends)))
-    middles = starts + (starts + shift) * np.expm1(way)
-    return np.concatenate([starts, middles]), np.concatenate([middles, ends])
-
-
-def cut_far_out(shift: Shift, across: FloatArray) -> FloatArray:
-    """The share of panels up to their middle in y, which is much nearer to their end."""
-    share: FloatArray = folded(shift, across / 2) / folded(shift, across)
-    return share

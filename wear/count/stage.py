@@ -52,7 +52,7 @@ class Leap(NamedTuple):
 
 
 class Stage(NamedTuple):
-    """A count from `begins` cycles on, give or take `adrift`, with the error (mm) of the wear that
+    """A count from `begins` cycles on, up to `adrift`, with the error (mm) of the wear that
     it begins with."""
 
     begins: float
@@ -76,9 +76,7 @@ class Stage(NamedTuple):
         """How many whole cycles it counts."""
         if not isinstance(self.counted, CycleCount):
             return self.counted.ran
-        if self.counted.table is None:
-            return float(len(self.counted.first) - 1)
-        return float(np.floor(self.counted.table.last_cycles))
+        return float(len(self.counted.first) - 1)
 
     @property
     def drift(self) -> float:
@@ -105,7 +103,7 @@ class Stage(NamedTuple):
 
 
 class Arrest(NamedTuple):
-    """The `cycle`, counted from 1, in which wear stops for good, give or take some; or if wear
+    """The `cycle`, counted from 1, in which wear stops for good, known up to `uncertain`; if it
     `fades`, that from which on double precision does not tell it from its end."""
 
     cycle: int
@@ -113,9 +111,9 @@ class Arrest(NamedTuple):
     fades: bool = False
 
     def __str__(self) -> str:
-        spread = f", give or take {self.uncertain}" if self.uncertain else ""
+        spread = f" (± {self.uncertain})" if self.uncertain else ""
         if self.fades:
-            return f"wear fades: from cycle {self.cycle}{spread} on it cannot be told from its end"
+            return f"wear approaches its limit; within rounding from cycle {self.cycle}{spread} on"
         return f"wear stops for good in cycle {self.cycle}{spread}"
 
 

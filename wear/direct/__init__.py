@@ -53,9 +53,9 @@ class DirectResult(NamedTuple):
 
     `error` estimates the relative error of `u`, NaN where a run was stopped before there was a
     second one to compare with. `arrested_in` is the cycle, counted from 1, in which wear stopped
-    for good; or if it `fades`, that from which on it cannot be told from its end. `stopped` says
-    why the integration ended early (None: it did not) and `interrupted` whether that was the user
-    or the clock.
+    for good; or if it `fades`, that from which on it is within rounding of its limit. `stopped`
+    says why the integration ended early (None: it did not) and `interrupted` whether that was the
+    user or the clock.
     """
 
     cycles: tuple[int, ...]
@@ -84,7 +84,7 @@ class State(NamedTuple):
     """The wear in mm at the end of a cycle, after so many steps.
 
     `arrested_in` is the cycle in which wear stopped for good, or from which on, if it `fades`, it
-    cannot be told from its end.
+    is within rounding of its limit.
     """
 
     cycle: int
@@ -224,7 +224,8 @@ def _errors(runs: Sequence[Run], blur: float) -> FloatArray:
     """Relative error of the last run at each mark that it reached, from its distance to the others.
 
     Errors fall with the tolerance, if not in proportion: the square root of the ratio is counted
-    on. The distance is the largest so far, since two runs may cross. They may also agree by
+    on, but where contact is lost: steps begin anew there, and one that is too long may stand in the
+    finer run. The distance is the largest so far, since two runs may cross. They may also agree by
     accident: nothing is claimed below the sum, at random, of the errors that the last run's
     tolerance permits at each step, nor below the roundoff of the scene's numbers, nor below
     `blur` (mm), the width that roundoff gives the edge of contact.
@@ -235,6 +236,8 @@ def _errors(runs: Sequence[Run], blur: float) -> FloatArray:
     distance = np.full(size, blur)
     for other in others:
         gain = np.sqrt(last.setting.tolerance / other.setting.tolerance)
+        if blur > 0.0:
+            gain = max(gain, 1.0 / SAFETY)
         apart = np.maximum.accumulate(np.abs(other.wear()[:size] - wear))
         distance = np.maximum(distance, SAFETY * gain * apart)
     steps = np.array([state.steps for state in last.states], dtype=float)

@@ -17,6 +17,7 @@ from wear.direct.problem import EPS, Problem, Real, Setting
 
 METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
 FINEST_TOLERANCE = 110 * EPS  # SciPy accepts no relative tolerance below 100 units of roundoff
+NEAR = 1e-6  # of a cycle: by how much an interpolant may misplace the end of contact
 LOOKS_PER_STEP = 8  # where a step is searched for the end of contact
 
 
@@ -95,13 +96,23 @@ def leg(
         found = opened if bent is None else bent
         if found is None:
             continue
-        if kink is None:
-            return Leg(found, float(step.wear(found)), True)
-        # The step went over a kink, and so is not exact on this side of it either: once more.
+        # The interpolant is not as exact as a step, and a step over a kink not on either side.
         if found > before.phase:
             before = leg(of, before.u, before.phase, found, setting, meter, longest)
-        return before._replace(opened=bent is None)
+        if bent is not None:
+            return before
+        return _opened(of, before, slack or 0.0)
     return Leg(float(solver.t), u, False)
+
+
+def _opened(of: Problem, at: Leg, slack: float) -> Leg:
+    """The end of contact near a leg's end, by a step of Newton's method on the margin."""
+    speed = of.speed(at.phase, at.u)
+    slope = of.model.margin_slope(at.u, of.load(at.phase))
+    falls = float(of.load.slope(at.phase) + slope * speed)
+    left = float(of.margin(at.phase, at.u)) + slack
+    ahead = float(np.clip(-left / falls, -NEAR, NEAR)) if falls < 0.0 else 0.0
+    return Leg(at.phase + ahead, at.u + float(speed) * ahead, True)
 
 
 def _solver(

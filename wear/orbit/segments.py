@@ -372,7 +372,8 @@ class _Work:
             spent = job.spent[more.which] + more.evaluations / len(which)
             self.cost = self.cost.plus(more.increments, more.evaluations)
             fresh = _Job(which, more.maps, more.transient, job.needed, job.worst[more.which], spent)
-            ended = np.full(len(which), self.request.late)
+            late = self.request.late and more.transient.cycles >= BLOCK
+            ended = np.full(len(which), late)
             if more.transient.cycles > job.transient.cycles:
                 last = more.transient.last
                 ended |= more.transient.cycles >= self.request.cycles[which]
@@ -410,7 +411,8 @@ class _Work:
         # What rounding leaves no refinement cures.
         accepted = (job.worst <= NEARLY_THERE * tolerance) & ~(worst < job.worst / 2)
         accepted &= number > 0
-        accepted |= (spent > MOST_EVALUATIONS) | self.request.late | (marked & job.maps.full)
+        accepted |= (spent > MOST_EVALUATIONS) | (marked & job.maps.full)
+        accepted |= self.request.late and number > 0
         accepted |= good & ~marked
         finer = np.flatnonzero(marked & ~accepted)
         for group, maps in job.maps.take(finer).refined(filled.marked[finer]) if len(finer) else ():
@@ -455,13 +457,14 @@ class _Work:
     def _meets_the_request(self, job: _Job, panels: SolvedPanels) -> BoolArray:
         """Return whether the estimated error of each scene (s,), where panels meet included, is as
         small as requested."""
-        met = np.full(len(job.which), True)
+        met, order = np.full(len(job.which), True), np.argsort(job.which)
         for rows, counted in self._counted(job, panels):
             table = counted.cells
             assert table is not None
             rate, u = (x.reshape(len(rows), -1)[:, 1:] for x in (table.first_rate, table.u))
             error = counted.count_error[:, 1:-1] * rate / u
-            met[np.searchsorted(job.which, rows)] = np.all(error <= self.rtol, axis=1)
+            place = order[np.searchsorted(job.which, rows, sorter=order)]
+            met[place] = np.all(error <= self.rtol, axis=1)
         return met
 
     def _is_gentle(self, job: _Job) -> BoolArray:
@@ -562,7 +565,8 @@ def _look_ahead(problem: Problem, request: Request) -> FloatArray:
     at = (np.arange(len(start)), part)
     missing = wanted - np.where(part > 0, counts[at[0], part - 1], 0.0)
     share = np.log1p(missing / first[at]) / rise[at]
-    y = np.minimum(ahead[at] + share * longest[:, 0] / STEPS, longest[:, 0])
+    # Where the states end before the cycles do, the share is no number.
+    y = np.fmin(ahead[at] + share * longest[:, 0] / STEPS, longest[:, 0])
     end: FloatArray = start + begin[:, 0] * np.expm1(y)
     return end
 

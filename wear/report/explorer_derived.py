@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -89,6 +89,17 @@ def rows() -> str:
     return "\n".join(_html(*row) for row in found)
 
 
+def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
+    """Return the ids of the equations that hold for these choices and this regime."""
+    return tuple(
+        dict.fromkeys(
+            row.identifier
+            for row in (*_MODEL, *_LONG_RUN)
+            if all(chosen[name] in values for name, values in row.holds.items())
+        )
+    )
+
+
 _Formula = tuple[str, str, str, Choices]  # title, LaTeX, number, where it holds
 
 
@@ -106,12 +117,12 @@ def _forms(laws: tuple[str, ...]) -> Iterator[_Formula]:
     from derive.note.governing import Model
     from derive.typeset.display import latex
 
-    yield "Closure", latex(Model(opening=True).closure.claim), "", _OPENING
+    yield "Closure", latex(Model(opening=True).closure.relation), "", _OPENING
     for name in laws:
         model = Model(LAWS[name])
         for cutoff, statement in (False, model.pressure), (True, model.pressure_with_cutoff):
             holds: Choices = {"law": (name,), "cutoff": (cutoff,)}
-            yield "Contact law", latex(statement.claim), "", holds
+            yield "Contact law", latex(statement.relation), "", holds
 
 
 def _html(title: str, latex: str, number: str, holds: Choices) -> str:

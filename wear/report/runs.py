@@ -1,7 +1,7 @@
 """The runs that the report needs, each made once.
 
 Overview
-    Everything here is a number: histories of the note's scenes with and without the cutoff, how
+    Everything here is a number: histories of the note's scenes in both readings, how
     the wear approaches its asymptote, the closed solution against the solver, bounds, arrest and
     hard scenes. The paper's modules only say what the numbers mean.
 Key results
@@ -40,7 +40,7 @@ SECTION_5 = ("section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4")
 SCENES = ("section3", "section4", *SECTION_5)
 CUTOFF = ".cutoff"
 
-#: Requested relative errors: of the analysis, with the cutoff, and of hard scenes.
+#: Requested relative errors: of the analysis, with loss of contact, and of stress tests.
 RTOL = 1e-12
 CUTOFF_RTOL = 1e-9
 HARD_RTOL = 1e-8
@@ -116,7 +116,7 @@ class HardCase(NamedTuple):
 class Runs:
     """All runs of the report.
 
-    ``cases`` has the note's scenes by name, those with the cutoff under ``name.cutoff``.
+    ``cases`` has the note's scenes by name, those with loss of contact under ``name.cutoff``.
     ``printed_increment`` mm is the wear of the cycle that the note calls stabilised,
     ``threshold_excess`` the relative excess over (21) at the cycle that the drift foretells for
     the note's criterion. ``integrated`` has the largest relative difference of the wear between

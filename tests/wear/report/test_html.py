@@ -195,7 +195,7 @@ def test_the_section_that_is_read_is_marked(
     file.write_text(page, encoding="utf-8")
     with browser(need_tool("chromium", "google-chrome"), tmp_path / "profile") as window:
         window.size(1280, 400)
-        window.open(file, "!!document.querySelector('nav [aria-current]')")
+        window.open(file, "document.readyState === 'complete'")
         window.run("document.getElementById('app:claims').scrollIntoView()")
         marked = "document.querySelector('nav [aria-current]').hash"
         window.wait(f"{marked} === '#app:claims'")

@@ -9,7 +9,7 @@ list.addEventListener("click", (event) => { if (event.target.closest("a")) fold(
 const headings = [...document.querySelectorAll("main section[id]")];
 const mark = () => {
   const passed = headings.filter((s) => s.getBoundingClientRect().top < innerHeight / 3);
-  const current = passed.length ? passed[passed.length - 1].id : headings[0].id;
+  const current = passed.length ? passed[passed.length - 1].id : "";
   for (const [id, a] of entries) {
     if (id === current) a.setAttribute("aria-current", "location");
     else a.removeAttribute("aria-current");

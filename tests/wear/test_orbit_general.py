@@ -1,0 +1,48 @@
+"""Cycles of equations that are no wear, against closed forms."""
+
+import numpy as np
+import pytest
+
+from wear.orbit.general import count_cycles
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-10])
+def test_crack_growth_by_the_law_of_paris(rtol: float) -> None:
+    """da/dN = c a^2 has the solution 1/a = 1/a_0 - c N, whatever the shape of the cycle."""
+    cycles = np.array([1.0, 10.0, 1e3, 5e3, 9e3, 9.4e3])
+    found = count_cycles(
+        lambda a, t: 2e-4 * a**2 * np.sin(np.pi * t) ** 2,
+        cycles.tolist(),
+        start=1.0,
+        scale=1.0,
+        period=1.0,
+        limit=20.0,
+        rtol=rtol,
+    )
+    true = np.abs(found.u * (1 - 1e-4 * cycles) - 1)
+    assert np.all((true <= found.error) | (true < 3e-15))
+    assert np.all(found.error <= rtol)
+    assert found.cost.cycles_integrated < 200
+
+
+def test_a_jump_in_time_is_a_breakpoint() -> None:
+    """du/dt = exp(-u) in half of each cycle: u = ln(1 + N/2)."""
+    cycles = np.array([1.0, 1e3, 1e9])
+    found = count_cycles(
+        lambda u, t: np.where(t % 0.02 < 0.01, np.exp(-u), 0.0) / 0.02,
+        cycles.tolist(),
+        start=0.0,
+        scale=1.0,
+        period=0.02,
+        breakpoints=[0.01],
+    )
+    assert np.all(np.abs(found.u / np.log1p(cycles / 2) - 1) <= found.error + 3e-15)
+    assert np.all(found.error <= 1e-10)
+
+
+def test_beyond_the_limit_nothing_is_known() -> None:
+    found = count_cycles(
+        lambda a, t: 1e-3 * a**2 + 0 * t, [100, 2000], start=1.0, scale=1.0, period=1.0, limit=50.0
+    )
+    assert found.error[0] <= 1e-10
+    assert found.error[1] == np.inf

@@ -1,0 +1,54 @@
+"""`wear report`: the report of a scene of one's own, as a page, LaTeX and PDF."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from derive import files, terminal
+from derive.command_line import Command
+from wear.commands.arguments import Faults, add_scene
+
+EXAMPLE = """\
+  wear report scene.toml              into the folder scene-report
+  wear report section4 -o elsewhere   model, data, equations, wear, life
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the scene and the folder."""
+    add_scene(parser)
+    parser.add_argument("-o", "--output", metavar="DIR", help="folder (default: NAME-report)")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Solve the scene and write its report."""
+    faults = Faults()
+    scene = faults.scene(options)
+    if scene is not None and options.output is None:
+        options.output = f"{Path(scene.name).stem}-report"
+    folder = Path(options.output or ".")
+    if problem := files.obstacle_to_folder(folder):
+        faults.add(f"--output: {problem}")
+    faults.stop_if_any()
+    assert scene is not None
+    from wear.report.own import report
+    from wear.report.publish import publish
+
+    terminal.progress("solving the scene and deriving its equations ...")
+    document = report(scene, f"wear report {options.scene}")
+    with files.replacing_in(folder) as draft:
+        published = publish(document, draft)
+        written = sorted(path.name for path in published.files)
+    terminal.progress("")
+    if options.json:
+        terminal.print_json({"folder": str(folder), "files": written})
+    else:
+        print(f"report: {folder / 'report.html'}")
+    for line in (published.notice, *published.warnings):
+        if line:
+            terminal.complain("wear report", line)
+    return terminal.DONE
+
+
+COMMAND = Command("report", "the report of a scene of one's own", EXAMPLE, add_arguments, execute)

@@ -1,0 +1,115 @@
+"""Any du/dt = f(u, t) with periodic f: the state after any number of cycles.
+
+Example
+-------
+Paris's law of crack growth, da/dN = C (dK)^m with dK = Y ds sqrt(pi a), is a rate that repeats with
+every load cycle and grows with the state; its closed form for m = 4 is 1/a = 1/a_0 - c N.
+
+>>> c, a_0 = 1e-4, 1.0
+>>> def growth(a, t):
+...     return 2 * c * a**2 * np.sin(np.pi * t) ** 2
+>>> found = count_cycles(growth, [1, 1000, 9000], start=a_0, scale=a_0, period=1.0, limit=20.0)
+>>> bool(np.all(np.abs(found.u * (1 / a_0 - c * np.array([1, 1000, 9000])) - 1) <= found.error))
+True
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.numerics.gauss import FloatArray
+from wear.numerics.tolerances import ROUNDOFF
+from wear.orbit.period_map import Rows
+from wear.orbit.segments import Cost, orbit
+
+Rate = Callable[[FloatArray, FloatArray], FloatArray]
+CONDITION = 8.0  # roundoffs of a rate, if nothing is known
+DIFFERENCE = 1e-6  # of the state and its scale: states between which a slope is taken
+
+
+class States(NamedTuple):
+    """The states `u` (n,) after the cycles asked for, their estimated relative `error`, and what
+    they took."""
+
+    u: FloatArray
+    error: FloatArray
+    cost: Cost
+
+
+@dataclass(frozen=True)
+class _General:
+    """One equation du/dt = f(u, t); its forcing is the phase itself."""
+
+    f: Rate
+    period: float
+    scale: FloatArray
+    limit: FloatArray
+    breakpoints: list[FloatArray]
+    condition: float
+    scenes: int = 1
+
+    def take(self, rows: Rows) -> _General:
+        return self
+
+    def forcing(self, phases: FloatArray) -> FloatArray:
+        return phases
+
+    def rate(
+        self, u: FloatArray, forcing: FloatArray, near: FloatArray | None = None
+    ) -> FloatArray:
+        return self.period * np.asarray(self.f(u, self.period * forcing))
+
+    def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:
+        apart = DIFFERENCE * (np.abs(u) + self.scale)
+        more, less = (self.rate(u + sign * apart, forcing) for sign in (1.0, -1.0))
+        return (more - less) / (2 * apart)
+
+    def roundoff(self, u: FloatArray) -> FloatArray:
+        return np.full(u.shape, self.condition * ROUNDOFF)
+
+
+def count_cycles(
+    f: Rate,
+    cycles: Sequence[float],
+    *,
+    period: float,
+    start: float,
+    scale: float,
+    breakpoints: Sequence[float] = (),
+    rtol: float = 1e-10,
+    limit: float = np.inf,
+    condition: float = CONDITION,
+) -> States:
+    """Return the states of du/dt = f(u, t), f of the given period in t, after whole `cycles`.
+
+    Parameters
+    ----------
+    f
+        The rate, for arrays of u and t that broadcast; not negative, smooth in u.
+    cycles
+        Whole numbers, in any order.
+    start
+        The state before the first cycle, not negative.
+    scale
+        The change of the state that changes the rate by a factor of order one, roughly: it says how
+        panels are laid out, and no result depends on it.
+    breakpoints
+        Times in (0, period) at which f is not smooth in t.
+    rtol
+        Requested relative error of the states; where it is missed the estimated error says so.
+    limit
+        States from here on have no meaning.
+    condition
+        Relative error of f by rounding, in units of roundoff.
+    """
+    cuts = np.array([0.0, *(time / period for time in sorted(breakpoints)), 1.0])
+    equation = _General(f, period, np.array([scale]), np.array([limit]), [cuts], condition)
+    wanted = np.asarray(cycles, dtype=float)[None]
+    with np.errstate(all="ignore"):  # trial states far off the solution may overflow
+        found = orbit(equation, np.max(wanted, axis=1), rtol, np.array([start]), np.zeros(1))
+        u, error = found.after(wanted)
+    return States(u[0], error[0], found.cost)
