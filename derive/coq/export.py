@@ -129,7 +129,7 @@ class Export:
     def files(self) -> dict[str, tuple[str, list[str]]]:
         """Return the exported files, with the others that each needs."""
         home = {name: group for group, names in self.groups.items() for name in names}
-        files = {"World": (self.world, [])}
+        files: dict[str, tuple[str, list[str]]] = {"World": (self.world, [])}
         for group, names in self.groups.items():
             text = "\n".join(self.lemmas[name] for name in names)
             cited = {home[name] for name in re.findall(r"step_\d+", text)} - {group}

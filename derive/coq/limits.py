@@ -110,7 +110,7 @@ def _known(step: Step) -> list[str]:
         else:
             lines.append(f"pose proof ({step.cited(limit)}) as L{i}.")
         if moves:
-            proof = f"generalize (later _ _ T L{i}); apply tends_ext; intros; rewrite ?derive_later; reflexivity"
+            proof = f"generalize (later _ _ T L{i}); apply tends_ext; intros; rewrite ?derive_later; first [reflexivity | replace (2 * T + t) with (T + (T + t)) by ring; reflexivity]"
             lines.append(f"assert (M{i} : tends (fun t => {later}) ({term(value)})) by ({proof}).")
     return lines
 

@@ -90,7 +90,8 @@ def _sum(expr: sp.Add) -> str:
 def _product(expr: sp.Mul) -> str:
     """Return numerator over denominator; a sign stands in front."""
     coefficient, factors = expr.as_coeff_Mul()
-    above, below = [], []
+    above: list[sp.Expr] = []
+    below: list[sp.Expr] = []
     for factor in factors.as_ordered_factors() if factors != 1 else ():
         power = factor.as_base_exp()[1] if isinstance(factor, sp.Pow) else sp.S.One
         (below if power.is_Rational and power < 0 else above).append(factor)

@@ -128,7 +128,7 @@ def _bounded_load(step: Step) -> Iterator[str]:
         None,
     )
     parts = _affine(sp.cancel(inside * size)) if size is not None else None
-    if parts is None:
+    if size is None or parts is None:
         return
     slope, start = sp.diff(size, _WEAR), size.subs(_WEAR, 0)
     diverges = next(s for s in step.limits if s.relation.rhs == sp.oo)
