@@ -254,7 +254,8 @@ def _imposed(part: sp.Basic, chance: random.Random, wild: bool) -> sp.Basic | No
                 *((low, high - 1) if isinstance(low, sp.Limit) else (high, low + 1)), evaluate=False
             )
             return _imposed(part, chance, wild)
-        gap = sp.sympify(chance.choice((1, 0, "1/2", 2, t, sp.exp(-t), 1000)[: 7 if wild else 6]))
+        gaps = (sp.S.One, sp.S.Zero, sp.S.Half, sp.Integer(2), t, sp.exp(-t), sp.Integer(1000))
+        gap = chance.choice(gaps if wild else gaps[:-1])
         if gap == 0 and isinstance(part, (sp.Gt, sp.Lt)):
             gap = sp.S.One
         part = sp.Eq(high, low + gap, evaluate=False)

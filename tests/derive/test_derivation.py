@@ -69,7 +69,8 @@ def test_no_wrong_step_passes(step: Judgement) -> None:
     wrong = [(what, claim) for what, claim in mutants(written) if not same(claim, written)]
     assert wrong
     for what, claim in wrong:
-        with pytest.raises(ValueError, match=r".") as refusal:
+        # SymPy itself may fail to compare what a mutant says: no judgement is made then either.
+        with pytest.raises((ValueError, TypeError), match=r".") as refusal:
             infer(replace(step.rule, claim=claim), *step.parents)
         assert str(refusal.value), what
 

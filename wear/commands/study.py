@@ -171,8 +171,7 @@ def _cluster(address: str) -> Iterator[Executor]:
         from distributed import Client
     except ImportError as fault:
         raise UsageError("--scheduler needs Dask: pip install 'derive-wear[study]'") from fault
-    for name in ("distributed", "tornado"):  # what goes wrong is said once, in our words
-        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    logging.disable()  # what goes wrong with the cluster is reported once, in our words
     try:
         client = Client(address, timeout=LONGEST_WAIT, set_as_default=False)
     except (OSError, ValueError) as fault:

@@ -140,7 +140,7 @@ def planned(way: Way, wear: float, cycles: float) -> tuple[list[Span], float]:
     reach = float(scan(way.plain, way.scale, begin, max(cycles - counted, LEAST), way.end)[-1])
     half = begin if last is None else min(begin + way.scale, (begin + reach) / 2)
     spans += [*_outwards(way, last, begin, half), *_outwards(way, None, half, reach)]
-    return spans, np.inf
+    return spans, reach  # wear that is not frozen may take more cycles to there, and fewer
 
 
 def _looks(

@@ -179,6 +179,10 @@ class Planned(NamedTuple):
     frame: abel.Frame
     cycles: FloatArray
 
+    def take(self, which: BoolArray | IntArray) -> Planned:
+        """Return some of the panels."""
+        return Planned(self.scene[which], self.frame.take(which), self.cycles[which])
+
 
 def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> Planned:
     """Cut panels until their coefficients resolve the density without feedback, and none ends at a

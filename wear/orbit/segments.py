@@ -439,6 +439,9 @@ class _Work:
         number = job.transient.cycles
         scenes = np.arange(len(job.which))
         plan = planned(job.maps, scenes, self._frame(job), self.size)
+        # Far beyond the cycles asked for the rate may vanish altogether: there is no density.
+        wanted = MARGIN * np.maximum(self.request.cycles[job.which], LEAST)
+        plan = plan.take(~_enough_before(plan.cycles / wanted[plan.scene], plan.scene))
         usable = _before_the_first(plan.cycles < self.size.panel_nodes, plan.scene)
         all_usable = np.full(len(scenes), True)
         all_usable[plan.scene[~usable]] = False
@@ -575,6 +578,14 @@ def _edges(maps: PeriodMap, rows: IntArray) -> FloatArray:
     """Return the edges (s, q + 1) of the meshes of some scenes."""
     edges = maps.over.edges[:, 0]
     return np.repeat(edges, len(rows), axis=0) if len(edges) == 1 else np.asarray(edges[rows])
+
+
+def _enough_before(share: FloatArray, scene: IntArray) -> BoolArray:
+    """Return before which panels, in order, those of the same scene make up one whole already, of
+    which each holds a `share` (panels,)."""
+    before = np.concatenate([[0.0], np.cumsum(np.minimum(share, 1.0))[:-1]])
+    first = np.searchsorted(scene, scene)  # the first panel of the scene of each
+    return np.asarray(before - before[first] >= 1.0)
 
 
 def _before_the_first(bad: BoolArray, scene: IntArray) -> BoolArray:

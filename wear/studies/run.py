@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import (
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
     from wear.scene import Scene
     from wear.studies.store import Store
 
+# What executors raise when their workers, or the way to them, are gone; Dask's client is a
+# RuntimeError once it is closed.
+LOST = (BrokenExecutor, CancelledError, asyncio.CancelledError, OSError, RuntimeError)
 IN_FLIGHT = 64  # chunks handed over at once: enough for a cluster, few enough for memory
 
 
@@ -178,9 +182,9 @@ def _answers(
                 yield from _finished(running)
         while running:
             yield from _finished(running)
-    except (BrokenExecutor, CancelledError, OSError) as fault:
+    except LOST as fault:
         raise WorkersLost(
-            f"the workers went away ({type(fault).__name__}); finished chunks are kept: "
+            f"the workers went away ({type(fault).__name__} {fault}); finished chunks are kept: "
             "the same command goes on where this one stopped"
         ) from fault
     finally:

@@ -197,7 +197,7 @@ def test_the_section_that_is_read_is_marked(
         window.size(1280, 400)
         window.open(file, "document.readyState === 'complete'")
         window.run("document.getElementById('app:claims').scrollIntoView()")
-        marked = "document.querySelector('nav [aria-current]').hash"
+        marked = "document.querySelector('nav [aria-current]')?.hash"
         window.wait(f"{marked} === '#app:claims'")
         assert window.run("document.querySelector('nav details').open")
         window.size(600, 400)
