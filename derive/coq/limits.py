@@ -174,7 +174,7 @@ def in_terms_of(expr: sp.Expr, quantity: sp.Expr, stand_in: sp.Expr) -> sp.Expr:
     if any(f.func == _LOAD and not expr.has(f) for f in quantity.atoms(AppliedUndef)):
         return expr
     for each in sorted(fields, key=lambda f: (f.func != _LOAD, str(f))):
-        flat = sp.Dummy()
+        flat = sp.Symbol("unknown")
         solutions = sp.solve(quantity.xreplace({each: flat}) - stand_in, flat)
         if len(solutions) == 1:
             return _cancelled(expr.subs(each, solutions[0]))

@@ -12,6 +12,7 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -233,6 +234,7 @@ def limit(expr: sp.Limit, value: str | None) -> str:
     return f"diverges {function}" if value is None else f"tends {function} {value}"
 
 
+@cache
 def always(relation: sp.Basic) -> str:
     """Return a relation for every t >= 0; one that does not speak of t as it is."""
     if t not in relation.free_symbols or _bound(relation):

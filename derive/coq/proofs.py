@@ -251,8 +251,8 @@ def _manifest(goal: sp.Basic) -> Iterator[sp.Expr]:
     """Return forms of the difference of the sides that may show its sign."""
     if isinstance(goal, Relational):
         difference = goal.gts - goal.lts
-        hidden = difference.atoms(sp.Function, sp.Derivative)
-        functions = {f: sp.Dummy(real=True) for f in hidden}
+        hidden = sorted(difference.atoms(sp.Function, sp.Derivative), key=sp.default_sort_key)
+        functions = {f: sp.Symbol(f"field_{i}", real=True) for i, f in enumerate(hidden)}
         back = {dummy: f for f, dummy in functions.items()}
         flat = difference.xreplace(functions)
         yield sp.factor(flat).xreplace(back)
@@ -278,7 +278,7 @@ def _ordered(goal: sp.Basic) -> Iterator[str]:
         return
     low, high = goal.lts, goal.gts
     for function in (sp.tanh, sp.Function("phi", positive=True)):
-        for a in low.atoms(function):
-            for b in high.atoms(function):
+        for a in sorted(low.atoms(function), key=sp.default_sort_key):
+            for b in sorted(high.atoms(function), key=sp.default_sort_key):
                 form = next(_manifest(goal))
                 yield f"ordered ({term(a.args[0])}) ({term(b.args[0])}) ({term(form)})"

@@ -15,11 +15,12 @@ from typing import Any
 
 from ..kernel import Judgement
 from .printer import UntranslatableError
-from .statements import statement
+from .statements import key
 
 RECORD = Path(__file__).parent / "record.json"
 
-Record = Mapping[str, Mapping[str, Any]]
+Row = dict[str, Any]
+Record = Mapping[str, Row]
 
 
 @cache
@@ -32,6 +33,6 @@ def record() -> Record:
 def proved_by_coq(judgement: Judgement) -> bool:
     """Return whether Coq has closed a judgement, as the record has it."""
     try:
-        return bool(record().get(statement(judgement).hash, {}).get("closed"))
+        return bool(record().get(key(judgement), {}).get("closed"))
     except UntranslatableError:
         return False

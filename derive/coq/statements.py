@@ -6,8 +6,9 @@ Overview
     that occur; a premise about fields holds for every t >= 0.  Hypotheses that only words say
     are those of a short table.
 Key results
-    Statement     premises and conclusion of one lemma, with a hash
+    Statement     premises and conclusion of one lemma
     statement     of a judgement
+    key           a hash of the statement, and of those that it rests on
     world         the record of all quantities that statements speak of
 """
 
@@ -16,7 +17,7 @@ from __future__ import annotations
 import hashlib
 import re
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -63,12 +64,8 @@ class Statement:
         """Return the proposition."""
         return " ->\n  ".join((*(f"({p.said})" for p in self.premises), self.conclusion))
 
-    @cached_property
-    def hash(self) -> str:
-        """Return what identifies the proposition."""
-        return hashlib.sha256(self.text.encode()).hexdigest()[:16]
 
-
+@cache
 def statement(judgement: Judgement) -> Statement:
     """Return the lemma of a judgement; UntranslatableError where Coq's library lacks the words."""
     premises = [_premise(h) for h in judgement.hypotheses]
@@ -78,6 +75,22 @@ def statement(judgement: Judgement) -> Statement:
     if any(re.search(r"\bphi\b", text) for text in (conclusion, *(p.said for p in premises))):
         premises += [Premise(label, said) for label, said in _LAW]
     return Statement(_numbered(premises), conclusion)
+
+
+@cache
+def key(judgement: Judgement) -> str:
+    """Return what identifies a step: its statement, its rule, and the steps that it cites.
+
+    UntranslatableError where it cannot be stated.
+    """
+    cited = []
+    for parent in judgement.parents:
+        try:
+            cited.append(key(parent))
+        except printer.UntranslatableError:
+            continue
+    said = "\n".join((type(judgement.rule).__name__, statement(judgement).text, *cited))
+    return hashlib.sha256(said.encode()).hexdigest()[:12]
 
 
 def claim(judgement: Judgement) -> sp.Basic:

@@ -15,25 +15,30 @@ import sympy as sp
 
 from ..kernel import Judgement
 from .printer import UntranslatableError
-from .statements import Premise, Statement, claim, statement
+from .statements import Premise, Statement, claim, key, statement
 
 
 @dataclass(frozen=True, eq=False)
 class Step:
     """A judgement as a lemma."""
 
-    name: str
+    key: str
     judgement: Judgement
     statement: Statement
     parents: tuple[Step, ...]
     claim: sp.Basic
-    open: bool = False
-    """Whether it has no proof, and cannot be cited."""
+    closed: bool = True
+    """Whether it has a proof, and can be cited."""
 
     @property
     def relation(self) -> sp.Basic:
         """Return the claim."""
         return self.claim
+
+    @property
+    def name(self) -> str:
+        """Return the name of the lemma."""
+        return f"step_{self.key}"
 
     @property
     def rule(self) -> str:
@@ -67,7 +72,7 @@ class Step:
 
     def usable(self, other: Step) -> bool:
         """Return whether another step's premises are all among those of this one."""
-        return not other.open and all(p.said in self.labels for p in other.statement.premises)
+        return (other.closed or other.assumed) and all(p.said in self.labels for p in other.statement.premises)
 
     def cited(self, other: Step) -> str:
         """Return the proof term of another step, from this one's premises."""
@@ -131,24 +136,30 @@ class Step:
 
 
 def steps(
-    judgements: Iterable[Judgement], unproved: Collection[str] = ()
-) -> tuple[list[Step], dict[str, str]]:
-    """Return judgements as steps, premises first, and what cannot be stated, with the reason.
+    judgements: Iterable[Judgement], closed: Collection[str]
+) -> tuple[dict[str, Step], dict[str, str]]:
+    """Return judgements as steps by key, premises first, and why others cannot be stated.
 
-    Judgements that say the same are one step; ``unproved`` are the hashes of open ones.
+    Judgements that say and cite the same are one step; ``closed`` are the keys of those with a
+    proof.
     """
-    made: dict[int, Step] = {}
     known: dict[str, Step] = {}
     refused: dict[str, str] = {}
     for judgement in judgements:
         try:
-            said = statement(judgement)
+            said, name = statement(judgement), key(judgement)
         except UntranslatableError as reason:
             refused[str(judgement.relation)] = str(reason)
-            continue
-        parents = tuple(made[id(p)] for p in judgement.parents if id(p) in made)
-        new = Step(
-            f"step_{len(known)}", judgement, said, parents, claim(judgement), said.hash in unproved
-        )
-        made[id(judgement)] = known.setdefault(said.hash, new)
-    return list(known.values()), refused
+        else:
+            parents = [known[k] for p in judgement.parents if (k := _key(p)) in known]
+            proved = name in closed
+            new = Step(name, judgement, said, tuple(parents), claim(judgement), proved)
+            known.setdefault(name, new)
+    return known, refused
+
+
+def _key(judgement: Judgement) -> str | None:
+    try:
+        return key(judgement)
+    except UntranslatableError:
+        return None

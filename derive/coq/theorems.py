@@ -120,7 +120,7 @@ def _bounded_load(step: Step) -> Iterator[str]:
     size = next(
         (
             d
-            for d in step.relation.lhs.args[0].atoms(sp.Add)
+            for d in sorted(step.relation.lhs.args[0].atoms(sp.Add), key=sp.default_sort_key)
             if sp.denom(inside).has(_WEAR)
             and sp.diff(d, _WEAR).is_Symbol
             and (1 / d) in step.relation.lhs.args[0].atoms(sp.Pow)

@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -80,6 +81,23 @@ def test_every_step_of_the_note_is_closed(identifier):
 
 def test_what_is_not_closed_has_a_reason():
     assert all(row["closed"] or row["reason"] for row in record().values())
+
+
+def test_the_record_is_of_these_statements():
+    made = export.Export(catalogue.equations())
+    assert made.unrecorded == ""
+    assert len(record()) == len(made.steps)
+
+
+@pytest.mark.parametrize("seed", ["0", "2"])
+def test_the_export_is_the_same_under_every_hash_seed(seed, tmp_path):
+    identifiers = ["general-law", "closure-ratio"]
+    made = export.Export(tuple(map(catalogue.equation, identifiers)))
+    made.write(tmp_path / "here")
+    command = [sys.executable, "-m", "derive", "export", *identifiers, "-o", tmp_path / "there"]
+    subprocess.run(command, env=os.environ | {"PYTHONHASHSEED": seed}, check=True)
+    for path in (tmp_path / "here").iterdir():
+        assert (tmp_path / "there" / path.name).read_text("utf-8") == path.read_text("utf-8")
 
 
 def test_nothing_is_admitted():
