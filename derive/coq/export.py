@@ -189,7 +189,11 @@ def compiled(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:
     if shutil.which("coqc") is None or shutil.which("make") is None:
         raise MissingError(f"coqc and make are needed: apt install make {PACKAGES}")
     done = subprocess.run(
-        ["make", "-s", "-k", f"-j{jobs}", *targets], cwd=folder, capture_output=True, text=True, check=False
+        ["make", "-s", "-k", f"-j{jobs}", *targets],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     if "Cannot find a physical path" in done.stdout:
         raise MissingError(f"a library of Coq is missing: apt install {PACKAGES}")

@@ -45,16 +45,16 @@ def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set
     rows: dict[str, Row] = {}
     again = set()
     for step in made.steps:
-        row: Row = {"rule": step.rule, "closed": step.name in closed}
+        new: Row = {"rule": step.rule, "closed": step.name in closed}
         if step.name in ways:
-            row["way"] = ways[step.name]
+            new["way"] = ways[step.name]
         elif "Admitted." in texts[step.name] and "way" in hopeful.get(step.key, {}):
-            row["way"] = hopeful[step.key]["way"]
-        if not row["closed"]:
-            row["reason"] = "no tactic of the exporter closes it"
+            new["way"] = hopeful[step.key]["way"]
+        if not new["closed"]:
+            new["reason"] = "no tactic of the exporter closes it"
             if set(re.findall(r"step_\w+", texts[step.name])) - closed - {step.name}:
                 again.add(step.key)
-        rows[step.key] = row
+        rows[step.key] = new
     return rows, again & hoped
 
 
@@ -81,7 +81,7 @@ def _session(made: Export, lemmas: str) -> str:
 
 def main() -> None:
     """Try what is open, again where that changes what can be cited, and write the record."""
-    rows = {key: row for key, row in record().items()}
+    rows = dict(record())
     made = Export(equations(), rows)
     hoped = {s.key for s in made.steps} - {h for h, row in rows.items() if row["closed"]}
     while hoped:

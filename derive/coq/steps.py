@@ -72,7 +72,9 @@ class Step:
 
     def usable(self, other: Step) -> bool:
         """Return whether another step's premises are all among those of this one."""
-        return (other.closed or other.assumed) and all(p.said in self.labels for p in other.statement.premises)
+        return (other.closed or other.assumed) and all(
+            p.said in self.labels for p in other.statement.premises
+        )
 
     def cited(self, other: Step) -> str:
         """Return the proof term of another step, from this one's premises."""

@@ -7,7 +7,6 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 import sympy as sp
@@ -25,14 +24,6 @@ REQUIRED = ("8", "9", "10", "13", "14", "15", "17a", "17b", "18", "21", "22")
 needs_coq = pytest.mark.skipif(
     shutil.which("coqc") is None and not os.environ.get("CI"), reason="coqc is not installed"
 )
-
-
-def coq(folder: Path, text: str) -> str:
-    """Compile a text beside the library; return what is said against it."""
-    (folder / "Trial.v").write_text(text, encoding="utf-8")
-    command = ["coqc", "-q", "-w", "none", "-Q", ".", "Wear", "Trial.v"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    return done.stdout + done.stderr if done.returncode else ""
 
 
 @pytest.fixture(scope="module")
@@ -89,12 +80,13 @@ def test_the_record_is_of_these_statements():
     assert len(record()) == len(made.steps)
 
 
-@pytest.mark.parametrize("seed", ["0", "2"])
-def test_the_export_is_the_same_under_every_hash_seed(seed, tmp_path):
+def test_the_export_does_not_depend_on_the_order_of_sets(tmp_path):
+    """It once did for these equations under the seeds 0 and 2; this run has one of its own."""
     identifiers = ["general-law", "closure-ratio"]
     made = export.Export(tuple(map(catalogue.equation, identifiers)))
     made.write(tmp_path / "here")
     command = [sys.executable, "-m", "derive", "export", *identifiers, "-o", tmp_path / "there"]
+    seed = str(2 * (hash("step") % 2))
     subprocess.run(command, env=os.environ | {"PYTHONHASHSEED": seed}, check=True)
     for path in (tmp_path / "here").iterdir():
         assert (tmp_path / "there" / path.name).read_text("utf-8") == path.read_text("utf-8")
@@ -114,22 +106,21 @@ def test_the_sample_is_compiled(deviation):
 
 
 @needs_coq
-@pytest.mark.parametrize(
-    ("right", "wrong"),
-    [
-        ("U_c t = p t / k", "U_c t = - p t / k"),
-        ("U_c t = p t / k", "U_c t = 2 * p t / k"),
-        ("(0 < k) ->\n  ", ""),
-        ("k * U_c t", "k + U_c t"),
-    ],
-)
-def test_a_mutated_export_does_not_compile(deviation, right, wrong):
+def test_mutated_exports_do_not_compile(deviation):
     folder, made = deviation
-    (text,) = (lemma for lemma in made.lemmas.values() if "U_c t = p t / k" in lemma)
-    head = made.files[next(iter(made.groups))][0].split("(*", 1)[0]
-    assert coq(folder, head + text) == ""
-    mutant = text.replace(right, wrong)
-    if wrong == "":
-        mutant = mutant.replace(" domain_k", "")
-    assert mutant != text
-    assert coq(folder, head + mutant) != ""
+    (lemma,) = (x for x in made.lemmas.items() if "U_c t = p t / k" in x[1])
+    mutations = {
+        "sign": ("U_c t = p t / k", "U_c t = - p t / k"),
+        "factor": ("U_c t = p t / k", "U_c t = 2 * p t / k"),
+        "equilibrium": ("k * U_c t", "k + U_c t"),
+        "stiffness": ("(0 < k) ->\n  ", ""),
+    }
+    texts = {"right": lemma[1]} | {n: lemma[1].replace(*m) for n, m in mutations.items()}
+    texts["stiffness"] = texts["stiffness"].replace(" domain_k", "")
+    assert len(set(texts.values())) == len(texts)
+    session = made.files[next(iter(made.groups))][0].split("(*", 1)[0] + "".join(
+        f"{text.replace(lemma[0], n)}Abort All.\nLocate {n}.\n" for n, text in texts.items()
+    )
+    command = ["coqtop", "-q", "-w", "none", "-Q", ".", "Wear"]
+    said = subprocess.run(command, cwd=folder, input=session, capture_output=True, text=True)
+    assert re.findall(r"Constant Top\.(\w+)", said.stdout) == ["right"]
