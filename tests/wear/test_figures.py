@@ -33,7 +33,7 @@ def _lines() -> list[Line]:
 
 
 def _methods() -> list[Method]:
-    error = np.array([1e-3, 1e-9, 0.0])
+    error = np.array([1e-3, 1e-9, 1e-16])
     missed = np.array([True, False, False])
     return [
         Method(f"method {i}", error * (i + 1), np.array([1.0, 2.0, 3.0]) * 2.0**i, missed)
@@ -55,6 +55,7 @@ def _all() -> dict[str, Figure]:
         "coefficient": figures.wear_by_coefficient(_lines()),
         "pressure": figures.pressure_in_cycles([Line("first", CYCLES / 100.0, WEAR)]),
         "speed": figures.speed_against_error(_methods()),
+        "cycles": figures.speed_against_cycles(_methods()),
         "map": figures.regime_map(
             _two_regimes,
             ("without", "with"),
