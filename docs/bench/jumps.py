@@ -209,12 +209,13 @@ def prepared(jumps: Jumps) -> Callable[[Scene], Run]:
 
 
 def _method(name: str, jumps: Jumps, *tolerances: float) -> Method:
-    return Method(name, ("wear.orbit.period_map", "scipy.integrate"), prepared(jumps), tolerances)
+    imports = ("wear.orbit.period_map", "scipy.integrate")
+    return Method(name, imports, prepared(jumps), tolerances, steps=False)
 
 
 JUMPS = (
     _method("cycle jump, fixed", fixed_jumps, 1e-1, 1e-2, 1e-3),
-    _method("cycle jump, adaptive", adaptive_jumps, 1.0, 0.3, 0.1, 1e-2, 1e-3),
+    _method("cycle jump, adaptive", adaptive_jumps, 1.0, 0.1, 1e-2),
     _method("averaging, order 1", averaged, 1e-4, 1e-8),
     _method("envelope, order 2", envelope, 1e-2, 1e-4, 1e-6),
     _method("stroboscopic, order 4", stroboscopic, 1e-4, 1e-6, 1e-9, 1e-12),
