@@ -24,7 +24,17 @@ if TYPE_CHECKING:
     )
     from wear.history import History
     from wear.life import cycles_until
-    from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
+    from wear.load import (
+        Block,
+        Blocks,
+        Constant,
+        Force,
+        ForceTable,
+        Harmonics,
+        HistoryLoad,
+        Sine,
+        Table,
+    )
     from wear.regime import Asymptote, asymptote
     from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
     from wear.solver import solve
@@ -42,7 +52,17 @@ _HOMES = {
     ),
     "wear.history": ("History",),
     "wear.life": ("cycles_until",),
-    "wear.load": ("Block", "Blocks", "Constant", "Harmonics", "HistoryLoad", "Sine", "Table"),
+    "wear.load": (
+        "Block",
+        "Blocks",
+        "Constant",
+        "Force",
+        "ForceTable",
+        "Harmonics",
+        "HistoryLoad",
+        "Sine",
+        "Table",
+    ),
     "wear.regime": ("Asymptote", "asymptote"),
     "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
     "wear.solver": ("solve",),
@@ -52,10 +72,10 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
-    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Harmonics",
-    "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene", "SceneError", "Sine",
-    "Support", "Table", "UsageError", "WearError", "WorkersLost", "asymptote", "cycles_until",
-    "load_scene", "sobol_indices", "solve", "study",
+    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Force",
+    "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene",
+    "SceneError", "Sine", "Support", "Table", "UsageError", "WearError", "WorkersLost",
+    "asymptote", "cycles_until", "load_scene", "sobol_indices", "solve", "study",
 ]  # fmt: skip
 
 

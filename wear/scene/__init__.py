@@ -14,9 +14,9 @@ import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import Field, PlainValidator, ValidationError
+from pydantic import Field, PlainValidator, ValidationError, model_validator
 
 from wear.checked import (
     Flag,
@@ -27,13 +27,14 @@ from wear.checked import (
     Real,
     SceneTable,
     Text,
+    all_wrong,
     did_you_mean,
     problems,
     shown,
     table,
 )
 from wear.faults import Fault, SceneError, UsageError
-from wear.load import AperiodicLoad, Blocks, HistoryLoad, Load
+from wear.load import AperiodicLoad, Blocks, Force, ForceTable, HistoryLoad, Load
 from wear.load.rows import read_bytes
 from wear.load.tables import as_table, load_from
 from wear.scene.text import MOST_BYTES, Source, read_tables, set_entry
@@ -105,6 +106,10 @@ class Contact(SceneTable):
         default=None, description="contact width b; with length_mm, R_a = p b L is reported"
     )
     length_mm: Positive | None = Field(default=None, description="contact length L")
+    friction_coefficient: NonNegative | None = Field(
+        default=None,
+        description="coefficient of friction mu; sliding distance and friction work are reported",
+    )
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
@@ -134,6 +139,24 @@ class Motion(SceneTable):
     speed_rpm: Positive = Field(description="rotation speed n")
 
 
+KEYS: Mapping[str, tuple[str, str]] = {
+    "K_c": ("bearing", "wear_coefficient"),
+    "H_c": ("bearing", "hardness_MPa"),
+    "sigma_c0": ("bearing", "roughness_mm"),
+    "f_c": ("bearing", "roughness_growth"),
+    "K_a": ("pin", "wear_coefficient"),
+    "H_a": ("pin", "hardness_MPa"),
+    "sigma_a0": ("pin", "roughness_mm"),
+    "f_a": ("pin", "roughness_growth"),
+    "p_max": ("contact", "max_pressure_MPa"),
+    "h_0": ("contact", "closure_mm"),
+    "k": ("support", "stiffness_MPa_per_mm"),
+    "R": ("motion", "radius_mm"),
+    "n": ("motion", "speed_rpm"),
+}
+"""Table and key of each parameter in a scene file, by symbol, but those of the load."""
+
+
 class VariantKey(NamedTuple):
     """Which generated module a scene needs: `wear.generated.<law>.<module>`; `name` is the
     variant's for users.
@@ -147,6 +170,7 @@ class VariantKey(NamedTuple):
     support: Literal["rigid", "compliant"]
     pin: Literal["bearing", "rough", "worn", "worn_rough"]
     ends_at_3_sigma: bool
+    given_load: bool = False
 
     @property
     def module(self) -> str:
@@ -154,6 +178,8 @@ class VariantKey(NamedTuple):
 
     @property
     def name(self) -> str:
+        if self.given_load:
+            return f"given_load_{self.pin}"
         return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
 
@@ -258,10 +284,34 @@ class Scene(SceneTable):
         """The generated module with what this scene needs, and no more."""
         return VariantKey(
             law=self.contact.law,
-            support="rigid" if self.support is None else "compliant",
+            support="rigid" if self.support is None and not self.given_load else "compliant",
             pin=self._pin_state,
             ends_at_3_sigma=self.contact.ends_at_3_sigma,
+            given_load=self.given_load,
         )
+
+    @property
+    def given_load(self) -> bool:
+        """Whether the reaction of the pin is given, problem (i), in place of its displacement."""
+        return isinstance(self.load, Force | ForceTable)
+
+    @model_validator(mode="after")
+    def _carried(self) -> Self:
+        """A given reaction needs an area, and a contact that can carry it."""
+        if not self.given_load:
+            return self
+        contact, most = self.contact, self.load.maximum
+        if contact.width_mm is None or contact.length_mm is None:
+            problem = "the load is a force: its pressure needs width_mm and length_mm"
+            raise all_wrong(("contact.width_mm", problem, "give both"))
+        if contact.ends_at_3_sigma:
+            problem = "has no meaning where the load is a force: the pressure is given"
+            raise all_wrong(("contact.ends_at_3_sigma", problem, "drop it"))
+        limit = contact.max_pressure_MPa * contact.width_mm * contact.length_mm
+        if most >= limit:
+            problem = f"the force of {most:.6g} N is beyond p_max b L = {limit:.6g} N"
+            raise all_wrong(("load", problem, "give a smaller force, or a larger area"))
+        return self
 
     @property
     def pin_wear_sign(self) -> float:

@@ -39,6 +39,9 @@ def _pin_notices(scene: Scene) -> Iterator[str]:
 
 
 def _closure_notices(scene: Scene) -> Iterator[str]:
+    if scene.given_load:
+        yield "the load is a force: wear is its integral, and the displacement of the pin follows"
+        return
     first = initial_displacement(scene)
     reach = CONTACT_REACH * scene.initial_roughness
     closure = scene.closure - first
