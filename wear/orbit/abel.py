@@ -50,6 +50,11 @@ class Frame(NamedTuple):
         """Return some of the panels."""
         return Frame(self.c[which], self.starts[which], self.widths[which])
 
+    def with_panel(self, start: float, width: float) -> Frame:
+        """Return one panel more, of the same scale as the last."""
+        c, starts, widths = self
+        return Frame(np.append(c, c[-1]), np.append(starts, start), np.append(widths, width))
+
     @property
     def ends(self) -> FloatArray:
         """Return where the panels end."""
