@@ -8,6 +8,7 @@ Overview
     speed_against_cycles    time against the number of cycles, one line a method
     wear_by_decades         wear over all decades with straight lines behind it
     regime_map              the regimes over f_c and the gap at the peak
+    tornado                 elasticities as bars, the largest on top
     Each returns a matplotlib `Figure`; `wear.figure_style` makes files of it.
 Units
     Lengths come in mm and are shown in micrometres, pressures in MPa, times in s.
@@ -24,6 +25,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
+from wear.checked import words_of
 from wear.figure_data import (
     BEARING_WEAR,
     PRESSURE,
@@ -184,6 +186,31 @@ _REGIMES = {
     "finite-time": "#D55E00",
     "arrest": "#CC79A7",
 }
+
+
+def tornado(
+    keys: Sequence[str],
+    elasticity: FloatArray,
+    labels: Sequence[str],
+    *,
+    width: float = COLUMN_AND_HALF,
+) -> Figure:
+    """Elasticities (k, n) of the numbers with these keys as bars, the largest on top; a set of bars
+    for each of the n labels. What is no number has no bar."""
+    values = np.nan_to_num(elasticity)
+    order = np.argsort(np.max(np.abs(values), axis=1))
+    thick = 0.8 / len(labels)
+    with styled():
+        figure, axes = canvas(width, 12.0 + (2.5 + 1.8 * len(labels)) * len(keys))
+        for place, label in enumerate(labels):
+            at = np.arange(len(keys)) + thick * ((len(labels) - 1) / 2 - place)
+            axes.barh(at, values[order, place], thick, color=stroke(place).colour, label=label)
+        axes.axvline(0.0, color=INK, linewidth=0.6)
+        axes.set_yticks(np.arange(len(keys)), [words_of(keys[i]) for i in order])
+        axes.set_ylim(-0.6, len(keys) - 0.4)
+        axes.set_xlabel("Change of the wear in % for 1 % more")
+        axes.legend()
+    return figure
 
 
 def regime_map(
