@@ -1,7 +1,7 @@
 # Needs make and Python >= 3.11, nothing else. `make help` lists what there is.
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test docs clean
+.PHONY: help reproduce test proof docs clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -24,6 +24,9 @@ test: $(VENV)/installed-test ## run all checks: style, types, import walls, test
 	$(BIN)/lint-imports --no-logo || status=1; \
 	$(BIN)/python -m pytest -n 2 || status=1; \
 	exit $$status
+
+proof: $(VENV)/installed ## prove the steps of the derivation anew with Coq
+	@$(BIN)/derive export --target coq -o build/proof --check
 
 docs: $(VENV)/installed-docs ## build the documentation
 	@$(BIN)/sphinx-build -W -q -b html docs docs/_build/html

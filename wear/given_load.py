@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.generated import reaction
-from wear.model import Bound, Fields, Model, Real
+from wear.model import Bound, Fields, Model, Real, Summed, as_it_is
 
 
 class Area(NamedTuple):
@@ -64,18 +64,18 @@ class GivenLoad(Model):
     def law_rate_and_slope(self, u: Real, R_a: Real) -> tuple[Real, Real]:
         return self.rate(u, R_a), self.slope(u, R_a)
 
-    def rate_gradient(self, u: Real, R_a: Real) -> dict[str, Real]:
+    def rate_gradient(self, u: Real, R_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
         """Return the derivatives of the wear rate with respect to every physical parameter, by
-        symbol, and to the load as "U_a"."""
+        symbol, and to the load as "U_a"; those with respect to parameters `summed`."""
         area, per_pressure = self.area._asdict(), self.module.rate(1.0, self.constants)
         nothing = 0.0 * (u + R_a)
-        changes = dict.fromkeys(self.constants._fields, nothing)
-        changes["wear_per_pressure"] = self.pressure(u, R_a)
+        changes = dict.fromkeys(self.constants._fields, summed(nothing))
+        changes["wear_per_pressure"] = summed(self.pressure(u, R_a))
         return {
-            **self.bound.gradient(type(self.constants)(**changes)),
             "U_a": per_pressure * reaction.by_force(**area) + nothing,
-            "b": per_pressure * reaction.by_width(R_a, **area) + nothing,
-            "L": per_pressure * reaction.by_length(R_a, **area) + nothing,
+            **self.bound.gradient(type(self.constants)(**changes)),
+            "b": summed(per_pressure * reaction.by_width(R_a, **area) + nothing),
+            "L": summed(per_pressure * reaction.by_length(R_a, **area) + nothing),
         }
 
     def fields(self, u: Real, R_a: Real) -> Fields:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.count.course_cutoff import CutoffCourse, cutoff_course
-from wear.cycles import Counted, InContact, WithLossOfContact, count_cycles, growth
+from wear.cycles import Counted, InContact, count_cycles, growth
 from wear.direct.sequence import span
 from wear.equation import WearEquation
 from wear.faults import AccuracyError, UsageError
@@ -95,11 +95,10 @@ class _Stretch(NamedTuple):
     ) -> Iterator[tuple[float, float, DenseOutput | CutoffCourse]]:
         """Return the parts of the stretch in which some of the `cycles` lie: from which cycle to
         which, that excluded, and what these add up to the phases."""
-        if isinstance(self.found, WithLossOfContact):
+        if not isinstance(self.found, InContact):
             if np.any((cycles >= self.begins) & (cycles < self.ends)):
                 yield self.begins, self.ends, cutoff_course(model, self.load, phases, rtol)
             return
-        assert isinstance(self.found, InContact)
         equation, segments = WearEquation(model, (self.load,)), self.found.found.segments
         begins = [self.begins + float(segment.begins[0]) for segment in segments]
         observable = model.pressure if model.compliant else None

@@ -317,8 +317,7 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """The cycle in which wear stops, from the cycle count, as far as its error lets it be told."""
-    from wear.count.stage import evaluate_stages
-    from wear.count.stages import counted_stages
+    from wear.count.approach import counted_stages
     from wear.cycles import MOST_CYCLES
 
     found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0)
@@ -327,7 +326,7 @@ def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
         return None, (str(arrest),)
     if arrest is not None:
         return arrest.cycle, (str(arrest),) if arrest.uncertain else ()
-    _, error = evaluate_stages(found, np.array([MOST_CYCLES]))
+    _, error = found.after(np.array([MOST_CYCLES]))
     if np.isfinite(error).all():
         return None, (f"wear goes on for more than {MOST_CYCLES:.0e} cycles",)
     return None, ("the cycle in which wear stops cannot be counted",)

@@ -16,11 +16,11 @@ from tests.wear.test_cycle_count import between, problem
 from wear import cycles as count
 from wear import direct
 from wear.count.cutoff import cutoff_cycle
-from wear.count.cycle import settings as sizes
 from wear.count.edge import edge_of_contact, turning_points
 from wear.count.kinks import kinks
 from wear.load import Harmonics, Load, Sine, Table
 from wear.model import bind
+from wear.orbit.period_map import settings as sizes
 from wear.scene import Scene, load_scene, scene_from_tables
 
 
@@ -302,7 +302,7 @@ def test_a_count_on_a_compliant_support_goes_on_from_any_cycle() -> None:
     scene = supported(1e-5, 0.25, True, 1e5)
     model, load = bind(scene), scene.periodic_load
     found = count.wear_after(model, load, np.array([40.0, 240.0]), 1e-12)
-    fine = cutoff_cycle(model, load).resolved(np.empty(0), sizes(1e-13))
+    fine = cutoff_cycle(model, load).resolved(sizes(1e-13))
     wear = found.u_c[0]
     with np.errstate(all="ignore"):  # of a load that does not rise on a stretch
         for _ in range(200):

@@ -13,22 +13,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count import abel, tabulated
-from wear.count.build import CycleCount
-from wear.count.checks import CHECKS
-from wear.count.cutoff import CutoffCycle
-from wear.count.cycle import Cost, Settings
-from wear.count.increments import Increments, Span, fitted, middle
+from wear.count.cutoff import cutoff_cycle
+from wear.count.increments import Increments, Span, fitted, frame_of, middle
 from wear.count.kinks import rest_of
-from wear.count.panels import SAFETY
 from wear.count.plan import GRAIN, Way, planned, prepared
 from wear.count.rounding import roundoff, roundoff_of_cycles
 from wear.count.scan import SHIFT
-from wear.count.stage import Leap, Stage, Stages
+from wear.count.stage import Integrated, Leap, Stage, Stages
 from wear.count.tail import TO_ROUNDOFF, Between, Rest
+from wear.load import Load
+from wear.model import Model
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
+from wear.orbit import abel
+from wear.orbit.iterates import Cells, Iterates, cells
+from wear.orbit.panels import CHECKS
+from wear.orbit.period_map import Settings
+from wear.orbit.segments import Cost
+from wear.orbit.transient import SAFETY
 
 FEW = 4.0  # cycles to the next grazing wear: they are integrated
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
@@ -46,19 +49,21 @@ COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many 
 
 
 @np.errstate(all="ignore")
-def count_between_kinks(
-    cycle: CutoffCycle,
+def counted_stages(
+    model: Model,
+    load: Load,
     cycles: float,
     rtol: float,
     start: float,
-    deadline: float,
-    begun_with: float,
+    deadline: float = np.inf,
+    begun_with: float = 0.0,
 ) -> Stages:
     """Count from the wear `start` (mm), known up to `begun_with`, up to `cycles`, or until wear
     ends.
 
     After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
     """
+    cycle = cutoff_cycle(model, load)
     way = prepared(cycle, rtol, deadline)
     runs = _Runs(way, start)
     while not runs.over and (runs.done < cycles or not runs.parts):
@@ -92,7 +97,7 @@ class Counted(NamedTuple):
     """A count by Abel's equation on `panels` of z, with its `residual` on each and the `series` of
     the increments; to the `rest`, if it goes so far."""
 
-    table: tabulated.Count
+    table: Cells
     panels: abel.Panels
     residual: FloatArray
     series: Increments
@@ -110,16 +115,16 @@ class Counted(NamedTuple):
         junctions of panels, by rounding."""
         table, panels = self.table, self.panels
         coordinate = self.series.coordinate
-        parts = len(table.length) // len(panels.starts)
-        ends = self.series.missed(np.append(table.wear, table.last_wear))
+        parts = len(table.length) // len(panels.series)
+        ends = self.series.missed(np.append(table.u, table.ends[-1]))
         misfit = np.maximum(ends[1:], ends[:-1])
         if self.line:
-            misfit[table.wear >= self.series.starts[-1]] = 0.0  # there the residual says it all
+            misfit[table.u >= self.series.frame.starts[-1]] = 0.0  # there the residual says it all
         missed = SAFETY * (np.repeat(self.residual, parts) + misfit) * table.gain + table.missed
-        if len(panels.starts) > 1:
-            apart = abel.junctions(panels.take(slice(-1)), panels.take(slice(1, None)))
+        if len(panels.series) > 1:
+            apart = abel.matching_defect(panels.take(slice(-1)), panels.take(slice(1, None)))
             missed[parts - 1 : -1 : parts] += SAFETY * apart
-        wear = coordinate.wear(np.append(table.wear, table.last_wear))
+        wear = coordinate.wear(np.append(table.u, table.ends[-1]))
         rounding = roundoff(way.model, way.load, wear)
         terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
         of_density = ROUNDOFF * np.repeat(terms, parts)
@@ -210,12 +215,9 @@ class _Runs:
         coordinate = span.coordinate
         begin = float(coordinate.at(np.array(self.wear)))
         end = series.end if span.tends else float(coordinate.at(np.array(span.end)))
-        looks = abel.panel_wear(
-            coordinate.shift,
-            np.array([begin]),
-            np.log([(end + coordinate.shift) / (begin + coordinate.shift)]),
-            np.linspace(-1.0, 1.0, LOOKS),
-        )[0]
+        width = np.log([(end + coordinate.shift) / (begin + coordinate.shift)])
+        whole = frame_of(coordinate, np.array([begin]), width)
+        looks = whole.states(np.linspace(-1.0, 1.0, LOOKS))[0]
         lasts = (looks + coordinate.shift) / coordinate.step(looks, series.at(looks))
         gains = (lasts[1:] + lasts[:-1]) / 2 * np.diff(np.log(looks + coordinate.shift))
         calm = np.flatnonzero(lasts >= CALM)
@@ -225,7 +227,7 @@ class _Runs:
         elif calm[0] > 0:
             self._walk(span, series, float(looks[calm[0]]), cycles)
         else:
-            before = float(np.sum(gains[looks[1:] <= series.starts[-1]]))
+            before = float(np.sum(gains[looks[1:] <= series.frame.starts[-1]]))
             line = before > ENOUGH * self.way.size.panel_nodes
             self._count(span, series, begin, float(looks[calm[-1]]), line)
 
@@ -233,7 +235,7 @@ class _Runs:
         """Count by Abel's equation from one z to another, on a line at last if that is to be."""
         rest = self.way.rest if span.tends and end >= series.end * (1 - 1e-9) else None
         line &= rest is not None
-        end = float(series.starts[-1]) if line else end
+        end = float(series.frame.starts[-1]) if line else end
         panels, residual, poor = solved(series, begin, end, self.way.size)
         if poor and self.poor < MOST_POOR:  # panels of too few cycles: some more one by one
             self.poor += 1
@@ -241,14 +243,14 @@ class _Runs:
             return
         if line:
             panels, residual = on_a_line(panels, residual, series)
-        part = Counted(tabulated.count(panels, 0.0), panels, residual, series, rest, line)
+        part = Counted(cells(panels), panels, residual, series, rest, line)
         if rest is not None:
             self._append(part, rest.wear)
             self.over = self.arrested = self.fades = True
         elif part.ran < 1.0:
             self._single()
         else:
-            z, _ = tabulated.wear_after(part.table, np.array([part.ran]))
+            z, _ = part.table.state_after(np.array([part.ran]))
             self._append(part, float(span.coordinate.wear(z)[0]))
 
     def _walk(self, span: Span, series: Increments, end: float, cycles: float) -> None:
@@ -276,10 +278,11 @@ def solved(
     poor = False
     for rounds in range(MOST_CUTS):
         across = np.log((ends + shift) / (starts + shift))
-        nodes = abel.panel_wear(shift, starts, across, chebyshev_nodes(m))
+        frame = frame_of(coordinate, starts, across)
+        nodes = frame.states(chebyshev_nodes(m))
         steps = coordinate.step(nodes, series.at(nodes))
-        panels = abel.solve(shift, starts, across, steps)
-        checks = abel.panel_wear(shift, starts, across, CHECKS)
+        panels = abel.solve(frame, steps)
+        checks = frame.states(CHECKS)
         more = coordinate.step(checks, series.at(checks))
         residual = np.max(np.abs(abel.residual(panels, CHECKS, more)), axis=1)
         allowed = np.full(len(starts), size.residual_tolerance)
@@ -300,7 +303,7 @@ def solved(
         starts, ends = np.append(starts[bad], middles), np.append(middles, ends[bad])
     done.sort(key=lambda panel: float(panel[0]))
     starts, across, coefficients, residual = map(np.array, zip(*done, strict=True))
-    return abel.Panels(shift, starts, across, coefficients), residual, poor
+    return abel.Panels(frame_of(coordinate, starts, across), coefficients), residual, poor
 
 
 def on_a_line(
@@ -309,20 +312,16 @@ def on_a_line(
     """Return the panels with one more, to the end of the series, on which the density dn/dy in
     y = ln z goes on as a power of z: 0, 1/2 or 1, as decay is geometric or algebraic. What the last
     e-fold differs from that by is its residual."""
-    start, width = float(series.starts[-1]), float(series.widths[-1])
-    last = float(panels.widths[-1])
+    start, width = float(series.frame.starts[-1]), float(series.frame.widths[-1])
+    last = float(panels.frame.widths[-1])
     t = np.array([1.0 - 2.0 * min(1.0, last) / last, 1.0])
     before, level = chebyshev_values(t, panels.series.shape[1]) @ panels.series[-1]
     found = 1.0 + (level - before) / min(1.0, last)
     slope = float(np.clip(np.round(2 * found) / 2, 0.0, 1.0))
     line = np.zeros((1, panels.series.shape[1]))
     line[0, :2] = level + (slope - 1) * width / 2, (slope - 1) * width / 2
-    more = abel.Panels(
-        0.0,
-        np.append(panels.starts, start),
-        np.append(panels.widths, width),
-        np.concatenate([panels.series, line]),
-    )
+    frame = panels.frame.with_panel(start, width)
+    more = abel.Panels(frame, np.concatenate([panels.series, line]))
     return more, np.append(residual, abs(found - slope))
 
 
@@ -344,7 +343,7 @@ def _judged(way: Way, runs: _Runs, begun_with: float, cycles: float) -> Stages:
     stages: list[Stage] = []
     begins, inherited, adrift, used = 0.0, begun_with, 0.0, 0
     for part in runs.parts:
-        counted: CycleCount | Between | Leap
+        counted: Integrated | Between | Leap
         if isinstance(part, Single):
             if part.series is None:
                 some = slice(used, used + len(part.added))
@@ -365,10 +364,10 @@ def _judged(way: Way, runs: _Runs, begun_with: float, cycles: float) -> Stages:
     rest = rest_of(way.model, way.load, last) if runs.arrested else None
     at_rest = rest.uncertainty / last if rest else np.inf
     arrested = runs.arrested and begins <= cycles
-    return Stages(tuple(stages), arrested, at_rest, cost, runs.fades)
+    return Stages(tuple(stages), arrested, at_rest, cost, runs.fades, way.model.compliant)
 
 
-def _one_by_one(way: Way, part: Single, missed: FloatArray, growth: FloatArray) -> CycleCount:
+def _one_by_one(way: Way, part: Single, missed: FloatArray, growth: FloatArray) -> Integrated:
     """Cycles with what each may have missed (mm) and the factor by which it changes an error."""
     wear, added = np.array(part.wear), np.array(part.added)
     response = way.plain.response(added, growth)
@@ -377,4 +376,6 @@ def _one_by_one(way: Way, part: Single, missed: FloatArray, growth: FloatArray) 
     for more, factor in zip(SAFETY * missed + lost, growth, strict=True):
         error.append(error[-1] * factor + more)
     estimate = np.array(error) + ROUNDOFF * wear
-    return CycleCount(wear, estimate, way.end)
+    one = np.zeros((1, 1))
+    limit = np.array([way.end])
+    return Integrated(Iterates(wear[None], estimate[None], None, None, one, limit, one))

@@ -12,9 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.cutoff import CutoffCycle, cutoff_cycle
-from wear.count.cycle import settings
 from wear.count.edge import PIECE_SAMPLES, Piece
-from wear.count.panels import NONE
 from wear.load import Load
 from wear.model import Model
 from wear.numerics.gauss import (
@@ -22,6 +20,7 @@ from wear.numerics.gauss import (
     mesh,
 )
 from wear.orbit.dense_output import Added
+from wear.orbit.period_map import settings
 
 NODES = 8  # on each part of a piece, most of which are short
 NEARLY = 1e-12  # of a cycle: phases that are one
@@ -58,7 +57,7 @@ def cutoff_course(model: Model, load: Load, phases: FloatArray, rtol: float) -> 
     parts = tuple(part for piece in cycle.edge.pieces for part in _cut(piece, load, phases))
     ends = np.array([part.end for part in parts])
     upto = tuple(np.sum(ends <= phases[:, None] + NEARLY, axis=1).tolist())
-    coarse = cycle.resolved(NONE, settings(rtol)._replace(phase_nodes=NODES))
+    coarse = cycle.resolved(settings(rtol)._replace(phase_nodes=NODES))
     fine = coarse.on(mesh(coarse.over.edges, NODES + 4))
     return CutoffCourse(upto, parts, (coarse, fine))
 

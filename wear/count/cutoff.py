@@ -13,9 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.contact import Contact, Stretch, Worn, worn
-from wear.count.cycle import (
-    Settings,
-)
 from wear.count.edge import Edge, Piece, displacement_at, edge_of_contact, phase_of, wear_at
 from wear.count.held import Support, on_support
 from wear.load import Load
@@ -32,9 +29,8 @@ from wear.numerics.gauss import (
     mesh,
     radau,
 )
-from wear.numerics.tolerances import (
-    ROUNDOFF,
-)
+from wear.numerics.tolerances import ROUNDOFF
+from wear.orbit.period_map import Settings
 
 TOUCH = 16.0  # roundoffs of the margin by which contact is told
 APART = 1e-9  # of roughness and wear: a small difference
@@ -66,10 +62,10 @@ class CutoffCycle(NamedTuple):
         judges = len(over.rule.nodes) > len(self.over.rule.nodes)
         return self._replace(over=over, tolerance=ROUNDOFF if judges else self.tolerance)
 
-    def resolved(self, wear: FloatArray, size: Settings) -> CutoffCycle:
+    def resolved(self, size: Settings) -> CutoffCycle:
         """With so many nodes an interval, resolved to its strict tolerance."""
         over = mesh(np.array([0.0, 1.0]), size.phase_nodes)
-        return self._replace(over=over, tolerance=size.strict_tolerance)
+        return self._replace(over=over, tolerance=size.endpoint_tolerance)
 
     def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
         """Wear added by one cycle from each start, shape (...); guesses are of no use."""
@@ -143,6 +139,13 @@ class CutoffCycle(NamedTuple):
             np.all([run.converged for run in runs], axis=0),
             np.concatenate([run.iteration_error for run in runs]),
         )
+
+
+class Maps(NamedTuple):
+    """The one-cycle map twice: `coarse` gives the result, `fine` judges it."""
+
+    coarse: CutoffCycle
+    fine: CutoffCycle
 
 
 def cutoff_cycle(model: Model, load: Load) -> CutoffCycle:

@@ -16,13 +16,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count import abel
-from wear.count.checks import CHECKS
-from wear.count.cycle import Cost
-from wear.count.panels import Maps
-from wear.count.scan import SPLIT
+from wear.count.cutoff import Maps
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import FloatArray
+from wear.numerics.gauss import FloatArray, IntArray
+from wear.orbit.abel import Frame
+from wear.orbit.iterates import cell_of
+from wear.orbit.panels import CHECKS, SPLIT
+from wear.orbit.segments import Cost
 
 MOST_ROUNDS = 6  # of cutting panels: those that are not resolved then are not used
 GRAIN = 16.0  # times the uncertainty of a distance: what rounding may make of the increment
@@ -60,14 +60,17 @@ class Coordinate(NamedTuple):
         return np.asarray(rate / z**2 if self.ahead else rate)
 
 
+def frame_of(coordinate: Coordinate, starts: FloatArray, widths: FloatArray) -> Frame:
+    """Return panels of z from `starts` (p,), `widths` wide in ln(z + shift)."""
+    return Frame(np.full(len(starts), coordinate.shift), starts, widths)
+
+
 class Increments(NamedTuple):
-    """ln(D/level) on panels of z from `starts` (p,), `widths` wide in ln(z + shift): Chebyshev
-    `series` (p, m) less a `level` (p,), mm; `misfit` (p, 6) is the relative difference
-    to a finer map at the CHECKS."""
+    """ln(D/level) on a `frame` of panels of z: Chebyshev `series` (p, m) less a `level` (p,), mm;
+    `misfit` (p, 6) is the relative difference to a finer map at the CHECKS."""
 
     coordinate: Coordinate
-    starts: FloatArray
-    widths: FloatArray
+    frame: Frame
     level: FloatArray
     series: FloatArray
     misfit: FloatArray
@@ -75,19 +78,16 @@ class Increments(NamedTuple):
     @property
     def end(self) -> float:
         """The z at which the last panel ends."""
-        shift = self.coordinate.shift
-        return float((self.starts[-1] + shift) * math.exp(self.widths[-1]) - shift)
+        return float(self.frame.ends[-1])
 
-    def panel_of(self, z: FloatArray) -> FloatArray:
-        """Return the panel that holds each z, or the nearest."""
-        at = np.searchsorted(self.starts, z, side="right") - 1
-        return np.asarray(np.clip(at, 0, len(self.starts) - 1))
+    def _located(self, z: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Return the panel that holds each z (k,), or the nearest, and the position on it."""
+        i = cell_of(self.frame.starts, z)
+        return i, self.frame.take(i).positions(z[:, None])[:, 0]
 
     def at(self, z: FloatArray) -> FloatArray:
         """Return the wear (mm) that a cycle adds from each z (any shape)."""
-        flat = z.ravel()
-        i = self.panel_of(flat)
-        t = abel.positions(self.coordinate.shift, self.starts[i], self.widths[i], flat)
+        i, t = self._located(z.ravel())
         basis = chebyshev_values(t, self.series.shape[1])
         increment = self.level[i] * np.exp(np.einsum("ij,ij->i", basis, self.series[i]))
         return np.asarray(increment.reshape(z.shape))
@@ -95,8 +95,7 @@ class Increments(NamedTuple):
     def missed(self, z: FloatArray) -> FloatArray:
         """Return the relative error of the increment at each z (k,): the larger misfit of the two
         checks next to it."""
-        i = self.panel_of(z)
-        t = abel.positions(self.coordinate.shift, self.starts[i], self.widths[i], z)
+        i, t = self._located(z)
         after = np.clip(np.searchsorted(CHECKS, t), 1, len(CHECKS) - 1)
         return np.asarray(np.maximum(self.misfit[i, after], self.misfit[i, after - 1]))
 
@@ -104,7 +103,7 @@ class Increments(NamedTuple):
         """Return the wear (mm) before and after each cycle from `wear` until z passes `end`, or
         until there are `most`."""
         origin, ahead, shift = self.coordinate
-        starts, widths = self.starts.tolist(), self.widths.tolist()
+        starts, widths = self.frame.starts.tolist(), self.frame.widths.tolist()
         series, level = [row[::-1] for row in self.series.tolist()], self.level.tolist()
         walked, left = [wear], origin - wear
         z = 1.0 / left if ahead else -left
@@ -127,8 +126,9 @@ class Increments(NamedTuple):
         """Return the same with one panel more, `width` wide in ln z, on which ln D goes on as a
         straight line of slope -1, as in geometric decay. What the last slope differs by is its
         misfit."""
-        e_fold = min(1.0, self.widths[-1])
-        t = 1.0 - 2.0 * e_fold / self.widths[-1] * np.array([1.0, 0.0])
+        last_width = float(self.frame.widths[-1])
+        e_fold = min(1.0, last_width)
+        t = 1.0 - 2.0 * e_fold / last_width * np.array([1.0, 0.0])
         before, last = chebyshev_values(t, self.series.shape[1]) @ self.series[-1]
         slope = (last - before) / e_fold
         power = -np.clip(np.round(-2 * slope) / 2, 1.0, 2.0)
@@ -136,8 +136,7 @@ class Increments(NamedTuple):
         line[0, :2] = power * width / 2
         return Increments(
             self.coordinate,
-            np.append(self.starts, self.end),
-            np.append(self.widths, width),
+            self.frame.with_panel(self.end, width),
             np.append(self.level, self.level[-1] * np.exp(last)),
             np.concatenate([self.series, line]),
             np.vstack([self.misfit, np.full(len(CHECKS), abs(slope - power))]),
@@ -241,11 +240,12 @@ def _joined(span: Span, panels: list[_Panel]) -> list[tuple[Span, Increments]]:
     last = max((panel.end for panel in panels), default=0.0)
     known = []
     for run in runs:
-        *columns, ends = (np.array(column) for column in zip(*run, strict=True))
+        starts, widths, *columns, ends = (np.array(column) for column in zip(*run, strict=True))
         begin, end = span.coordinate.wear(np.array([run[0].start, run[-1].end])).tolist()
         whole = span.tends and ends[-1] == last
         part = span._replace(start=begin, end=end, tends=whole)
-        known.append((part, Increments(span.coordinate, *columns)))
+        frame = frame_of(span.coordinate, starts, widths)
+        known.append((part, Increments(span.coordinate, frame, *columns)))
     return known
 
 
@@ -261,6 +261,6 @@ def _wear(tasks: list[_Task], widths: FloatArray, t: FloatArray) -> FloatArray:
     rows = []
     for task, width in zip(tasks, widths, strict=True):
         coordinate = task.span.coordinate
-        z = abel.panel_wear(coordinate.shift, np.array([task.start]), np.array([width]), t)
+        z = frame_of(coordinate, np.array([task.start]), np.array([width])).states(t)
         rows.append(coordinate.wear(z[0]))
     return np.array(rows)

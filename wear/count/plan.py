@@ -10,17 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.cutoff import CutoffCycle
-from wear.count.cycle import Settings, settings
+from wear.count.cutoff import CutoffCycle, Maps
 from wear.count.increments import Coordinate, Span
 from wear.count.kinks import Kink, fades, kinks, rest_of
-from wear.count.panels import NONE, Maps
 from wear.count.scan import LEAST, SHIFT, roughness_limit, roughness_scale, scan
 from wear.count.tail import Rest
 from wear.load import Load
 from wear.model import Model
 from wear.numerics.gauss import FloatArray, mesh
 from wear.numerics.tolerances import ROUNDOFF, TINY
+from wear.orbit.period_map import Settings, settings
 
 FEWEST = 8.0  # cycles between two grazing wears for which a series pays
 BEGINS = 0.03  # of the increment at a grazing wear: how far beyond it a series begins
@@ -73,7 +72,7 @@ def prepared(cycle: CutoffCycle, rtol: float, deadline: float) -> Way:
     rest = rest_of(model, load, grazing[-1].wear) if grazing else None
     if rest is not None and not fades(cycle, rest.wear):
         rest = None
-    coarse = cycle.resolved(NONE, size)
+    coarse = cycle.resolved(size)
     finer = coarse.on(mesh(coarse.over.edges, size.finer_nodes))
     return Way(cycle, Maps(coarse, finer), grazing, rest, end, scale, rtol, size, deadline)
 

@@ -6,7 +6,7 @@ good enough for a plan; what the plan misses, the residual of Abel's equation fi
 
 import numpy as np
 
-from wear.count.cycle import OneCycle, settings
+from wear.count.cutoff import CutoffCycle
 from wear.model import Model
 from wear.numerics.gauss import (
     FloatArray,
@@ -14,14 +14,11 @@ from wear.numerics.gauss import (
 from wear.numerics.tolerances import (
     TINY,
 )
+from wear.orbit.period_map import settings
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
 STEP, STEPS = 0.2, 180  # in ln(u + scale)
-SPLIT = 0.4  # of a panel, in its coordinate: the density is sharper at low wear
 SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
-MOST_PLANNED = 150  # panels
-FASTER = 2.0  # than on average may be the pace at the end of a panel
-SHARP = 0.3  # change of the logarithm of the density within a cycle
 ROUGH = settings(1e-3)._replace(phase_nodes=10)
 NEARLY = 0.99  # of the wear at which the roughness vanishes
 
@@ -46,20 +43,20 @@ def roughness_limits(model: Model, upto: FloatArray) -> FloatArray:
     return np.where(end <= 0, NEARLY * upto * start / lost, np.inf)
 
 
-def frozen_density(cycle: OneCycle, wear: FloatArray) -> FloatArray:
+def frozen_density(cycle: CutoffCycle, wear: FloatArray) -> FloatArray:
     """ln dn/du with the wear (mm, any shape) frozen over a cycle."""
     result: FloatArray = -np.log(cycle.frozen(wear) + TINY)
     return result
 
 
-def scan(cycle: OneCycle, scale: float, start: float, cycles: float, limit: float) -> FloatArray:
+def scan(cycle: CutoffCycle, scale: float, start: float, cycles: float, limit: float) -> FloatArray:
     """Wear (k,) in mm, rising from `start` to where the frozen rate puts `cycles`, roughly, and no
     higher than `limit`; the rate changes over wear of the `scale` (mm)."""
     y = STEP * np.arange(STEPS)
     if np.isfinite(limit):
         y = np.linspace(0.0, np.log1p((limit - start) / (start + scale)), STEPS)
     wear: FloatArray = start + (start + scale) * np.expm1(y)
-    cycle = cycle.resolved(wear[::8], ROUGH)
+    cycle = cycle.resolved(ROUGH)
     density = np.minimum(frozen_density(cycle, wear), 650.0)
     rise = np.diff(density)
     rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)

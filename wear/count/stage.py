@@ -1,18 +1,59 @@
 """What counts a run of cycles: stages, one after the other, each from its own start."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.build import CycleCount, evaluate, until
-from wear.count.cycle import Cost
 from wear.count.tail import Between
-from wear.numerics.gauss import (
-    FloatArray,
-)
-from wear.numerics.tolerances import (
-    TINY,
-)
+from wear.numerics.gauss import FloatArray
+from wear.numerics.tolerances import TINY
+from wear.orbit.iterates import NEARLY, Iterates
+from wear.orbit.segments import Cost
+
+
+class Integrated(NamedTuple):
+    """Cycles taken one by one: the wear (mm) after 0, 1, ... of them with its error."""
+
+    found: Iterates
+
+    @property
+    def last_wear(self) -> float:
+        """Return the wear (mm) up to which it counts."""
+        return float(self.found.last_state[0])
+
+    @property
+    def limit(self) -> float:
+        """Return the wear (mm) beyond which nothing has a meaning."""
+        return float(self.found.limit[0])
+
+    @property
+    def ran(self) -> float:
+        """Return how many cycles it counts."""
+        return float(self.found.integrated_cycles)
+
+    @property
+    def pace(self) -> float:
+        """Return the wear (mm) that its first cycle adds."""
+        return float(self.found.first_increment[0])
+
+    @property
+    def rests(self) -> bool:
+        """Return whether its last cycle adds nothing, and so no cycle after it."""
+        return bool(self.found.at_rest[0])
+
+    def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after `cycles`, and its relative error."""
+        wear, error = self.found.after(cycles[None])
+        return wear[0], error[0]
+
+    def cycles_until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the whole cycles after which each wear (mm) is reached, infinite beyond, and the
+        error in cycles."""
+        count, error = self.found.until(wear[None])
+        return count[0], error[0]
 
 
 class Leap(NamedTuple):
@@ -22,31 +63,31 @@ class Leap(NamedTuple):
     start: float
     last_wear: float
     reach: float
-    cost: Cost = Cost(0, 0)
     limit: float = np.inf
 
     @property
     def ran(self) -> float:
-        """How many whole cycles it counts."""
+        """Return how many whole cycles it counts."""
         return float(np.ceil(self.reach))
 
     @property
     def pace(self) -> float:
-        """The wear (mm) that a cycle adds."""
+        """Return the wear (mm) that a cycle adds."""
         return (self.last_wear - self.start) / self.reach
 
     @property
     def rests(self) -> bool:
-        """Wear goes on."""
+        """Return that wear goes on."""
         return False
 
     def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Wear (mm) after `cycles`, and its relative error."""
+        """Return the wear (mm) after `cycles`, and its relative error."""
         wear = np.minimum(self.start + cycles * self.pace, self.last_wear)
         return wear, (self.last_wear - self.start) / wear
 
     def cycles_until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Whole cycles after which each wear (mm) is reached, infinite beyond, and the error."""
+        """Return the whole cycles after which each wear (mm) is reached, infinite beyond, and the
+        error in cycles."""
         count = np.ceil(np.maximum(wear - self.start, 0.0) / self.pace)
         return np.where(wear > self.last_wear, np.inf, count), np.full(wear.shape, self.reach)
 
@@ -56,7 +97,7 @@ class Stage(NamedTuple):
     it begins with."""
 
     begins: float
-    counted: CycleCount | Between | Leap
+    counted: Integrated | Between | Leap
     inherited: float
     adrift: float = 0.0
 
@@ -74,9 +115,7 @@ class Stage(NamedTuple):
     @property
     def ran(self) -> float:
         """How many whole cycles it counts."""
-        if not isinstance(self.counted, CycleCount):
-            return self.counted.ran
-        return float(len(self.counted.first) - 1)
+        return self.counted.ran
 
     @property
     def drift(self) -> float:
@@ -85,20 +124,13 @@ class Stage(NamedTuple):
 
     def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Wear (mm) after `cycles` since the fresh state, and its estimated relative error."""
-        since = cycles - self.begins
-        if isinstance(self.counted, CycleCount):
-            wear, error = evaluate(self.counted, since)
-        else:
-            wear, error = self.counted.wear_after(since)
+        wear, error = self.counted.wear_after(cycles - self.begins)
         return wear, error + self.inherited / (wear + TINY)
 
     def cycles_until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Whole cycles since the fresh state after which each wear (mm) is first reached, infinite
         where the count ends before, and the estimated error in cycles."""
-        if isinstance(self.counted, CycleCount):
-            after, missed = until(self.counted, wear)
-        else:
-            after, missed = self.counted.cycles_until(wear)
+        after, missed = self.counted.cycles_until(wear)
         return self.begins + after, missed + self.blur
 
 
@@ -125,7 +157,8 @@ class Stages(NamedTuple):
     arrested: bool
     at_rest: float
     cost: Cost
-    fades: bool = False
+    fades: bool
+    compliant: bool
 
     @property
     def last_wear(self) -> float:
@@ -145,25 +178,52 @@ class Stages(NamedTuple):
             return None
         if isinstance(last.counted, Between):
             return Arrest(int(last.begins + last.ran), round(blur + last.counted.uncertainty), True)
-        if isinstance(last.counted, Leap) or not np.isfinite(last.counted.first_error).all():
+        if isinstance(last.counted, Leap):
             return None
-        idle = int(np.argmax(np.diff(last.counted.first) <= 0))
-        return Arrest(int(last.begins) + idle, round(blur), self.fades)
+        counted = last.counted.found
+        if not np.isfinite(counted.transient_error).all():
+            return None
+        return Arrest(int(last.begins) + counted.first_idle_cycle, round(blur), self.fades)
 
+    @property
+    def ended(self) -> bool:
+        """Return whether wear has stopped for good."""
+        return self.arrested
 
-def evaluate_stages(found: Stages, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Wear (mm) after `cycles` and its estimated relative error, infinite where out of reach."""
-    wear, error = np.zeros(cycles.shape), np.zeros(cycles.shape)
-    begins = np.array([stage.begins for stage in found.stages])
-    which = np.maximum(np.searchsorted(begins, cycles, side="right") - 1, 0)
-    for i, stage in enumerate(found.stages):
-        mine = which == i
-        if mine.any():
-            wear[mine], error[mine] = stage.wear_after(cycles[mine])
-    last = found.stages[-1]
-    if found.arrest is not None:
-        rests = cycles >= found.arrest.cycle + 2 * found.arrest.uncertain
-        error[rests] = found.at_rest if np.isfinite(found.at_rest) else error[rests]
-    else:
-        error[cycles > last.begins + last.ran + 1.0] = np.inf
-    return wear, error
+    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after `cycles` (n,) and its estimated relative error, infinite where
+        out of reach."""
+        wear, error = np.zeros(cycles.shape), np.zeros(cycles.shape)
+        begins = np.array([stage.begins for stage in self.stages])
+        which = np.maximum(np.searchsorted(begins, cycles, side="right") - 1, 0)
+        for i, stage in enumerate(self.stages):
+            mine = which == i
+            if mine.any():
+                wear[mine], error[mine] = stage.wear_after(cycles[mine])
+        arrest, last = self.arrest, self.stages[-1]
+        if arrest is not None:
+            rests = cycles >= arrest.cycle + 2 * arrest.uncertain
+            error[rests] = self.at_rest if np.isfinite(self.at_rest) else error[rests]
+        else:
+            error[cycles > last.begins + last.ran + 1.0] = np.inf
+        return wear, error
+
+    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the whole cycles to each wear (mm, (n,)), infinite where it is not reached, and
+        their error in cycles."""
+        count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
+        for stage in reversed(self.stages):
+            after, missed = stage.cycles_until(wear)
+            here = np.isfinite(after)
+            count[here], error[here] = after[here], missed[here]
+        return count, error
+
+    def notices(self, wear: FloatArray) -> Iterator[str]:
+        """Return what is worth knowing beside the wear (mm)."""
+        arrest, limit = self.arrest, self.stages[-1].counted.limit
+        if np.any(wear >= NEARLY * limit):
+            yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
+        elif arrest is not None:
+            # On springs the pressure vanishes with the distance that is left: no cycle is the last.
+            fades = arrest.fades or (self.compliant and arrest.cycle > 0)
+            yield str(arrest._replace(fades=fades))

@@ -4,11 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count import tabulated
-from wear.count.cycle import Cost
 from wear.count.increments import Coordinate
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
+from wear.orbit.iterates import Cells
 
 NO_DIGIT = 0.1  # relative error
 RESOLVABLE = 1e5  # times the uncertainty of the limit wear
@@ -34,11 +33,10 @@ class Between(NamedTuple):
     tends to at the end of the table, if any."""
 
     coordinate: Coordinate
-    table: tabulated.Count
+    table: Cells
     count_error: FloatArray
     rest: Rest | None
     limit: float
-    cost: Cost = Cost(0, 0)
 
     @property
     def rests(self) -> bool:
@@ -48,7 +46,7 @@ class Between(NamedTuple):
     @property
     def pace(self) -> float:
         """The wear (mm) that its first cycle adds."""
-        z, rate = self.table.wear[:1], tabulated.first_pace(self.table)[:1]
+        z, rate = self.table.u[:1], self.table.first_rate[:1]
         return float(self.coordinate.pace(z, rate)[0])
 
     @property
@@ -56,7 +54,7 @@ class Between(NamedTuple):
         """The wear (mm) up to which it counts."""
         if self.rest:
             return self.rest.wear
-        return float(self.coordinate.wear(np.array(self.table.last_wear)))
+        return float(self.coordinate.wear(self.table.ends[-1]))
 
     @property
     def reach(self) -> float:
@@ -75,7 +73,7 @@ class Between(NamedTuple):
 
     def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the wear (mm) after `cycles`, and its estimated relative error."""
-        z, rate = tabulated.wear_after(self.table, cycles)
+        z, rate = self.table.state_after(cycles)
         missed = rate * self._error_at(cycles)  # of z
         if self.rest:
             distance = np.where(cycles < self.reach, 1.0 / z, 0.0)
@@ -94,11 +92,11 @@ class Between(NamedTuple):
         else:
             within = wear <= self.last_wear
         count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
-        z = np.clip(self.coordinate.at(wear[within]), self.table.wear[0], self.table.last_wear)
-        found = tabulated.cycles_until(self.table, z)
+        z = np.clip(self.coordinate.at(wear[within]), self.table.u[0], self.table.ends[-1])
+        found = self.table.cycles_until(z)
         missed = self._error_at(found)
         if self.rest:
-            missed += self.rest.uncertainty * z**2 / tabulated.wear_after(self.table, found)[1]
+            missed += self.rest.uncertainty * z**2 / self.table.state_after(found)[1]
         # A wear that is reached at the very end of a cycle must not ask for another one.
         count[within] = np.maximum(np.ceil(found - missed), 0.0)
         error[within] = 2 * missed

@@ -60,6 +60,9 @@ class Sine(SceneTable):
         angle = 2.0 * math.pi * centred(phase)
         return np.asarray(2.0 * math.pi * self.amplitude_mm * np.cos(angle))
 
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"amplitude_mm": np.sin(2.0 * math.pi * centred(phase))}
+
     @property
     def period(self) -> float:
         return self.period_s
@@ -119,6 +122,9 @@ class Constant(_Level, SceneTable):
     def mean(self) -> float:
         return self.value_mm
 
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"value_mm": np.ones(phase.shape)}
+
 
 @table("load", kind="force")
 class Force(_Level, SceneTable):
@@ -137,6 +143,9 @@ class Force(_Level, SceneTable):
     @property
     def mean(self) -> float:
         return self.force_N
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"force_N": np.ones(phase.shape)}
 
 
 def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:

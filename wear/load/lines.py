@@ -95,6 +95,12 @@ class _Period(_Rows):
     def slope(self, phase: FloatArray | float) -> FloatArray:
         return _segment_slopes(self._phases, self._values, within_cycle(phase) % 1.0)
 
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        at, rows = within_cycle(phase), np.eye(len(self.rows))
+        rows[0, -1] = 1.0  # the seam
+        found = (np.interp(at, self._phases, row) for row in rows[:-1])
+        return {f"{self.of_rows}[{j}]": row for j, row in enumerate(found)}
+
     @property
     def period(self) -> float:
         return self.times_s[-1]

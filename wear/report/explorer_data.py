@@ -27,23 +27,6 @@ GROUPS: Mapping[str, tuple[str, ...]] = {
     "Load and motion": ("U", "T", "R", "n"),
 }
 
-KEYS: Mapping[str, tuple[str, str]] = {
-    "K_c": ("bearing", "wear_coefficient"),
-    "H_c": ("bearing", "hardness_MPa"),
-    "sigma_c0": ("bearing", "roughness_mm"),
-    "f_c": ("bearing", "roughness_growth"),
-    "K_a": ("pin", "wear_coefficient"),
-    "H_a": ("pin", "hardness_MPa"),
-    "sigma_a0": ("pin", "roughness_mm"),
-    "f_a": ("pin", "roughness_growth"),
-    "p_max": ("contact", "max_pressure_MPa"),
-    "h_0": ("contact", "closure_mm"),
-    "k": ("support", "stiffness_MPa_per_mm"),
-    "R": ("motion", "radius_mm"),
-    "n": ("motion", "speed_rpm"),
-}
-"""Where a number stands in a scene file; the load is written by its kind."""
-
 
 def scene_data(scene: Scene) -> dict[str, Any]:
     """Return a scene as the page takes it; what it does not model has the numbers of section 3."""

@@ -139,6 +139,24 @@ class Motion(SceneTable):
     speed_rpm: Positive = Field(description="rotation speed n")
 
 
+KEYS: Mapping[str, tuple[str, str]] = {
+    "K_c": ("bearing", "wear_coefficient"),
+    "H_c": ("bearing", "hardness_MPa"),
+    "sigma_c0": ("bearing", "roughness_mm"),
+    "f_c": ("bearing", "roughness_growth"),
+    "K_a": ("pin", "wear_coefficient"),
+    "H_a": ("pin", "hardness_MPa"),
+    "sigma_a0": ("pin", "roughness_mm"),
+    "f_a": ("pin", "roughness_growth"),
+    "p_max": ("contact", "max_pressure_MPa"),
+    "h_0": ("contact", "closure_mm"),
+    "k": ("support", "stiffness_MPa_per_mm"),
+    "R": ("motion", "radius_mm"),
+    "n": ("motion", "speed_rpm"),
+}
+"""Table and key of each parameter in a scene file, by symbol, but those of the load."""
+
+
 class VariantKey(NamedTuple):
     """Which generated module a scene needs: `wear.generated.<law>.<module>`; `name` is the
     variant's for users.
