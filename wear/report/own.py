@@ -16,8 +16,9 @@ from derive.variant import VARIANTS
 from derive.variant_equations import equations_of
 from wear import figures
 from wear.direct.sequence import most_cycles
+from wear.faults import UsageError
 from wear.figure_data import WEAR, Abscissa, Line, Panel, panels_of, points_of, pressure_inside
-from wear.figure_style import pdf, svg
+from wear.figure_style import COLUMN_AND_HALF, pdf, svg
 from wear.fitting.readings import Specimen
 from wear.history import History
 from wear.life import Reached, cycles_until
@@ -28,11 +29,12 @@ from wear.report.document import Document, Figure
 from wear.report.equations import shown
 from wear.report.explorer_derived import holding
 from wear.report.manifest import versions
-from wear.report.markup import markup
+from wear.report.markup import markup, number
 from wear.report.number import Number
 from wear.report.text import parsed
 from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
+from wear.sensitivities import Sensitivities, sensitivity
 from wear.solver import obstacle, solve
 
 #: Depths whose life is reported, in initial roughnesses, and cycles whose pressure is drawn.
@@ -40,6 +42,8 @@ _DEPTHS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 _INSIDE = (0, 10, 100, 1000)
 _LAST = 10**8
 _POINTS = 120  # of a curve
+_EARLY = 1000  # cycles whose sensitivities stand beside those of the last
+_BARS = 15
 _EXACT = 1e6  # numbers of cycles below are shown in full
 _MICROMETRES = WEAR.scale
 _SOLVED = "solution of this scene"
@@ -69,6 +73,9 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     pressed = None if limit is None else pressure_inside(scene, _begun(int(curve.cycles[-1])))
     equations = shown(_equations(scene, limit))
     predicted = [_predicted(scene, each) for each in specimens]
+    found = _sensitivities(
+        scene, [n for n in (_EARLY, int(curve.cycles[-1])) if n <= curve.cycles[-1]]
+    )
     values = {
         "title": scene.title or scene.name,
         "description": scene.description,
@@ -88,6 +95,7 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         },
         "inside": pressed is not None,
         "loses_contact": bool(np.any(curve.pressures.contact_fraction < 1.0)),
+        "sensitivities": found is not None,
         **_compared(specimens, predicted),
         "command": command,
         "scene_file": scene.to_toml().strip(),
@@ -105,6 +113,11 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         drawn["inside"] = (
             figures.pressure_in_cycles(pressed),
             "Contact pressure over the phase of a few cycles, pulses that get lower.",
+        )
+    if found is not None:
+        drawn["sensitivities"] = (
+            _tornado(found),
+            "Bars for the numbers of the scene, the longest on top.",
         )
     if specimens:
         drawn["readings"] = (
@@ -183,19 +196,12 @@ def _assumptions(scene: Scene) -> Iterator[str]:
     else:
         opens = "opens" if contact.pin_wear_opens_gap else "closes"
         yield f"The pin is modelled; its wear {opens} the gap."
-    low, high, mean = (_short(x) for x in (load.minimum, load.maximum, load.mean))
+    low, high, mean = (number(f"{x:.5g}") for x in (load.minimum, load.maximum, load.mean))
     given = "reaction, in N" if scene.given_load else "displacement of the pin, in mm"
     yield (
         f"The load is of kind `{scene.to_tables()['load']['kind']}`, the {given}: "
         f"from {low} to {high}, on average {mean}."
     )
-
-
-def _short(value: float) -> str:
-    """A number of the scene as a formula, to five digits."""
-    from wear.commands.run_output import latex_number
-
-    return f"${latex_number(value, 5)}$"
 
 
 def _data(scene: Scene) -> Iterator[tuple[str, str, Number]]:
@@ -204,8 +210,8 @@ def _data(scene: Scene) -> Iterator[tuple[str, str, Number]]:
             quantity = QUANTITIES[name]
             unit = "" if quantity.unit == "1" else quantity.unit
             digits = len(f"{value:.12g}".partition("e")[0].replace(".", "").strip("0")) or 1
-            number = Number(value, f"scene {scene.name}", digits, unit)
-            yield f"${quantity.latex}$", markup(quantity.meaning), number
+            shown = Number(value, f"scene {scene.name}", digits, unit)
+            yield f"${quantity.latex}$", markup(quantity.meaning), shown
 
 
 def _constants(limit: Asymptote) -> Iterator[tuple[str, Number]]:
@@ -252,6 +258,23 @@ def _life(scene: Scene) -> Iterator[tuple[Number, Number | str, Number | str]]:
             else way.value,
             _known(hours, 4, "life of this scene"),
         )
+
+
+def _sensitivities(scene: Scene, cycles: list[int]) -> Sensitivities | None:
+    """Return how the wear depends on the numbers of the scene, None where that is not known."""
+    try:
+        found = sensitivity(scene, sorted(set(cycles)), rtol=1e-8)
+    except UsageError:
+        return None
+    return found if np.isfinite(found.error).all() else None
+
+
+def _tornado(found: Sensitivities) -> Drawn:
+    """The elasticities that are largest."""
+    most = np.argsort(-np.max(np.abs(np.nan_to_num(found.elasticity)), axis=1))[:_BARS]
+    labels = [f"$N = {n}$" for n in found.cycles]
+    keys = [found.keys[i] for i in most]
+    return figures.tornado(keys, found.elasticity[most], labels, width=COLUMN_AND_HALF)
 
 
 def _compared(specimens: Sequence[Specimen], predicted: Sequence[History]) -> dict[str, Any]:
