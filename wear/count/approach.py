@@ -81,7 +81,7 @@ class Single(NamedTuple):
 
     @property
     def ran(self) -> float:
-        """How many cycles."""
+        """Return how many cycles."""
         return float(len(self.added))
 
     def missed(self) -> tuple[FloatArray, FloatArray]:
@@ -106,7 +106,7 @@ class Counted(NamedTuple):
 
     @property
     def ran(self) -> float:
-        """How many whole cycles."""
+        """Return how many whole cycles."""
         last = self.table.last_cycles
         return float(np.ceil(last) if self.rest else np.floor(last))
 
@@ -326,7 +326,7 @@ def on_a_line(
 
 
 def _judged(way: Way, runs: _Runs, begun_with: float, cycles: float) -> Stages:
-    """The parts of the way as stages, each with its estimate of error."""
+    """Return the parts of the way as stages, each with its estimate of error."""
     single = [part for part in runs.parts if isinstance(part, Single) and part.series is None]
     at = np.array([wear for part in single for wear in part.wear[:-1]])
     added = np.array([x for part in single for x in part.added])
@@ -368,7 +368,8 @@ def _judged(way: Way, runs: _Runs, begun_with: float, cycles: float) -> Stages:
 
 
 def _one_by_one(way: Way, part: Single, missed: FloatArray, growth: FloatArray) -> Integrated:
-    """Cycles with what each may have missed (mm) and the factor by which it changes an error."""
+    """Return the cycles with what each may have missed (mm) and the factor by which it changes an
+    error."""
     wear, added = np.array(part.wear), np.array(part.added)
     response = way.plain.response(added, growth)
     lost = roundoff_of_cycles(way.model, way.load, wear) * response

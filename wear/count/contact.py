@@ -66,15 +66,15 @@ class Contact(NamedTuple):
     proportional: bool = False
 
     def pace(self, u: FloatArray, U_a: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The wear rate in mm per cycle, and its derivative with respect to the wear."""
+        """Return the wear rate in mm per cycle, and its derivative with respect to the wear."""
         rate, slope = self.rate(u, U_a)
         return self.load.period * rate, self.load.period * slope
 
     def noise(
         self, u: FloatArray, U_a: FloatArray, rate: FloatArray, steepest: FloatArray
     ) -> FloatArray:
-        """What rounding makes of the `rate` (k, m), mm per cycle, at wears and displacements (k, m)
-        under a load that changes by `steepest` (k,) mm per cycle; at most, (k,)."""
+        """Return what rounding makes of the `rate` (k, m), mm per cycle, at wears and displacements
+        (k, m) under a load that changes by `steepest` (k,) mm per cycle; at most, (k,)."""
         largest = ROUNDOFF * np.max(np.abs(rate), axis=1)
         if not self.proportional:
             # A phase is rounded, too, and under a steep load the pressure with it.
@@ -89,8 +89,8 @@ class Contact(NamedTuple):
     def to_its_end(
         self, u: FloatArray, phase: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """How far it is to the end of contact (cycles) from wears and phases (k,), by a tangent;
-        what of that is rounding; and the rate there (mm per cycle)."""
+        """Return how far it is to the end of contact (cycles) from wears and phases (k,), by a
+        tangent; what of that is rounding; and the rate there (mm per cycle)."""
         assert self.level is not None
         sign = 1.0 if self.falls else -1.0
         U_a = self.load(phase)
@@ -122,7 +122,8 @@ def worn(
     over: Stretch,
     before: FloatArray,
 ) -> Worn:
-    """Wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm so far.
+    """Return the wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm
+    so far.
 
     Each stretch is cut in two until the rate is resolved to `tolerance` of what the cycle adds.
     """
@@ -170,7 +171,8 @@ class _Part(NamedTuple):
 
 
 def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> BoolArray:
-    """Whether the nodes resolve the rate, as measured by what this cycle has added (k,), (k,).
+    """Return whether the nodes resolve the rate, as measured by what this cycle has added (k,),
+    (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
     foretells. Where the wear follows the load within less than the distance of two nodes, it leaves
@@ -190,7 +192,8 @@ def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> 
 
 
 def _roughness(model: Model, u: FloatArray) -> FloatArray:
-    """The equivalent roughness (mm) at each wear (k,); it does not depend on the pressure."""
+    """Return the equivalent roughness (mm) at each wear (k,); it does not depend on the pressure.
+    """
     none = np.zeros_like(u)
     fields = model.fields_under(none, u, none) if model.compliant else model.fields(u, none)
     return np.asarray(fields.sigma)
@@ -232,7 +235,7 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
 
 
 def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatArray) -> FloatArray:
-    """The solution x (k, m) of x = missing + length times the integral of slope x.
+    """Return the solution x (k, m) of x = missing + length times the integral of slope x.
 
     Where nothing decays much it is missing + E times the integral of slope missing/E, with
     E = exp(integral of slope): but for a truncation error, of which the next iteration takes care.
@@ -249,7 +252,8 @@ def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatAr
 
 
 def _has_settled(apart: FloatArray, last: FloatArray, noise: FloatArray) -> BoolArray:
-    """Whether an iteration that has changed by `apart`, after `last`, has come to its end."""
+    """Return whether an iteration that has changed by `apart`, after `last`, has come to its end.
+    """
     # A change that was large foretells nothing; one that is small and grows is rounding.
     foretold = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
     stalled = (last < STALLED) & (apart >= last)

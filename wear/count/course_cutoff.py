@@ -36,13 +36,13 @@ class CutoffCourse(NamedTuple):
 
     @np.errstate(all="ignore")  # of trial states; what is no number fails the estimate of error
     def added(self, cycles: FloatArray, starts: FloatArray) -> Added:
-        """What a cycle adds from each of the `starts` (n,), mm."""
+        """Return what a cycle adds from each of the `starts` (n,), mm."""
         coarse, fine = (self._wear(cycle, starts) for cycle in self.both)
         missed = np.max(np.abs(coarse - fine), axis=1, initial=0.0)
         return Added(coarse, missed, None, np.zeros(len(cycles)))
 
     def _wear(self, cycle: CutoffCycle, starts: FloatArray) -> FloatArray:
-        """Wear added (n, m) up to each phase, mm; no number where it was not found."""
+        """Return the wear added (n, m) up to each phase, mm; no number where it was not found."""
         added = [np.zeros(len(starts))]
         for part in self.parts:
             alone = cycle._replace(edge=cycle.edge._replace(pieces=(part,)))
@@ -63,7 +63,7 @@ def cutoff_course(model: Model, load: Load, phases: FloatArray, rtol: float) -> 
 
 
 def _cut(piece: Piece, load: Load, phases: FloatArray) -> Iterator[Piece]:
-    """The piece, cut at those of the phases that lie within."""
+    """Yield the piece, cut at those of the phases that lie within."""
     within = (phases > piece.begin + NEARLY) & (phases < piece.end - NEARLY)
     for begin, end in pairwise([piece.begin, *np.unique(phases[within]).tolist(), piece.end]):
         inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2

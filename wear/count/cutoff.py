@@ -48,7 +48,7 @@ class CutoffCycle(NamedTuple):
 
     @property
     def rule(self) -> Gauss:
-        """The nodes on a stretch of contact: a stiff support makes wear follow the load."""
+        """Return the nodes on a stretch of contact: a stiff support makes wear follow the load."""
         return radau(len(self.over.rule.nodes))
 
     @property
@@ -57,8 +57,8 @@ class CutoffCycle(NamedTuple):
         return 1
 
     def on(self, over: Mesh) -> CutoffCycle:
-        """The same on another mesh; one of more nodes is to judge the other, and cuts stretches
-        until nothing but rounding is left."""
+        """Return the same on another mesh; one of more nodes is to judge the other, and cuts
+        stretches until nothing but rounding is left."""
         judges = len(over.rule.nodes) > len(self.over.rule.nodes)
         return self._replace(over=over, tolerance=ROUNDOFF if judges else self.tolerance)
 
@@ -68,7 +68,8 @@ class CutoffCycle(NamedTuple):
         return self._replace(over=over, tolerance=size.endpoint_tolerance)
 
     def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
-        """Wear added by one cycle from each start, shape (...); guesses are of no use."""
+        """Return the wear added by one cycle from each start, shape (...); guesses are of no use.
+        """
         flat = starts.ravel()
         added = np.zeros(len(flat))
         sound, evaluations = True, 0
@@ -86,11 +87,11 @@ class CutoffCycle(NamedTuple):
         )
 
     def frozen(self, wear: FloatArray) -> FloatArray:
-        """Wear added by one cycle if the rate did not feel it, any shape."""
+        """Return the wear added by one cycle if the rate did not feel it, any shape."""
         return np.asarray(self.frozen_upto(wear.ravel())[-1].reshape(wear.shape))
 
     def frozen_upto(self, wear: FloatArray) -> FloatArray:
-        """The same of each wear (k,) up to every piece and to the end, (pieces + 1, k)."""
+        """Return the same of each wear (k,) up to every piece and to the end, (pieces + 1, k)."""
         x = self.over.phases.ravel()
         weights = (self.over.lengths[:, None] * self.over.rule.weights).ravel()
         added = np.zeros((len(self.edge.pieces) + 1, len(wear)))
@@ -103,7 +104,7 @@ class CutoffCycle(NamedTuple):
         return added
 
     def rate(self, u: FloatArray, U_a: FloatArray) -> FloatArray:
-        """Wear rate in contact, mm per cycle."""
+        """Return the wear rate in contact, mm per cycle."""
         rate: FloatArray = self.load.period * self.model.rate(u, U_a)
         return rate
 
@@ -117,15 +118,15 @@ class CutoffCycle(NamedTuple):
         return factor
 
     def response(self, added: FloatArray, growth: FloatArray) -> FloatArray:
-        """The response (mm), at most, of cycles that have `added` so much (k,) to a relative error
-        of the rate: what is made early grows by the factor `growth`, but once the wear exceeds the
-        roughness the rate hardly grows any more."""
+        """Return the response (mm), at most, of cycles that have `added` so much (k,) to a relative
+        error of the rate: what is made early grows by the factor `growth`, but once the wear
+        exceeds the roughness the rate hardly grows any more."""
         roughness = float(self.model.fields(np.array(0.0), np.array(0.0)).sigma)
         response: FloatArray = added + np.minimum(added, roughness) * growth
         return response
 
     def several(self, start: float, number: int) -> CycleSolution:
-        """Some cycles on end from wear `start`; increments have shape (number,)."""
+        """Return some cycles on end from wear `start`; increments have shape (number,)."""
         runs, wear = [], start
         for _ in range(number):
             run = self.advance(np.array([wear]))
@@ -149,20 +150,20 @@ class Maps(NamedTuple):
 
 
 def cutoff_cycle(model: Model, load: Load) -> CutoffCycle:
-    """The map of one cycle with a cutoff."""
+    """Return the map of one cycle with a cutoff."""
     whole = mesh(np.array([0.0, 1.0]), 8)
     return CutoffCycle(model, load, edge_of_contact(model, load), whole, 1.0)
 
 
 def touch(model: Model, load: Load, wear: FloatArray) -> FloatArray:
-    """The margin (mm) that rounding cannot tell from none, at each wear (mm)."""
+    """Return the margin (mm) that rounding cannot tell from none, at each wear (mm)."""
     peak = np.full_like(wear, load.maximum)
     blur: FloatArray = TOUCH * ROUNDOFF * model.margin_terms(wear, peak)
     return blur
 
 
 def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray) -> Worn:
-    """A piece from each wear (k,), `before` (k,) of it added by this cycle already."""
+    """Return a piece from each wear (k,), `before` (k,) of it added by this cycle already."""
     added = np.zeros(len(wear))
     active, begin, end = _contact(cycle, piece, wear)
     if not active.any():
@@ -188,8 +189,8 @@ def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray)
 def _contact(
     cycle: CutoffCycle, piece: Piece, wear: FloatArray
 ) -> tuple[BoolArray, FloatArray, FloatArray]:
-    """Which wears (k,) make contact on a piece, and the phases of its begin and end for those if
-    the wear stays as it is."""
+    """Return which wears (k,) make contact on a piece, and the phases of its begin and end for
+    those if the wear stays as it is."""
     needed = displacement_at(cycle.model, wear)
     deepest = max(piece.heights[0], piece.heights[-1])
     active = deepest - needed > touch(cycle.model, cycle.load, wear)
@@ -202,8 +203,8 @@ def _contact(
 def _frozen_contact(
     cycle: CutoffCycle, piece: Piece, wear: FloatArray
 ) -> list[tuple[FloatArray, FloatArray]]:
-    """The phases between which each wear (k,), if it stays as it is, makes contact of one kind on a
-    piece: on a compliant support there are two kinds."""
+    """Return the phases between which each wear (k,), if it stays as it is, makes contact of one
+    kind on a piece: on a compliant support there are two kinds."""
     begin, end = (np.full_like(wear, phase) for phase in (piece.begin, piece.end))
     needed = displacement_at(cycle.model, wear)
     opens, bends = (phase_of(cycle.load, piece, needed + at) for at in (0.0, cycle.edge.held))
@@ -213,6 +214,6 @@ def _frozen_contact(
 
 
 def _on_support(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray) -> Worn:
-    """A piece on a compliant support, from each wear (k,)."""
+    """Return a piece on a compliant support, from each wear (k,)."""
     support = Support(cycle.model, cycle.load, cycle.edge, cycle.rule, cycle.tolerance)
     return on_support(support, piece, wear, before, touch(cycle.model, cycle.load, wear))

@@ -76,14 +76,14 @@ class Edge(NamedTuple):
     before: IntArray
 
     def is_over(self, start: FloatArray, wear: FloatArray, U_a: FloatArray) -> BoolArray:
-        """Whether contact from the wear `start` has come to wear at which it closes anew, on the
-        other side of the crest."""
+        """Return whether contact from the wear `start` has come to wear at which it closes anew, on
+        the other side of the crest."""
         over: BoolArray = (start < self.crest) & (wear >= self.crest) & (U_a < self.highest)
         return over
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
-    """The edge of contact of a model with cutoff."""
+    """Return the edge of contact of a model with cutoff."""
     crest, held = _crest(model), float(model.held_margin)
     turns = turning_points(load)
     highest = float(displacement_at(model, np.array(crest))) if np.isfinite(crest) else np.inf
@@ -108,7 +108,8 @@ def edge_of_contact(model: Model, load: Load) -> Edge:
 
 
 def turning_points(load: Load) -> FloatArray:
-    """Phases from 0 to 1 between which the load is smooth and rises or falls throughout."""
+    """Return the phases from 0 to 1 between which the load is smooth and rises or falls throughout.
+    """
     cuts = np.unique([0.0, *load.kinks, *load.peaks, 1.0])
     # Between two peaks or kinks there is a trough at most.
     low, high = cuts[:-1] + NEARLY * np.diff(cuts), cuts[1:] - NEARLY * np.diff(cuts)
@@ -117,7 +118,7 @@ def turning_points(load: Load) -> FloatArray:
 
 
 def _pull(model: Model, load: Load, crest: float, held: float) -> Function:
-    """How fast contact at its edge closes at each phase, in mm per cycle."""
+    """Return how fast contact at its edge closes at each phase, in mm per cycle."""
 
     def pull(phase: FloatArray) -> FloatArray:
         U_a, speed = load(phase), load.slope(phase)
@@ -134,8 +135,8 @@ def _pull(model: Model, load: Load, crest: float, held: float) -> Function:
 
 
 def _closings(pull: Function, turns: FloatArray, both: bool) -> FloatArray:
-    """The phases at which the load starts to close contact at its edge, between two turns; if
-    `both`, also those at which it ceases to."""
+    """Return the phases at which the load starts to close contact at its edge, between two turns;
+    if `both`, also those at which it ceases to."""
     number = max(2, SAMPLES // len(turns))
     inside = (1 - np.cos(np.pi * np.arange(number + 1) / number)) / 2
     inside[0], inside[-1] = NEARLY, 1 - NEARLY
@@ -151,7 +152,7 @@ def _closings(pull: Function, turns: FloatArray, both: bool) -> FloatArray:
 
 
 def _extremes(function: Function, x: FloatArray) -> FloatArray:
-    """Where a function comes nearest to zero between samples at `x` of one sign."""
+    """Return where a function comes nearest to zero between samples at `x` of one sign."""
     value = function(x)
     sign, size = np.sign(value[1:-1]), np.abs(value)
     nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:])
@@ -167,7 +168,8 @@ def _extremes(function: Function, x: FloatArray) -> FloatArray:
 def _bisected(
     function: Function, low: FloatArray, high: FloatArray, steps: int = BISECTIONS
 ) -> FloatArray:
-    """Where a function changes its sign, in each of many intervals at whose ends it differs."""
+    """Return where a function changes its sign, in each of many intervals at whose ends it differs.
+    """
     sign = np.sign(function(low))
     for _ in range(steps):
         middle = (low + high) / 2
@@ -177,15 +179,15 @@ def _bisected(
 
 
 def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
-    """The displacement (mm) that just makes contact at each wear: the margin rises with it by as
-    much."""
+    """Return the displacement (mm) that just makes contact at each wear: the margin rises with it
+    by as much."""
     edge: FloatArray = -model.margin(wear, np.zeros_like(wear))
     return edge
 
 
 def _crest(model: Model) -> float:
-    """The wear (mm) at which the displacement that just makes contact is largest: zero if it falls
-    from the start, infinite if it always rises."""
+    """Return the wear (mm) at which the displacement that just makes contact is largest: zero if it
+    falls from the start, infinite if it always rises."""
     scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
 
     def slope(y: FloatArray) -> FloatArray:
@@ -205,8 +207,8 @@ def _crest(model: Model) -> float:
 def wear_at(
     model: Model, displacement: FloatArray, guess: FloatArray, least: float, most: float
 ) -> FloatArray:
-    """The wear (mm) at which contact ends under a displacement, by Newton's method; the nearest of
-    `least` and `most` if there is none between.
+    """Return the wear (mm) at which contact ends under a displacement, by Newton's method; the
+    nearest of `least` and `most` if there is none between.
 
     The margin is convex in the wear, so that from the side of contact no step goes too far.
     """
@@ -222,7 +224,7 @@ def wear_at(
 
 
 def phase_of(load: Load, piece: Piece, height: FloatArray) -> FloatArray:
-    """Where the load reaches each height (k,) on a piece; the nearest end if it does not."""
+    """Return where the load reaches each height (k,) on a piece; the nearest end if it does not."""
     direction = 1.0 if piece.rising else -1.0
     rising = direction * piece.heights
     phase = np.where(direction * height <= rising[0], piece.begin, piece.end)
@@ -239,8 +241,8 @@ def phase_of(load: Load, piece: Piece, height: FloatArray) -> FloatArray:
 def _sought(
     load: Load, height: FloatArray, low: FloatArray, high: FloatArray, phase: FloatArray
 ) -> FloatArray:
-    """Where the load reaches each height (k,) between the phases `low` and `high`, by Newton's
-    method from a `phase` between."""
+    """Return where the load reaches each height (k,) between the phases `low` and `high`, by
+    Newton's method from a `phase` between."""
     last = np.inf
     for iteration in range(PHASE_NEWTON):
         slope = load.slope(phase)

@@ -75,7 +75,8 @@ class _Walk:
         return came
 
     def end(self, who: BoolArray, contact: Contact) -> FloatArray:
-        """The margin (mm) at the end of the piece of those of `who`, all of it in such contact."""
+        """Return the margin (mm) at the end of the piece of those of `who`, all of it in such
+        contact."""
         run = self._run(who, contact, self.at)
         U_a = np.full(int(who.sum()), self.piece.heights[-1])
         margin: FloatArray = self.support.model.margin((self.u + self.added)[who] + run.added, U_a)
@@ -94,8 +95,8 @@ class _Walk:
 def on_support(
     support: Support, piece: Piece, wear: FloatArray, before: FloatArray, blur: FloatArray
 ) -> Worn:
-    """A piece from each wear (k,), `before` (k,) of it added by this cycle already; margins that
-    differ by less than `blur` (k,), mm, are the same."""
+    """Return a piece from each wear (k,), `before` (k,) of it added by this cycle already; margins
+    that differ by less than `blur` (k,), mm, are the same."""
     edge, load = support.edge, support.load
     touching = displacement_at(support.model, wear)
     if np.all(max(piece.heights[[0, -1]]) - touching <= blur):

@@ -48,8 +48,8 @@ def kinks(cycle: CutoffCycle, shift: float) -> list[Kink]:
 
 
 def rest_of(model: Model, load: Load, wear: float) -> Rest | None:
-    """The wear (mm) at which the peak of the load just fails to make contact, a root of the margin,
-    with what rounding makes of it; None if this is not such a wear."""
+    """Return the wear (mm) at which the peak of the load just fails to make contact, a root of the
+    margin, with what rounding makes of it; None if this is not such a wear."""
     peak, worn = np.array(load.maximum), np.array(wear)
     rounding = ROUNDOFF * float(model.margin_terms(worn, peak))
     left = abs(float(model.margin(worn, peak)))
@@ -59,9 +59,9 @@ def rest_of(model: Model, load: Load, wear: float) -> Rest | None:
 
 
 def fades(cycle: CutoffCycle, rest: float) -> bool:
-    """Whether wear only tends to `rest` (mm), at which the peak of the load just fails to make
-    contact: each cycle leaves a part of the distance if the peak is so sharp that contact does not
-    slide along its edge, or if the pressure vanishes along with the distance."""
+    """Return whether wear only tends to `rest` (mm), at which the peak of the load just fails to
+    make contact: each cycle leaves a part of the distance if the peak is so sharp that contact does
+    not slide along its edge, or if the pressure vanishes along with the distance."""
     model, load = cycle.model, cycle.load
     if model.compliant:
         return True

@@ -49,17 +49,17 @@ class Way(NamedTuple):
 
     @property
     def model(self) -> Model:
-        """The model."""
+        """Return the model."""
         return self.plain.model
 
     @property
     def limit(self) -> float:
-        """The grazing wear (mm) to which wear tends for ever, if any."""
+        """Return the grazing wear (mm) to which wear tends for ever, if any."""
         return self.rest.wear if self.rest else np.inf
 
     @property
     def load(self) -> Load:
-        """The load."""
+        """Return the load."""
         return self.plain.load
 
 
@@ -90,8 +90,8 @@ class Stop(NamedTuple):
 
 
 def _stops(way: Way) -> list[Stop]:
-    """All grazing wears. Contact grazes when the pieces before have added their part: the map has
-    its branch point where a cycle starts that much earlier."""
+    """Return all grazing wears. Contact grazes when the pieces before have added their part: the
+    map has its branch point where a cycle starts that much earlier."""
     if not way.kinks:
         return []
     wear = np.array([kink.wear for kink in way.kinks])
@@ -158,7 +158,7 @@ def _looks(
 
 
 def _outwards(way: Way, last: Stop | None, begin: float, end: float) -> list[Span]:
-    """The span from the wear `begin` to `end` (mm), beyond the `last` grazing wear."""
+    """Return the span from the wear `begin` to `end` (mm), beyond the `last` grazing wear."""
     if last is None or begin > last.at + way.scale:
         span = Span(Coordinate(0.0, False, SHIFT * way.scale), begin, end)
     else:
@@ -168,8 +168,8 @@ def _outwards(way: Way, last: Stop | None, begin: float, end: float) -> list[Spa
 
 
 def _towards(way: Way, stop: Stop, half: float, left: FloatArray, added: FloatArray) -> list[Span]:
-    """The span from the wear `half` (mm) on the way to a grazing wear; a cycle adds so much (k,)
-    where so much is `left`, mm."""
+    """Return the span from the wear `half` (mm) on the way to a grazing wear; a cycle adds so much
+    (k,) where so much is `left`, mm."""
     coordinate = Coordinate(stop.before, True)
     if way.rest is not None and stop.at == way.rest.wear:
         calm = added < ENDS * left

@@ -24,7 +24,8 @@ NEARLY = 0.99  # of the wear at which the roughness vanishes
 
 
 def roughness_scale(model: Model) -> float:
-    """A wear (mm) that changes the pressure by a factor of order 1: a quarter of the roughness."""
+    """Return a wear (mm) that changes the pressure by a factor of order 1: a quarter of the
+    roughness."""
     return float(model.fields(np.array(0.0), np.array(0.0)).sigma) / 4
 
 
@@ -34,7 +35,7 @@ def roughness_limit(model: Model, upto: float) -> float:
 
 
 def roughness_limits(model: Model, upto: FloatArray) -> FloatArray:
-    """The same of each of many scenes (scenes, 1).
+    """Return the same of each of many scenes (scenes, 1).
 
     The roughness of one solid is linear in the wear; that of two never vanishes.
     """
@@ -50,8 +51,8 @@ def frozen_density(cycle: CutoffCycle, wear: FloatArray) -> FloatArray:
 
 
 def scan(cycle: CutoffCycle, scale: float, start: float, cycles: float, limit: float) -> FloatArray:
-    """Wear (k,) in mm, rising from `start` to where the frozen rate puts `cycles`, roughly, and no
-    higher than `limit`; the rate changes over wear of the `scale` (mm)."""
+    """Return the wear (k,) in mm, rising from `start` to where the frozen rate puts `cycles`,
+    roughly, and no higher than `limit`; the rate changes over wear of the `scale` (mm)."""
     y = STEP * np.arange(STEPS)
     if np.isfinite(limit):
         y = np.linspace(0.0, np.log1p((limit - start) / (start + scale)), STEPS)

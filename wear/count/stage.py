@@ -109,12 +109,12 @@ class Stage(NamedTuple):
 
     @property
     def ends(self) -> bool:
-        """Whether wear is over after it."""
+        """Return whether wear is over after it."""
         return self.counted.rests
 
     @property
     def ran(self) -> float:
-        """How many whole cycles it counts."""
+        """Return how many whole cycles it counts."""
         return self.counted.ran
 
     @property
@@ -123,7 +123,8 @@ class Stage(NamedTuple):
         return self.adrift + (self.counted.reach if isinstance(self.counted, Leap) else 0.0)
 
     def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Wear (mm) after `cycles` since the fresh state, and its estimated relative error."""
+        """Return the wear (mm) after `cycles` since the fresh state, and its estimated relative
+        error."""
         wear, error = self.counted.wear_after(cycles - self.begins)
         return wear, error + self.inherited / (wear + TINY)
 
@@ -162,7 +163,7 @@ class Stages(NamedTuple):
 
     @property
     def last_wear(self) -> float:
-        """The wear (mm) up to which it counts."""
+        """Return the wear (mm) up to which it counts."""
         return self.stages[-1].counted.last_wear
 
     @property

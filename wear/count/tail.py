@@ -23,7 +23,7 @@ class Rest(NamedTuple):
 
     @property
     def nearest(self) -> float:
-        """The smallest distance (mm) from it at which cycles are integrated."""
+        """Return the smallest distance (mm) from it at which cycles are integrated."""
         return RESOLVABLE * self.uncertainty
 
 
@@ -40,35 +40,35 @@ class Between(NamedTuple):
 
     @property
     def rests(self) -> bool:
-        """Whether its last cycle adds nothing that double precision resolves."""
+        """Return whether its last cycle adds nothing that double precision resolves."""
         return self.rest is not None
 
     @property
     def pace(self) -> float:
-        """The wear (mm) that its first cycle adds."""
+        """Return the wear (mm) that its first cycle adds."""
         z, rate = self.table.u[:1], self.table.first_rate[:1]
         return float(self.coordinate.pace(z, rate)[0])
 
     @property
     def last_wear(self) -> float:
-        """The wear (mm) up to which it counts."""
+        """Return the wear (mm) up to which it counts."""
         if self.rest:
             return self.rest.wear
         return float(self.coordinate.wear(self.table.ends[-1]))
 
     @property
     def reach(self) -> float:
-        """How many cycles it counts."""
+        """Return how many cycles it counts."""
         return self.table.last_cycles
 
     @property
     def ran(self) -> float:
-        """How many whole cycles it counts; to the limit wear, up to rounding."""
+        """Return how many whole cycles it counts; to the limit wear, up to rounding."""
         return float(np.ceil(self.reach) if self.rest else np.floor(self.reach))
 
     @property
     def uncertainty(self) -> float:
-        """The estimated error of the last count, in cycles."""
+        """Return the estimated error of the last count, in cycles."""
         return float(self.count_error[-1])
 
     def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
