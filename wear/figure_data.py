@@ -213,13 +213,13 @@ def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> 
 
 @dataclass(frozen=True)
 class Method:
-    """Time against true error of one method: arrays of shape (n,), n tolerances.
+    """Time of one method against its true error or the number of cycles: arrays of shape (n,).
 
-    `failed` marks runs that stopped early or missed their tolerance by far; they are drawn hollow.
+    `failed` marks runs that missed their tolerance, or were not made; they are drawn hollow.
     """
 
     name: str
-    error: FloatArray
+    x: FloatArray
     seconds: FloatArray
     failed: NDArray[np.bool_]
 

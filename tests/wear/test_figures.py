@@ -51,7 +51,7 @@ def _wear(**options: Any) -> Figure:
 
 
 def _methods() -> list[Method]:
-    error = np.array([1e-3, 1e-9, 0.0])
+    error = np.array([1e-3, 1e-9, 1e-16])
     missed = np.array([True, False, False])
     return [
         Method(f"method {i}", error * (i + 1), np.array([1.0, 2.0, 3.0]) * 2.0**i, missed)
@@ -74,6 +74,7 @@ def _all() -> dict[str, Figure]:
         "asymptote": figures.wear_with_asymptote(_lines()[:1], _lines()[2:]),
         "pressure": figures.pressure_in_cycles([Line("first", CYCLES / 100.0, DEPTH)]),
         "speed": figures.speed_against_error(_methods()),
+        "cycles": figures.speed_against_cycles(_methods()),
         "map": figures.regime_map(
             _two_regimes,
             ("without", "with"),
