@@ -43,7 +43,7 @@ STIFF = 3.0  # decay over a part, as an exponent: then a system of equations is 
 FLAT = 1e-30  # mm per cycle: a margin that does not change
 
 
-class Stretch(NamedTuple):
+class Interval(NamedTuple):
     """Stretches of phase of a cycle, (k,): where each begins, `whole` lengths, and where contact is
     `expected` to end, as lengths."""
 
@@ -65,7 +65,7 @@ class Contact(NamedTuple):
     falls: bool = True
     proportional: bool = False
 
-    def pace(self, u: FloatArray, U_a: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def rate_per_cycle(self, u: FloatArray, U_a: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the wear rate in mm per cycle, and its derivative with respect to the wear."""
         rate, slope = self.rate(u, U_a)
         return self.load.period * rate, self.load.period * slope
@@ -81,7 +81,7 @@ class Contact(NamedTuple):
             follows = np.abs(steepest) / (LAYER * _roughness(self.model, u[:, 0]))
             return np.asarray(largest * np.maximum(1.0, BY_PHASE * follows))
         none = np.array(0.0)
-        per_margin, _ = self.pace(none, 1.0 - self.model.margin(none, none))
+        per_margin, _ = self.rate_per_cycle(none, 1.0 - self.model.margin(none, none))
         terms = np.max(self.model.margin_terms(u, U_a), axis=1) + np.abs(steepest)
         terms += max(abs(self.load.minimum), abs(self.load.maximum))
         return np.asarray(largest + ROUNDOFF * per_margin * terms)
@@ -95,16 +95,16 @@ class Contact(NamedTuple):
         sign = 1.0 if self.falls else -1.0
         U_a = self.load(phase)
         left = sign * (self.model.margin(u, U_a) - self.level)
-        rate, _ = self.pace(u, U_a)
+        rate, _ = self.rate_per_cycle(u, U_a)
         widens = self.model.margin_slope(u, U_a) * rate
         falls = np.minimum(sign * (self.load.slope(phase) + widens), -FLAT)
         uncertain = BLUR * (self.model.margin_terms(u, U_a) - falls)
         # Only a margin that is rounding makes the end uncertain: trial states may be far off.
-        blur = np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
-        return -left / falls, blur, rate
+        uncertainty = np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
+        return -left / falls, uncertainty, rate
 
 
-class Worn(NamedTuple):
+class ContactResult(NamedTuple):
     """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is sound; the
     number of right-hand sides evaluated."""
 
@@ -114,14 +114,14 @@ class Worn(NamedTuple):
     evaluations: int
 
 
-def worn(
+def wear_in_contact(
     contact: Contact,
     rule: Gauss,
     tolerance: float,
     u: FloatArray,
-    over: Stretch,
+    over: Interval,
     before: FloatArray,
-) -> Worn:
+) -> ContactResult:
     """Return the wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm
     so far.
 
@@ -140,7 +140,7 @@ def worn(
         left = over.expected[rows] - begin * over.whole[rows]
         start, earlier = (u + added)[rows], (before + added)[rows]
         expected = np.minimum(np.where(left > 0.0, left, LEAST * whole), whole)
-        stretch = Stretch(over.begin[rows] + begin * over.whole[rows], whole, expected)
+        stretch = Interval(over.begin[rows] + begin * over.whole[rows], whole, expected)
         part = _part(contact, rule, start, stretch)
         evaluations, parts = evaluations + part.evaluations, parts + 1
         fine = part.sound & _is_fine(rule, part, tolerance, earlier)
@@ -154,12 +154,12 @@ def worn(
         if not fine.all():
             middle, again = (begin + end) / 2, rows[~fine]
             todo += [(again, middle, end), (again, begin, middle)]
-    return Worn(added, length, sound, evaluations)
+    return ContactResult(added, length, sound, evaluations)
 
 
 class _Part(NamedTuple):
-    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes, what is `noise` of it (k,), and
-    how often wear alone would turn over in the part: its `stiffness` (k,)."""
+    """As `ContactResult`, with the rate (k, m) in mm per cycle at the nodes, what is `noise` of it
+    (k,), and how often wear alone would turn over in the part: its `stiffness` (k,)."""
 
     added: FloatArray
     length: FloatArray
@@ -185,21 +185,21 @@ def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> 
     follows = part.stiffness > half
     gain[follows] = np.maximum(gain, 1.0 / part.stiffness)[follows]
     left = tail * gain * part.length
-    told = part.noise / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
-    left[tail < 100 * told] = 0.0
+    allowed = part.noise / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
+    left[tail < 100 * allowed] = 0.0
     resolved: BoolArray = left <= tolerance * np.maximum(before + part.added, 0.0)
     return resolved
 
 
 def _roughness(model: Model, u: FloatArray) -> FloatArray:
-    """Return the equivalent roughness (mm) at each wear (k,); it does not depend on the pressure.
-    """
+    """Return the equivalent roughness (mm) at each wear (k,); it does not depend on the
+    pressure."""
     none = np.zeros_like(u)
     fields = model.fields_under(none, u, none) if model.compliant else model.fields(u, none)
     return np.asarray(fields.sigma)
 
 
-def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
+def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Interval) -> _Part:
     """Newton's method on contact; where it has a level, the end of contact is found by tangents
     along with the wear."""
     length = over.expected if contact.level is not None else over.whole
@@ -208,7 +208,7 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
     for iteration in range(MOST_ITERATIONS):
         phases = over.begin[:, None] + length[:, None] * rule.nodes
         U_a = contact.load(phases)
-        rate, slope = contact.pace(u[:, None] + inside, U_a)
+        rate, slope = contact.rate_per_cycle(u[:, None] + inside, U_a)
         evaluations += rate.size
         missing = length[:, None] * (rate @ rule.integrate.T) - inside
         step = _newton(rule, length, slope, missing)
@@ -217,16 +217,16 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
         apart = np.max(np.abs(step), axis=1) / (np.abs(added) + TINY)
         noise = contact.noise(u[:, None] + inside, U_a, rate, contact.load.slope(over.begin))
         stiffness = length * np.max(np.abs(slope), axis=1)
-        told = NOISE / ROUNDOFF * noise * length / np.maximum(1.0, stiffness)
-        told /= np.abs(added) + TINY
+        allowed = NOISE / ROUNDOFF * noise * length / np.maximum(1.0, stiffness)
+        allowed /= np.abs(added) + TINY
         if contact.level is not None:
-            change, blur, at_end = contact.to_its_end(u + added, over.begin + length)
+            change, uncertainty, at_end = contact.to_its_end(u + added, over.begin + length)
             change = np.clip(length + change, LEAST * length, over.whole) - length
             apart = np.maximum(apart, np.abs(change) / length)
             inside = inside + rate * rule.nodes * change[:, None]
             added, length = added + at_end * change, length + change
-            told += np.where(length < over.whole, blur / length, 0.0)
-        done |= _has_settled(apart, last, told)
+            allowed += np.where(length < over.whole, uncertainty / length, 0.0)
+        done |= _has_settled(apart, last, allowed)
         grows = bool(np.any((apart > last) & ~done)) and iteration > PATIENCE
         if done.all() or grows or not np.max(apart) < 1e30:
             break
@@ -252,8 +252,8 @@ def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatAr
 
 
 def _has_settled(apart: FloatArray, last: FloatArray, noise: FloatArray) -> BoolArray:
-    """Return whether an iteration that has changed by `apart`, after `last`, has come to its end.
-    """
+    """Return whether an iteration that has changed by `apart`, after `last`, has come to its
+    end."""
     # A change that was large foretells nothing; one that is small and grows is rounding.
     foretold = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
     stalled = (last < STALLED) & (apart >= last)

@@ -62,14 +62,15 @@ class Piece(NamedTuple):
 class Edge(NamedTuple):
     """The edge of contact of a model under a load, and the cycle cut into `pieces`.
 
-    The margin falls with wear up to the wear `crest` (mm), and rises beyond; under displacements
-    above `highest` (mm) contact has no edge. A compliant support holds the contact at its edge
-    until the margin is as large as `held` (mm), zero for a rigid one. Where the displacement that
-    just makes contact is one of those `grazing` (mm), the one-cycle map has a kink.
+    The margin falls with wear up to the wear `turning_wear` (mm), and rises beyond; under
+    displacements above `highest` (mm) contact has no edge. A compliant support holds the contact at
+    its edge until the margin is as large as `held` (mm), zero for a rigid one. Where the
+    displacement that just makes contact is one of those `grazing` (mm), the one-cycle map has a
+    kink.
     """
 
     pieces: tuple[Piece, ...]
-    crest: float
+    turning_wear: float
     highest: float
     held: float
     grazing: FloatArray
@@ -77,39 +78,46 @@ class Edge(NamedTuple):
 
     def is_over(self, start: FloatArray, wear: FloatArray, U_a: FloatArray) -> BoolArray:
         """Return whether contact from the wear `start` has come to wear at which it closes anew, on
-        the other side of the crest."""
-        over: BoolArray = (start < self.crest) & (wear >= self.crest) & (U_a < self.highest)
+        the other side of the turning_wear."""
+        over: BoolArray = (
+            (start < self.turning_wear) & (wear >= self.turning_wear) & (U_a < self.highest)
+        )
         return over
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
     """Return the edge of contact of a model with cutoff."""
-    crest, held = _crest(model), float(model.held_margin)
+    turning_wear, held = _crest(model), float(model.held_margin)
     turns = turning_points(load)
-    highest = float(displacement_at(model, np.array(crest))) if np.isfinite(crest) else np.inf
+    highest = (
+        float(displacement_at(model, np.array(turning_wear)))
+        if np.isfinite(turning_wear)
+        else np.inf
+    )
     low, high = turns[:-1], turns[1:]
     top = highest + held
     over = (load(low) < top) != (load(high) < top)
     appears = _bisected(lambda phase: load(phase) - top, low[over], high[over])
-    pull = _pull(model, load, crest, held)
-    closings = _closings(pull, turns, model.compliant)
+    closing_speed = _pull(model, load, turning_wear, held)
+    closings = _closings(closing_speed, turns, model.compliant)
     cuts = np.unique(np.concatenate([turns, appears, closings]))
     inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
     phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
-    closes = pull(phases[:, PIECE_SAMPLES // 2]) >= 0.0
+    closes = closing_speed(phases[:, PIECE_SAMPLES // 2]) >= 0.0
     pieces = tuple(map(Piece, phases, load(phases), closes.tolist()))
-    # Wear goes on at the bend: there contact turns not with the load but where its pull does.
+    # Wear goes on at the bend: there contact turns not with the load but where its closing_speed
+    # does.
     sharp = turns[np.isin(turns, [0.0, *load.kinks, 1.0])]
     bending = np.concatenate([sharp, appears, closings])
     heights = np.concatenate([load(bending) - held, load(turns)])
     grazing, first = np.unique(heights, return_index=True)
     before = np.searchsorted(cuts, np.concatenate([bending, turns])[first])
-    return Edge(pieces, crest, highest, held, grazing, before)
+    return Edge(pieces, turning_wear, highest, held, grazing, before)
 
 
 def turning_points(load: Load) -> FloatArray:
-    """Return the phases from 0 to 1 between which the load is smooth and rises or falls throughout.
-    """
+    """Return the phases from 0 to 1 between which the load is smooth and rises or falls
+    throughout."""
     cuts = np.unique([0.0, *load.kinks, *load.peaks, 1.0])
     # Between two peaks or kinks there is a trough at most.
     low, high = cuts[:-1] + NEARLY * np.diff(cuts), cuts[1:] - NEARLY * np.diff(cuts)
@@ -117,38 +125,38 @@ def turning_points(load: Load) -> FloatArray:
     return np.unique(np.concatenate([cuts, _bisected(load.slope, low[turns], high[turns])]))
 
 
-def _pull(model: Model, load: Load, crest: float, held: float) -> Function:
+def _pull(model: Model, load: Load, turning_wear: float, held: float) -> Function:
     """Return how fast contact at its edge closes at each phase, in mm per cycle."""
 
-    def pull(phase: FloatArray) -> FloatArray:
+    def closing_speed(phase: FloatArray) -> FloatArray:
         U_a, speed = load(phase), load.slope(phase)
-        wear = wear_at(model, U_a - held, np.zeros_like(U_a), 0.0, crest)
-        if np.isfinite(crest):
+        wear = wear_at(model, U_a - held, np.zeros_like(U_a), 0.0, turning_wear)
+        if np.isfinite(turning_wear):
             scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
-            worn = wear_at(model, U_a - held, np.full_like(U_a, FAR * scale), crest, np.inf)
+            worn = wear_at(model, U_a - held, np.full_like(U_a, FAR * scale), turning_wear, np.inf)
             wear = np.where(speed < 0.0, worn, wear)
         opening = model.margin_slope(wear, U_a) * load.period * model.law_rate(wear, U_a)
         result: FloatArray = speed + opening
         return result
 
-    return pull
+    return closing_speed
 
 
-def _closings(pull: Function, turns: FloatArray, both: bool) -> FloatArray:
+def _closings(closing_speed: Function, turns: FloatArray, both: bool) -> FloatArray:
     """Return the phases at which the load starts to close contact at its edge, between two turns;
     if `both`, also those at which it ceases to."""
     number = max(2, SAMPLES // len(turns))
     inside = (1 - np.cos(np.pi * np.arange(number + 1) / number)) / 2
     inside[0], inside[-1] = NEARLY, 1 - NEARLY
     phases = (turns[:-1, None] + np.diff(turns)[:, None] * inside).ravel()
-    phases = np.unique(np.concatenate([phases, _extremes(pull, phases)]))
-    value = pull(phases)
+    phases = np.unique(np.concatenate([phases, _extremes(closing_speed, phases)]))
+    value = closing_speed(phases)
     same = np.diff(np.searchsorted(turns, phases)) == 0
     turned = (value[:-1] < 0.0) & (value[1:] >= 0.0)
     if both:
         turned |= (value[:-1] >= 0.0) & (value[1:] < 0.0)
     turned &= same
-    return _bisected(pull, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)
+    return _bisected(closing_speed, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)
 
 
 def _extremes(function: Function, x: FloatArray) -> FloatArray:
@@ -168,8 +176,8 @@ def _extremes(function: Function, x: FloatArray) -> FloatArray:
 def _bisected(
     function: Function, low: FloatArray, high: FloatArray, steps: int = BISECTIONS
 ) -> FloatArray:
-    """Return where a function changes its sign, in each of many intervals at whose ends it differs.
-    """
+    """Return where a function changes its sign, in each of many intervals at whose ends it
+    differs."""
     sign = np.sign(function(low))
     for _ in range(steps):
         middle = (low + high) / 2

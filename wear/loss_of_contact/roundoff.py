@@ -40,8 +40,8 @@ def _of_rate(model: Model, load: Load, wear: FloatArray) -> FloatArray:
     error = rate_roundoff(model, peak, wear)
     if model.ends_at_3_sigma and model.compliant:
         # The pressure vanishes with the margin, and no steepness can be taken there.
-        told = model.margin(wear, peak) > 2 * APART * model.fields(wear, peak).sigma
-        error = np.where(told, error, 8 * ROUNDOFF)
+        known = model.margin(wear, peak) > 2 * APART * model.fields(wear, peak).sigma
+        error = np.where(known, error, 8 * ROUNDOFF)
     return error
 
 

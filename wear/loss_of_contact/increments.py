@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.cutoff import Maps
+from wear.loss_of_contact.period_map import Maps
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.abel import Frame
@@ -55,7 +55,7 @@ class Coordinate(NamedTuple):
         taken = z * increment
         return np.asarray(z * taken / (1.0 - taken))
 
-    def pace(self, z: FloatArray, rate: FloatArray) -> FloatArray:
+    def rate(self, z: FloatArray, rate: FloatArray) -> FloatArray:
         """Return the wear per cycle (mm) where z rises at the `rate` per cycle."""
         return np.asarray(rate / z**2 if self.ahead else rate)
 
