@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wear import own_laws
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.model import bind
@@ -95,7 +96,11 @@ class _Case:
 
     def law(self, kind: str) -> Callable[..., Any]:
         """Return the formula of this scene's contact law."""
-        found: Callable[..., Any] = getattr(formula, f"{kind}_{self.scene.contact.law}")
+        law = self.scene.contact.law
+        if own_laws.is_own(law):
+            own = getattr(own_laws.module(law, "law"), f"{kind}_own")
+            return lambda ratio: Decimal(float(own(float(ratio))))
+        found: Callable[..., Any] = getattr(formula, f"{kind}_{law}")
         return found
 
     def wear_at(self, pressure: float) -> float:
