@@ -195,7 +195,7 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
         said = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
         notices = (*notices, said)
     tanh = case.scene.contact.law == "tanh"
-    found = offset(case.scene)
+    found = offset(case.scene, per_cycle, float(mean))
     if found is None:
         notices = (*notices, f"offset unknown: {_no_offset(case.scene)}")
     return _result(
