@@ -322,8 +322,8 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """The cycle in which wear stops, from the cycle count, as far as its error lets it be told."""
-    from wear.count.approach import counted_stages
     from wear.cycles import MOST_CYCLES
+    from wear.loss_of_contact.count import counted_stages
 
     found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0)
     arrest = found.arrest

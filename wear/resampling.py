@@ -59,10 +59,10 @@ def resampled(scene: Scene, model: Model, rtol: float) -> Resampled:
     lost: there the wear depends on single rows.
     """
     load = scene.load
-    asked = isinstance(load, Rows) and load.source is not None and load.source.resample
-    if not asked or len(load.times_s) < FEWEST_ROWS or model.ends_at_3_sigma:
+    if not isinstance(load, Rows) or load.source is None or not load.source.resample:
         return Resampled(scene, 0.0, ())
-    assert isinstance(load, Rows)
+    if len(load.times_s) < FEWEST_ROWS or model.ends_at_3_sigma:
+        return Resampled(scene, 0.0, ())
     rows = len(load.times_s) - 1
     for step in (step for step in STEPS if rows >= FEWEST_ROWS * step / 2):
         fewer = _merged(load, step)
@@ -100,10 +100,11 @@ def _merged(load: Rows, step: int) -> Rows:
     lengths = np.diff(times)
     weights = diags_array((lengths + np.roll(lengths, 1)) / 2)
     levels = spsolve((hats.T @ weights @ hats).tocsc(), hats.T @ (weights @ values[:-1]))
-    if isinstance(load, ForceTable):
-        levels = np.maximum(levels, 0.0)
     closed = tuple(np.append(levels, levels[0]).tolist())
-    return dataclasses.replace(load, times_s=tuple(corners.tolist()), **{load.of_rows: closed})
+    fewer = tuple(corners.tolist())
+    if isinstance(load, ForceTable):
+        return dataclasses.replace(load, times_s=fewer, forces_N=tuple(max(0.0, x) for x in closed))
+    return dataclasses.replace(load, times_s=fewer, values_mm=closed)
 
 
 def _changed(model: Model, load: Rows, fewer: Rows) -> float:

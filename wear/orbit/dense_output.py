@@ -134,11 +134,8 @@ def _on_panels(
     """Return the panels of the count, cut in two where a phase needs it: there what a cycle adds
     depends on the state more sharply than at its end."""
     assert counted.panels is not None
-    size, number, frame = (
-        settings(rtol, maps.equation.breakpoints),
-        len(phases),
-        counted.panels.frame,
-    )
+    size = settings(rtol, maps.equation.breakpoints)
+    number, frame = len(phases), counted.panels.frame
     forcing = maps.equation.forcing(phases[None])[0]
     to_series = chebyshev_analysis(size.panel_nodes)
     to_checks = chebyshev_values(CHECKS, size.panel_nodes)
