@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from wear import own_laws
 from wear.load import Blocks, ForceTable, HistoryLoad, Table
 from wear.scene.plausibility import implausible_entries
@@ -88,12 +86,6 @@ def initial_displacement(scene: Scene) -> float:
     return float(scene.periodic_load(0.0))
 
 
-def _trend(load: Table | ForceTable) -> float:
-    """What the straight line through the rows of a period gains over it, by least squares."""
-    phases = np.asarray(load.times_s[:-1]) / load.period
-    return float(np.polynomial.Polynomial.fit(phases, load.rows[:-1], 1).convert().coef[1])
-
-
 def _load_notices(scene: Scene) -> Iterator[str]:
     load = scene.load
     if isinstance(load, Table | ForceTable) and load.source is not None and load.source.repeat:
@@ -101,9 +93,8 @@ def _load_notices(scene: Scene) -> Iterator[str]:
         seam, length = load.rows[-1] - load.rows[-2], load.times_s[-1] - load.times_s[-2]
         yield (
             f"one period of {load.period:.6g} s out of {load.source.file}: {len(load.times_s)} "
-            f"rows with the seam, mean {load.mean:.6g} {unit}, trend {_trend(load):.4g} {unit} a "
-            f"period; at the seam {name} changes by {seam:.4g} {unit} in {length:.4g} s (mean and "
-            "trend are not removed)"
+            f"rows with the seam, mean {load.mean:.6g} {unit}; there {name} changes by "
+            f"{seam:.4g} {unit} in {length:.4g} s (mean and drift are not removed)"
         )
     if not isinstance(scene.load, Blocks):
         return
