@@ -104,14 +104,35 @@ class Contact(NamedTuple):
         return -left / falls, blur, rate
 
 
+class Walked(NamedTuple):
+    """A part of contact that the wears in `rows` (k,) of those asked for have come through: from
+    the phases `begin` (k,) over a `length` (k,), from a wear `start` (k,), mm, with what has been
+    added since, `inside` (k, m), at the nodes; and whether contact has `ended` (k,) there."""
+
+    contact: Contact
+    rows: IntArray
+    begin: FloatArray
+    length: FloatArray
+    start: FloatArray
+    inside: FloatArray
+    ended: BoolArray
+
+
 class Worn(NamedTuple):
     """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is sound; the
-    number of right-hand sides evaluated."""
+    number of right-hand sides evaluated; its `parts` in order; and which wears, in `slid`, have
+    ended by sliding along the edge."""
 
     added: FloatArray
     length: FloatArray
     sound: bool
     evaluations: int
+    parts: tuple[Walked, ...] = ()
+    slid: IntArray | None = None
+
+    def of(self, rows: IntArray) -> tuple[Walked, ...]:
+        """Return the parts, where the wears were those in `rows` of others."""
+        return tuple(part._replace(rows=rows[part.rows]) for part in self.parts)
 
 
 def worn(
@@ -129,6 +150,7 @@ def worn(
     added, length = np.zeros(len(u)), np.zeros(len(u))
     todo: list[tuple[IntArray, float, float]] = [(np.arange(len(u)), 0.0, 1.0)]
     evaluations, parts, sound = 0, 0, True
+    walked: list[Walked] = []
     ended = np.zeros(len(u), dtype=bool)
     while todo:
         rows, begin, end = todo.pop()
@@ -147,21 +169,25 @@ def worn(
             sound &= bool(fine.all())
             fine[:] = True
         some = rows[fine]
+        done = (stretch.begin, part.length, start, part.inside, part.length < whole)
+        walked.append(Walked(contact, some, *(values[fine] for values in done)))
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
         length[some] += part.length[fine]
         ended[some] = part.length[fine] < whole[fine]
         if not fine.all():
             middle, again = (begin + end) / 2, rows[~fine]
             todo += [(again, middle, end), (again, begin, middle)]
-    return Worn(added, length, sound, evaluations)
+    return Worn(added, length, sound, evaluations, tuple(walked))
 
 
 class _Part(NamedTuple):
-    """As `Worn`, with the rate (k, m) in mm per cycle at the nodes, what is `noise` of it (k,), and
-    how often wear alone would turn over in the part: its `stiffness` (k,)."""
+    """As `Worn`, with what is added `inside` (k, m) and the rate (k, m) in mm per cycle at the
+    nodes, what is `noise` of it (k,), and how often wear alone would turn over in the part: its
+    `stiffness` (k,)."""
 
     added: FloatArray
     length: FloatArray
+    inside: FloatArray
     rate: FloatArray
     noise: FloatArray
     stiffness: FloatArray
@@ -228,7 +254,7 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
         if done.all() or grows or not np.max(apart) < 1e30:
             break
         last = apart
-    return _Part(added, length, rate, noise, stiffness, done, evaluations)
+    return _Part(added, length, inside, rate, noise, stiffness, done, evaluations)
 
 
 def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatArray) -> FloatArray:

@@ -8,6 +8,7 @@ wear. See `wear.count.edge` for the pieces of the cycle.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -72,9 +73,7 @@ class CutoffCycle(NamedTuple):
         flat = starts.ravel()
         added = np.zeros(len(flat))
         sound, evaluations = True, 0
-        run_piece = _on_support if self.model.compliant else _run
-        for piece in self.edge.pieces:
-            run = run_piece(self, piece, flat + added, added)
+        for _, run in self.runs(flat):
             added = added + run.added
             sound &= run.sound
             evaluations += run.evaluations
@@ -84,6 +83,15 @@ class CutoffCycle(NamedTuple):
         return CycleSolution(
             added.reshape(starts.shape), nothing, nothing, evaluations, converged, left
         )
+
+    def runs(self, starts: FloatArray) -> Iterator[tuple[Piece, Worn]]:
+        """Return the pieces of a cycle from each start (k,), and what each adds."""
+        added = np.zeros(len(starts))
+        run_piece = _on_support if self.model.compliant else _run
+        for piece in self.edge.pieces:
+            run = run_piece(self, piece, starts + added, added)
+            added = added + run.added
+            yield piece, run
 
     def frozen(self, wear: FloatArray) -> FloatArray:
         """Wear added by one cycle if the rate did not feel it, any shape."""
@@ -174,13 +182,15 @@ def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray)
     run = worn(contact, cycle.rule, cycle.tolerance, u, over, before[active])
     added[active] = run.added
     last = u + run.added
+    rows = np.flatnonzero(active)
+    run = run._replace(parts=run.of(rows))
     if piece.rising:
         top = np.full(len(u), piece.heights[-1])
         lost = (cycle.model.margin(last, top) < 0.0) | edge.is_over(u, last, top)
         if lost.any():
             slid = wear_at(cycle.model, top[lost], u[lost], 0.0, edge.crest)
-            added[np.flatnonzero(active)[lost]] = slid - u[lost]
-        return run._replace(added=added)
+            added[rows[lost]] = slid - u[lost]
+        return run._replace(added=added, slid=rows[lost])
     over_crest = edge.is_over(u, last, cycle.load(begin + run.length))
     return run._replace(added=added, sound=run.sound and not over_crest.any())
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.contact import Contact, Stretch, Worn, worn
+from wear.count.contact import Contact, Stretch, Walked, Worn, worn
 from wear.count.edge import Edge, Piece, displacement_at, phase_of
 from wear.load import Load
 from wear.model import Model
@@ -58,6 +58,7 @@ class _Walk:
     added: FloatArray
     sound: bool = True
     evaluations: int = 0
+    parts: tuple[Walked, ...] = ()
 
     def go(self, who: BoolArray, contact: Contact, expected: FloatArray) -> BoolArray:
         """Walk on with those of `who` (k,) in contact of one kind, whose end is expected at the
@@ -65,6 +66,7 @@ class _Walk:
         came = np.zeros(len(self.u), dtype=bool)
         if who.any():
             run = self._run(who, contact, expected)
+            self.parts += run.of(np.flatnonzero(who))
             came[who] = run.length < self.piece.end - self.at[who]
             start = (self.u + self.added)[who]
             U_a = self.support.load(self.at[who] + run.length) - self.support.edge.held
@@ -116,7 +118,7 @@ def on_support(
         up = _let_go(walk, held, bends, opens)
         walk.go(down, support.held(0.0), opens)
     walk.go(up, support.by_law(), ends)
-    return Worn(walk.added, ends - piece.begin, walk.sound, walk.evaluations)
+    return Worn(walk.added, ends - piece.begin, walk.sound, walk.evaluations, walk.parts)
 
 
 def _let_go(walk: _Walk, held: BoolArray, bends: FloatArray, opens: FloatArray) -> BoolArray:
