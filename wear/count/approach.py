@@ -130,7 +130,7 @@ class Counted(NamedTuple):
         of_density = ROUNDOFF * np.repeat(terms, parts)
         missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
         error = np.concatenate([[0.0], np.cumsum(missed)])
-        return Between(coordinate, table, error, self.rest, way.end)
+        return Between(coordinate, panels, table, error, self.rest, way.end)
 
 
 class _Runs:

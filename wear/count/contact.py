@@ -169,8 +169,9 @@ def worn(
             sound &= bool(fine.all())
             fine[:] = True
         some = rows[fine]
-        done = (stretch.begin, part.length, start, part.inside, part.length < whole)
-        walked.append(Walked(contact, some, *(values[fine] for values in done)))
+        ends = (part.length < whole)[fine]
+        come = (values[fine] for values in (stretch.begin, part.length, start, part.inside))
+        walked.append(Walked(contact, some, *come, ended=ends))
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
         length[some] += part.length[fine]
         ended[some] = part.length[fine] < whole[fine]

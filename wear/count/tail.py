@@ -7,7 +7,8 @@ import numpy as np
 from wear.count.increments import Coordinate
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
-from wear.orbit.iterates import Cells
+from wear.orbit.abel import Panels
+from wear.orbit.iterates import Cells, Iterates
 
 NO_DIGIT = 0.1  # relative error
 RESOLVABLE = 1e5  # times the uncertainty of the limit wear
@@ -30,13 +31,21 @@ class Rest(NamedTuple):
 class Between(NamedTuple):
     """The count n of cycles as a function of z, a `coordinate` of the wear; its estimated error in
     cycles where each part of the `table` starts and where the last one ends; the `rest` that wear
-    tends to at the end of the table, if any."""
+    tends to at the end of the table, if any. The table is made of `panels`."""
 
     coordinate: Coordinate
+    panels: Panels
     table: Cells
     count_error: FloatArray
     rest: Rest | None
     limit: float
+
+    @property
+    def in_z(self) -> Iterates:
+        """Return the same count, of z as the state."""
+        begin, none, edges = self.table.u[:1][None], np.zeros((1, 1)), np.array([[0.0, 1.0]])
+        limit = np.array([np.inf])
+        return Iterates(begin, none, self.table, self.panels, self.count_error[None], limit, edges)
 
     @property
     def rests(self) -> bool:

@@ -18,10 +18,167 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.count.contact import Walked
-from wear.count.cutoff import CutoffCycle
+from wear.count.cutoff import CutoffCycle, Maps, cutoff_cycle
 from wear.count.edge import Piece
-from wear.numerics.gauss import FloatArray
+from wear.count.stage import Integrated, Stages
+from wear.count.tail import Between
+from wear.numerics.chebyshev import chebyshev_nodes
+from wear.numerics.gauss import FloatArray, mesh
+from wear.numerics.tolerances import ROUNDOFF
+from wear.orbit import abel
+from wear.orbit.panels import CHECKS
+from wear.orbit.period_map import settings
+from wear.orbit.tangent import Added, Tangents, after_on_cells, sums_on_cells
+from wear.orbit.transient import SAFETY
 from wear.parameters import ParametrisedEquation
+
+LEFT = 1e12  # digits of the derivative of a limit, which follows from the margin alone
+
+
+@np.errstate(all="ignore")
+def stage_tangents(
+    found: Stages,
+    equation: ParametrisedEquation,
+    cycles: FloatArray,
+    rtol: float,
+    start: FloatArray,
+    start_error: FloatArray,
+) -> Tangents:
+    """Return the derivatives of the wear of one scene after `cycles` (1, n), as the count `found`
+    has it to `rtol`, if the first wear has the derivative `start` (1, parameters), known up to
+    `start_error`."""
+    size = settings(rtol)
+    coarse = cutoff_cycle(equation.model, equation.loads[0]).resolved(size)
+    both = Maps(coarse, coarse.on(mesh(coarse.over.edges, size.finer_nodes)))
+    u, error = (values[None] for values in found.after(cycles[0]))
+    derivative, missed = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
+    increment = np.zeros(cycles.shape)
+    now, now_error = start[0], start_error[0]
+    for stage in found.stages:
+        here = cycles[0] >= stage.begins
+        wanted = np.append(np.minimum(cycles[0, here] - stage.begins, stage.ran), stage.ran)
+        counted = stage.counted
+        if isinstance(counted, Integrated):
+            part = _one_by_one(both, equation, counted, wanted, now, now_error)
+        elif isinstance(counted, Between):
+            part = _between(both, equation, counted, wanted, now, now_error)
+        else:  # a leap: no cycle of it is known
+            unknown = np.full((len(wanted), equation.parameters), np.inf)
+            part = _Part(unknown, unknown, np.zeros_like(wanted))
+        derivative[0, :, here], missed[0, :, here] = part.derivative[:-1], part.error[:-1]
+        increment[0, here] = part.increment[:-1]
+        now, now_error = part.derivative[-1], part.error[-1]
+    arrest = found.arrest
+    if arrest is not None and np.isfinite(found.at_rest):
+        rests = cycles[0] >= arrest.cycle + 2 * arrest.uncertain
+        limit = _limit(equation, found.last_wear)[:, None]
+        derivative[0, :, rests] = limit.T
+        missed[0, :, rests] = 1 / LEFT * np.abs(limit.T)
+    missed = np.where(np.isfinite(error)[:, None] & np.isfinite(missed), missed, np.inf)
+    return Tangents(u, error, derivative, missed, increment)
+
+
+class _Part(NamedTuple):
+    """The `derivative` (n, parameters) after some cycles of a stage, its `error`, and what the last
+    cycle has added, `increment` (n,)."""
+
+    derivative: FloatArray
+    error: FloatArray
+    increment: FloatArray
+
+
+def _one_by_one(
+    both: Maps,
+    equation: ParametrisedEquation,
+    counted: Integrated,
+    cycles: FloatArray,
+    start: FloatArray,
+    start_error: FloatArray,
+) -> _Part:
+    """Return the derivatives after `cycles` (n,) that were taken one by one."""
+    wear, uncertain = counted.found.transient[0], counted.found.transient_error[0]
+    fine = linearised(both.fine, equation, wear[:-1]).tangent
+    # Beside the start by its error: near a grazing wear that may be the larger part.
+    judge = linearised(both.coarse, equation, wear[:-1] + uncertain[:-1]).tangent
+    values, errors = [start], [start_error]
+    for own, other in zip(fine, judge, strict=True):
+        by_start, apart = own[0] * values[-1], np.abs(own - other)
+        error = np.abs(own[0]) * errors[-1] + SAFETY * (apart[0] * np.abs(values[-1]) + apart[1:])
+        rounding = ROUNDOFF * (np.abs(by_start) + np.abs(own[1:]))
+        values.append(by_start + own[1:])
+        errors.append(error + SAFETY * rounding)
+    index = cycles.astype(int)
+    added = np.concatenate([[0.0], np.diff(wear)])
+    return _Part(np.array(values)[index], np.array(errors)[index], added[index])
+
+
+def _between(
+    both: Maps,
+    equation: ParametrisedEquation,
+    counted: Between,
+    cycles: FloatArray,
+    start: FloatArray,
+    start_error: FloatArray,
+) -> _Part:
+    """Return the derivatives after `cycles` (n,) that were counted between two grazing wears.
+
+    Where wear tends to a limit the derivative tends to that of the limit: the sums are those of the
+    difference, which the last cycles before rounding hardly change.
+    """
+    rest, z = counted.rest, counted.coordinate
+    limit = np.zeros(equation.parameters) if rest is None else _limit(equation, rest.wear)
+    count, panels = counted.in_z, counted.panels
+    t = chebyshev_nodes(panels.series.shape[1])
+    nodes = _added(both.coarse, equation, counted, t, limit)
+    checks = _added(both.fine, equation, counted, CHECKS, limit)
+    first = counted.table.u[:1]
+    into_z = 1.0 / z.pace(first, np.ones(1))
+    sums = sums_on_cells(
+        count, nodes, checks, (into_z * (start - limit))[None], (into_z * start_error)[None]
+    )
+    wanted = np.minimum(cycles, counted.reach)
+    by_z, missed, rate = (part[0] for part in after_on_cells(count, sums, wanted[None]))
+    at, _ = count.after(wanted[None])
+    pace = z.pace(at[0], np.ones(1))[:, None]
+    derivative, error = limit + pace * by_z, pace * missed + SAFETY * ROUNDOFF * np.abs(limit)
+    return _Part(derivative, error, pace[:, 0] * rate)
+
+
+def _added(
+    cycle: CutoffCycle,
+    equation: ParametrisedEquation,
+    counted: Between,
+    t: FloatArray,
+    limit: FloatArray,
+) -> Added:
+    """Return what cycles from the positions `t` (n,) of each panel add to z, and to the sum of
+    (dn/dz) (dz/dp), less what it would be if du/dp were `limit` (parameters,) all along."""
+    panels, coordinate = counted.panels, counted.coordinate
+    z = panels.frame.states(t)
+    near = np.ones(z.shape)
+    at = z
+    if counted.rest is not None:
+        # Nearer to the limit than rounding permits, the difference shrinks with the distance.
+        at = np.minimum(z, 1.0 / counted.rest.nearest)
+        near = at / z
+    run = linearised(cycle, equation, coordinate.wear(at).ravel())
+    increment = coordinate.step(at, run.increment.reshape(z.shape))
+    tangent = run.tangent.reshape(*z.shape, -1)
+    change = tangent[..., 1:] - limit * (1.0 - tangent[..., :1])
+    increment = np.where(near < 1.0, increment / near, increment)
+    density = abel.density_after(panels, t, increment)
+    into_z = near / coordinate.pace(z + increment, np.ones(1))
+    return Added(increment, (density * into_z)[..., None] * change)
+
+
+def _limit(equation: ParametrisedEquation, wear: float) -> FloatArray:
+    """Return the derivatives (parameters,) of the `wear` (mm) at which the peak of the load just
+    fails to make contact."""
+    (load,) = equation.loads
+    phase = np.array(load.peaks)
+    highest = phase[[int(np.argmax(load(phase)))]]
+    slope, change = _margin(equation, np.array([wear]), highest)
+    return np.asarray(-change[0, 1:] / slope[0])
 
 
 class Linearised(NamedTuple):
@@ -32,7 +189,9 @@ class Linearised(NamedTuple):
     tangent: FloatArray
 
 
-def linearised(cycle: CutoffCycle, equation: ParametrisedEquation, starts: FloatArray) -> Linearised:
+def linearised(
+    cycle: CutoffCycle, equation: ParametrisedEquation, starts: FloatArray
+) -> Linearised:
     """Return the derivatives of one cycle from each start (k,), mm."""
     tangent = np.zeros((len(starts), 1 + equation.parameters))
     tangent[:, 0] = 1.0
