@@ -5,6 +5,7 @@ Overview
     wear_with_asymptote     wear with the straight lines or curves it tends to
     pressure_in_cycles      contact pressure over the phase of chosen cycles
     speed_against_error     time against true error, one line a method
+    speed_against_cycles    time against the number of cycles, one line a method
     wear_by_decades         wear over all decades with straight lines behind it
     regime_map              the regimes over f_c and the gap at the peak
     tornado                 elasticities as bars, the largest on top
@@ -153,10 +154,18 @@ def pressure_in_cycles(lines: Sequence[Line], *, width: float = COLUMN) -> Figur
 
 
 def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
-    """Seconds against true relative error, both logarithmic; accuracy grows to the right.
+    """Draw seconds against true relative error, both logarithmic; accuracy grows to the right."""
+    figure = _speed(methods, "True relative error of the wear", "missed its tolerance", width)
+    figure.axes[0].invert_xaxis()
+    return figure
 
-    Errors of zero are shown at the resolution of double precision.
-    """
+
+def speed_against_cycles(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
+    """Draw seconds to equal true error against the number of cycles, both logarithmic."""
+    return _speed(methods, "Cycles  $N$", "expected, not run", width)
+
+
+def _speed(methods: Sequence[Method], quantity: str, failed: str, width: float) -> Figure:
     with styled():
         figure, axes = canvas(width, 0.5 * width)
         for family, method in enumerate(methods):
@@ -164,9 +173,8 @@ def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Fi
             look = replace(stroke(family, again), marker=stroke(family + 2 * again).marker)
             _draw_method(axes, method, look)
         if any(method.failed.any() for method in methods):
-            axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label="missed its tolerance")
-        axes.set(xlabel="True relative error of the wear", ylabel="Time (s)")
-        axes.invert_xaxis()
+            axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label=failed)
+        axes.set(xlabel=quantity, ylabel="Processor time (s)")
         axes.grid(which="major", color=GREY, alpha=0.35, linewidth=0.4)
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=3.0)
     return figure
@@ -259,9 +267,8 @@ def _example_points(axes: Axes, examples: Sequence[Example]) -> None:
 
 
 def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
-    error = np.maximum(method.error, np.finfo(float).eps / 2.0)
     axes.loglog(
-        error,
+        method.x,
         method.seconds,
         color=look.colour,
         linestyle=look.dash,
@@ -270,7 +277,7 @@ def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
         label=method.name,
     )
     axes.loglog(
-        error[method.failed],
+        method.x[method.failed],
         method.seconds[method.failed],
         color=look.colour,
         linestyle="",

@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.checked import did_you_mean
-from wear.count.approach import counted_stages
-from wear.count.tangent import stage_tangents
 from wear.cycles import groups
 from wear.faults import UsageError
+from wear.loss_of_contact.count import counted_stages
+from wear.loss_of_contact.tangent import stage_tangents
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import acting_loads, parameters_of, parametrised

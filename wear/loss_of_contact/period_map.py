@@ -1,9 +1,10 @@
-"""The one-cycle map with the cutoff. On a compliant support see `wear.count.held`; a rigid one:
+"""The one-cycle map with the cutoff. On a compliant support see `wear.loss_of_contact.compliant`; a
+rigid one:
 
 Where the load rises, contact starts at a root of U_a = B(u) that is known beforehand; if it is
 lost, the solids slide along the edge (Filippov) to the end of the piece, where the wear is
 B^-1(U_a). Where the load falls, contact that is lost stays so; its end is found along with the
-wear. See `wear.count.edge` for the pieces of the cycle.
+wear. See `wear.loss_of_contact.switching` for the pieces of the cycle.
 """
 
 from __future__ import annotations
@@ -13,10 +14,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.contact import Contact, Stretch, Worn, worn
-from wear.count.edge import Edge, Piece, displacement_at, edge_of_contact, phase_of, wear_at
-from wear.count.held import Support, on_support
 from wear.load import Load
+from wear.loss_of_contact.compliant import Support, on_support
+from wear.loss_of_contact.contact import Contact, ContactResult, Interval, wear_in_contact
+from wear.loss_of_contact.switching import (
+    Edge,
+    Piece,
+    displacement_at,
+    edge_of_contact,
+    phase_of,
+    wear_at,
+)
 from wear.model import Model
 from wear.numerics.collocation import (
     CycleSolution,
@@ -37,7 +45,7 @@ TOUCH = 16.0  # roundoffs of the margin by which contact is told
 APART = 1e-9  # of roughness and wear: a small difference
 
 
-class CutoffCycle(NamedTuple):
+class SwitchedPeriodMap(NamedTuple):
     """A model with cutoff under a load, with the edge of its contact. `over` has the nodes for each
     stretch of contact, which is cut until the rate is resolved to `tolerance`."""
 
@@ -49,7 +57,7 @@ class CutoffCycle(NamedTuple):
 
     @property
     def rule(self) -> Gauss:
-        """The nodes on a stretch of contact: a stiff support makes wear follow the load."""
+        """Return the nodes on a stretch of contact: a stiff support makes wear follow the load."""
         return radau(len(self.over.rule.nodes))
 
     @property
@@ -57,23 +65,24 @@ class CutoffCycle(NamedTuple):
         """Stretches are cut as needed: nothing is left to refine."""
         return 1
 
-    def on(self, over: Mesh) -> CutoffCycle:
-        """The same on another mesh; one of more nodes is to judge the other, and cuts stretches
-        until nothing but rounding is left."""
+    def on(self, over: Mesh) -> SwitchedPeriodMap:
+        """Return the same on another mesh; one of more nodes is to judge the other, and cuts
+        stretches until nothing but rounding is left."""
         judges = len(over.rule.nodes) > len(self.over.rule.nodes)
         return self._replace(over=over, tolerance=ROUNDOFF if judges else self.tolerance)
 
-    def resolved(self, size: Settings) -> CutoffCycle:
+    def resolved(self, size: Settings) -> SwitchedPeriodMap:
         """With so many nodes an interval, resolved to its strict tolerance."""
         over = mesh(np.array([0.0, 1.0]), size.phase_nodes)
         return self._replace(over=over, tolerance=size.endpoint_tolerance)
 
     def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
-        """Wear added by one cycle from each start, shape (...); guesses are of no use."""
+        """Return the wear added by one cycle from each start, shape (...); guesses are of no
+        use."""
         flat = starts.ravel()
         added = np.zeros(len(flat))
         sound, evaluations = True, 0
-        for _, run in self.runs(flat):
+        for _, run in self.pieces_from(flat):
             added = added + run.added
             sound &= run.sound
             evaluations += run.evaluations
@@ -84,7 +93,7 @@ class CutoffCycle(NamedTuple):
             added.reshape(starts.shape), nothing, nothing, evaluations, converged, left
         )
 
-    def runs(self, starts: FloatArray) -> Iterator[tuple[Piece, Worn]]:
+    def pieces_from(self, starts: FloatArray) -> Iterator[tuple[Piece, ContactResult]]:
         """Return the pieces of a cycle from each start (k,), and what each adds."""
         added = np.zeros(len(starts))
         run_piece = _on_support if self.model.compliant else _run
@@ -93,12 +102,12 @@ class CutoffCycle(NamedTuple):
             added = added + run.added
             yield piece, run
 
-    def frozen(self, wear: FloatArray) -> FloatArray:
-        """Wear added by one cycle if the rate did not feel it, any shape."""
-        return np.asarray(self.frozen_upto(wear.ravel())[-1].reshape(wear.shape))
+    def increment_without_feedback(self, wear: FloatArray) -> FloatArray:
+        """Return the wear added by one cycle if the rate did not feel it, any shape."""
+        return np.asarray(self.increments_without_feedback(wear.ravel())[-1].reshape(wear.shape))
 
-    def frozen_upto(self, wear: FloatArray) -> FloatArray:
-        """The same of each wear (k,) up to every piece and to the end, (pieces + 1, k)."""
+    def increments_without_feedback(self, wear: FloatArray) -> FloatArray:
+        """Return the same of each wear (k,) up to every piece and to the end, (pieces + 1, k)."""
         x = self.over.phases.ravel()
         weights = (self.over.lengths[:, None] * self.over.rule.weights).ravel()
         added = np.zeros((len(self.edge.pieces) + 1, len(wear)))
@@ -111,75 +120,52 @@ class CutoffCycle(NamedTuple):
         return added
 
     def rate(self, u: FloatArray, U_a: FloatArray) -> FloatArray:
-        """Wear rate in contact, mm per cycle."""
+        """Return the wear rate in contact, mm per cycle."""
         rate: FloatArray = self.load.period * self.model.rate(u, U_a)
         return rate
 
-    def growth(self, starts: FloatArray) -> FloatArray:
-        """By how much one cycle changes a small difference in the wears it starts from (k,): where
-        contact begins or ends at a touch, by a lot."""
-        roughness = float(self.model.fields(np.array(0.0), np.array(0.0)).sigma)
-        beside = starts + APART * (roughness + starts)
-        added = self.advance(np.stack([starts, beside])).increment
-        factor: FloatArray = np.abs(1 + (added[1] - added[0]) / (beside - starts))
-        return factor
-
     def response(self, added: FloatArray, growth: FloatArray) -> FloatArray:
-        """The response (mm), at most, of cycles that have `added` so much (k,) to a relative error
-        of the rate: what is made early grows by the factor `growth`, but once the wear exceeds the
-        roughness the rate hardly grows any more."""
+        """Return the response (mm), at most, of cycles that have `added` so much (k,) to a relative
+        error of the rate: what is made early grows by the factor `growth`, but once the wear
+        exceeds the roughness the rate hardly grows any more."""
         roughness = float(self.model.fields(np.array(0.0), np.array(0.0)).sigma)
         response: FloatArray = added + np.minimum(added, roughness) * growth
         return response
-
-    def several(self, start: float, number: int) -> CycleSolution:
-        """Some cycles on end from wear `start`; increments have shape (number,)."""
-        runs, wear = [], start
-        for _ in range(number):
-            run = self.advance(np.array([wear]))
-            wear += float(run.increment[0])
-            runs.append(run)
-        return CycleSolution(
-            np.concatenate([run.increment for run in runs]),
-            np.concatenate([run.inside for run in runs]),
-            np.concatenate([run.rate for run in runs]),
-            sum(run.evaluations for run in runs),
-            np.all([run.converged for run in runs], axis=0),
-            np.concatenate([run.iteration_error for run in runs]),
-        )
 
 
 class Maps(NamedTuple):
     """The one-cycle map twice: `coarse` gives the result, `fine` judges it."""
 
-    coarse: CutoffCycle
-    fine: CutoffCycle
+    coarse: SwitchedPeriodMap
+    fine: SwitchedPeriodMap
 
 
-def cutoff_cycle(model: Model, load: Load) -> CutoffCycle:
-    """The map of one cycle with a cutoff."""
+def switched_period_map(model: Model, load: Load) -> SwitchedPeriodMap:
+    """Return the map of one cycle with a cutoff."""
     whole = mesh(np.array([0.0, 1.0]), 8)
-    return CutoffCycle(model, load, edge_of_contact(model, load), whole, 1.0)
+    return SwitchedPeriodMap(model, load, edge_of_contact(model, load), whole, 1.0)
 
 
-def touch(model: Model, load: Load, wear: FloatArray) -> FloatArray:
-    """The margin (mm) that rounding cannot tell from none, at each wear (mm)."""
+def margin_roundoff(model: Model, load: Load, wear: FloatArray) -> FloatArray:
+    """Return the margin (mm) that rounding cannot tell from none, at each wear (mm)."""
     peak = np.full_like(wear, load.maximum)
-    blur: FloatArray = TOUCH * ROUNDOFF * model.margin_terms(wear, peak)
-    return blur
+    uncertainty: FloatArray = TOUCH * ROUNDOFF * model.margin_terms(wear, peak)
+    return uncertainty
 
 
-def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray) -> Worn:
-    """A piece from each wear (k,), `before` (k,) of it added by this cycle already."""
+def _run(
+    cycle: SwitchedPeriodMap, piece: Piece, wear: FloatArray, before: FloatArray
+) -> ContactResult:
+    """Return a piece from each wear (k,), `before` (k,) of it added by this cycle already."""
     added = np.zeros(len(wear))
     active, begin, end = _contact(cycle, piece, wear)
     if not active.any():
-        return Worn(added, added, True, 0)
+        return ContactResult(added, added, True, 0)
     u, edge = wear[active], cycle.edge
     level = None if piece.rising else 0.0
     contact = Contact(cycle.model, cycle.load, cycle.model.law_rate_and_slope, level)
-    over = Stretch(begin, piece.end - begin, end - begin)
-    run = worn(contact, cycle.rule, cycle.tolerance, u, over, before[active])
+    over = Interval(begin, piece.end - begin, end - begin)
+    run = wear_in_contact(contact, cycle.rule, cycle.tolerance, u, over, before[active])
     added[active] = run.added
     last = u + run.added
     rows = np.flatnonzero(active)
@@ -188,7 +174,7 @@ def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray)
         top = np.full(len(u), piece.heights[-1])
         lost = (cycle.model.margin(last, top) < 0.0) | edge.is_over(u, last, top)
         if lost.any():
-            slid = wear_at(cycle.model, top[lost], u[lost], 0.0, edge.crest)
+            slid = wear_at(cycle.model, top[lost], u[lost], 0.0, edge.turning_wear)
             added[rows[lost]] = slid - u[lost]
         return run._replace(added=added, slid=rows[lost])
     over_crest = edge.is_over(u, last, cycle.load(begin + run.length))
@@ -196,13 +182,13 @@ def _run(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray)
 
 
 def _contact(
-    cycle: CutoffCycle, piece: Piece, wear: FloatArray
+    cycle: SwitchedPeriodMap, piece: Piece, wear: FloatArray
 ) -> tuple[BoolArray, FloatArray, FloatArray]:
-    """Which wears (k,) make contact on a piece, and the phases of its begin and end for those if
-    the wear stays as it is."""
+    """Return which wears (k,) make contact on a piece, and the phases of its begin and end for
+    those if the wear stays as it is."""
     needed = displacement_at(cycle.model, wear)
     deepest = max(piece.heights[0], piece.heights[-1])
-    active = deepest - needed > touch(cycle.model, cycle.load, wear)
+    active = deepest - needed > margin_roundoff(cycle.model, cycle.load, wear)
     edge = phase_of(cycle.load, piece, needed[active])
     if piece.rising:
         return active, edge, np.full_like(edge, piece.end)
@@ -210,10 +196,10 @@ def _contact(
 
 
 def _frozen_contact(
-    cycle: CutoffCycle, piece: Piece, wear: FloatArray
+    cycle: SwitchedPeriodMap, piece: Piece, wear: FloatArray
 ) -> list[tuple[FloatArray, FloatArray]]:
-    """The phases between which each wear (k,), if it stays as it is, makes contact of one kind on a
-    piece: on a compliant support there are two kinds."""
+    """Return the phases between which each wear (k,), if it stays as it is, makes contact of one
+    kind on a piece: on a compliant support there are two kinds."""
     begin, end = (np.full_like(wear, phase) for phase in (piece.begin, piece.end))
     needed = displacement_at(cycle.model, wear)
     opens, bends = (phase_of(cycle.load, piece, needed + at) for at in (0.0, cycle.edge.held))
@@ -222,7 +208,9 @@ def _frozen_contact(
     return [(begin, bends), (bends, opens)]
 
 
-def _on_support(cycle: CutoffCycle, piece: Piece, wear: FloatArray, before: FloatArray) -> Worn:
-    """A piece on a compliant support, from each wear (k,)."""
+def _on_support(
+    cycle: SwitchedPeriodMap, piece: Piece, wear: FloatArray, before: FloatArray
+) -> ContactResult:
+    """Return a piece on a compliant support, from each wear (k,)."""
     support = Support(cycle.model, cycle.load, cycle.edge, cycle.rule, cycle.tolerance)
-    return on_support(support, piece, wear, before, touch(cycle.model, cycle.load, wear))
+    return on_support(support, piece, wear, before, margin_roundoff(cycle.model, cycle.load, wear))

@@ -62,53 +62,62 @@ class Piece(NamedTuple):
 class Edge(NamedTuple):
     """The edge of contact of a model under a load, and the cycle cut into `pieces`.
 
-    The margin falls with wear up to the wear `crest` (mm), and rises beyond; under displacements
-    above `highest` (mm) contact has no edge. A compliant support holds the contact at its edge
-    until the margin is as large as `held` (mm), zero for a rigid one. Where the displacement that
-    just makes contact is one of those `grazing` (mm), the one-cycle map has a kink.
+    The margin falls with wear up to the wear `turning_wear` (mm), and rises beyond; under
+    displacements above `highest` (mm) contact has no edge. A compliant support holds the contact at
+    its edge until the margin is as large as `held` (mm), zero for a rigid one. Where the
+    displacement that just makes contact is one of those `grazing` (mm), the one-cycle map has a
+    kink.
     """
 
     pieces: tuple[Piece, ...]
-    crest: float
+    turning_wear: float
     highest: float
     held: float
     grazing: FloatArray
     before: IntArray
 
     def is_over(self, start: FloatArray, wear: FloatArray, U_a: FloatArray) -> BoolArray:
-        """Whether contact from the wear `start` has come to wear at which it closes anew, on the
-        other side of the crest."""
-        over: BoolArray = (start < self.crest) & (wear >= self.crest) & (U_a < self.highest)
+        """Return whether contact from the wear `start` has come to wear at which it closes anew, on
+        the other side of the turning_wear."""
+        over: BoolArray = (
+            (start < self.turning_wear) & (wear >= self.turning_wear) & (U_a < self.highest)
+        )
         return over
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
-    """The edge of contact of a model with cutoff."""
-    crest, held = _crest(model), float(model.held_margin)
+    """Return the edge of contact of a model with cutoff."""
+    turning_wear, held = _crest(model), float(model.held_margin)
     turns = turning_points(load)
-    highest = float(displacement_at(model, np.array(crest))) if np.isfinite(crest) else np.inf
+    highest = (
+        float(displacement_at(model, np.array(turning_wear)))
+        if np.isfinite(turning_wear)
+        else np.inf
+    )
     low, high = turns[:-1], turns[1:]
     top = highest + held
     over = (load(low) < top) != (load(high) < top)
     appears = _bisected(lambda phase: load(phase) - top, low[over], high[over])
-    pull = _pull(model, load, crest, held)
-    closings = _closings(pull, turns, model.compliant)
+    closing_speed = _pull(model, load, turning_wear, held)
+    closings = _closings(closing_speed, turns, model.compliant)
     cuts = np.unique(np.concatenate([turns, appears, closings]))
     inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
     phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
-    closes = pull(phases[:, PIECE_SAMPLES // 2]) >= 0.0
+    closes = closing_speed(phases[:, PIECE_SAMPLES // 2]) >= 0.0
     pieces = tuple(map(Piece, phases, load(phases), closes.tolist()))
-    # Wear goes on at the bend: there contact turns not with the load but where its pull does.
+    # Wear goes on at the bend: there contact turns not with the load but where its closing_speed
+    # does.
     sharp = turns[np.isin(turns, [0.0, *load.kinks, 1.0])]
     bending = np.concatenate([sharp, appears, closings])
     heights = np.concatenate([load(bending) - held, load(turns)])
     grazing, first = np.unique(heights, return_index=True)
     before = np.searchsorted(cuts, np.concatenate([bending, turns])[first])
-    return Edge(pieces, crest, highest, held, grazing, before)
+    return Edge(pieces, turning_wear, highest, held, grazing, before)
 
 
 def turning_points(load: Load) -> FloatArray:
-    """Phases from 0 to 1 between which the load is smooth and rises or falls throughout."""
+    """Return the phases from 0 to 1 between which the load is smooth and rises or falls
+    throughout."""
     cuts = np.unique([0.0, *load.kinks, *load.peaks, 1.0])
     # Between two peaks or kinks there is a trough at most.
     low, high = cuts[:-1] + NEARLY * np.diff(cuts), cuts[1:] - NEARLY * np.diff(cuts)
@@ -116,42 +125,42 @@ def turning_points(load: Load) -> FloatArray:
     return np.unique(np.concatenate([cuts, _bisected(load.slope, low[turns], high[turns])]))
 
 
-def _pull(model: Model, load: Load, crest: float, held: float) -> Function:
-    """How fast contact at its edge closes at each phase, in mm per cycle."""
+def _pull(model: Model, load: Load, turning_wear: float, held: float) -> Function:
+    """Return how fast contact at its edge closes at each phase, in mm per cycle."""
 
-    def pull(phase: FloatArray) -> FloatArray:
+    def closing_speed(phase: FloatArray) -> FloatArray:
         U_a, speed = load(phase), load.slope(phase)
-        wear = wear_at(model, U_a - held, np.zeros_like(U_a), 0.0, crest)
-        if np.isfinite(crest):
+        wear = wear_at(model, U_a - held, np.zeros_like(U_a), 0.0, turning_wear)
+        if np.isfinite(turning_wear):
             scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
-            worn = wear_at(model, U_a - held, np.full_like(U_a, FAR * scale), crest, np.inf)
+            worn = wear_at(model, U_a - held, np.full_like(U_a, FAR * scale), turning_wear, np.inf)
             wear = np.where(speed < 0.0, worn, wear)
         opening = model.margin_slope(wear, U_a) * load.period * model.law_rate(wear, U_a)
         result: FloatArray = speed + opening
         return result
 
-    return pull
+    return closing_speed
 
 
-def _closings(pull: Function, turns: FloatArray, both: bool) -> FloatArray:
-    """The phases at which the load starts to close contact at its edge, between two turns; if
-    `both`, also those at which it ceases to."""
+def _closings(closing_speed: Function, turns: FloatArray, both: bool) -> FloatArray:
+    """Return the phases at which the load starts to close contact at its edge, between two turns;
+    if `both`, also those at which it ceases to."""
     number = max(2, SAMPLES // len(turns))
     inside = (1 - np.cos(np.pi * np.arange(number + 1) / number)) / 2
     inside[0], inside[-1] = NEARLY, 1 - NEARLY
     phases = (turns[:-1, None] + np.diff(turns)[:, None] * inside).ravel()
-    phases = np.unique(np.concatenate([phases, _extremes(pull, phases)]))
-    value = pull(phases)
+    phases = np.unique(np.concatenate([phases, _extremes(closing_speed, phases)]))
+    value = closing_speed(phases)
     same = np.diff(np.searchsorted(turns, phases)) == 0
     turned = (value[:-1] < 0.0) & (value[1:] >= 0.0)
     if both:
         turned |= (value[:-1] >= 0.0) & (value[1:] < 0.0)
     turned &= same
-    return _bisected(pull, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)
+    return _bisected(closing_speed, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)
 
 
 def _extremes(function: Function, x: FloatArray) -> FloatArray:
-    """Where a function comes nearest to zero between samples at `x` of one sign."""
+    """Return where a function comes nearest to zero between samples at `x` of one sign."""
     value = function(x)
     sign, size = np.sign(value[1:-1]), np.abs(value)
     nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:])
@@ -167,7 +176,8 @@ def _extremes(function: Function, x: FloatArray) -> FloatArray:
 def _bisected(
     function: Function, low: FloatArray, high: FloatArray, steps: int = BISECTIONS
 ) -> FloatArray:
-    """Where a function changes its sign, in each of many intervals at whose ends it differs."""
+    """Return where a function changes its sign, in each of many intervals at whose ends it
+    differs."""
     sign = np.sign(function(low))
     for _ in range(steps):
         middle = (low + high) / 2
@@ -177,15 +187,15 @@ def _bisected(
 
 
 def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
-    """The displacement (mm) that just makes contact at each wear: the margin rises with it by as
-    much."""
+    """Return the displacement (mm) that just makes contact at each wear: the margin rises with it
+    by as much."""
     edge: FloatArray = -model.margin(wear, np.zeros_like(wear))
     return edge
 
 
 def _crest(model: Model) -> float:
-    """The wear (mm) at which the displacement that just makes contact is largest: zero if it falls
-    from the start, infinite if it always rises."""
+    """Return the wear (mm) at which the displacement that just makes contact is largest: zero if it
+    falls from the start, infinite if it always rises."""
     scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
 
     def slope(y: FloatArray) -> FloatArray:
@@ -205,8 +215,8 @@ def _crest(model: Model) -> float:
 def wear_at(
     model: Model, displacement: FloatArray, guess: FloatArray, least: float, most: float
 ) -> FloatArray:
-    """The wear (mm) at which contact ends under a displacement, by Newton's method; the nearest of
-    `least` and `most` if there is none between.
+    """Return the wear (mm) at which contact ends under a displacement, by Newton's method; the
+    nearest of `least` and `most` if there is none between.
 
     The margin is convex in the wear, so that from the side of contact no step goes too far.
     """
@@ -222,7 +232,7 @@ def wear_at(
 
 
 def phase_of(load: Load, piece: Piece, height: FloatArray) -> FloatArray:
-    """Where the load reaches each height (k,) on a piece; the nearest end if it does not."""
+    """Return where the load reaches each height (k,) on a piece; the nearest end if it does not."""
     direction = 1.0 if piece.rising else -1.0
     rising = direction * piece.heights
     phase = np.where(direction * height <= rising[0], piece.begin, piece.end)
@@ -239,8 +249,8 @@ def phase_of(load: Load, piece: Piece, height: FloatArray) -> FloatArray:
 def _sought(
     load: Load, height: FloatArray, low: FloatArray, high: FloatArray, phase: FloatArray
 ) -> FloatArray:
-    """Where the load reaches each height (k,) between the phases `low` and `high`, by Newton's
-    method from a `phase` between."""
+    """Return where the load reaches each height (k,) between the phases `low` and `high`, by
+    Newton's method from a `phase` between."""
     last = np.inf
     for iteration in range(PHASE_NEWTON):
         slope = load.slope(phase)

@@ -17,11 +17,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.contact import Walked
-from wear.count.cutoff import CutoffCycle, Maps, cutoff_cycle
-from wear.count.edge import Piece
-from wear.count.stage import Integrated, Stages
-from wear.count.tail import Between
+from wear.loss_of_contact.arrest import TabulatedCount
+from wear.loss_of_contact.contact import ContactPart
+from wear.loss_of_contact.period_map import Maps, SwitchedPeriodMap, switched_period_map
+from wear.loss_of_contact.stage import Integrated, Stages
+from wear.loss_of_contact.switching import Piece
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import FloatArray, mesh
 from wear.numerics.tolerances import ROUNDOFF
@@ -48,7 +48,7 @@ def stage_tangents(
     has it to `rtol`, if the first wear has the derivative `start` (1, parameters), known up to
     `start_error`."""
     size = settings(rtol)
-    coarse = cutoff_cycle(equation.model, equation.loads[0]).resolved(size)
+    coarse = switched_period_map(equation.model, equation.loads[0]).resolved(size)
     both = Maps(coarse, coarse.on(mesh(coarse.over.edges, size.finer_nodes)))
     u, error = (values[None] for values in found.after(cycles[0]))
     derivative, missed = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
@@ -60,9 +60,9 @@ def stage_tangents(
         counted = stage.counted
         if isinstance(counted, Integrated):
             part = _one_by_one(both, equation, counted, wanted, now, now_error)
-        elif isinstance(counted, Between):
-            part = _between(both, equation, counted, wanted, now, now_error)
-        else:  # a leap: no cycle of it is known
+        elif isinstance(counted, TabulatedCount):
+            part = _tabulated(both, equation, counted, wanted, now, now_error)
+        else:  # an unresolved stage: no cycle of it is known
             unknown = np.full((len(wanted), equation.parameters), np.inf)
             part = _Part(unknown, unknown, np.zeros_like(wanted))
         derivative[0, :, here], missed[0, :, here] = part.derivative[:-1], part.error[:-1]
@@ -112,10 +112,10 @@ def _one_by_one(
     return _Part(np.array(values)[index], np.array(errors)[index], added[index])
 
 
-def _between(
+def _tabulated(
     both: Maps,
     equation: ParametrisedEquation,
-    counted: Between,
+    counted: TabulatedCount,
     cycles: FloatArray,
     start: FloatArray,
     start_error: FloatArray,
@@ -125,29 +125,31 @@ def _between(
     Where wear tends to a limit the derivative tends to that of the limit: the sums are those of the
     difference, which the last cycles before rounding hardly change.
     """
-    rest, z = counted.rest, counted.coordinate
-    limit = np.zeros(equation.parameters) if rest is None else _limit(equation, rest.wear)
+    limit_wear, z = counted.limit_wear, counted.coordinate
+    limit = (
+        np.zeros(equation.parameters) if limit_wear is None else _limit(equation, limit_wear.wear)
+    )
     count, panels = counted.in_z, counted.panels
     t = chebyshev_nodes(panels.series.shape[1])
     nodes = _added(both.coarse, equation, counted, t, limit)
     checks = _added(both.fine, equation, counted, CHECKS, limit)
     first = counted.table.u[:1]
-    into_z = 1.0 / z.pace(first, np.ones(1))
+    into_z = 1.0 / z.rate(first, np.ones(1))
     sums = sums_on_cells(
         count, nodes, checks, (into_z * (start - limit))[None], (into_z * start_error)[None]
     )
     wanted = np.minimum(cycles, counted.reach)
     by_z, missed, rate = (part[0] for part in after_on_cells(count, sums, wanted[None]))
     at, _ = count.after(wanted[None])
-    pace = z.pace(at[0], np.ones(1))[:, None]
+    pace = z.rate(at[0], np.ones(1))[:, None]
     derivative, error = limit + pace * by_z, pace * missed + SAFETY * ROUNDOFF * np.abs(limit)
     return _Part(derivative, error, pace[:, 0] * rate)
 
 
 def _added(
-    cycle: CutoffCycle,
+    cycle: SwitchedPeriodMap,
     equation: ParametrisedEquation,
-    counted: Between,
+    counted: TabulatedCount,
     t: FloatArray,
     limit: FloatArray,
 ) -> Added:
@@ -157,9 +159,9 @@ def _added(
     z = panels.frame.states(t)
     near = np.ones(z.shape)
     at = z
-    if counted.rest is not None:
+    if counted.limit_wear is not None:
         # Nearer to the limit than rounding permits, the difference shrinks with the distance.
-        at = np.minimum(z, 1.0 / counted.rest.nearest)
+        at = np.minimum(z, 1.0 / counted.limit_wear.nearest)
         near = at / z
     run = linearised(cycle, equation, coordinate.wear(at).ravel())
     increment = coordinate.step(at, run.increment.reshape(z.shape))
@@ -167,7 +169,7 @@ def _added(
     change = tangent[..., 1:] - limit * (1.0 - tangent[..., :1])
     increment = np.where(near < 1.0, increment / near, increment)
     density = abel.density_after(panels, t, increment)
-    into_z = near / coordinate.pace(z + increment, np.ones(1))
+    into_z = near / coordinate.rate(z + increment, np.ones(1))
     return Added(increment, (density * into_z)[..., None] * change)
 
 
@@ -190,13 +192,13 @@ class Linearised(NamedTuple):
 
 
 def linearised(
-    cycle: CutoffCycle, equation: ParametrisedEquation, starts: FloatArray
+    cycle: SwitchedPeriodMap, equation: ParametrisedEquation, starts: FloatArray
 ) -> Linearised:
     """Return the derivatives of one cycle from each start (k,), mm."""
     tangent = np.zeros((len(starts), 1 + equation.parameters))
     tangent[:, 0] = 1.0
     added = np.zeros(len(starts))
-    for piece, run in cycle.runs(starts):
+    for piece, run in cycle.pieces_from(starts):
         _through(cycle, equation, piece, run.parts, tangent)
         added = added + run.added
         if run.slid is not None and len(run.slid):
@@ -207,10 +209,10 @@ def linearised(
 
 
 def _through(
-    cycle: CutoffCycle,
+    cycle: SwitchedPeriodMap,
     equation: ParametrisedEquation,
     piece: Piece,
-    parts: tuple[Walked, ...],
+    parts: tuple[ContactPart, ...],
     tangent: FloatArray,
 ) -> None:
     """Carry the `tangent` (k, 1 + parameters) through the parts of contact on a piece."""
@@ -233,13 +235,13 @@ def _through(
 
 
 def _smooth(
-    cycle: CutoffCycle, equation: ParametrisedEquation, part: Walked, tangent: FloatArray
+    cycle: SwitchedPeriodMap, equation: ParametrisedEquation, part: ContactPart, tangent: FloatArray
 ) -> FloatArray:
     """Return the tangent (k, 1 + parameters) at the end of a part: the collocation, linearised."""
     model, load, rule = cycle.model, cycle.load, cycle.rule
     phases = part.begin[:, None] + part.length[:, None] * rule.nodes
     u, U_a = part.start[:, None] + part.inside, load(phases)
-    _, slope = part.contact.pace(u, U_a)
+    _, slope = part.contact.rate_per_cycle(u, U_a)
     gradient = model.edge_rate_gradient if part.contact.proportional else model.rate_gradient
     changes = load.period * equation.along(gradient(u, U_a), phases)
     integrate = part.length[:, None, None] * rule.integrate

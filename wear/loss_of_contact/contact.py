@@ -43,7 +43,7 @@ STIFF = 3.0  # decay over a part, as an exponent: then a system of equations is 
 FLAT = 1e-30  # mm per cycle: a margin that does not change
 
 
-class Stretch(NamedTuple):
+class Interval(NamedTuple):
     """Stretches of phase of a cycle, (k,): where each begins, `whole` lengths, and where contact is
     `expected` to end, as lengths."""
 
@@ -65,23 +65,23 @@ class Contact(NamedTuple):
     falls: bool = True
     proportional: bool = False
 
-    def pace(self, u: FloatArray, U_a: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The wear rate in mm per cycle, and its derivative with respect to the wear."""
+    def rate_per_cycle(self, u: FloatArray, U_a: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear rate in mm per cycle, and its derivative with respect to the wear."""
         rate, slope = self.rate(u, U_a)
         return self.load.period * rate, self.load.period * slope
 
     def noise(
         self, u: FloatArray, U_a: FloatArray, rate: FloatArray, steepest: FloatArray
     ) -> FloatArray:
-        """What rounding makes of the `rate` (k, m), mm per cycle, at wears and displacements (k, m)
-        under a load that changes by `steepest` (k,) mm per cycle; at most, (k,)."""
+        """Return what rounding makes of the `rate` (k, m), mm per cycle, at wears and displacements
+        (k, m) under a load that changes by `steepest` (k,) mm per cycle; at most, (k,)."""
         largest = ROUNDOFF * np.max(np.abs(rate), axis=1)
         if not self.proportional:
             # A phase is rounded, too, and under a steep load the pressure with it.
             follows = np.abs(steepest) / (LAYER * _roughness(self.model, u[:, 0]))
             return np.asarray(largest * np.maximum(1.0, BY_PHASE * follows))
         none = np.array(0.0)
-        per_margin, _ = self.pace(none, 1.0 - self.model.margin(none, none))
+        per_margin, _ = self.rate_per_cycle(none, 1.0 - self.model.margin(none, none))
         terms = np.max(self.model.margin_terms(u, U_a), axis=1) + np.abs(steepest)
         terms += max(abs(self.load.minimum), abs(self.load.maximum))
         return np.asarray(largest + ROUNDOFF * per_margin * terms)
@@ -89,22 +89,22 @@ class Contact(NamedTuple):
     def to_its_end(
         self, u: FloatArray, phase: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """How far it is to the end of contact (cycles) from wears and phases (k,), by a tangent;
-        what of that is rounding; and the rate there (mm per cycle)."""
+        """Return how far it is to the end of contact (cycles) from wears and phases (k,), by a
+        tangent; what of that is rounding; and the rate there (mm per cycle)."""
         assert self.level is not None
         sign = 1.0 if self.falls else -1.0
         U_a = self.load(phase)
         left = sign * (self.model.margin(u, U_a) - self.level)
-        rate, _ = self.pace(u, U_a)
+        rate, _ = self.rate_per_cycle(u, U_a)
         widens = self.model.margin_slope(u, U_a) * rate
         falls = np.minimum(sign * (self.load.slope(phase) + widens), -FLAT)
         uncertain = BLUR * (self.model.margin_terms(u, U_a) - falls)
         # Only a margin that is rounding makes the end uncertain: trial states may be far off.
-        blur = np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
-        return -left / falls, blur, rate
+        uncertainty = np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
+        return -left / falls, uncertainty, rate
 
 
-class Walked(NamedTuple):
+class ContactPart(NamedTuple):
     """A part of contact that the wears in `rows` (k,) of those asked for have come through: from
     the phases `begin` (k,) over a `length` (k,), from a wear `start` (k,), mm, with what has been
     added since, `inside` (k, m), at the nodes; and whether contact has `ended` (k,) there."""
@@ -118,7 +118,7 @@ class Walked(NamedTuple):
     ended: BoolArray
 
 
-class Worn(NamedTuple):
+class ContactResult(NamedTuple):
     """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is sound; the
     number of right-hand sides evaluated; its `parts` in order; and which wears, in `slid`, have
     ended by sliding along the edge."""
@@ -127,30 +127,31 @@ class Worn(NamedTuple):
     length: FloatArray
     sound: bool
     evaluations: int
-    parts: tuple[Walked, ...] = ()
+    parts: tuple[ContactPart, ...] = ()
     slid: IntArray | None = None
 
-    def of(self, rows: IntArray) -> tuple[Walked, ...]:
+    def of(self, rows: IntArray) -> tuple[ContactPart, ...]:
         """Return the parts, where the wears were those in `rows` of others."""
         return tuple(part._replace(rows=rows[part.rows]) for part in self.parts)
 
 
-def worn(
+def wear_in_contact(
     contact: Contact,
     rule: Gauss,
     tolerance: float,
     u: FloatArray,
-    over: Stretch,
+    over: Interval,
     before: FloatArray,
-) -> Worn:
-    """Wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm so far.
+) -> ContactResult:
+    """Return the wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm
+    so far.
 
     Each stretch is cut in two until the rate is resolved to `tolerance` of what the cycle adds.
     """
     added, length = np.zeros(len(u)), np.zeros(len(u))
     todo: list[tuple[IntArray, float, float]] = [(np.arange(len(u)), 0.0, 1.0)]
     evaluations, parts, sound = 0, 0, True
-    walked: list[Walked] = []
+    passed: list[ContactPart] = []
     ended = np.zeros(len(u), dtype=bool)
     while todo:
         rows, begin, end = todo.pop()
@@ -161,7 +162,7 @@ def worn(
         left = over.expected[rows] - begin * over.whole[rows]
         start, earlier = (u + added)[rows], (before + added)[rows]
         expected = np.minimum(np.where(left > 0.0, left, LEAST * whole), whole)
-        stretch = Stretch(over.begin[rows] + begin * over.whole[rows], whole, expected)
+        stretch = Interval(over.begin[rows] + begin * over.whole[rows], whole, expected)
         part = _part(contact, rule, start, stretch)
         evaluations, parts = evaluations + part.evaluations, parts + 1
         fine = part.sound & _is_fine(rule, part, tolerance, earlier)
@@ -169,21 +170,29 @@ def worn(
             sound &= bool(fine.all())
             fine[:] = True
         some = rows[fine]
-        ends = (part.length < whole)[fine]
-        come = (values[fine] for values in (stretch.begin, part.length, start, part.inside))
-        walked.append(Walked(contact, some, *come, ended=ends))
+        passed.append(
+            ContactPart(
+                contact,
+                some,
+                stretch.begin[fine],
+                part.length[fine],
+                start[fine],
+                part.inside[fine],
+                part.length[fine] < whole[fine],
+            )
+        )
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
         length[some] += part.length[fine]
         ended[some] = part.length[fine] < whole[fine]
         if not fine.all():
             middle, again = (begin + end) / 2, rows[~fine]
             todo += [(again, middle, end), (again, begin, middle)]
-    return Worn(added, length, sound, evaluations, tuple(walked))
+    return ContactResult(added, length, sound, evaluations, tuple(passed))
 
 
 class _Part(NamedTuple):
-    """As `Worn`, with what is added `inside` (k, m) and the rate (k, m) in mm per cycle at the
-    nodes, what is `noise` of it (k,), and how often wear alone would turn over in the part: its
+    """As `ContactResult`, with what is added `inside` (k, m) and the rate (k, m) in mm per cycle at
+    the nodes, what is `noise` of it (k,), and how often wear alone would turn over in the part: its
     `stiffness` (k,)."""
 
     added: FloatArray
@@ -197,7 +206,8 @@ class _Part(NamedTuple):
 
 
 def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> BoolArray:
-    """Whether the nodes resolve the rate, as measured by what this cycle has added (k,), (k,).
+    """Return whether the nodes resolve the rate, as measured by what this cycle has added (k,),
+    (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
     foretells. Where the wear follows the load within less than the distance of two nodes, it leaves
@@ -210,20 +220,21 @@ def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> 
     follows = part.stiffness > half
     gain[follows] = np.maximum(gain, 1.0 / part.stiffness)[follows]
     left = tail * gain * part.length
-    told = part.noise / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
-    left[tail < 100 * told] = 0.0
+    allowed = part.noise / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
+    left[tail < 100 * allowed] = 0.0
     resolved: BoolArray = left <= tolerance * np.maximum(before + part.added, 0.0)
     return resolved
 
 
 def _roughness(model: Model, u: FloatArray) -> FloatArray:
-    """The equivalent roughness (mm) at each wear (k,); it does not depend on the pressure."""
+    """Return the equivalent roughness (mm) at each wear (k,); it does not depend on the
+    pressure."""
     none = np.zeros_like(u)
     fields = model.fields_under(none, u, none) if model.compliant else model.fields(u, none)
     return np.asarray(fields.sigma)
 
 
-def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
+def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Interval) -> _Part:
     """Newton's method on contact; where it has a level, the end of contact is found by tangents
     along with the wear."""
     length = over.expected if contact.level is not None else over.whole
@@ -232,7 +243,7 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
     for iteration in range(MOST_ITERATIONS):
         phases = over.begin[:, None] + length[:, None] * rule.nodes
         U_a = contact.load(phases)
-        rate, slope = contact.pace(u[:, None] + inside, U_a)
+        rate, slope = contact.rate_per_cycle(u[:, None] + inside, U_a)
         evaluations += rate.size
         missing = length[:, None] * (rate @ rule.integrate.T) - inside
         step = _newton(rule, length, slope, missing)
@@ -241,16 +252,16 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
         apart = np.max(np.abs(step), axis=1) / (np.abs(added) + TINY)
         noise = contact.noise(u[:, None] + inside, U_a, rate, contact.load.slope(over.begin))
         stiffness = length * np.max(np.abs(slope), axis=1)
-        told = NOISE / ROUNDOFF * noise * length / np.maximum(1.0, stiffness)
-        told /= np.abs(added) + TINY
+        allowed = NOISE / ROUNDOFF * noise * length / np.maximum(1.0, stiffness)
+        allowed /= np.abs(added) + TINY
         if contact.level is not None:
-            change, blur, at_end = contact.to_its_end(u + added, over.begin + length)
+            change, uncertainty, at_end = contact.to_its_end(u + added, over.begin + length)
             change = np.clip(length + change, LEAST * length, over.whole) - length
             apart = np.maximum(apart, np.abs(change) / length)
             inside = inside + rate * rule.nodes * change[:, None]
             added, length = added + at_end * change, length + change
-            told += np.where(length < over.whole, blur / length, 0.0)
-        done |= _has_settled(apart, last, told)
+            allowed += np.where(length < over.whole, uncertainty / length, 0.0)
+        done |= _has_settled(apart, last, allowed)
         grows = bool(np.any((apart > last) & ~done)) and iteration > PATIENCE
         if done.all() or grows or not np.max(apart) < 1e30:
             break
@@ -259,7 +270,7 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Stretch) -> _Part:
 
 
 def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatArray) -> FloatArray:
-    """The solution x (k, m) of x = missing + length times the integral of slope x.
+    """Return the solution x (k, m) of x = missing + length times the integral of slope x.
 
     Where nothing decays much it is missing + E times the integral of slope missing/E, with
     E = exp(integral of slope): but for a truncation error, of which the next iteration takes care.
@@ -276,7 +287,8 @@ def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatAr
 
 
 def _has_settled(apart: FloatArray, last: FloatArray, noise: FloatArray) -> BoolArray:
-    """Whether an iteration that has changed by `apart`, after `last`, has come to its end."""
+    """Return whether an iteration that has changed by `apart`, after `last`, has come to its
+    end."""
     # A change that was large foretells nothing; one that is small and grows is rounding.
     foretold = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
     stalled = (last < STALLED) & (apart >= last)

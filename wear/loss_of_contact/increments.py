@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.cutoff import Maps
+from wear.loss_of_contact.period_map import Maps
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.abel import Frame
@@ -55,7 +55,7 @@ class Coordinate(NamedTuple):
         taken = z * increment
         return np.asarray(z * taken / (1.0 - taken))
 
-    def pace(self, z: FloatArray, rate: FloatArray) -> FloatArray:
+    def rate(self, z: FloatArray, rate: FloatArray) -> FloatArray:
         """Return the wear per cycle (mm) where z rises at the `rate` per cycle."""
         return np.asarray(rate / z**2 if self.ahead else rate)
 
@@ -77,7 +77,7 @@ class Increments(NamedTuple):
 
     @property
     def end(self) -> float:
-        """The z at which the last panel ends."""
+        """Return the z at which the last panel ends."""
         return float(self.frame.ends[-1])
 
     def _located(self, z: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -220,7 +220,7 @@ def fitted(
 
 
 def _allowed(span: Span, wear: FloatArray, tolerance: float) -> FloatArray:
-    """The relative errors of the increment from each wear (k,) that are accepted."""
+    """Return the relative errors of the increment from each wear (k,) that are accepted."""
     origin, ahead, _ = span.coordinate
     if not ahead:
         return np.full_like(wear, tolerance)
@@ -230,7 +230,7 @@ def _allowed(span: Span, wear: FloatArray, tolerance: float) -> FloatArray:
 
 
 def _joined(span: Span, panels: list[_Panel]) -> list[tuple[Span, Increments]]:
-    """The panels that follow each other, together."""
+    """Return the panels that follow each other, together."""
     runs: list[list[_Panel]] = []
     for panel in sorted(panels, key=lambda panel: panel.start):
         if runs and runs[-1][-1].end == panel.start:
@@ -257,7 +257,7 @@ def middle(shift: float, start: float, end: float) -> float:
 
 
 def _wear(tasks: list[_Task], widths: FloatArray, t: FloatArray) -> FloatArray:
-    """The wear (tasks, len(t)) at positions of panels."""
+    """Return the wear (tasks, len(t)) at positions of panels."""
     rows = []
     for task, width in zip(tasks, widths, strict=True):
         coordinate = task.span.coordinate

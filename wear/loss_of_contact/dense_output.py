@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.cutoff import CutoffCycle, cutoff_cycle
-from wear.count.edge import PIECE_SAMPLES, Piece
 from wear.load import Load
+from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
+from wear.loss_of_contact.switching import PIECE_SAMPLES, Piece
 from wear.model import Model
 from wear.numerics.gauss import (
     FloatArray,
@@ -26,23 +26,23 @@ NODES = 8  # on each part of a piece, most of which are short
 NEARLY = 1e-12  # of a cycle: phases that are one
 
 
-class CutoffCourse(NamedTuple):
+class SwitchedDenseOutput(NamedTuple):
     """A cycle in `parts`: as many as `upto` (m,) lie before each phase. The one-cycle maps are for
     the result and to judge it."""
 
     upto: tuple[int, ...]
     parts: tuple[Piece, ...]
-    both: tuple[CutoffCycle, CutoffCycle]
+    both: tuple[SwitchedPeriodMap, SwitchedPeriodMap]
 
     @np.errstate(all="ignore")  # of trial states; what is no number fails the estimate of error
     def added(self, cycles: FloatArray, starts: FloatArray) -> Added:
-        """What a cycle adds from each of the `starts` (n,), mm."""
+        """Return what a cycle adds from each of the `starts` (n,), mm."""
         coarse, fine = (self._wear(cycle, starts) for cycle in self.both)
         missed = np.max(np.abs(coarse - fine), axis=1, initial=0.0)
         return Added(coarse, missed, None, np.zeros(len(cycles)))
 
-    def _wear(self, cycle: CutoffCycle, starts: FloatArray) -> FloatArray:
-        """Wear added (n, m) up to each phase, mm; no number where it was not found."""
+    def _wear(self, cycle: SwitchedPeriodMap, starts: FloatArray) -> FloatArray:
+        """Return the wear added (n, m) up to each phase, mm; no number where it was not found."""
         added = [np.zeros(len(starts))]
         for part in self.parts:
             alone = cycle._replace(edge=cycle.edge._replace(pieces=(part,)))
@@ -51,19 +51,21 @@ class CutoffCourse(NamedTuple):
         return np.stack([added[i] for i in self.upto], axis=1)
 
 
-def cutoff_course(model: Model, load: Load, phases: FloatArray, rtol: float) -> CutoffCourse:
+def switched_dense_output(
+    model: Model, load: Load, phases: FloatArray, rtol: float
+) -> SwitchedDenseOutput:
     """Prepare for any cycles and for `phases` (m,) in [0, 1]."""
-    cycle = cutoff_cycle(model, load)
+    cycle = switched_period_map(model, load)
     parts = tuple(part for piece in cycle.edge.pieces for part in _cut(piece, load, phases))
     ends = np.array([part.end for part in parts])
     upto = tuple(np.sum(ends <= phases[:, None] + NEARLY, axis=1).tolist())
     coarse = cycle.resolved(settings(rtol)._replace(phase_nodes=NODES))
     fine = coarse.on(mesh(coarse.over.edges, NODES + 4))
-    return CutoffCourse(upto, parts, (coarse, fine))
+    return SwitchedDenseOutput(upto, parts, (coarse, fine))
 
 
 def _cut(piece: Piece, load: Load, phases: FloatArray) -> Iterator[Piece]:
-    """The piece, cut at those of the phases that lie within."""
+    """Yield the piece, cut at those of the phases that lie within."""
     within = (phases > piece.begin + NEARLY) & (phases < piece.end - NEARLY)
     for begin, end in pairwise([piece.begin, *np.unique(phases[within]).tolist(), piece.end]):
         inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2

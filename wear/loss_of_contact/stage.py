@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.tail import Between
+from wear.loss_of_contact.arrest import TabulatedCount
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import TINY
 from wear.orbit.iterates import NEARLY, Iterates
@@ -35,7 +35,7 @@ class Integrated(NamedTuple):
         return float(self.found.integrated_cycles)
 
     @property
-    def pace(self) -> float:
+    def first_increment(self) -> float:
         """Return the wear (mm) that its first cycle adds."""
         return float(self.found.first_increment[0])
 
@@ -56,7 +56,7 @@ class Integrated(NamedTuple):
         return count[0], error[0]
 
 
-class Leap(NamedTuple):
+class UnresolvedStage(NamedTuple):
     """The way from the wear `start` to `last_wear` (mm), so short that double precision does not
     tell the cycles apart that it takes, some `reach` of them."""
 
@@ -71,7 +71,7 @@ class Leap(NamedTuple):
         return float(np.ceil(self.reach))
 
     @property
-    def pace(self) -> float:
+    def first_increment(self) -> float:
         """Return the wear (mm) that a cycle adds."""
         return (self.last_wear - self.start) / self.reach
 
@@ -82,13 +82,13 @@ class Leap(NamedTuple):
 
     def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the wear (mm) after `cycles`, and its relative error."""
-        wear = np.minimum(self.start + cycles * self.pace, self.last_wear)
+        wear = np.minimum(self.start + cycles * self.first_increment, self.last_wear)
         return wear, (self.last_wear - self.start) / wear
 
     def cycles_until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the whole cycles after which each wear (mm) is reached, infinite beyond, and the
         error in cycles."""
-        count = np.ceil(np.maximum(wear - self.start, 0.0) / self.pace)
+        count = np.ceil(np.maximum(wear - self.start, 0.0) / self.first_increment)
         return np.where(wear > self.last_wear, np.inf, count), np.full(wear.shape, self.reach)
 
 
@@ -97,33 +97,36 @@ class Stage(NamedTuple):
     it begins with."""
 
     begins: float
-    counted: Integrated | Between | Leap
+    counted: Integrated | TabulatedCount | UnresolvedStage
     inherited: float
     adrift: float = 0.0
 
     @property
-    def blur(self) -> float:
+    def uncertainty(self) -> float:
         """By how many cycles its count may be out."""
-        pace = self.counted.pace
-        return self.adrift + (self.inherited / pace if pace > 0 else 0.0)
+        first = self.counted.first_increment
+        return self.adrift + (self.inherited / first if first > 0 else 0.0)
 
     @property
     def ends(self) -> bool:
-        """Whether wear is over after it."""
+        """Return whether wear is over after it."""
         return self.counted.rests
 
     @property
     def ran(self) -> float:
-        """How many whole cycles it counts."""
+        """Return how many whole cycles it counts."""
         return self.counted.ran
 
     @property
     def drift(self) -> float:
         """By how many cycles the stages after it may begin off."""
-        return self.adrift + (self.counted.reach if isinstance(self.counted, Leap) else 0.0)
+        return self.adrift + (
+            self.counted.reach if isinstance(self.counted, UnresolvedStage) else 0.0
+        )
 
     def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Wear (mm) after `cycles` since the fresh state, and its estimated relative error."""
+        """Return the wear (mm) after `cycles` since the fresh state, and its estimated relative
+        error."""
         wear, error = self.counted.wear_after(cycles - self.begins)
         return wear, error + self.inherited / (wear + TINY)
 
@@ -131,7 +134,7 @@ class Stage(NamedTuple):
         """Whole cycles since the fresh state after which each wear (mm) is first reached, infinite
         where the count ends before, and the estimated error in cycles."""
         after, missed = self.counted.cycles_until(wear)
-        return self.begins + after, missed + self.blur
+        return self.begins + after, missed + self.uncertainty
 
 
 class Arrest(NamedTuple):
@@ -162,7 +165,7 @@ class Stages(NamedTuple):
 
     @property
     def last_wear(self) -> float:
-        """The wear (mm) up to which it counts."""
+        """Return the wear (mm) up to which it counts."""
         return self.stages[-1].counted.last_wear
 
     @property
@@ -172,18 +175,20 @@ class Stages(NamedTuple):
         if not self.arrested or not np.isfinite(last.inherited):
             return None
         # A stage that begins at rest does not tell how long it took to get there.
-        moving = [stage.blur for stage in self.stages if stage.counted.pace > 0]
-        blur = max([last.blur, *moving[-1:]])
-        if not np.isfinite(blur):
+        moving = [stage.uncertainty for stage in self.stages if stage.counted.first_increment > 0]
+        uncertainty = max([last.uncertainty, *moving[-1:]])
+        if not np.isfinite(uncertainty):
             return None
-        if isinstance(last.counted, Between):
-            return Arrest(int(last.begins + last.ran), round(blur + last.counted.uncertainty), True)
-        if isinstance(last.counted, Leap):
+        if isinstance(last.counted, TabulatedCount):
+            return Arrest(
+                int(last.begins + last.ran), round(uncertainty + last.counted.uncertainty), True
+            )
+        if isinstance(last.counted, UnresolvedStage):
             return None
         counted = last.counted.found
         if not np.isfinite(counted.transient_error).all():
             return None
-        return Arrest(int(last.begins) + counted.first_idle_cycle, round(blur), self.fades)
+        return Arrest(int(last.begins) + counted.first_idle_cycle, round(uncertainty), self.fades)
 
     @property
     def ended(self) -> bool:

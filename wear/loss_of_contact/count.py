@@ -1,9 +1,9 @@
 """The cycle count with loss of contact: from one grazing wear to the next, and to the last.
 
-Between two grazing wears (`wear.count.kinks`) the increments of a cycle are series
-(`wear.count.increments`), of which Abel's equation makes the count where cycles are many; the few
-cycles next to a grazing wear are taken one by one, from the series as long as they do not pass it.
-Only the cycle that passes is integrated by itself, and the last ones before wear stops.
+Between two grazing wears (`wear.loss_of_contact.grazing`) the increments of a cycle are series
+(`wear.loss_of_contact.increments`), of which Abel's equation makes the count where cycles are many;
+the few cycles next to a grazing wear are taken one by one, from the series as long as they do not
+pass it. Only the cycle that passes is integrated by itself, and the last ones before wear stops.
 """
 
 from __future__ import annotations
@@ -13,15 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.count.cutoff import cutoff_cycle
-from wear.count.increments import Increments, Span, fitted, frame_of, middle
-from wear.count.kinks import rest_of
-from wear.count.plan import GRAIN, Way, planned, prepared
-from wear.count.rounding import roundoff, roundoff_of_cycles
-from wear.count.scan import SHIFT
-from wear.count.stage import Integrated, Leap, Stage, Stages
-from wear.count.tail import TO_ROUNDOFF, Between, Rest
 from wear.load import Load
+from wear.loss_of_contact.arrest import TO_ROUNDOFF, LimitWear, TabulatedCount
+from wear.loss_of_contact.grazing import limit_wear_of
+from wear.loss_of_contact.increments import Increments, Span, fitted, frame_of, middle
+from wear.loss_of_contact.period_map import switched_period_map
+from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
+from wear.loss_of_contact.roundoff import roundoff, roundoff_of_cycles
+from wear.loss_of_contact.stage import Integrated, Stage, Stages, UnresolvedStage
 from wear.model import Model
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray
@@ -63,12 +62,12 @@ def counted_stages(
 
     After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
     """
-    cycle = cutoff_cycle(model, load)
-    way = prepared(cycle, rtol, deadline)
-    runs = _Runs(way, start)
+    cycle = switched_period_map(model, load)
+    problem = problem_of(cycle, rtol, deadline)
+    runs = _Count(problem, start)
     while not runs.over and (runs.done < cycles or not runs.parts):
         runs.go(max(cycles - runs.done, 1.0))
-    return _judged(way, runs, begun_with, cycles)
+    return _judged(problem, runs, begun_with, cycles)
 
 
 class Single(NamedTuple):
@@ -81,7 +80,7 @@ class Single(NamedTuple):
 
     @property
     def ran(self) -> float:
-        """How many cycles."""
+        """Return how many cycles."""
         return float(len(self.added))
 
     def missed(self) -> tuple[FloatArray, FloatArray]:
@@ -95,22 +94,22 @@ class Single(NamedTuple):
 
 class Counted(NamedTuple):
     """A count by Abel's equation on `panels` of z, with its `residual` on each and the `series` of
-    the increments; to the `rest`, if it goes so far."""
+    the increments; to the `limit_wear`, if it goes so far."""
 
     table: Cells
     panels: abel.Panels
     residual: FloatArray
     series: Increments
-    rest: Rest | None
+    limit_wear: LimitWear | None
     line: bool
 
     @property
     def ran(self) -> float:
-        """How many whole cycles."""
+        """Return how many whole cycles."""
         last = self.table.last_cycles
-        return float(np.ceil(last) if self.rest else np.floor(last))
+        return float(np.ceil(last) if self.limit_wear else np.floor(last))
 
-    def judged(self, way: Way) -> Between:
+    def judged(self, problem: Problem) -> TabulatedCount:
         """Return the count with its estimated error: of the increments, of Abel's equation, at
         junctions of panels, by rounding."""
         table, panels = self.table, self.panels
@@ -125,30 +124,30 @@ class Counted(NamedTuple):
             apart = abel.matching_defect(panels.take(slice(-1)), panels.take(slice(1, None)))
             missed[parts - 1 : -1 : parts] += SAFETY * apart
         wear = coordinate.wear(np.append(table.u, table.ends[-1]))
-        rounding = roundoff(way.model, way.load, wear)
+        rounding = roundoff(problem.model, problem.load, wear)
         terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
         of_density = ROUNDOFF * np.repeat(terms, parts)
         missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
         error = np.concatenate([[0.0], np.cumsum(missed)])
-        return Between(coordinate, panels, table, error, self.rest, way.end)
+        return TabulatedCount(coordinate, panels, table, error, self.limit_wear, problem.end)
 
 
-class _Runs:
+class _Count:
     """The way so far: `parts`, one after the other, `done` cycles in all, and the `wear` (mm)."""
 
-    def __init__(self, way: Way, start: float) -> None:
-        self.way, self.wear, self.done, self.over = way, start, 0.0, False
-        self.parts: list[Single | Counted | Leap] = []
+    def __init__(self, problem: Problem, start: float) -> None:
+        self.problem, self.wear, self.done, self.over = problem, start, 0.0, False
+        self.parts: list[Single | Counted | UnresolvedStage] = []
         self.known: list[tuple[Span, Increments]] = []
-        self.prepared = start
+        self.problem_of = start
         self.singles = self.poor = 0
         self.arrested = self.fades = False
         self.cost = Cost(0, 0)
 
     def go(self, cycles: float) -> None:
         """Go on for so many `cycles`, or less."""
-        in_time = time.monotonic() <= self.way.deadline
-        if self.wear >= self.prepared and cycles > FEW and in_time:
+        in_time = time.monotonic() <= self.problem.deadline
+        if self.wear >= self.problem_of and cycles > FEW and in_time:
             self._prepare(cycles)
             return
         for span, series in self.known:
@@ -158,44 +157,50 @@ class _Runs:
         ahead = min(self._ahead(), default=np.inf)
         if ahead - self.wear <= 2 * GRAIN * ROUNDOFF * ahead:
             # Contact shrinks like the root of what is left: twice the cycles at the present pace.
-            pace = self.way.plain.frozen(np.array([self.wear]))[0] + TINY
-            left = 2 * (ahead - self.wear) / pace
+            rate = self.problem.plain.increment_without_feedback(np.array([self.wear]))[0] + TINY
+            left = 2 * (ahead - self.wear) / rate
             if FEW < left < np.inf:
-                self._append(Leap(self.wear, ahead, float(np.floor(left))), ahead)
+                self._append(UnresolvedStage(self.wear, ahead, float(np.floor(left))), ahead)
                 return
         self._single()
 
     def _ahead(self) -> list[float]:
-        return [k.wear for k in self.way.kinks if k.wear > self.wear * (1 + 8 * ROUNDOFF)]
+        return [
+            k.wear for k in self.problem.grazing_wears if k.wear > self.wear * (1 + 8 * ROUNDOFF)
+        ]
 
     def _prepare(self, cycles: float) -> None:
-        if self.way.plain.frozen(np.array([self.wear]))[0] > VIOLENT * (
-            SHIFT * self.way.scale + self.wear
+        if self.problem.plain.increment_without_feedback(np.array([self.wear]))[0] > VIOLENT * (
+            SHIFT * self.problem.scale + self.wear
         ):
             self._single()
             return
-        spans, self.prepared = planned(self.way, self.wear, cycles)
-        number = COEFFICIENTS if self.way.rtol < 1e-8 else FEWER_COEFFICIENTS
-        tolerance = self.way.size.residual_tolerance / 2
-        self.known, cost = fitted(self.way.both, spans, number, tolerance)
+        spans, self.problem_of = planned(self.problem, self.wear, cycles)
+        number = COEFFICIENTS if self.problem.rtol < 1e-8 else FEWER_COEFFICIENTS
+        tolerance = self.problem.size.residual_tolerance / 2
+        self.known, cost = fitted(self.problem.both, spans, number, tolerance)
         self.cost = self.cost.plus(*cost)
         if self.known and self.known[-1][0].tends:
             (span, series), limit = self.known[-1], spans[-1].coordinate.origin
             width = -np.log(TO_ROUNDOFF * limit * series.end)
             self.known[-1] = span._replace(end=limit), series.on_a_line(float(width))
 
-    def _append(self, part: Single | Counted | Leap, wear: float) -> None:
+    def _append(self, part: Single | Counted | UnresolvedStage, wear: float) -> None:
         self.parts.append(part)
         self.wear, self.done = wear, self.done + part.ran
 
     def _single(self) -> None:
         """Integrate one cycle."""
-        run = self.way.both.coarse.advance(np.array([self.wear]))
+        run = self.problem.both.coarse.advance(np.array([self.wear]))
         self.cost = self.cost.plus(1, run.evaluations)
         self.singles += 1
         added = float(run.increment[0])
-        if not added > 0.0 and self.way.rest is not None and self.wear < self.way.rest.wear:
-            added = self.way.rest.wear - self.wear  # nearer than rounding resolves
+        if (
+            not added > 0.0
+            and self.problem.limit_wear is not None
+            and self.wear < self.problem.limit_wear.wear
+        ):
+            added = self.problem.limit_wear.wear - self.wear  # nearer than rounding resolves
         part = Single([self.wear, self.wear + added], [added], None)
         last = self.parts[-1] if self.parts else None
         if isinstance(last, Single) and last.series is None:
@@ -205,9 +210,9 @@ class _Runs:
         else:
             self._append(part, self.wear + added)
         self.arrested = not added > 0.0
-        self.fades = self.arrested and self.way.rest is not None
-        late = time.monotonic() > self.way.deadline and self.singles >= KEPT
-        failed = not run.converged.all() or not self.wear < self.way.end
+        self.fades = self.arrested and self.problem.limit_wear is not None
+        late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
+        failed = not run.converged.all() or not self.wear < self.problem.end
         self.over = self.arrested or failed or late or self.singles >= MOST_SINGLE
 
     def _along(self, span: Span, series: Increments, cycles: float) -> None:
@@ -222,30 +227,32 @@ class _Runs:
         gains = (lasts[1:] + lasts[:-1]) / 2 * np.diff(np.log(looks + coordinate.shift))
         calm = np.flatnonzero(lasts >= CALM)
         number = float(np.sum(gains[calm[0] : calm[-1]])) if len(calm) else 0.0
-        if np.sum(gains) < MOST_WALKED or number < 2 * ENOUGH * self.way.size.panel_nodes:
+        if np.sum(gains) < MOST_WALKED or number < 2 * ENOUGH * self.problem.size.panel_nodes:
             self._walk(span, series, end, cycles)
         elif calm[0] > 0:
             self._walk(span, series, float(looks[calm[0]]), cycles)
         else:
             before = float(np.sum(gains[looks[1:] <= series.frame.starts[-1]]))
-            line = before > ENOUGH * self.way.size.panel_nodes
+            line = before > ENOUGH * self.problem.size.panel_nodes
             self._count(span, series, begin, float(looks[calm[-1]]), line)
 
     def _count(self, span: Span, series: Increments, begin: float, end: float, line: bool) -> None:
         """Count by Abel's equation from one z to another, on a line at last if that is to be."""
-        rest = self.way.rest if span.tends and end >= series.end * (1 - 1e-9) else None
-        line &= rest is not None
+        limit_wear = (
+            self.problem.limit_wear if span.tends and end >= series.end * (1 - 1e-9) else None
+        )
+        line &= limit_wear is not None
         end = float(series.frame.starts[-1]) if line else end
-        panels, residual, poor = solved(series, begin, end, self.way.size)
+        panels, residual, poor = solved(series, begin, end, self.problem.size)
         if poor and self.poor < MOST_POOR:  # panels of too few cycles: some more one by one
             self.poor += 1
             self._walk(span, series, end, MOST_WALKED)
             return
         if line:
             panels, residual = on_a_line(panels, residual, series)
-        part = Counted(cells(panels), panels, residual, series, rest, line)
-        if rest is not None:
-            self._append(part, rest.wear)
+        part = Counted(cells(panels), panels, residual, series, limit_wear, line)
+        if limit_wear is not None:
+            self._append(part, limit_wear.wear)
             self.over = self.arrested = self.fades = True
         elif part.ran < 1.0:
             self._single()
@@ -325,34 +332,34 @@ def on_a_line(
     return more, np.append(residual, abs(found - slope))
 
 
-def _judged(way: Way, runs: _Runs, begun_with: float, cycles: float) -> Stages:
-    """The parts of the way as stages, each with its estimate of error."""
+def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) -> Stages:
+    """Return the parts of the way as stages, each with its estimate of error."""
     single = [part for part in runs.parts if isinstance(part, Single) and part.series is None]
     at = np.array([wear for part in single for wear in part.wear[:-1]])
     added = np.array([x for part in single for x in part.added])
     cost = runs.cost
     if len(at):
-        fine = way.both.fine.advance(at)
+        fine = problem.both.fine.advance(at)
         missed = np.abs(fine.increment - added)
         if not fine.converged.all():
             missed[:] = np.inf
-        roughness = 4 * way.scale
-        beside = way.both.coarse.advance(at + APART * (roughness + at))
+        roughness = 4 * problem.scale
+        beside = problem.both.coarse.advance(at + APART * (roughness + at))
         growth = np.abs(1 + (beside.increment - added) / (APART * (roughness + at)))
         cost = cost.plus(2 * len(at), fine.evaluations + beside.evaluations)
     stages: list[Stage] = []
     begins, inherited, adrift, used = 0.0, begun_with, 0.0, 0
     for part in runs.parts:
-        counted: Integrated | Between | Leap
+        counted: Integrated | TabulatedCount | UnresolvedStage
         if isinstance(part, Single):
             if part.series is None:
                 some = slice(used, used + len(part.added))
                 used += len(part.added)
-                counted = _one_by_one(way, part, missed[some], growth[some])
+                counted = _one_by_one(problem, part, missed[some], growth[some])
             else:
-                counted = _one_by_one(way, part, *part.missed())
+                counted = _one_by_one(problem, part, *part.missed())
         elif isinstance(part, Counted):
-            counted = part.judged(way)
+            counted = part.judged(problem)
         else:
             counted = part
         stage = Stage(begins, counted, inherited, adrift)
@@ -361,21 +368,24 @@ def _judged(way: Way, runs: _Runs, begun_with: float, cycles: float) -> Stages:
         after, relative = stage.wear_after(np.array([begins]))
         inherited, adrift = float(relative[0] * after[0]), stage.drift
     last = stages[-1].counted.last_wear
-    rest = rest_of(way.model, way.load, last) if runs.arrested else None
-    at_rest = rest.uncertainty / last if rest else np.inf
+    limit_wear = limit_wear_of(problem.model, problem.load, last) if runs.arrested else None
+    at_rest = limit_wear.uncertainty / last if limit_wear else np.inf
     arrested = runs.arrested and begins <= cycles
-    return Stages(tuple(stages), arrested, at_rest, cost, runs.fades, way.model.compliant)
+    return Stages(tuple(stages), arrested, at_rest, cost, runs.fades, problem.model.compliant)
 
 
-def _one_by_one(way: Way, part: Single, missed: FloatArray, growth: FloatArray) -> Integrated:
-    """Cycles with what each may have missed (mm) and the factor by which it changes an error."""
+def _one_by_one(
+    problem: Problem, part: Single, missed: FloatArray, growth: FloatArray
+) -> Integrated:
+    """Return the cycles with what each may have missed (mm) and the factor by which it changes an
+    error."""
     wear, added = np.array(part.wear), np.array(part.added)
-    response = way.plain.response(added, growth)
-    lost = roundoff_of_cycles(way.model, way.load, wear) * response
+    response = problem.plain.response(added, growth)
+    lost = roundoff_of_cycles(problem.model, problem.load, wear) * response
     error = [0.0]
     for more, factor in zip(SAFETY * missed + lost, growth, strict=True):
         error.append(error[-1] * factor + more)
     estimate = np.array(error) + ROUNDOFF * wear
     one = np.zeros((1, 1))
-    limit = np.array([way.end])
+    limit = np.array([problem.end])
     return Integrated(Iterates(wear[None], estimate[None], None, None, one, limit, one))
