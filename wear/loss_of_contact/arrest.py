@@ -29,13 +29,13 @@ class LimitWear(NamedTuple):
 
 
 class TabulatedCount(NamedTuple):
-    """The count n of cycles as a function of z, a `coordinate` of the wear; its estimated error in
-    cycles where each part of the `table` starts and where the last one ends; the `limit_wear` that
-    wear tends to at the end of the table, if any. The table is made of `panels`."""
+    """The count n of cycles as a function of z, a `coordinate` of the wear, by the density on
+    `panels`; its estimated error in cycles where each part of the `table` starts and where the last
+    one ends; the `limit_wear` that wear tends to at the end of the table, if any."""
 
     coordinate: Coordinate
-    panels: Panels
     table: Cells
+    panels: Panels
     count_error: FloatArray
     limit_wear: LimitWear | None
     limit: float
