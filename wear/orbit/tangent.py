@@ -137,7 +137,7 @@ def _in_segment(
     start_error: FloatArray,
 ) -> Tangents:
     """Return the derivatives after `cycles` (s, c) since the start of a segment."""
-    size = settings(rtol)
+    size = settings(rtol, problem.breakpoints)
     maps = period_map(problem, counted.edges, size.phase_nodes, size.iteration_tolerance)
     early, early_error = _in_transient(maps, counted, size, start, start_error)
     number = counted.integrated_cycles
