@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         WearError,
         WorkersLost,
     )
+    from wear.fitting.estimate import Fit, fit
     from wear.history import History
     from wear.life import cycles_until
     from wear.load import (
@@ -50,6 +51,7 @@ _HOMES = {
         "WearError",
         "WorkersLost",
     ),
+    "wear.fitting.estimate": ("Fit", "fit"),
     "wear.history": ("History",),
     "wear.life": ("cycles_until",),
     "wear.load": (
@@ -72,10 +74,11 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
-    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Force",
-    "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene",
-    "SceneError", "Sine", "Support", "Table", "UsageError", "WearError", "WorkersLost",
-    "asymptote", "cycles_until", "load_scene", "sobol_indices", "solve", "study",
+    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Fit",
+    "Force", "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin",
+    "Scene", "SceneError", "Sine", "Support", "Table", "UsageError", "WearError",
+    "WorkersLost", "asymptote", "cycles_until", "fit", "load_scene", "sobol_indices", "solve",
+    "study",
 ]  # fmt: skip
 
 
