@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     )
     from wear.regime import Asymptote, asymptote
     from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
+    from wear.sensitivities import Sensitivities, sensitivity
     from wear.solver import solve
     from wear.studies.indices import sobol_indices
     from wear.studies.run import study
@@ -67,6 +68,7 @@ _HOMES = {
     ),
     "wear.regime": ("Asymptote", "asymptote"),
     "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
+    "wear.sensitivities": ("Sensitivities", "sensitivity"),
     "wear.solver": ("solve",),
     "wear.studies.indices": ("sobol_indices",),
     "wear.studies.run": ("study",),
@@ -76,9 +78,9 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Fit",
     "Force", "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin",
-    "Scene", "SceneError", "Sine", "Support", "Table", "UsageError", "WearError",
-    "WorkersLost", "asymptote", "cycles_until", "fit", "load_scene", "sobol_indices", "solve",
-    "study",
+    "Scene", "SceneError", "Sensitivities", "Sine", "Support", "Table", "UsageError", "WearError",
+    "WorkersLost", "asymptote", "cycles_until", "fit", "load_scene", "sensitivity",
+    "sobol_indices", "solve", "study",
 ]  # fmt: skip
 
 

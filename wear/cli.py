@@ -18,6 +18,7 @@ from wear.commands import (
     reproduce,
     run,
     scenes,
+    sensitivity,
     study,
 )
 from wear.faults import AccuracyError, Interrupted, SceneError, UsageError, WorkersLost
@@ -28,6 +29,7 @@ COMMANDS = (
     run.COMMAND,
     asymptote.COMMAND,
     figure.COMMAND,
+    sensitivity.COMMAND,
     fit.COMMAND,
     study.COMMAND,
     explore.COMMAND,

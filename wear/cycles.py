@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.count.approach import counted_stages
 from wear.direct.sequence import most_cycles, span
 from wear.equation import WearEquation, equation_of
 from wear.load import AperiodicLoad, Blocks, Load
+from wear.loss_of_contact.count import counted_stages
 from wear.model import Model, bind
 from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
 

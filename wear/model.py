@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear import pressure_root
+from wear import own_laws, pressure_root
 from wear.faults import UsageError
 from wear.scene import Scene, VariantKey
 
@@ -258,6 +258,8 @@ def _complete(found: Any, u: Real, U_a: Real) -> Fields:
 
 def generated(key: VariantKey) -> ModuleType:
     """Return the generated module of a variant."""
+    if own_laws.is_own(key.law):
+        return own_laws.module(key.law, key.module)
     return import_module(f"wear.generated.{key.law}.{key.module}")
 
 

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wear import own_laws
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.model import bind
@@ -95,7 +96,11 @@ class _Case:
 
     def law(self, kind: str) -> Callable[..., Any]:
         """Return the formula of this scene's contact law."""
-        found: Callable[..., Any] = getattr(formula, f"{kind}_{self.scene.contact.law}")
+        law = self.scene.contact.law
+        if own_laws.is_own(law):
+            own = getattr(own_laws.module(law, "law"), f"{kind}_own")
+            return lambda ratio: Decimal(float(own(float(ratio))))
+        found: Callable[..., Any] = getattr(formula, f"{kind}_{law}")
         return found
 
     def wear_at(self, pressure: float) -> float:
@@ -317,8 +322,8 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """The cycle in which wear stops, from the cycle count, as far as its error lets it be told."""
-    from wear.count.approach import counted_stages
     from wear.cycles import MOST_CYCLES
+    from wear.loss_of_contact.count import counted_stages
 
     found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0)
     arrest = found.arrest

@@ -92,7 +92,7 @@ def solve(
 
     start = time.monotonic()
     scene = as_scene(scene)
-    wanted = _check(scene, cycles, rtol, method, time_limit)
+    wanted = checked_request(scene, cycles, rtol, method, time_limit)
     model = bind(scene)
     deadline = np.inf if time_limit is None else start + time_limit
     wear = _solved(model, scene, wanted, rtol, method, deadline)
@@ -106,7 +106,7 @@ def solve(
     return history
 
 
-def _check(
+def checked_request(
     scene: Scene,
     cycles: float | Iterable[float],
     rtol: float,

@@ -13,8 +13,9 @@ from derive.results.sensitivities import POWERS, WITHOUT_EFFECT
 from wear.cycles import sweep
 from wear.faults import UsageError
 from wear.load import Block, Blocks, Constant, Force, Harmonics, Load, Sine, Table
+from wear.parameters import parameters_of
 from wear.scene import KEYS, Scene, load_scene
-from wear.sensitivities import gradients, parameters_of
+from wear.sensitivities import gradients
 
 FloatArray = NDArray[np.float64]
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from wear.scene import Scene
 
 CONFIDENCE = 0.95
-FARTHEST = 10.0  # e-folds, or multiples of its size, that a parameter is followed
+FARTHEST = 7.0  # e-folds (a factor of a thousand), or multiples of its size, that it is followed
 SEARCHED = 20.0  # the same, around the scene, for the estimate
 LEAST = 1e-7  # singular value, of the largest: below are the errors of the derivatives
 LOST = 1e3  # residual where a point has no scene or no wear

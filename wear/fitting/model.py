@@ -161,7 +161,7 @@ def _gradients(
 
 def given(scene: Scene, key: str) -> float | None:
     """Return the number that a scene has for a key, None if its wear depends on none such."""
-    from wear.sensitivities import parameters_of
+    from wear.parameters import parameters_of
 
     return parameters_of(scene).get(key)
 

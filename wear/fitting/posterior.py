@@ -23,10 +23,10 @@ BEGIN = 0.3  # standard errors, and sizes at most, around the estimate where wal
 def posterior(found: Fit, steps: int, seed: int = 0) -> FloatArray:
     """Return samples (m, p) of the posterior, in the units of the keys.
 
-    Priors are flat in what is estimated (logarithms of positive parameters) up to factors of e^10,
-    or ten times its size; an unknown scatter has Jeffreys' prior, and is integrated out (A. Gelman
-    et al., *Bayesian Data Analysis*, CRC 2013, chapter 3). The sampler is that of D. Foreman-Mackey
-    et al., PASP 125, 306 (2013).
+    Priors are flat in what is estimated (logarithms of positive parameters) up to factors of e^7,
+    or seven times its size; an unknown scatter has Jeffreys' prior, and is integrated out (A.
+    Gelman et al., *Bayesian Data Analysis*, CRC 2013, chapter 3). The sampler is that of D.
+    Foreman-Mackey et al., PASP 125, 306 (2013).
 
     Parameters
     ----------

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from wear import own_laws
 from wear.faults import UsageError
 from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.scene import Scene, load_scene
@@ -30,6 +31,8 @@ GROUPS: Mapping[str, tuple[str, ...]] = {
 
 def scene_data(scene: Scene) -> dict[str, Any]:
     """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
+    if own_laws.is_own(scene.contact.law):
+        raise UsageError("the explorer has the contact laws of the package alone")
     other = load_scene("section3").parameters() | {"k": 1e5}
     numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
     key = scene.variant
