@@ -75,37 +75,37 @@ class Model:
 
     @property
     def module(self) -> Any:
-        """The generated module."""
+        """Return the generated module."""
         return self.bound.module
 
     @property
     def constants(self) -> Any:
-        """The constants of a run."""
+        """Return the constants of a run."""
         return self.bound.constants
 
     @property
     def variant(self) -> str:
-        """The name of the variant."""
+        """Return the name of the variant."""
         return str(self.module.VARIANT) + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
     @property
     def law(self) -> str:
-        """The name of the contact law."""
+        """Return the name of the contact law."""
         return str(self.module.LAW)
 
     @property
     def operations(self) -> Mapping[str, int]:
-        """How many arithmetic operations each generated function costs."""
+        """Return how many arithmetic operations each generated function costs."""
         return {**self.module.OPERATIONS, **(self.loss.module.OPERATIONS if self.loss else {})}
 
     @property
     def compliant(self) -> bool:
-        """Whether the bearing stands on springs."""
+        """Return whether the bearing stands on springs."""
         return "compliance" in self.constants._fields
 
     @property
     def ends_at_3_sigma(self) -> bool:
-        """Whether contact is lost at h > 3 sigma."""
+        """Return whether contact is lost at h > 3 sigma."""
         return self.loss is not None
 
     def select(self, index: Any) -> Model:
@@ -200,7 +200,8 @@ class Model:
 
     @property
     def held_margin(self) -> Real:
-        """The margin (mm) up to which a compliant support keeps h at 3 sigma; 0 with a rigid one.
+        """Return the margin (mm) up to which a compliant support keeps h at 3 sigma; 0 with a rigid
+        one.
 
         There the pressure that does so is that of the contact law: all of the residual at no
         pressure.

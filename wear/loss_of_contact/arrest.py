@@ -7,6 +7,7 @@ import numpy as np
 from wear.loss_of_contact.increments import Coordinate
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
+from wear.orbit.abel import Panels
 from wear.orbit.iterates import Cells
 
 NO_DIGIT = 0.1  # relative error
@@ -28,12 +29,14 @@ class LimitWear(NamedTuple):
 
 
 class TabulatedCount(NamedTuple):
-    """The count n of cycles as a function of z, a `coordinate` of the wear; its estimated error in
+    """The count n of cycles as a function of z, a `coordinate` of the wear, by the density on
+    `panels`; its estimated error in
     cycles where each part of the `table` starts and where the last one ends; the `limit_wear` that
     wear tends to at the end of the table, if any."""
 
     coordinate: Coordinate
     table: Cells
+    panels: Panels
     count_error: FloatArray
     limit_wear: LimitWear | None
     limit: float
