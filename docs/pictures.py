@@ -17,7 +17,7 @@ from wear.cli import main as wear
 HERE = Path(__file__).resolve().parent
 OF_THE_REPORT = ("wear-curve.svg", "system.svg")
 OF_COMMANDS = {"section4.svg": ("figure", "section4")}
-SCENE, SHOWN = "fast-wear", 12
+SCENE, SHOWN = "section4", 12
 
 
 def method() -> bytes:
@@ -32,18 +32,18 @@ def method() -> bytes:
     scene = package.load_scene(SCENE)
     cycles = np.arange(SHOWN + 1)
     u = np.append(0.0, package.solve(scene, cycles[1:].tolist()).u_c)
-    between = np.linspace(u[1], u[-1], 60)
-    none, last = np.zeros(1), np.array([float(SHOWN)])
-    count, _ = orbit(equation_of([scene]), last, 1e-8, none, none).until(between[None])
+    count = np.linspace(0.0, SHOWN, 97)  # cycles, and what is between them
+    found = orbit(equation_of([scene]), np.array([1e3]), 1e-8, np.zeros(1), np.zeros(1))
+    (between,), (after,) = (found.after((count + more)[None])[0] for more in (0, 1))
     line, dots = stroke(0), stroke(1)
     with styled():
         figure, whole = canvas(PAGE, 0.4 * PAGE)
         whole.remove()
         left, right = figure.subplots(1, 2)
-        left.plot(1e3 * u[:-1], 1e3 * np.diff(u), color=line.colour)
+        left.plot(1e3 * between, 1e3 * (after - between), color=line.colour)
         left.plot(1e3 * u[:-1], 1e3 * np.diff(u), "o", color=dots.colour)
         left.set(ylabel=r"Wear of a cycle  $D(u)$  ($\mathrm{\mu m}$)", ylim=(0.0, None))
-        right.plot(1e3 * between, count[0], color=line.colour)
+        right.plot(1e3 * between, count, color=line.colour)
         right.plot(1e3 * u, cycles, "o", color=dots.colour)
         right.set(ylabel="Cycles  $n(u)$", yticks=cycles[::2])
         for axes in (left, right):
