@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         WearError,
         WorkersLost,
     )
+    from wear.fitting.estimate import Fit, fit
     from wear.history import History
     from wear.inside import fields_inside
     from wear.life import cycles_until
@@ -55,6 +56,7 @@ _HOMES = {
         "WorkersLost",
     ),
     "wear.cycles": ("sweep",),
+    "wear.fitting.estimate": ("Fit", "fit"),
     "wear.history": ("History",),
     "wear.inside": ("fields_inside",),
     "wear.life": ("cycles_until",),
@@ -80,10 +82,10 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
-    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Force",
-    "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene",
-    "SceneError", "Sensitivities", "Sine", "Support", "Table", "UsageError", "WearError",
-    "WorkersLost", "asymptote", "bind", "cycles_until", "fields_inside", "load_scene",
+    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Fit",
+    "Force", "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin",
+    "Scene", "SceneError", "Sensitivities", "Sine", "Support", "Table", "UsageError", "WearError",
+    "WorkersLost", "asymptote", "bind", "cycles_until", "fields_inside", "fit", "load_scene",
     "sensitivity", "sobol_indices", "solve", "study", "sweep",
 ]  # fmt: skip
 
