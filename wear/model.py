@@ -198,6 +198,22 @@ class Model:
         p = self._limited(np.inf, 1.0) * self.margin(u, U_a)
         return self.module.rate(p, self.constants), self._edge_slope(u) + np.zeros_like(U_a)
 
+    def edge_rate_gradient(self, u: Real, U_a: Real) -> dict[str, Real]:
+        """Return the derivatives of the wear rate while a compliant support keeps h at 3 sigma,
+        with respect to the load and to every physical parameter, by symbol."""
+        rate, _ = self.edge_rate_and_slope(u, U_a)
+        per_margin = self.module.rate(self._limited(np.inf, 1.0), self.constants)
+        by_constants = dict.fromkeys(self.constants._fields, 0.0 * rate)
+        # The pressure there is the margin over the compliance.
+        by_constants["wear_per_pressure"] = rate / self.module.rate(1.0, self.constants)
+        by_constants["compliance"] = -rate / self.constants.compliance
+        by_rate = self.bound.gradient(type(self.constants)(**by_constants))
+        by_margin = self.margin_gradient(u, U_a)
+        return {
+            symbol: by_rate.get(symbol, 0.0) + per_margin * by_margin.get(symbol, 0.0)
+            for symbol in ("U_a", *by_rate)
+        }
+
     @property
     def held_margin(self) -> Real:
         """Return the margin (mm) up to which a compliant support keeps h at 3 sigma; 0 with a rigid

@@ -21,6 +21,8 @@ from numpy.typing import NDArray
 from wear.checked import did_you_mean
 from wear.cycles import groups
 from wear.faults import UsageError
+from wear.loss_of_contact.count import counted_stages
+from wear.loss_of_contact.tangent import stage_tangents
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import acting_loads, parameters_of, parametrised
@@ -88,9 +90,6 @@ def _of_one_variant(
 ) -> Tangents:
     """Return the derivatives of the wear of scenes of one variant; of one alone if its load
     consists of blocks."""
-    lost = [scene.name for scene in scenes if scene.contact.ends_at_3_sigma]
-    if lost:
-        raise UsageError(f"{lost[0]}: no derivatives with loss of contact")
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
     found = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
@@ -101,8 +100,13 @@ def _of_one_variant(
         here = (cycles >= acting.begins) & (cycles <= end)
         wanted = np.tile(np.append(cycles[here], end) - acting.begins, (number, 1))
         equation = parametrised(scenes, acting, keys)
-        counted = orbit(equation, wanted[:, -1], rtol, start, missed)
-        part = tangents(equation, counted, wanted, rtol, slope, slope_error)
+        if equation.model.ends_at_3_sigma:
+            begin = float(start[0]), np.inf, float(missed[0])
+            stages = counted_stages(equation.model, acting.loads[0], wanted[0, -1], rtol, *begin)
+            part = stage_tangents(stages, equation, wanted, rtol, slope, slope_error)
+        else:
+            counted = orbit(equation, wanted[:, -1], rtol, start, missed)
+            part = tangents(equation, counted, wanted, rtol, slope, slope_error)
         for whole, values in zip(found, part, strict=True):
             whole[..., here] = values[..., :-1]
         start, missed = part.u[:, -1], part.error[:, -1] * part.u[:, -1]
