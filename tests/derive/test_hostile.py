@@ -318,7 +318,7 @@ CASES: dict[str, Case] = {
     ),
     "the other branch of Lambert's function": (  # u_c = q/3
         lambda: inverted(
-            sp.Eq(u_c, -q * sp.LambertW(-t / T, -1)),
+            sp.Eq(u_c, -q * sp.LambertW(-t / T, -1), evaluate=False),
             given(sp.Eq(t, T * u_c / q * sp.exp(-u_c / q))),
         ),
         lambda: inverted(sp.Eq(u_c, q * t / T), given(sp.Eq(t, T * u_c / q))),
