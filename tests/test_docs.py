@@ -162,11 +162,17 @@ def pictures():
 
 
 def test_every_picture_is_retaken_and_used(pictures):
-    taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS}
+    taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS, *pictures.DRAWN}
     kept = {path.name for path in (DOCS / "_static").iterdir() if path.suffix in (".png", ".svg")}
     assert taken == kept
     texts = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
     assert not [name for name in taken if f"_static/{name})" not in texts]
+
+
+def test_no_paragraph_on_the_method_is_long():
+    text = (DOCS / "method.md").read_text(encoding="utf-8")
+    parts = re.split(r"\n\n|\n(?=- |\d\. )", re.sub(r"(?s)```.*?```", "", text))
+    assert max(len(part.split()) for part in parts) <= 120
 
 
 def test_every_example_is_used():
