@@ -39,6 +39,8 @@ class Assume(Rule):
         ):
             raise RuleError(f"{said.text}: cannot be assumed")
         claim = Property(said.text) if relation is sp.true else claim_of(relation, named)
+        if not isinstance(claim, Limit) and any(side in (sp.oo, -sp.oo) for side in relation.args):
+            raise RuleError(f"{said.text}: infinity is the value of limits alone")
         if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
             raise RuleError(f"{said.text}: no equation")
         if named and isinstance(claim, Equality) and claim.lhs.is_Symbol:

@@ -354,6 +354,11 @@ CASES: dict[str, Case] = {
         lambda: given(sp.Eq(f_c, 5)),
         "is a new name",
     ),
+    "a number that is infinite": (  # 0 times oo
+        lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo), Kind.DEFINITION)),
+        lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo))),
+        "limits alone",
+    ),
     "a circle of definitions": (
         lambda: defined(b_0, b_0 + 1),
         lambda: defined(b_0, h_0 + 1),
