@@ -17,10 +17,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import sympy as sp
+from flint import fmpq
 from sympy.core.function import AppliedUndef
 
 from ..symbols import t
-from .balls import ball
+from .balls import ball, fraction
 from .draws import WILD, drawn, with_law
 from .models import Model
 from .truth import truth, varies
@@ -90,7 +91,7 @@ def falsify(
             found = Counterexample(trial.described(), outcome.where, trial.seed)
             return Answer(found, models, decided + 1)
         decided += outcome.holds is True
-        if decided >= (enough if trial.model.motion else 3 * enough):
+        if decided >= (enough if trial.model.rates else 3 * enough):
             break
     return Answer(None, models, decided)
 
@@ -154,7 +155,7 @@ class _Trial:
         for datum in {v for slope in slopes for v in slope.variables if v != t}:
             value = self.model.data.get(datum)
             if value is not None and value.is_Rational:
-                yield self.model.with_datum(datum, value + sp.Rational(1, 10**6))
+                yield self.model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
 
     def described(self) -> str:
         """Return the model in one line, as far as the relations ask for it."""
@@ -163,8 +164,8 @@ class _Trial:
 
     def _shown(self, quantity: sp.Expr) -> str:
         model, name = self.model, _name(quantity)
-        if model.motion is not None and name in model.motion.rates:
-            return f"{name} from {name}(0) = {model.motion.start[name]} on"
+        if name in model.start:
+            return f"{name} from {name}(0) = {model.start[name]} on"
         value = model.fields.get(name, model.data.get(quantity))
         if value is None or value.is_Rational or quantity.args:
             return "" if value is None else f"{name} = {_bare(value)}"
