@@ -1,7 +1,7 @@
 # Needs make and Python >= 3.11, nothing else. `make help` lists what there is.
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test docs clean
+.PHONY: help reproduce test proof docs bench clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -25,9 +25,17 @@ test: $(VENV)/installed-test ## run all checks: style, types, import walls, test
 	$(BIN)/python -m pytest -n 2 || status=1; \
 	exit $$status
 
+proof: $(VENV)/installed ## prove the steps of the derivation anew with Coq
+	@$(BIN)/derive export --target coq -o build/proof --check
+
 docs: $(VENV)/installed-docs ## build the documentation
 	@$(BIN)/sphinx-build -W -q -b html docs docs/_build/html
 	@echo "The documentation lies in docs/_build/html/index.html"
+
+bench: $(VENV)/installed-docs ## measure speed against error anew, about five minutes: docs/bench and README
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[peers]'
+	@$(BIN)/wear bench --peers -o docs/bench
+	@$(BIN)/python docs/bench/readme.py
 
 clean: ## remove everything that the targets above made
 	rm -rf $(VENV) $(REPORT) build dist *.egg-info docs/_build

@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import cache
 from typing import NamedTuple
 
+from .coq.record import proved_by_coq
 from .dimensions import homogeneous
 from .falsifier.judgements import tried
 from .kernel import Judgement, replayed
@@ -26,10 +27,12 @@ class Check(NamedTuple):
 def checks(judgement: Judgement) -> tuple[Check, ...]:
     """Return what comes of checking one step; its parents are steps of their own."""
     fault, refusal = homogeneous(judgement.relation), replayed(judgement)
-    return (
+    found = (
         Check("dimensions", fault is None, fault or "both sides agree"),
         Check("proof", refusal is None, refusal or judgement.rule.source),
     )
+    closed = Check("coq", True, "closed by Coq, as its record says")
+    return (*found, closed) if proved_by_coq(judgement) else found
 
 
 def on_models(judgement: Judgement) -> tuple[Check, ...]:

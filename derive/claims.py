@@ -39,6 +39,49 @@ class FirstZero(sp.Expr):
         return rf"\min\left\{{{variable} > 0 : {expr} = 0\right\}}"
 
 
+class Term(sp.Expr):
+    """A coefficient of the averaged expansion of ``ds/dtau = rho F(s, tau)/F(oo)``.
+
+    ``Drift(n, F, s, tau, rho)`` is c_n and ``Oscillation(n, F, s, tau, rho)`` is w_n of the formal
+    solution ``s = m + w_1/m + w_2/m^2 + ...``, ``dm/dtau = rho (1 + c_1/m + c_2/m^2 + ...)``,
+    where each w_n has the period 1 of F in tau and the mean zero.
+    """
+
+    is_commutative = True
+    is_real = True
+    letter = ""
+
+    @property
+    def power(self) -> int:
+        """Return the power of a roughness whose dimension the coefficient has."""
+        return int(self.args[0])
+
+    @property
+    def free_symbols(self) -> set[sp.Basic]:
+        """Return the symbols without s, which is bound."""
+        return set().union(*(part.free_symbols for part in self.args)) - {self.args[2]}
+
+    def _latex(self, printer: sp.printing.printer.Printer) -> str:
+        n, law, *_ = map(printer.doprint, self.args)
+        return rf"{self.letter}_{{{n}}}\left[{law}\right]"
+
+
+class Drift(Term):
+    """c_n of the expansion: the growth of the mean at order 1/m^n; it does not vary in tau."""
+
+    letter = "c"
+
+
+class Oscillation(Term):
+    """w_n of the expansion: the oscillation at order 1/m^n, at the phase tau."""
+
+    letter = "w"
+
+    @property
+    def power(self) -> int:
+        return int(self.args[0]) + 1
+
+
 class Claim(ABC):
     """What a judgement says."""
 

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 
 from derive import command_line, terminal
-from derive.commands import code, generate, latex, list_, show, steps, verify
+from derive.commands import code, export, generate, latex, list_, show, steps, verify
 from derive.faults import UsageError
 
 COMMANDS = (
@@ -17,6 +17,7 @@ COMMANDS = (
     latex.COMMAND,
     code.COMMAND,
     generate.COMMAND,
+    export.COMMAND,
 )
 
 EXAMPLES = """\

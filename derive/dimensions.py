@@ -14,7 +14,7 @@ from functools import cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .claims import FirstZero, landau_o
+from .claims import FirstZero, Term, landau_o
 from .symbols import QUANTITIES
 
 Dimension = tuple[Fraction, Fraction, Fraction]
@@ -57,6 +57,10 @@ def dimension(expr: sp.Expr) -> Dimension | None:
         return parse_unit(QUANTITIES[expr.name].unit) if expr.name in QUANTITIES else NONE
     if isinstance(expr, AppliedUndef) and expr.func.__name__ in QUANTITIES:
         return parse_unit(QUANTITIES[expr.func.__name__].unit)
+    if isinstance(expr, Term):
+        _, law, roughness, _, growth = expr.args
+        dimension(law.xreplace({roughness: growth}))  # of one dimension, in a period of 1
+        return _combine(NONE, dimension(growth), Fraction(expr.power))
     if isinstance(expr, sp.Derivative):
         result = dimension(expr.expr)
         for variable, count in expr.variable_count:

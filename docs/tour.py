@@ -98,10 +98,11 @@ print("growth per decade, as a multiple of A ln 10:")
 print(*(f"{step:.4f}" for step in steps))
 
 # %% What is left of the wear without the straight line, over the logarithm of the cycles
-from wear.figure_data import Line
-from wear.figures import wear_history
+from wear.figure_data import WEAR, Line, Panel
+from wear.figures import history as drawn
 
-wear_history([Line("left of $u_c$", cycles.astype(float), left)], logarithmic=True)
+shown = Line("left of $u_c$", cycles.astype(float), left)
+drawn([Panel(WEAR, (shown,))], logarithmic=True)
 
 # %% [markdown]
 # ## Many scenes at once

@@ -24,9 +24,20 @@ if TYPE_CHECKING:
     )
     from wear.history import History
     from wear.life import cycles_until
-    from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
+    from wear.load import (
+        Block,
+        Blocks,
+        Constant,
+        Force,
+        ForceTable,
+        Harmonics,
+        HistoryLoad,
+        Sine,
+        Table,
+    )
     from wear.regime import Asymptote, asymptote
     from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
+    from wear.sensitivities import Sensitivities, sensitivity
     from wear.solver import solve
     from wear.studies.indices import sobol_indices
     from wear.studies.run import study
@@ -42,9 +53,20 @@ _HOMES = {
     ),
     "wear.history": ("History",),
     "wear.life": ("cycles_until",),
-    "wear.load": ("Block", "Blocks", "Constant", "Harmonics", "HistoryLoad", "Sine", "Table"),
+    "wear.load": (
+        "Block",
+        "Blocks",
+        "Constant",
+        "Force",
+        "ForceTable",
+        "Harmonics",
+        "HistoryLoad",
+        "Sine",
+        "Table",
+    ),
     "wear.regime": ("Asymptote", "asymptote"),
     "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
+    "wear.sensitivities": ("Sensitivities", "sensitivity"),
     "wear.solver": ("solve",),
     "wear.studies.indices": ("sobol_indices",),
     "wear.studies.run": ("study",),
@@ -52,10 +74,11 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
-    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Harmonics",
-    "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene", "SceneError", "Sine",
-    "Support", "Table", "UsageError", "WearError", "WorkersLost", "asymptote", "cycles_until",
-    "load_scene", "sobol_indices", "solve", "study",
+    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Force",
+    "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene",
+    "SceneError", "Sensitivities", "Sine", "Support", "Table", "UsageError", "WearError",
+    "WorkersLost", "asymptote", "cycles_until", "load_scene", "sensitivity", "sobol_indices",
+    "solve", "study",
 ]  # fmt: skip
 
 

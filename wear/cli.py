@@ -17,6 +17,7 @@ from wear.commands import (
     reproduce,
     run,
     scenes,
+    sensitivity,
     study,
 )
 from wear.faults import AccuracyError, Interrupted, SceneError, UsageError, WorkersLost
@@ -27,6 +28,7 @@ COMMANDS = (
     run.COMMAND,
     asymptote.COMMAND,
     figure.COMMAND,
+    sensitivity.COMMAND,
     study.COMMAND,
     explore.COMMAND,
     report.COMMAND,

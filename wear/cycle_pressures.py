@@ -63,7 +63,8 @@ def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePress
     for part in fields_inside(model, scene.load, begun, phases, rtol):
         rows = np.searchsorted(begun, part.cycles)
         periods = np.array([span(scene.load, int(cycle))[0].period for cycle in part.cycles])
-        for all_, some in zip(per_cycle, _of(part, over, rate * periods), strict=True):
+        pressures = _of(part, over, rate * periods, scene.given_load)
+        for all_, some in zip(per_cycle, pressures, strict=True):
             all_[rows] = some
     place = np.searchsorted(begun, cycles - 1.0)
     for all_, values in zip(found, per_cycle, strict=True):
@@ -108,17 +109,19 @@ def _sampled(values: FloatArray, over: Mesh) -> _Sampled:
     return _Sampled(values[:, :edges], values[:, edges:].reshape(len(values), *over.phases.shape))
 
 
-def _of(part: Inside, over: Mesh, wear_of_unit: FloatArray) -> CyclePressures:
+def _of(part: Inside, over: Mesh, wear_of_unit: FloatArray, given_load: bool) -> CyclePressures:
     """Peak, mean and share of contact of cycles sampled at the edges and nodes; `wear_of_unit` is
-    the wear of each (n,) under a mean pressure of 1 MPa, mm."""
+    the wear of each (n,) under a mean pressure of 1 MPa, mm. A pressure that is given is smooth
+    between the edges also where it vanishes."""
     fields, p = part.fields, _sampled(part.fields.p, over)
     touching = _sampled(np.where(part.fields.p > 0.0, 1.0, -1.0), over)
     whole = np.min(touching.nodes, axis=-1) > 0.0
     whole &= (touching.edges[:, :-1] > 0.0) & (touching.edges[:, 1:] > 0.0)
     fraction = np.ones(len(part.cycles))
     if not whole.all():
-        margin = CONTACT_REACH * fields.sigma - fields.h + fields.U_c
+        margin = fields.p if given_load else CONTACT_REACH * fields.sigma - fields.h + fields.U_c
         fraction = _share_above_zero(_sampled(margin, over), touching, over, whole)
+    whole |= given_load
     tail = np.max(np.abs(p.nodes @ over.rule.coefficients.T)[..., -2:], axis=-1)
     largest = np.maximum(np.max(p.edges, axis=1), np.max(p.nodes, axis=(1, 2)))
     smooth = whole & (tail <= RESOLVED * largest[:, None])

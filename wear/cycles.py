@@ -19,11 +19,10 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.count.stage import Stages, evaluate_stages
-from wear.count.stages import counted_stages
 from wear.direct.sequence import most_cycles, span
 from wear.equation import WearEquation, equation_of
 from wear.load import AperiodicLoad, Blocks, Load
+from wear.loss_of_contact.count import counted_stages
 from wear.model import Model, bind
 from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
 
@@ -132,45 +131,6 @@ class InContact(NamedTuple):
             yield f"from cycle {idle} on a cycle adds less than double precision resolves"
 
 
-class WithLossOfContact(NamedTuple):
-    """A count where contact ends at 3 sigma."""
-
-    found: Stages
-    model: Model
-
-    @property
-    def cost(self) -> Cost:
-        return Cost(*self.found.cost)
-
-    @property
-    def last_wear(self) -> float:
-        return self.found.last_wear
-
-    @property
-    def ended(self) -> bool:
-        return self.found.arrested
-
-    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return evaluate_stages(self.found, cycles)
-
-    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
-        count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
-        for stage in reversed(self.found.stages):
-            after, missed = stage.cycles_until(wear)
-            here = np.isfinite(after)
-            count[here], error[here] = after[here], missed[here]
-        return count, error
-
-    def notices(self, wear: FloatArray) -> Iterator[str]:
-        arrest, limit = self.found.arrest, self.found.stages[-1].counted.limit
-        if np.any(wear >= NEARLY * limit):
-            yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
-        elif arrest is not None:
-            # On springs the pressure vanishes with the distance that is left: no cycle is the last.
-            fades = arrest.fades or (self.model.compliant and arrest.cycle > 0)
-            yield str(arrest._replace(fades=fades))
-
-
 # Trial states far off the solution may overflow; what is no number fails the estimate of error.
 @np.errstate(all="ignore")
 def count_cycles(
@@ -185,8 +145,7 @@ def count_cycles(
     """Count up to `cycles` of a load that repeats, from the wear `start` (mm), known up to
     `start_error`; after the `deadline` (`time.monotonic()`) nothing is refined any more."""
     if model.ends_at_3_sigma:
-        found = counted_stages(model, load, cycles, rtol, start, deadline, start_error)
-        return WithLossOfContact(found, model)
+        return counted_stages(model, load, cycles, rtol, start, deadline, start_error)
     equation = WearEquation(model, (load,))
     one = np.ones(1)
     return InContact(orbit(equation, cycles * one, rtol, start * one, start_error * one, deadline))
@@ -379,27 +338,20 @@ def _each(
     """Return two numbers (scenes, number) of every scene: of those of one variant `together`, of
     those with loss of contact or a load in blocks each `alone`."""
     first, second = np.empty((2, len(scenes), number))
-    for which in _groups(scenes):
+    for which in groups(scenes):
         some = [scenes[i] for i in which.tolist()]
-        if _is_alone(some[0]):
-            answers = [alone(scene) for scene in some]
-            first[which] = np.stack([answer[0] for answer in answers])
-            second[which] = np.stack([answer[1] for answer in answers])
-        else:
-            first[which], second[which] = together(equation_of(some))
+        lone = some[0].contact.ends_at_3_sigma or isinstance(some[0].load, Blocks)
+        first[which], second[which] = alone(some[0]) if lone else together(equation_of(some))
     return first, second
 
 
-def _groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
-    """Return which scenes are of one kind, no more than go together."""
+def groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
+    """Return which scenes are solved together: those of one variant whose loads repeat, no more
+    than go together; a scene with loss of contact or a load in blocks is alone."""
     kinds: dict[object, list[int]] = {}
     for i, scene in enumerate(scenes):
-        kinds.setdefault((scene.variant, _is_alone(scene)), []).append(i)
+        alone = scene.contact.ends_at_3_sigma or isinstance(scene.load, Blocks)
+        kinds.setdefault(i if alone else scene.variant, []).append(i)
     for which in kinds.values():
         for at in range(0, len(which), TOGETHER):
             yield np.array(which[at : at + TOGETHER])
-
-
-def _is_alone(scene: Scene) -> bool:
-    """Return whether a scene is solved by itself."""
-    return scene.contact.ends_at_3_sigma or isinstance(scene.load, Blocks)

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from enum import Enum
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.load import Blocks, HistoryLoad
+
 if TYPE_CHECKING:
+    from wear.fitting.readings import Specimen
+    from wear.history import History
     from wear.scene import Scene
 
 FloatArray = NDArray[np.float64]
 PHASES = 800  # of a cycle, besides the peaks of the load
+_SECONDS_PER_HOUR = 3600.0
+_MEASURED = 6  # family of readings that are of no run
 
 
 @dataclass(frozen=True)
@@ -39,8 +46,138 @@ class Line:
 
     def positive(self) -> Line:
         """The part that a logarithmic axis can show."""
-        shown = self.x > 0.0
+        return self._where(self.x > 0.0)
+
+    def pressed(self) -> Line:
+        """The part with values above zero."""
+        return self._where(self.y > 0.0)
+
+    def _where(self, shown: NDArray[np.bool_]) -> Line:
         return replace(self, x=self.x[shown], y=self.y[shown])
+
+
+class Curve(NamedTuple):
+    """A column of a history as a line: its name in files, and name and family in a figure."""
+
+    column: str
+    name: str
+    family: int
+
+
+class Quantity(NamedTuple):
+    """What a pair of axes shows: its label, how many units of the figure make one of ours, and the
+    columns of a history that are of this kind."""
+
+    label: str
+    scale: float
+    curves: tuple[Curve, ...] = ()
+
+
+WEAR = Quantity(
+    r"Wear  $u$  ($\mathrm{\mu m}$)", 1e3,
+    (Curve("bearing_wear_mm", "bearing", 0), Curve("pin_wear_mm", "pin", 1)),
+)  # fmt: skip
+BEARING_WEAR = Quantity(r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)", WEAR.scale)
+ROUGHNESS = Quantity(
+    r"Roughness  $\sigma$  ($\mathrm{\mu m}$)", 1e3,
+    (Curve("bearing_roughness_mm", "bearing", 0), Curve("pin_roughness_mm", "pin", 1)),
+)  # fmt: skip
+PRESSURE = Quantity(
+    r"Pressure  $p$  (MPa)", 1.0,
+    (
+        Curve("peak_pressure_MPa", "peak", 2), Curve("mean_pressure_MPa", "mean", 3),
+        Curve("pressure_at_start_MPa", "start of cycle", 4),
+    ),
+)  # fmt: skip
+CONTACT = Quantity("Fraction in contact", 1.0, (Curve("contact_fraction", "in contact", 5),))
+_PLAIN = ("bearing", "in contact")  # go without saying where a run is named
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One pair of axes: lines of a quantity, beside them `points` that were measured, and a value
+    that is not to be exceeded, the `limit`."""
+
+    quantity: Quantity
+    lines: tuple[Line, ...]
+    points: tuple[Line, ...] = ()
+    limit: float | None = None
+
+
+class Abscissa(Enum):
+    """What the states of a run are drawn against, and how it is labelled."""
+
+    CYCLES = r"Cycles  $t/T$"
+    HOURS = "Running time  (h)"
+
+    def of(self, scene: Scene, cycles: FloatArray) -> FloatArray:
+        """Return where numbers of cycles (n,) lie."""
+        if self is Abscissa.CYCLES:
+            return cycles
+        load = scene.load
+        if isinstance(load, Blocks | HistoryLoad):
+            seconds = np.array([load.time_at(n) for n in cycles.tolist()])
+        else:
+            seconds = cycles * scene.periodic_load.period
+        return seconds / _SECONDS_PER_HOUR
+
+
+def panels_of(
+    histories: Sequence[History],
+    names: Sequence[str] = ("",),
+    abscissa: Abscissa = Abscissa.CYCLES,
+) -> tuple[Panel, ...]:
+    """Return wear, roughness, pressure, and where contact is lost the fraction in contact.
+
+    Of one run each quantity has its colour; of several each run has, and the quantities of a panel
+    differ by dash. What a variant does not have is left out, of several runs also the pressure at
+    the start of a cycle.
+    """
+    several = len(histories) > 1
+    panels = []
+    for quantity in (WEAR, ROUGHNESS, PRESSURE, CONTACT):
+        lines: list[Line] = []
+        for place, (history, name) in enumerate(zip(histories, names, strict=True)):
+            x = abscissa.of(history.definition, history.cycles.astype(float))
+            curves = list(_curves(history, quantity))[: 2 if several else None]
+            for variant, (curve, values) in enumerate(curves):
+                known = np.isfinite(values)
+                line = Line(curve.name, x[known], values[known], curve.family)
+                if several:
+                    full = name if curve.name in _PLAIN else f"{name}, {curve.name}"
+                    line = replace(line, name=full, family=place, variant=variant)
+                lines.append(line)
+        if lines:
+            panels.append(Panel(quantity, tuple(lines)))
+    return tuple(panels)
+
+
+def _curves(history: History, quantity: Quantity) -> Iterator[tuple[Curve, FloatArray]]:
+    """Yield the columns that the variant has, contact only where it is lost."""
+    columns = {column.name: column.values for column in history.columns()}
+    trivial = 1.0 if quantity is CONTACT else 0.0
+    for place, curve in enumerate(quantity.curves):
+        values = columns.get(curve.column, np.array([np.nan]))
+        known = values[np.isfinite(values)]
+        always = place == 0 and quantity is not CONTACT
+        if len(known) and (always or np.any(known != trivial)):
+            yield curve, values
+
+
+def points_of(
+    specimens: Sequence[Specimen], runs: Mapping[str, Scene], abscissa: Abscissa
+) -> tuple[Line, ...]:
+    """Return the readings of each specimen, in the colour of the run of its name if any."""
+    first, families = next(iter(runs.values())), dict(zip(runs, range(len(runs)), strict=True))
+    return tuple(
+        Line(
+            f"{each.name} measured".strip(),
+            abscissa.of(runs.get(each.name, first), each.cycles),
+            each.wear_mm,
+            families.get(each.name, _MEASURED + place),
+        )
+        for place, each in enumerate(specimens)
+    )
 
 
 def spans_decades(lines: Sequence[Line]) -> bool:
@@ -76,13 +213,13 @@ def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> 
 
 @dataclass(frozen=True)
 class Method:
-    """Time against true error of one method: arrays of shape (n,), n tolerances.
+    """Time of one method against its true error or the number of cycles: arrays of shape (n,).
 
-    `failed` marks runs that stopped early or missed their tolerance by far; they are drawn hollow.
+    `failed` marks runs that missed their tolerance, or were not made; they are drawn hollow.
     """
 
     name: str
-    error: FloatArray
+    x: FloatArray
     seconds: FloatArray
     failed: NDArray[np.bool_]
 

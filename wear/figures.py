@@ -1,15 +1,14 @@
 """The figures, drawn from plain arrays.
 
 Overview
-    history                 wear, roughness and pressure against cycles, of one scene
-    wear_history            wear against cycles, one line a solid or model        (Fig. 2a)
-    roughness_history       roughness against cycles                              (Fig. 2b)
-    wear_with_asymptote     wear with the straight lines or curves it tends to    (Fig. 3a)
-    wear_by_coefficient     wear for several wear coefficients                    (Fig. 3b)
+    history                 wear, roughness, pressure, contact against cycles or time
+    wear_with_asymptote     wear with the straight lines or curves it tends to
     pressure_in_cycles      contact pressure over the phase of chosen cycles
     speed_against_error     time against true error, one line a method
+    speed_against_cycles    time against the number of cycles, one line a method
     wear_by_decades         wear over all decades with straight lines behind it
     regime_map              the regimes over f_c and the gap at the peak
+    tornado                 elasticities as bars, the largest on top
     Each returns a matplotlib `Figure`; `wear.figure_style` makes files of it.
 Units
     Lengths come in mm and are shown in micrometres, pressures in MPa, times in s.
@@ -26,7 +25,19 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
-from wear.figure_data import Example, FloatArray, Line, Method, spans_decades
+from wear.checked import words_of
+from wear.figure_data import (
+    BEARING_WEAR,
+    PRESSURE,
+    WEAR,
+    Abscissa,
+    Example,
+    FloatArray,
+    Line,
+    Method,
+    Panel,
+    spans_decades,
+)
 from wear.figure_style import (
     COLUMN,
     COLUMN_AND_HALF,
@@ -43,56 +54,38 @@ from wear.figure_style import (
     styled,
 )
 
-_MICROMETRES_PER_MM = 1e3
-_CYCLES = r"Cycles  $t/T$"
-_WEAR = r"Wear  $u$  ($\mathrm{\mu m}$)"
-_BEARING_WEAR = r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)"
-_ROUGHNESS = r"Roughness  $\sigma$  ($\mathrm{\mu m}$)"
-_PRESSURE = r"Contact pressure  $p$  (MPa)"
 #: Distance of a line's markers, in diagonals of the axes.
 _MARK_EVERY = 0.14
 
 
 def history(
-    wear: Sequence[Line],
-    roughness: Sequence[Line],
-    pressure: Sequence[Line],
+    shown: Sequence[Panel],
     *,
+    abscissa: Abscissa = Abscissa.CYCLES,
     logarithmic: bool = False,
     width: float = COLUMN,
 ) -> Figure:
-    """Wear and roughness in mm and contact pressure in MPa against cycles, one above the other.
+    """Panels one above the other, lengths in mm and pressures in MPa, along one abscissa.
 
-    On a logarithmic axis of cycles, what grows by decades has a logarithmic axis too: as a power
-    of the cycles it is then a straight line, not one that is flat but for its end.
+    If that is logarithmic, what grows by decades has a logarithmic axis too: as a power of the
+    cycles it is then a straight line, not one that is flat but for its end. Pressures that fall by
+    decades have one always, without those that are zero.
     """
+    height = 0.66 if len(shown) == 1 else 0.44 * len(shown)
     with styled():
-        figure, (top, middle, bottom) = panels(3, width, 1.3 * width)
-        for axes, lines, quantity, scale in (
-            (top, wear, _WEAR, _MICROMETRES_PER_MM),
-            (middle, roughness, _ROUGHNESS, _MICROMETRES_PER_MM),
-            (bottom, pressure, _PRESSURE, 1.0),
-        ):
-            if logarithmic and spans_decades(lines):
+        figure, rows = panels(len(shown), width, height * width)
+        for axes, panel in zip(rows, shown, strict=True):
+            if panel.quantity is PRESSURE:
+                pressed = tuple(line.pressed() for line in panel.lines if line.y.any())
+                if pressed and spans_decades(pressed):
+                    panel = replace(panel, lines=pressed)
+                    axes.set_yscale("log")
+            elif logarithmic and len(shown) > 1 and spans_decades(panel.lines):
                 axes.set_yscale("log")
-            _panel(axes, lines, quantity, scale, logarithmic)
-        bottom.set_xlabel(_CYCLES)
+            _panel(axes, panel, logarithmic)
+        rows[-1].set_xlabel(abscissa.value)
         figure.align_ylabels()
     return figure
-
-
-def wear_history(
-    lines: Sequence[Line], *, logarithmic: bool = False, width: float = COLUMN
-) -> Figure:
-    """Wear in mm against cycles (Fig. 2a)."""
-    return _history(lines, _WEAR, logarithmic, width)
-
-
-def roughness_history(
-    lines: Sequence[Line], *, logarithmic: bool = False, width: float = COLUMN
-) -> Figure:
-    """Roughness in mm against cycles (Fig. 2b)."""
-    return _history(lines, _ROUGHNESS, logarithmic, width)
 
 
 def wear_with_asymptote(
@@ -105,16 +98,16 @@ def wear_with_asymptote(
         for line in asymptotes:
             axes.plot(
                 line.x,
-                line.y * _MICROMETRES_PER_MM,
+                line.y * WEAR.scale,
                 color=_look(line).colour,
                 linestyle=_look(line).dash,
                 linewidth=0.9,
                 zorder=1,
             )
-        _draw(axes, wear, _MICROMETRES_PER_MM)
-        axes.set(xlabel=_CYCLES, ylabel=_BEARING_WEAR)
-        _frame(axes, wear, _MICROMETRES_PER_MM)
-        _name(axes, wear, _MICROMETRES_PER_MM, bare=asymptotes)
+        _draw(axes, wear, WEAR.scale)
+        axes.set(xlabel=Abscissa.CYCLES.value, ylabel=BEARING_WEAR.label)
+        _frame(axes, wear, WEAR.scale)
+        _name(axes, wear, WEAR.scale, bare=asymptotes)
     return figure
 
 
@@ -131,29 +124,22 @@ def wear_by_decades(
         figure, axes = canvas(width, 0.72 * width)
         axes.set_xscale("log")
         axes.set_yscale("log")
-        top = 10.0 * _MICROMETRES_PER_MM * max(float(line.y.max()) for line in wear)
+        top = 10.0 * WEAR.scale * max(float(line.y.max()) for line in wear)
         for line in (*lines, *wear):
             look = _look(line)
             axes.plot(
-                line.x, line.y * _MICROMETRES_PER_MM, color=look.colour, linestyle=look.dash,
+                line.x, line.y * WEAR.scale, color=look.colour, linestyle=look.dash,
                 linewidth=0.9 if line in lines else 1.4, label=line.name,
             )  # fmt: skip
         axes.axvline(mark[0], color=GREY, linewidth=0.6, linestyle=(0, (4.0, 2.0)))
         axes.text(
             mark[0], 0.98, f"{mark[1]} ", transform=axes.get_xaxis_transform(), va="top", ha="right"
         )
-        low = 1e-3 * _MICROMETRES_PER_MM * float(wear[0].y[0])  # room for the legend
-        axes.set(xlabel=r"Cycles  $N$", ylabel=_BEARING_WEAR, ylim=(low, top))
+        low = 1e-3 * WEAR.scale * float(wear[0].y[0])  # room for the legend
+        axes.set(xlabel=r"Cycles  $N$", ylabel=BEARING_WEAR.label, ylim=(low, top))
         axes.set_xlim(float(wear[0].x[0]), float(wear[0].x[-1]))
         axes.legend(loc="lower right", borderpad=0.0, handlelength=2.5)
     return figure
-
-
-def wear_by_coefficient(
-    lines: Sequence[Line], *, logarithmic: bool = False, width: float = COLUMN
-) -> Figure:
-    """Bearing wear in mm against cycles for several wear coefficients K (Fig. 3b)."""
-    return _history(lines, _BEARING_WEAR, logarithmic, width)
 
 
 def pressure_in_cycles(lines: Sequence[Line], *, width: float = COLUMN) -> Figure:
@@ -161,17 +147,25 @@ def pressure_in_cycles(lines: Sequence[Line], *, width: float = COLUMN) -> Figur
     with styled():
         figure, axes = canvas(width, 0.6 * width)
         _draw(axes, lines, 1.0)
-        axes.set(xlabel=r"Phase in the cycle", ylabel=_PRESSURE)
+        axes.set(xlabel=r"Phase in the cycle", ylabel=PRESSURE.label)
         axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * max(float(line.y.max()) for line in lines)))
         _name_peaks(axes, lines)
     return figure
 
 
 def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
-    """Seconds against true relative error, both logarithmic; accuracy grows to the right.
+    """Draw seconds against true relative error, both logarithmic; accuracy grows to the right."""
+    figure = _speed(methods, "True relative error of the wear", "missed its tolerance", width)
+    figure.axes[0].invert_xaxis()
+    return figure
 
-    Errors of zero are shown at the resolution of double precision.
-    """
+
+def speed_against_cycles(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
+    """Draw seconds to equal true error against the number of cycles, both logarithmic."""
+    return _speed(methods, "Cycles  $N$", "expected, not run", width)
+
+
+def _speed(methods: Sequence[Method], quantity: str, failed: str, width: float) -> Figure:
     with styled():
         figure, axes = canvas(width, 0.5 * width)
         for family, method in enumerate(methods):
@@ -179,9 +173,8 @@ def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Fi
             look = replace(stroke(family, again), marker=stroke(family + 2 * again).marker)
             _draw_method(axes, method, look)
         if any(method.failed.any() for method in methods):
-            axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label="missed its tolerance")
-        axes.set(xlabel="True relative error of the wear", ylabel="Time (s)")
-        axes.invert_xaxis()
+            axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label=failed)
+        axes.set(xlabel=quantity, ylabel="Processor time (s)")
         axes.grid(which="major", color=GREY, alpha=0.35, linewidth=0.4)
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=3.0)
     return figure
@@ -193,6 +186,31 @@ _REGIMES = {
     "finite-time": "#D55E00",
     "arrest": "#CC79A7",
 }
+
+
+def tornado(
+    keys: Sequence[str],
+    elasticity: FloatArray,
+    labels: Sequence[str],
+    *,
+    width: float = COLUMN_AND_HALF,
+) -> Figure:
+    """Elasticities (k, n) of the numbers with these keys as bars, the largest on top; a set of bars
+    for each of the n labels. What is no number has no bar."""
+    values = np.nan_to_num(elasticity)
+    order = np.argsort(np.max(np.abs(values), axis=1))
+    thick = 0.8 / len(labels)
+    with styled():
+        figure, axes = canvas(width, 12.0 + (2.5 + 1.8 * len(labels)) * len(keys))
+        for place, label in enumerate(labels):
+            at = np.arange(len(keys)) + thick * ((len(labels) - 1) / 2 - place)
+            axes.barh(at, values[order, place], thick, color=stroke(place).colour, label=label)
+        axes.axvline(0.0, color=INK, linewidth=0.6)
+        axes.set_yticks(np.arange(len(keys)), [words_of(keys[i]) for i in order])
+        axes.set_ylim(-0.6, len(keys) - 0.4)
+        axes.set_xlabel("Change of the wear in % for 1 % more")
+        axes.legend()
+    return figure
 
 
 def regime_map(
@@ -249,9 +267,8 @@ def _example_points(axes: Axes, examples: Sequence[Example]) -> None:
 
 
 def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
-    error = np.maximum(method.error, np.finfo(float).eps / 2.0)
     axes.loglog(
-        error,
+        method.x,
         method.seconds,
         color=look.colour,
         linestyle=look.dash,
@@ -260,7 +277,7 @@ def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
         label=method.name,
     )
     axes.loglog(
-        error[method.failed],
+        method.x[method.failed],
         method.seconds[method.failed],
         color=look.colour,
         linestyle="",
@@ -270,24 +287,25 @@ def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
     )
 
 
-def _history(lines: Sequence[Line], quantity: str, logarithmic: bool, width: float) -> Figure:
-    with styled():
-        figure, axes = canvas(width, 0.66 * width)
-        _panel(axes, lines, quantity, _MICROMETRES_PER_MM, logarithmic)
-        axes.set_xlabel(_CYCLES)
-    return figure
-
-
-def _panel(
-    axes: Axes, lines: Sequence[Line], quantity: str, scale: float, logarithmic: bool
-) -> None:
+def _panel(axes: Axes, panel: Panel, logarithmic: bool) -> None:
+    lines, scale = panel.lines, panel.quantity.scale
     if logarithmic:
         axes.set_xscale("log")
-        lines = [line.positive() for line in lines]
+        lines = tuple(line.positive() for line in lines)
     _draw(axes, lines, scale)
-    axes.set_ylabel(quantity)
-    _frame(axes, lines, scale)
-    _name(axes, lines, scale)
+    axes.set_ylabel(panel.quantity.label)
+    limits = [panel.limit] if panel.limit is not None else []
+    _frame(axes, (*lines, *panel.points), scale, limits)
+    for points in panel.points:
+        look = _look(points)
+        axes.plot(
+            points.x, points.y * scale, linestyle="", color=look.colour, marker=look.marker,
+            markerfacecolor=PAPER, markersize=5.0, zorder=4, clip_on=False,
+        )  # fmt: skip
+    for limit in limits:
+        axes.axhline(limit * scale, color=INK, linewidth=0.7, linestyle=(0, (5.0, 2.0)))
+        axes.text(0.01, limit * scale, "limit", transform=axes.get_yaxis_transform(), va="bottom")
+    _name(axes, lines, scale, points=panel.points)
 
 
 def _look(line: Line) -> Stroke:
@@ -309,24 +327,31 @@ def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:
         )
 
 
-def _frame(axes: Axes, lines: Sequence[Line], scale: float) -> None:
+def _frame(axes: Axes, lines: Sequence[Line], scale: float, limits: Sequence[float] = ()) -> None:
     """Limits that end with the data in x and, on a linear axis, contain zero in y."""
     axes.set_xlim(min(float(line.x[0]) for line in lines), max(float(line.x[-1]) for line in lines))
+    extremes = [*limits, *(y for line in lines for y in (line.y.min(), line.y.max()))]
     if axes.get_yscale() == "log":
         axes.autoscale(axis="y")
         return
-    low = min(0.0, *(float(line.y.min()) for line in lines)) * scale
-    high = max(0.0, *(float(line.y.max()) for line in lines)) * scale
+    low, high = min(0.0, *extremes) * scale, max(0.0, *extremes) * scale
     margin = 0.05 * (high - low) or 1.0
     axes.set_ylim(low - margin if low < 0.0 else 0.0, high + margin)
 
 
-def _name(axes: Axes, lines: Sequence[Line], scale: float, bare: Sequence[Line] = ()) -> None:
-    """Names at the right ends; `bare` lines have no markers."""
-    ends = [(float(line.y[-1]) * scale, line.name, _look(line)) for line in lines]
-    ends += [
-        (float(line.y[-1]) * scale, line.name, replace(_look(line), marker="")) for line in bare
-    ]
+def _name(
+    axes: Axes,
+    lines: Sequence[Line],
+    scale: float,
+    *,
+    bare: Sequence[Line] = (),
+    points: Sequence[Line] = (),
+) -> None:
+    """Names at the right ends; `bare` lines have no markers, `points` no line."""
+    looks = [(line, _look(line)) for line in lines]
+    looks += [(line, replace(_look(line), marker="")) for line in bare]
+    looks += [(line, replace(_look(line), dash="", face=PAPER)) for line in points]
+    ends = [(float(line.y[-1]) * scale, line.name, look) for line, look in looks]
     label_ends(axes, ends)
 
 

@@ -48,6 +48,8 @@ class History:
         Displacement of the bearing in mm, None with a rigid support.
     R_a
         Reaction force on the pin in N, None unless the scene has the contact's width and length.
+    U_a
+        Displacement of the pin in mm where the load is a force; None where it is given itself.
     scene, definition
         Its title, and the whole of it.
     variant, operations
@@ -72,6 +74,7 @@ class History:
     error: FloatArray
     U_c: FloatArray | None
     R_a: FloatArray | None
+    U_a: FloatArray | None
     scene: str
     definition: Scene
     variant: str
@@ -114,20 +117,38 @@ class History:
             Column("mean_pressure_MPa", "MPa", "mean pressure over the cycle", mean),
             Column("contact_fraction", "1", "share of the cycle in contact", fraction),
         ]
-        if self.U_c is not None:
-            displacement = "displacement of the bearing"
-            columns.append(Column("bearing_displacement_mm", "mm", displacement, self.U_c))
-        if self.R_a is not None:
-            from wear.states import reaction_of
+        columns += self._displacements() + self._forces(peak, mean)
+        meaning = "estimated relative error of the bearing wear"
+        return (*columns, Column("error_estimate", "1", meaning, self.error))
 
+    def _displacements(self) -> list[Column]:
+        found = (("bearing", self.U_c), ("pin", self.U_a))
+        return [
+            Column(f"{solid}_displacement_mm", "mm", f"displacement of the {solid}", values)
+            for solid, values in found
+            if values is not None
+        ]
+
+    def _forces(self, peak: FloatArray, mean: FloatArray) -> list[Column]:
+        from wear.states import friction_work, reaction_of, sliding_distance
+
+        scene, columns = self.definition, []
+        if self.R_a is not None:
             columns.append(Column("pin_reaction_N", "N", "reaction force on the pin", self.R_a))
             for word, pressure in (("peak", peak), ("mean", mean)):
-                force = reaction_of(self.definition, pressure)
+                force = reaction_of(scene, pressure)
                 assert force is not None
                 name, meaning = f"{word}_pin_reaction_N", f"{word} reaction force over the cycle"
                 columns.append(Column(name, "N", meaning, force))
-        meaning = "estimated relative error of the bearing wear"
-        return (*columns, Column("error_estimate", "1", meaning, self.error))
+        work = friction_work(scene, self.cycles.tolist(), mean)
+        if work is not None:
+            way = sliding_distance(scene, self.cycles.tolist())
+            name, meaning = "friction_work_mJ_per_mm2", "work of friction per area in the cycle"
+            columns.append(Column("sliding_distance_mm", "mm", "way slid in the cycle", way))
+            columns.append(Column(name, "mJ/mm^2", meaning, work))
+            if (of_all := reaction_of(scene, work)) is not None:
+                columns.append(Column("friction_work_mJ", "mJ", "work of friction", of_all))
+        return columns
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a row a number of cycles, with the columns of the files; needs pandas."""

@@ -15,11 +15,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear import pressure_root
+from wear import own_laws, pressure_root
 from wear.faults import UsageError
 from wear.scene import Scene, VariantKey
 
 Real = Any  # a float or an array of floats
+Summed = Callable[[Real], Real]
+
+
+def as_it_is(values: Real) -> Real:
+    """Return the values."""
+    return values
 
 
 class Fields(NamedTuple):
@@ -137,15 +143,20 @@ class Model:
         limited = self._limited(p, margin) < p
         return np.where(limited, np.where(margin > 0.0, self._edge_slope(u), 0.0), by_law)
 
-    def rate_gradient(self, u: Real, U_a: Real) -> dict[str, Real]:
+    def rate_gradient(self, u: Real, U_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
         """Return the derivatives of the wear rate by the contact law with respect to the load
-        `U_a` and to every physical parameter, by symbol, as if contact were never lost."""
+        `U_a` and to every physical parameter, by symbol, as if contact were never lost.
+
+        Those with respect to parameters are `summed`: some linear function of them, such as an
+        integral over the cycle, which costs less before the chain rule than after it.
+        """
         if self.compliant:
             p = self._law_pressure(u, U_a)
             by_load, by_constants = self.module.rate_gradient(p, u, U_a, self.constants)
         else:
             by_load, by_constants = self.module.rate_gradient(u, U_a, self.constants)
-        return {"U_a": by_load, **self.bound.gradient(by_constants)}
+        found = type(by_constants)._make(map(summed, by_constants))
+        return {"U_a": by_load, **self.bound.gradient(found)}
 
     def pressure(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
         """Return the contact pressure in MPa on a compliant support, sought from a pressure `near`
@@ -247,6 +258,8 @@ def _complete(found: Any, u: Real, U_a: Real) -> Fields:
 
 def generated(key: VariantKey) -> ModuleType:
     """Return the generated module of a variant."""
+    if own_laws.is_own(key.law):
+        return own_laws.module(key.law, key.module)
     return import_module(f"wear.generated.{key.law}.{key.module}")
 
 
@@ -259,6 +272,11 @@ def bound(module: ModuleType, numbers: Mapping[str, Real], pin_wear_sign: Real) 
 
 def _bind(key: VariantKey, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Model:
     loss = None
+    if key.given_load:
+        from wear.given_load import given_load
+
+        numbers = {"k": np.full_like(numbers["R"], np.inf), **numbers}  # rigid without springs
+        return given_load(bound(generated(key), numbers, pin_wear_sign), numbers)
     if key.ends_at_3_sigma:
         margin = import_module(f"wear.generated.margin_{key.pin}")
         loss = bound(margin, numbers, pin_wear_sign)

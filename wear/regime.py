@@ -24,7 +24,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wear import own_laws
 from wear.generated import asymptotics as formula
+from wear.generated import reaction
 from wear.model import bind
 from wear.offset import offset
 from wear.solver import obstacle
@@ -94,7 +96,11 @@ class _Case:
 
     def law(self, kind: str) -> Callable[..., Any]:
         """Return the formula of this scene's contact law."""
-        found: Callable[..., Any] = getattr(formula, f"{kind}_{self.scene.contact.law}")
+        law = self.scene.contact.law
+        if own_laws.is_own(law):
+            own = getattr(own_laws.module(law, "law"), f"{kind}_own")
+            return lambda ratio: Decimal(float(own(float(ratio))))
+        found: Callable[..., Any] = getattr(formula, f"{kind}_{law}")
         return found
 
     def wear_at(self, pressure: float) -> float:
@@ -133,12 +139,31 @@ def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
     scene = as_scene(scene)
     with decimal.localcontext(_DIGITS):
         case = _Case(scene)
+        if scene.given_load:
+            return _given_load(case)
         return _with_cutoff(case) if scene.contact.ends_at_3_sigma else _without_cutoff(case)
 
 
 def _result(case: _Case, regime: str, **found: Any) -> Asymptote:
     notices = (*case.scene.notices, *found.pop("notices", ()))
     return Asymptote(case.scene.title or case.scene.name, regime, notices=notices, **found)
+
+
+def _given_load(case: _Case) -> Asymptote:
+    """Problem (i): the wear of a cycle is that of the mean pressure from the first cycle on."""
+    pressure = float(reaction.pressure(case.load.mean, b=case.numbers["b"], L=case.numbers["L"]))
+    end = None if case.data["q"] >= 0 else case.vanishing
+    said = ("the roughness vanishes in finite time; the model ends there",) if end else ()
+    return _result(
+        case,
+        "finite-time" if end else "steady",
+        wear_per_cycle_mm=case.wear_at(pressure),
+        pressure_MPa=pressure,
+        log_coefficient_mm=0.0,
+        offset_mm=0.0,
+        saturation_wear_mm=float(end) if end else None,
+        notices=said,
+    )
 
 
 def _without_cutoff(case: _Case) -> Asymptote:
@@ -297,9 +322,8 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """The cycle in which wear stops, from the cycle count, as far as its error lets it be told."""
-    from wear.count.stage import evaluate_stages
-    from wear.count.stages import counted_stages
     from wear.cycles import MOST_CYCLES
+    from wear.loss_of_contact.count import counted_stages
 
     found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0)
     arrest = found.arrest
@@ -307,7 +331,7 @@ def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
         return None, (str(arrest),)
     if arrest is not None:
         return arrest.cycle, (str(arrest),) if arrest.uncertain else ()
-    _, error = evaluate_stages(found, np.array([MOST_CYCLES]))
+    _, error = found.after(np.array([MOST_CYCLES]))
     if np.isfinite(error).all():
         return None, (f"wear goes on for more than {MOST_CYCLES:.0e} cycles",)
     return None, ("the cycle in which wear stops cannot be counted",)

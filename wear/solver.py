@@ -18,7 +18,7 @@ from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history import History
 from wear.load import HistoryLoad
 from wear.scene.plausibility import implausible_results
-from wear.states import fields_at, negative_roughness, reaction_of
+from wear.states import displacement_of, fields_at, negative_roughness, reaction_of
 
 if TYPE_CHECKING:
     from wear.model import Model
@@ -92,7 +92,7 @@ def solve(
 
     start = time.monotonic()
     scene = as_scene(scene)
-    wanted = _check(scene, cycles, rtol, method, time_limit)
+    wanted = checked_request(scene, cycles, rtol, method, time_limit)
     model = bind(scene)
     deadline = np.inf if time_limit is None else start + time_limit
     wear = _solved(model, scene, wanted, rtol, method, deadline)
@@ -106,7 +106,7 @@ def solve(
     return history
 
 
-def _check(
+def checked_request(
     scene: Scene,
     cycles: float | Iterable[float],
     rtol: float,
@@ -299,6 +299,7 @@ def _history(
         error=error,
         U_c=fields.U_c if model.compliant else None,
         R_a=reaction_of(scene, fields.p),
+        U_a=displacement_of(model, scene, u),
         scene=scene.title or scene.name,
         definition=scene,
         variant=model.variant,

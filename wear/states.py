@@ -9,6 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.direct.cutoff import pressure_share, roundoff
+from wear.direct.sequence import span
+from wear.generated import reaction
+from wear.given_load import GivenLoad
 from wear.load import Blocks, HistoryLoad
 
 if TYPE_CHECKING:
@@ -44,6 +47,13 @@ def _displacement(scene: Scene, cycle: int) -> tuple[float, float]:
     return float(load(0.0)), float(load.slope(0.0)) / load.period
 
 
+def displacement_of(model: Model, scene: Scene, u: FloatArray) -> FloatArray | None:
+    """The displacement of the pin in mm at the ends of cycles, where the load is a force."""
+    if not isinstance(model, GivenLoad):
+        return None
+    return np.asarray(model.displacement(u, np.full(u.shape, float(scene.periodic_load(0.0)))))
+
+
 def negative_roughness(model: Model, fields: Fields, u: FloatArray) -> tuple[str, ...]:
     """The equation takes a roughness squared; the note's assumption that it is positive ends."""
     fresh = model.fields(0.0, 0.0)
@@ -62,9 +72,25 @@ def negative_roughness(model: Model, fields: Fields, u: FloatArray) -> tuple[str
 
 def reaction_of(scene: Scene, pressure: FloatArray) -> FloatArray | None:
     """The reaction force of the pin in N, where the scene says how large the contact is."""
-    from wear.generated.reaction import reaction
-
     numbers = scene.parameters()
     if "b" not in numbers:
         return None
-    return np.asarray(reaction(pressure, b=numbers["b"], L=numbers["L"]))
+    return np.asarray(reaction.reaction(pressure, b=numbers["b"], L=numbers["L"]))
+
+
+def sliding_distance(scene: Scene, cycles: Sequence[int]) -> FloatArray:
+    """The way in mm that the pin slides in the cycle that ends after each of the `cycles`."""
+    loads = [span(scene.load, max(cycle - 1, 0)).load for cycle in cycles]
+    periods = np.array([load.period for load in loads])
+    numbers = scene.parameters()
+    distance = reaction.sliding_distance(R=numbers["R"], T=periods, n=numbers["n"])
+    return np.where(np.asarray(cycles) > 0, distance, np.nan)
+
+
+def friction_work(scene: Scene, cycles: Sequence[int], mean: FloatArray) -> FloatArray | None:
+    """The work of friction per area in mJ/mm^2 in the cycle that ends after each of the `cycles`,
+    under `mean` pressures in MPa, where the scene has a coefficient of friction."""
+    mu = scene.contact.friction_coefficient
+    if mu is None:
+        return None
+    return np.asarray(reaction.friction_work(mean, sliding_distance(scene, cycles), mu))

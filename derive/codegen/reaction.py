@@ -1,21 +1,46 @@
-"""The reaction force of the pin, generated from equation (7b)."""
+"""The forces of the pin: its reaction, the pressure under a given one, and the work of friction.
+
+Overview
+    Reaction and pressure are those of equation (7b).  Friction is Coulomb's: it takes the share mu
+    of the pressure along the way that the pin slides.
+"""
 
 from __future__ import annotations
 
 import sympy as sp
 
 from ..note.governing import Model
+from ..note.problems import given_load
 from ..rules.algebra import solve
-from ..symbols import symbol
+from ..symbols import symbol, symbols
 from .formulas import Formula, formula_module
 
-pressure = sp.Symbol("p", real=True)
-"""The contact pressure as a number."""
+pressure, given = sp.symbols("p R_a", real=True)
+"""The contact pressure and the reaction as numbers."""
+
+mu, distance = sp.symbols("mu distance", nonnegative=True)
+"""The coefficient of friction and the way that the pin slides."""
 
 
 def module() -> str:
     """Return the source of the generated module."""
-    force = solve(Model().reaction, symbol("R_a")).claim.rhs
-    value = force.subs(symbol("p"), pressure)
-    formula = Formula("reaction", (pressure,), value, "reaction force of the pin, in N")
-    return formula_module("Reaction of the pin.", ("7b",), (formula,))
+    force = solve(Model().reaction, symbol("R_a")).claim.rhs.subs(symbol("p"), pressure)
+    carried = given_load().order[0].claim.rhs.subs(symbol("R_a"), given)
+    width, length = symbols("b L")
+    slid = Model().slip.claim.rhs * symbol("T")
+    of_pressure = "derivative of the pressure with respect to"
+    formulas = (
+        Formula("reaction", (pressure,), force, "reaction force of the pin, in N"),
+        Formula("pressure", (given,), carried, "contact pressure under a given reaction, in MPa"),
+        Formula("by_force", (), sp.diff(carried, given), f"{of_pressure} the reaction"),
+        Formula("by_width", (given,), sp.diff(carried, width), f"{of_pressure} the width"),
+        Formula("by_length", (given,), sp.diff(carried, length), f"{of_pressure} the length"),
+        Formula("sliding_distance", (), slid, "way that the pin slides in a cycle, in mm"),
+        Formula(
+            "friction_work",
+            (pressure, distance, mu),
+            mu * pressure * distance,
+            "work of friction per area under a mean pressure, in mJ/mm^2",
+        ),
+    )
+    return formula_module("Forces of the pin.", ("7b", "problem-i"), formulas)

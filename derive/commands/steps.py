@@ -43,6 +43,7 @@ def _row(step: Judgement, numbers: Mapping[int, int]) -> dict[str, Any]:
     import sympy as sp
 
     from derive.check import checks
+    from derive.coq.record import proved_by_coq
     from derive.typeset.display import latex
 
     parents = [numbers[id(parent)] for parent in step.parents]
@@ -58,6 +59,7 @@ def _row(step: Judgement, numbers: Mapping[int, int]) -> dict[str, Any]:
         "assumptions": list(dict.fromkeys(condition.text for condition in step.conditions)),
         "hypotheses": [h.text for h in step.hypotheses],
         "status": _status(step, all(check.passed for check in outcomes)),
+        "coq": proved_by_coq(step),
         "remark": step.remark or None,
         "checks": [{"kind": c.kind, "passed": c.passed, "detail": c.detail} for c in outcomes],
     }
@@ -77,7 +79,8 @@ def _text(row: Mapping[str, Any], step: Judgement) -> str:
 
     from derive.hypotheses import sentences
 
-    status = "" if row["status"] == "given" else f" [{row['status']}]"
+    by_coq = ", checked by Coq" if row["coq"] else ""
+    status = "" if row["status"] == "given" else f" [{row['status']}{by_coq}]"
     claim = sp.pretty(step.relation, use_unicode=terminal.shows_formulas(), wrap_line=False)
     lines = ["", *claim.splitlines(), ""]
     lines += sentences(step.hypotheses)

@@ -20,12 +20,12 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..claims import landau_o
+from ..claims import Drift, Oscillation, Term, landau_o
 from ..equations import Equation
 from ..kernel import Judgement
 from ..note.stabilised import Stabilised, drift_and_wear
 from ..rules.assumption import assume, defined
-from ..rules.averages import EXPANSION, OFFSET, SATURATION, averaging, slow_time
+from ..rules.averages import EXPANSION, OFFSET, SATURATION, averaging, slow_time, term_of
 from ..rules.limits import forever
 from ..rules.reading import SINE
 from ..symbols import symbol, symbols, t
@@ -36,6 +36,8 @@ h_0, sigma_c0, f_c, U, T = symbols("h_0 sigma_c0 f_c U T")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
 u_c, u_cum, A = symbols("u_c u_cum A")
 c_1, c_2, c_3, c_4 = symbols("c_1 c_2 c_3 c_4")
+
+MEANING = "sigma = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...)"
 
 offset = defined(*OFFSET.args)
 saturation = defined(*SATURATION.args)
@@ -90,22 +92,25 @@ class Expansion:
 
     def drift(self, n: int) -> Judgement:
         """Growth of the roughness at order 1/m^n."""
-        return self._term(sp.Eq(symbol(f"c_{n}"), _drifts()[n]))
+        return self._term(Drift, n, sp.Eq(symbol(f"c_{n}"), _drifts()[n]))
 
     def oscillation(self, n: int) -> Judgement:
         """Oscillation of the roughness at order 1/m^n."""
-        return self._term(sp.Eq(symbol(f"w_{n}"), _oscillations()[n]))
+        return self._term(Oscillation, n, sp.Eq(symbol(f"w_{n}"), _oscillations()[n]))
 
-    def _term(self, claim: sp.Equality) -> Judgement:
+    def _term(self, kind: type[Term], n: int, claim: sp.Equality) -> Judgement:
         pressure = steady_state().pressure_at_wear
-        meaning = (assume(SINE), assume(EXPANSION), offset, saturation)
+        term = term_of(kind, n, pressure.claim.rhs)
+        name = defined(claim.lhs, term, f"{claim.lhs} by definition, in {MEANING}")
+        meaning = (assume(SINE), name, offset, saturation)
         return averaging(claim, pressure, *meaning, name="term of the expansion")
 
     @cached_property
     def slow_time(self) -> Judgement:
         """The number of cycles as a function of the averaged roughness."""
         drifts = tuple(self.drift(n) for n in (1, 2, 3, 4))
-        return slow_time(sp.Eq(rho * tau + s_0, _slow_time()), *drifts, name="slow time")
+        claim = sp.Eq(rho * tau + s_0, _slow_time())
+        return slow_time(claim, *drifts, assume(EXPANSION), name="slow time")
 
 
 def equations() -> tuple[Equation, ...]:

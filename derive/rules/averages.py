@@ -2,9 +2,11 @@
 
 Overview
     With sigma = sigma_c0 + f_c u_c the rate is a series in 1/sigma with periodic coefficients.
-    What ``sigma = m + w_1/m + w_2/m^2 + ...`` and ``dm/dtau = rho (1 + c_1/m + ...)`` mean is the
-    hypothesis EXPANSION: c_n and w_n are the coefficients of that formal solution.
+    Its formal solution is ``sigma = m + w_1/m + w_2/m^2 + ...``, ``dm/dtau = rho (1 + c_1/m +
+    ...)``.  That a name is one of its coefficients is a premise, by definition; that m and s_0
+    belong to it, too.
 Key results
+    term_of              what c_n and w_n are by definition, for a pressure
     drift, oscillation   c_n and w_n, by averaging the series again, order by order
     slow_time            tau as a function of m, from dm/dtau
 References
@@ -19,20 +21,23 @@ from functools import cache
 import sympy as sp
 
 from ..averaging import Averaged, average
-from ..claims import Asymptotic, Equality
+from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
 from ..harmonics import Harmonics, constant, sine, total
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
-from ..symbols import symbol, symbols
+from ..symbols import symbol, symbols, t
 from ..zero import is_zero
-from .reading import LOAD, SINE, equality, fields, has_hypothesis
+from .reading import LOAD, SINE, T, equality, fields, has_hypothesis
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
 ORDER = 4
 
+ROUGHNESS = sp.Symbol("s", positive=True)
+"""The roughness as a variable: bound in a definition of a coefficient."""
+
 EXPANSION = Hypothesis(
-    "c_n and w_n are the coefficients of the averaged roughness m and of its oscillation",
+    "m is the averaged roughness, dm/dtau = rho (1 + c_1/m + ...), with s_0 for its start",
     kind=Kind.DEFINITION,
 )
 OFFSET = sp.Eq(b_0, sigma_c0 / f_c - h_0)
@@ -56,6 +61,24 @@ def powers(pressure: sp.Expr, order: int) -> tuple[sp.Expr, ...]:
 
 def _in_lowest_terms(function: sp.Expr) -> sp.Expr:
     return function.func(*(sp.expand(sp.cancel(argument)) for argument in function.args))
+
+
+def term_of(kind: type[Term], n: int, pressure: sp.Expr) -> Term:
+    """Return c_n (``Drift``) or w_n (``Oscillation``) for a pressure ``F(u_c, U_a)``.
+
+    The wear is that of the roughness, and the load is the sine, at the phase tau = t/T.
+    """
+    load = SINE.relation.rhs.subs(t, T * tau)
+    law = pressure.subs({u_c: (ROUGHNESS - sigma_c0) / f_c, LOAD: load})
+    return kind(sp.Integer(n), law, ROUGHNESS, tau, rho)
+
+
+def _meaning(name: sp.Expr, premises: tuple[Judgement, ...]) -> Term:
+    """Return the coefficient that a name is, by one of the premises."""
+    for claim in (premise.claim for premise in premises):
+        if isinstance(claim, Equality) and claim.lhs == name and isinstance(claim.rhs, Term):
+            return claim.rhs
+    raise RuleError(f"missing premise: {name} is a coefficient of the expansion, by definition")
 
 
 @cache
@@ -82,27 +105,29 @@ def _under_sine(polynomial: sp.Expr) -> Harmonics:
 
 @dataclass(frozen=True)
 class Averaging(Rule):
-    """c_n, or w_n, of EXPANSION: the premises give the pressure, a sine load, b_0 and theta."""
+    """A coefficient of the expansion, for a name that a premise defines as one.
+
+    The others give the pressure (the first), a sine load, b_0 and theta.
+    """
 
     claim: sp.Equality
     words = "Average the rate over a cycle, order by order, with {all}."
     source = "Sanders, Verhulst, Murdock, 2007"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        given = equality(premises[0])
+        given, name = equality(premises[0]), self.claim.lhs
         for relation in (SINE.relation, OFFSET, SATURATION, sp.Gt(f_c, 0)):
             has_hypothesis(relation, *premises)
-        if EXPANSION not in {h for premise in premises for h in premise.hypotheses}:
-            raise RuleError(f"missing premise: {EXPANSION.text}")
         if given.lhs != p or fields(given.rhs) - {u_c, LOAD}:
             raise RuleError("missing premise: the pressure at given wear and load")
-        solved, name = averaged(given.rhs), self.claim.lhs
-        known = {symbol(f"c_{n}"): solved.drift[n] for n in range(1, ORDER + 1)}
-        known |= {symbol(f"w_{n}"): solved.oscillation[n].at(tau) for n in (1, 2)}
-        if name not in known:
-            raise RuleError(f"missing premise: {name} is a coefficient of the expansion")
-        if not is_zero(sp.expand_trig(self.claim.rhs) - sp.expand_trig(known[name])):
-            raise RuleError(f"missing premise: {name} = {known[name]}")
+        meaning, solved = _meaning(name, premises[1:]), averaged(given.rhs)
+        known = {term_of(Drift, n, given.rhs): solved.drift[n] for n in range(1, ORDER + 1)}
+        for n in (1, 2):
+            known[term_of(Oscillation, n, given.rhs)] = solved.oscillation[n].at(tau)
+        if meaning not in known:
+            raise RuleError(f"missing premise: {name} is c_1 to c_4, w_1 or w_2 of this pressure")
+        if not is_zero(sp.expand_trig(self.claim.rhs) - sp.expand_trig(known[meaning])):
+            raise RuleError(f"missing premise: {name} = {known[meaning]}")
         return Conclusion(Equality(name, self.claim.rhs))
 
 
@@ -113,16 +138,35 @@ def averaging(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judge
 
 @dataclass(frozen=True)
 class SlowTime(Rule):
-    """``rho tau + s_0 = F(m) + o(m^-3)``: ``F' (1 + c_1/m + ... + c_4/m^4) = 1 + O(m^-5)``."""
+    """``rho tau + s_0 = F(m) + o(m^-3)``: ``F' (1 + c_1/m + ... + c_4/m^4) = 1 + O(m^-5)``.
+
+    The premises define c_1 to c_4, all of one pressure, or rest on these definitions; the others
+    say what m and s_0 are.
+    """
 
     claim: sp.Equality
     words = "Integrate the averaged drift, {all}, term by term."
     source = "termwise integration of an asymptotic series"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        drifts = [equality(premise).lhs for premise in premises]
-        if drifts != [symbol(f"c_{n}") for n in range(1, ORDER + 1)]:
-            raise RuleError("missing premise: c_1 to c_4")
+        hypotheses = {h for premise in premises for h in premise.hypotheses}
+        defined = [h.relation for h in hypotheses if h.relation.has(Drift)]
+        laws = {
+            relation.rhs.args[1]
+            for relation in defined
+            if isinstance(relation, sp.Equality) and isinstance(relation.rhs, Drift)
+        }
+        drifts = [symbol(f"c_{n}") for n in range(1, ORDER + 1)]
+        if not any(
+            all(
+                sp.Eq(c, Drift(sp.Integer(n), law, ROUGHNESS, tau, rho), evaluate=False) in defined
+                for n, c in enumerate(drifts, 1)
+            )
+            for law in laws
+        ):
+            raise RuleError("missing premise: c_1 to c_4 are the drifts of the expansion")
+        if EXPANSION not in hypotheses:
+            raise RuleError(f"missing premise: {EXPANSION.text}")
         small = sp.Dummy("1/m", positive=True)
         speed = 1 + sum((c * small**n for n, c in enumerate(drifts, 1)), sp.S.Zero)
         slope = sp.diff(self.claim.rhs, m).subs(m, 1 / small)

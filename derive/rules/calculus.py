@@ -18,13 +18,23 @@ from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..symbols import symbols, t
-from .inequalities import smooth
-from .proving import continuous
-from .reading import LOAD, constant, equality, field_of_rate, fields, inequality, initial_value
+from .proving import continuous, require_defined, smooth
+from .reading import (
+    LOAD,
+    clocks,
+    constant,
+    equality,
+    field_of_rate,
+    fields,
+    inequality,
+    initial_value,
+)
 
 U_c, p, k, T, tau = symbols("U_c p k T tau")
 
 SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", sp.Eq(k * U_c - p, 0), kind=Kind.MODEL)
+WEARING = symbols("u_a u_c sigma_a sigma_c")
+DIFFERENTIABLE = Hypothesis("differentiable load", kind=Kind.LOAD)
 RIGID = Hypothesis("rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING)
 
 
@@ -78,21 +88,29 @@ def grows(bound: Judgement, start: Judgement, name: str = "") -> Judgement:
 
 @dataclass(frozen=True)
 class Differentiate(Rule):
-    """An equality that holds at every time gives that of the rates of both sides."""
+    """An equality that holds at every time gives that of the rates of both sides.
+
+    Wear and roughness have rates, by Archard's law; the load where a premise says so.
+    """
 
     words = "Differentiate {0} with respect to time."
     source = "chain rule"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
-        if not all(smooth(side) for side in (given.lhs, given.rhs)):
+        rough = (fields(given.rhs) | fields(given.lhs) - {given.lhs}) - set(WEARING)
+        if DIFFERENTIABLE in {h for premise in premises for h in premise.hypotheses}:
+            rough -= {LOAD}
+        if rough or not smooth(given.relation.lhs - given.rhs) or clocks(given.relation) - {t}:
             raise RuleError(f"missing premise: {given.relation} is differentiable")
-        return Conclusion(Equality(sp.diff(given.lhs, t), sp.diff(given.rhs, t)))
+        rates = sp.diff(given.lhs, t), sp.diff(given.rhs, t)
+        require_defined(sp.Tuple(*rates), *premises)
+        return Conclusion(Equality(*rates))
 
 
-def differentiate(equation: Judgement) -> Judgement:
+def differentiate(equation: Judgement, *facts: Judgement) -> Judgement:
     """Return the equality of the rates of both sides."""
-    return infer(Differentiate(), equation)
+    return infer(Differentiate(), equation, *facts)
 
 
 @dataclass(frozen=True)
@@ -112,10 +130,12 @@ class RigidLimit(Rule):
         if SPRINGS not in first.hypotheses:
             raise RuleError(f"missing premise: {SPRINGS.text}")
         others = [h for h in first.hypotheses if h != SPRINGS]
-        loads = [h for h in others if h.kind is not Kind.MODEL and h.relation.has(LOAD.func)]
+        apart = [h.relation.subs(LOAD, LOAD + U_c) for h in others]
+        loads = [r for r in apart if r.has(U_c.func) or r.atoms(LOAD.func) - {LOAD} or r == sp.true]
         if loads or given.relation.has(U_c) or any(h.relation.has(k) for h in others):
             raise RuleError("missing premise: nothing else is said of the load, of U_c and of k")
-        sides = [side.subs(k, 1 / small) for side in (given.lhs, given.rhs)]
+        deeper = {k: 1 / small, LOAD: LOAD + small * p}
+        sides = [side.subs(deeper, simultaneous=True) for side in (given.lhs, given.rhs)]
         if not all(continuous(side, {small: sp.S.Zero}, first) for side in sides):
             raise RuleError(f"missing premise: {given.relation} is continuous for k -> oo")
         left, right = (side.subs(small, 0) for side in sides)

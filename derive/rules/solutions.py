@@ -18,9 +18,17 @@ from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..symbols import t
 from ..zero import is_zero
 from .algebra import inserted
-from .inequalities import smooth
-from .proving import require, require_defined, sign
-from .reading import CONSTANT, LOAD, equality, fields, has_hypothesis, initial_value, rate_law
+from .proving import require, require_defined, sign, smooth
+from .reading import (
+    CONSTANT,
+    LOAD,
+    constant,
+    equality,
+    fields,
+    has_hypothesis,
+    initial_value,
+    rate_law,
+)
 
 
 @dataclass(frozen=True)
@@ -47,9 +55,10 @@ class Solution(Rule):
         plain = {u: sp.Dummy("u", nonnegative=True), LOAD: sp.Dummy("U", real=True)}
         known = tuple(names)
         found, slope = (inserted(e, known).xreplace(plain) for e in (time, rate))
-        if found.has(t) or slope.has(t) or fields(found):
-            raise RuleError(f"missing premise: {time} depends on the wear alone")
+        if not constant(found) or not constant(slope) or fields(found) or not smooth(found):
+            raise RuleError(f"missing premise: {time} is a smooth function of the wear alone")
         wear = plain[u]
+        require(sp.Ge(initial_value(start, u), 0), *premises)
         if not is_zero(sp.diff(found, wear) - (1 / slope).rewrite(sp.exp)):
             raise RuleError("missing premise: its derivative is the reciprocal of the rate")
         if not is_zero(found.subs(wear, initial_value(start, u))):
@@ -135,7 +144,12 @@ class Parametric(Rule):
         q, g, f = (
             inserted(e, tuple(names)).xreplace(plain) for e in (rate, worn.rhs, self.claim.rhs)
         )
-        if fields(sp.Tuple(q, g, f)) or q.has(t) or not is_zero(sp.diff(f, p) - sp.diff(g, p) / q):
+        flat = sp.Tuple(q, g, f.replace(sp.Integral, lambda integrand, _: integrand))
+        if fields(flat) or not constant(flat) or not all(map(smooth, flat)):
+            raise RuleError("missing premise: wear and time are smooth functions of the pressure")
+        if sp.diff(g, load, 2) != 0 or not smooth(g, load):
+            raise RuleError("missing premise: the wear is linear in the load")
+        if not is_zero(sp.diff(f, p) - sp.diff(g, p) / q):
             raise RuleError("missing premise: its derivative is that of the wear over the rate")
         zero = g.subs(p, first)  # u(0) = 0 gives the load at which the pressure is p(0)
         at_start = load - zero / sp.diff(zero, load)

@@ -25,12 +25,14 @@ def reference() -> str:
         parts += [f"## `[{name}]`", _sentence(table), _keys(table)]
     parts += [
         "## `[load]`",
-        "The displacement $U_a(t)$ of the pin. `kind` chooses among the following.",
+        "The displacement $U_a(t)$ of the pin, or its reaction $R_a(t)$. `kind` chooses among the "
+        "following.",
     ]
     for kind in KINDS:
-        table = next(each for each in TABLES if each.kind == kind)
         row = f'| `kind` | `"{kind}"` | kind of load |'
-        parts += [f'### `kind = "{kind}"`', _sentence(table), _keys(table, first=row)]
+        parts.append(f'### `kind = "{kind}"`')
+        for table in (each for each in TABLES if each.kind == kind):
+            parts += [_sentence(table), _keys(table, first=row)]
     names = ", ".join(f"`{kind}`" for kind in PERIODIC)
     parts += [
         "### `[[load.blocks]]`",

@@ -171,7 +171,7 @@ def test_macros_compile(tmp_path: Path, need_tool) -> None:  # type: ignore[no-u
 
 
 def test_help_of_every_command_shows_an_example(capsys: pytest.CaptureFixture[str]) -> None:
-    for command in ("list", "show", "steps", "verify", "latex", "code", "generate"):
+    for command in ("list", "show", "steps", "verify", "latex", "code", "generate", "export"):
         with pytest.raises(SystemExit) as stop:
             main([command, "--help"])
         assert stop.value.code == 0

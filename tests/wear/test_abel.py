@@ -4,59 +4,58 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from wear.count import abel, tabulated
 from wear.numerics.chebyshev import (
     chebyshev_nodes,
 )
 from wear.numerics.gauss import (
     FloatArray,
 )
+from wear.orbit import abel
+from wear.orbit.iterates import cells
 
 SHIFT = 0.3
 
 
 def panels(edges: FloatArray, m: int, slope: float) -> abel.Panels:
     """Panels for P(u) = (u + c) exp(slope) - c: n = ln(u + c)/slope."""
-    starts, across = edges[:-1], abel.widths(SHIFT, edges[:-1], edges[1:])
-    wear = abel.panel_wear(SHIFT, starts, across, chebyshev_nodes(m))
-    return abel.solve(SHIFT, starts, across, (wear + SHIFT) * np.expm1(slope))
+    frame = abel.frame(SHIFT, edges[:-1], edges[1:])
+    wear = frame.states(chebyshev_nodes(m))
+    return abel.solve(frame, (wear + SHIFT) * np.expm1(slope))
 
 
 def square_root_panels(edges: FloatArray, m: int) -> abel.Panels:
     """Panels for P(u) = sqrt(u^2 + a): n = u^2/a, known for every u."""
-    starts, across = edges[:-1], abel.widths(SHIFT, edges[:-1], edges[1:])
-    wear = abel.panel_wear(SHIFT, starts, across, chebyshev_nodes(m))
-    return abel.solve(SHIFT, starts, across, AREA / (np.sqrt(wear**2 + AREA) + wear))
+    frame = abel.frame(SHIFT, edges[:-1], edges[1:])
+    wear = frame.states(chebyshev_nodes(m))
+    return abel.solve(frame, AREA / (np.sqrt(wear**2 + AREA) + wear))
 
 
 AREA = 1e-2
 
 
 def test_geometric_map() -> None:
-    table = tabulated.count(panels(np.array([0.0, 1.0, 5.0]), 40, 0.01), 3.0)
+    table = cells(panels(np.array([0.0, 1.0, 5.0]), 40, 0.01), 3.0)
     wear = np.array([0.0, 0.2, 1.0, 3.0, 4.9])
-    assert_allclose(
-        tabulated.cycles_until(table, wear), 3.0 + np.log1p(wear / SHIFT) / 0.01, rtol=1e-14
-    )
+    assert_allclose(table.cycles_until(wear), 3.0 + np.log1p(wear / SHIFT) / 0.01, rtol=1e-14)
 
 
 def test_the_first_cycles_of_a_long_panel_keep_their_digits() -> None:
     slope = 1e-12
-    table = tabulated.count(panels(np.array([0.0, 1.0]), 40, slope), 0.0)
+    table = cells(panels(np.array([0.0, 1.0]), 40, slope), 0.0)
     at = np.array([1.0, 7.0, 1e3])
-    wear, _ = tabulated.wear_after(table, at)
+    wear, _ = table.state_after(at)
     assert_allclose(wear, SHIFT * np.expm1(at * slope), rtol=3e-14)
-    assert_allclose(tabulated.cycles_until(table, wear), at, rtol=1e-14)
+    assert_allclose(table.cycles_until(wear), at, rtol=1e-14)
 
 
 @pytest.mark.parametrize("cycles", [101.0, 137.5, 1000.0, 9900.0])
 def test_square_root_map_and_its_inverse(cycles: float) -> None:
-    table = tabulated.count(square_root_panels(np.array([1.0, 2.0, 4.0, 10.0]), 24), 100.0)
+    table = cells(square_root_panels(np.array([1.0, 2.0, 4.0, 10.0]), 24), 100.0)
     at = np.array([cycles])
-    wear, pace = tabulated.wear_after(table, at)
+    wear, pace = table.state_after(at)
     assert_allclose(wear, np.sqrt(AREA * cycles), rtol=2e-13)
     assert_allclose(pace, AREA / (2 * wear), rtol=1e-8)  # enough for an error estimate
-    assert_allclose(tabulated.cycles_until(table, wear), at, rtol=1e-13)
+    assert_allclose(table.cycles_until(wear), at, rtol=1e-13)
 
 
 def test_residual_tells_the_error_of_the_count() -> None:
@@ -64,10 +63,10 @@ def test_residual_tells_the_error_of_the_count() -> None:
     errors, residuals = [], []
     for m in (4, 8, 12, 16):
         found = square_root_panels(np.array([1.0, 10.0]), m)
-        wear = abel.panel_wear(SHIFT, found.starts, found.widths, t)
+        wear = found.frame.states(t)
         rises = AREA / (np.sqrt(wear**2 + AREA) + wear)
         residuals.append(np.max(np.abs(abel.residual(found, t, rises))))
-        end = tabulated.count(found, 100.0).last_cycles
+        end = cells(found, 100.0).last_cycles
         errors.append(abs(end - 10000.0) / 10000.0)
     assert np.all(np.array(errors) < residuals)
     assert residuals[-1] < 1e-3 * residuals[0]  # spectral: a factor 10 for every four nodes
@@ -75,10 +74,10 @@ def test_residual_tells_the_error_of_the_count() -> None:
 
 def test_counts_of_neighbours_agree_where_panels_are_long() -> None:
     found = square_root_panels(np.array([1.0, 3.0, 10.0]), 24)
-    assert np.max(abel.junctions(found.take(slice(-1)), found.take(slice(1, None)))) < 1e-10
+    assert np.max(abel.matching_defect(found.take(slice(-1)), found.take(slice(1, None)))) < 1e-10
 
 
 def test_counts_of_neighbours_part_where_panels_are_short() -> None:
     """Two cycles on 16 nodes leave room for an oscillation of period one cycle."""
     found = square_root_panels(np.sqrt(AREA * np.array([1.0, 3.0, 5.0])), 16)
-    assert np.min(abel.junctions(found.take(slice(-1)), found.take(slice(1, None)))) > 1e-13
+    assert np.min(abel.matching_defect(found.take(slice(-1)), found.take(slice(1, None)))) > 1e-13

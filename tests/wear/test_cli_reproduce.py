@@ -165,6 +165,29 @@ def test_a_figure_of_the_pressure_inside_cycles(call: Call, tmp_path: Path) -> N
     assert "the load does not repeat" in messages
 
 
+def test_a_figure_of_several_scenes_with_readings_and_a_limit(call: Call, tmp_path: Path) -> None:
+    data, file = tmp_path / "read.csv", tmp_path / "both.svg"
+    data.write_text("cycles,wear_um\n10,0.3\n50,0.7\n")
+    request = ("figure", "section4", "section4-cutoff", "-o", str(file), "--data", str(data))
+    shown = json.loads(call(*request, "--until-wear", "5e-3", "--axis", "hours", "--json")[1])
+    assert (shown["scenes"], shown["cycles"]) == (["section4", "section4-cutoff"], [0, 50])
+    assert shown["reached"] == ["counted", "never"]
+    assert shown["cycles_until"][1] is None
+    data.write_text("cycles,wear_um,motion.radius_mm\n10,0.3,-1\n20,1,-1\n")
+    status, _, messages = call(*request, "--axis", "days")
+    assert status == 2
+    assert all(word in messages for word in ("--axis", "radius_mm", "negative"))
+
+
+def test_readings_of_two_specimens_have_a_run_each(call: Call, tmp_path: Path) -> None:
+    data, file = tmp_path / "read.csv", tmp_path / "both.svg"
+    data.write_text(
+        "specimen,cycles,wear_um,motion.radius_mm\nA,10,0.3,22\nA,20,0.4,22\nB,10,0.5,40\n"
+    )
+    shown = call("figure", "section4", "-o", str(file), "--data", str(data), "--json")[1]
+    assert json.loads(shown)["scenes"] == ["A", "B"]
+
+
 def test_all_faults_of_a_figure_are_told_at_once(call: Call) -> None:
     status, _, messages = call("figure", "nowhere", "-o", "wear.gif", "--cycles", "1,2")
     assert status == 2

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from dataclasses import replace
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -15,25 +17,41 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from wear import figure_style, figures
-from wear.figure_data import Example, Line, Method, pressure_inside
+from wear.figure_data import (
+    PRESSURE,
+    ROUGHNESS,
+    WEAR,
+    Abscissa,
+    Example,
+    Line,
+    Method,
+    Panel,
+    panels_of,
+    pressure_inside,
+)
+from wear.load import Block, Blocks, Constant
 from wear.report import drawing
 from wear.scene import load_scene
 from wear.solver import solve
 
 CYCLES = np.linspace(0.0, 100.0, 201)
-WEAR = 1e-4 * np.log1p(CYCLES)
+DEPTH = 1e-4 * np.log1p(CYCLES)
 
 
-def _lines() -> list[Line]:
-    return [
-        Line("bearing", CYCLES, WEAR),
-        Line("bearing, cutoff", CYCLES, 0.9 * WEAR, 0, 1),
-        Line("pin", CYCLES, WEAR / 3.0, 1),
-    ]
+def _lines() -> tuple[Line, ...]:
+    return (
+        Line("bearing", CYCLES, DEPTH),
+        Line("bearing, cutoff", CYCLES, 0.9 * DEPTH, 0, 1),
+        Line("pin", CYCLES, DEPTH / 3.0, 1),
+    )
+
+
+def _wear(**options: Any) -> Figure:
+    return figures.history([Panel(WEAR, _lines())], **options)
 
 
 def _methods() -> list[Method]:
-    error = np.array([1e-3, 1e-9, 0.0])
+    error = np.array([1e-3, 1e-9, 1e-16])
     missed = np.array([True, False, False])
     return [
         Method(f"method {i}", error * (i + 1), np.array([1.0, 2.0, 3.0]) * 2.0**i, missed)
@@ -47,14 +65,16 @@ def _two_regimes(slope: np.ndarray, gap: np.ndarray, ends: bool) -> np.ndarray:
 
 def _all() -> dict[str, Figure]:
     return {
-        "history": figures.history(_lines(), _lines(), _lines()[:1], logarithmic=True),
-        "wear": figures.wear_history(_lines()),
-        "logarithmic": figures.wear_history(_lines(), logarithmic=True),
-        "roughness": figures.roughness_history(_lines()),
+        "history": figures.history(
+            [Panel(WEAR, _lines()), Panel(ROUGHNESS, _lines()), Panel(PRESSURE, _lines()[:1])],
+            logarithmic=True,
+        ),
+        "wear": _wear(),
+        "logarithmic": _wear(logarithmic=True),
         "asymptote": figures.wear_with_asymptote(_lines()[:1], _lines()[2:]),
-        "coefficient": figures.wear_by_coefficient(_lines()),
-        "pressure": figures.pressure_in_cycles([Line("first", CYCLES / 100.0, WEAR)]),
+        "pressure": figures.pressure_in_cycles([Line("first", CYCLES / 100.0, DEPTH)]),
         "speed": figures.speed_against_error(_methods()),
+        "cycles": figures.speed_against_cycles(_methods()),
         "map": figures.regime_map(
             _two_regimes,
             ("without", "with"),
@@ -78,7 +98,7 @@ def written(drawn: dict[str, Figure]) -> dict[str, str]:
 
 
 def test_files_are_the_same_in_every_run(written: dict[str, str]) -> None:
-    first, second = (figures.wear_history(_lines()) for _ in range(2))
+    first, second = (_wear() for _ in range(2))
     assert figure_style.svg(first) == figure_style.svg(second) == written["wear"]
     assert figure_style.svg(first) == written["wear"]  # writing a figure does not change it
     assert figure_style.pdf(first) == figure_style.pdf(second)
@@ -150,7 +170,7 @@ def test_neighbouring_families_differ_in_lightness() -> None:
 
 def test_drawing_changes_no_settings() -> None:
     before = dict(mpl.rcParams)
-    figure_style.png(figures.wear_history(_lines()), 50.0)
+    figure_style.png(_wear(), 50.0)
     assert dict(mpl.rcParams) == before
 
 
@@ -226,7 +246,36 @@ def test_what_grows_by_decades_has_a_logarithmic_axis() -> None:
         Line("bearing", cycles, 1e-7 * cycles),
         Line("bearing", cycles, 1.0 + 0.0 * cycles),
     )
-    arrested = Line("contact", cycles, np.array([3.0, 1.0, 0.0, 0.0]))
+    arrested = Line("peak", cycles, np.array([300.0, 300.0, 1.0, 0.0]))
+    panels = [Panel(WEAR, (wear,)), Panel(ROUGHNESS, (level,)), Panel(PRESSURE, (arrested,))]
     for logarithmic, scale in ((True, "log"), (False, "linear")):
-        drawn = figures.history([wear], [level], [arrested], logarithmic=logarithmic)
-        assert [axes.get_yscale() for axes in drawn.axes] == [scale, "linear", "linear"]
+        drawn = figures.history(panels, logarithmic=logarithmic)
+        assert [axes.get_yscale() for axes in drawn.axes] == [scale, "linear", "log"]
+
+
+def test_readings_and_the_limit_stand_beside_the_wear() -> None:
+    read = Line("measured", np.array([10.0, 120.0]), np.array([1e-4, 7e-4]), 6)
+    axes = figures.history([Panel(WEAR, _lines(), (read,), limit=9e-4)]).axes[0]
+    np.testing.assert_allclose(axes.lines[3].get_xydata(), [[10.0, 0.1], [120.0, 0.7]])
+    assert axes.get_xlim()[1] == 120.0
+    assert axes.get_ylim()[1] > 0.9
+    assert {"measured", "limit"} <= {text.get_text() for text in axes.texts}
+
+
+def test_one_run_has_a_colour_a_quantity_and_several_a_colour_each() -> None:
+    runs = [solve(name, [1, 100, 5000], 1e-6) for name in ("section3", "section4-cutoff")]
+    wear, _, pressure = panels_of(runs[:1])
+    assert [line.name for line in wear.lines] == ["bearing", "pin"]
+    assert [line.name for line in pressure.lines] == ["peak", "mean", "start of cycle"]
+    np.testing.assert_array_equal(pressure.lines[1].y, runs[0].pressures.mean)
+    wear, _, pressure, contact = panels_of(runs, ("A", "B"), Abscissa.HOURS)
+    assert [(line.name, line.family) for line in wear.lines] == [("A", 0), ("A, pin", 0), ("B", 1)]
+    assert [line.name for line in pressure.lines] == ["A, peak", "A, mean", "B, peak", "B, mean"]
+    assert [line.name for line in contact.lines] == ["B"]
+    np.testing.assert_allclose(contact.lines[0].x * 3600.0, [0.06, 6.0, 300.0])
+
+
+def test_hours_of_blocks_are_those_of_their_periods() -> None:
+    blocks = Blocks((Block(Constant(0.0, 3600.0), 2), Block(Constant(0.0, 1800.0), 2)))
+    scene = replace(load_scene("section4"), load=blocks)
+    np.testing.assert_allclose(Abscissa.HOURS.of(scene, np.array([1.0, 3.0, 4.0])), [1.0, 2.5, 3.0])

@@ -59,7 +59,7 @@ def test_a_million_rows_are_read(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text(HEAD + "\n".join(lines))
     read = read_rows(TableFile("a.csv"), tmp_path)
     assert read.times.tolist() == times.tolist()
-    assert read.displacements.tolist() == level.tolist()
+    assert read.values.tolist() == level.tolist()
 
 
 def test_one_wrong_row_among_many_is_told_with_its_line(tmp_path: Path) -> None:

@@ -110,7 +110,7 @@ def test_all_faults_of_a_table_come_at_once() -> None:
         (lambda: Table((0.1, 0.2, 1.0), (0.0, 1e-4, 0.0)), "starts at 0.1"),
         (lambda: Table((0.0, 1.0), (0.0, 1e-4)), "jumps at the seam"),
         (lambda: Table((0.0, 1.0), (0.0, math.nan)), "not a finite number"),
-        (lambda: Table((0.0, 1.0), (0.0,)), "2 times and 1 displacements"),
+        (lambda: Table((0.0, 1.0), (0.0,)), "2 times and 1 values"),
         (lambda: HistoryLoad((0.0, 1.0), (0.0, 1.0), -1.0), "negative"),
         (lambda: HistoryLoad((0.0, 0.0), (0.0, 1.0), 1.0), "does not come after"),
         (lambda: Blocks(()), "has 0 blocks"),

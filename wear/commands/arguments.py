@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from derive import completion
 
 if TYPE_CHECKING:
+    from wear.fitting.readings import Specimen
     from wear.scene import Scene
 
 
@@ -22,13 +23,15 @@ MOST_IN_RANGE = 1_000_000  # numbers of cycles
 _THOUSANDS = re.compile(r"0\d+")  # what a comma leaves of 9,000: not to be read as 9 and 0
 
 
-def add_scene(parser: argparse.ArgumentParser, default: str | None = None) -> None:
-    """Declare the scene, which may be left out if there is a default, and `--set`."""
+def add_scene(
+    parser: argparse.ArgumentParser, default: str | None = None, *, several: bool = False
+) -> None:
+    """Declare the scene or scenes, which may be left out if there is a default, and `--set`."""
     about = "a built-in scene (wear scenes lists them) or a TOML file"
     scene = parser.add_argument(
         "scene",
         metavar="SCENE",
-        nargs=None if default is None else "?",
+        nargs="+" if several else None if default is None else "?",
         default=default,
         help=about if default is None else f"{about} (default: {default})",
     )
@@ -84,17 +87,41 @@ class Faults:
 
     def scene(self, options: argparse.Namespace) -> Scene | None:
         """Return the scene that the options name, None if it has faults."""
+        return self._loaded(options.scene, options)
+
+    def scenes(self, options: argparse.Namespace) -> list[Scene]:
+        """Return the scenes that the options name, without those that have faults."""
+        found = (self._loaded(name, options) for name in options.scene)
+        return [scene for scene in found if scene is not None]
+
+    def _loaded(self, name: str, options: argparse.Namespace) -> Scene | None:
         from wear.faults import SceneError
         from wear.scene import load_scene
 
         try:
-            scene = load_scene(options.scene, options.overrides)
+            scene = load_scene(name, options.overrides)
         except SceneError as fault:
             self.add(str(fault))
             return None
         if options.strict:
             self.refuse_implausible(scene.notices)
         return scene
+
+    def readings(self, file: str, scenes: Sequence[Scene]) -> tuple[Specimen, ...]:
+        """Return the readings of a CSV file, none if it has faults; entries of the scene that the
+        file names are tried in the first."""
+        from wear.faults import WearError
+        from wear.fitting.readings import read_readings
+
+        try:
+            found = read_readings(file)
+            for scene in scenes[:1]:
+                for each in found:
+                    scene.with_(each.changes)
+        except WearError as fault:
+            self.add(f"--data: {fault}")
+            return ()
+        return found
 
     def refuse_implausible(self, notices: Sequence[str]) -> None:
         """Make faults of the notices about magnitudes that are hardly meant."""

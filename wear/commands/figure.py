@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from derive import files, terminal
 from derive.command_line import Command
@@ -13,33 +15,52 @@ from wear.commands import run_output
 from wear.commands.arguments import Faults, add_scene
 
 if TYPE_CHECKING:
+    from wear.figure_data import Abscissa
+    from wear.fitting.readings import Specimen
     from wear.scene import Scene
 
 SUFFIXES = (".pdf", ".png", ".svg")
 POINTS = 160
-MOST_INSIDE = 7  # cycles in one figure: as many as there are colours
+LAST = 9000  # cycle shown, unless the load ends before or readings go on
+MOST_AT_ONCE = 7  # scenes or cycles in one figure: as many as there are colours
+ABSCISSAE = ("cycles", "hours")
 
 EXAMPLE = """\
   wear figure section4 -o wear.pdf                          9000 cycles
   wear figure section4 -o wear.svg --cycles 1e8 --log       on a logarithmic axis
   wear figure scene.toml -o wear.png --set contact.ends_at_3_sigma=true
+  wear figure mild.toml hard.toml -o both.svg --until-wear 2e-3 --axis hours
+  wear figure scene.toml -o wear.pdf --data readings.csv    with what was measured
   wear figure section4 -o pulses.svg --inside 0,10,100      the pressure within three cycles
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the scene, the file and the range of cycles."""
-    add_scene(parser)
+    """Declare the scenes, the file and the range of cycles."""
+    add_scene(parser, several=True)
     parser.add_argument(
         "-o", "--output", metavar="FILE", required=True, help="a .pdf, .png or .svg file"
     )
     parser.add_argument(
-        "--cycles", metavar="N", default="9000", help="last cycle shown (default: %(default)s)"
+        "--cycles",
+        metavar="N",
+        help=f"last cycle shown (default: that of the last reading, or {LAST})",
+    )
+    parser.add_argument(
+        "--axis", default="cycles", help="what is drawn along it: cycles or hours (default: cycles)"
     )
     parser.add_argument(
         "--log",
         action="store_true",
         help="logarithmic axes: of cycles, and of wear or roughness that span decades",
+    )
+    parser.add_argument(
+        "--data",
+        metavar="FILE.csv",
+        help="draw readings beside the wear: columns cycles, wear_mm or wear_um, and specimen",
+    )
+    parser.add_argument(
+        "--until-wear", metavar="MM", help="draw this limit of the wear, and when it is reached"
     )
     parser.add_argument(
         "--inside",
@@ -50,11 +71,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(options: argparse.Namespace) -> int:
-    """Solve the scene and draw it."""
+    """Solve the scenes and draw them."""
     faults = Faults()
-    scene = faults.scene(options)
-    last = faults.cycles("--cycles", options.cycles)
+    scenes = faults.scenes(options)
     inside = None if options.inside is None else faults.cycles("--inside", options.inside)
+    axis = faults.choice("--axis", options.axis, ABSCISSAE)
+    limit = None
+    if options.until_wear is not None:
+        limit = faults.number("--until-wear", options.until_wear, 0.0, 1e300)
+    specimens = () if options.data is None else faults.readings(options.data, scenes)
+    last = () if options.cycles is None else faults.cycles("--cycles", options.cycles)
     output = Path(options.output)
     if output.suffix.lower() not in SUFFIXES:
         faults.add(f"--output: {options.output}: end it in {', '.join(SUFFIXES)}")
@@ -62,26 +88,71 @@ def execute(options: argparse.Namespace) -> int:
         faults.add(f"--output: {problem}")
     if len(last) > 1 or last == (0,):
         faults.add(f"--cycles: {options.cycles}: give one number of cycles, from 1 on")
+    if len(scenes) > MOST_AT_ONCE:
+        faults.add(f"{len(scenes)} scenes in one figure; name up to {MOST_AT_ONCE}")
+    if len(scenes) > 1 and (inside is not None or any(each.changes for each in specimens)):
+        faults.add("--inside, or readings with entries of the scene, go with one scene")
     if inside is not None:
-        _check_inside(inside, scene, faults)
+        _check_inside(inside, scenes, faults)
     faults.stop_if_any()
-    assert scene is not None
     if inside is not None:
-        return _pressure_inside(scene, inside, output, as_json=options.json)
-    return _against_cycles(scene, last[0], output, options)
+        return _pressure_inside(scenes[0], inside, output, as_json=options.json)
+    from wear.figure_data import Abscissa
+
+    asked = _Asked(
+        tuple(scenes), tuple(specimens), last[0] if last else _default_last(scenes, specimens),
+        limit, Abscissa[axis.upper()], options.log,
+    )  # fmt: skip
+    return _against_cycles(asked, output, as_json=options.json)
 
 
-def _against_cycles(scene: Scene, last: int, output: Path, options: argparse.Namespace) -> int:
+class _Asked(NamedTuple):
+    """What a figure shows: scenes with readings up to a cycle, and a limit of the wear in mm."""
+
+    scenes: tuple[Scene, ...]
+    specimens: tuple[Specimen, ...]
+    last: int
+    limit: float | None
+    abscissa: Abscissa
+    logarithmic: bool
+
+
+def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int:
+    from wear.direct.sequence import most_cycles
+
+    read = [int(each.cycles[-1]) for each in specimens]
+    return max(read) if read else min(LAST, *(most_cycles(scene.load) for scene in scenes))
+
+
+def _against_cycles(asked: _Asked, output: Path, *, as_json: bool) -> int:
+    from wear.figure_data import panels_of, points_of
     from wear.figures import history
-    from wear.report.figures_of_note import lines_of
+    from wear.life import cycles_until
     from wear.solver import solve
 
-    found = solve(scene, shown_cycles(last, logarithmic=options.log), rtol=1e-6)
-    drawn = history(*lines_of(found), logarithmic=options.log)
+    runs = {Path(scene.name).stem: scene for scene in asked.scenes}
+    if any(each.changes for each in asked.specimens):
+        runs = {each.name: asked.scenes[0].with_(each.changes) for each in asked.specimens}
+    cycles = shown_cycles(asked.last, logarithmic=asked.logarithmic)
+    found = [solve(scene, cycles, rtol=1e-6) for scene in runs.values()]
+    wear, *others = panels_of(found, tuple(runs), asked.abscissa)
+    points = points_of(asked.specimens, runs, asked.abscissa)
+    summary = _summary(found[0].scene, cycles, output) | {"scenes": list(runs)}
+    if asked.limit is not None:
+        lives = [cycles_until(scene, asked.limit, rtol=1e-6) for scene in runs.values()]
+        ends = [float(life.cycles[0]) for life in lives]
+        reached = [life.reached[0].value for life in lives]
+        summary |= {"cycles_until": ends, "reached": reached}
+        for name, end, way in zip(runs, ends, reached, strict=True):
+            said = f"{end:.0f} cycles" if math.isfinite(end) else way
+            if not as_json:
+                print(f"{name}: {asked.limit:g} mm: {said}")
+    shown = replace(wear, points=points, limit=asked.limit)
+    drawn = history([shown, *others], abscissa=asked.abscissa, logarithmic=asked.logarithmic)
     _write(drawn, output)
-    if options.json:
-        terminal.print_json(_summary(found.scene, found.cycles.tolist(), output))
-    for notice in run_output.worth_telling(found):
+    if as_json:
+        terminal.print_json(summary)
+    for notice in dict.fromkeys(n for each in found for n in run_output.worth_telling(each)):
         terminal.complain("wear figure", notice)
     return terminal.DONE
 
@@ -102,17 +173,16 @@ def _write(drawn: object, output: Path) -> None:
     files.write_atomically(output, encoded(drawn, output.suffix))  # type: ignore[arg-type]
 
 
-def _check_inside(inside: Sequence[int], scene: Scene | None, faults: Faults) -> None:
+def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: Faults) -> None:
     from wear.load import Blocks
     from wear.solver import obstacle
 
-    if len(inside) > MOST_INSIDE:
-        faults.add(f"--inside: {len(inside)} cycles in one figure; name up to {MOST_INSIDE}")
-    if scene is None:
-        return
-    against = "the load does not repeat" if isinstance(scene.load, Blocks) else obstacle(scene)
-    if against is not None:
-        faults.add(f"--inside: {against}; leave --inside out")
+    if len(inside) > MOST_AT_ONCE:
+        faults.add(f"--inside: {len(inside)} cycles in one figure; name up to {MOST_AT_ONCE}")
+    for scene in scenes:
+        against = "the load does not repeat" if isinstance(scene.load, Blocks) else obstacle(scene)
+        if against is not None:
+            faults.add(f"--inside: {against}; leave --inside out")
 
 
 def _pressure_inside(scene: Scene, inside: Sequence[int], output: Path, *, as_json: bool) -> int:

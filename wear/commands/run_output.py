@@ -152,5 +152,6 @@ def _modelled(history: History) -> Sequence[Column]:
 
 
 def _heading(column: Column) -> str:
-    words = column.name.removesuffix(f"_{column.unit}").split("_")
+    unit = column.unit.replace("/", "_per_").replace("^", "")
+    words = column.name.removesuffix(f"_{unit}").split("_")
     return "\n".join(words if column.unit == "1" else [*words, f"({column.unit})"])

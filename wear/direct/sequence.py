@@ -46,6 +46,10 @@ class Window:
     def slope(self, phase: Real) -> Real:
         return self._history.slope(self._time(phase)) * self.period
 
+    def gradient(self, phase: Real) -> dict[str, Real]:
+        """Return nothing: the rows of a history are no parameters."""
+        return {}
+
     def _time(self, phase: Real) -> Real:
         return np.minimum(self._start + np.asarray(phase) * self.period, self._history.duration)
 

@@ -1,7 +1,8 @@
-"""Loads: the prescribed displacement U_a of the pin, in mm.
+"""Loads: the prescribed displacement U_a of the pin, in mm, or its reaction R_a, in N.
 
 A `Load` repeats and is a function of the phase t/T; `Sine`, `Constant`, `Harmonics` and `Table` are
-such. An `AperiodicLoad` is a function of the time in s; `HistoryLoad` and `Blocks` are such.
+such, and of forces `Force` and `ForceTable`. An `AperiodicLoad` is a function of the time in s;
+`HistoryLoad` and `Blocks` are such.
 All are frozen and checked where they are made; values, slopes and extremes are exact to rounding.
 """
 
@@ -17,7 +18,7 @@ from pydantic import Field
 from wear.checked import Positive, Real, SceneTable, table
 from wear.load.blocks import Block, Blocks
 from wear.load.harmonics import Harmonics
-from wear.load.lines import HistoryLoad, Table
+from wear.load.lines import ForceTable, HistoryLoad, Table
 from wear.load.phase import FloatArray, centred
 from wear.load.protocols import AperiodicLoad, Load
 
@@ -27,6 +28,8 @@ __all__ = [
     "Blocks",
     "Constant",
     "FloatArray",
+    "Force",
+    "ForceTable",
     "Harmonics",
     "HistoryLoad",
     "Load",
@@ -57,6 +60,9 @@ class Sine(SceneTable):
         angle = 2.0 * math.pi * centred(phase)
         return np.asarray(2.0 * math.pi * self.amplitude_mm * np.cos(angle))
 
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"amplitude_mm": np.sin(2.0 * math.pi * centred(phase))}
+
     @property
     def period(self) -> float:
         return self.period_s
@@ -76,36 +82,70 @@ class Sine(SceneTable):
         return (0.25,) if self.amplitude_mm > 0.0 else (0.75,)
 
 
+class _Level:
+    """A load that stays as it is."""
+
+    kinks: ClassVar[tuple[float, ...]] = ()
+    peaks: ClassVar[tuple[float, ...]] = (0.0,)
+
+    @property
+    def mean(self) -> float:
+        raise NotImplementedError
+
+    def __call__(self, phase: FloatArray | float) -> FloatArray:
+        return np.full(np.shape(phase), self.mean)
+
+    def slope(self, phase: FloatArray | float) -> FloatArray:
+        return np.zeros(np.shape(phase))
+
+    @property
+    def minimum(self) -> float:
+        return self.mean
+
+    @property
+    def maximum(self) -> float:
+        return self.mean
+
+
 @table("load", kind="constant")
-class Constant(SceneTable):
+class Constant(_Level, SceneTable):
     """U_a constant; the period only counts cycles."""
 
     value_mm: Real = Field(description="displacement U_a")
     period_s: Positive = Field(description="period T, only to count cycles")
-    kinks: ClassVar[tuple[float, ...]] = ()
-    peaks: ClassVar[tuple[float, ...]] = (0.0,)
-
-    def __call__(self, phase: FloatArray | float) -> FloatArray:
-        return np.full(np.shape(phase), self.value_mm)
-
-    def slope(self, phase: FloatArray | float) -> FloatArray:
-        return np.zeros(np.shape(phase))
 
     @property
     def period(self) -> float:
         return self.period_s
 
     @property
-    def minimum(self) -> float:
+    def mean(self) -> float:
         return self.value_mm
 
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"value_mm": np.ones(phase.shape)}
+
+
+@table("load", kind="force")
+class Force(_Level, SceneTable):
+    """R_a constant: wear is its integral, problem (i) of the note, and the displacement follows.
+
+    The contact needs `width_mm` and `length_mm`; its pressure is R_a/(b L).
+    """
+
+    force_N: Positive = Field(description="reaction R_a of the pin")
+    period_s: Positive = Field(description="period T, only to count cycles")
+
     @property
-    def maximum(self) -> float:
-        return self.value_mm
+    def period(self) -> float:
+        return self.period_s
 
     @property
     def mean(self) -> float:
-        return self.value_mm
+        return self.force_N
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {"force_N": np.ones(phase.shape)}
 
 
 def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:

@@ -34,6 +34,14 @@ class Harmonics(SceneTable):
     def slope(self, phase: FloatArray | float) -> FloatArray:
         return _trigonometric_sum(_derivative(self._terms()), phase)
 
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        turn = 2.0 * math.pi * centred(phase)
+        found = {"mean_mm": np.ones(turn.shape)}
+        for name, wave in (("cosine_mm", np.cos), ("sine_mm", np.sin)):
+            for j in range(len(getattr(self, name))):
+                found[f"{name}[{j}]"] = wave((j + 1) * turn)
+        return found
+
     def _terms(self) -> FloatArray:
         """Rows j, cosine_j, sine_j of the harmonics."""
         terms = np.zeros((3, max(len(self.cosine_mm), len(self.sine_mm))))

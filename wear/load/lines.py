@@ -1,4 +1,4 @@
-"""Displacements given by rows: straight lines between them, periodic or not."""
+"""Displacements and forces given by rows: straight lines between them, periodic or not."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import dataclasses
 import math
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from pydantic import BeforeValidator, Field, FiniteFloat, model_validator
 
-from wear.checked import Positive, SceneTable, all_wrong, listed, table
+from wear.checked import Positive, SceneTable, all_wrong, listed, table, unit_of
 from wear.load.phase import FloatArray, inside, within_cycle
-from wear.load.rows import HistoryFile, RowsFile, TableFile, order_faults, read_rows
+from wear.load.rows import ForceFile, HistoryFile, RowsFile, TableFile, order_faults, read_rows
 
 SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes but for their roundoff
 
@@ -22,21 +22,39 @@ Column = Annotated[tuple[FiniteFloat, ...], BeforeValidator(listed)]
 
 @table("")
 class _Rows(SceneTable):
-    """Displacements in mm at times in s that rise from 0; `source` is the file they are from."""
+    """Values at times in s that rise from 0; `of_rows` names the field that holds the values."""
 
+    of_rows: ClassVar[str] = "values_mm"
     times_s: Column = Field(description="times of the rows, from 0")
-    values_mm: Column = Field(description="U_a at these times")
+
+    @property
+    def rows(self) -> tuple[float, ...]:
+        """The value of each row, in mm, or in N of a force."""
+        values: tuple[float, ...] = getattr(self, self.of_rows)
+        return values
+
+    @cached_property
+    def minimum(self) -> float:
+        return min(self.rows)
+
+    @cached_property
+    def maximum(self) -> float:
+        return max(self.rows)
+
+    @cached_property
+    def _values(self) -> FloatArray:
+        return np.asarray(self.rows)
 
     def __repr__(self) -> str:
-        values, duration = self.values_mm, self.times_s[-1]
-        within = f"{min(values):g} to {max(values):g} mm in {duration:g} s"
+        values, duration, unit = self.rows, self.times_s[-1], unit_of(self.of_rows)
+        within = f"{min(values):g} to {max(values):g} {unit} in {duration:g} s"
         return f"<{type(self).__name__}: {len(values)} rows, {within}>"
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         rows = len(self.times_s)
-        if rows < 2 or len(self.values_mm) != rows:
-            problem = f"there are {rows} times and {len(self.values_mm)} displacements"
+        if rows < 2 or len(self.rows) != rows:
+            problem = f"there are {rows} times and {len(self.rows)} values"
             raise all_wrong(("times_s", problem, "give as many of both, from 2 on"))
         if faults := order_faults(np.asarray(self.times_s)):
             raise all_wrong(*(("times_s", problem, remedy) for _, problem, remedy in faults))
@@ -56,40 +74,32 @@ def _mean_of_lines(times: FloatArray, values: FloatArray) -> float:
 
 
 @table("")
-class Table(_Rows):
-    """Straight lines between rows over one period; the first row, at t = 0, is also the last.
-
-    `times_s` runs from 0 to the period. `source` says which file the rows came from.
-
-    >>> saw = Table((0.0, 0.5, 2.0), (0.0, 1e-3, 0.0))
-    >>> saw.period, saw.kinks, saw.peaks, float(saw(0.125))
-    (2.0, (0.0, 0.25), (0.25,), 0.0005)
-    """
-
-    source: TableFile | None = None
-    __repr__ = _Rows.__repr__
+class _Period(_Rows):
+    """Straight lines between rows over one period; the first row, at t = 0, is also the last."""
 
     @model_validator(mode="after")
     def _closed(self) -> Self:
-        first, last = self.values_mm[0], self.values_mm[-1]
+        first, last = self.rows[0], self.rows[-1]
         if first != last:
-            problem = f"U_a_mm jumps at the seam from {last!r} to {first!r}"
-            raise all_wrong(("values_mm", problem, "repeat the first in the last row"))
+            problem = f"the load jumps at the seam from {last!r} to {first!r}"
+            raise all_wrong((self.of_rows, problem, "repeat the first in the last row"))
         return self
 
     @cached_property
     def _phases(self) -> FloatArray:
         return np.asarray(self.times_s) / self.period
 
-    @cached_property
-    def _values(self) -> FloatArray:
-        return np.asarray(self.values_mm)
-
     def __call__(self, phase: FloatArray | float) -> FloatArray:
         return np.asarray(np.interp(within_cycle(phase), self._phases, self._values))
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
         return _segment_slopes(self._phases, self._values, within_cycle(phase) % 1.0)
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        at, rows = within_cycle(phase), np.eye(len(self.rows))
+        rows[0, -1] = 1.0  # the seam
+        found = (np.interp(at, self._phases, row) for row in rows[:-1])
+        return {f"{self.of_rows}[{j}]": row for j, row in enumerate(found)}
 
     @property
     def period(self) -> float:
@@ -98,14 +108,6 @@ class Table(_Rows):
     @cached_property
     def kinks(self) -> tuple[float, ...]:
         return tuple(self._phases[:-1].tolist())
-
-    @cached_property
-    def minimum(self) -> float:
-        return min(self.values_mm)
-
-    @cached_property
-    def maximum(self) -> float:
-        return max(self.values_mm)
 
     @cached_property
     def mean(self) -> float:
@@ -122,12 +124,46 @@ class Table(_Rows):
 
 
 @table("")
+class Table(_Period):
+    """U_a in mm by straight lines between rows over one period.
+
+    `times_s` runs from 0 to the period. `source` says which file the rows came from.
+
+    >>> saw = Table((0.0, 0.5, 2.0), (0.0, 1e-3, 0.0))
+    >>> saw.period, saw.kinks, saw.peaks, float(saw(0.125))
+    (2.0, (0.0, 0.25), (0.25,), 0.0005)
+    """
+
+    values_mm: Column = Field(description="U_a at these times")
+    source: TableFile | None = None
+    __repr__ = _Rows.__repr__
+
+
+@table("")
+class ForceTable(_Period):
+    """R_a in N by straight lines between rows over one period."""
+
+    of_rows: ClassVar[str] = "forces_N"
+    forces_N: Column = Field(description="R_a at these times")
+    source: ForceFile | None = None
+    __repr__ = _Rows.__repr__
+
+    @model_validator(mode="after")
+    def _pressed(self) -> Self:
+        if self.minimum < 0.0 or self.maximum == 0.0:
+            problem = f"the force goes from {self.minimum:g} to {self.maximum:g} N"
+            raise all_wrong(("forces_N", problem, "give forces >= 0, not all of them zero"))
+        return self
+
+
+@table("")
 class HistoryLoad(_Rows):
     """Straight lines between measured rows, from t = 0 to the last row; it does not repeat.
 
     `period_s` only counts cycles. Times outside the rows are a `UsageError`.
     """
 
+    values_mm: Column = Field(description="U_a at these times")
     period_s: Positive = Field(description="time of a cycle")
     source: HistoryFile | None = None
     __repr__ = _Rows.__repr__
@@ -135,10 +171,6 @@ class HistoryLoad(_Rows):
     @cached_property
     def _times(self) -> FloatArray:
         return np.asarray(self.times_s)
-
-    @cached_property
-    def _values(self) -> FloatArray:
-        return np.asarray(self.values_mm)
 
     def value(self, time: FloatArray | float) -> FloatArray:
         return np.asarray(np.interp(inside(time, self.duration), self._times, self._values))
@@ -162,28 +194,22 @@ class HistoryLoad(_Rows):
         return float(inside(cycles * self.period_s, self.duration))
 
     @cached_property
-    def minimum(self) -> float:
-        return min(self.values_mm)
-
-    @cached_property
-    def maximum(self) -> float:
-        return max(self.values_mm)
-
-    @cached_property
     def mean(self) -> float:
         return _mean_of_lines(self._times, self._values)
 
 
-def load_of(form: RowsFile, folder: Path | None) -> Table | HistoryLoad:
+def load_of(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:
     """Return the load of a CSV file; raises pydantic's `ValidationError` with all that is wrong."""
     repeat = isinstance(form, TableFile) and form.repeat
     rows = read_rows(form, folder, from_first=repeat)
-    times, values = rows.times, rows.displacements
+    times, values = rows.times, rows.values
     source = dataclasses.replace(form, sha256=rows.sha256)
     if isinstance(source, HistoryFile):
         return HistoryLoad(_floats(times), _floats(values), form.period_s or times[-1], source)
     assert isinstance(source, TableFile)
     times, values = (_one_period if repeat else _close)(times, values, form.period_s)
+    if isinstance(source, ForceFile):
+        return ForceTable(_floats(times), _floats(values), source)
     return Table(_floats(times), _floats(values), source)
 
 
@@ -206,8 +232,8 @@ def _close(
         times, values = np.append(times, period), np.append(values, values[0])
     first, last = values[[0, -1]].tolist()
     if abs(last - first) > SEAM_TOLERANCE * np.ptp(values):
-        problem = f"U_a_mm jumps at the seam from {last!r} to {first!r}"
-        remedy = "repeat the first U_a_mm in the last row, give a later period_s, or repeat = true"
+        problem = f"the load jumps at the seam from {last!r} to {first!r}"
+        remedy = "repeat the first value in the last row, give a later period_s, or repeat = true"
         raise all_wrong(("file", problem, remedy))
     values[-1] = first
     return times, values

@@ -20,6 +20,10 @@ class Load(Protocol):
     def slope(self, phase: FloatArray | float) -> FloatArray:
         """dU_a/dphase in mm per cycle; at a kink the slope to its right."""
 
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        """dU_a/dp at `phase`, in its shape, for every number p of the load but its period, by the
+        key of p in the scene file; a list's entries are counted from 0."""
+
     @property
     def kinks(self) -> tuple[float, ...]:
         """Phases in [0, 1), increasing, where U_a is not smooth."""

@@ -1,8 +1,8 @@
 """CSV files of loads: two columns by their names, bounded in size, every bad row with its line.
 
 Key results
-    TableFile, HistoryFile   the `[load]` tables that name a file and say how it is written
-    read_rows                the rows of one
+    TableFile, ForceFile, HistoryFile   the `[load]` tables that say how a file is written
+    read_rows                           the rows of one
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import json
 import stat
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -41,6 +41,7 @@ COLUMNS = ("t_s", "U_a_mm")
 CLOSEST_ROWS = 1e-12  # of the time: nearer rows could fall on the same phase
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
 MILLIMETRES = {"mm": 1.0, "um": 1e-3, "nm": 1e-6, "m": 1e3}
+NEWTONS = {"N": 1.0, "kN": 1e3, "mN": 1e-3}
 
 
 def _encoding(name: str) -> str:
@@ -65,8 +66,9 @@ FileName = Annotated[Line, Field(max_length=1000)]
 
 @table("")
 class RowsFile(SceneTable):
-    """A CSV file of rows, and how it is written."""
+    """A CSV file of rows, and how it is written; `units` are those of the second column."""
 
+    units: ClassVar[Mapping[str, float]] = MILLIMETRES
     file: FileName = Field(
         description="CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
         "in the current folder); t_s starts at 0"
@@ -123,11 +125,28 @@ class HistoryFile(RowsFile):
     )
 
 
+@table("load", kind="force")
+class ForceFile(TableFile):
+    """R_a by straight lines between the rows of a CSV file over one period."""
+
+    units: ClassVar[Mapping[str, float]] = NEWTONS
+    file: FileName = Field(
+        description="CSV file with columns t_s,R_a_N, beside the scene file (if given by --set: "
+        "in the current folder); t_s starts at 0, the last row repeats the first R_a"
+    )
+    columns: tuple[Text, Text] = Field(
+        default=("t_s", "R_a_N"), description="names of the columns of time and force"
+    )
+    unit: Annotated[str, OneOf(NEWTONS)] = Field(
+        default="N", description="unit of the force column"
+    )
+
+
 class Rows(NamedTuple):
-    """Times in s from 0, increasing; displacements in mm; the sha256 of the file."""
+    """Times in s from 0, increasing; displacements in mm, or forces in N; the file's sha256."""
 
     times: FloatArray
-    displacements: FloatArray
+    values: FloatArray
     sha256: str
 
 
@@ -156,7 +175,7 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
             ("file", f"{shown(name)} is not {known} text",
              f'save it as {known}, or give encoding = "latin-1"'),
         ) from None  # fmt: skip
-    times, displacements, faults = _parse(text, form, from_first)
+    times, values, faults = _parse(text, form, from_first)
     if faults:
         raise all_wrong(
             *(("file", f"{shown(name)} line {line}: {problem}", remedy)
@@ -166,7 +185,7 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
     if form.sha256 not in (None, digest):
         problem = f"{shown(name)} has changed: its sha256 is {digest}"
         raise all_wrong(("sha256", problem, "restore the file, or drop this key"))
-    return Rows(times * SECONDS[form.time_unit], displacements * MILLIMETRES[form.unit], digest)
+    return Rows(times * SECONDS[form.time_unit], values * form.units[form.unit], digest)
 
 
 def order_faults(times: FloatArray) -> list[tuple[int, str, str]]:

@@ -9,11 +9,13 @@ from pydantic import ValidationInfo
 from pydantic_core import PydanticCustomError
 
 from wear.checked import TABLES, all_wrong, choice, did_you_mean, keys_of, shown
-from wear.load.lines import HistoryLoad, Table, load_of
-from wear.load.rows import RowsFile
+from wear.load.lines import ForceTable, HistoryLoad, Table, load_of
+from wear.load.rows import ForceFile, RowsFile
 
 PERIODIC = ("sine", "constant", "harmonics", "table")
-KINDS = (*PERIODIC, "history", "blocks")
+KINDS = (*PERIODIC, "force", "history", "blocks")
+ROWS = {"table": Table, "force": ForceTable, "history": HistoryLoad}
+"""Loads of rows that stand in the file itself."""
 
 
 def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS) -> Any:
@@ -31,8 +33,8 @@ def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS)
         raise all_wrong(("kind", "missing", f"{remedy} ({', '.join(kinds)})"))
     kind = _kind(raw["kind"], kinds)
     entries = {key: value for key, value in raw.items() if key != "kind"}
-    inline = {"table": Table, "history": HistoryLoad} if "times_s" in entries else {}
-    tables = {each.kind: each for each in TABLES} | inline
+    by_rows = ROWS if "times_s" in entries else {"force": ForceFile} if "file" in entries else {}
+    tables = {each.kind: each for each in TABLES} | by_rows
     validator = tables[kind].__pydantic_validator__  # type: ignore[attr-defined]
     made = validator.validate_python(entries, context=info.context)
     return load_of(made, (info.context or {}).get("folder")) if isinstance(made, RowsFile) else made
@@ -53,7 +55,7 @@ def as_table(load: Any) -> dict[str, Any]:
     {'kind': 'table', 'times_s': [0.0, 1.0], 'values_mm': [0.0, 0.0]}
     """
     table = getattr(load, "source", None) or load
-    kind = table.kind or ("table" if isinstance(load, Table) else "history")
+    kind = table.kind or next(name for name, rows in ROWS.items() if isinstance(load, rows))
     entries = {name: getattr(table, name) for name in keys_of(type(table))}
     if kind == "blocks":
         entries["blocks"] = [as_table(load) | {"cycles": cycles} for load, cycles in load.blocks]

@@ -10,6 +10,7 @@ Key results
     solve              the density on them, from increments at their nodes
     residual           the logarithm of what a cycle counts as, off the nodes
     matching_defect    by how much the counts of neighbours differ where they meet
+    sum_per_cycle      the sum of a function over the orbit, by the same equation linearised
 References
     M. Kuczma, B. Choczewski, R. Ger, *Iterative Functional Equations*, Cambridge University Press
     1990, chapter 3.
@@ -23,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import BoolArray, FloatArray, IntArray, gauss
+from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray, gauss
 
 ACROSS_A_CYCLE = 6  # Gauss nodes where the density changes by less than a factor 2 in a cycle
 ACROSS_A_FAST_CYCLE = 12  # good to rounding for a factor of 1e3
@@ -48,6 +49,11 @@ class Frame(NamedTuple):
     def take(self, which: slice | IntArray | BoolArray) -> Frame:
         """Return some of the panels."""
         return Frame(self.c[which], self.starts[which], self.widths[which])
+
+    def with_panel(self, start: float, width: float) -> Frame:
+        """Return one panel more, of the same scale as the last."""
+        c, starts, widths = self
+        return Frame(np.append(c, c[-1]), np.append(starts, start), np.append(widths, width))
 
     @property
     def ends(self) -> FloatArray:
@@ -196,14 +202,55 @@ def residual(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArra
     `increments` (panels, len(t)) are those of a finer period map. A residual r means that the
     density is wrong by a factor 1 - r, about.
     """
-    rule = gauss(ACROSS_JUDGED)
     with np.errstate(all="ignore"):  # of a panel far too wide: infinite or no number
-        steps = panels.frame.step(t, increments, rule.nodes)
-        basis = _within(t, steps, panels.series.shape[1])
-        level, shape = level_and_shape(panels.series)
-        cycles = _density(shape, basis, (level * increments)[..., None] * rule.weights)[1]
+        _, cycles, _ = _cycles_from(panels, t, increments, gauss(ACROSS_JUDGED))
         result: FloatArray = np.log(cycles)
     return result
+
+
+def sum_per_cycle(panels: Panels, increments: FloatArray, added: FloatArray) -> FloatArray:
+    """Return the coefficients (panels, m, k) of dS/dn, where a cycle from the nodes of a panel adds
+    `added` (panels, m, k) to S: the sum of k functions over the orbit.
+
+    S(P(u)) = S(u) + added(u) is Abel's equation with another right-hand side; the integral of
+    (dS/dn) (dn/du) over a cycle has the matrix of Newton's method for n.
+    """
+    nodes, rule = chebyshev_nodes(added.shape[1]), gauss(ACROSS_A_FAST_CYCLE)
+    density, cycles, basis = _cycles_from(panels, nodes, increments, rule)
+    inverse = _inverse_slope(density, cycles, basis)
+    result: FloatArray = inverse @ (added / cycles[..., None])
+    return result
+
+
+def sum_residual(
+    panels: Panels, t: FloatArray, increments: FloatArray, series: FloatArray, added: FloatArray
+) -> FloatArray:
+    """Return S(P(u)) - S(u) - added at the positions `t` (n,) of each panel, (panels, n, k), for
+    S with the coefficients `series` (panels, m, k) of dS/dn."""
+    density, _, basis = _cycles_from(panels, t, increments, gauss(ACROSS_JUDGED))
+    weighted = np.einsum("pig,pmig->pim", density, basis)
+    result: FloatArray = weighted @ series - added
+    return result
+
+
+def density_after(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArray:
+    """Return dn/du (panels, k) a cycle after the positions `t` (k,) of each panel."""
+    basis = _within(t, panels.frame.step(t, increments, WHOLE), panels.series.shape[1])
+    level, shape = level_and_shape(panels.series)
+    density, _ = _density(shape, basis, np.broadcast_to(level[..., None], basis[:, 0].shape))
+    return density[..., 0]
+
+
+def _cycles_from(
+    panels: Panels, t: FloatArray, increments: FloatArray, rule: Gauss
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the weighted density at the nodes of a rule within the cycles from the positions `t`,
+    its sums, and the polynomials there."""
+    steps = panels.frame.step(t, increments, rule.nodes)
+    basis = _within(t, steps, panels.series.shape[1])
+    level, shape = level_and_shape(panels.series)
+    density, cycles = _density(shape, basis, (level * increments)[..., None] * rule.weights)
+    return density, cycles, basis
 
 
 def matching_defect(before: Panels, after: Panels) -> FloatArray:

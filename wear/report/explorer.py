@@ -21,7 +21,7 @@ from typing import Any
 
 from wear.report import explorer_data, mathml
 from wear.report.html import style
-from wear.scene import Scene, builtin_names, load_scene
+from wear.scene import KEYS, Scene, builtin_names, load_scene
 
 CHECKED = ("section3", "section4", "section5", "section4-cutoff", "soft-support", "large-swing")
 AGREEMENT = {"wear": 1e-7, "rate": 1e-12}
@@ -126,7 +126,7 @@ def _data(first: Scene, derived: Mapping[str, Any]) -> dict[str, Any]:
         "first": first.name,
         "scenes": [explorer_data.scene_data(scene) for scene in scenes.values()],
         "parameters": derived["parameters"],
-        "keys": explorer_data.KEYS,
+        "keys": KEYS,
         "checks": explorer_data.checked([*(scenes[name] for name in CHECKED), *own]),
         "agreement": AGREEMENT,
         "cutoff": derived["cutoff"],

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from wear import own_laws
+from wear.faults import UsageError
 from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.scene import Scene, load_scene
 
@@ -26,26 +28,11 @@ GROUPS: Mapping[str, tuple[str, ...]] = {
     "Load and motion": ("U", "T", "R", "n"),
 }
 
-KEYS: Mapping[str, tuple[str, str]] = {
-    "K_c": ("bearing", "wear_coefficient"),
-    "H_c": ("bearing", "hardness_MPa"),
-    "sigma_c0": ("bearing", "roughness_mm"),
-    "f_c": ("bearing", "roughness_growth"),
-    "K_a": ("pin", "wear_coefficient"),
-    "H_a": ("pin", "hardness_MPa"),
-    "sigma_a0": ("pin", "roughness_mm"),
-    "f_a": ("pin", "roughness_growth"),
-    "p_max": ("contact", "max_pressure_MPa"),
-    "h_0": ("contact", "closure_mm"),
-    "k": ("support", "stiffness_MPa_per_mm"),
-    "R": ("motion", "radius_mm"),
-    "n": ("motion", "speed_rpm"),
-}
-"""Where a number stands in a scene file; the load is written by its kind."""
-
 
 def scene_data(scene: Scene) -> dict[str, Any]:
     """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
+    if own_laws.is_own(scene.contact.law):
+        raise UsageError("the explorer has the contact laws of the package alone")
     other = load_scene("section3").parameters() | {"k": 1e5}
     numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
     key = scene.variant
@@ -82,7 +69,7 @@ def _load_data(load: Load) -> dict[str, Any]:
             "stops": list(load.peaks),
         }
     if not isinstance(load, Table):
-        raise TypeError(f"the explorer has no load of kind {type(load).__name__}")
+        raise UsageError("the explorer moves the pin: it has no loads that are forces")
     phases = sorted({0.0, 1.0, *load.kinks})
     values = [float(load(phase)) for phase in phases]
     return {

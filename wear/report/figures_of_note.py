@@ -1,7 +1,6 @@
 """The note's figures, and those of this report, from solved histories.
 
 Contents
-    lines_of                wear, roughness and pressure of any history, as lines
     wear_of_both            Fig. 2a: wear of bearing and pin, section 3
     roughness_of_both       Fig. 2b: their roughness
     wear_and_asymptote      Fig. 3a: section 4 with a line of the slope (21)
@@ -22,36 +21,24 @@ from numpy.typing import NDArray
 
 from derive.results.regime_map import REGIMES
 from wear import figures
-from wear.figure_data import Example, Line
+from wear.figure_data import BEARING_WEAR, ROUGHNESS, WEAR, Example, Line, Panel
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, INK, canvas, stroke, styled
-from wear.history import FloatArray, History
+from wear.history import FloatArray
 from wear.report.reconcile import PRINTED
 from wear.report.runs import CUTOFF, SECTION_5, Approach, Runs, required
 
 
-def lines_of(history: History) -> tuple[list[Line], list[Line], list[Line]]:
-    """Wear, roughness and pressure against cycles; the pin only where it is modelled."""
-    cycles = history.cycles.astype(float)
-    wear = [Line("bearing", cycles, history.u_c)]
-    roughness = [Line("bearing", cycles, history.sigma_c)]
-    if history.u_a.any():
-        wear.append(Line("pin", cycles, history.u_a, 1))
-    if history.sigma_a.any():
-        roughness.append(Line("pin", cycles, history.sigma_a, 1))
-    return wear, roughness, [Line("contact", cycles, history.p, 2)]
-
-
 def wear_of_both(runs: Runs) -> Figure:
     """Fig. 2a, with and without loss of contact."""
-    return figures.wear_history(_both(runs, "u_c", "u_a"), width=COLUMN)
+    return figures.history([Panel(WEAR, _both(runs, "u_c", "u_a"))])
 
 
 def roughness_of_both(runs: Runs) -> Figure:
     """Fig. 2b, with and without loss of contact."""
-    return figures.roughness_history(_both(runs, "sigma_c", "sigma_a"), width=COLUMN)
+    return figures.history([Panel(ROUGHNESS, _both(runs, "sigma_c", "sigma_a"))])
 
 
-def _both(runs: Runs, bearing: str, pin: str) -> list[Line]:
+def _both(runs: Runs, bearing: str, pin: str) -> tuple[Line, ...]:
     """A field of both solids of section 3; loss of contact is dashed."""
     lines = []
     for variant, name in enumerate(("section3", "section3" + CUTOFF)):
@@ -60,7 +47,7 @@ def _both(runs: Runs, bearing: str, pin: str) -> list[Line]:
         said = ", loss of contact" * variant
         lines.append(Line(f"bearing{said}", cycles, getattr(history, bearing), 0, variant))
         lines.append(Line(f"pin{said}", cycles, getattr(history, pin), 1, variant))
-    return lines
+    return tuple(lines)
 
 
 def wear_and_asymptote(runs: Runs) -> Figure:
@@ -82,7 +69,7 @@ def wear_coefficients(runs: Runs) -> Figure:
         power = round(np.log10(runs.cases[name].scene.bearing.wear_coefficient))
         lines.append(_wear(runs, name, rf"$K = 10^{{{power}}}$", family, 0))
     lines.append(_wear(runs, SECTION_5[1] + CUTOFF, r"$10^{-6}$, loss of contact", 1, 1))
-    return figures.wear_by_coefficient(lines, logarithmic=True, width=COLUMN)
+    return figures.history([Panel(BEARING_WEAR, tuple(lines))], logarithmic=True)
 
 
 def _wear(runs: Runs, case: str, name: str, family: int, variant: int) -> Line:

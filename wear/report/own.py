@@ -7,14 +7,13 @@ from importlib.resources import files
 from typing import Any
 
 from wear import figures
-from wear.figure_data import pressure_inside
+from wear.figure_data import panels_of, pressure_inside
 from wear.figure_style import pdf, svg
 from wear.history import History
 from wear.life import Reached, cycles_until
 from wear.regime import Asymptote, asymptote
 from wear.report.document import Document, Figure
 from wear.report.explorer_data import scene_data
-from wear.report.figures_of_note import lines_of
 from wear.report.manifest import versions
 from wear.report.number import Number
 from wear.report.text import parsed
@@ -80,7 +79,7 @@ def _cycles(per_decade: int) -> Iterator[float]:
 
 
 def _figures(scene: Scene, curve: History) -> dict[str, Figure]:
-    history = figures.history(*lines_of(curve), logarithmic=True)
+    history = figures.history(panels_of([curve]), logarithmic=True)
     inside = figures.pressure_in_cycles(pressure_inside(scene, _INSIDE))
     said = "Wear, roughness and contact pressure against cycles on logarithmic axes."
     pulses = (

@@ -14,10 +14,12 @@ import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import Field, PlainValidator, ValidationError
+from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
+from pydantic_core import core_schema
 
+from wear import own_laws
 from wear.checked import (
     Flag,
     NonNegative,
@@ -27,13 +29,16 @@ from wear.checked import (
     Real,
     SceneTable,
     Text,
+    all_wrong,
+    choice,
     did_you_mean,
     problems,
     shown,
     table,
+    wrong,
 )
 from wear.faults import Fault, SceneError, UsageError
-from wear.load import AperiodicLoad, Blocks, HistoryLoad, Load
+from wear.load import AperiodicLoad, Blocks, Force, ForceTable, HistoryLoad, Load
 from wear.load.rows import read_bytes
 from wear.load.tables import as_table, load_from
 from wear.scene.text import MOST_BYTES, Source, read_tables, set_entry
@@ -48,6 +53,42 @@ def contact_laws() -> tuple[str, ...]:
     """Return the contact laws that can run: the packages of generated code, one a law."""
     found = Path(__file__).parents[1].joinpath("generated").glob("[a-z]*/__init__.py")
     return tuple(sorted(module.parent.name for module in found))
+
+
+def _law(raw: object, info: ValidationInfo) -> str:
+    """Return the name of a contact law of the package, or of one that is given by its formula."""
+    if isinstance(raw, str) and own_laws.is_own(raw):
+        raw = {"phi": raw.removeprefix(own_laws.PREFIX)}
+    if not isinstance(raw, Mapping):
+        return choice(raw, contact_laws())
+    text = raw.get("phi")
+    if raw.keys() == {"file"} and isinstance(raw["file"], str):
+        text = _formula(raw["file"], (info.context or {}).get("folder"))
+    elif raw.keys() != {"phi"} or not isinstance(text, str):
+        raise wrong("is no contact law", 'write law = { phi = "..." } or law = { file = "..." }')
+    try:
+        return own_laws.named(text)
+    except UsageError as fault:
+        raise wrong(str(fault), "see the page on contact laws") from None
+
+
+def _formula(name: str, folder: Path | None) -> str:
+    """Return the text of a file beside the scene, less what follows # in a line."""
+    if folder is None:
+        raise wrong(f"{shown(name)}: there is no folder to look in", "load the scene by its path")
+    data = read_bytes(folder / name, MOST_BYTES)
+    if isinstance(data, tuple):
+        raise wrong(f"{shown(name)}: {data[0]}", data[1])
+    lines = data.decode("utf-8", "replace").splitlines()
+    text = " ".join(line.partition("#")[0].strip() for line in lines).strip()
+    return text.removeprefix("phi").strip().removeprefix("=")
+
+
+class LawOf(OneOf):
+    """The contact laws among which a scene chooses, or gives one of its own."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.with_info_plain_validator_function(_law)
 
 
 @table("bearing")
@@ -90,8 +131,10 @@ class Contact(SceneTable):
         default=None,
         description="h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
     )
-    law: Annotated[str, OneOf(contact_laws())] = Field(
-        default="tanh", description="contact law p/p_max = phi(h/sigma)"
+    law: Annotated[str, LawOf(contact_laws())] = Field(
+        default="tanh",
+        description='contact law p/p_max = phi(h/sigma): a name, { phi = "..." } in r = h/sigma, '
+        'or { file = "..." } with the formula in a file beside the scene',
     )
     ends_at_3_sigma: Flag = Field(
         default=False,
@@ -105,6 +148,10 @@ class Contact(SceneTable):
         default=None, description="contact width b; with length_mm, R_a = p b L is reported"
     )
     length_mm: Positive | None = Field(default=None, description="contact length L")
+    friction_coefficient: NonNegative | None = Field(
+        default=None,
+        description="coefficient of friction mu; sliding distance and friction work are reported",
+    )
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
@@ -134,6 +181,24 @@ class Motion(SceneTable):
     speed_rpm: Positive = Field(description="rotation speed n")
 
 
+KEYS: Mapping[str, tuple[str, str]] = {
+    "K_c": ("bearing", "wear_coefficient"),
+    "H_c": ("bearing", "hardness_MPa"),
+    "sigma_c0": ("bearing", "roughness_mm"),
+    "f_c": ("bearing", "roughness_growth"),
+    "K_a": ("pin", "wear_coefficient"),
+    "H_a": ("pin", "hardness_MPa"),
+    "sigma_a0": ("pin", "roughness_mm"),
+    "f_a": ("pin", "roughness_growth"),
+    "p_max": ("contact", "max_pressure_MPa"),
+    "h_0": ("contact", "closure_mm"),
+    "k": ("support", "stiffness_MPa_per_mm"),
+    "R": ("motion", "radius_mm"),
+    "n": ("motion", "speed_rpm"),
+}
+"""Table and key of each parameter in a scene file, by symbol, but those of the load."""
+
+
 class VariantKey(NamedTuple):
     """Which generated module a scene needs: `wear.generated.<law>.<module>`; `name` is the
     variant's for users.
@@ -147,6 +212,7 @@ class VariantKey(NamedTuple):
     support: Literal["rigid", "compliant"]
     pin: Literal["bearing", "rough", "worn", "worn_rough"]
     ends_at_3_sigma: bool
+    given_load: bool = False
 
     @property
     def module(self) -> str:
@@ -154,6 +220,8 @@ class VariantKey(NamedTuple):
 
     @property
     def name(self) -> str:
+        if self.given_load:
+            return f"given_load_{self.pin}"
         return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
 
@@ -258,10 +326,34 @@ class Scene(SceneTable):
         """The generated module with what this scene needs, and no more."""
         return VariantKey(
             law=self.contact.law,
-            support="rigid" if self.support is None else "compliant",
+            support="rigid" if self.support is None and not self.given_load else "compliant",
             pin=self._pin_state,
             ends_at_3_sigma=self.contact.ends_at_3_sigma,
+            given_load=self.given_load,
         )
+
+    @property
+    def given_load(self) -> bool:
+        """Whether the reaction of the pin is given, problem (i), in place of its displacement."""
+        return isinstance(self.load, Force | ForceTable)
+
+    @model_validator(mode="after")
+    def _carried(self) -> Self:
+        """A given reaction needs an area, and a contact that can carry it."""
+        if not self.given_load:
+            return self
+        contact, most = self.contact, self.load.maximum
+        if contact.width_mm is None or contact.length_mm is None:
+            problem = "the load is a force: its pressure needs width_mm and length_mm"
+            raise all_wrong(("contact.width_mm", problem, "give both"))
+        if contact.ends_at_3_sigma:
+            problem = "has no meaning where the load is a force: the pressure is given"
+            raise all_wrong(("contact.ends_at_3_sigma", problem, "drop it"))
+        limit = contact.max_pressure_MPa * contact.width_mm * contact.length_mm
+        if most >= limit:
+            problem = f"the force of {most:.6g} N is beyond p_max b L = {limit:.6g} N"
+            raise all_wrong(("load", problem, "give a smaller force, or a larger area"))
+        return self
 
     @property
     def pin_wear_sign(self) -> float:
@@ -400,7 +492,7 @@ def parse_scene(
 
 
 def _checked(tables: Mapping[str, Any], source: Source, name: str, folder: Path | None) -> Scene:
-    named = (("load",), ("load", "file"), ("load", "blocks"))
+    named = (("load",), ("load", "file"), ("load", "blocks"), ("contact", "law"))
     if any(path in source.overrides for path in named):
         folder = Path()  # an option that names a file means the current folder
     faults = list(source.faults)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from wear import own_laws
 from wear.load import Blocks, HistoryLoad, Table
 from wear.scene.plausibility import implausible_entries
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
+DIGITS_LOST = 1e-12  # relative error of a contact law: more is worth a notice
 CONTACT_REACH = 3  # contact needs h <= 3 sigma, the text under (4); a test holds it to derive's
 
 
@@ -18,10 +20,20 @@ def notices(scene: Scene) -> tuple[str, ...]:
     """One sentence for each thing worth knowing before the scene is solved."""
     return (
         *implausible_entries(scene),
+        *_law_notices(scene),
         *_pin_notices(scene),
         *_closure_notices(scene),
         *_load_notices(scene),
     )
+
+
+def _law_notices(scene: Scene) -> Iterator[str]:
+    law = scene.contact.law
+    if own_laws.is_own(law) and (lost := own_laws.about(law)["rounding_error"]) > DIGITS_LOST:
+        yield (
+            f"the contact law {law} loses digits: its relative error is up to {lost:.1g} between "
+            "h/sigma = -5 and 1e4; another way to write it may keep them"
+        )
 
 
 def _pin_notices(scene: Scene) -> Iterator[str]:
@@ -39,6 +51,9 @@ def _pin_notices(scene: Scene) -> Iterator[str]:
 
 
 def _closure_notices(scene: Scene) -> Iterator[str]:
+    if scene.given_load:
+        yield "the load is a force: wear is its integral, and the displacement of the pin follows"
+        return
     first = initial_displacement(scene)
     reach = CONTACT_REACH * scene.initial_roughness
     closure = scene.closure - first

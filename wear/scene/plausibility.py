@@ -51,6 +51,7 @@ RANGES = (
     Range("closure_mm", 1e-6, 1.0, "m typed as mm?", "um typed as mm?"),
     Range("closure_in_sigma", 0.1, 100.0, "a closure in mm?", "a closure in nm?"),
     Range("stiffness_MPa_per_mm", 1e-3, 1e12, "N/m typed as MPa/mm?", "Pa/m typed as MPa/mm?"),
+    Range("friction_coefficient", 1e-4, 2.0, "", "in percent?"),
     Range("radius_mm", 0.1, 1e4, "m typed as mm?", "um typed as mm?"),
     Range("speed_rpm", 1e-3, 1e6, "revolutions per ms?", "degrees per minute?"),
     Range("roughness_growth", 0.0, 10.0, "", "roughness grows by a part of the wear"),
@@ -70,7 +71,7 @@ def implausible_entries(scene: Scene) -> Iterator[str]:
                     f"{low:g} to {high:g}: {slip}"
                 )
     swing = scene.load.maximum - scene.load.minimum
-    if swing > 2.0:
+    if swing > 2.0 and not scene.given_load:
         yield f"{WORD}: [load] U_a moves by {swing:.4g} mm: um typed as mm?"
     hardest = max(each.hardness_MPa for each in (scene.bearing, scene.pin) if each is not None)
     if scene.contact.max_pressure_MPa > HARDER * hardest:

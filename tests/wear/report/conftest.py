@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from wear import figure_style, figures
-from wear.figure_data import Line
+from wear.figure_data import WEAR, Line, Panel
 from wear.report import drawing
 from wear.report.document import Document, Equation, Figure
 from wear.report.number import Number
@@ -47,11 +47,14 @@ EQUATIONS = (
 
 def _figures() -> dict[str, Figure]:
     x = np.linspace(0.0, 100.0, 51)
-    lines = [Line("bearing", x, 1e-4 * np.log1p(x)), Line("pin", x, 3e-5 * np.log1p(x), 1)]
+    lines = (Line("bearing", x, 1e-4 * np.log1p(x)), Line("pin", x, 3e-5 * np.log1p(x), 1))
     drawn = {
         "system": (drawing.system(), drawing.DESCRIPTION),
-        "wear": (figures.wear_history(lines), "Wear grows quickly, then ever more slowly."),
-        "again": (figures.wear_history(lines[:1]), "Wear grows ever more slowly."),
+        "wear": (
+            figures.history([Panel(WEAR, lines)]),
+            "Wear grows quickly, then ever more slowly.",
+        ),
+        "again": (figures.history([Panel(WEAR, lines[:1])]), "Wear grows ever more slowly."),
     }
     return {
         f"fig:{name}": Figure(said, figure_style.svg(figure), figure_style.pdf(figure), name)

@@ -1,0 +1,61 @@
+"""`derive export`: the derivation for a proof assistant."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from derive import terminal
+from derive.command_line import Command
+from derive.commands import arguments
+from derive.faults import UsageError
+
+TARGETS = ("coq",)
+
+EXAMPLE = """\
+  derive export -o proof            every step as a lemma, and the theorems they cite
+  derive export -o proof --check    compile them too; status 1 where Coq differs from the record
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare target, folder and --check."""
+    arguments.add_ids(parser)
+    parser.add_argument(
+        "--target", choices=TARGETS, default="coq", help="proof assistant (default: %(default)s)"
+    )
+    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the files")
+    parser.add_argument(
+        "--check", action="store_true", help="compile the files and compare with the record"
+    )
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Write the files, and have them compiled."""
+    from derive.coq import export
+
+    folder = Path(options.output)
+    made = export.Export(arguments.equations(options.ids))
+    try:
+        made.write(folder)
+    except OSError as fault:
+        raise UsageError(f"--output: {fault}") from fault
+    faults = ""
+    if options.check:
+        try:
+            faults = made.unrecorded + export.compiled(folder)
+        except export.MissingError as fault:
+            raise UsageError(str(fault)) from fault
+    counts = made.counts
+    if options.json:
+        terminal.print_json({**counts, "folder": str(folder), "faults": faults.splitlines()})
+    else:
+        said = "compiled" if options.check and not faults else "written"
+        print(f"{counts['closed']} of {counts['steps']} steps {said} as lemmas in {folder}")
+        print(faults, end="")
+    return terminal.FAILED if faults else terminal.DONE
+
+
+COMMAND = Command(
+    "export", "the steps as lemmas for a proof assistant", EXAMPLE, add_arguments, execute
+)

@@ -1,0 +1,278 @@
+(** How the rate approaches its limit, and what that adds to the wear: the logarithmic drift. *)
+
+From Coq Require Import Reals Lra Lia.
+From Coquelicot Require Import Coquelicot.
+From Wear Require Import Limits.
+Open Scope R_scope.
+
+(** ** The rate to first order in 1/t *)
+
+(** The slope of a chord from l, continuous at l. *)
+Lemma chord (F : R -> R) l d : is_derive F l d ->
+  exists G, continuous G l /\ G l = d /\ forall y, F y - F l = G y * (y - l).
+Proof.
+  intros H; set (G := fun y => if Req_EM_T y l then d else (F y - F l) / (y - l)).
+  assert (Gl : G l = d) by (unfold G; destruct (Req_EM_T l l); congruence).
+  exists G; split; [| split; [exact Gl |]].
+  - apply is_derive_Reals in H; apply continuity_pt_filterlim; intros eps He.
+    destruct (H eps He) as [del Hd]; exists del; split; [apply cond_pos |].
+    intros y [[_ Hy] Hyl]; simpl in *; unfold R_dist in *; rewrite Gl.
+    unfold G; destruct (Req_EM_T y l) as [-> | E]; [rewrite Rminus_diag_eq, Rabs_R0; trivial |].
+    specialize (Hd (y - l)); replace (l + (y - l)) with y in Hd by ring; apply Hd; lra.
+  - intros y; unfold G; destruct (Req_EM_T y l) as [-> | E]; [ring | field; lra].
+Qed.
+
+(** What is bounded times what tends to 0. *)
+Lemma bounded_vanishes a e B : (forall t, 0 <= t -> Rabs (a t) <= B) -> tends e 0 ->
+  tends (fun t => e t * a t) 0.
+Proof.
+  rewrite !tends_iff; intros Ha He eps Hep.
+  assert (HB : 0 <= B) by (pose proof (Rabs_pos (a 0)); pose proof (Ha 0); lra).
+  destruct (He (eps / (B + 1))) as [t0 Ht0]; [apply Rdiv_lt_0_compat; lra |].
+  exists (Rmax 0 t0); intros t Ht; pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0).
+  assert (Hs : Rabs (e t - 0) < eps / (B + 1)) by (apply Ht0; lra).
+  apply Rlt_div_r in Hs; [| lra]; rewrite Rminus_0_r, Rabs_mult in *.
+  pose proof (Ha t); pose proof (Rabs_pos (e t)); nra.
+Qed.
+
+(** [u' = F(q)], [u (q - l) - a -> 0] with bounded a, [q -> l] and [u' -> r]:
+    [t (u' - r) - F'(l) a / r -> 0]. *)
+Lemma first_order (u q a F : R -> R) (l d r B : R) :
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> Derive u t = F (q t)) ->
+  is_derive F l d -> F l = r -> r <> 0 -> (forall t, 0 <= t -> Rabs (a t) <= B) ->
+  tends q l -> tends (Derive u) r -> tends (fun t => u t * (q t - l) - a t) 0 ->
+  tends (fun t => t * (Derive u t - r) - d / r * a t) 0.
+Proof.
+  intros Hu Hr Hd Hl Hr0 Ha Hq Hr' He; destruct (chord F l d Hd) as [G [HG [Gl E]]].
+  pose proof (passes q G l Hq HG) as HGq; rewrite Gl in HGq.
+  pose proof (tends_inv _ _ Hr0 (cesaro u r Hu Hr')) as Hut.
+  pose proof (tends_mult _ _ _ _ Hut HGq) as Hp.
+  pose proof (tends_minus _ _ _ _ Hp (tends_const (/ r * d))) as Hz; rewrite Rminus_eq_0 in Hz.
+  pose proof (bounded_vanishes a _ B Ha Hz) as Hz'.
+  pose proof (tends_mult _ _ _ _ Hp He) as Hw; rewrite Rmult_0_r in Hw.
+  pose proof (tends_plus _ _ _ _ Hz' Hw) as H; rewrite Rplus_0_r in H; revert H.
+  assert (N : exists t0, forall t, t0 < t -> u t / t <> 0).
+  { pose proof (cesaro u r Hu Hr') as C; rewrite tends_iff in C.
+    destruct (C (Rabs r) (Rabs_pos_lt _ Hr0)) as [t0 Ht0]; exists t0; intros t Ht Z.
+    specialize (Ht0 t Ht); rewrite Z, Rminus_0_l, Rabs_Ropp in Ht0; lra. }
+  destruct N as [t0 N]; apply is_lim_ext_loc; exists (Rmax 0 t0); intros t Ht.
+  pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0).
+  assert (Hn : u t / t <> 0) by (apply N; lra).
+  assert (u t <> 0) by (intro Z; apply Hn; rewrite Z; field; lra).
+  rewrite Hr, <- Hl by lra; rewrite E; field; repeat split; rewrite ?Hl; lra.
+Qed.
+
+(** The case of one solid: [q = l - e/s] with [s = s0 + f u]. *)
+Lemma linear_approach (u q e F : R -> R) (l d r s0 f B : R) :
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> Derive u t = F (q t)) ->
+  is_derive F l d -> F l = r -> r <> 0 -> (forall t, 0 <= t -> Rabs (e t) <= B) ->
+  0 < f -> (forall t, 0 <= t -> 0 < s0 + f * u t) -> diverges (fun t => s0 + f * u t) ->
+  (forall t, 0 <= t -> q t = l - e t / (s0 + f * u t)) ->
+  tends q l -> tends (Derive u) r ->
+  tends (fun t => t * (Derive u t - r) + d / r * (e t / f)) 0.
+Proof.
+  intros Hu Hr Hd Hl Hr0 He Hf Hs Hdiv E Hq Hr'.
+  assert (Ha : forall t, 0 <= t -> Rabs (- (e t / f)) <= B / f).
+  { intros t Ht; unfold Rdiv; rewrite Rabs_Ropp, Rabs_mult, (Rabs_pos_eq (/ f))
+      by (left; apply Rinv_0_lt_compat; lra).
+    apply Rmult_le_compat_r; [left; apply Rinv_0_lt_compat; lra | auto]. }
+  apply tends_ext with (f := fun t => t * (Derive u t - r) - d / r * (- (e t / f))).
+  { intros; ring. }
+  apply (first_order u q _ F l d r (B / f)); trivial.
+  pose proof (tends_scal (s0 / f) _ _ (tends_inv_diverges _ Hdiv)) as Hz; rewrite Rmult_0_r in Hz.
+  generalize (bounded_vanishes e _ B He Hz); apply tends_ext; intros t Ht.
+  rewrite E by assumption; specialize (Hs t Ht); field; lra.
+Qed.
+
+(** ** The logarithm *)
+
+(** Cesaro on the logarithmic scale: [t v' -> m] gives [v / ln t -> m]. *)
+Lemma logarithmic (v : R -> R) m : (forall t, 1 <= t -> ex_derive v t) ->
+  tends (fun t => t * Derive v t) m -> tends (fun t => v t / ln t) m.
+Proof.
+  intros Hv H; set (w := fun s => v (exp s)).
+  assert (Hw : forall s, 0 <= s -> is_derive w s (exp s * Derive v (exp s))).
+  { intros s Hs; unfold w; apply (is_derive_comp v exp s); [| apply is_derive_exp].
+    apply Derive_correct, Hv; rewrite <- exp_0; destruct Hs as [Hs | <-];
+      [left; apply exp_increasing; assumption | right; reflexivity]. }
+  assert (Hl : tends (fun s => w s / s) m).
+  { apply cesaro; [intros s Hs; eexists; apply Hw, Hs |].
+    apply tends_ext with (f := fun s => exp s * Derive v (exp s)).
+    { intros s Hs; symmetry; apply is_derive_unique, Hw, Hs. }
+    apply (is_lim_comp (fun t => t * Derive v t) exp p_infty m p_infty H is_lim_exp_p).
+    exists 0; intros; discriminate. }
+  pose proof (is_lim_comp _ ln p_infty m p_infty Hl is_lim_ln_p) as HC.
+  eapply is_lim_ext_loc; [| apply HC; exists 0; intros; discriminate].
+  exists 1; intros t Ht; unfold w; rewrite exp_ln by lra; reflexivity.
+Qed.
+
+(** The mean of a periodic function. *)
+Definition periodic (f : R -> R) (T : R) := forall t, 0 <= t -> f (t + T) = f t.
+
+(** A periodic, continuous function with integral 0 over a period has a bounded integral. *)
+Lemma periodic_integral a T : 0 < T -> periodic a T ->
+  (forall t, 0 <= t -> continuous a t) -> RInt a 0 T = 0 ->
+  exists B, forall t, 0 <= t -> Rabs (RInt a 0 t) <= B.
+Proof.
+  intros HT Hp Hc H0.
+  assert (I : forall x y, 0 <= x -> 0 <= y -> ex_RInt a x y).
+  { intros x y Hx Hy; apply (ex_RInt_continuous a); intros z Hz; apply Hc.
+    revert Hz; unfold Rmin; destruct (Rle_dec x y); lra. }
+  assert (S : forall t, 0 <= t -> RInt a 0 (t + T) = RInt a 0 t).
+  { intros t Ht; rewrite <- (RInt_Chasles a 0 T (t + T)) by (apply I; lra).
+    rewrite H0; unfold plus; simpl; rewrite Rplus_0_l.
+    assert (L : RInt (fun x => scal 1 (a (1 * x + T))) 0 t = RInt a T (t + T)).
+    { transitivity (RInt a (1 * 0 + T) (1 * t + T)); [apply (RInt_comp_lin a 1 T 0 t), I; lra |].
+      f_equal; ring. }
+    rewrite <- L; apply RInt_ext; intros x Hx; unfold scal; simpl; unfold mult; simpl.
+    rewrite !Rmult_1_l; apply Hp.
+    revert Hx; unfold Rmin; destruct (Rle_dec 0 t); lra. }
+  destruct (continuity_ab_maj (fun x => Rabs (a x)) 0 T) as [top [Ht _]]; [lra | |].
+  { intros x Hx; apply continuity_pt_filterlim, continuous_comp;
+      [apply Hc; lra | apply continuous_Rabs]. }
+  set (M := Rabs (a top)) in *; exists (T * M).
+  assert (N : forall n t, 0 <= t <= INR n * T -> Rabs (RInt a 0 t) <= T * M).
+  { induction n as [| n IH]; intros t Hn.
+    - simpl in Hn; replace t with 0 by lra; rewrite RInt_point; unfold zero; simpl.
+      rewrite Rabs_R0; apply Rmult_le_pos; [lra | apply Rabs_pos].
+    - rewrite S_INR in Hn; destruct (Rle_lt_dec t T) as [Hle | Hlt].
+      + apply Rle_trans with ((t - 0) * M).
+        * apply (abs_RInt_le_const a); [lra | apply I; lra | intros; apply Ht; lra].
+        * apply Rmult_le_compat_r; [apply Rabs_pos | lra].
+      + replace t with (t - T + T) by ring; rewrite S by lra; apply IH; lra. }
+  intros t Ht0; destruct (nfloor_ex (t / T)) as [n [_ Hn]].
+  { apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat, HT]. }
+  apply (N (Datatypes.S n)); split; [assumption |]; rewrite S_INR; apply Rlt_div_l in Hn; lra.
+Qed.
+
+(** [t (u' - r) - a -> 0] with periodic, continuous a of mean m: [(u - r t) / ln (t/T) -> m]. *)
+Lemma logarithmic_drift (u a : R -> R) (r m T : R) : 0 < T ->
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> continuous a t) ->
+  periodic a T -> RInt a 0 T = m * T ->
+  tends (fun t => t * (Derive u t - r) - a t) 0 ->
+  tends (fun t => (u t - r * t) / ln (t / T)) m.
+Proof.
+  intros HT Hu Hc Hp Hm H; set (b := fun t => a t - m); set (A := fun t => RInt b 0 t).
+  assert (Hb : forall t, 0 <= t -> continuous b t).
+  { intros t Ht; apply (continuous_minus a); [auto | apply continuous_const]. }
+  assert (I : forall x y, 0 <= x -> 0 <= y -> ex_RInt b x y).
+  { intros x y Hx Hy; apply (ex_RInt_continuous b); intros z Hz; apply Hb.
+    revert Hz; unfold Rmin; destruct (Rle_dec x y); lra. }
+  destruct (periodic_integral b T) as [B HB]; trivial.
+  { intros t Ht; unfold b; rewrite Hp; trivial. }
+  { assert (Ia : ex_RInt a 0 T).
+    { apply (ex_RInt_continuous a); intros z Hz; apply Hc; rewrite Rmin_left in Hz; lra. }
+    unfold b; rewrite (RInt_minus a (fun _ => m)), RInt_const, Hm; trivial.
+    - unfold minus, plus, opp, scal; simpl; unfold mult; simpl; ring.
+    - apply ex_RInt_const. }
+  assert (HA : forall t, 0 < t -> is_derive A t (b t)).
+  { intros t Ht; apply (is_derive_RInt b A 0); [| apply Hb; lra].
+    exists (mkposreal t Ht); intros y Hy; apply (RInt_correct b); apply I; [lra |].
+    unfold ball in Hy; simpl in Hy; unfold AbsRing_ball, abs, minus, plus, opp in Hy; simpl in Hy.
+    apply Rabs_def2 in Hy; lra. }
+  assert (Hq : tends (fun t => A t / t) 0).
+  { apply squeezed with (s := fun t => t) (B := B); [apply is_lim_id |]; intros t Ht.
+    assert (P : 0 < / t) by (apply Rinv_0_lt_compat, Ht).
+    pose proof (HB t (Rlt_le _ _ Ht)) as Q; apply Rabs_le_between in Q; fold (A t) in Q.
+    unfold Rdiv; nra. }
+  set (v := fun t => u t - r * t - A t / t).
+  assert (Hv : forall t, 0 < t ->
+    is_derive v t (Derive u t - r - (b t * t - A t) / t ^ 2)).
+  { intros t Ht; apply (is_derive_minus (fun t => u t - r * t) (fun t => A t / t)).
+    - apply (is_derive_minus u (fun t => r * t)); [apply Derive_correct, Hu; lra |].
+      auto_derive; [trivial | ring].
+    - evar_last; [apply (is_derive_div A (fun t => t) t (b t) 1); [auto | apply (is_derive_id t) | lra] |].
+      unfold Rdiv; ring. }
+  assert (L : tends (fun t => v t / ln t) m).
+  { apply logarithmic; [intros t Ht; eexists; apply Hv; lra |].
+    pose proof (tends_plus _ _ _ _ (tends_plus _ _ _ _ H Hq) (tends_const m)) as G.
+    replace (0 + 0 + m) with m in G by ring; revert G; apply is_lim_ext_loc; exists 0.
+    intros t Ht; rewrite (is_derive_unique _ _ _ (Hv t Ht)); unfold b; field; lra. }
+  pose proof is_lim_ln_p as Hln; fold (diverges ln) in Hln.
+  pose proof (tends_inv_diverges ln Hln) as Hi.
+  pose proof (tends_plus _ _ _ _ L (tends_mult _ _ _ _ Hq Hi)) as G1.
+  pose proof (tends_minus _ _ _ _ (tends_const 1) (tends_scal (ln T) _ _ Hi)) as G2.
+  replace (1 - ln T * 0) with 1 in G2 by ring; apply tends_inv in G2; [| lra].
+  pose proof (tends_mult _ _ _ _ G1 G2) as G.
+  replace ((m + 0 * 0) * / 1) with m in G by field; revert G; apply is_lim_ext_loc.
+  exists (Rmax 1 T); intros t Ht; pose proof (Rmax_l 1 T); pose proof (Rmax_r 1 T).
+  assert (0 < ln t) by (rewrite <- ln_1; apply ln_increasing; lra).
+  assert (ln T < ln t) by (apply ln_increasing; lra).
+  unfold v; rewrite ln_div by lra; field; repeat split; lra.
+Qed.
+
+(** Then u has no affine asymptote, unless m = 0. *)
+Lemma no_asymptote (u : R -> R) (r m T b s : R) : 0 < T -> m <> 0 ->
+  tends (fun t => (u t - r * t) / ln (t / T)) m -> tends (fun t => u t / t) r ->
+  ~ tends (fun t => u t - (s * t + b)) 0.
+Proof.
+  intros HT Hm H Hr Hs.
+  pose proof (tends_inv_diverges (fun t => t) (is_lim_id p_infty)) as Hi.
+  assert (E : s = r).
+  { apply (tends_unique (fun t => u t / t)); [| assumption].
+    pose proof (tends_plus _ _ _ _ (tends_const s) (tends_mult _ _ _ _
+      (tends_plus _ _ _ _ Hs (tends_const b)) Hi)) as G.
+    replace (s + (0 + b) * 0) with s in G by ring; revert G; apply is_lim_ext_loc.
+    exists 0; intros t Ht; field; lra. }
+  subst s; apply Hm, (tends_unique (fun t => (u t - r * t) / ln (t / T))); [assumption |].
+  assert (Hl : diverges (fun t => ln (t / T))).
+  { apply (is_lim_comp ln (fun t => t / T) p_infty p_infty p_infty is_lim_ln_p).
+    - apply (diverges_ext (fun t => 0 + / T * t)); [intros; field; lra |].
+      apply diverges_affine; [apply Rinv_0_lt_compat; lra | apply is_lim_id].
+    - exists 0; intros; discriminate. }
+  pose proof (tends_mult _ _ _ _ (tends_plus _ _ _ _ Hs (tends_const b))
+    (tends_inv_diverges _ Hl)) as G.
+  replace ((0 + b) * 0) with 0 in G by ring; revert G; apply tends_ext; intros t Ht.
+  unfold Rdiv; f_equal; ring.
+Qed.
+
+(** ** Loads: what is affine in a bounded or periodic load *)
+
+Lemma affine_bounded (U : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
+  forall t, 0 <= t -> Rabs (c0 + c1 * U t) <= Rabs c0 + Rabs c1 * b.
+Proof.
+  intros H t Ht; eapply Rle_trans; [apply Rabs_triang |]; rewrite Rabs_mult.
+  apply Rplus_le_compat_l, Rmult_le_compat_l; [apply Rabs_pos | auto].
+Qed.
+
+(** [(c0 + c1 U)/s] tends to 0 where U is bounded and s diverges. *)
+Lemma vanishes_affine (U s : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
+  diverges s -> tends (fun t => / s t * (c0 + c1 * U t)) 0.
+Proof.
+  intros HU Hs; apply (bounded_vanishes (fun t => c0 + c1 * U t) _ _ (affine_bounded U b c0 c1 HU)).
+  apply (tends_inv_diverges s Hs).
+Qed.
+
+Lemma first_order_affine (u q U F : R -> R) (l d r b c0 c1 : R) :
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> Derive u t = F (q t)) ->
+  is_derive F l d -> F l = r -> r <> 0 -> (forall t, 0 <= t -> Rabs (U t) <= b) ->
+  tends q l -> tends (Derive u) r -> tends (fun t => u t * (q t - l) - (c0 + c1 * U t)) 0 ->
+  tends (fun t => t * (Derive u t - r) - d / r * (c0 + c1 * U t)) 0.
+Proof.
+  intros Hu Hr Hd Hl Hr0 HU.
+  apply (first_order u q (fun t => c0 + c1 * U t) F l d r (Rabs c0 + Rabs c1 * b) Hu Hr Hd Hl Hr0).
+  apply (affine_bounded U b c0 c1 HU).
+Qed.
+
+Lemma mean_times (x T : R) : 0 < T -> x = x / T * T.
+Proof. intros; field; lra. Qed.
+
+Lemma logarithmic_drift_affine (u U : R -> R) (r c0 c1 m T : R) : 0 < T ->
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> continuous U t) ->
+  (forall t, 0 <= t -> U (T + t) = U t) -> RInt U 0 T = m * T ->
+  tends (fun t => t * (Derive u t - r) - (c0 + c1 * U t)) 0 ->
+  tends (fun t => (u t - r * t) / ln (t / T)) (c0 + c1 * m).
+Proof.
+  intros HT Hu Hc Hp Hm H; apply (logarithmic_drift u (fun t => c0 + c1 * U t)); trivial.
+  - intros t Ht; apply (continuous_plus (fun _ => c0)); [apply continuous_const |].
+    apply (continuous_scal_r c1 U); auto.
+  - intros t Ht; replace (t + T) with (T + t) by ring; rewrite Hp by assumption; reflexivity.
+  - assert (I : ex_RInt U 0 T).
+    { apply (ex_RInt_continuous U); intros z Hz; apply Hc; rewrite Rmin_left in Hz; lra. }
+    assert (S : RInt (fun t => c1 * U t) 0 T = c1 * (m * T)).
+    { rewrite <- Hm; apply (RInt_scal U 0 T c1 I). }
+    transitivity (RInt (fun _ => c0) 0 T + RInt (fun t => c1 * U t) 0 T).
+    + apply (RInt_plus (fun _ => c0) (fun t => c1 * U t));
+        [apply ex_RInt_const | apply (ex_RInt_scal U 0 T c1 I)].
+    + rewrite S, RInt_const; unfold scal; simpl; unfold mult; simpl; ring.
+Qed.

@@ -1,0 +1,246 @@
+(** Limits for t -> oo: the theorems about time, each as its rule states it.
+
+    A field is a function on R; what is assumed of it holds for every t >= 0. *)
+
+From Coq Require Import Reals Lra.
+From Coquelicot Require Import Coquelicot.
+Open Scope R_scope.
+
+Definition tends (f : R -> R) (l : R) := is_lim f p_infty l.
+Definition diverges (f : R -> R) := is_lim f p_infty p_infty.
+
+(** The textbook's words. *)
+Lemma tends_iff f l : tends f l <->
+  forall eps, 0 < eps -> exists t0, forall t, t0 < t -> Rabs (f t - l) < eps.
+Proof.
+  unfold tends; rewrite <- is_lim_spec; simpl; split.
+  - intros H eps He; destruct (H (mkposreal eps He)) as [m Hm]; exists m; exact Hm.
+  - intros H eps; destruct (H eps (cond_pos eps)) as [m Hm]; exists m; exact Hm.
+Qed.
+
+Lemma diverges_iff f : diverges f <-> forall m, exists t0, forall t, t0 < t -> m < f t.
+Proof. unfold diverges; rewrite <- is_lim_spec; simpl; reflexivity. Qed.
+
+(** ** What holds from some time on *)
+
+Lemma tends_ext f g l : (forall t, 0 <= t -> f t = g t) -> tends f l -> tends g l.
+Proof.
+  intros E; apply is_lim_ext_loc; exists 0; intros t Ht; apply E; lra.
+Qed.
+
+Lemma diverges_ext f g : (forall t, 0 <= t -> f t = g t) -> diverges f -> diverges g.
+Proof.
+  intros E; apply is_lim_ext_loc; exists 0; intros t Ht; apply E; lra.
+Qed.
+
+Lemma tends_value f l l' : l = l' -> tends f l -> tends f l'.
+Proof. intros ->; trivial. Qed.
+
+(** A limit is unique. *)
+Lemma tends_unique f l l' : tends f l -> tends f l' -> l = l'.
+Proof.
+  intros H H'; apply is_lim_unique in H; apply is_lim_unique in H'; congruence.
+Qed.
+
+(** What diverges has no limit. *)
+Lemma diverges_no_limit f l : diverges f -> ~ tends f l.
+Proof.
+  intros H H'; apply is_lim_unique in H; apply is_lim_unique in H'; congruence.
+Qed.
+
+(** ** Passage to the limit *)
+
+Lemma tends_const c : tends (fun _ => c) c.
+Proof. apply is_lim_const. Qed.
+
+Lemma tends_plus f g a b : tends f a -> tends g b -> tends (fun t => f t + g t) (a + b).
+Proof. apply is_lim_plus'. Qed.
+
+Lemma tends_opp f a : tends f a -> tends (fun t => - f t) (- a).
+Proof. apply (is_lim_opp f p_infty a). Qed.
+
+Lemma tends_minus f g a b : tends f a -> tends g b -> tends (fun t => f t - g t) (a - b).
+Proof. intros Hf Hg; apply (tends_plus f (fun t => - g t)); [| apply tends_opp]; assumption. Qed.
+
+Lemma tends_mult f g a b : tends f a -> tends g b -> tends (fun t => f t * g t) (a * b).
+Proof. intros Hf Hg; apply (is_lim_mult f g p_infty a b); trivial; exact I. Qed.
+
+Lemma tends_scal c f a : tends f a -> tends (fun t => c * f t) (c * a).
+Proof. intros; apply tends_mult; [apply tends_const | assumption]. Qed.
+
+(** Limits pass through a function that is continuous where they end. *)
+Lemma passes f (g : R -> R) l : tends f l -> continuous g l -> tends (fun t => g (f t)) (g l).
+Proof. apply is_lim_comp_continuous. Qed.
+
+(** The reciprocal of a limit that is not 0. *)
+Lemma tends_inv f l : l <> 0 -> tends f l -> tends (fun t => / f t) (/ l).
+Proof.
+  intros Hl H; apply (is_lim_inv f p_infty l) in H; [exact H |]; congruence.
+Qed.
+
+(** Limits pass through t -> T + t. *)
+Lemma later f l T : tends f l -> tends (fun t => f (T + t)) l.
+Proof.
+  rewrite !tends_iff; intros H eps He; destruct (H eps He) as [t0 Ht0].
+  exists (t0 - T); intros t Ht; apply Ht0; lra.
+Qed.
+
+Lemma derive_later (u : R -> R) T t : Derive (fun t => u (T + t)) t = Derive u (T + t).
+Proof. unfold Derive; f_equal; apply Lim_ext; intros; rewrite Rplus_assoc; reflexivity. Qed.
+
+Lemma diverges_later f T : diverges f -> diverges (fun t => f (T + t)).
+Proof.
+  rewrite !diverges_iff; intros H m; destruct (H m) as [t0 Ht0].
+  exists (t0 - T); intros t Ht; apply Ht0; lra.
+Qed.
+
+(** One over what diverges tends to 0. *)
+Lemma tends_inv_diverges s : diverges s -> tends (fun t => / s t) 0.
+Proof.
+  rewrite diverges_iff, tends_iff; intros H eps He.
+  destruct (H (/ eps)) as [t0 Ht0]; exists t0; intros t Ht; specialize (Ht0 t Ht).
+  pose proof (Rinv_0_lt_compat _ He).
+  rewrite Rminus_0_r, Rabs_pos_eq by (left; apply Rinv_0_lt_compat; lra).
+  rewrite <- (Rinv_inv eps); apply Rinv_lt_contravar; [nra | lra].
+Qed.
+
+(** Squeezed: [-B/s <= e <= B/s] and [s -> oo] give [e -> 0]. *)
+Lemma squeezed e s B : diverges s ->
+  (forall t, 0 < t -> - (B / s t) <= e t <= B / s t) -> tends e 0.
+Proof.
+  intros Hs He; pose proof (tends_scal B _ _ (tends_inv_diverges s Hs)) as H.
+  pose proof (tends_opp _ _ H) as H'.
+  replace (- (B * 0)) with 0 in H' by ring; replace (B * 0) with 0 in H by ring.
+  apply is_lim_le_le_loc with (f := fun t => - (B * / s t)) (g := fun t => B * / s t); trivial.
+  exists 0; intros t Ht; apply He; lra.
+Qed.
+
+(** ** From rates to wear *)
+
+(** Mean value theorem on [a, b], for fields differentiable for t >= 0. *)
+Lemma mean_value (u : R -> R) a b : 0 <= a < b -> (forall t, 0 <= t -> ex_derive u t) ->
+  exists c, a < c < b /\ u b - u a = Derive u c * (b - a).
+Proof.
+  intros Hab Hu; destruct (MVT_cor2 u (Derive u) a b) as [c [E Hc]]; [lra | |].
+  - intros c Hc; apply is_derive_Reals, Derive_correct, Hu; lra.
+  - exists c; split; assumption.
+Qed.
+
+(** A rate of at least c: u grows at least like c t. *)
+Lemma grows (u : R -> R) c : (forall t, 0 <= t -> ex_derive u t) ->
+  (forall t, 0 <= t -> c <= Derive u t) -> forall t, 0 <= t -> u 0 + c * t <= u t.
+Proof.
+  intros Hu Hc t [Ht | <-]; [| lra].
+  destruct (mean_value u 0 t) as [x [Hx E]]; [lra | assumption |].
+  assert (c <= Derive u x) by (apply Hc; lra); nra.
+Qed.
+
+(** A positive rate: u increases. *)
+Lemma increases (u : R -> R) : (forall t, 0 <= t -> ex_derive u t) ->
+  (forall t, 0 <= t -> 0 <= Derive u t) -> forall a b, 0 <= a <= b -> u a <= u b.
+Proof.
+  intros Hu Hr a b [Ha [Hab | <-]]; [| lra].
+  destruct (mean_value u a b) as [x [Hx E]]; [lra | assumption |].
+  assert (0 <= Derive u x) by (apply Hr; lra); nra.
+Qed.
+
+(** A constant rate of one per the other: [y' = c x'] gives [y = y(0) + c (x - x(0))]. *)
+Lemma integrates (y x : R -> R) c :
+  (forall t, 0 <= t -> ex_derive y t) -> (forall t, 0 <= t -> ex_derive x t) ->
+  (forall t, 0 <= t -> Derive y t = c * Derive x t) ->
+  forall t, 0 <= t -> y t = y 0 + c * (x t - x 0).
+Proof.
+  intros Hy' Hx E t Ht.
+  assert (Hy : forall t, 0 <= t -> is_derive y t (c * Derive x t)).
+  { intros s Hs; rewrite <- E by assumption; apply Derive_correct; auto. }
+  set (d := fun t => y t - c * x t).
+  assert (Hd : forall t, 0 <= t -> is_derive d t 0).
+  { intros z Hz; rewrite <- (Rminus_eq_0 (c * Derive x z)).
+    apply (is_derive_minus y (fun t => c * x t)); [auto |].
+    apply is_derive_scal, Derive_correct; auto. }
+  assert (forall s, 0 <= s -> ex_derive d s) by (intros; eexists; apply Hd; assumption).
+  assert (forall s, 0 <= s -> Derive d s = 0) by (intros; apply is_derive_unique, Hd; assumption).
+  destruct Ht as [Ht | <-]; [| lra].
+  destruct (mean_value d 0 t) as [z [Hz M]]; [lra | assumption |].
+  rewrite H0 in M by lra; unfold d in M; lra.
+Qed.
+
+(** What lies above a line that rises diverges. *)
+Lemma diverges_above u a c : 0 < c -> (forall t, 0 <= t -> a + c * t <= u t) -> diverges u.
+Proof.
+  rewrite diverges_iff; intros Hc Hu m; exists (Rmax 0 ((m - a) / c)); intros t Ht.
+  pose proof (Rmax_l 0 ((m - a) / c)); pose proof (Rmax_r 0 ((m - a) / c)).
+  assert (Hm : m - a < t * c) by (apply Rlt_div_l; lra).
+  specialize (Hu t); nra.
+Qed.
+
+Lemma diverges_affine u a f : 0 < f -> diverges u -> diverges (fun t => a + f * u t).
+Proof.
+  rewrite !diverges_iff; intros Hf H m; destruct (H ((m - a) / f)) as [t0 Ht0].
+  exists t0; intros t Ht; specialize (Ht0 t Ht); apply Rlt_div_l in Ht0; lra.
+Qed.
+
+(** Monotone and unbounded: where the rate has a positive lower bound as long as u is below
+    any given depth, u exceeds every depth. *)
+Lemma unbounded (u : R -> R) : (forall t, 0 <= t -> ex_derive u t) ->
+  (forall t, 0 <= t -> 0 <= Derive u t) ->
+  (forall m, exists c, 0 < c /\ forall t, 0 <= t -> u t <= m -> c <= Derive u t) ->
+  diverges u.
+Proof.
+  intros Hu Hr Hc; rewrite diverges_iff; intro m; destruct (Hc m) as [c [Hc0 Hcm]].
+  exists (Rmax 0 ((m - u 0) / c)); intros t Ht.
+  pose proof (Rmax_l 0 ((m - u 0) / c)); pose proof (Rmax_r 0 ((m - u 0) / c)).
+  destruct (Rlt_or_le m (u t)) as [|Hle]; [assumption | exfalso].
+  assert (Hlow : forall s, 0 <= s <= t -> c <= Derive u s).
+  { intros s Hs; apply Hcm; [lra |]; pose proof (increases u Hu Hr s t); lra. }
+  destruct (mean_value u 0 t) as [x [Hx E]]; [lra | assumption |].
+  assert (c <= Derive u x) by (apply Hlow; lra).
+  assert (Hm : m - u 0 < t * c) by (apply Rlt_div_l; lra); nra.
+Qed.
+
+(** A rate that tends to R: the wear of one period tends to R T. *)
+Lemma accumulates (u : R -> R) r T : 0 < T -> (forall t, 0 <= t -> ex_derive u t) ->
+  tends (Derive u) r -> tends (fun t => u (t + T) - u t) (r * T).
+Proof.
+  rewrite !tends_iff; intros HT Hu H eps He.
+  assert (He' : 0 < eps / T) by (apply Rdiv_lt_0_compat; lra).
+  destruct (H (eps / T) He') as [t0 Ht0]; exists (Rmax 0 t0); intros t Ht.
+  pose proof (Rmax_l 0 t0) as M1; pose proof (Rmax_r 0 t0) as M2.
+  destruct (mean_value u t (t + T)) as [c [Hc E]]; [lra | assumption |].
+  rewrite E; replace (Derive u c * (t + T - t) - r * T) with ((Derive u c - r) * T) by ring.
+  rewrite Rabs_mult, (Rabs_pos_eq T) by lra.
+  apply Rlt_div_r; [lra | apply Ht0; lra].
+Qed.
+
+(** Cesaro: a rate that tends to R: u/t tends to R. *)
+Lemma cesaro (u : R -> R) r : (forall t, 0 <= t -> ex_derive u t) ->
+  tends (Derive u) r -> tends (fun t => u t / t) r.
+Proof.
+  rewrite !tends_iff; intros Hu H eps He.
+  destruct (H (eps / 2)) as [t0 Ht0]; [lra |]; set (a := Rmax 1 (t0 + 1)).
+  assert (Ha : 1 <= a) by apply Rmax_l; assert (Ha' : t0 + 1 <= a) by apply Rmax_r.
+  set (b := Rabs (u a - r * a)); assert (Hb0 : 0 <= b) by apply Rabs_pos.
+  exists (Rmax a (2 * b / eps)); intros t Ht.
+  pose proof (Rmax_l a (2 * b / eps)) as M1; pose proof (Rmax_r a (2 * b / eps)) as M2.
+  destruct (mean_value u a t) as [c [Hc E]]; [lra | assumption |].
+  assert (Hd : Rabs (Derive u c - r) < eps / 2) by (apply Ht0; lra).
+  assert (Hb : 2 * b < eps * t) by (rewrite (Rmult_comm eps); apply Rlt_div_l; lra).
+  replace (u t / t - r) with ((u a - r * a + (Derive u c - r) * (t - a)) / t)
+    by (replace (u t) with (u a + Derive u c * (t - a)) by lra; field; lra).
+  unfold Rdiv; rewrite Rabs_mult, (Rabs_pos_eq (/ t)) by (left; apply Rinv_0_lt_compat; lra).
+  apply Rlt_div_l; [lra |]; eapply Rle_lt_trans; [apply Rabs_triang |].
+  fold b; rewrite Rabs_mult, (Rabs_pos_eq (t - a)) by lra; nra.
+Qed.
+
+(** Comparison: where one rate never exceeds the other's, wear does not overtake. *)
+Lemma comparison (u v : R -> R) : (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> ex_derive v t) ->
+  (forall t, 0 <= t -> Derive u t <= Derive v t) -> u 0 <= v 0 ->
+  forall t, 0 <= t -> u t <= v t.
+Proof.
+  intros Hu Hv Hr H0 t Ht; set (d := fun t => v t - u t).
+  assert (E : forall s, 0 <= s -> is_derive d s (Derive v s - Derive u s)).
+  { intros s Hs; apply (is_derive_minus v u); apply Derive_correct; auto. }
+  assert (d 0 <= d t); [| unfold d in *; lra].
+  apply increases; [| | lra]; intros s Hs; [eexists; apply E, Hs |].
+  rewrite (is_derive_unique _ _ _ (E s Hs)); specialize (Hr s Hs); lra.
+Qed.

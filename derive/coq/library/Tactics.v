@@ -1,0 +1,159 @@
+(** The tactics of exported steps: side conditions, equal arguments, signs. *)
+
+From Coq Require Import Reals Lra Psatz.
+From Coquelicot Require Import Coquelicot.
+From Wear Require Import Tanh Limits.
+Open Scope R_scope.
+
+(** ** Signs *)
+
+(** A goal [0 < e], [0 <= e] or [e <> 0] by the signs of the parts of e. *)
+Ltac positive :=
+  match goal with
+  | |- _ /\ _ => split; positive
+  | |- True => exact I
+  | |- ?a <> ?b => first [assumption | apply Rgt_not_eq, Rlt_gt; positive | apply Rlt_not_eq; lra | lra]
+  | |- ?a > ?b => apply Rlt_gt; positive
+  | |- 0 < _ => first [assumption | lra | positive_part]
+  | |- 0 <= _ => first [assumption | lra | positive_part]
+  | |- _ => lra
+  end
+with positive_part :=
+  match goal with
+  | |- 0 < ?a * ?b => apply Rmult_lt_0_compat; positive
+  | |- 0 < ?a / ?b => apply Rdiv_lt_0_compat; positive
+  | |- 0 < / ?a => apply Rinv_0_lt_compat; positive
+  | |- 0 < ?a ^ ?n => apply pow_lt; positive
+  | |- 0 < exp _ => apply exp_pos
+  | |- 0 < 1 + tanh _ => apply one_plus_tanh_pos
+  | |- 0 < tanh ?x / 2 + 1 / 2 => pose proof (tanh_above x); lra
+  | |- 0 < 1 / 2 - tanh ?x / 2 => pose proof (tanh_below x); lra
+  | |- 0 < sqrt _ => apply sqrt_lt_R0; positive
+  | |- 0 < ?a + ?b => first [apply Rplus_lt_0_compat; positive | apply Rplus_lt_le_0_compat; positive
+                             | apply Rplus_le_lt_0_compat; positive]
+  | |- 0 <= ?a * ?b => apply Rmult_le_pos; positive
+  | |- 0 <= ?a / ?b => apply Rmult_le_pos; [positive | left; apply Rinv_0_lt_compat; positive]
+  | |- 0 <= / ?a => left; apply Rinv_0_lt_compat; positive
+  | |- 0 <= ?a ^ 2 => apply pow2_ge_0
+  | |- 0 <= ?a ^ ?n => apply pow_le; positive
+  | |- 0 <= Rabs _ => apply Rabs_pos
+  | |- 0 <= sqrt _ => apply sqrt_pos
+  | |- 0 <= ?a + ?b => apply Rplus_le_le_0_compat; positive
+  | |- 0 <= ?a => left; positive_part
+  | |- 0 < _ => solve [auto | nra]
+  | |- _ => nra
+  end.
+
+(** The goal by arithmetic alone, from the facts of the context. *)
+Ltac bounds :=
+  repeat match goal with
+  | H : Rabs _ <= _ |- _ => apply Rabs_le_between in H
+  | |- context [tanh ?a] => lazymatch goal with H : tanh a < 1 |- _ => fail
+      | _ => pose proof (tanh_below a); pose proof (tanh_above a) end
+  | |- context [exp ?a] => lazymatch goal with H : 0 < exp a |- _ => fail
+      | _ => pose proof (exp_pos a) end
+  end.
+
+Ltac arithmetic := first [lra | bounds; solve [lra | positive | nra]].
+
+(** ** Equal arguments of functions *)
+
+Ltac same_argument :=
+  solve [reflexivity | ring | unfold Rdiv; rewrite ?Rinv_mult; ring | field; positive].
+
+Ltac same_under f :=
+  match goal with
+  | |- context [f ?a] => match goal with |- context [f ?b] =>
+      tryif constr_eq a b then fail else replace (f b) with (f a) by (f_equal; same_argument) end
+  end.
+
+Ltac tanh_of_opposite :=
+  match goal with
+  | |- context [tanh ?a] => match goal with |- context [tanh ?b] =>
+      tryif constr_eq a b then fail
+      else replace (tanh b) with (- tanh a) by (rewrite <- tanh_opp; f_equal; same_argument) end
+  end.
+
+Ltac exp_of_multiple :=
+  match goal with
+  | |- context [exp ?a] => match goal with |- context [exp ?b] =>
+      tryif constr_eq a b then fail else first
+      [ replace (exp b) with (/ exp a) by (rewrite <- exp_Ropp; f_equal; same_argument)
+      | replace (exp b) with (exp a * exp a) by (rewrite <- exp_plus; f_equal; same_argument)
+      | replace (exp b) with (/ (exp a * exp a))
+          by (rewrite <- exp_plus, <- exp_Ropp; f_equal; same_argument) ] end
+  end.
+
+Ltac same_functions :=
+  repeat first [same_under tanh | same_under exp | same_under ln | same_under sqrt | same_under Rabs];
+  repeat tanh_of_opposite.
+
+Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_of_multiple];
+  repeat match goal with |- context [exp ?a] =>
+    lazymatch goal with H : 0 < exp a |- _ => fail | _ => pose proof (exp_pos a) end end.
+
+(** ** Equations *)
+
+Ltac in_contact :=
+  repeat match goal with |- context [Rle_dec ?a ?b] => destruct (Rle_dec a b); [| lra] end.
+
+(** A root of a square, and a modulus of what has a sign. *)
+Ltac roots :=
+  repeat first
+  [ rewrite Rabs_pos_eq by arithmetic
+  | match goal with |- context [sqrt ?x] =>
+      match goal with H : _ 0 ?y |- _ => replace (sqrt x) with y
+        by (symmetry; apply sqrt_lem_1; [nra | lra | ring]) end end
+  | match goal with |- sqrt _ = Rabs _ => rewrite <- sqrt_Rsqr_abs; f_equal; unfold Rsqr; ring end ].
+
+Ltac identity := in_contact; same_functions; first
+  [ reflexivity | ring | field; positive | same_exponentials; field; positive
+  | progress roots; first [reflexivity | ring | field; positive] ].
+
+(** The goal is c times the equation H, up to the form of arguments. *)
+Ltac from_equation H c :=
+  apply Rminus_diag_uniq; apply Rminus_diag_eq in H; revert H; same_functions;
+  match goal with |- ?e = 0 -> ?g = 0 =>
+    let E := fresh in intro E; replace g with (c * e);
+    [rewrite E; ring | first [ring | field; positive | same_exponentials; field; positive]] end.
+
+(** ** Inequalities *)
+
+(** The goal [a <= b] or [a < b] where [b - a] is the expression e of manifest sign. *)
+Ltac manifest e :=
+  first [apply Rminus_le_0 | apply Rminus_lt_0];
+  match goal with |- ?r 0 ?d => replace d with e by identity end; arithmetic.
+
+(** The same inequality up to form. *)
+Ltac same_inequality H := revert H; same_functions; intro H; arithmetic.
+
+(** The goal by the order of [f a] and [f b], where e is the difference of its sides. *)
+Ltac ordered a b e :=
+  first
+  [ assert (tanh a <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
+  | assert (tanh (- a) <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
+  | assert (tanh a <= tanh (- b)) by (apply tanh_order; unfold Rdiv in *; lra)
+  | match goal with H : forall r r', r < r' -> ?f r' < ?f r |- _ =>
+      assert (f a <= f b) by (destruct (Req_dec a b) as [-> | ?];
+        [lra | left; apply H; unfold Rdiv in *; lra]) end ];
+  rewrite ?tanh_opp in *; manifest e.
+
+(** ** Limits of expressions, part by part *)
+
+Ltac limit_of_parts :=
+  cbv beta; match goal with
+  | H : tends ?f _ |- tends ?f _ => exact H
+  | |- tends (fun _ => ?c) _ => apply tends_const
+  | |- tends (fun t => @?f t + @?g t) _ => apply (tends_plus f g); limit_of_parts
+  | |- tends (fun t => @?f t - @?g t) _ => apply (tends_minus f g); limit_of_parts
+  | |- tends (fun t => - @?f t) _ => apply (tends_opp f); limit_of_parts
+  | |- tends (fun t => @?f t * @?g t) _ => apply (tends_mult f g); limit_of_parts
+  | |- tends (fun t => @?f t / @?g t) _ => apply (tends_mult f (fun t => / g t)); limit_of_parts
+  | |- tends (fun t => / @?f t) _ => eapply (tends_inv f); [| limit_of_parts]; positive
+  | |- tends (fun t => tanh (@?f t)) _ => apply (passes f tanh); [limit_of_parts | apply tanh_continuous]
+  | |- tends (fun t => exp (@?f t)) _ => apply (passes f exp); [limit_of_parts | apply continuous_exp]
+  | |- tends (fun t => ?F (@?f t)) _ => apply (passes f F);
+      [limit_of_parts | apply (ex_derive_continuous F); auto]
+  end.
+
+Ltac limit := eapply tends_value; [| limit_of_parts]; identity.

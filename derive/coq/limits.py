@@ -1,0 +1,207 @@
+"""Proofs of limits for t -> oo.
+
+Overview
+    A limit passes through an expression that SymPy finds: what is known to have a limit takes
+    the place of the load, what diverges that of the wear.  Growth, divergence, squeezing and
+    accumulation cite the theorem of that name.
+Key results
+    proof    the lines that prove a claim about limits, or that follows from one
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..symbols import symbol, t
+from .printer import field, term
+from .steps import Step
+
+_LOAD = symbol("U_a").func
+_T = symbol("T")
+
+
+def proof(step: Step) -> list[str]:
+    """Return the lines of a proof."""
+    relation = step.relation
+    if not relation.has(sp.Limit):
+        return list(_named(step))
+    left, right = relation.args
+    if isinstance(left, sp.Limit) and right == sp.oo:
+        return list(_diverges(step, left.args[0]))
+    if isinstance(left, sp.Limit) and not right.has(sp.Limit):
+        inside = left.args[0]
+        if lines := [*_accumulates(step, inside), *(_squeezed(step, inside) if right == 0 else ())]:
+            return lines
+        return [*_known(step), *_passes(step, inside)]
+    return _exists(step, left, right)
+
+
+def _named(step: Step) -> Iterator[str]:
+    """A name for a limit: limits are unique."""
+    name = step.relation.lhs
+    for limit in (s for s in step.limits if isinstance(s.relation.lhs, sp.Limit)):
+        for premise in step.statement.premises:
+            defined = isinstance(premise.relation, sp.Equality) and premise.relation.lhs == name
+            if defined and premise.relation.has(sp.Limit):
+                inside = premise.relation.rhs.args[0]
+                cited = f"{premise.label} ({step.cited(limit)})"
+                yield f"exact (tends_unique (fun t => {term(inside)}) _ _ {cited})."
+                return
+
+
+def _diverges(step: Step, inside: sp.Expr) -> Iterator[str]:
+    (growth,) = (s for s in step.frontier if s.timed)
+    wear, bound = growth.relation.gts, growth.relation.lts
+    flat = sp.Symbol("flat")
+    start = inside.xreplace({wear: flat}).subs(flat, 0)
+    slope = sp.diff(inside.xreplace({wear: flat}), flat)
+    speed = bound / t
+    yield f"apply (diverges_ext (fun t => {term(start)} + {_in(slope)} * {term(wear)})); [intros; ring |]."
+    yield "apply diverges_affine; [positive |]."
+    yield f"apply (diverges_above _ 0 ({term(speed)})); [positive |]."
+    yield f"intros t Ht; pose proof ({step.cited(growth)} t Ht) as P0; same_inequality P0."
+
+
+def _in(expr: sp.Expr) -> str:
+    return f"({term(expr)})"
+
+
+def _accumulates(step: Step, inside: sp.Expr) -> Iterator[str]:
+    for limit in step.limits:
+        rate = limit.relation.lhs.args[0]
+        if isinstance(rate, sp.Derivative):
+            u = rate.expr
+            if sp.expand(inside - (u.subs(t, t + _T) - u)) == 0:
+                name = field(u)
+                yield f"apply (tends_ext (fun t => {name} (t + T) - {name} t)); [intros; rewrite (Rplus_comm T); ring |]."
+                yield f"apply (tends_value _ (({term(limit.relation.rhs)}) * T)); [identity |]."
+                yield f"apply accumulates; [assumption | assumption | exact ({step.cited(limit)})]."
+
+
+def _squeezed(step: Step, inside: sp.Expr) -> Iterator[str]:
+    between = [s for s in step.frontier if isinstance(s.relation, sp.And)]
+    diverging = [s for s in step.limits if s.relation.rhs == sp.oo]
+    if between and diverging:
+        size = diverging[0].relation.lhs.args[0]
+        above = next(part for part in between[0].relation.args if part.lts == inside)
+        bound = above.gts * size
+        yield f"apply (squeezed _ (fun t => {term(size)}) ({term(bound)})); [exact ({step.cited(diverging[0])}) |]."
+        yield f"intros t Ht; pose proof ({step.cited(between[0])} t (Rlt_le _ _ Ht)) as P0."
+        yield "unfold Rdiv in *; lra."
+
+
+def _known(step: Step) -> list[str]:
+    """State the limits of the parents, now and one period later."""
+    lines = []
+    moves = step.relation.has(t + _T)
+    for i, limit in enumerate(step.limits):
+        inside, value = limit.relation.lhs.args[0], limit.relation.rhs
+        later = term(one_period_later(inside))
+        if not isinstance(limit.relation.lhs, sp.Limit):
+            continue
+        if value == sp.oo:
+            lines.append(
+                f"pose proof (tends_inv_diverges _ ({step.cited(limit)})) as L{i}; cbv beta in L{i}."
+            )
+            later, value = f"/ ({later})", sp.S.Zero
+        else:
+            lines.append(f"pose proof ({step.cited(limit)}) as L{i}.")
+        if moves:
+            proof = f"generalize (later _ _ T L{i}); apply tends_ext; intros; rewrite ?derive_later; first [reflexivity | replace (2 * T + t) with (T + (T + t)) by ring; reflexivity]"
+            lines.append(f"assert (M{i} : tends (fun t => {later}) ({term(value)})) by ({proof}).")
+    return lines
+
+
+def one_period_later(expr: sp.Expr) -> sp.Expr:
+    """Return an expression at T + t."""
+    return expr.xreplace({f: f.subs(t, t + _T) for f in expr.atoms(AppliedUndef) if f.has(t)})
+
+
+def _passes(step: Step, inside: sp.Expr) -> list[str]:
+    """Write the expression with what has a limit, and let the limit pass through it."""
+    from .proofs import divisors, stated
+
+    found, _ = _composed(step, inside)
+    equations = [
+        s
+        for s in step.frontier
+        if isinstance(s.relation, sp.Equality) and not s.relation.has(sp.Limit)
+    ]
+    text, named = stated(step, [s for s in equations if s.timed])
+    lines = [f"apply (tends_ext (fun t => {found})).", "{ intros t Ht."]
+    lines += divisors(step)
+    if inside.has(t + _T):
+        lines += ["assert (HT : 0 <= T + t) by lra.", *divisors(step, "T + t", "HT")]
+    rewrites = "".join(f"rewrite ?{label}; " for label, e in named if inside.has(e.lhs))
+    return [*lines, f"{text}{rewrites}identity. }}", "limit."]
+
+
+def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
+    """Return the expression in terms of what has a limit, as Coq writes it, and its limit."""
+    for other in step.frontier:
+        relation = other.relation
+        if isinstance(relation, sp.Equality) and not relation.has(sp.Limit) and other.timed:
+            inside = inside.subs(relation.lhs, relation.rhs)
+    texts: dict[str, str] = {}
+    values: dict[sp.Symbol, sp.Expr] = {}
+    for now in (True, False):
+        for i, limit in enumerate(sorted(step.limits, key=lambda s: s.relation.rhs == sp.oo)):
+            quantity, value = limit.relation.lhs.args[0], limit.relation.rhs
+            quantity = quantity if now else one_period_later(quantity)
+            stand_in = sp.Symbol(f"known{i}{'now' if now else 'later'}", positive=True)
+            infinite = value == sp.oo
+            text = f"(/ ({term(quantity)}))" if infinite else f"({term(quantity)})"
+            replaced = in_terms_of(inside, quantity, 1 / stand_in if infinite else stand_in)
+            if replaced != inside:
+                inside, texts[stand_in.name], values[stand_in] = (
+                    replaced,
+                    text,
+                    sp.S.Zero if infinite else value,
+                )
+    found = term(inside)
+    for name, text in texts.items():
+        found = found.replace(name, text)
+    return found, inside.xreplace(values)
+
+
+def in_terms_of(expr: sp.Expr, quantity: sp.Expr, stand_in: sp.Expr) -> sp.Expr:
+    """Write an expression with a name for a quantity, by eliminating the load or a field."""
+    expr = expr.subs(quantity, stand_in)
+    fields = [f for f in quantity.atoms(AppliedUndef) if expr.has(f)]
+    if any(f.func == _LOAD and not expr.has(f) for f in quantity.atoms(AppliedUndef)):
+        return expr
+    for each in sorted(fields, key=lambda f: (f.func != _LOAD, str(f))):
+        flat = sp.Symbol("unknown")
+        solutions = sp.solve(quantity.xreplace({each: flat}) - stand_in, flat)
+        if len(solutions) == 1:
+            return _cancelled(expr.subs(each, solutions[0]))
+    return expr
+
+
+def _cancelled(expr: sp.Expr) -> sp.Expr:
+    """Cancel common factors, inside the arguments of functions too."""
+    if not expr.args or isinstance(expr, sp.Derivative):
+        return expr
+    inner = expr.func(*map(_cancelled, expr.args))
+    return inner if isinstance(inner, sp.Function) else sp.cancel(inner)
+
+
+def _exists(step: Step, left: sp.Expr, right: sp.Expr) -> list[str]:
+    """Limits that are claimed equal, or a product with one that is claimed 0."""
+    inner = [e for side in (left, right) for e in sorted(side.atoms(sp.Limit), key=str)]
+    _, value = _composed(step, inner[0].args[0])
+    lines = [*_known(step), f"exists ({term(value)})."]
+    if len(inner) == 2:
+        lines += [
+            "split.",
+            "{",
+            *_passes(step, inner[0].args[0]),
+            "}",
+            *_passes(step, inner[1].args[0]),
+        ]
+    else:
+        lines += ["split.", "{", *_passes(step, inner[0].args[0]), "}", "ring."]
+    return lines

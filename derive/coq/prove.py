@@ -1,0 +1,95 @@
+"""The record made anew: open steps are tried in a session of Coq, each way in turn.
+
+Overview
+    ``python -m derive.coq.prove`` writes ``record.json``.  Steps that are closed, and whose
+    proofs have not changed, are taken as proved here; ``make proof`` proves all of them.
+Key results
+    attempt    what closes of the steps that are hoped for
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from ..catalogue import equations
+from .export import HEAD, Export, compiled
+from .record import RECORD, Row, record
+from .steps import Step
+
+_FOLDER = Path("build/prove")
+_SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default Timeout 30.\n"
+"""Seconds for one sentence of a proof; one way of several has 6."""
+
+
+def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
+    """Return the record after a session, and what failed because it cites what failed."""
+    hopeful: dict[str, Row] = known | {h: {"closed": True} for h in hoped}
+    before = Export(equations(), known)
+    made = Export(before.equations, hopeful)
+    texts = {}
+    for step in made.steps:
+        row = known.get(step.key, {})
+        text = _lemma(made, step, hopeful.get(step.key, row))
+        if "\nProof." in text and text == _lemma(before, step, row):
+            text = re.sub(r"Proof\..*Qed\.", "Admitted.", text, flags=re.DOTALL)
+        elif hopeful.get(step.key, row).get("closed"):
+            text = _lemma(made, step, {"closed": True})
+        texts[step.name] = f"{text}Abort All.\nLocate {step.name}.\n"
+    said = _session(made, "".join(texts.values()))
+    closed = set(re.findall(r"Constant Top\.(step_\w+)", said))
+    ways = {name: int(way) for name, way in re.findall(r"WAY (step_\w+) (\d+)", said)}
+    rows: dict[str, Row] = {}
+    again = set()
+    for step in made.steps:
+        new: Row = {"rule": step.rule, "closed": step.name in closed}
+        if step.name in ways:
+            new["way"] = ways[step.name]
+        elif "Admitted." in texts[step.name] and "way" in hopeful.get(step.key, {}):
+            new["way"] = hopeful[step.key]["way"]
+        if not new["closed"]:
+            new["reason"] = "no tactic of the exporter closes it"
+            if set(re.findall(r"step_\w+", texts[step.name])) - closed - {step.name}:
+                again.add(step.key)
+        rows[step.key] = new
+    return rows, again & hoped
+
+
+def _lemma(made: Export, step: Step, row: Row) -> str:
+    """Return the text of a lemma; as an open one where no proof can be proposed."""
+    try:
+        return made.lemma(step, row)
+    except (LookupError, RuntimeError, StopIteration, TypeError, ValueError, AttributeError):
+        return made.lemma(step, {"reason": "no proof is proposed"})
+
+
+def _session(made: Export, lemmas: str) -> str:
+    """Return what Coq says of lemmas; a failure ends one of them, not the session."""
+    made.write(_FOLDER, {"World": (made.world, [])})
+    if fault := compiled(_FOLDER, ("World.vo",)):
+        sys.exit(fault)
+    done = subprocess.run(
+        ["coqtop", "-q", "-w", "none", "-Q", ".", "Wear"],
+        cwd=_FOLDER, input=f"{HEAD}{_SETTINGS}{lemmas}",
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    return done.stdout
+
+
+def main() -> None:
+    """Try what is open, again where that changes what can be cited, and write the record."""
+    rows = dict(record())
+    made = Export(equations(), rows)
+    hoped = {s.key for s in made.steps} - {h for h, row in rows.items() if row["closed"]}
+    while hoped:
+        rows, hoped = attempt(rows, hoped)
+    lines = ",\n".join(f'"{key}": {json.dumps(rows[key])}' for key in sorted(rows))
+    RECORD.write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
+    print(f"{sum(row['closed'] for row in rows.values())} of {len(rows)} steps closed")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,170 @@
+"""What Coq is asked: a lemma for every judgement, its hypotheses as premises.
+
+Overview
+    The quantities of the vocabulary are the fields of one record, ``world``; a lemma speaks of
+    any world.  Its premises are the hypotheses of the judgement and the domains of the symbols
+    that occur; a premise about fields holds for every t >= 0.  Hypotheses that only words say
+    are those of a short table.
+Key results
+    Statement     premises and conclusion of one lemma
+    statement     of a judgement
+    key           a hash of the statement, and of those that it rests on
+    world         the record of all quantities that statements speak of
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from dataclasses import dataclass
+from functools import cache
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ..hypotheses import Hypothesis
+from ..kernel import Judgement
+from ..symbols import t
+from . import printer
+
+_LAW = (
+    ("law_positive", "forall r, 0 < phi r"),
+    ("law_decreasing", "forall r r', r < r' -> phi r' < phi r"),
+    ("law_differentiable", "forall r, ex_derive phi r"),
+)
+"""What is assumed of an unspecified contact law."""
+
+_WORDS = {"continuous": "forall t, 0 <= t -> continuous U_a t"}
+"""Hypotheses that have no relation, by a word of their text."""
+
+
+@dataclass(frozen=True)
+class Premise:
+    """One premise of a lemma; ``said`` is its proposition."""
+
+    label: str
+    said: str
+    relation: sp.Basic = sp.true
+
+    @property
+    def timed(self) -> bool:
+        """Return whether it holds for every t >= 0."""
+        return self.said.startswith("forall t, 0 <= t -> ")
+
+
+@dataclass(frozen=True)
+class Statement:
+    """``premises -> conclusion``, in any world."""
+
+    premises: tuple[Premise, ...]
+    conclusion: str
+
+    @property
+    def text(self) -> str:
+        """Return the proposition."""
+        return " ->\n  ".join((*(f"({p.said})" for p in self.premises), self.conclusion))
+
+
+@cache
+def statement(judgement: Judgement) -> Statement:
+    """Return the lemma of a judgement; UntranslatableError where Coq's library lacks the words."""
+    premises = [_premise(h) for h in judgement.hypotheses]
+    premises += [_domain(h) for h in judgement.domains if _of_quantity(h.relation.args[0])]
+    premises += _smooth(judgement)
+    conclusion = printer.always(claim(judgement))
+    if any(re.search(r"\bphi\b", text) for text in (conclusion, *(p.said for p in premises))):
+        premises += [Premise(label, said) for label, said in _LAW]
+    return Statement(_numbered(premises), conclusion)
+
+
+@cache
+def key(judgement: Judgement) -> str:
+    """Return what identifies a step: its statement, its rule, and the steps that it cites.
+
+    UntranslatableError where it cannot be stated.
+    """
+    cited = []
+    for parent in judgement.parents:
+        try:
+            cited.append(key(parent))
+        except printer.UntranslatableError:
+            continue
+    said = "\n".join((type(judgement.rule).__name__, statement(judgement).text, *cited))
+    return hashlib.sha256(said.encode()).hexdigest()[:12]
+
+
+def claim(judgement: Judgement) -> sp.Basic:
+    """Return the claim; the derivative of a result is that of the function its premise gives."""
+    relation = judgement.relation
+    for slope in relation.atoms(sp.Derivative):
+        if isinstance(slope.expr, sp.Symbol):
+            given = judgement.parents[0].relation.rhs
+            function = sp.Derivative(given, *slope.variables, evaluate=False)
+            relation = relation.func(
+                *(a.xreplace({slope: function}) for a in relation.args), evaluate=False
+            )
+    return relation
+
+
+def _premise(hypothesis: Hypothesis) -> Premise:
+    if hypothesis.relation is not sp.true:
+        return Premise(
+            _label(hypothesis.text), printer.always(hypothesis.relation), hypothesis.relation
+        )
+    for word, said in _WORDS.items():
+        if word in hypothesis.text:
+            return Premise(_label(hypothesis.text), said)
+    raise printer.UntranslatableError(f"only words say that {hypothesis.text}")
+
+
+def _domain(hypothesis: Hypothesis) -> Premise:
+    atom = hypothesis.relation.args[0]
+    label = f"domain_{printer.name(atom.func.__name__ if atom.args else str(atom))}"
+    return Premise(label, printer.always(hypothesis.relation), hypothesis.relation)
+
+
+def _smooth(judgement: Judgement) -> list[Premise]:
+    """Return that fields whose rates occur are differentiable."""
+    relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
+    rates = {d for r in relations for d in r.atoms(sp.Derivative) if t in d.variables}
+    fields = {printer.field(f) for d in rates for f in d.atoms(AppliedUndef)}
+    said = "forall t, 0 <= t -> ex_derive {} t"
+    return [Premise(f"smooth_{field}", said.format(field)) for field in sorted(fields)]
+
+
+def _of_quantity(atom: sp.Expr) -> bool:
+    """Return whether an atom is a datum, or a field now; time and initial values go without."""
+    return atom != t and (not atom.args or atom.args == (t,))
+
+
+def _label(text: str) -> str:
+    words = re.sub(r"\W+", "_", text.encode("ascii", "ignore").decode()).strip("_").lower()
+    return "for_" + words.removeprefix("the_")[:40].rstrip("_")
+
+
+def _numbered(premises: list[Premise]) -> tuple[Premise, ...]:
+    """Return the premises, each once, under labels that differ."""
+    said: dict[str, Premise] = {}
+    for premise in premises:
+        said.setdefault(premise.said, premise)
+    taken: dict[str, int] = {}
+    result = []
+    for premise in said.values():
+        count = taken[premise.label] = taken.get(premise.label, 0) + 1
+        label = premise.label if count == 1 else f"{premise.label}_{count}"
+        result.append(Premise(label, premise.said, premise.relation))
+    return tuple(result)
+
+
+def world(relations: list[sp.Basic]) -> str:
+    """Return the record of all quantities that occur, with the type of each."""
+    fields: dict[str, str] = {"phi": "R -> R"}
+    for relation in relations:
+        bound = {v for e in relation.atoms(sp.Derivative, sp.Integral) for v in e.variables}
+        for function in relation.atoms(AppliedUndef):
+            fields[printer.field(function)] = "R -> R"
+        for symbol in relation.atoms(sp.Symbol):
+            if symbol not in bound and str(symbol) != "t" and not isinstance(symbol, sp.Dummy):
+                fields.setdefault(printer.name(str(symbol)), "R")
+    rows = ";\n".join(f"  {name} : {kind}" for name, kind in sorted(fields.items()))
+    return f"Class world := {{\n{rows}\n}}.\n"

@@ -1,0 +1,167 @@
+"""Steps: judgements as lemmas that know what they rest on.
+
+Key results
+    Step       a judgement with its statement, its name and the steps that it rests on
+    steps      of all judgements that can be stated, and why the others cannot
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ..kernel import Judgement
+from .printer import UntranslatableError
+from .statements import Premise, Statement, claim, key, statement
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """A judgement as a lemma."""
+
+    key: str
+    judgement: Judgement
+    statement: Statement
+    parents: tuple[Step, ...]
+    claim: sp.Basic
+    closed: bool = True
+    """Whether it has a proof, and can be cited."""
+
+    @property
+    def relation(self) -> sp.Basic:
+        """Return the claim."""
+        return self.claim
+
+    @property
+    def name(self) -> str:
+        """Return the name of the lemma."""
+        return f"step_{self.key}"
+
+    @property
+    def rule(self) -> str:
+        """Return the name of the rule."""
+        return type(self.judgement.rule).__name__
+
+    @property
+    def timed(self) -> bool:
+        """Return whether the claim is about every t >= 0."""
+        return self.statement.conclusion.startswith("forall t, 0 <= t -> ")
+
+    @property
+    def assumed(self) -> bool:
+        """Return whether the claim is one of the premises: a hypothesis, nothing to prove."""
+        return any(p.said == self.statement.conclusion for p in self.statement.premises)
+
+    @property
+    def introduction(self) -> str:
+        """Return the tactic that names the premises."""
+        labels = " ".join(p.label for p in self.statement.premises)
+        return f"intros {labels}." if labels else "idtac."
+
+    @cached_property
+    def labels(self) -> dict[str, str]:
+        """Return the label of each premise."""
+        return {p.said: p.label for p in self.statement.premises}
+
+    def premise(self, relation: sp.Basic) -> Premise | None:
+        """Return the premise that says a relation."""
+        return next((p for p in self.statement.premises if p.relation == relation), None)
+
+    def usable(self, other: Step) -> bool:
+        """Return whether another step's premises are all among those of this one."""
+        return (other.closed or other.assumed) and all(
+            p.said in self.labels for p in other.statement.premises
+        )
+
+    def cited(self, other: Step) -> str:
+        """Return the proof term of another step, from this one's premises."""
+        if other.statement.conclusion in self.labels:
+            return self.labels[other.statement.conclusion]
+        return " ".join((other.name, *(self.labels[p.said] for p in other.statement.premises)))
+
+    @cached_property
+    def frontier(self) -> list[Step]:
+        """Return the nearest steps that this one can use, instead of parents that it cannot."""
+        found: dict[str, Step] = {}
+
+        def visit(step: Step) -> None:
+            for parent in step.parents:
+                if self.usable(parent):
+                    found.setdefault(parent.name, parent)
+                else:
+                    visit(parent)
+
+        visit(self)
+        return list(found.values())
+
+    @cached_property
+    def ancestors(self) -> list[Step]:
+        """Return all usable steps that this one rests on, nearest first."""
+        found: dict[str, Step] = {}
+        row: list[Step] = list(self.parents)
+        while row:
+            for step in row:
+                if self.usable(step):
+                    found.setdefault(step.name, step)
+            row = list(dict.fromkeys(p for step in row for p in step.parents))
+        return list(found.values())
+
+    @property
+    def missing(self) -> list[tuple[Step, list[Premise]]]:
+        """Return parents that rest on more than this step does, with what it lacks."""
+        lacking = (
+            (p, [q for q in p.statement.premises if q.said not in self.labels])
+            for p in self.parents
+        )
+        return [(parent, premises) for parent, premises in lacking if premises]
+
+    @cached_property
+    def hypotheses(self) -> list[Step]:
+        """Return the premises with a relation, as steps to cite."""
+        return [
+            Step(p.label, self.judgement, Statement((p,), p.said), (), p.relation)
+            for p in self.statement.premises
+            if p.relation is not sp.true
+        ]
+
+    @cached_property
+    def limits(self) -> list[Step]:
+        """Return the nearest usable steps whose claims are limits."""
+        return [
+            s
+            for s in self.frontier
+            if isinstance(s.relation, sp.Equality) and s.relation.has(sp.Limit)
+        ]
+
+
+def steps(
+    judgements: Iterable[Judgement], closed: Collection[str]
+) -> tuple[dict[str, Step], dict[str, str]]:
+    """Return judgements as steps by key, premises first, and why others cannot be stated.
+
+    Judgements that say and cite the same are one step; ``closed`` are the keys of those with a
+    proof.
+    """
+    known: dict[str, Step] = {}
+    refused: dict[str, str] = {}
+    for judgement in judgements:
+        try:
+            said, name = statement(judgement), key(judgement)
+        except UntranslatableError as reason:
+            refused[str(judgement.relation)] = str(reason)
+        else:
+            parents = [known[k] for p in judgement.parents if (k := _key(p)) in known]
+            proved = name in closed
+            new = Step(name, judgement, said, tuple(parents), claim(judgement), proved)
+            known.setdefault(name, new)
+    return known, refused
+
+
+def _key(judgement: Judgement) -> str | None:
+    try:
+        return key(judgement)
+    except UntranslatableError:
+        return None

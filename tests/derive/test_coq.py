@@ -1,0 +1,126 @@
+"""The export to Coq: what is stated, what is proved, and that wrong statements are not."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+import sympy as sp
+
+from derive import catalogue
+from derive.coq import export, printer
+from derive.coq.record import proved_by_coq, record
+from derive.coq.statements import statement
+from derive.symbols import symbols, t
+
+h, sigma, p_max, U_a, f_c = symbols("h sigma p_max U_a f_c")
+
+REQUIRED = ("8", "9", "10", "13", "14", "15", "17a", "17b", "18", "21", "22")
+
+needs_coq = pytest.mark.skipif(
+    shutil.which("coqc") is None and not os.environ.get("CI"), reason="coqc is not installed"
+)
+
+
+@pytest.fixture(scope="module")
+def deviation(tmp_path_factory):
+    """Return a folder with the compiled library, and the exported steps of one equation."""
+    folder = tmp_path_factory.mktemp("coq")
+    made = export.Export((catalogue.equation("7c"), catalogue.equation("deviation")))
+    made.write(folder)
+    assert export.compiled(folder, jobs=1) == ""
+    return folder, made
+
+
+@pytest.mark.parametrize(
+    ("expr", "written"),
+    [
+        (sp.tanh(4 - 2 * h / sigma), "- (tanh (2 * h t / sigma t - 4))"),
+        (1 / (sp.Symbol("x") * (1 + sp.Symbol("y"))), "1 / (x * (y + 1))"),
+        (sp.Pow(h**2 + 1, sp.Rational(-3, 2)), "/ ((sqrt ((h t) ^ 2 + 1)) ^ 3)"),
+        (-sp.exp(-p_max) - sp.Rational(1, 2), "- 1 / 2 - exp (- (p_max))"),
+        (sp.Derivative(h.subs(t, t + 1), t), "Derive (fun t => h (t + 1)) t"),
+        (sp.Integral(U_a, (t, 0, 1)), "RInt (fun t => U_a t) 0 1"),
+    ],
+)
+def test_terms_keep_their_structure(expr, written):
+    assert printer.term(expr) == written
+
+
+def test_what_the_library_lacks_is_named():
+    with pytest.raises(printer.UntranslatableError, match="besseli"):
+        printer.term(sp.besseli(0, p_max))
+
+
+def test_a_statement_has_the_hypotheses_as_premises():
+    (ratio,) = catalogue.equation("closure-ratio").statements
+    said = statement(ratio)
+    relations = [premise.relation for premise in said.premises]
+    assert all(h.relation in relations for h in ratio.hypotheses if h.relation != sp.true)
+    assert said.conclusion.startswith("tends (fun t => ")
+
+
+@pytest.mark.parametrize("identifier", REQUIRED)
+def test_every_step_of_the_note_is_closed(identifier):
+    for step in catalogue.equation(identifier).steps:
+        assert step.rule.__class__.__name__ == "Assume" or proved_by_coq(step), step.relation
+
+
+def test_what_is_not_closed_has_a_reason():
+    assert all(row["closed"] or row["reason"] for row in record().values())
+
+
+def test_the_record_is_of_these_statements():
+    made = export.Export(catalogue.equations())
+    assert made.unrecorded == ""
+    assert len(record()) == len(made.steps)
+
+
+def test_the_export_does_not_depend_on_the_order_of_sets(tmp_path):
+    """It once did for these equations under the seeds 0 and 2; this run has one of its own."""
+    identifiers = ["general-law", "closure-ratio"]
+    made = export.Export(tuple(map(catalogue.equation, identifiers)))
+    made.write(tmp_path / "here")
+    command = [sys.executable, "-m", "derive", "export", *identifiers, "-o", tmp_path / "there"]
+    seed = str(2 * (hash("step") % 2))
+    subprocess.run(command, env=os.environ | {"PYTHONHASHSEED": seed}, check=True)
+    for path in (tmp_path / "here").iterdir():
+        assert (tmp_path / "there" / path.name).read_text("utf-8") == path.read_text("utf-8")
+
+
+def test_nothing_is_admitted():
+    for path in export.LIBRARY.glob("*.v"):
+        code = re.sub(r"\(\*.*?\*\)", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+        assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture|Abort)\b", code), path
+
+
+@needs_coq
+def test_the_sample_is_compiled(deviation):
+    folder, made = deviation
+    assert made.counts["closed"] == made.counts["steps"]
+    assert "Admitted" not in "".join(p.read_text(encoding="utf-8") for p in folder.glob("*.v"))
+
+
+@needs_coq
+def test_mutated_exports_do_not_compile(deviation):
+    folder, made = deviation
+    (lemma,) = (x for x in made.lemmas.items() if "U_c t = p t / k" in x[1])
+    mutations = {
+        "sign": ("U_c t = p t / k", "U_c t = - p t / k"),
+        "factor": ("U_c t = p t / k", "U_c t = 2 * p t / k"),
+        "equilibrium": ("k * U_c t", "k + U_c t"),
+        "stiffness": ("(0 < k) ->\n  ", ""),
+    }
+    texts = {"right": lemma[1]} | {n: lemma[1].replace(*m) for n, m in mutations.items()}
+    texts["stiffness"] = texts["stiffness"].replace(" domain_k", "")
+    assert len(set(texts.values())) == len(texts)
+    session = made.files[next(iter(made.groups))][0].split("(*", 1)[0] + "".join(
+        f"{text.replace(lemma[0], n)}Abort All.\nLocate {n}.\n" for n, text in texts.items()
+    )
+    command = ["coqtop", "-q", "-w", "none", "-Q", ".", "Wear"]
+    said = subprocess.run(command, cwd=folder, input=session, capture_output=True, text=True)
+    assert re.findall(r"Constant Top\.(\w+)", said.stdout) == ["right"]

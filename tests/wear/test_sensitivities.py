@@ -1,0 +1,160 @@
+"""Derivatives of the wear with respect to the numbers of a scene."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from derive.results.sensitivities import POWERS, WITHOUT_EFFECT
+from wear.cycles import sweep
+from wear.faults import UsageError
+from wear.load import Block, Blocks, Constant, Force, Harmonics, Load, Sine, Table
+from wear.parameters import parameters_of
+from wear.scene import KEYS, Scene, load_scene
+from wear.sensitivities import gradients
+
+FloatArray = NDArray[np.float64]
+
+CYCLES = np.array([1.0, 2.0, 30.0, 9000.0, 1e12])
+STEP = 4e-4
+
+
+def _differences(scene: Scene, keys: list[str], cycles: FloatArray) -> tuple[FloatArray, ...]:
+    """Return p du/dp (k, n) by differences, extrapolated to no step, and their error."""
+    steps = STEP * np.array([1.0, -1.0, 0.5, -0.5])
+    values = parameters_of(scene)
+    moved = [scene.with_({key: values[key] * (1 + step)}) for key in keys for step in steps]
+    count = sweep(moved, cycles, 1e-13)
+    wear, missed = (x.reshape(len(keys), 2, 2, -1) for x in (count.u_c, count.u_c * count.error))
+    wide, half = np.moveaxis((wear[:, :, 0] - wear[:, :, 1]) / (2 * steps[::2, None]), 1, 0)
+    best = (4 * half - wide) / 3
+    return best, STEP * np.abs(best - half) + np.sum(missed, axis=(1, 2)) * 4 / (3 * STEP)
+
+
+SMOOTH: dict[str, tuple[str, dict[str, Any], tuple[str, ...]]] = {
+    "one solid": ("section4", {}, ()),
+    "two solids": (
+        "section5",
+        {"support.stiffness_MPa_per_mm": 1e5},
+        (
+            "bearing.wear_coefficient",
+            "pin.roughness_growth",
+            "bearing.roughness_mm",
+            "contact.closure_in_sigma",
+            "support.stiffness_MPa_per_mm",
+        ),
+    ),
+    "violent first cycles": ("very-fast-wear", {}, ("bearing.wear_coefficient",)),
+    "saturating": (
+        "section4",
+        {"bearing.roughness_growth": -0.05, "contact.law": "exponential"},
+        ("bearing.roughness_growth", "load.amplitude_mm", "load.period_s"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_derivatives_are_those_of_differences_within_the_estimates(name: str) -> None:
+    builtin, changes, some = SMOOTH[name]
+    scene = load_scene(builtin).with_(changes)
+    keys = list(some or parameters_of(scene))
+    found = gradients([scene], keys, CYCLES)
+    values = np.array([parameters_of(scene)[key] for key in keys])[:, None]
+    reference, uncertainty = _differences(scene, keys, CYCLES)
+    error, estimate = found.derivative[0] * values - reference, found.error[0] * np.abs(values)
+    assert np.all(np.abs(error) <= estimate + uncertainty)
+    scale = np.maximum(np.abs(reference), found.wear[0])
+    assert np.all(estimate <= 1e-9 * scale)
+    assert np.all(uncertainty <= 1e-8 * scale)
+
+
+LOADS: dict[str, tuple[Load | Blocks, dict[str, Load | Blocks]]] = {
+    "harmonics": (
+        Harmonics(1e-5, (1e-4, 2e-5), (4e-4,), 0.06),
+        {
+            "load.mean_mm": Harmonics(1.01e-5, (1e-4, 2e-5), (4e-4,), 0.06),
+            "load.cosine_mm[1]": Harmonics(1e-5, (1e-4, 2.02e-5), (4e-4,), 0.06),
+        },
+    ),
+    "table": (
+        Table((0.0, 0.01, 0.06), (1e-4, 4e-4, 1e-4)),
+        {
+            "load.values_mm[0]": Table((0.0, 0.01, 0.06), (1.01e-4, 4e-4, 1.01e-4)),
+            "load.values_mm[1]": Table((0.0, 0.01, 0.06), (1e-4, 4.04e-4, 1e-4)),
+        },
+    ),
+    "force": (Force(4.0, 0.06), {"load.force_N": Force(4.04, 0.06)}),
+    "blocks": (
+        Blocks((Block(Sine(5e-4, 0.06), 20), Block(Constant(2e-4, 0.06), 100)), repeat=2),
+        {
+            "load.blocks[0].amplitude_mm": Blocks(
+                (Block(Sine(5.05e-4, 0.06), 20), Block(Constant(2e-4, 0.06), 100)), repeat=2
+            ),
+            "load.blocks[1].period_s": Blocks(
+                (Block(Sine(5e-4, 0.06), 20), Block(Constant(2e-4, 0.0606), 100)), repeat=2
+            ),
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", LOADS)
+def test_every_number_of_a_load_is_a_parameter(kind: str) -> None:
+    """The derivative at both ends of a change of one percent has its mean between them."""
+    load, changed = LOADS[kind]
+    area = {"contact.width_mm": 1.0, "contact.length_mm": 1.0}
+    scene = dataclasses.replace(load_scene("section4").with_(area), load=load)
+    cycles = np.array([1.0, 150.0])
+    for key, other in changed.items():
+        ends = [scene, dataclasses.replace(scene, load=other)]
+        found = gradients(ends, [key], cycles)
+        before, after = (parameters_of(end)[key] for end in ends)
+        mean = np.mean(found.derivative[:, 0], axis=0) * (after - before)
+        assert found.wear[1] - found.wear[0] == pytest.approx(mean, rel=2e-4, abs=1e-18)
+        assert np.all(found.derivative[:, 0, 1] != 0.0)
+
+
+def test_in_the_end_elasticities_are_those_derived_of_the_wear_per_cycle() -> None:
+    """(21) and (22): powers of the data, (4/f) (1 - p/p_max) for the roughness growth."""
+    scene = load_scene("section4", ["support.stiffness_MPa_per_mm=1e5"])
+    keys = list(parameters_of(scene))
+    cycles = np.array([1e11, 1e12])
+    found = gradients([scene], keys, cycles)
+    elasticity = dict(
+        zip(keys, found.derivative[0] * [[v] for v in parameters_of(scene).values()], strict=True)
+    )
+    share = 1 / (1 + np.exp(4 / 0.25 - 8))
+    names = {".".join(entry): symbol for symbol, entry in KEYS.items()}
+    names |= {"load.period_s": "T", "load.amplitude_mm": "U"}
+    expected = {str(symbol): float(power) for symbol, power in POWERS.items()}
+    expected |= {str(symbol): 0.0 for symbol in WITHOUT_EFFECT}
+    expected |= {"f_c": (4 / 0.25) * (1 - share), "n": 1.0, "R": 1.0, "k": 0.0}
+    tried = 0
+    for key, value in elasticity.items():
+        if names.get(key) in expected:
+            by_cycles = value / found.wear[0] - expected[names[key]]
+            assert abs(by_cycles[1]) <= 2e-4
+            assert abs(by_cycles[1]) <= 0.2 * abs(by_cycles[0])  # like ln(N)/N
+            tried += 1
+    assert tried == 11
+
+
+def test_many_scenes_have_the_derivatives_that_each_has_alone() -> None:
+    scenes = [load_scene(name) for name in ("section5", "section4", "section5-k1e-4")]
+    keys = ["bearing.wear_coefficient", "contact.max_pressure_MPa", "load.amplitude_mm"]
+    cycles = np.array([1.0, 40.0, 1e6])
+    together = gradients(scenes, keys, cycles)
+    for i, scene in enumerate(scenes):
+        alone = gradients([scene], keys, cycles)
+        apart = np.abs(together.derivative[i] - alone.derivative[0])
+        assert np.all(apart <= together.error[i] + alone.error[0])
+        assert np.all(together.error[i] <= 1e-9 * np.abs(together.derivative[i]))
+
+
+def test_a_number_without_influence_is_refused_with_a_remedy() -> None:
+    with pytest.raises(UsageError, match=r"pin\.hardness_MPa.*\n.*did you mean load\.period_s"):
+        gradients([load_scene("section4")], ["pin.hardness_MPa", "load.periods"], CYCLES)

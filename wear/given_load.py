@@ -1,0 +1,113 @@
+"""Problem (i): the reaction of the pin is given, and wear is its integral.
+
+The pressure follows from the reaction alone, the wear rate from the pressure; neither depends on
+the wear. Roughness, closure and displacement of the pin follow from the wear. All formulas are
+those of the variants with a compliant support, which take the pressure as an argument; a rigid
+support is one that gives way by nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.generated import reaction
+from wear.model import Bound, Fields, Model, Real, Summed, as_it_is
+
+
+class Area(NamedTuple):
+    """Width b and length L of the contact in mm, by their symbols."""
+
+    b: Real
+    L: Real
+
+
+@dataclass(frozen=True)
+class GivenLoad(Model):
+    """A model whose load is the reaction R_a of the pin in N, in place of its displacement."""
+
+    area: Area = field(kw_only=True)
+
+    @property
+    def variant(self) -> str:
+        return f"given_load_{self.module.VARIANT.removeprefix('compliant_')}"
+
+    @property
+    def operations(self) -> Mapping[str, int]:
+        return {name: self.module.OPERATIONS[name] for name in ("rate", "fields")}
+
+    @property
+    def compliant(self) -> bool:
+        return bool(np.all(self.constants.compliance > 0.0))
+
+    def _changed(self, change: Callable[[Real], Real]) -> GivenLoad:
+        return GivenLoad(self.bound.changed(change), area=Area(*map(change, self.area)))
+
+    def pressure(self, u: Real, R_a: Real, near: Real | None = None) -> Real:
+        """Return the contact pressure in MPa, Eq. (7b)."""
+        return reaction.pressure(R_a, **self.area._asdict()) + 0.0 * u
+
+    def rate(self, u: Real, R_a: Real, near: Real | None = None) -> Real:
+        """Return the wear rate du_c/dt in mm/s, Eq. (7f)."""
+        return self.module.rate(self.pressure(u, R_a), self.constants)
+
+    def law_rate(self, u: Real, R_a: Real) -> Real:
+        return self.rate(u, R_a)
+
+    def slope(self, u: Real, R_a: Real) -> Real:
+        """Return zero: the wear rate does not depend on the wear."""
+        return np.zeros(np.broadcast(u, R_a).shape)
+
+    def law_rate_and_slope(self, u: Real, R_a: Real) -> tuple[Real, Real]:
+        return self.rate(u, R_a), self.slope(u, R_a)
+
+    def rate_gradient(self, u: Real, R_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
+        """Return the derivatives of the wear rate with respect to every physical parameter, by
+        symbol, and to the load as "U_a"; those with respect to parameters `summed`."""
+        area, per_pressure = self.area._asdict(), self.module.rate(1.0, self.constants)
+        nothing = 0.0 * (u + R_a)
+        changes = dict.fromkeys(self.constants._fields, summed(nothing))
+        changes["wear_per_pressure"] = summed(self.pressure(u, R_a))
+        return {
+            "U_a": per_pressure * reaction.by_force(**area) + nothing,
+            **self.bound.gradient(type(self.constants)(**changes)),
+            "b": summed(per_pressure * reaction.by_width(R_a, **area) + nothing),
+            "L": summed(per_pressure * reaction.by_length(R_a, **area) + nothing),
+        }
+
+    def fields(self, u: Real, R_a: Real) -> Fields:
+        return self.fields_under(self.pressure(u, R_a), u, R_a)
+
+    def fields_under(self, p: Real, u: Real, R_a: Real) -> Fields:
+        return super().fields_under(p, u, self.displacement(u, R_a))
+
+    def displacement(self, u: Real, R_a: Real) -> Real:
+        """Return the displacement U_a in mm that brings about the reaction; no number where that
+        is zero, since the contact law ends nowhere."""
+        p = self.pressure(u, R_a)
+        resting = super().fields_under(p, u, 0.0 * p)
+        ratio = _increasing_root(
+            lambda ratio, p, u, h, sigma, *constants: self.module.residual(
+                p, u, h - ratio * sigma, type(self.constants)(*constants)
+            ),
+            (p, u, resting.h, resting.sigma, *self.constants),
+        )
+        return np.where(p > 0.0, resting.h - ratio * resting.sigma, np.nan)
+
+
+def _increasing_root(function: Callable[..., Real], arguments: tuple[Real, ...]) -> Real:
+    """Return the root of an increasing function of one variable of order 1, for broadcast
+    `arguments`; no number where there is none."""
+    from scipy.optimize.elementwise import bracket_root, find_root
+
+    with np.errstate(all="ignore"):
+        found = bracket_root(function, 0.0, 4.0, args=arguments)
+        return find_root(function, found.bracket, args=arguments).x
+
+
+def given_load(bound: Bound, numbers: Mapping[str, Real]) -> GivenLoad:
+    """Return the model of a bound variant with a compliant support under a given reaction."""
+    return GivenLoad(bound, area=Area(numbers["b"], numbers["L"]))

@@ -1,0 +1,305 @@
+"""Derivatives of an orbit with respect to the parameters of its equation.
+
+Overview
+    A cycle turns the derivative s = du/dp into E s + D, where E = dP/du and D = dP/dp follow from
+    the equation linearised along the cycle. With g = dn/du, which satisfies E = g(u)/g(P(u)),
+    S = g s only grows: by g(P(u)) D in a cycle. So S is a sum over the orbit. On panels it is the
+    integral of dS/dn over n, which Abel's equation gives with the matrix of Newton's method; any
+    number of cycles costs what one costs.
+Key results
+    tangents    du/dp after any numbers of cycles, for all parameters p at once
+References
+    E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential Equations I*, Springer 1993,
+    I.14 (the derivative with respect to parameters); M. Kuczma, B. Choczewski, R. Ger, *Iterative
+    Functional Equations*, Cambridge University Press 1990, chapter 3.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol, cast
+
+import numpy as np
+
+from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
+from wear.numerics.collocation import CycleSolution
+from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_integral
+from wear.numerics.tolerances import ROUNDOFF, TINY
+from wear.orbit import abel
+from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
+from wear.orbit.panels import CHECKS
+from wear.orbit.period_map import PeriodMap, Rows, Settings, period_map, settings
+from wear.orbit.segments import Orbit, Problem
+from wear.orbit.transient import SAFETY
+
+
+class Parametrised(Problem, Protocol):
+    """An equation whose rate depends on parameters."""
+
+    @property
+    def parameters(self) -> int:
+        """Return how many there are."""
+
+    def take(self, rows: Rows) -> Parametrised: ...
+
+    def by_parameters(
+        self, u: FloatArray, phases: FloatArray, forcing: FloatArray, weights: FloatArray
+    ) -> FloatArray:
+        """Return the sum (scenes, starts, parameters) over all nodes of `weights` times the
+        derivative of the rate with respect to each parameter; the arrays are (scenes, starts,
+        intervals, nodes)."""
+
+
+class Tangents(NamedTuple):
+    """Of some scenes (s,) after some cycles (c,): the states `u` (s, c) and their relative `error`,
+    the `derivative` du/dp (s, parameters, c) and its estimated absolute `derivative_error`, and
+    what the last cycle has added to the state, `increment` (s, c)."""
+
+    u: FloatArray
+    error: FloatArray
+    derivative: FloatArray
+    derivative_error: FloatArray
+    increment: FloatArray
+
+
+class Linearised(NamedTuple):
+    """Cycles from some starts: `multiplier` (scenes, starts) dP/du, and `by_parameters` (scenes,
+    starts, parameters) dP/dp."""
+
+    multiplier: FloatArray
+    by_parameters: FloatArray
+
+
+def linearised(maps: PeriodMap, starts: FloatArray, run: CycleSolution) -> Linearised:
+    """Return the derivatives of the period map, from the cycles `run` from the `starts`.
+
+    A change of the rate at a phase is carried to the end of the cycle by the exponential of the
+    integral of the rate's slope from there on.
+    """
+    u, over = starts[..., None, None] + run.inside, maps.over
+    slope = maps.slope(u)
+    ahead = integral(slope, over)[..., None, None] - running_integral(slope, over)
+    weights = np.exp(ahead) * (over.lengths[..., None] * over.rule.weights)
+    equation = cast(Parametrised, maps.equation)
+    by_parameters = equation.by_parameters(u, over.phases, maps.forcing, weights)
+    return Linearised(np.exp(integral(slope, over)), by_parameters)
+
+
+class _Sums(NamedTuple):
+    """S = (dn/du) (du/dp) on the cells of a count (s, cells, parameters): its value where each cell
+    starts, and its estimated error there and where the last one ends (s, cells + 1, parameters);
+    with the coefficients `series` (panels, m, parameters) of dS/dn."""
+
+    start: FloatArray
+    error: FloatArray
+    series: FloatArray
+
+
+def tangents(
+    problem: Parametrised,
+    found: Orbit,
+    cycles: FloatArray,
+    rtol: float,
+    start: FloatArray,
+    start_error: FloatArray,
+) -> Tangents:
+    """Return the derivatives of the states that the orbit `found`, counted to `rtol`, has after
+    `cycles` (s, c), if the first state has the derivative `start` (s, parameters), known up to
+    `start_error`."""
+    u, error = found.after(cycles)
+    shape = (found.scenes, problem.parameters, cycles.shape[1])
+    derivative, missed = np.full(shape, np.nan), np.full(shape, np.inf)
+    increment = np.full(cycles.shape, np.nan)
+    onward, onward_error = start.copy(), start_error.copy()
+    for segment in found.segments:
+        which, since = segment.which, cycles[segment.which] - segment.begins[:, None]
+        counted = cast(Iterates, segment.counted)
+        last = counted.whole_cycles
+        wanted = np.concatenate([np.clip(since, 0.0, last[:, None]), last[:, None]], axis=1)
+        each = _in_segment(
+            problem.take(which), counted, wanted, rtol, onward[which], onward_error[which]
+        )
+        here = (since >= 0)[:, None]
+        derivative[which] = np.where(here, each.derivative[..., :-1], derivative[which])
+        missed[which] = np.where(here, each.derivative_error[..., :-1], missed[which])
+        increment[which] = np.where(here[:, 0], each.increment[:, :-1], increment[which])
+        onward[which] = each.derivative[..., -1]
+        onward_error[which] = each.derivative_error[..., -1]
+    missed = np.where(np.isfinite(error)[:, None], missed, np.inf)
+    return Tangents(u, error, derivative, missed, increment)
+
+
+def _in_segment(
+    problem: Parametrised,
+    counted: Iterates,
+    cycles: FloatArray,
+    rtol: float,
+    start: FloatArray,
+    start_error: FloatArray,
+) -> Tangents:
+    """Return the derivatives after `cycles` (s, c) since the start of a segment."""
+    size = settings(rtol)
+    maps = period_map(problem, counted.edges, size.phase_nodes, size.iteration_tolerance)
+    early, early_error = _in_transient(maps, counted, size, start, start_error)
+    number = counted.integrated_cycles
+    index = np.minimum(cycles, number).astype(int)
+    rows = np.arange(len(cycles))[:, None]
+    derivative, missed = early[rows, index], early_error[rows, index]
+    added = np.diff(counted.transient, axis=1)
+    increment = added[rows, np.maximum(index - 1, 0)] if number else np.empty(cycles.shape)
+    u, error = counted.after(cycles)
+    if counted.cells is not None:
+        sums = _on_panels(maps, counted, size, early[:, -1], early_error[:, -1])
+        late = cycles > number if number else np.full(cycles.shape, True)
+        far = _after(counted, sums, np.maximum(cycles, float(number)))
+        derivative = np.where(late[..., None], far[0], derivative)
+        missed = np.where(late[..., None], far[1], missed)
+        increment = np.where(late, far[2], increment)
+    derivative, missed = (np.moveaxis(x, 2, 1) for x in (derivative, missed))
+    return Tangents(u, error, derivative, missed, increment)
+
+
+def _in_transient(
+    maps: PeriodMap,
+    counted: Iterates,
+    size: Settings,
+    start: FloatArray,
+    start_error: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """Return du/dp (s, k + 1, parameters) after 0, 1, ... k integrated cycles, and its error."""
+    found, error = [start], [start_error]
+    scenes, k = len(start), counted.integrated_cycles
+    if k == 0:
+        return start[:, None], start_error[:, None]
+    starts = counted.transient[:, :-1].reshape(-1, 1)
+    each = maps.take(np.repeat(np.arange(scenes), k))
+    coarse, fine = _of_cycles(each, starts, size)
+    shape = (scenes, k, -1)
+    E, D, finer_E, finer_D = (
+        x.reshape(shape) for x in (*coarse, *fine)
+    )  # dP/du and dP/dp of every cycle
+    state = counted.transient_error[:, 1:] / (counted.transient[:, 1:] + TINY)
+    for i in range(k):
+        grown = finer_E[:, i] * found[-1]
+        found.append(grown + finer_D[:, i])
+        apart = np.abs((finer_E[:, i] - E[:, i]) * found[-2]) + np.abs(finer_D[:, i] - D[:, i])
+        size_of = np.abs(grown) + np.abs(finer_D[:, i])
+        error.append(finer_E[:, i] * error[-1] + SAFETY * (apart + state[:, i, None] * size_of))
+    return np.stack(found, axis=1), np.stack(error, axis=1)
+
+
+def _of_cycles(
+    maps: PeriodMap, starts: FloatArray, size: Settings
+) -> tuple[Linearised, Linearised]:
+    """Return the linearised cycles from each start (rows, 1), on the mesh and on a finer one."""
+    run = maps.advance(starts)
+    marked = maps.unresolved(starts, run, size)
+    marked[:] &= not maps.full
+    fine = maps.finer(size)
+    judge = fine.advance(starts, run.guess(size.finer_nodes))
+    coarse, finer = linearised(maps, starts, run), linearised(fine, starts, judge)
+    for row in np.flatnonzero(marked.any(axis=1))[:, None]:
+        _, better = next(maps.take(row).refined(marked[row]))
+        again = _of_cycles(better, starts[row], size)
+        for whole, part in zip((*coarse, *finer), (*again[0], *again[1]), strict=True):
+            whole[row] = part
+    return coarse, finer
+
+
+def _on_panels(
+    maps: PeriodMap,
+    counted: Iterates,
+    size: Settings,
+    start: FloatArray,
+    start_error: FloatArray,
+) -> _Sums:
+    """Return S on the cells of a count, from du/dp where they start."""
+    panels, table = counted.panels, counted.cells
+    assert panels is not None
+    assert table is not None
+    scenes = len(start)
+    each = len(panels.series) // scenes
+    some = maps.take(np.repeat(np.arange(scenes), each))
+    t = chebyshev_nodes(panels.series.shape[1])
+    run, added = _added(some, panels, t)
+    series = abel.sum_per_cycle(panels, run.increment, added)
+    fine = some.finer(size)
+    judge, judged = _added(fine, panels, CHECKS)
+    residual = abel.sum_residual(panels, CHECKS, judge.increment, series, judged)
+    worst = np.max(np.abs(residual), axis=1)  # (panels, parameters)
+
+    density, rates = _at_cells(panels, table, series, gauss(NODES).nodes)
+    density = density * gauss(NODES).weights
+    gain = np.einsum("cg,cgk->ck", density, rates)
+    size_of = np.einsum("cg,cgk->ck", density, np.abs(rates))
+    of_panel = len(gain) // len(worst)
+    of_count = np.diff(counted.count_error, axis=1).reshape(-1, 1) / table.gain[:, None]
+    lost = SAFETY * (np.repeat(worst, of_panel, axis=0) * table.gain[:, None] + of_count * size_of)
+    first = 1.0 / table.first_rate.reshape(scenes, -1)[:, 0, None, None]
+    shape = (scenes, -1, start.shape[1])
+    sums = np.concatenate([first * start[:, None], gain.reshape(shape)], axis=1).cumsum(axis=1)
+    errors = np.concatenate([first * start_error[:, None], lost.reshape(shape)], axis=1)
+    return _Sums(sums[:, :-1], errors.cumsum(axis=1), series)
+
+
+def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray) -> tuple[CycleSolution, FloatArray]:
+    """Return the cycles from the positions `t` (n,) of each panel, and what they add to S, (panels,
+    n, parameters)."""
+    states = panels.frame.states(t)
+    run = maps.advance(states)
+    by_parameters = linearised(maps, states, run).by_parameters
+    return run, abel.density_after(panels, t, run.increment)[..., None] * by_parameters
+
+
+def _at_cells(
+    panels: abel.Panels,
+    table: Cells,
+    series: FloatArray,
+    x: FloatArray,
+    cell: IntArray | None = None,
+) -> tuple[FloatArray, FloatArray]:
+    """Return dn/dx (k, nodes) and dS/dn (k, nodes, parameters) at `x` (nodes,) or (k, nodes) from 0
+    to 1 of each `cell` (k,), or of all."""
+    of_panel = len(table.u) // len(panels.series)
+    if cell is None:
+        cell = np.arange(len(table.u))
+    panel = cell // of_panel
+    offset, length = table.offset[cell, None], table.length[cell, None]
+    y = length * x
+    own = panels.take(panel)
+    t = own.frame.positions(table.u[cell, None] + offset * np.expm1(y))
+    basis = chebyshev_values(t, panels.series.shape[1])
+    level, shape = abel.level_and_shape(own.series)
+    density = level * offset * length * np.exp((basis @ shape[..., None])[..., 0] + y)
+    return density, basis @ series[panel]
+
+
+def _after(
+    counted: Iterates, sums: _Sums, cycles: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return du/dp (s, c, parameters) after `cycles` (s, c) on the cells, its error, and du/dn."""
+    table, panels = counted.cells, counted.panels
+    assert table is not None
+    assert panels is not None
+    scenes, of_scene = len(cycles), len(table.u) // len(cycles)
+    begins = table.cycles.reshape(scenes, -1)
+    cell = np.stack([cell_of(*pair) for pair in zip(begins, cycles, strict=True)])
+    flat = (cell + of_scene * np.arange(scenes)[:, None]).ravel()
+    u, _ = table.state_after(cycles.ravel(), flat)
+    x = np.log1p((u - table.u[flat]) / table.offset[flat]) / table.length[flat]
+    rule = gauss(NODES)
+    nodes = x[:, None] * np.append(rule.nodes, 1.0)
+    density, rates = _at_cells(panels, table, sums.series, nodes, flat)
+    # du/dn from the density itself: Newton's last step may be larger than rounding.
+    pace = table.length[flat] * (table.offset[flat] + u - table.u[flat]) / density[:, -1]
+    density, rates = density[:, :-1] * (x[:, None] * rule.weights), rates[:, :-1]
+    rows = np.arange(scenes)[:, None]
+    within = np.einsum("cg,cgk->ck", density, rates).reshape(*cycles.shape, -1)
+    total = sums.start[rows, cell] + within
+    share = x.reshape(cycles.shape)[..., None]
+    missed = (1 - share) * sums.error[rows, cell] + share * sums.error[rows, cell + 1]
+    # The density and the count themselves are out by as much, where the state is.
+    steps = np.diff(counted.count_error, axis=1)
+    own = SAFETY * (steps.reshape(-1)[flat] / table.gain[flat]).reshape(*cycles.shape, 1)
+    pace = pace.reshape(*cycles.shape, 1)
+    missed = pace * (missed + own * np.abs(total)) + ROUNDOFF * np.abs(pace * total)
+    return pace * total, missed, pace[..., 0]

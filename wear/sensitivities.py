@@ -1,0 +1,206 @@
+"""Sensitivities: how the wear after N cycles depends on every number of the scene.
+
+Overview
+    The engine gives du/dp along the orbit (`wear.orbit.tangent`), with the derivatives of the wear
+    rate that `derive` has generated. All derivatives of a scene cost about as much as its count.
+Key results
+    sensitivity    derivatives and elasticities of a scene
+    gradients      wear and its derivatives, of many scenes at once
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.checked import did_you_mean
+from wear.cycles import groups
+from wear.faults import UsageError
+from wear.orbit.segments import orbit
+from wear.orbit.tangent import Tangents, tangents
+from wear.parameters import acting_loads, parameters_of, parametrised
+from wear.scene import Scene, as_scene
+from wear.solver import checked_request, obstacle
+
+FloatArray = NDArray[np.float64]
+
+
+class Gradients(NamedTuple):
+    """Of scenes (s,) after cycles (n,): `wear` (s, n) in mm, its `derivative` (s, k, n) with
+    respect to k numbers of the scene, in mm per unit of the key, and the estimated absolute `error`
+    (s, k, n) of that; infinite where the count does not reach."""
+
+    wear: FloatArray
+    derivative: FloatArray
+    error: FloatArray
+
+
+def gradients(
+    scenes: Sequence[Scene], keys: Sequence[str], cycles: FloatArray, rtol: float = 1e-10
+) -> Gradients:
+    """Return the wear of scenes of one variant after whole numbers of cycles (n,), and its
+    derivatives with respect to the numbers of the scene with these `keys`.
+
+    Raises
+    ------
+    UsageError
+        for keys that a scene does not have or that its wear does not depend on.
+
+    >>> from wear.scene import load_scene
+    >>> keys = ["bearing.wear_coefficient"]
+    >>> found = gradients([load_scene("section4")], keys, np.array([9000.0]))
+    >>> f"{found.derivative[0, 0, 0]:.4f}"
+    '1698.1082'
+    """
+    cycles = np.asarray(cycles, dtype=float)
+    _check(scenes, keys)
+    shape = (len(scenes), len(keys), len(cycles))
+    found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
+    for which in groups(scenes):
+        part = _of_one_variant([scenes[i] for i in which.tolist()], keys, cycles, rtol)
+        found.wear[which] = part.u
+        found.derivative[which], found.error[which] = part.derivative, part.derivative_error
+    return found
+
+
+def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:
+    """Raise a `UsageError` that names every key that some scene does not have."""
+    known = [parameters_of(scene) for scene in scenes]
+    faults = []
+    for key in keys:
+        owner = next((own for own in known if key not in own), None)
+        if owner is not None:
+            meant = did_you_mean(key, owner)
+            remedy = f"did you mean {meant}?" if meant else f"it has {', '.join(owner)}"
+            faults.append(f"{key}: the wear of this scene does not depend on it; {remedy}")
+    if faults:
+        raise UsageError("\n".join(faults))
+
+
+@np.errstate(all="ignore")  # trial states far off the solution; what is no number has no digit
+def _of_one_variant(
+    scenes: Sequence[Scene], keys: Sequence[str], cycles: FloatArray, rtol: float
+) -> Tangents:
+    """Return the derivatives of the wear of scenes of one variant; of one alone if its load
+    consists of blocks."""
+    lost = [scene.name for scene in scenes if scene.contact.ends_at_3_sigma]
+    if lost:
+        raise UsageError(f"{lost[0]}: no derivatives with loss of contact")
+    number, last = len(scenes), float(np.max(cycles, initial=0.0))
+    size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
+    found = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
+    start, missed = np.zeros((2, number))
+    slope, slope_error = np.zeros((2, number, len(keys)))
+    for acting in acting_loads(scenes):
+        end = min(acting.until, last)
+        here = (cycles >= acting.begins) & (cycles <= end)
+        wanted = np.tile(np.append(cycles[here], end) - acting.begins, (number, 1))
+        equation = parametrised(scenes, acting, keys)
+        counted = orbit(equation, wanted[:, -1], rtol, start, missed)
+        part = tangents(equation, counted, wanted, rtol, slope, slope_error)
+        for whole, values in zip(found, part, strict=True):
+            whole[..., here] = values[..., :-1]
+        start, missed = part.u[:, -1], part.error[:, -1] * part.u[:, -1]
+        slope, slope_error = part.derivative[..., -1], part.derivative_error[..., -1]
+        if end >= last or not np.isfinite(missed).all():
+            break
+    unknown = np.isnan(found.derivative_error)
+    return found._replace(derivative_error=np.where(unknown, np.inf, found.derivative_error))
+
+
+@dataclass(frozen=True)
+class Sensitivities:
+    """How the wear of a scene after `cycles` (n,) depends on its numbers.
+
+    The `wear_mm` (n,) and the `wear_per_cycle_mm` (n,) of the cycle that ends there; the `keys`
+    (k,) of the numbers with their `values` (k,); the `derivative` (k, n) of the wear with respect
+    to them, in mm per unit of the key, and its estimated absolute `error` (k, n), infinite where
+    the count does not reach.
+    """
+
+    scene: Scene
+    cycles: tuple[int, ...]
+    wear_mm: FloatArray
+    wear_per_cycle_mm: FloatArray
+    keys: tuple[str, ...]
+    values: FloatArray
+    derivative: FloatArray
+    error: FloatArray
+
+    @property
+    def elasticity(self) -> FloatArray:
+        """Return the relative change of the wear per relative change of each number, (k, n); no
+        number where that is zero, or the wear."""
+        return self._relative(self.derivative)
+
+    @property
+    def elasticity_error(self) -> FloatArray:
+        """Return the estimated absolute error (k, n) of the elasticity."""
+        return np.abs(self._relative(self.error))
+
+    @property
+    def cycles_derivative(self) -> FloatArray:
+        """Return the derivative (k, n) of the number of cycles to the wear that there is after
+        `cycles`: the number that makes up for the change of the wear, at the wear per cycle."""
+        with np.errstate(all="ignore"):
+            return -self.derivative / self.wear_per_cycle_mm
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the document of `wear sensitivity --json`."""
+        rows = zip(
+            self.keys, self.values.tolist(), self.derivative, self.elasticity,
+            self.elasticity_error, self.cycles_derivative, strict=True,
+        )  # fmt: skip
+        names = ("key", "value", "derivative", "elasticity", "error_estimate", "cycles_derivative")
+        return {
+            "scene": self.scene.name,
+            "cycles": list(self.cycles),
+            "bearing_wear_mm": self.wear_mm,
+            "wear_per_cycle_mm": self.wear_per_cycle_mm,
+            "parameters": [dict(zip(names, row, strict=True)) for row in rows],
+        }
+
+    def _relative(self, values: FloatArray) -> FloatArray:
+        factor = np.where(self.values == 0.0, np.nan, self.values)[:, None]
+        with np.errstate(all="ignore"):
+            return np.asarray(values * factor / np.where(self.wear_mm > 0.0, self.wear_mm, np.nan))
+
+
+def sensitivity(
+    scene: Scene | str | os.PathLike[str], cycles: float | Iterable[float], rtol: float = 1e-10
+) -> Sensitivities:
+    """Return how the wear of a scene after numbers of cycles depends on every number of the scene.
+
+    Parameters
+    ----------
+    scene
+        A scene, the name of a built-in one, or the path of a scene file.
+    cycles
+        Whole numbers from 0 to 1e12, in any order; or one such number.
+    rtol
+        Requested relative accuracy of the wear; the derivatives have an estimate of their own.
+
+    Raises
+    ------
+    UsageError
+        if the request makes no sense, or the load does not repeat.
+
+    >>> found = sensitivity("section4", [9000, 1e12])
+    >>> growth = found.keys.index("bearing.roughness_growth")
+    >>> [f"{value:.4f}" for value in found.elasticity[growth]]
+    ['3.5276', '15.9946']
+    """
+    scene = as_scene(scene)
+    if (against := obstacle(scene)) is not None:
+        raise UsageError(f"cycles cannot be counted: {against}")
+    wanted = checked_request(scene, cycles, rtol, "abel", None)
+    numbers = parameters_of(scene)
+    found = _of_one_variant([scene], list(numbers), np.array(wanted, dtype=float), rtol)
+    u, _, derivative, error, added = (part[0] for part in found)
+    values = np.array(list(numbers.values()))
+    return Sensitivities(scene, wanted, u, added, tuple(numbers), values, derivative, error)
