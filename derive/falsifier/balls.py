@@ -174,7 +174,10 @@ _CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
 }
 
 _FLOATS: dict[type, Callable[..., Any]] = {
-    **{getattr(sp, name): getattr(np, name) for name in ("exp", "log", "tanh", "sinh", "cosh", "sin", "cos", "tan", "sign", "floor")},
+    **{
+        getattr(sp, name): getattr(np, name)
+        for name in ("exp", "log", "tanh", "sinh", "cosh", "sin", "cos", "tan", "sign", "floor")
+    },
     sp.Abs: np.abs,
     sp.atan: np.arctan,
     sp.Pow: np.power,
@@ -280,7 +283,9 @@ def _switched(expr: sp.Piecewise, variable: sp.Symbol) -> Value:
             if condition == sp.true:
                 found = branch(moment)
             else:
-                gap = compiled(condition.gts, variable, True)(moment) - compiled(condition.lts, variable, True)(moment)
+                gap = compiled(condition.gts, variable, True)(moment) - compiled(
+                    condition.lts, variable, True
+                )(moment)
                 found = np.where(gap >= 0, branch(moment), found)
         return found
 
@@ -309,4 +314,3 @@ _SPECIAL: tuple[tuple[type, Callable[..., Value]], ...] = (
     (sp.Integral, _integral),
     (sp.Piecewise, _cases),
 )
-

@@ -42,7 +42,7 @@ Items = tuple[tuple[Any, sp.Expr], ...]
 @dataclass(eq=False)
 class Model:
     """One model.  ``data``, ``fields`` and ``rates`` may be defined in terms of one another;
-    ``loops``: what ``y = G(y)`` defines; ``corner`` is the spacing of the jumps of the load, 0 for none."""
+    ``loops``: what ``y = G(y)`` defines; ``corner``: the spacing of the load's jumps, or 0."""
 
     data: Mapping[sp.Symbol, sp.Expr]
     fields: Mapping[str, sp.Expr]
@@ -104,7 +104,11 @@ class Model:
             raise Undecided("a loop differentiated twice")
         step = float(arb(self.period)) / 1000
         times = at + step * np.array([0.0] if order == 0 else [-2.0, -1.0, 1.0, 2.0])
-        states = [self.motion.at(time)[0] for time in times] if self.rates else [[]] * len(times)
+        states = (
+            [self.motion.at(time)[0] for time in times]
+            if self.rates
+            else [np.zeros(0)] * len(times)
+        )
         present = Present(self)
         present.time, present.states = times, np.array(states).T
         y = np.broadcast_to(present.field(name, times), times.shape)
@@ -143,19 +147,28 @@ class Model:
     def motion(self) -> Motion:
         """The states over time: one motion for all models that agree in what they rest on."""
         waiting = [*self.rates.values(), *self.start.values(), *self.loops.values(), self.corner]
+        known = (*self.data.items(), *self.fields.items())
         seen = set[object]()
         while waiting:
             for atom in _unknowns(waiting.pop()) - seen:
                 seen.add(atom)
-                waiting += [book[atom] for book in (self.data, self.fields) if atom in book]
-        books = (self.data, self.fields, self.rates, self.start, self.loops)
-        parts = (((k, b[k]) for k in sorted(b, key=str) if k in seen or b in books[2:]) for b in books)
-        return _integrated(*map(tuple, parts), self.corner, self.period)
+                waiting += [value for name, value in known if name == atom]
+        books: tuple[Mapping[Any, sp.Expr], ...] = (
+            {k: v for k, v in self.data.items() if k in seen},
+            {k: v for k, v in self.fields.items() if k in seen},
+            self.rates,
+            self.start,
+            self.loops,
+        )
+        parts = (tuple(sorted(book.items(), key=str)) for book in books)
+        return _integrated(*parts, self.corner, self.period)
 
     def integrated(self) -> Motion:
         """Return the states over time, at their start."""
         with ctx.workprec(BITS):
-            first = [float(ball(compiled(self.start[n], t)(Moment(self))).mid()) for n in self.rates]
+            first = [
+                float(ball(compiled(self.start[n], t)(Moment(self))).mid()) for n in self.rates
+            ]
             spacing = float(ball(compiled(self.corner, t)(Moment(self))).mid())
         present = Present(self)
         present.rates(np.zeros(1), np.array(first)[:, None])  # they can be computed
@@ -175,6 +188,10 @@ class Model:
             expr, lambda windows: trend.diverges([[sign * v for v in w] for w in windows])
         )
 
+    def latest(self, expr: sp.Limit) -> arb:
+        """Return the last value from which a limit was judged."""
+        return self._late(expr, _FAR)[-1][-1]
+
     def _confirmed(self, expr: sp.Limit, judge: Callable[[Windows], bool | None]) -> bool | None:
         """Judge a trend; a refusal, from fields that may not have left their start, again later."""
         outcome = judge(self._late(expr, _FAR))
@@ -189,7 +206,9 @@ class Model:
             raise Undecided("a derivative of a higher order")
         here, step = fraction(self.data[datum]), fmpq(1, 10**3 if self.rates else 10**6)
         step *= abs(here) if here != 0 else 1
-        high, low = (arb(self.with_datum(datum, at).constant(name)) for at in (here + step, here - step))
+        high, low = (
+            arb(self.with_datum(datum, at).constant(name)) for at in (here + step, here - step)
+        )
         found = (high - low) / (2 * step)
         return found + arb(0, (abs(found) * 1000 * arb(step) ** 2 + arb(10) ** -30).upper())
 
@@ -314,7 +333,13 @@ def _unknowns(expr: sp.Basic) -> set[object]:
 
 @lru_cache(maxsize=400)
 def _integrated(
-    data: Items, fields: Items, rates: Items, start: Items, loops: Items, corner: sp.Expr, period: fmpq
+    data: Items,
+    fields: Items,
+    rates: Items,
+    start: Items,
+    loops: Items,
+    corner: sp.Expr,
+    period: fmpq,
 ) -> Motion:
     model = Model(dict(data), dict(fields), dict(rates), dict(start), dict(loops), corner, period)
     return model.integrated()

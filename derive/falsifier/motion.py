@@ -62,7 +62,7 @@ class Motion:
         begin, end = self._times[number : number + 2]
         place = (2 * time - begin - end) / (end - begin)
         piece = self._pieces[number]
-        return chebyshev.chebval(place, piece), 1e-15 * np.abs(piece).sum(axis=0)
+        return np.asarray(chebyshev.chebval(place, piece)), 1e-15 * np.abs(piece).sum(axis=0)
 
     def upto(self, time: float) -> float:
         """Integrate to a time, or as far as the steps allow; return the time reached."""

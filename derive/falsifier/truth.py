@@ -26,6 +26,7 @@ from .balls import (
     NOTHING,
     Moment,
     NearZero,
+    Number,
     Undecided,
     Undefined,
     ball,
@@ -160,22 +161,37 @@ def truth(relation: sp.Basic, model: Model) -> Truth:
     timeless = not varies(relation, t)
     decided, doubtful = False, False
     for number, time in enumerate(model.times[:1] if timeless else model.times):
+        moment = Moment(model, time)
+        when = "" if timeless else f"at {t} = {_shown(time)}: "
         try:
-            if not judged(relation, Moment(model, time), t):
-                return Truth(False, "" if timeless else f"at {t} = {time}")
+            if not judged(relation, moment, t):
+                return Truth(False, when + _sides(relation, moment))
             decided = True
-        except NearZero as reason:
-            if number < EARLY:  # later on, an exponential may be that small
-                return Truth(
-                    False, f"{reason}" + ("" if timeless else f" at {t} = {time}")
-                )
-        except Undefined as reason:
-            return Truth(
-                False, f"{reason}" + ("" if timeless else f" at {t} = {time}")
-            )
+        except (Undefined, NearZero) as reason:
+            if isinstance(reason, Undefined) or number < EARLY:
+                return Truth(False, f"{when}{reason}")  # later an exponential may be that small
         except (ArithmeticError, ValueError, RecursionError):
             doubtful = doubtful or number < EARLY
     return Truth(True if decided and not doubtful else None)
+
+
+def _sides(relation: sp.Basic, moment: Moment) -> str:
+    """Return the values of the two sides of a relation that does not hold."""
+    if not isinstance(relation, Relational):
+        return "it does not hold"
+    shown = []
+    for side in relation.args:
+        try:
+            limit = isinstance(side, sp.Limit)
+            found = moment.model.latest(side) if limit else compiled(side, t)(moment)
+            shown.append(f"{'towards ' if limit else ''}{_shown(found)}")
+        except (ArithmeticError, ValueError):
+            shown.append("oo" if side.is_infinite else "?")
+    return f"{shown[0]} on the left, {shown[1]} on the right"
+
+
+def _shown(number: Number) -> str:
+    return f"{float(arb(number).mid()):.6g}"
 
 
 def _ends(expr: sp.Integral | sp.Subs) -> tuple[sp.Basic, ...]:
