@@ -44,7 +44,7 @@ clean: ## remove everything that the targets above made
 
 # Installed anew only when the requirements or their pins change.
 $(VENV)/installed: $(PINS) | $(BIN)/pip
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e .
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[report]'
 	@touch $@
 
 $(VENV)/installed-test: $(PINS) | $(BIN)/pip

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.generated import reaction
 from wear.load import Blocks, HistoryLoad
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 PHASES = 800  # of a cycle, besides the peaks of the load
 _SECONDS_PER_HOUR = 3600.0
+_MILLIMETRES_PER_METRE = 1e3
 _MEASURED = 6  # family of readings that are of no run
 
 
@@ -109,6 +111,7 @@ class Abscissa(Enum):
 
     CYCLES = r"Cycles  $t/T$"
     HOURS = "Running time  (h)"
+    DISTANCE = "Sliding distance  (m)"
 
     def of(self, scene: Scene, cycles: FloatArray) -> FloatArray:
         """Return where numbers of cycles (n,) lie."""
@@ -119,7 +122,11 @@ class Abscissa(Enum):
             seconds = np.array([load.time_at(n) for n in cycles.tolist()])
         else:
             seconds = cycles * scene.periodic_load.period
-        return seconds / _SECONDS_PER_HOUR
+        if self is Abscissa.HOURS:
+            return seconds / _SECONDS_PER_HOUR
+        numbers = scene.parameters()
+        slid = reaction.sliding_distance(R=numbers["R"], T=seconds, n=numbers["n"])
+        return np.asarray(slid / _MILLIMETRES_PER_METRE)
 
 
 def panels_of(

@@ -275,6 +275,12 @@ def test_one_run_has_a_colour_a_quantity_and_several_a_colour_each() -> None:
     np.testing.assert_allclose(contact.lines[0].x * 3600.0, [0.06, 6.0, 300.0])
 
 
+def test_sliding_distance_is_that_of_the_speed() -> None:
+    """22 mm at 2000 rpm: two turns in a cycle of 0.06 s."""
+    slid = Abscissa.DISTANCE.of(load_scene("section4"), np.array([1.0, 1e6]))
+    np.testing.assert_allclose(slid, 2.0 * 2.0 * np.pi * 0.022 * np.array([1.0, 1e6]), rtol=1e-12)
+
+
 def test_hours_of_blocks_are_those_of_their_periods() -> None:
     blocks = Blocks((Block(Constant(0.0, 3600.0), 2), Block(Constant(0.0, 1800.0), 2)))
     scene = replace(load_scene("section4"), load=blocks)

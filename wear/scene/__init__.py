@@ -467,7 +467,7 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     return parse_scene(data, name, file.parent, overrides)
 
 
-def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:
+def as_scene(scene: object) -> Scene:
     """Return a scene as it is, or that of a built-in name or a file."""
     if isinstance(scene, Scene):
         return scene
