@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 
-from .check import Check, checks, reasons_of
+from .check import Check, checks, on_models, reasons_of
 from .equations import Equation, Status
 from .kernel import Judgement
 from .note import condensed, governing, problems, stabilised
@@ -164,7 +164,7 @@ def verify(
         outcomes: list[Check] = []
         for step, place in _numbered(found.steps, numbers):
             if place not in done:
-                done[place] = checks(step)
+                done[place] = (*checks(step), *on_models(step))
             outcomes += done[place]
         shown = Check("typeset", found.typeset_agrees, "the display form equals the claim")
         why = (r for s in found.statements for r in reasons_of(s)) if deep else ()

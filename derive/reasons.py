@@ -1,7 +1,7 @@
 """Why each condition is there: what fails without it, as a committed table.
 
 Overview
-    The falsifier drops the conditions of an equation in turn and looks for a model of all the
+    The falsifier drops the conditions of each equation of the note in turn and looks for a model of all the
     others in which the equation is false.  That takes minutes, so the outcome is kept in
     ``reasons.json``, under a hash of hypotheses and claim; ``python -m derive.reasons`` tries
     what is missing there.
@@ -24,24 +24,31 @@ from .equations import Equation
 from .falsifier.judgements import without
 from .hypotheses import Hypothesis
 from .kernel import Judgement
+from .typeset.display import inline
 
 TABLE = Path(__file__).with_name("reasons.json")
 
 
 @dataclass(frozen=True)
 class Reason:
-    """A condition of an equation, and a model that breaks it without this condition, or ''."""
+    """A condition of an equation, and a model that breaks it without this condition.
+
+    ``model`` is in LaTeX, an equation each, ``where`` says what is seen; both are empty where no
+    model was found.  ``key`` is a hash of hypotheses and claim.
+    """
 
     equation: str
     condition: str
     latex: str
-    counterexample: str
+    model: tuple[str, ...]
+    where: str
     key: str
 
 
 def table() -> tuple[Reason, ...]:
     """Return the committed rows, in the order of the catalogue."""
-    return tuple(Reason(**row) for row in json.loads(TABLE.read_text(encoding="utf-8")))
+    rows = json.loads(TABLE.read_text(encoding="utf-8"))
+    return tuple(Reason(**{**row, "model": tuple(row["model"])}) for row in rows)
 
 
 def outdated(equations: Sequence[Equation], rows: Sequence[Reason]) -> list[str]:
@@ -70,20 +77,22 @@ def renewed(equations: Sequence[Equation], rows: Sequence[Reason]) -> Iterator[R
     known = {(row.equation, row.condition, row.key): row for row in rows}
     for equation in equations:
         for place, (statement, condition) in _places(equation).items():
-            yield known.get(place) or Reason(
-                equation.id,
-                condition.typed,
-                condition.latex,
-                without(statement, condition),
-                place[2],
-            )
+            yield known.get(place) or _reason(equation.id, statement, condition)
+
+
+def _reason(identifier: str, statement: Judgement, condition: Hypothesis) -> Reason:
+    found = without(statement, condition)
+    model = tuple(map(inline, found.model)) if found else ()
+    where = found.where if found else ""
+    return Reason(identifier, condition.typed, condition.latex, model, where, _key(statement))
 
 
 def main() -> None:
-    """Write the table anew."""
+    """Write the table of the note's equations anew."""
     from .catalogue import equations
 
-    rows = [asdict(row) for row in renewed(equations(), table() if TABLE.exists() else ())]
+    of_the_note = [found for found in equations() if found.id[0].isdigit()]
+    rows = [asdict(row) for row in renewed(of_the_note, table() if TABLE.exists() else ())]
     TABLE.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 

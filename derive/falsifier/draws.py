@@ -358,8 +358,9 @@ def test_function(name: str, value: sp.Expr, seed: int, outside: bool) -> tuple[
     ]  # fmt: skip
     shape = chance.choice(families)
     if name == "U_a":  # one kind of load after the other
-        loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, 1 - sp.exp(-s), wave, sp.sqrt(s), sp.S.Zero,
-                 sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), families[15], -s, s * wave)  # fmt: skip
+        loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, 1 - sp.exp(-s), wave, sp.sqrt(s),
+                 sp.S.Zero, sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), families[15], -s,
+                 s * wave)  # fmt: skip
         shape = loads[seed % len(loads)]
         size = U * sp.Rational(chance.choice(("1", "1", "1/2", "1", "-1", "2")))
     made = size * shape

@@ -15,16 +15,20 @@ from ..claims import Asymptotic, Claim
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..symbols import symbol, t
-from .verdict import Answer, falsify, needed
+from .verdict import Answer, Counterexample, falsify, needed
 
-_DRAWS, _ENOUGH, _SEEDS = 12, 2, 30
+_DRAWS, _ENOUGH, _SEEDS = 12, 2, 26
 _CYCLES = symbol("N")
 
 
-@cache
 def tried(judgement: Judgement) -> Answer:
     """Return what models say of a judgement."""
-    return falsify(_relations(judgement), _claimed(judgement.claim), _DRAWS, _ENOUGH)
+    return _answer(_relations(judgement), _claimed(judgement.claim))
+
+
+@cache
+def _answer(relations: tuple[sp.Basic, ...], claim: sp.Basic) -> Answer:
+    return falsify(relations, claim, _DRAWS, _ENOUGH)
 
 
 def _relations(judgement: Judgement) -> tuple[sp.Basic, ...]:
@@ -44,9 +48,9 @@ def _claimed(claim: Claim) -> sp.Basic:
     return sp.Eq(sp.Limit(rest, variable, point), 0, evaluate=False)
 
 
-def without(judgement: Judgement, dropped: Hypothesis) -> str:
-    """Return a model of all other hypotheses that breaks the claim, in one line; '' if none is
-    found: the hypothesis is superfluous as far as models go."""
+def without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
+    """Return a model of all other hypotheses that breaks the claim; None if none is found: the
+    hypothesis is superfluous as far as models go."""
     relations, claim = _relations(judgement), _claimed(judgement.claim)
     (row,) = needed(relations, claim, _SEEDS, chosen=(dropped.relation,))
-    return str(row.counterexample or "")
+    return row.counterexample

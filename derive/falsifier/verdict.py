@@ -35,14 +35,15 @@ ENOUGH = 12
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A model in which a claim fails."""
+    """A model in which a claim fails: what was drawn, as equations, and what is seen where."""
 
-    model: str
+    model: tuple[sp.Eq, ...]
     where: str
     seed: int
 
     def __str__(self) -> str:
-        return ": ".join(filter(None, (self.model, self.where)))
+        drawn = ", ".join(f"{e.lhs} = {e.rhs}".replace("(t)", "") for e in self.model)
+        return ": ".join(filter(None, (drawn, self.where)))
 
 
 @dataclass(frozen=True)
@@ -161,8 +162,8 @@ class _Trial:
             if value is not None and value.is_Rational:
                 yield self.model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
 
-    def described(self, given: Iterable[sp.Basic], *relations: sp.Basic) -> str:
-        """Return in one line what was drawn of the quantities on which relations rest, but for
+    def described(self, given: Iterable[sp.Basic], *relations: sp.Basic) -> tuple[sp.Eq, ...]:
+        """Return what was drawn of the quantities on which relations rest, but for
         what the hypotheses say themselves."""
         equations = (h for h in given if isinstance(h, sp.Eq))
         said = {e.lhs for e in equations if e.rhs.is_number or e.rhs.is_Symbol}
@@ -175,18 +176,19 @@ class _Trial:
             waiting += _quantities((value,)) - seen
         starts = {f.func(t) for f in said if f.args == (sp.S.Zero,)}
         ordered = sorted(seen - said - starts, key=lambda q: (bool(q.args), str(q)))
-        return ", ".join(filter(None, (self._shown(q) for q in ordered)))
+        drawn = map(self._drawn, ordered)
+        return tuple(equation for equation in drawn if equation is not None)
 
-    def _shown(self, quantity: sp.Expr) -> str:
-        """Return the value of what was drawn; nothing of what other quantities determine."""
+    def _drawn(self, quantity: sp.Expr) -> sp.Eq | None:
+        """Return the value of what was drawn; None of what other quantities determine."""
         model, name = self.model, _name(quantity)
-        value = model.fields.get(name, model.data.get(quantity))
         if name in model.start and quantity.args:
-            return f"{name}(0) = {model.start[name]}"
+            return sp.Eq(quantity.func(0), model.start[name], evaluate=False)
+        value = model.fields.get(name, model.data.get(quantity))
         determined = (AppliedUndef, sp.Derivative, sp.Limit)
         if value is None or value.atoms(*determined) or not (quantity.args or value.is_Rational):
-            return ""
-        return f"{name} = {value}"
+            return None
+        return sp.Eq(quantity, value, evaluate=False)
 
 
 def _models(
