@@ -21,6 +21,7 @@ import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
 from dataclasses import InitVar, dataclass, fields
+from typing import ClassVar
 
 import sympy as sp
 
@@ -69,6 +70,8 @@ class Rule(ABC):
 
     words = ""
     """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
+    asks: ClassVar[tuple[str, ...]] = ()
+    """The premises that come first, in this order; others may follow."""
     source = "elementary"
     """Where the theorem is found."""
 
@@ -155,6 +158,8 @@ def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
         raise RuleError(f"{kind.__name__} has fields that are not its own")
     if any(type(premise) is not Judgement for premise in premises):
         raise RuleError("missing premise: a judgement")
+    if len(premises) < len(rule.asks):
+        raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.asks)}")
     _require_language(*(value for value in vars(rule).values() if isinstance(value, sp.Basic)))
     with time_limit(LIMIT_S, f"{kind.__name__}: {rule.words}"):
         made = rule.conclude(*premises)

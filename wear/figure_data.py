@@ -47,11 +47,11 @@ class Line:
             )
 
     def positive(self) -> Line:
-        """The part that a logarithmic axis can show."""
+        """Return the part that a logarithmic axis can show."""
         return self._where(self.x > 0.0)
 
     def pressed(self) -> Line:
-        """The part with values above zero."""
+        """Return the part with values above zero."""
         return self._where(self.y > 0.0)
 
     def _where(self, shown: NDArray[np.bool_]) -> Line:
@@ -188,7 +188,7 @@ def points_of(
 
 
 def spans_decades(lines: Sequence[Line]) -> bool:
-    """Whether all values after the fresh state are positive and span two decades or more."""
+    """Return whether all values after the fresh state are positive and span two decades or more."""
     values = np.concatenate([line.positive().y for line in lines])
     return bool(values.min() > 0.0 and values.max() >= 100.0 * values.min())
 

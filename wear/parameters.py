@@ -141,6 +141,20 @@ class ParametrisedEquation(WearEquation):
         some = super().take(rows)
         return dataclasses.replace(self, model=some.model, loads=some.loads, chain=self.chain[rows])
 
+    def along(self, gradient: Mapping[str, FloatArray], phases: FloatArray) -> FloatArray:
+        """Return derivatives (k, m, parameters) of what has a `gradient` by symbol of the model,
+        (k, m) each, at the phases (k, m); of one scene."""
+        symbols = self.model.module.Parameters._fields
+        found = np.zeros((*phases.shape, self.parameters))
+        for row, symbol in zip(self.chain[0], symbols, strict=False):
+            if symbol in gradient and row.any():
+                found += np.asarray(gradient[symbol])[..., None] * row
+        if self.of_load:
+            waves = self.loads[0].gradient(phases)
+            for key, place in self.of_load.items():
+                found[..., place] += gradient["U_a"] * waves[key]
+        return found
+
     def by_parameters(
         self, u: FloatArray, phases: FloatArray, forcing: FloatArray, weights: FloatArray
     ) -> FloatArray:

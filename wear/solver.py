@@ -88,6 +88,7 @@ def solve(
     ['3.0253e-05', '2.3692e-04']
     """
     from wear.model import bind
+    from wear.resampling import resampled
     from wear.scene import as_scene
 
     start = time.monotonic()
@@ -95,7 +96,10 @@ def solve(
     wanted = checked_request(scene, cycles, rtol, method, time_limit)
     model = bind(scene)
     deadline = np.inf if time_limit is None else start + time_limit
-    wear = _solved(model, scene, wanted, rtol, method, deadline)
+    fewer = resampled(scene, model, rtol)
+    wear = _solved(model, fewer.scene, wanted, rtol - fewer.error, method, deadline)
+    error = wear.error + fewer.missed(model, wear.u)
+    wear = wear._replace(error=error, notices=(*fewer.notices, *wear.notices))
     history = _history(scene, model, wanted, wear, rtol, time.monotonic() - start)
     if wear.interrupted:
         raise Interrupted(_reached(wear), history)

@@ -28,6 +28,7 @@ class Substitute(Rule):
     """A claim and ``l = r`` give the claim with r for l."""
 
     words = "Insert {others} into {0}."
+    asks = ("the claim", "an equality")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *definitions = premises
@@ -60,6 +61,7 @@ class Solve(Rule):
 
     unknown: sp.Expr
     words = "Solve {0} for {unknown}."
+    asks = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, x = equality(premises[0]), sp.Dummy(real=True)
@@ -87,6 +89,7 @@ class Multiply(Rule):
 
     factor: sp.Expr
     words = "Multiply {0} by {factor}."
+    asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = premises[0].claim
@@ -108,6 +111,7 @@ class Restrict(Rule):
     """Where a relation holds, a piecewise expression is its branch, and ``|x| = x`` if x > 0."""
 
     words = "Keep of {0} the branch on which {others} holds."
+    asks = ("the claim", "the relation")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, condition = premises
@@ -216,6 +220,7 @@ class Consequence(Rule):
 
     claim: sp.Basic
     words = "Insert {others} into {0}."
+    asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *others = premises
@@ -285,6 +290,7 @@ class Discharge(Rule):
 
     hypothesis: Hypothesis
     words = "{0}, where the hypothesis is met by {others}."
+    asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *known = premises
@@ -307,6 +313,7 @@ class Forget(Rule):
 
     hypothesis: Hypothesis
     words = "{0}, which says nothing of that value."
+    asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises

@@ -44,6 +44,7 @@ class Integrate(Rule):
 
     words = "Integrate {0} over time, from {others}."
     source = "fundamental theorem of calculus"
+    asks = ("the rate", "y(0)", "x(0)")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, start_y, start_x = premises
@@ -70,6 +71,7 @@ class Grows(Rule):
 
     words = "Integrate the constant lower bound of {0}, from {others}."
     source = "mean value theorem on [0, t]"
+    asks = ("the bound of the rate", "u(0)")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         bound, start = premises
@@ -95,6 +97,7 @@ class Differentiate(Rule):
 
     words = "Differentiate {0} with respect to time."
     source = "chain rule"
+    asks = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
@@ -123,6 +126,7 @@ class RigidLimit(Rule):
     """
 
     words = "Let the stiffness tend to infinity in {0}: the support is rigid."
+    asks = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
@@ -153,6 +157,7 @@ class ChangeClock(Rule):
 
     words = "Measure time in periods, in {all}."
     source = "chain rule"
+    asks = ("the scale of y", "t = T tau")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         scaled, clock = map(equality, premises)

@@ -47,13 +47,13 @@ class Differentiated(Rule):
     claim: sp.Equality
     parameter: sp.Symbol
     words = "Differentiate {0} with respect to {parameter}, with {others}."
+    asks = ("the result",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         result = equality(premises[0])
         if not result.lhs.is_Symbol or self.parameter.name not in DATA:
             raise RuleError(f"missing premise: {self.parameter} is one of the data")
         _free(self.parameter, result.rhs, *premises)
-        require_defined(result.rhs, *premises)
         slope = sp.diff(result.rhs, self.parameter)
         of_result = sp.Derivative(result.lhs, self.parameter, evaluate=False)
         require_defined(self.claim, *premises)
@@ -76,6 +76,7 @@ class OneSign(Rule):
 
     parameter: sp.Expr
     words = "Differentiate the rate {0} with respect to {parameter}: the sign is constant."
+    asks = ("the result",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law = equality(premises[0])

@@ -272,8 +272,9 @@ def continuous(expr: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgeme
 
     It must be made of continuous functions, which have a value at the point and near it.
     """
-    goals = continuity(expr, set(at), _parts(premises))
-    points = [goal.subs(dict(at)) for goal in goals]
+    plain = {unknown: sp.Dummy(real=True) for unknown in at}
+    goals = continuity(expr.xreplace(plain), set(plain.values()), _parts(premises))
+    points = [goal.subs({plain[unknown]: end for unknown, end in at.items()}) for goal in goals]
     facts = facts_of(premises)
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
 

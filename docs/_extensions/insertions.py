@@ -7,7 +7,8 @@ A line ``<!-- insert: KIND ARGUMENT ... -->`` of a page is replaced by Markdown:
 - ``conditions``: what fails without each condition of an equation;
 - ``commands PROGRAM``: the help of a program and of each of its commands;
 - ``symbols``: the vocabulary, with meanings and units;
-- ``scene``: the tables and keys of a scene file.
+- ``scene``: the tables and keys of a scene file;
+- ``gallery``: the pictures of the gallery, linked to their pages.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from collections.abc import Callable
 
 import text_of_commands
 import text_of_equations
+import text_of_gallery
 import text_of_scene
 from sphinx.application import Sphinx
 
@@ -29,6 +31,7 @@ KINDS: dict[str, Callable[..., str]] = {
     "commands": text_of_commands.reference,
     "symbols": text_of_equations.symbols,
     "scene": text_of_scene.reference,
+    "gallery": text_of_gallery.pictures,
 }
 
 

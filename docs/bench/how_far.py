@@ -87,7 +87,7 @@ def measured() -> Iterator[Row]:
 
 def table(rows: list[Row]) -> Table:
     """Return the rows as a table."""
-    header = ("cycles", "jump", "cycles integrated", "error of the wear", "by the rule")
+    header = ("cycles", "jump", "integrated", "error", "by the rule")
     return Table(
         "How far",
         header,

@@ -306,8 +306,6 @@ CASES: dict[str, Case] = {
             tends(G, theta),
             reciprocal(DEEP),
             given(sp.Ne(theta, 0)),
-            given(sp.Gt(G, 0)),
-            given(sp.Gt(u_c, 0)),
         ),
     ),
     "e^(-u_c G/h_0)": (  # G = h_0/u_c
@@ -669,7 +667,7 @@ def test_a_term_of_the_expansion_is_that_of_the_given_pressure() -> None:
 
 
 def test_the_slow_time_is_rho_tau_and_needs_the_drifts() -> None:
-    with pytest.raises(RuleError, match="c_1 to c_4"):
+    with pytest.raises(RuleError, match="c_3 and c_4"):
         slow_time(sp.Eq(L, symbol("m")))
     known = Expansion().slow_time.claim
     claim = sp.Eq(known.lhs, known.rhs)
@@ -680,7 +678,7 @@ def test_the_slow_time_is_rho_tau_and_needs_the_drifts() -> None:
     with pytest.raises(RuleError, match="dtau/dm"):
         slow_time(sp.Eq(L, claim.rhs), *drifts, assume(EXPANSION))
     values = [defined(symbol(f"c_{n}"), sp.S.Zero) for n in (1, 2, 3, 4)]
-    with pytest.raises(RuleError, match="c_1 to c_4"):
+    with pytest.raises(RuleError, match="c_3 and c_4"):
         slow_time(claim, *values, assume(EXPANSION))
 
 

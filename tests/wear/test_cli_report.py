@@ -64,6 +64,17 @@ def test_blocks_have_no_long_run() -> None:
     assert "sec:life" in document.marks
 
 
+def test_a_law_of_the_scenes_own_stands_in_its_report(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    scene = load_scene("section4", ['contact.law={phi = "1/(1 + exp(r - 1))"}'])
+    monkeypatch.setattr(own, "_solved", lambda _: solve(scene, [1, 10], rtol=1e-6))
+    shown = {e.id: e.latex for e in own.report(scene, "wear report mine.toml").shown}
+    assert r"\tanh" not in shown["scene-pressure"]
+    assert "general-law" in shown
+
+
 RECORD = """
 [load]
 kind = "table"

@@ -76,7 +76,7 @@ class Run(NamedTuple):
     states: list[State]
 
     def wear(self) -> FloatArray:
-        """Wear in mm at the marks that were reached."""
+        """Return the wear in mm at the marks that were reached."""
         return np.array([state.u for state in self.states], dtype=float)
 
 
@@ -148,7 +148,8 @@ def _settings(method: str, rtol: float) -> Iterator[Setting]:
 
 
 def _marks(cycles: Sequence[int]) -> tuple[int, ...]:
-    """The requested cycles with powers of two between: there wear is compared and steps adapt."""
+    """Return the requested cycles with powers of two between: there wear is compared and steps
+    adapt."""
     last = max(cycles, default=0)
     powers = {1 << k for k in range(last.bit_length())}
     return tuple(sorted({mark for mark in powers if mark <= last} | set(cycles)))
@@ -161,7 +162,7 @@ def _march(
     setting: Setting,
     meter: Meter,
 ) -> Iterator[State]:
-    """The states at the marked cycles, one after another."""
+    """Yield the states at the marked cycles, one after another."""
     acting = span(load, 0)
     of = problem(model, acting.load)
     state, steps_before = State(0, 0.0, _mode(of, 0.0), None, 0), meter.steps
@@ -198,7 +199,7 @@ def _smooth_cycles(of: Problem, state: State, to: int, setting: Setting, meter: 
 
 
 def _stops(kinks: tuple[float, ...], length: int) -> Iterator[float]:
-    """The phases after 0 at which a step has to end, up to `length` cycles."""
+    """Yield the phases after 0 at which a step has to end, up to `length` cycles."""
     inner = (cycle + kink for cycle in range(length if kinks else 0) for kink in kinks)
     yield from (phase for phase in inner if phase > 0.0)
     yield float(length)
@@ -221,7 +222,8 @@ def _cycles_with_cutoff(
 
 
 def _errors(runs: Sequence[Run], blur: float) -> FloatArray:
-    """Relative error of the last run at each mark that it reached, from its distance to the others.
+    """Return the relative error of the last run at each mark that it reached, from its distance to
+    the others.
 
     Errors fall with the tolerance, if not in proportion: the square root of the ratio is counted
     on, but where contact is lost: steps begin anew there, and one that is too long may stand in the
@@ -255,7 +257,7 @@ def _result(
     stopped: str | None,
     interrupted: bool,
 ) -> DirectResult:
-    """The finest states that there are, and their distance to the run before as their error."""
+    """Return the finest states, and their distance to the run before as their error."""
     states, error = _best(runs, blur)
     wanted = set(cycles)
     chosen = [index for index, state in enumerate(states) if state.cycle in wanted]

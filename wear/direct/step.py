@@ -106,7 +106,7 @@ def leg(
 
 
 def _opened(of: Problem, at: Leg, slack: float) -> Leg:
-    """The end of contact near a leg's end, by a step of Newton's method on the margin."""
+    """Return the end of contact near a leg's end, by a step of Newton's method on the margin."""
     speed = of.speed(at.phase, at.u)
     slope = of.model.margin_slope(at.u, of.load(at.phase))
     falls = float(of.load.slope(at.phase) + slope * speed)
@@ -159,16 +159,16 @@ class _Step(NamedTuple):
     unit: float
 
     def wear(self, phase: Real) -> Real:
-        """Wear in mm inside the step."""
+        """Return the wear in mm inside the step."""
         return self.dense(phase)[0] * self.unit
 
     def side(self, function: Callable[[Real, Real], Real]) -> float:
-        """The sign of a function soon after the start, which may be its zero."""
+        """Return the sign of a function soon after the start, which may be its zero."""
         phase = self.start + (self.end - self.start) / LOOKS_PER_STEP
         return float(np.sign(function(phase, float(self.wear(phase)))))
 
     def first(self, function: Callable[[Real, Real], Real]) -> float | None:
-        """The first phase at which a function of phase and wear has fallen to zero, if any."""
+        """Return the first phase at which a function of phase and wear has become negative or 0."""
         phases = np.linspace(self.start, self.end, LOOKS_PER_STEP + 1)
         below = np.flatnonzero(function(phases, self.wear(phases))[1:] < 0.0)
         if len(below) == 0:
@@ -190,7 +190,7 @@ def _plus(term: float, function: Callable[[Real, Real], Real]) -> Callable[[Real
 
 
 def first_zero(function: Callable[[float], Any], start: float, end: float) -> float:
-    """The zero of a function that changes sign between `start` and `end`, to roundoff.
+    """Return the zero of a function that changes sign between `start` and `end`, to roundoff.
 
     A start that roundoff has put beyond the zero counts as the zero.
     """

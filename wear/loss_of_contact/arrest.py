@@ -7,7 +7,8 @@ import numpy as np
 from wear.loss_of_contact.increments import Coordinate
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
-from wear.orbit.iterates import Cells
+from wear.orbit.abel import Panels
+from wear.orbit.iterates import Cells, Iterates
 
 NO_DIGIT = 0.1  # relative error
 RESOLVABLE = 1e5  # times the uncertainty of the limit wear
@@ -28,15 +29,23 @@ class LimitWear(NamedTuple):
 
 
 class TabulatedCount(NamedTuple):
-    """The count n of cycles as a function of z, a `coordinate` of the wear; its estimated error in
-    cycles where each part of the `table` starts and where the last one ends; the `limit_wear` that
-    wear tends to at the end of the table, if any."""
+    """The count n of cycles as a function of z, a `coordinate` of the wear, by the density on
+    `panels`; its estimated error in cycles where each part of the `table` starts and where the last
+    one ends; the `limit_wear` that wear tends to at the end of the table, if any."""
 
     coordinate: Coordinate
     table: Cells
+    panels: Panels
     count_error: FloatArray
     limit_wear: LimitWear | None
     limit: float
+
+    @property
+    def in_z(self) -> Iterates:
+        """Return the same count, of z as the state."""
+        begin, none, edges = self.table.u[:1][None], np.zeros((1, 1)), np.array([[0.0, 1.0]])
+        limit = np.array([np.inf])
+        return Iterates(begin, none, self.table, self.panels, self.count_error[None], limit, edges)
 
     @property
     def rests(self) -> bool:

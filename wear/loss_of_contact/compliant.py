@@ -15,7 +15,13 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.load import Load
-from wear.loss_of_contact.contact import Contact, ContactResult, Interval, wear_in_contact
+from wear.loss_of_contact.contact import (
+    Contact,
+    ContactPart,
+    ContactResult,
+    Interval,
+    wear_in_contact,
+)
 from wear.loss_of_contact.switching import Edge, Piece, displacement_at, phase_of
 from wear.model import Model
 from wear.numerics.gauss import (
@@ -59,6 +65,7 @@ class _Progress:
     added: FloatArray
     sound: bool = True
     evaluations: int = 0
+    parts: tuple[ContactPart, ...] = ()
 
     def go(self, who: BoolArray, contact: Contact, expected: FloatArray) -> BoolArray:
         """Walk on with those of `who` (k,) in contact of one kind, whose end is expected at the
@@ -66,6 +73,7 @@ class _Progress:
         came = np.zeros(len(self.u), dtype=bool)
         if who.any():
             run = self._run(who, contact, expected)
+            self.parts += run.of(np.flatnonzero(who))
             came[who] = run.length < self.piece.end - self.at[who]
             start = (self.u + self.added)[who]
             U_a = self.support.load(self.at[who] + run.length) - self.support.edge.held
@@ -120,7 +128,8 @@ def on_support(
         up = _release(walk, held, bends, opens)
         walk.go(down, support.held(0.0), opens)
     walk.go(up, support.by_law(), ends)
-    return ContactResult(walk.added, ends - piece.begin, walk.sound, walk.evaluations)
+    length = ends - piece.begin
+    return ContactResult(walk.added, length, walk.sound, walk.evaluations, walk.parts)
 
 
 def _release(walk: _Progress, held: BoolArray, bends: FloatArray, opens: FloatArray) -> BoolArray:

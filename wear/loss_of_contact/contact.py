@@ -104,14 +104,35 @@ class Contact(NamedTuple):
         return -left / falls, uncertainty, rate
 
 
+class ContactPart(NamedTuple):
+    """A part of contact that the wears in `rows` (k,) of those asked for have come through: from
+    the phases `begin` (k,) over a `length` (k,), from a wear `start` (k,), mm, with what has been
+    added since, `inside` (k, m), at the nodes; and whether contact has `ended` (k,) there."""
+
+    contact: Contact
+    rows: IntArray
+    begin: FloatArray
+    length: FloatArray
+    start: FloatArray
+    inside: FloatArray
+    ended: BoolArray
+
+
 class ContactResult(NamedTuple):
     """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is sound; the
-    number of right-hand sides evaluated."""
+    number of right-hand sides evaluated; its `parts` in order; and which wears, in `slid`, have
+    ended by sliding along the edge."""
 
     added: FloatArray
     length: FloatArray
     sound: bool
     evaluations: int
+    parts: tuple[ContactPart, ...] = ()
+    slid: IntArray | None = None
+
+    def of(self, rows: IntArray) -> tuple[ContactPart, ...]:
+        """Return the parts, where the wears were those in `rows` of others."""
+        return tuple(part._replace(rows=rows[part.rows]) for part in self.parts)
 
 
 def wear_in_contact(
@@ -130,6 +151,7 @@ def wear_in_contact(
     added, length = np.zeros(len(u)), np.zeros(len(u))
     todo: list[tuple[IntArray, float, float]] = [(np.arange(len(u)), 0.0, 1.0)]
     evaluations, parts, sound = 0, 0, True
+    passed: list[ContactPart] = []
     ended = np.zeros(len(u), dtype=bool)
     while todo:
         rows, begin, end = todo.pop()
@@ -148,21 +170,34 @@ def wear_in_contact(
             sound &= bool(fine.all())
             fine[:] = True
         some = rows[fine]
+        passed.append(
+            ContactPart(
+                contact,
+                some,
+                stretch.begin[fine],
+                part.length[fine],
+                start[fine],
+                part.inside[fine],
+                part.length[fine] < whole[fine],
+            )
+        )
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
         length[some] += part.length[fine]
         ended[some] = part.length[fine] < whole[fine]
         if not fine.all():
             middle, again = (begin + end) / 2, rows[~fine]
             todo += [(again, middle, end), (again, begin, middle)]
-    return ContactResult(added, length, sound, evaluations)
+    return ContactResult(added, length, sound, evaluations, tuple(passed))
 
 
 class _Part(NamedTuple):
-    """As `ContactResult`, with the rate (k, m) in mm per cycle at the nodes, what is `noise` of it
-    (k,), and how often wear alone would turn over in the part: its `stiffness` (k,)."""
+    """As `ContactResult`, with what is added `inside` (k, m) and the rate (k, m) in mm per cycle at
+    the nodes, what is `noise` of it (k,), and how often wear alone would turn over in the part: its
+    `stiffness` (k,)."""
 
     added: FloatArray
     length: FloatArray
+    inside: FloatArray
     rate: FloatArray
     noise: FloatArray
     stiffness: FloatArray
@@ -231,7 +266,7 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Interval) -> _Part
         if done.all() or grows or not np.max(apart) < 1e30:
             break
         last = apart
-    return _Part(added, length, rate, noise, stiffness, done, evaluations)
+    return _Part(added, length, inside, rate, noise, stiffness, done, evaluations)
 
 
 def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatArray) -> FloatArray:

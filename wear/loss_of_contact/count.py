@@ -129,7 +129,7 @@ class Counted(NamedTuple):
         of_density = ROUNDOFF * np.repeat(terms, parts)
         missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
         error = np.concatenate([[0.0], np.cumsum(missed)])
-        return TabulatedCount(coordinate, table, error, self.limit_wear, problem.end)
+        return TabulatedCount(coordinate, table, panels, error, self.limit_wear, problem.end)
 
 
 class _Count:

@@ -9,6 +9,7 @@ wear. See `wear.loss_of_contact.switching` for the pieces of the cycle.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -81,9 +82,7 @@ class SwitchedPeriodMap(NamedTuple):
         flat = starts.ravel()
         added = np.zeros(len(flat))
         sound, evaluations = True, 0
-        run_piece = _on_support if self.model.compliant else _run
-        for piece in self.edge.pieces:
-            run = run_piece(self, piece, flat + added, added)
+        for _, run in self.pieces_from(flat):
             added = added + run.added
             sound &= run.sound
             evaluations += run.evaluations
@@ -93,6 +92,15 @@ class SwitchedPeriodMap(NamedTuple):
         return CycleSolution(
             added.reshape(starts.shape), nothing, nothing, evaluations, converged, left
         )
+
+    def pieces_from(self, starts: FloatArray) -> Iterator[tuple[Piece, ContactResult]]:
+        """Return the pieces of a cycle from each start (k,), and what each adds."""
+        added = np.zeros(len(starts))
+        run_piece = _on_support if self.model.compliant else _run
+        for piece in self.edge.pieces:
+            run = run_piece(self, piece, starts + added, added)
+            added = added + run.added
+            yield piece, run
 
     def increment_without_feedback(self, wear: FloatArray) -> FloatArray:
         """Return the wear added by one cycle if the rate did not feel it, any shape."""
@@ -160,13 +168,15 @@ def _run(
     run = wear_in_contact(contact, cycle.rule, cycle.tolerance, u, over, before[active])
     added[active] = run.added
     last = u + run.added
+    rows = np.flatnonzero(active)
+    run = run._replace(parts=run.of(rows))
     if piece.rising:
         top = np.full(len(u), piece.heights[-1])
         lost = (cycle.model.margin(last, top) < 0.0) | edge.is_over(u, last, top)
         if lost.any():
             slid = wear_at(cycle.model, top[lost], u[lost], 0.0, edge.turning_wear)
-            added[np.flatnonzero(active)[lost]] = slid - u[lost]
-        return run._replace(added=added)
+            added[rows[lost]] = slid - u[lost]
+        return run._replace(added=added, slid=rows[lost])
     over_crest = edge.is_over(u, last, cycle.load(begin + run.length))
     return run._replace(added=added, sound=run.sound and not over_crest.any())
 

@@ -311,7 +311,7 @@ class _Work:
 
     def __init__(self, problem: Problem, request: Request, rtol: float) -> None:
         self.problem, self.request, self.rtol = problem, request, rtol
-        self.size = size = settings(rtol)
+        self.size = size = settings(rtol, problem.breakpoints)
         self.cost = Cost(0, 0)
         self.scale, self.limit = problem.scale, problem.limit
         self.end = _look_ahead(problem, request)

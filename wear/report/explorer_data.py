@@ -18,6 +18,9 @@ from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.scene import Scene, load_scene
 
 CYCLES = (1, 10, 100, 1000, 10000)
+MICROMETRES = 1e3  # in a mm
+SMALL = ("sigma_c0", "sigma_a0", "h_0", "U")
+"""Lengths that the page shows in micrometres."""
 NOT_NEGATIVE = ("h_0",)
 """What a scene file takes from zero on."""
 GROUPS: Mapping[str, tuple[str, ...]] = {

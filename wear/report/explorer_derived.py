@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 
 from derive.laws import LAWS, TANH
 from wear.report import mathml
-from wear.report.explorer_data import GROUPS, NOT_NEGATIVE
+from wear.report.explorer_data import GROUPS, MICROMETRES, NOT_NEGATIVE, SMALL
 
 FILE = "explorer.derived.json"
 
@@ -88,7 +88,12 @@ def rows() -> str:
 
 
 def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
-    """Return the ids of what holds in the long run for these choices and this regime."""
+    """Return the ids of what holds in the long run for these choices and this regime.
+
+    Of a contact law of a scene's own, that is what holds for any law.
+    """
+    if chosen["law"] not in LAWS:
+        chosen = {**chosen, "law": _OTHERS[0]}
     return tuple(
         row.identifier
         for row in _LONG_RUN
@@ -180,7 +185,8 @@ def parameter_rows() -> list[dict[str, Any]]:
                 "name": name,
                 "meaning": quantity.meaning.split(", ")[0],
                 "latex": quantity.latex,
-                "unit": unit,
+                "unit": "µm" if name in SMALL else unit,
+                "scale": MICROMETRES if name in SMALL else 1.0,
                 "low": domain.low,
                 "high": domain.high,
                 "logarithmic": domain.logarithmic,

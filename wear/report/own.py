@@ -11,8 +11,11 @@ from matplotlib.figure import Figure as Drawn
 
 from derive import equations as derived
 from derive.catalogue import equation
+from derive.laws import LAWS
+from derive.note.governing import Pin
+from derive.own_law import own_law
 from derive.symbols import QUANTITIES
-from derive.variant import VARIANTS
+from derive.variant import Variant
 from derive.variant_equations import equations_of
 from wear import figures
 from wear.direct.sequence import most_cycles
@@ -23,6 +26,7 @@ from wear.fitting.readings import Specimen
 from wear.history import History
 from wear.life import Reached, cycles_until
 from wear.load import Blocks, HistoryLoad
+from wear.own_laws import PREFIX, is_own
 from wear.regime import Asymptote, asymptote
 from wear.report import drawing
 from wear.report.document import Document, Figure
@@ -166,7 +170,8 @@ def _equations(scene: Scene, limit: Asymptote | None) -> list[derived.Equation]:
     key, opening = scene.variant, scene.contact.pin_wear_opens_gap
     if key.given_load:
         return [equation("problem-i")]
-    variant = next(v for v in VARIANTS if (v.law.name, v.name) == (key.law, key.name))
+    own = own_law(key.law.removeprefix(PREFIX))[0] if is_own(key.law) else LAWS[key.law]
+    variant = Variant(own, key.support == "compliant", Pin(key.pin), key.ends_at_3_sigma)
     chosen: dict[str, str | bool] = {
         "law": key.law, "pin": key.pin, "compliant": variant.compliant, "opening": opening,
         "cutoff": key.ends_at_3_sigma, "regime": limit.regime if limit else "",

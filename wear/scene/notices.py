@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from wear import own_laws
-from wear.load import Blocks, HistoryLoad, Table
+from wear.load import Blocks, ForceTable, HistoryLoad, Table
 from wear.scene.plausibility import implausible_entries
 
 if TYPE_CHECKING:
@@ -88,12 +88,13 @@ def initial_displacement(scene: Scene) -> float:
 
 def _load_notices(scene: Scene) -> Iterator[str]:
     load = scene.load
-    if isinstance(load, Table) and load.source is not None and load.source.repeat:
-        rise = load.values_mm[-1] - load.values_mm[-2]
+    if isinstance(load, Table | ForceTable) and load.source is not None and load.source.repeat:
+        name, unit = ("R_a", "N") if scene.given_load else ("U_a", "mm")
+        seam, length = load.rows[-1] - load.rows[-2], load.times_s[-1] - load.times_s[-2]
         yield (
             f"one period of {load.period:.6g} s out of {load.source.file}: {len(load.times_s)} "
-            f"rows with the seam, mean {load.mean:.6g} mm; there U_a changes by {rise:.4g} mm "
-            f"in {load.times_s[-1] - load.times_s[-2]:.4g} s (mean and drift are not removed)"
+            f"rows with the seam, mean {load.mean:.6g} {unit}; there {name} changes by "
+            f"{seam:.4g} {unit} in {length:.4g} s (mean and drift are not removed)"
         )
     if not isinstance(scene.load, Blocks):
         return
