@@ -1,9 +1,9 @@
 """Why each condition is there: what fails without it, as a committed table.
 
 Overview
-    The falsifier drops the conditions of each equation of the note in turn and looks for a model of all the
-    others in which the equation is false.  That takes minutes, so the outcome is kept in
-    ``reasons.json``, under a hash of hypotheses and claim; ``python -m derive.reasons`` tries
+    The falsifier drops the conditions of each equation of the note in turn and looks for a model
+    of all the others in which the equation is false.  That takes minutes, so the outcome is kept
+    in ``reasons.json``, under a hash of hypotheses and claim; ``python -m derive.reasons`` tries
     what is missing there.
 Key results
     table        the rows, equation after equation
