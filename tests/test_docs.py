@@ -27,7 +27,7 @@ ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 PAGES = [
     ROOT / "README.md",
-    *sorted(p for p in DOCS.rglob("*.md") if not {"_build", "bench"} & set(p.parts)),
+    *sorted(p for p in DOCS.rglob("*.md") if not {"_build", "bench", "papers"} & set(p.parts)),
 ]
 SCRIPTS = [DOCS / "tour.py", *sorted((DOCS / "gallery").glob("*.py"))]
 LAW_PAGE = DOCS / "how-to" / "own-contact-law.md"
@@ -118,6 +118,20 @@ def test_the_readme_counts_the_verdicts_that_other_tests_hold():
         f"{counts[Verdict.INCONSISTENT]} are inconsistent, {counts[Verdict.REFUTED]} are refuted"
     )
     assert said in PAGES[0].read_text(encoding="utf-8")
+
+
+def test_the_papers_are_what_their_templates_give():
+    """With the verdicts that other tests hold, and the evidence of the last report."""
+    spec = importlib.util.spec_from_file_location("build", DOCS / "papers" / "build.py")
+    build = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(build)
+    claims = json.loads((DOCS / "papers" / "claims.json").read_text(encoding="utf-8"))
+    verdicts = {**symbolic.VERDICTS, **simulated.VERDICTS}
+    assert {claim["id"]: claim["verdict"] for claim in claims} == {
+        name: verdict.value for name, verdict in verdicts.items()
+    }
+    for name, text in build.built(claims).items():
+        assert (DOCS / "papers" / name).read_text(encoding="utf-8") == text, name
 
 
 def test_the_readme_has_the_times_that_were_measured():
