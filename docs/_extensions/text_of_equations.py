@@ -47,7 +47,7 @@ def conditions() -> str:
     parts = []
     for identifier, rows in groupby(reasons.table(), key=lambda row: row.equation):
         parts.append(
-            f"### {_heading(equation(identifier))}\n\n{_block(equation(identifier).latex)}"
+            f"## {_heading(equation(identifier))}\n\n{_block(equation(identifier).latex)}"
         )
         parts.append("\n".join(map(_without, rows)))
     return "\n\n".join(parts)
