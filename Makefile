@@ -21,6 +21,7 @@ test: $(VENV)/installed-test ## run all checks: style, types, import walls, test
 	$(BIN)/ruff check || status=1; \
 	$(BIN)/ruff format --check || status=1; \
 	$(BIN)/mypy || status=1; \
+	$(BIN)/mypy tests/wear/typed_script.py || status=1; \
 	$(BIN)/lint-imports --no-logo || status=1; \
 	$(BIN)/python -m pytest -n 2 || status=1; \
 	exit $$status

@@ -27,7 +27,7 @@ ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 PAGES = [
     ROOT / "README.md",
-    *sorted(p for p in DOCS.rglob("*.md") if not {"_build", "bench"} & set(p.parts)),
+    *sorted(p for p in DOCS.rglob("*.md") if not {"_build", "bench", "papers"} & set(p.parts)),
 ]
 SCRIPTS = [DOCS / "tour.py", *sorted((DOCS / "gallery").glob("*.py"))]
 LAW_PAGE = DOCS / "how-to" / "own-contact-law.md"
@@ -120,6 +120,20 @@ def test_the_readme_counts_the_verdicts_that_other_tests_hold():
     assert said in PAGES[0].read_text(encoding="utf-8")
 
 
+def test_the_papers_are_what_their_templates_give():
+    """With the verdicts that other tests hold, and the evidence of the last report."""
+    spec = importlib.util.spec_from_file_location("build", DOCS / "papers" / "build.py")
+    build = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(build)
+    claims = json.loads((DOCS / "papers" / "claims.json").read_text(encoding="utf-8"))
+    verdicts = {**symbolic.VERDICTS, **simulated.VERDICTS}
+    assert {claim["id"]: claim["verdict"] for claim in claims} == {
+        name: verdict.value for name, verdict in verdicts.items()
+    }
+    for name, text in build.built(claims).items():
+        assert (DOCS / "papers" / name).read_text(encoding="utf-8") == text, name
+
+
 def test_the_readme_has_the_times_that_were_measured():
     speed = (DOCS / "bench" / "speed.md").read_text(encoding="utf-8")
     measured = _table(speed.partition("**section4, 10 digits**")[2])
@@ -162,11 +176,17 @@ def pictures():
 
 
 def test_every_picture_is_retaken_and_used(pictures):
-    taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS}
+    taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS, *pictures.DRAWN}
     kept = {path.name for path in (DOCS / "_static").iterdir() if path.suffix in (".png", ".svg")}
     assert taken == kept
     texts = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
     assert not [name for name in taken if f"_static/{name})" not in texts]
+
+
+def test_no_paragraph_on_the_method_is_long():
+    text = (DOCS / "method.md").read_text(encoding="utf-8")
+    parts = re.split(r"\n\n|\n(?=- |\d\. )", re.sub(r"(?s)```.*?```", "", text))
+    assert max(len(part.split()) for part in parts) <= 120
 
 
 def test_every_example_is_used():
