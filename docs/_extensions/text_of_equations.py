@@ -46,9 +46,7 @@ def conditions() -> str:
     """Every condition of every equation, with a model that breaks the equation without it."""
     parts = []
     for identifier, rows in groupby(reasons.table(), key=lambda row: row.equation):
-        parts.append(
-            f"## {_heading(equation(identifier))}\n\n{_block(equation(identifier).latex)}"
-        )
+        parts.append(f"## {_heading(equation(identifier))}\n\n{_block(equation(identifier).latex)}")
         parts.append("\n".join(map(_without, rows)))
     return "\n\n".join(parts)
 
