@@ -16,7 +16,10 @@ from wear.cli import main as wear
 
 HERE = Path(__file__).resolve().parent
 OF_THE_REPORT = ("wear-curve.svg", "system.svg")
-OF_COMMANDS = {"section4.svg": ("figure", "section4")}
+OF_COMMANDS = {
+    "section4.svg": ("figure", "section4"),
+    "tornado.svg": ("sensitivity", "section4"),
+}
 SCENE, SHOWN = "section4", 12
 
 

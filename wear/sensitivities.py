@@ -22,7 +22,10 @@ from wear.checked import did_you_mean
 from wear.cycles import groups
 from wear.faults import UsageError
 from wear.loss_of_contact.count import counted_stages
+from wear.loss_of_contact.period_map import margin_roundoff
+from wear.loss_of_contact.switching import edge_of_contact
 from wear.loss_of_contact.tangent import stage_tangents
+from wear.model import bind
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import acting_loads, parameters_of, parametrised
@@ -124,7 +127,7 @@ class Sensitivities:
     The `wear_mm` (n,) and the `wear_per_cycle_mm` (n,) of the cycle that ends there; the `keys`
     (k,) of the numbers with their `values` (k,); the `derivative` (k, n) of the wear with respect
     to them, in mm per unit of the key, and its estimated absolute `error` (k, n), infinite where
-    the count does not reach.
+    the count does not reach. `notices` say where a derivative is that from one side.
     """
 
     scene: Scene
@@ -135,6 +138,7 @@ class Sensitivities:
     values: FloatArray
     derivative: FloatArray
     error: FloatArray
+    notices: tuple[str, ...] = ()
 
     @property
     def elasticity(self) -> FloatArray:
@@ -166,6 +170,7 @@ class Sensitivities:
             "cycles": list(self.cycles),
             "bearing_wear_mm": self.wear_mm,
             "wear_per_cycle_mm": self.wear_per_cycle_mm,
+            "notices": list(self.notices),
             "parameters": [dict(zip(names, row, strict=True)) for row in rows],
         }
 
@@ -207,4 +212,20 @@ def sensitivity(
     found = _of_one_variant([scene], list(numbers), np.array(wanted, dtype=float), rtol)
     u, _, derivative, error, added = (part[0] for part in found)
     values = np.array(list(numbers.values()))
-    return Sensitivities(scene, wanted, u, added, tuple(numbers), values, derivative, error)
+    return Sensitivities(
+        scene, wanted, u, added, tuple(numbers), values, derivative, error, _notices(scene)
+    )
+
+
+def _notices(scene: Scene) -> tuple[str, ...]:
+    """Return whether contact grazes before any wear, as where the closure is 3 sigma."""
+    model = bind(scene)
+    if not model.ends_at_3_sigma:
+        return ()
+    load = next(acting_loads([scene])).loads[0]
+    heights = edge_of_contact(model, load).grazing
+    none = np.zeros_like(heights)
+    if np.all(np.abs(model.margin(none, heights)) > margin_roundoff(model, load, none)):
+        return ()
+    side = "before any wear contact just grazes: the derivatives are those from one side"
+    return (f"{side}, on which the wear goes on",)

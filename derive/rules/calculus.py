@@ -17,7 +17,7 @@ import sympy as sp
 from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
-from ..symbols import symbols, t
+from ..symbols import DATA, symbols, t
 from .proving import continuous, require_defined, smooth
 from .reading import (
     LOAD,
@@ -178,13 +178,19 @@ def change_clock(scaled: Judgement, clock: Judgement) -> Judgement:
 
 @dataclass(frozen=True)
 class ParameterLimit(Rule):
-    """The limit of ``F(N)`` for N -> oo, by continuity in 1/N at 0."""
+    """The limit of ``F(N)`` for N -> oo, by continuity in 1/N at 0; F is a function of data.
+
+    Fields, and names of other things, may depend on N.
+    """
 
     expr: sp.Expr
     variable: sp.Symbol
     words = "Let {variable} tend to infinity in {expr}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
+        others = {s.name for s in self.expr.free_symbols - {self.variable}}
+        if fields(self.expr) or others - DATA:
+            raise RuleError(f"missing premise: {self.expr} is a function of data alone")
         small = sp.Dummy("small", positive=True)
         at_end = sp.together(self.expr.subs(self.variable, 1 / small))
         if not continuous(at_end, {small: sp.S.Zero}, *premises):

@@ -16,6 +16,7 @@ from derive.kernel import Conclusion, Judgement, RuleError, infer, replayed
 from derive.laws import GENERAL, r
 from derive.rules.algebra import (
     Identity,
+    alike,
     discharge,
     forget,
     identity,
@@ -35,13 +36,13 @@ from derive.rules.calculus import (
     rigid,
 )
 from derive.rules.data import differentiated
-from derive.rules.drift import first_order
+from derive.rules.drift import first_order, logarithmic_drift, logarithmic_growth
 from derive.rules.inequalities import LogarithmicSlope, arithmetic, monotone
 from derive.rules.limits import at_infinity, forever
-from derive.rules.reading import CONSTANT, replaced
-from derive.rules.solutions import solution
+from derive.rules.reading import CONSTANT, SINE, replaced
+from derive.rules.solutions import inverted, solution
 from derive.symbols import initial, rate, symbol, symbols, t
-from tests.derive.test_rules import BOUNDED, DEEP, ROUGHENS, START, given, tends
+from tests.derive.test_rules import BOUNDED, DEEP, ROUGHENS, START, drift_premises, given, tends
 
 u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
 h_0, sigma_c0, f_c, C, T, N, q, k, b_0 = symbols("h_0 sigma_c0 f_c C T N q k b_0")
@@ -80,6 +81,9 @@ def from_a_look_alike() -> Judgement:
         claim, hypotheses, parents = Equality(u_a, 2 * u_a), (), ()
 
     return substitute(given(sp.Eq(h, u_a)), Forged())  # type: ignore[arg-type]
+
+
+CONSTANTLY, SMOOTH = assume(CONSTANT), assume(DIFFERENTIABLE)
 
 
 class Lie(sp.Expr):  # type: ignore[misc]
@@ -244,6 +248,16 @@ CASES: dict[str, Case] = {
         lambda: given(sp.Eq(sp.Limit(sp.sign(theta), theta, 0), 1, evaluate=False)),
         "no limit from above",
     ),
+    "a field held fixed while a datum grows": (  # u_c depends on h_0
+        lambda: parameter_limit(u_c * h_0 / (1 + h_0), h_0),
+        lambda: parameter_limit(f_c * h_0 / (1 + h_0), h_0),
+        "data alone",
+    ),
+    "a name held fixed while a datum grows": (  # b_0 = sigma_c0/f_c - h_0
+        lambda: parameter_limit(b_0 / h_0, h_0),
+        lambda: parameter_limit(sigma_c0 / h_0, h_0),
+        "data alone",
+    ),
     # ---- pieces
     "solved across a jump": (  # x_inf = -1/2
         lambda: solve(given(sp.Eq(KINKED, theta)), x_inf),
@@ -260,6 +274,68 @@ CASES: dict[str, Case] = {
             (u_c**2 - 1) / (2 * C * q), C * q / sp.Abs(u_c), given(sp.Eq(initial("u_c"), -1))
         ),
         lambda: timed((u_c - 1) / C, C, given(sp.Eq(initial("u_c"), 1))),
+        "missing premise",
+    ),
+    # ---- of the false statements that were known, those without a case elsewhere
+    "strictness in a limit": (  # h = u_a
+        lambda: arithmetic(sp.Gt(h, u_a), given(sp.Gt(h + q / M, u_a))),
+        lambda: arithmetic(sp.Gt(h, u_a), given(sp.Ge(h - q, u_a))),
+        r"h\(t\) > u_a",
+    ),
+    "the square of an unbounded load": (  # U_a^2 = q u_c
+        lambda: at_infinity(sp.Eq(forever(u_c / (u_c + U_a**2 / q)), 1), DEEP),
+        lambda: at_infinity(sp.Eq(forever(u_c / (u_c + U_a**2 / q)), 1), DEEP, BOUNDED),
+        "U_a is bounded",
+    ),
+    "a part of an or": (  # u_a = 2 q
+        lambda: arithmetic(sp.Lt(u_a, q), given(sp.Lt(sp.Min(u_a, h), q))),
+        lambda: arithmetic(sp.Lt(u_a, q), given(sp.Lt(sp.Max(u_a, h), q))),
+        "u_a",
+    ),
+    "the converse": (  # u_a = h = 0
+        lambda: alike(sp.Equivalent(sp.Gt(u_a, q), sp.Lt(h, q))),
+        lambda: alike(sp.Equivalent(sp.Gt(u_a, q), sp.Lt(q - u_a, 0))),
+        "differences",
+    ),
+    "a deviation that grows like the root of the wear": (
+        lambda: approach(U_a * sp.sqrt(1 + u_c**2 / q**2)),
+        lambda: approach(2 * U_a),
+        "linear in bounded|is bounded",
+    ),
+    "a drift from a bound of the limit": (  # u_c = C t - ln(1 + t)
+        lambda: logarithmic_drift(
+            given(sp.Le(forever(t * (rate("u_c") - C) - U_a), 0)), *drift_premises()[1:]
+        ),
+        lambda: logarithmic_drift(*drift_premises()),
+        "is no limit",
+    ),
+    "theta has f_c": (  # theta = tanh(4 - 2/f_c)
+        lambda: differentiated(
+            sp.Eq(SLOPE, 0, evaluate=False), f_c, given(sp.Eq(u_cum, h_0 * (1 + theta) / 2))
+        ),
+        lambda: sloped(),
+        "data alone",
+    ),
+    "the other branch of Lambert's function": (  # u_c = q/3
+        lambda: inverted(
+            sp.Eq(u_c, -q * sp.LambertW(-t / T, -1), evaluate=False),
+            given(sp.Eq(t, T * u_c / q * sp.exp(-u_c / q))),
+        ),
+        lambda: inverted(sp.Eq(u_c, q * t / T), given(sp.Eq(t, T * u_c / q))),
+        "missing premise",
+    ),
+    "the tail of one solid and the wear of the other": (  # u_a = 0
+        lambda: logarithmic_growth(
+            q, tends(rate("u_a") * sp.exp((u_c - U_a) / q), C), assume(SINE)
+        ),
+        lambda: logarithmic_growth(
+            q, tends(rate("u_c") * sp.exp((u_c - U_a) / q), C), assume(SINE)
+        ),
+        "the limit of exp",
+    ),
+    "a load that is constant under no condition": (  # sin t
+        lambda: discharge(differentiate(CONSTANTLY, SMOOTH), CONSTANT, START),
+        lambda: differentiate(CONSTANTLY, SMOOTH),
         "missing premise",
     ),
     # ---- what is said of the world

@@ -116,3 +116,21 @@ def test_spiky_rows_are_resolved_between_many_breakpoints() -> None:
     )
     assert np.all(np.abs(found.u_c / again.u_c - 1.0) <= found.error + again.error)
     assert np.all(found.error < 1e-11)
+
+
+def test_blocks_of_several_records_follow_each_other(tmp_path: Path) -> None:
+    one, two = measured(tmp_path).load, wear.Table((0.0, 0.02, 0.06), (0.0, 4e-4, 0.0))
+    (tmp_path / "two.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.06,0\n")
+    blocks = [
+        {"kind": "table", "file": "pin.csv", "cycles": 20},
+        {"kind": "table", "file": "two.csv", "cycles": 30},
+    ]
+    tables = wear.load_scene("section4").to_tables() | {
+        "load": {"kind": "blocks", "blocks": blocks}
+    }
+    scene = wear.Scene.from_dict(tables, folder=tmp_path)
+    assert isinstance(scene.load, wear.Blocks)
+    assert [block.load.mean for block in scene.load.blocks] == [one.mean, two.mean]
+    first = wear.solve(scene, [20, 50], 1e-8).u_c
+    assert first[0] == pytest.approx(wear.solve(measured(tmp_path), [20], 1e-8).u_c[0], rel=1e-7)
+    assert first[1] > first[0]

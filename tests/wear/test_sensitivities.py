@@ -179,6 +179,37 @@ def test_wear_that_has_stopped_depends_on_the_margin_alone(stiffness: float | No
     assert np.all(found.error[:, 0] <= 1e-11 * np.abs(found.derivative[:, 0]))
 
 
+def test_where_contact_grazes_at_first_it_is_said() -> None:
+    assert "from one side" in sensitivity("section4-cutoff", 1).notices[0]
+    scene = load_scene("section4-cutoff", ["contact.closure_mm=1e-3"])
+    assert sensitivity(scene, 1).notices == ()
+
+
+def test_random_scenes_agree_with_differences() -> None:
+    random = np.random.default_rng(13)
+    cycles = np.array([1.0, 300.0, 1e6])
+    for _ in range(6):
+        builtin = random.choice(["section3", "section4"])
+        changes = {
+            "bearing.wear_coefficient": 10 ** random.uniform(-8, -4),
+            "bearing.roughness_growth": random.uniform(-0.1, 0.5),
+            "bearing.roughness_mm": (sigma := 10 ** random.uniform(-4, -3)),
+            "contact.closure_in_sigma": random.uniform(1.5, 3.2),
+            "load.amplitude_mm": sigma * random.uniform(0.2, 2.0),
+        }
+        if random.random() < 0.4:
+            changes["support.stiffness_MPa_per_mm"] = 10 ** random.uniform(4.5, 7.0)
+        scene = load_scene(str(builtin)).with_(changes)
+        values = parameters_of(scene)
+        key = str(random.choice(list(values)))
+        found = gradients([scene], [key], cycles)
+        reference, uncertainty = _differences(scene, [key], cycles)
+        error = found.derivative[0, 0] * values[key] - reference[0]
+        estimate = found.error[0, 0] * abs(values[key])
+        assert np.all(np.abs(error) <= estimate + uncertainty[0])
+        assert np.all(estimate <= 1e-8 * np.maximum(np.abs(reference[0]), found.wear[0]))
+
+
 def test_many_scenes_have_the_derivatives_that_each_has_alone() -> None:
     scenes = [load_scene(name) for name in ("section5", "section4", "section5-k1e-4")]
     keys = ["bearing.wear_coefficient", "contact.max_pressure_MPa", "load.amplitude_mm"]

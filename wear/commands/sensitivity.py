@@ -85,6 +85,8 @@ def execute(options: argparse.Namespace) -> int:
         print("\n".join([*_lines(found), *([] if depth is None else _lines_of_life(found, depth))]))
     if output is not None:
         files.write_atomically(output, _written(found, output.suffix))
+    for notice in found.notices:
+        terminal.complain("wear sensitivity", notice)
     known = [bool(np.isfinite(column).all()) for column in found.error.T]
     if not all(known):
         late = ", ".join(str(n) for n, yes in zip(found.cycles, known, strict=True) if not yes)
@@ -121,7 +123,7 @@ def _written(found: Sensitivities, suffix: str) -> bytes:
         from wear.figure_style import encoded
         from wear.figures import tornado
 
-        labels = [f"$N = {n}$" for n in found.cycles]
+        labels = [f"$N$ = {n:.6g}".replace("e+0", "e").replace("e+", "e") for n in found.cycles]
         return encoded(tornado(found.keys, found.elasticity, labels), suffix)
     rows = ["key,value,cycles,bearing_wear_mm,derivative,elasticity,error_estimate"]
     for key, value, *each in zip(

@@ -12,7 +12,7 @@ What else may go wrong is excluded by construction: steps cannot jump over a con
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -102,6 +102,7 @@ def integrate(
     rtol: float,
     method: str = "DOP853",
     deadline: float = np.inf,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> DirectResult:
     """Integrate the wear from the fresh state to the ends of `cycles`.
 
@@ -115,15 +116,18 @@ def integrate(
         One of `METHODS`, SciPy's names.
     deadline
         A `time.monotonic()` at which to stop with what there is.
+    progress
+        Is told in words how far the integration is, once it takes more than two seconds.
     """
     marks = _marks(cycles)
-    meter = Meter(deadline)
+    meter = Meter(deadline, progress)
     blur = cutoff.roundoff(model, 0.0, load.maximum) if model.ends_at_3_sigma else 0.0
     runs: list[Run] = []
     stopped, interrupted = None, False
     try:
         for setting in _settings(method, rtol):
             runs.append(Run(setting, []))
+            meter.begin(f"{method}, run {len(runs)}", max(marks, default=0))
             for state in _march(model, load, marks, setting, meter):
                 runs[-1].states.append(state)
             if len(runs) > 1 and np.max(_errors(runs, blur), initial=0.0) <= rtol:

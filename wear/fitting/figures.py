@@ -19,11 +19,12 @@ _MICROMETRES_PER_MM = 1e3
 _POINTS = 40  # of a curve
 _COLUMNS = 3
 _BINS = 40
+_DECADE = 10.0  # ratio of values from which an axis is logarithmic
 
 
 def data_and_band(fit: Fit) -> Figure:
     """Return the readings of every specimen with the fitted wear and its 95 % band, and below them
-    the residuals."""
+    by how much the readings exceed it."""
     first = min(specimen.cycles[0] for specimen in fit.model.specimens)
     last = min(3.0 * max(specimen.cycles[-1] for specimen in fit.model.specimens), 1e12)
     cycles = np.unique(np.rint(np.geomspace(first, last, _POINTS)))
@@ -35,7 +36,7 @@ def data_and_band(fit: Fit) -> Figure:
         axes.remove()
         top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
         for place, (specimen, (middle, low, high), residuals) in enumerate(
-            zip(fit.model.specimens, curves, np.split(fit.residuals, ends), strict=True)
+            zip(fit.model.specimens, curves, np.split(-fit.residuals, ends), strict=True)
         ):
             look = stroke(place, place // 7)
             drawn = {"color": look.colour, "marker": look.marker, "mfc": look.face, "ls": ""}
@@ -47,7 +48,7 @@ def data_and_band(fit: Fit) -> Figure:
         bottom.axhline(0.0, color=GREY, lw=0.6)
         top.set(xscale="log", yscale="log", ylabel=r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)")
         words = "Residual / scatter" if fit.problem.residuals.known else (
-            r"Residual of $\ln u_c$" if relative else "Residual (mm)"
+            r"Residual of $\ln\,u_c$" if relative else "Residual (mm)"
         )  # fmt: skip
         bottom.set(xlabel="Cycles  $N$", ylabel=words)
         if len(curves) > 1:
@@ -76,11 +77,14 @@ def profiles(fit: Fit) -> Figure:
             cell.plot(profile.values, profile.roots, "o-", color=stroke(0).colour, ms=3)
             cell.axhline(fit.quantile, color=GREY, lw=0.6)
             cell.set(ylim=(0.0, 1.5 * fit.quantile), xlabel=_label(parameter))
-            if parameter.positive:
+            if parameter.positive and profile.values[-1] > _DECADE * profile.values[0]:
                 cell.set_xscale("log")
+            else:
+                cell.locator_params(axis="x", nbins=4)
+                cell.ticklabel_format(axis="x", scilimits=(-3, 4))
         for cell in cells[len(drawn) :]:
             cell.remove()
-        figure.supylabel("Root of the deviance (standard deviations)", size=8.5)
+        figure.supylabel("Root of the deviance", size=8.5)
     return figure
 
 

@@ -17,7 +17,7 @@ from wear.fitting.readings import FloatArray
 FLAT = 0.02  # of the slope that the root of the deviance has at the estimate: it rises no more
 NEAR = 0.01  # of the quantile: how closely the end of an interval is sought
 FIRST, FARTHER = 1.0, 2.5  # e-folds, or sizes, of the first step; times as far for the next
-MOST_ROUNDS, MOST_STEPS = 12, 15
+MOST_ROUNDS, MOST_STEPS = 8, 15
 MOST_DESCENTS = 3  # where a profile finds a better estimate
 BETTER = 1e-4  # of the sum of squares: what is worth another descent
 

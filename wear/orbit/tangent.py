@@ -26,10 +26,12 @@ from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_i
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
-from wear.orbit.panels import CHECKS
+from wear.orbit.panels import CHECKS, at_checks
 from wear.orbit.period_map import PeriodMap, Rows, Settings, period_map, settings
 from wear.orbit.segments import Orbit, Problem
 from wear.orbit.transient import SAFETY
+
+ITERATION_TOLERANCE = 1e-13  # of the period map: its derivatives have no more digits
 
 
 class Parametrised(Problem, Protocol):
@@ -115,15 +117,14 @@ def tangents(
         counted = cast(Iterates, segment.counted)
         last = counted.whole_cycles
         wanted = np.concatenate([np.clip(since, 0.0, last[:, None]), last[:, None]], axis=1)
-        each = _in_segment(
+        own, own_error, added = _in_segment(
             problem.take(which), counted, wanted, rtol, onward[which], onward_error[which]
         )
         here = (since >= 0)[:, None]
-        derivative[which] = np.where(here, each.derivative[..., :-1], derivative[which])
-        missed[which] = np.where(here, each.derivative_error[..., :-1], missed[which])
-        increment[which] = np.where(here[:, 0], each.increment[:, :-1], increment[which])
-        onward[which] = each.derivative[..., -1]
-        onward_error[which] = each.derivative_error[..., -1]
+        derivative[which] = np.where(here, own[..., :-1], derivative[which])
+        missed[which] = np.where(here, own_error[..., :-1], missed[which])
+        increment[which] = np.where(here[:, 0], added[:, :-1], increment[which])
+        onward[which], onward_error[which] = own[..., -1], own_error[..., -1]
     missed = np.where(np.isfinite(error)[:, None], missed, np.inf)
     return Tangents(u, error, derivative, missed, increment)
 
@@ -135,10 +136,11 @@ def _in_segment(
     rtol: float,
     start: FloatArray,
     start_error: FloatArray,
-) -> Tangents:
-    """Return the derivatives after `cycles` (s, c) since the start of a segment."""
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the derivatives (s, parameters, c) after `cycles` (s, c) since the start of a segment,
+    their error, and what the last cycle has added (s, c)."""
     size = settings(rtol, problem.breakpoints)
-    maps = period_map(problem, counted.edges, size.phase_nodes, size.iteration_tolerance)
+    maps = period_map(problem, counted.edges, size.phase_nodes, ITERATION_TOLERANCE)
     early, early_error = _in_transient(maps, counted, size, start, start_error)
     number = counted.integrated_cycles
     index = np.minimum(cycles, number).astype(int)
@@ -146,7 +148,6 @@ def _in_segment(
     derivative, missed = early[rows, index], early_error[rows, index]
     added = np.diff(counted.transient, axis=1)
     increment = added[rows, np.maximum(index - 1, 0)] if number else np.empty(cycles.shape)
-    u, error = counted.after(cycles)
     if counted.cells is not None:
         sums = _on_panels(maps, counted, size, early[:, -1], early_error[:, -1])
         late = cycles > number if number else np.full(cycles.shape, True)
@@ -154,8 +155,7 @@ def _in_segment(
         derivative = np.where(late[..., None], far[0], derivative)
         missed = np.where(late[..., None], far[1], missed)
         increment = np.where(late, far[2], increment)
-    derivative, missed = (np.moveaxis(x, 2, 1) for x in (derivative, missed))
-    return Tangents(u, error, derivative, missed, increment)
+    return np.moveaxis(derivative, 2, 1), np.moveaxis(missed, 2, 1), increment
 
 
 def _in_transient(
@@ -217,10 +217,11 @@ def _on_panels(
     assert panels is not None
     scenes = len(start)
     some = maps.take(np.repeat(np.arange(scenes), len(panels.series) // scenes))
-    nodes = _added(some, panels, chebyshev_nodes(panels.series.shape[1]))
-    return sums_on_cells(
-        counted, nodes, _added(some.finer(size), panels, CHECKS), start, start_error
-    )
+    t, fine = chebyshev_nodes(panels.series.shape[1]), some.finer(size)
+    run = some.advance(panels.frame.states(t))
+    judge = fine.advance(panels.frame.states(CHECKS), at_checks(run, size.finer_nodes))
+    nodes, checks = _added(some, panels, t, run), _added(fine, panels, CHECKS, judge)
+    return sums_on_cells(counted, nodes, checks, start, start_error)
 
 
 class Added(NamedTuple):
@@ -257,11 +258,9 @@ def sums_on_cells(
     return Sums(sums[:, :-1], errors.cumsum(axis=1), series)
 
 
-def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray) -> Added:
-    """Return what cycles from the positions `t` (n,) of each panel add."""
-    states = panels.frame.states(t)
-    run = maps.advance(states)
-    by_parameters = linearised(maps, states, run).by_parameters
+def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: CycleSolution) -> Added:
+    """Return what the cycles `run` from the positions `t` (n,) of each panel add."""
+    by_parameters = linearised(maps, panels.frame.states(t), run).by_parameters
     density = abel.density_after(panels, t, run.increment)
     return Added(run.increment, density[..., None] * by_parameters)
 

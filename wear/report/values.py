@@ -88,6 +88,8 @@ def values(material: Material) -> dict[str, Any]:
         **speed.values(material.speed),
         "elasticity": _elasticity(material),
         "data": [_data_row(runs, name, of) for name, of in _DATA] + [_amplitudes(runs)],
+        "p_max": _datum(runs, "p_max"),
+        "hardness": _datum(runs, "H_c"),
         "speed_rpm": Number(runs.cases["section3"].scene.motion.speed_rpm, "scene section3", 4),
         "symbols": [_symbol(name) for name in _MODEL],
         "further_symbols": [_symbol(name) for name in _further(material.equations)],
@@ -306,6 +308,12 @@ def _expressions(equations: Sequence[Equation]) -> Iterator[sp.Basic]:
             yield from equation.printed
         yield from (condition.relation for condition in equation.conditions)
         yield from (step.relation for step in equation.steps)
+
+
+def _datum(runs: Runs, name: str) -> Number:
+    """A number of the application in MPa."""
+    value = runs.cases["section4"].scene.parameters()[name]
+    return Number(round(value), "scene section4", 3, "MPa")
 
 
 def _thresholds() -> Iterator[tuple[str, Number, Number]]:
