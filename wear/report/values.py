@@ -87,6 +87,7 @@ def values(material: Material) -> dict[str, Any]:
         **_agreement(runs),
         **speed.values(material.speed),
         "elasticity": _elasticity(material),
+        "conditions": list(_conditions()),
         "data": [_data_row(runs, name, of) for name, of in _DATA] + [_amplitudes(runs)],
         "p_max": _datum(runs, "p_max"),
         "hardness": _datum(runs, "H_c"),
@@ -133,8 +134,21 @@ def _verification(material: Material) -> dict[str, Any]:
         "checks": _count(checked.checks, "verification"),
         "proofs": _count(checked.of_kind("proof"), "verification"),
         "dimensions": _count(checked.of_kind("dimensions"), "verification"),
+        "on_models": _count(checked.of_kind("falsifier"), "verification"),
+        "by_coq": _count(checked.of_kind("coq"), "verification"),
         "failed": _count(len(checked.failures), "verification"),
     }
+
+
+def _conditions() -> Iterator[dict[str, str]]:
+    """Yield the conditions of the equations of the note, with what fails without them."""
+    from derive.reasons import table
+
+    for row in table():
+        if row.model:
+            said = markup(row.condition) if row.latex.startswith(r"\text") else f"${row.latex}$"
+            model = ", ".join(f"${part}$" for part in row.model)
+            yield {"id": row.equation, "said": said, "model": f"{model}: {row.where}"}
 
 
 def _limits(runs: Runs) -> dict[str, Any]:
