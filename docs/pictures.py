@@ -8,8 +8,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 from wear.cli import main as wear
@@ -20,6 +22,9 @@ OF_COMMANDS = {
     "section4.svg": ("figure", "section4"),
     "tornado.svg": ("sensitivity", "section4"),
 }
+METAL = "metal-wear.csv metal.toml --ignore load_g --free-each bearing.roughness_mm"
+METAL += " --free bearing.wear_coefficient bearing.roughness_growth"
+OF_THE_FIT = {"metal-fit.svg": "data.svg", "metal-profiles.svg": "profiles.svg"}
 SCENE, SHOWN = "section4", 12
 
 
@@ -63,6 +68,10 @@ def retake(report: Path, folder: Path) -> None:
         shutil.copyfile(report / name, folder / name)
     for name, command in OF_COMMANDS.items():
         wear([*command, "-o", str(folder / name)])
+    with tempfile.TemporaryDirectory() as fitted, contextlib.chdir(HERE / "examples"):
+        wear(["fit", *METAL.split(), "-o", fitted])
+        for name, drawn in OF_THE_FIT.items():
+            shutil.copyfile(Path(fitted) / drawn, folder / name)
     for name, draw in DRAWN.items():
         (folder / name).write_bytes(draw())
 

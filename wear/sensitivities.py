@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from wear.checked import did_you_mean
 from wear.cycles import groups
 from wear.faults import UsageError
+from wear.load import Constant
 from wear.loss_of_contact.count import counted_stages
 from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import edge_of_contact
@@ -33,6 +34,9 @@ from wear.scene import Scene, as_scene
 from wear.solver import checked_request, obstacle
 
 FloatArray = NDArray[np.float64]
+
+PERIOD = "load.period_s"
+GENTLE = 0.01  # of the roughness: wear in a cycle that needs no steps within
 
 
 class Gradients(NamedTuple):
@@ -67,10 +71,28 @@ def gradients(
     shape = (len(scenes), len(keys), len(cycles))
     found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
     for which in groups(scenes):
-        part = _of_one_variant([scenes[i] for i in which.tolist()], keys, cycles, rtol)
+        some, parts = _in_parts([scenes[i] for i in which.tolist()])
+        part = _of_one_variant(some, keys, cycles * parts, rtol)
+        per_key = np.array([1.0 / parts if key == PERIOD else 1.0 for key in keys])[:, None]
         found.wear[which] = part.u
-        found.derivative[which], found.error[which] = part.derivative, part.derivative_error
+        found.derivative[which] = part.derivative * per_key
+        found.error[which] = part.derivative_error * per_key
     return found
+
+
+def _in_parts(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
+    """Return scenes under constant loads with their period, which only serves to count, cut into as
+    many parts as leave the first of them little wear; and the number of these."""
+    if not all(isinstance(scene.load, Constant) for scene in scenes):
+        return scenes, 1.0
+    parts = 1.0
+    for scene in scenes:
+        load = scene.periodic_load
+        first = float(bind(scene).rate(0.0, load.maximum)) * load.period
+        parts = max(parts, 2.0 ** np.ceil(np.log2(first / (GENTLE * scene.initial_roughness))))
+    if parts == 1.0:
+        return scenes, parts
+    return [scene.with_({PERIOD: scene.periodic_load.period / parts}) for scene in scenes], parts
 
 
 def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:

@@ -21,6 +21,8 @@ from wear.fitting.readings import FloatArray, Specimen, read_readings
 from wear.fitting.residuals import Residuals
 from wear.scene import Scene, load_scene
 
+EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
+
 # Readings
 
 
@@ -145,6 +147,20 @@ def test_an_interval_ends_where_the_deviance_reaches_its_quantile(far_off: Scene
     deviance = (found.problem.cost(ends) - found.chi_square) / found.scatter**2
     np.testing.assert_allclose(np.sqrt(deviance), found.quantile, rtol=0.02)
     assert found.quantile == pytest.approx(stats.t.ppf(0.975, len(CYCLES) - 1))
+
+
+def test_an_interval_ends_where_the_others_have_followed() -> None:
+    """And not at the point beyond that was tried first. The two specimens are of the tutorial."""
+    readings = read_readings(EXAMPLES / "metal-wear.csv", ["load_g"])
+    some = [readings[0], readings[4]]
+    scene = load_scene(str(EXAMPLES / "metal.toml")).with_({K: 3.0})
+    found = wear.fit(some, scene, [GROWTH], ["bearing.roughness_mm"])
+    ends = np.tile(found.theta, (2, 1))
+    ends[:, 0] = found.profiles[0].interval
+    fixed, box = np.tile([True, False, False], (2, 1)), (found.theta, 7.0 * found.scale)
+    _, cost = found.problem.follow(ends, fixed, box, 1e-6, 30)
+    roots = np.sqrt(cost - found.chi_square) / found.scatter
+    np.testing.assert_allclose(roots, found.quantile, rtol=0.01)
 
 
 def test_two_keys_that_enter_only_as_a_quotient_are_said_to() -> None:

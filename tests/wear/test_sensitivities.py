@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ FloatArray = NDArray[np.float64]
 
 CYCLES = np.array([1.0, 2.0, 30.0, 9000.0, 1e12])
 STEP = 4e-4
+METAL = Path(__file__).parents[2] / "docs" / "examples" / "metal.toml"
 
 
 def _differences(scene: Scene, keys: list[str], cycles: FloatArray) -> tuple[FloatArray, ...]:
@@ -220,6 +222,19 @@ def test_many_scenes_have_the_derivatives_that_each_has_alone() -> None:
         apart = np.abs(together.derivative[i] - alone.derivative[0])
         assert np.all(apart <= together.error[i] + alone.error[0])
         assert np.all(together.error[i] <= 1e-9 * np.abs(together.derivative[i]))
+
+
+def test_under_a_constant_load_the_period_only_serves_to_count() -> None:
+    """Where the first cycle wears off the roughness many times over it is counted in parts."""
+    scene = load_scene(str(METAL)).with_({"bearing.wear_coefficient": 3.0})
+    keys = ["bearing.wear_coefficient", "motion.speed_rpm", "load.period_s"]
+    values = np.array([3.0, 60.0, 1.0])
+    found = gradients([scene], keys, np.array([1.0, 200.0, 50_000.0]))
+    relative = found.derivative[0] * values[:, None] / found.wear
+    assert np.all(np.abs(relative - relative[:1]) <= 1e-11)
+    more, less = (scene.with_({"motion.speed_rpm": 60.0 * (1 + h)}) for h in (STEP, -STEP))
+    apart = sweep([more, less], [1, 200, 50_000], 1e-13).u_c
+    np.testing.assert_allclose(relative[1], np.log(apart[0] / apart[1]) / (2 * STEP), rtol=1e-6)
 
 
 def test_a_number_without_influence_is_refused_with_a_remedy() -> None:

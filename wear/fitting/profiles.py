@@ -55,8 +55,17 @@ class _End:
         else:
             self.outer, self.above = self.step, root
         self.done = abs(root / limit - 1.0) < NEAR and np.isfinite(self.outer)
-        share = (limit - self.below) / (min(self.above, 3.0 * limit) - self.below)
-        self.step = self.inner + (self.outer - self.inner) * min(share, 0.95)
+        self.step = self.inner + (self.outer - self.inner) * min(self._share(limit), 0.95)
+
+    def value(self, limit: float) -> float:
+        """Return the step at which the root of the deviance comes to the limit, infinite if it does
+        not."""
+        if np.isinf(self.outer):
+            return np.inf
+        return self.inner + (self.outer - self.inner) * self._share(limit)
+
+    def _share(self, limit: float) -> float:
+        return (limit - self.below) / (min(self.above, 3.0 * limit) - self.below)
 
 
 def profiles(found: Fit) -> Fit:
@@ -122,10 +131,11 @@ def _linear(found: Fit, index: int) -> Profile:
     """Return the profile of a parameter in the linearised model."""
     parameter, limit = found.parameters[index], found.quantile
     width = limit * float(found.spread(np.eye(len(found.theta))[index]))
-    steps = np.array([-width, 0.0, width])
+    farthest = FARTHEST * float(found.scale[index])
+    steps = min(width, farthest) * np.array([-1.0, 0.0, 1.0])
     values = parameter.value(found.theta[index] + steps)
-    ends = values[[0, 2]] if width < FARTHEST * found.scale[index] else np.array([-np.inf, np.inf])
-    return Profile(values, np.array([limit, 0.0, limit]), (float(ends[0]), float(ends[1])))
+    ends = (float(values[0]), float(values[2])) if width < farthest else (-np.inf, np.inf)
+    return Profile(values, np.abs(steps) * limit / width, ends)
 
 
 def _profile(found: Fit, low: _End, high: _End) -> Profile:
@@ -134,10 +144,8 @@ def _profile(found: Fit, low: _End, high: _End) -> Profile:
     seen = {0.0: 0.0} | low.seen | high.seen
     steps = np.array(sorted(seen))
     interval = [
-        float(parameter.value(theta + end.side * end.outer))
-        if np.isfinite(end.outer)
-        else end.side * np.inf
-        for end in (low, high)
+        float(parameter.value(theta + end.side * step)) if np.isfinite(step) else end.side * step
+        for end, step in ((end, end.value(found.quantile)) for end in (low, high))
     ]
     roots = np.array([seen[step] for step in steps.tolist()])
     return Profile(parameter.value(theta + steps), roots, (interval[0], interval[1]))
