@@ -24,7 +24,7 @@ THIRD = 1 / 3
 def _without_integration(monkeypatch: pytest.MonkeyPatch) -> None:
     """The regime is asked for, not the cycle of arrest or the offset."""
     monkeypatch.setattr(wear_regime, "_arrest_cycle", lambda _case: (None, ()))
-    monkeypatch.setattr(wear_regime, "offset", lambda _scene: None)
+    monkeypatch.setattr(wear_regime, "offset", lambda *_: None)
 
 
 @settings(max_examples=60)
