@@ -22,7 +22,7 @@ _WEAR = symbol("u_c")
 
 def proof(step: Step) -> list[str]:
     """Return the lines of a proof by a general theorem."""
-    for way in (_discharges, _grows, _integrates, _bounded_load, _first_order, _drift, _derivative):
+    for way in (_later, _discharges, _grows, _integrates, _bounded_load, _first_order, _drift, _derivative):
         if lines := list(way(step)):
             return lines
     return []
@@ -47,6 +47,14 @@ def _discharges(step: Step) -> Iterator[str]:
         + " ".join((first.name, *(labels[p.said] for p in first.statement.premises)))
         + ")."
     )
+
+
+def _later(step: Step) -> Iterator[str]:
+    """What holds at every time, one period later."""
+    if step.rule == "OnePeriodLater":
+        yield "intros t Ht; assert (HT : 0 <= T + t) by lra."
+        yield f"pose proof ({step.cited(step.frontier[0])} (T + t) HT) as P0."
+        yield "first [exact P0 | rewrite ?derive_later; exact P0]."
 
 
 def _grows(step: Step) -> Iterator[str]:
@@ -212,8 +220,8 @@ def _derivative(step: Step) -> Iterator[str]:
         if isinstance(s.relation, sp.Equality) and not s.timed and not s.relation.has(sp.Limit)
     ]
     variable = binder(slope.variables[0])
-    yield f"assert (D : is_derive (fun {variable} => {term(slope.expr)}) {variable} ({value})) by (auto_derive; [repeat split; positive | identity])."
-    yield "rewrite (is_derive_unique _ _ _ D)."
+    yield f"assert (D : Derive (fun {variable} => {term(slope.expr)}) {variable} = {value}) by (apply is_derive_unique; auto_derive; [repeat split; positive | identity])."
+    yield "rewrite D; clear D."
     used = {
         s.relation.lhs: s
         for s in named
