@@ -38,7 +38,7 @@ def script(step: Step, way: int | None = None) -> str:
     if cited:
         return "\n".join((step.introduction, *cited))
     lines = [step.introduction, *now(step)]
-    found = _equation(step) if isinstance(step.relation, sp.Equality) else _inequality(step)
+    found = _equation(step) if isinstance(step.relation, sp.Equality) else inequality(step, step.relation)
     if way is not None:
         return "\n".join((*lines, f"{next(islice(_different(found), way, None))}."))
     tried = (
@@ -102,10 +102,14 @@ def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
 
 def stated(step: Step, steps: Sequence[Step]) -> tuple[str, list[Named]]:
     """Return the tactic that states the claims of other steps at this time, and their labels."""
-    named = [(f"P{i}", s) for i, s in enumerate(steps) if not s.relation.has(sp.Limit)]
-    at = {True: " t Ht", False: ""}
-    text = "; ".join(f"pose proof ({step.cited(s)}{at[s.timed]}) as {label}" for label, s in named)
-    return f"{text}; " if text else "", [(label, s.relation) for label, s in named]
+    text, named = "", []
+    for i, other in enumerate(s for s in steps if not s.relation.has(sp.Limit)):
+        parts = other.relation.args if isinstance(other.relation, sp.And) else [other.relation]
+        labels = [f"P{i}{letter}" for letter, _ in zip("abc", parts)] if len(parts) > 1 else [f"P{i}"]
+        pattern = f"[{' '.join(labels)}]" if len(parts) > 1 else labels[0]
+        text += f"pose proof ({step.cited(other)}{' t Ht' if other.timed else ''}) as {pattern}; "
+        named += zip(labels, parts, strict=True)
+    return text, named
 
 
 def _sources(step: Step) -> Iterator[tuple[str, list[Named]]]:
@@ -125,6 +129,9 @@ def _equation(step: Step) -> Iterator[str]:
         if equations:
             yield text + _from_first(goal, equations, getattr(step.judgement.rule, "factor", None))
         lines, _ = _inserted(goal, equations)
+        unequal = [label for label, e in named if isinstance(e, sp.Ne)]
+        unequal += [f"{p.label}_now" for p in _fixed(step) if isinstance(p.relation, sp.Ne)]
+        lines += [f"rewrite ?{e} in {label}" for label in unequal for e, _ in equations]
         yield text + "; ".join((*lines, "logarithm" if isinstance(goal.lhs, sp.log) else "identity"))
 
 
@@ -169,7 +176,7 @@ def _vanishes(expr: sp.Expr) -> bool:
 
 
 def _atomic(expr: sp.Expr) -> bool:
-    return isinstance(expr, (sp.Symbol, AppliedUndef, sp.Derivative))
+    return isinstance(expr, (sp.Symbol, AppliedUndef, sp.Derivative, sp.log))
 
 
 def _inserted(goal: sp.Basic, equations: list[Named]) -> tuple[list[str], sp.Basic]:
@@ -210,14 +217,14 @@ def _sorted(rules: dict[sp.Expr, tuple[str, sp.Expr]]) -> list[sp.Expr]:
     return done
 
 
-def _inequality(step: Step) -> Iterator[str]:
+def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
     """Return the ways in which an inequality, or several, may follow."""
     for text, named in _sources(step):
         equations = [(label, e) for label, e in named if isinstance(e, sp.Equality)]
         facts = [(label, e) for label, e in named if not isinstance(e, sp.Equality)]
         facts += [(f"{p.label}_now", p.relation) for p in _fixed(step)]
         known = [label for label, _ in facts]
-        lines, goal = _inserted(step.relation, equations)
+        lines, goal = _inserted(claim, equations)
         insert = "".join(f"{line}; " for line in lines)
         into = [
             f"{''.join(f'rewrite ?{e} in {label}; ' for e, _ in equations)}same_inequality {label}"
@@ -306,19 +313,21 @@ def _manifest(goal: sp.Basic) -> Iterator[sp.Expr]:
         back = {dummy: f for f, dummy in functions.items()}
         flat = difference.xreplace(functions)
         yield sp.factor(flat).xreplace(back)
-        yield sp.Mul(*map(_turned, sp.Mul.make_args(sp.factor(flat)))).xreplace(back)
+        turned = list(map(_turned, sp.Mul.make_args(sp.factor(flat))))
+        sign = sp.Mul(*(s for s, _ in turned))
+        yield sp.Mul(*((f if i else sign * f) for i, (_, f) in enumerate(turned))).xreplace(back)
         numerator, denominator = sp.fraction(sp.together(flat))
         yield (sp.expand(numerator) / sp.factor(denominator)).xreplace(back)
 
 
-def _turned(factor: sp.Expr) -> sp.Expr:
-    """Return a sum that is negative where all is below 1 with the other sign, in its place."""
+def _turned(factor: sp.Expr) -> tuple[int, sp.Expr]:
+    """Return the sign, where all is below 1, of a power of a sum, and what remains."""
     base, power = factor.as_base_exp()
     if not base.is_Add or not power.is_Integer:
-        return factor
+        return 1, factor
     draw = random.Random(1)
     size = base.subs([(s, draw.uniform(0.1, 0.9)) for s in sorted(base.free_symbols, key=str)])
-    return factor if size > 0 else (-1) ** power * (-base) ** power
+    return (1, factor) if size > 0 else ((-1) ** int(power), (-base) ** power)
 
 
 def _ordered(goal: sp.Basic) -> Iterator[str]:
@@ -329,7 +338,7 @@ def _ordered(goal: sp.Basic) -> Iterator[str]:
     form = next(_manifest(goal))
     for a in sorted(low.atoms(sp.tanh), key=sp.default_sort_key) if high.has(sp.exp) else ():
         below = f"pose proof (share_below_exp ({term(a.args[0])})) as Q"
-        yield f"{below}; revert Q; same_functions; intro Q; manifest ({term(form)})"
+        yield f"{below}; manifest_by Q ({term(form)})"
     for function in (sp.tanh, sp.Function("phi", positive=True)):
         for a in sorted(low.atoms(function), key=sp.default_sort_key):
             for b in sorted(high.atoms(function), key=sp.default_sort_key):

@@ -30,17 +30,15 @@ def proof(step: Step) -> list[str]:
 
 def _discharges(step: Step) -> Iterator[str]:
     """A hypothesis of the first parent that the others imply."""
+    from .proofs import inequality
+
     if step.rule != "Discharge":
         return
     (first, premises), *_ = step.missing
-    usable = [s for s in step.frontier if s in step.parents and not s.relation.has(sp.Limit)]
     for premise in premises:
-        facts = "".join(
-            f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''}) as P{i}; "
-            for i, s in enumerate(usable)
-        )
+        ways = " | ".join(f"solve [{way}]" for way in inequality(step, premise.relation))
         fixed = "intros t Ht; " if premise.timed else ""
-        yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}{facts}arithmetic)."
+        yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}first [{ways}])."
     labels = step.labels | {p.said: f"{p.label}_met" for p in premises}
     yield (
         "exact ("
@@ -149,6 +147,8 @@ def _bounded_load(step: Step) -> Iterator[str]:
 
 def _first_order(step: Step) -> Iterator[str]:
     """The rate to first order in 1/t, from that of h/sigma."""
+    from .proofs import divisors
+
     if step.rule != "FirstOrder" or not _bounded(step):
         return
     law, deviation, ratio, limit = step.parents[:4]
@@ -161,7 +161,10 @@ def _first_order(step: Step) -> Iterator[str]:
     slope = sp.diff(function, y).subs(y, end).doit()
     speed = limit.relation.rhs
     yield f"assert (D : is_derive (fun ratio => {term(function)}) ({term(end)}) ({term(slope)})) by (auto_derive; [repeat split; positive | identity])."
-    yield f"assert (E : tends (fun t => u_c t * ({term(quantity)} - {term(end)}) - ({parts[0]} + ({parts[1]}) * U_a t)) 0) by (generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht; field; positive)."
+    yield f"assert (E : tends (fun t => u_c t * ({term(quantity)} - {term(end)}) - ({parts[0]} + ({parts[1]}) * U_a t)) 0)."
+    yield f"{{ generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht."
+    yield from divisors(step)
+    yield "field; positive. }"
     yield f"assert (N : {term(speed)} <> 0) by (apply Rgt_not_eq, Rlt_gt; positive)."
     yield f"generalize (first_order_affine u_c (fun t => {term(quantity)}) U_a _ _ _ ({term(speed)}) _ ({parts[0]}) ({parts[1]}) smooth_u_c ({step.cited(law)}) D eq_refl N {_bounded(step)} ({step.cited(ratio)}) ({step.cited(limit)}) E)."
     yield "apply tends_ext; intros t Ht; bounds; identity."

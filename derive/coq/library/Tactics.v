@@ -116,6 +116,8 @@ Ltac same_under f :=
       tryif constr_eq a b then fail else replace (f b) with (f a) by (f_equal; same_argument) end
   end.
 
+Ltac same_under_law := match goal with |- context [@phi ?c _] => same_under (@phi c) end.
+
 Ltac tanh_of_opposite :=
   match goal with
   | |- context [tanh ?a] => match goal with |- context [tanh ?b] =>
@@ -134,7 +136,7 @@ Ltac exp_of_multiple :=
   end.
 
 Ltac same_functions :=
-  repeat first [same_under phi | same_under tanh | same_under exp | same_under ln | same_under sqrt | same_under Rabs];
+  repeat first [same_under_law | same_under tanh | same_under exp | same_under ln | same_under sqrt | same_under Rabs];
   repeat tanh_of_opposite.
 
 Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_of_multiple];
@@ -175,6 +177,12 @@ Ltac from_equation H c :=
 Ltac manifest e :=
   first [apply Rminus_le_0 | apply Rminus_lt_0];
   match goal with |- ?r 0 ?d => replace d with e by identity end; arithmetic.
+
+(** The same, where the fact H gives the sign. *)
+Ltac manifest_by H e :=
+  first [apply Rminus_le_0 | apply Rminus_lt_0];
+  match goal with |- ?r 0 ?d => replace d with e by identity end;
+  revert H; same_functions; intro H; arithmetic.
 
 (** The goal is c times the inequality H. *)
 Ltac from_inequality H c :=
