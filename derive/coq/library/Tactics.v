@@ -219,8 +219,8 @@ Ltac limit_of_parts :=
   | |- tends (fun t => / @?f t) _ => eapply (tends_inv f); [| limit_of_parts]; positive
   | |- tends (fun t => tanh (@?f t)) _ => apply (passes f tanh); [limit_of_parts | apply tanh_continuous]
   | |- tends (fun t => exp (@?f t)) _ => apply (passes f exp); [limit_of_parts | apply continuous_exp]
-  | |- tends (fun t => ?F (@?f t)) _ => apply (passes f F);
-      [limit_of_parts | apply (ex_derive_continuous F); auto]
+  | |- tends (fun t => @phi ?c (@?f t)) _ => apply (passes f (@phi c));
+      [limit_of_parts | apply (ex_derive_continuous (@phi c)); auto]
   end.
 
 Ltac limit := eapply tends_value; [| limit_of_parts]; identity.
