@@ -38,11 +38,15 @@ def script(step: Step, way: int | None = None) -> str:
     if cited:
         return "\n".join((step.introduction, *cited))
     lines = [step.introduction, *now(step)]
-    found = _equation(step) if isinstance(step.relation, sp.Equality) else inequality(step, step.relation)
+    found = (
+        _equation(step)
+        if isinstance(step.relation, sp.Equality)
+        else inequality(step, step.relation)
+    )
     if way is not None:
         return "\n".join((*lines, f"{next(islice(_different(found), way, None))}."))
     tried = (
-        f'timeout 6 ({text}); idtac "WAY {step.name} {i}"'
+        f'timeout 12 ({text}); idtac "WAY {step.name} {i}"'
         for i, text in enumerate(_different(found))
     )
     return "\n".join((*lines, "first [\n  " + "\n| ".join(tried) + "]."))
@@ -105,7 +109,7 @@ def stated(step: Step, steps: Sequence[Step]) -> tuple[str, list[Named]]:
     text, named = "", []
     for i, other in enumerate(s for s in steps if not s.relation.has(sp.Limit)):
         parts = other.relation.args if isinstance(other.relation, sp.And) else [other.relation]
-        labels = [f"P{i}{letter}" for letter, _ in zip("abc", parts)] if len(parts) > 1 else [f"P{i}"]
+        labels = [f"P{i}" if len(parts) == 1 else f"P{i}_{j}" for j in range(len(parts))]
         pattern = f"[{' '.join(labels)}]" if len(parts) > 1 else labels[0]
         text += f"pose proof ({step.cited(other)}{' t Ht' if other.timed else ''}) as {pattern}; "
         named += zip(labels, parts, strict=True)
@@ -132,7 +136,9 @@ def _equation(step: Step) -> Iterator[str]:
         unequal = [label for label, e in named if isinstance(e, sp.Ne)]
         unequal += [f"{p.label}_now" for p in _fixed(step) if isinstance(p.relation, sp.Ne)]
         lines += [f"rewrite ?{e} in {label}" for label in unequal for e, _ in equations]
-        yield text + "; ".join((*lines, "logarithm" if isinstance(goal.lhs, sp.log) else "identity"))
+        yield text + "; ".join(
+            (*lines, "logarithm" if isinstance(goal.lhs, sp.log) else "identity")
+        )
 
 
 def _from_first(goal: sp.Equality, equations: list[Named], factor: sp.Expr | None) -> str:

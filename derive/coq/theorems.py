@@ -23,7 +23,17 @@ _WEAR = symbol("u_c")
 
 def proof(step: Step) -> list[str]:
     """Return the lines of a proof by a general theorem."""
-    for way in (_later, _discharges, _grows, _integrates, _bounded_load, _first_order, _drift, _derivative):
+    for way in (
+        _later,
+        _same_rate,
+        _discharges,
+        _grows,
+        _integrates,
+        _bounded_load,
+        _first_order,
+        _drift,
+        _derivative,
+    ):
         if lines := list(way(step)):
             return lines
     return []
@@ -54,6 +64,18 @@ def _later(step: Step) -> Iterator[str]:
         yield "intros t Ht; assert (HT : 0 <= T + t) by lra."
         yield f"pose proof ({step.cited(step.frontier[0])} (T + t) HT) as P0."
         yield "first [exact P0 | rewrite ?derive_later; exact P0]."
+
+
+def _same_rate(step: Step) -> Iterator[str]:
+    """The rates of two sides that are equal at every time."""
+    if step.rule == "Differentiate":
+        given = step.parents[0]
+        rates = [f"(fun t => {term(side)})" for side in given.relation.args]
+        slopes = [term(sp.diff(side, t)) for side in given.relation.args]
+        for label, rate, slope in zip("AB", rates, slopes, strict=True):
+            yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; auto_derive; [repeat split; auto | ring])."
+        yield f"intros t Ht; pose proof (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) as P0."
+        yield "from_equation P0 1."
 
 
 def _grows(step: Step) -> Iterator[str]:
@@ -131,7 +153,11 @@ def _bounded(step: Step, affine: _Affine) -> Iterator[str]:
     yield f"assert (B : exists b, forall t, 0 <= t -> Rabs ({affine.load}) <= b)."
     bound = "U" if affine.load == "U_a t" else "(U + p_max / k)"
     yield f"{{ exists {bound}; intros t Ht."
-    yield from (f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''})." for s in step.ancestors if not isinstance(s.relation, sp.Equality))
+    yield from (
+        f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''})."
+        for s in step.ancestors
+        if not isinstance(s.relation, sp.Equality)
+    )
     yield "arithmetic. }"
     yield "destruct B as [b B]."
 
@@ -175,7 +201,11 @@ def _first_order(step: Step) -> Iterator[str]:
     known = list(divisors(step))
     yield f"assert (D : is_derive {made} ({term(end)}) ({term(slope)})) by (auto_derive; [repeat split; first [positive | auto] | identity])."
     yield f"assert (W : forall t, 0 <= t -> Derive u_c t = {made} ({at}))."
-    yield from ("{ intros t Ht.", *known, f"rewrite ({step.cited(law)} t Ht); cbv beta; identity. }}")
+    yield from (
+        "{ intros t Ht.",
+        *known,
+        f"rewrite ({step.cited(law)} t Ht); cbv beta; identity. }}",
+    )
     yield f"assert (E : tends (fun t => u_c t * ({at} - {term(end)}) - {affine}) 0)."
     yield f"{{ generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht."
     yield from (*known, "field; positive. }")
