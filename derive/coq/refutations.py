@@ -22,7 +22,7 @@ from .printer import always, proposition, term
 from .steps import Step
 
 U_a, u_c, u_inf, U_mean, u_cum = symbols("U_a u_c u_inf U_mean u_cum")
-f_c, h_0, sigma_c0, M = symbols("f_c h_0 sigma_c0 M")
+f_c, h_0, sigma_c0, M, H_c = symbols("f_c h_0 sigma_c0 M H_c")
 
 NAMES = MappingProxyType(
     {
@@ -66,7 +66,7 @@ def _bracket() -> str:
         sp.Eq(U_a, 0, evaluate=False),
         *_SECTION_4,
         sp.Eq(sigma_c0, sp.Rational(9, 25000)),
-        u_cum > 0,
+        sp.Gt(u_cum, 0, evaluate=False),
     )
     bracket = term(printed.BRACKET)
     proof = f"""intros rest f h s c [l [L E]].
@@ -84,11 +84,13 @@ def _asymptote(drift: Step, rate: Step) -> str:
     (line,) = printed.EQ_19
     premises = [p.said for p in drift.statement.premises]
     labels = " ".join(p.label for p in drift.statement.premises)
-    speed, start = term(line.rhs.subs(t, 0)), term(sp.diff(line.rhs, t))
+    speed, slope = term(rate.relation.rhs), term(sp.diff(line.rhs, t))
     proof = f"""intros {labels} other response line.
-pose proof ({drift.cited(drift)}) as D; pose proof ({drift.cited(rate)}) as E.
-apply (no_asymptote u_c _ _ ({speed}) ({start}) T domain_T other D).
-- apply (tends_value _ _ _ eq_refl); refine (tends_value _ _ _ _ (cesaro u_c _ smooth_u_c E)); field; positive.
+assert (D : tends (fun t => (u_c t - ({speed}) * t) / ln (t / T)) ({term(coefficient)})).
+{{ generalize ({drift.cited(drift)}); apply tends_ext; intros t Ht.
+  unfold Rdiv; f_equal; field; positive. }}
+apply (no_asymptote u_c ({speed}) _ T ({term(line.rhs.subs(t, 0))}) ({slope}) domain_T other D).
+- apply cesaro; [assumption | exact ({drift.cited(rate)})].
 - revert response; apply tends_ext; intros t Ht; rewrite line by assumption; field; positive."""
     conclusion = f"{term(coefficient)} <> 0 ->\n  {response} ->\n  ~ ({always(line)})"
     return _lemma("C27", premises, conclusion, proof)
@@ -106,10 +108,11 @@ assert (1 / 8 < 1 / 10); [apply claimed; [lra | apply tanh_above] | lra]."""
 def _wear() -> str:
     """(21) with the data of section 4: not 2.35e-5 mm."""
     (formula,) = printed.EQ_21
+    hard = sp.Gt(H_c, 0, evaluate=False)
     total = sp.Eq(M, sp.simplify(2 * formula.rhs / (1 + sp.tanh(4 - 2 / f_c))), evaluate=False)
-    data = (formula, total, sp.Eq(M, 44 * sp.pi / 10**6, evaluate=False), _SECTION_4[0])
-    proof = """intros wear total size f.
-assert (E : u_cum = M * ((1 + tanh (4 - 2 / f_c)) / 2)) by (rewrite total, wear; unfold Rdiv; rewrite ?Rinv_mult; field).
+    data = (formula, total, sp.Eq(M, 44 * sp.pi / 10**6, evaluate=False), _SECTION_4[0], hard)
+    proof = """intros wear total size f hard.
+assert (E : u_cum = M * ((1 + tanh (4 - 2 / f_c)) / 2)) by (rewrite total, wear; unfold Rdiv; rewrite ?Rinv_mult; field; lra).
 rewrite share_exp, size, f in E; replace (- (2 * (4 - 2 / (1 / 4)))) with 8 in E by field.
 rewrite E; split; interval with (i_prec 60)."""
     return _lemma(
