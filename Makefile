@@ -1,7 +1,7 @@
 # Needs make and Python >= 3.11, nothing else. `make help` lists what there is.
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test proof docs clean
+.PHONY: help reproduce test proof docs bench clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -21,6 +21,7 @@ test: $(VENV)/installed-test ## run all checks: style, types, import walls, test
 	$(BIN)/ruff check || status=1; \
 	$(BIN)/ruff format --check || status=1; \
 	$(BIN)/mypy || status=1; \
+	$(BIN)/mypy tests/wear/typed_script.py || status=1; \
 	$(BIN)/lint-imports --no-logo || status=1; \
 	$(BIN)/python -m pytest -n 2 || status=1; \
 	exit $$status
@@ -32,6 +33,11 @@ docs: $(VENV)/installed-docs ## build the documentation
 	@$(BIN)/sphinx-build -W -q -b html docs docs/_build/html
 	@echo "The documentation lies in docs/_build/html/index.html"
 
+bench: $(VENV)/installed-docs ## measure speed against error anew, about five minutes: docs/bench and README
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[peers]'
+	@$(BIN)/wear bench --peers -o docs/bench
+	@$(BIN)/python docs/bench/readme.py
+
 clean: ## remove everything that the targets above made
 	rm -rf $(VENV) $(REPORT) build dist *.egg-info docs/_build
 	rm -rf .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
@@ -39,7 +45,7 @@ clean: ## remove everything that the targets above made
 
 # Installed anew only when the requirements or their pins change.
 $(VENV)/installed: $(PINS) | $(BIN)/pip
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e .
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[report]'
 	@touch $@
 
 $(VENV)/installed-test: $(PINS) | $(BIN)/pip

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 
-from .check import Check, checks, on_models
+from .check import Check, checks, on_models, reasons_of
 from .equations import Equation, Status
 from .kernel import Judgement
 from .note import condensed, governing, problems, stabilised
@@ -150,8 +150,8 @@ def verify(
     is one identifier.
 
     A statement on which several equations rest is checked once.  ``progress`` is told how many
-    of how many equations are done, and which is next.  With ``deep`` the
-    falsifier tries every step on models too, which takes minutes.
+    of how many equations are done, and which is next.  With ``deep``
+    each hypothesis of an equation is dropped in turn, which takes minutes.
     """
     named = (identifiers,) if isinstance(identifiers, str) else identifiers
     chosen = [equation(identifier) for identifier in named] or list(equations())
@@ -164,10 +164,11 @@ def verify(
         outcomes: list[Check] = []
         for step, place in _numbered(found.steps, numbers):
             if place not in done:
-                done[place] = (*checks(step), *(on_models(step) if deep else ()))
+                done[place] = (*checks(step), *on_models(step))
             outcomes += done[place]
         shown = Check("typeset", found.typeset_agrees, "the display form equals the claim")
-        verdicts.append(Verdict(found.id, found.status, (*outcomes, shown)))
+        why = (r for s in found.statements for r in reasons_of(s)) if deep else ()
+        verdicts.append(Verdict(found.id, found.status, (*outcomes, shown, *why)))
     return tuple(verdicts)
 
 

@@ -1,6 +1,6 @@
-"""The checks of one step: the dimensions of its claim, and its rule applied again.
+"""The checks of one step: the dimensions of its claim, its rule applied again, and models.
 
-A judgement is also tried against models by the falsifier, which shares nothing with the rules.
+Models are drawn by the falsifier, which shares nothing with the rules; none may break a step.
 """
 
 from __future__ import annotations
@@ -8,9 +8,11 @@ from __future__ import annotations
 from functools import cache
 from typing import NamedTuple
 
+import sympy as sp
+
 from .coq.record import proved_by_coq
 from .dimensions import homogeneous
-from .falsifier.judgements import tried
+from .falsifier.judgements import tried, without
 from .kernel import Judgement, replayed
 from .rules.assumption import Assume
 
@@ -27,12 +29,13 @@ class Check(NamedTuple):
 def checks(judgement: Judgement) -> tuple[Check, ...]:
     """Return what comes of checking one step; its parents are steps of their own."""
     fault, refusal = homogeneous(judgement.relation), replayed(judgement)
-    found = (
+    found = [
         Check("dimensions", fault is None, fault or "both sides agree"),
         Check("proof", refusal is None, refusal or judgement.rule.source),
-    )
-    closed = Check("coq", True, "closed by Coq, as its record says")
-    return (*found, closed) if proved_by_coq(judgement) else found
+    ]
+    if proved_by_coq(judgement):
+        found.append(Check("coq", True, "closed by Coq, as its record says"))
+    return tuple(found)
 
 
 def on_models(judgement: Judgement) -> tuple[Check, ...]:
@@ -41,3 +44,13 @@ def on_models(judgement: Judgement) -> tuple[Check, ...]:
         return ()
     answer = tried(judgement)
     return (Check("falsifier", answer.passed, str(answer)),)
+
+
+def reasons_of(judgement: Judgement) -> tuple[Check, ...]:
+    """Return what models say of a judgement without each of its conditions in turn."""
+    found = {h: without(judgement, h) for h in judgement.conditions if h.relation is not sp.true}
+    none = "no model shows that it is needed"
+    return tuple(
+        Check("hypothesis", True, f"{h.typed}: {f'without it false for {why}' if why else none}")
+        for h, why in found.items()
+    )

@@ -16,6 +16,9 @@ from dataclasses import dataclass
 
 from derive import completion, terminal
 
+OF_THE_REPORT = ("matplotlib", "math_core", "markdown_it")
+"""What only figures and reports need: the extra `report`."""
+
 
 @dataclass(frozen=True)
 class Command:
@@ -79,7 +82,14 @@ def main(
     def execute() -> int:
         options = _parsed(whole, words)
         command: Command = options.command
-        return command.execute(options)
+        try:
+            return command.execute(options)
+        except ModuleNotFoundError as missing:
+            package = (missing.name or "").partition(".")[0]
+            if package not in OF_THE_REPORT:
+                raise
+            extra = "pip install 'derive-wear[report]'"
+            whole.error(f"{command.name}: needs the package {package}: {extra}")
 
     return terminal.run(" ".join([whole.prog, *words[:1]]), execute, expected)
 

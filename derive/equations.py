@@ -34,7 +34,7 @@ class Status(StrEnum):
     REFUTED = "refuted"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Equation:
     """An equation of the note, or a result beyond it.
 
@@ -54,6 +54,13 @@ class Equation:
     refutation: Judgement | None = None
     remark: str = ""
     where: tuple[sp.Eq, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<Equation {self.id}: {self.title}>"
+
+    def _repr_latex_(self) -> str:
+        """Return what a notebook shows."""
+        return f"$\\displaystyle {self.latex}$"
 
     @property
     def relation(self) -> sp.Basic:

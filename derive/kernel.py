@@ -20,12 +20,14 @@ from __future__ import annotations
 import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
-from dataclasses import InitVar, dataclass
+from dataclasses import InitVar, dataclass, fields
+from typing import ClassVar
 
 import sympy as sp
 
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
+from .language import fault, names
 from .symbols import QUANTITIES
 from .time_limit import time_limit
 
@@ -68,6 +70,8 @@ class Rule(ABC):
 
     words = ""
     """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
+    asks: ClassVar[tuple[str, ...]] = ()
+    """The premises that come first, in this order; others may follow."""
     source = "elementary"
     """Where the theorem is found."""
 
@@ -150,11 +154,30 @@ def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
         getattr(sys.modules[kind.__module__], kind.__name__, None) is not kind
     ):
         raise RuleError(f"{kind.__name__} is no rule of {_ROOM[:-1]}")
+    if set(vars(rule)) != {field.name for field in fields(rule)}:  # type: ignore[arg-type]
+        raise RuleError(f"{kind.__name__} has fields that are not its own")
+    if any(type(premise) is not Judgement for premise in premises):
+        raise RuleError("missing premise: a judgement")
+    if len(premises) < len(rule.asks):
+        raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.asks)}")
+    _require_language(*(value for value in vars(rule).values() if isinstance(value, sp.Basic)))
     with time_limit(LIMIT_S, f"{kind.__name__}: {rule.words}"):
         made = rule.conclude(*premises)
     union = (h for premise in premises for h in premise.hypotheses)
     kept = (h for h in union if h not in made.discharges)
-    return tuple(dict.fromkeys((*kept, *made.adds))), made.claim
+    hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
+    _require_language(made.claim.relation, *(h.relation for h in hypotheses))
+    return hypotheses, made.claim
+
+
+def _require_language(*expressions: sp.Basic) -> None:
+    """Refuse what is not of the language, and two quantities of one name."""
+    faults = [found for found in map(fault, expressions) if found]
+    bearers = frozenset().union(*map(names, expressions))
+    if len({name for name, _ in bearers}) < len(bearers):
+        faults.append("two quantities have one name")
+    if faults:
+        raise RuleError(f"no claim: {faults[0]}")
 
 
 def replayed(judgement: Judgement) -> str | None:

@@ -192,12 +192,15 @@ _TABLE = (
 DATA = frozenset(
     name
     for names in (
-        "h_0 sigma_a0 sigma_c0 f_a f_c f_aa f_ac f_cc f_ca K_a K_c H_a H_c",
+        "h_0 sigma_a0 sigma_c0 f_a f_c f_ac f_ca K_a K_c H_a H_c",
         "p_max k b L R n V U T",
     )
     for name in names.split()
 )
 """Parameters that may vary each by itself: all others are made of them."""
+
+CLOCKS = frozenset(["t", "tau", "N", "m", "z", "E", "w_1", "w_2"])
+"""Symbols of what varies in time; any other symbol is a constant."""
 
 QUANTITIES = MappingProxyType({quantity.name: quantity for quantity in _TABLE})
 """The vocabulary by name."""

@@ -43,6 +43,8 @@ def _differs_from_zero(expr: sp.Expr) -> bool:
 
     One point suffices, and is much quicker than rewriting in vain.
     """
+    if expr.has(*_NOT_PLAIN):
+        return False
     generator = random.Random(1)
 
     def value(atom: sp.Expr) -> sp.Expr:
@@ -55,7 +57,7 @@ def _differs_from_zero(expr: sp.Expr) -> bool:
     unknown = sorted(bare.atoms(AppliedUndef) | bare.free_symbols, key=str)
     number = bare.xreplace({a: value(a) for a in unknown if isinstance(a, AppliedUndef)})
     number = number.xreplace({a: value(a) for a in unknown if isinstance(a, sp.Symbol)})
-    if not isinstance(number, sp.Expr) or number.free_symbols or number.has(*_NOT_PLAIN):
+    if not isinstance(number, sp.Expr) or number.free_symbols:
         return False
     number = sp.N(number, 30)
     return bool(number.is_Float and number.is_finite and abs(number) > _NOISE)

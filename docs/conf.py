@@ -24,12 +24,12 @@ extensions = [
     "notebook_pages",
 ]
 source_suffix = {".md": "markdown", ".ipynb": "notebook"}
-exclude_patterns = ["_build", "_extensions", "_static", "bench", "examples"]
+exclude_patterns = ["_build", "_extensions", "_static", "bench", "examples", "papers"]
 default_role = "code"  # what docstrings have in single backticks
 nitpicky = True
 nitpick_ignore_regex = [("py:.*", r".*")]  # types in signatures name what these pages do not list
 
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["dollarmath", "deflist"]
 myst_heading_anchors = 3
 myst_links_external_new_tab = False
 

@@ -110,9 +110,7 @@ drawn([Panel(WEAR, (shown,))], logarithmic=True)
 # The note's Fig. 3b compares four wear coefficients. That is one call, and so are four hundred:
 
 # %%
-from wear.cycles import sweep
-
 names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
-found = sweep([wear.load_scene(name) for name in names], np.array([100.0, 9000.0]))
+found = wear.sweep([wear.load_scene(name) for name in names], np.array([100.0, 9000.0]))
 for name, row in zip(names, found.u_c, strict=True):
     print(f"{name:<15} {row[0]:.6e}  {row[1]:.6e}  mm")

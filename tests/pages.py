@@ -29,6 +29,7 @@ import wear.cli
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 _SET_UP = re.compile(
     r"git clone \S+ derive-wear|cd derive-wear|make (?P<target>\w+)|\. \.venv/bin/activate"
+    r"|apt install [\w .-]+"
 )
 _FENCE = re.compile(r"^```(?P<language>[^\s`]*) *(?P<argument>.*)\n(?P<body>(?:.*\n)*?)```$", re.M)
 _OPTION = re.compile(r"^:(\w+): *(.*)\n", re.M)

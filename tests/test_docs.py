@@ -27,8 +27,9 @@ ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 PAGES = [
     ROOT / "README.md",
-    *sorted(p for p in DOCS.rglob("*.md") if not {"_build", "bench"} & set(p.parts)),
+    *sorted(p for p in DOCS.rglob("*.md") if not {"_build", "bench", "papers"} & set(p.parts)),
 ]
+SCRIPTS = [DOCS / "tour.py", *sorted((DOCS / "gallery").glob("*.py"))]
 LAW_PAGE = DOCS / "how-to" / "own-contact-law.md"
 NEEDS = {"finite-elements.md": "gfortran", "latex-report.md": "pdflatex"}
 NOT_RUN = {
@@ -59,6 +60,7 @@ def workplace(tmp_path, monkeypatch):
     shutil.copytree(DOCS / "examples", tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     return tmp_path
 
 
@@ -88,7 +90,7 @@ def test_another_contact_law_is_one_entry(workplace):
         program, _, arguments = command.line.partition(" ")
         module = command._replace(line=f"{sys.executable} -m {program} {arguments}")
         failures.append(pages.difference(module, run))
-    report("\n".join(failures))
+    report("\n".join([*failures, pages.session(text, LAW_PAGE.name)]))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
@@ -116,6 +118,20 @@ def test_the_readme_counts_the_verdicts_that_other_tests_hold():
         f"{counts[Verdict.INCONSISTENT]} are inconsistent, {counts[Verdict.REFUTED]} are refuted"
     )
     assert said in PAGES[0].read_text(encoding="utf-8")
+
+
+def test_the_papers_are_what_their_templates_give():
+    """With the verdicts that other tests hold, and the evidence of the last report."""
+    spec = importlib.util.spec_from_file_location("build", DOCS / "papers" / "build.py")
+    build = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(build)
+    claims = json.loads((DOCS / "papers" / "claims.json").read_text(encoding="utf-8"))
+    verdicts = {**symbolic.VERDICTS, **simulated.VERDICTS}
+    assert {claim["id"]: claim["verdict"] for claim in claims} == {
+        name: verdict.value for name, verdict in verdicts.items()
+    }
+    for name, text in build.built(claims).items():
+        assert (DOCS / "papers" / name).read_text(encoding="utf-8") == text, name
 
 
 def test_the_readme_has_the_times_that_were_measured():
@@ -160,29 +176,36 @@ def pictures():
 
 
 def test_every_picture_is_retaken_and_used(pictures):
-    taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS}
+    taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS, *pictures.DRAWN}
     kept = {path.name for path in (DOCS / "_static").iterdir() if path.suffix in (".png", ".svg")}
     assert taken == kept
     texts = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
     assert not [name for name in taken if f"_static/{name})" not in texts]
 
 
+def test_no_paragraph_on_the_method_is_long():
+    text = (DOCS / "method.md").read_text(encoding="utf-8")
+    parts = re.split(r"\n\n|\n(?=- |\d\. )", re.sub(r"(?s)```.*?```", "", text))
+    assert max(len(part.split()) for part in parts) <= 120
+
+
 def test_every_example_is_used():
-    texts = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
+    texts = "\n".join(page.read_text(encoding="utf-8") for page in (*PAGES, *SCRIPTS))
     unused = [path.name for path in (DOCS / "examples").iterdir() if path.name not in texts]
     assert not unused
 
 
 @pytest.mark.usefixtures("workplace")
-def test_the_notebook_is_what_its_script_gives():
+@pytest.mark.parametrize("script", SCRIPTS, ids=name_of)
+def test_a_notebook_is_what_its_script_gives(script):
     """Cells and outputs are those of a run now; figures agree to a hundredth of a point."""
     sys.path.insert(0, str(DOCS / "_extensions"))
     try:
         from notebook import notebook
     finally:
         sys.path.pop(0)
-    stored = json.loads((DOCS / "tour.ipynb").read_text(encoding="utf-8"))
-    current = notebook((DOCS / "tour.py").read_text(encoding="utf-8"))
+    stored = json.loads(script.with_suffix(".ipynb").read_text(encoding="utf-8"))
+    current = notebook(script.read_text(encoding="utf-8"))
     figures = [[_figures(cell) for cell in made["cells"]] for made in (stored, current)]
     assert stored == current  # figures are taken out
     for old, new in zip(*figures, strict=True):

@@ -70,6 +70,41 @@ def test_an_interrupt_while_a_command_is_imported_is_silent(script, tmp_path):
     assert (run.returncode, run.stdout, run.stderr) == (130, b"", b"")
 
 
+def test_another_distribution_of_the_same_name_is_named(tmp_path):
+    (tmp_path / "derive").mkdir()
+    (tmp_path / "derive" / "__init__.py").write_text("")
+    code = f"""
+import sys
+sys.meta_path = [finder for finder in sys.meta_path if "editable" not in str(finder)]
+sys.path.append({str(ROOT)!r})
+import wear.__main__ as start
+sys.exit(start.main())
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path
+    )
+    assert run.returncode == 2
+    assert "another distribution's" in run.stderr
+    assert "Traceback" not in run.stderr
+
+
+@pytest.mark.parametrize("arguments", [["report", "section4"], ["reproduce"]])
+def test_without_the_report_s_packages_the_core_runs_and_the_rest_names_them(arguments, tmp_path):
+    code = f"""
+import sys
+sys.modules.update(dict.fromkeys(("matplotlib", "math_core", "markdown_it")))
+from wear.cli import main
+assert main(["run", "section4", "--cycles", "1"]) == 0
+sys.exit(main({arguments!r}))
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path
+    )
+    assert run.returncode == 2, run.stderr
+    assert "needs the package matplotlib: pip install 'derive-wear[report]'" in run.stderr
+    assert "Traceback" not in run.stderr
+
+
 @pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["scenes"], ["cite"]])
 def test_commands_without_mathematics_import_none(arguments):
     code = f"""

@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from wear.cycles import sweep
     from wear.faults import (
         AccuracyError,
         Interrupted,
@@ -22,7 +23,9 @@ if TYPE_CHECKING:
         WearError,
         WorkersLost,
     )
+    from wear.fitting.estimate import Fit, fit
     from wear.history import History
+    from wear.inside import fields_inside
     from wear.life import cycles_until
     from wear.load import (
         Block,
@@ -35,8 +38,10 @@ if TYPE_CHECKING:
         Sine,
         Table,
     )
+    from wear.model import bind
     from wear.regime import Asymptote, asymptote
     from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
+    from wear.sensitivities import Sensitivities, sensitivity
     from wear.solver import solve
     from wear.studies.indices import sobol_indices
     from wear.studies.run import study
@@ -50,7 +55,10 @@ _HOMES = {
         "WearError",
         "WorkersLost",
     ),
+    "wear.cycles": ("sweep",),
+    "wear.fitting.estimate": ("Fit", "fit"),
     "wear.history": ("History",),
+    "wear.inside": ("fields_inside",),
     "wear.life": ("cycles_until",),
     "wear.load": (
         "Block",
@@ -63,8 +71,10 @@ _HOMES = {
         "Sine",
         "Table",
     ),
+    "wear.model": ("bind",),
     "wear.regime": ("Asymptote", "asymptote"),
     "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
+    "wear.sensitivities": ("Sensitivities", "sensitivity"),
     "wear.solver": ("solve",),
     "wear.studies.indices": ("sobol_indices",),
     "wear.studies.run": ("study",),
@@ -72,10 +82,11 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
-    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Force",
-    "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin", "Scene",
-    "SceneError", "Sine", "Support", "Table", "UsageError", "WearError", "WorkersLost",
-    "asymptote", "cycles_until", "load_scene", "sobol_indices", "solve", "study",
+    "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Fit",
+    "Force", "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin",
+    "Scene", "SceneError", "Sensitivities", "Sine", "Support", "Table", "UsageError", "WearError",
+    "WorkersLost", "asymptote", "bind", "cycles_until", "fields_inside", "fit", "load_scene",
+    "sensitivity", "sobol_indices", "solve", "study", "sweep",
 ]  # fmt: skip
 
 

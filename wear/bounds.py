@@ -162,12 +162,13 @@ class _Flow(NamedTuple):
         )
 
     def increment(self, u: Ball) -> Ball:
-        """The wear of a cycle with the wear frozen at u, but for the error of quadrature."""
+        """Return the wear of a cycle with the wear frozen at u, but for the error of quadrature."""
         rates = self.module.rate(u, self.loads, self.constants)
         return self.scale * rates.sum() / len(rates)
 
     def rate(self, wear: Ball, load: Ball) -> Ball:
-        """Wear rate at one load; all that is possible where the clamp of exp is undecided."""
+        """Return the wear rate at one load; all that is possible where the clamp of exp is
+        undecided."""
         anything = self.constants.largest_rate * type(wear)(0).union(type(wear)(1))
         try:
             found = self.module.rate(wear, load, self.constants)
@@ -180,7 +181,7 @@ class _Flow(NamedTuple):
         return self.module.fields(wear, self.loads[0], self.constants).sigma
 
     def range(self, low: Ball, high: Ball) -> _Range:
-        """What holds for every wear between two."""
+        """Return what holds for every wear between two."""
         from flint import arb
 
         wear, weight = low.union(high), self.scale / len(self.panels)
@@ -192,7 +193,7 @@ class _Flow(NamedTuple):
         return _Range(low, high, least, most, error.upper(), self.largest.upper())
 
     def _quadrature(self, wear: Ball) -> Ball:
-        """Relative error of the mean over equidistant phases."""
+        """Return the relative error of the mean over equidistant phases."""
         from flint import arb
 
         if not self.harmonics:

@@ -65,6 +65,18 @@ def unit_of(key: str) -> str:
     return next((unit for end, unit in _UNITS.items() if key.endswith(f"_{end}")), "")
 
 
+def words_of(key: str) -> str:
+    """Return a key of the scene file in words, without its unit.
+
+    >>> words_of("bearing.roughness_growth"), words_of("load.values_mm[2]")
+    ('bearing: roughness growth', 'load: values[2]')
+    """
+    place, _, name = key.rpartition(".")
+    name, bracket, rest = name.partition("[")
+    unit = next((end for end in _UNITS if name.endswith(f"_{end}")), "")
+    return f"{place}: {name.removesuffix(f'_{unit}').replace('_', ' ')}{bracket}{rest}"
+
+
 def shown(text: str, most: int = 60) -> str:
     """Return `text` fit for a terminal: one line, no control characters, at most so long.
 

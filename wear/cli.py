@@ -13,10 +13,12 @@ from wear.commands import (
     claims,
     explore,
     figure,
+    fit,
     report,
     reproduce,
     run,
     scenes,
+    sensitivity,
     study,
 )
 from wear.faults import AccuracyError, Interrupted, SceneError, UsageError, WorkersLost
@@ -27,6 +29,8 @@ COMMANDS = (
     run.COMMAND,
     asymptote.COMMAND,
     figure.COMMAND,
+    sensitivity.COMMAND,
+    fit.COMMAND,
     study.COMMAND,
     explore.COMMAND,
     report.COMMAND,

@@ -73,7 +73,7 @@ def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePress
 
 
 def _mesh(scene: Scene) -> Mesh:
-    """The intervals of a cycle, on which every load of the scene is smooth."""
+    """Return the intervals of a cycle, on which every load of the scene is smooth."""
     loads: list[Load] = [scene.periodic_load] if not isinstance(scene.load, Blocks) else [
         block.load for block in scene.load.blocks
     ]  # fmt: skip
@@ -84,7 +84,7 @@ def _mesh(scene: Scene) -> Mesh:
 
 
 def _wear_of_unit(model: Model, scene: Scene) -> float:
-    """Wear rate per pressure, Eq. (5), mm/s per MPa: that of the closed gap."""
+    """Return the wear rate per pressure, Eq. (5), mm/s per MPa: that of the closed gap."""
     closed = np.array(scene.closure)
     rate, pressure = model.rate(np.array(0.0), closed), model.fields(np.array(0.0), closed).p
     return float(rate) / float(pressure)
@@ -97,7 +97,7 @@ class _Sampled(NamedTuple):
     nodes: FloatArray
 
     def fine(self, over: Mesh, points: int = FINE) -> FloatArray:
-        """The interpolant of each interval at its ends and between, (n, q, points)."""
+        """Return the interpolant of each interval at its ends and between, (n, q, points)."""
         m = self.nodes.shape[-1]
         basis = legvander(2.0 * np.linspace(0.0, 1.0, points + 1)[1:-1] - 1.0, m - 1)
         inner = self.nodes @ over.rule.coefficients.T @ basis.T
@@ -132,7 +132,7 @@ def _of(part: Inside, over: Mesh, wear_of_unit: FloatArray, given_load: bool) ->
 
 
 def _largest(values: FloatArray) -> FloatArray:
-    """The largest value (n, q) of values (n, q, points), from the parabola through three."""
+    """Return the largest value (n, q) of values (n, q, points), from the parabola through three."""
     at = np.clip(np.argmax(values, axis=-1), 1, values.shape[-1] - 2)[..., None]
     before, middle, after = (
         np.take_along_axis(values, at + step, axis=-1)[..., 0] for step in (-1, 0, 1)
@@ -157,7 +157,8 @@ def _mean(
 def _share_above_zero(
     margin: _Sampled, touching: _Sampled, over: Mesh, whole: NDArray[np.bool_]
 ) -> FloatArray:
-    """The share (n,) of the cycle in which the margin is positive, or contact is held at zero."""
+    """Return the share (n,) of the cycle in which the margin is positive, or contact is held at
+    zero."""
     fine = margin.fine(over, 4 * FINE)
     held = np.max(touching.nodes, axis=-1, keepdims=True) > 0.0
     left, right = fine[..., :-1], fine[..., 1:]

@@ -19,12 +19,13 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.count.approach import counted_stages
 from wear.direct.sequence import most_cycles, span
 from wear.equation import WearEquation, equation_of
 from wear.load import AperiodicLoad, Blocks, Load
+from wear.loss_of_contact.count import counted_stages
 from wear.model import Model, bind
 from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
+from wear.resampling import resampled
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -35,6 +36,7 @@ IntArray = NDArray[np.intp]
 MOST_CYCLES = 1e12
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
 TOGETHER = 1024  # scenes in one set of arrays
+KINKS = 16  # of a load: fewer scenes with more go together, for arrays of the same size
 PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 
 
@@ -292,7 +294,12 @@ def sweep(scenes: Sequence[Scene], cycles: FloatArray, rtol: float = 1e-7) -> Sw
     def alone(scene: Scene) -> tuple[FloatArray, FloatArray]:
         return wear_after(bind(scene), scene.load, cycles, rtol)[:2]
 
-    return Sweep(*_each(scenes, len(cycles), together, alone))
+    models = [bind(scene) for scene in scenes]
+    fewer = [resampled(*each, rtol) for each in zip(scenes, models, strict=True)]
+    u, error = _each([each.scene for each in fewer], len(cycles), together, alone)
+    for row, (each, model) in enumerate(zip(fewer, models, strict=True)):
+        error[row] += each.missed(model, u[row])
+    return Sweep(u, error)
 
 
 def cycles_to_depth(scenes: Sequence[Scene], wear: FloatArray, rtol: float = 1e-7) -> CyclesToDepth:
@@ -353,5 +360,7 @@ def groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
         alone = scene.contact.ends_at_3_sigma or isinstance(scene.load, Blocks)
         kinds.setdefault(i if alone else scene.variant, []).append(i)
     for which in kinds.values():
-        for at in range(0, len(which), TOGETHER):
-            yield np.array(which[at : at + TOGETHER])
+        most = max(len(getattr(scenes[i].load, "kinks", ())) for i in which)
+        few = max(1, TOGETHER // max(1, most // KINKS))
+        for at in range(0, len(which), few):
+            yield np.array(which[at : at + few])

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.generated import reaction
 from wear.load import Blocks, HistoryLoad
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 PHASES = 800  # of a cycle, besides the peaks of the load
 _SECONDS_PER_HOUR = 3600.0
+_MILLIMETRES_PER_METRE = 1e3
 _MEASURED = 6  # family of readings that are of no run
 
 
@@ -45,11 +47,11 @@ class Line:
             )
 
     def positive(self) -> Line:
-        """The part that a logarithmic axis can show."""
+        """Return the part that a logarithmic axis can show."""
         return self._where(self.x > 0.0)
 
     def pressed(self) -> Line:
-        """The part with values above zero."""
+        """Return the part with values above zero."""
         return self._where(self.y > 0.0)
 
     def _where(self, shown: NDArray[np.bool_]) -> Line:
@@ -109,6 +111,7 @@ class Abscissa(Enum):
 
     CYCLES = r"Cycles  $t/T$"
     HOURS = "Running time  (h)"
+    DISTANCE = "Sliding distance  (m)"
 
     def of(self, scene: Scene, cycles: FloatArray) -> FloatArray:
         """Return where numbers of cycles (n,) lie."""
@@ -119,7 +122,11 @@ class Abscissa(Enum):
             seconds = np.array([load.time_at(n) for n in cycles.tolist()])
         else:
             seconds = cycles * scene.periodic_load.period
-        return seconds / _SECONDS_PER_HOUR
+        if self is Abscissa.HOURS:
+            return seconds / _SECONDS_PER_HOUR
+        numbers = scene.parameters()
+        slid = reaction.sliding_distance(R=numbers["R"], T=seconds, n=numbers["n"])
+        return np.asarray(slid / _MILLIMETRES_PER_METRE)
 
 
 def panels_of(
@@ -181,7 +188,7 @@ def points_of(
 
 
 def spans_decades(lines: Sequence[Line]) -> bool:
-    """Whether all values after the fresh state are positive and span two decades or more."""
+    """Return whether all values after the fresh state are positive and span two decades or more."""
     values = np.concatenate([line.positive().y for line in lines])
     return bool(values.min() > 0.0 and values.max() >= 100.0 * values.min())
 
@@ -213,13 +220,13 @@ def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> 
 
 @dataclass(frozen=True)
 class Method:
-    """Time against true error of one method: arrays of shape (n,), n tolerances.
+    """Time of one method against its true error or the number of cycles: arrays of shape (n,).
 
-    `failed` marks runs that stopped early or missed their tolerance by far; they are drawn hollow.
+    `failed` marks runs that missed their tolerance, or were not made; they are drawn hollow.
     """
 
     name: str
-    error: FloatArray
+    x: FloatArray
     seconds: FloatArray
     failed: NDArray[np.bool_]
 

@@ -5,8 +5,10 @@ Overview
     wear_with_asymptote     wear with the straight lines or curves it tends to
     pressure_in_cycles      contact pressure over the phase of chosen cycles
     speed_against_error     time against true error, one line a method
+    speed_against_cycles    time against the number of cycles, one line a method
     wear_by_decades         wear over all decades with straight lines behind it
     regime_map              the regimes over f_c and the gap at the peak
+    tornado                 elasticities as bars, the largest on top
     Each returns a matplotlib `Figure`; `wear.figure_style` makes files of it.
 Units
     Lengths come in mm and are shown in micrometres, pressures in MPa, times in s.
@@ -23,6 +25,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
+from wear.checked import words_of
 from wear.figure_data import (
     BEARING_WEAR,
     PRESSURE,
@@ -151,10 +154,18 @@ def pressure_in_cycles(lines: Sequence[Line], *, width: float = COLUMN) -> Figur
 
 
 def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
-    """Seconds against true relative error, both logarithmic; accuracy grows to the right.
+    """Draw seconds against true relative error, both logarithmic; accuracy grows to the right."""
+    figure = _speed(methods, "True relative error of the wear", "missed its tolerance", width)
+    figure.axes[0].invert_xaxis()
+    return figure
 
-    Errors of zero are shown at the resolution of double precision.
-    """
+
+def speed_against_cycles(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
+    """Draw seconds to equal true error against the number of cycles, both logarithmic."""
+    return _speed(methods, "Cycles  $N$", "expected, not run", width)
+
+
+def _speed(methods: Sequence[Method], quantity: str, failed: str, width: float) -> Figure:
     with styled():
         figure, axes = canvas(width, 0.5 * width)
         for family, method in enumerate(methods):
@@ -162,9 +173,8 @@ def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Fi
             look = replace(stroke(family, again), marker=stroke(family + 2 * again).marker)
             _draw_method(axes, method, look)
         if any(method.failed.any() for method in methods):
-            axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label="missed its tolerance")
-        axes.set(xlabel="True relative error of the wear", ylabel="Time (s)")
-        axes.invert_xaxis()
+            axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label=failed)
+        axes.set(xlabel=quantity, ylabel="Processor time (s)")
         axes.grid(which="major", color=GREY, alpha=0.35, linewidth=0.4)
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=3.0)
     return figure
@@ -176,6 +186,31 @@ _REGIMES = {
     "finite-time": "#D55E00",
     "arrest": "#CC79A7",
 }
+
+
+def tornado(
+    keys: Sequence[str],
+    elasticity: FloatArray,
+    labels: Sequence[str],
+    *,
+    width: float = COLUMN_AND_HALF,
+) -> Figure:
+    """Elasticities (k, n) of the numbers with these keys as bars, the largest on top; a set of bars
+    for each of the n labels. What is no number has no bar."""
+    values = np.nan_to_num(elasticity)
+    order = np.argsort(np.max(np.abs(values), axis=1))
+    thick = 0.8 / len(labels)
+    with styled():
+        figure, axes = canvas(width, 12.0 + (2.5 + 1.8 * len(labels)) * len(keys))
+        for place, label in enumerate(labels):
+            at = np.arange(len(keys)) + thick * ((len(labels) - 1) / 2 - place)
+            axes.barh(at, values[order, place], thick, color=stroke(place).colour, label=label)
+        axes.axvline(0.0, color=INK, linewidth=0.6)
+        axes.set_yticks(np.arange(len(keys)), [words_of(keys[i]) for i in order])
+        axes.set_ylim(-0.6, len(keys) - 0.4)
+        axes.set_xlabel("Change of the wear in % for 1 % more")
+        axes.legend()
+    return figure
 
 
 def regime_map(
@@ -232,9 +267,8 @@ def _example_points(axes: Axes, examples: Sequence[Example]) -> None:
 
 
 def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
-    error = np.maximum(method.error, np.finfo(float).eps / 2.0)
     axes.loglog(
-        error,
+        method.x,
         method.seconds,
         color=look.colour,
         linestyle=look.dash,
@@ -243,7 +277,7 @@ def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
         label=method.name,
     )
     axes.loglog(
-        error[method.failed],
+        method.x[method.failed],
         method.seconds[method.failed],
         color=look.colour,
         linestyle="",

@@ -21,6 +21,7 @@ from wear.history_files import Column
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from matplotlib.figure import Figure
 
     from wear.cycle_pressures import CyclePressures
     from wear.scene import Scene
@@ -166,6 +167,13 @@ class History:
             about = {"units": column.unit, "long_name": column.meaning}
             made[column.name] = ("cycle", column.values, about)
         return made
+
+    def plot(self, *, logarithmic: bool = True) -> Figure:
+        """Return a Matplotlib figure of wear, roughness and pressure over the cycles."""
+        from wear.figure_data import panels_of
+        from wear.figures import history
+
+        return history(panels_of([self]), logarithmic=logarithmic)
 
     def __repr__(self) -> str:
         reached = "no cycle reached"

@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.count.course_cutoff import CutoffCourse, cutoff_course
 from wear.cycles import Counted, InContact, count_cycles, growth
 from wear.direct.sequence import span
 from wear.equation import WearEquation
 from wear.faults import AccuracyError, UsageError
 from wear.load import AperiodicLoad, HistoryLoad, Load
+from wear.loss_of_contact.dense_output import SwitchedDenseOutput, switched_dense_output
 from wear.model import Fields, Model
 from wear.numerics.initial_value import SAFETY
 from wear.numerics.tolerances import TINY
@@ -92,12 +92,12 @@ class _Stretch(NamedTuple):
 
     def dense(
         self, model: Model, phases: FloatArray, rtol: float, cycles: FloatArray
-    ) -> Iterator[tuple[float, float, DenseOutput | CutoffCourse]]:
+    ) -> Iterator[tuple[float, float, DenseOutput | SwitchedDenseOutput]]:
         """Return the parts of the stretch in which some of the `cycles` lie: from which cycle to
         which, that excluded, and what these add up to the phases."""
         if not isinstance(self.found, InContact):
             if np.any((cycles >= self.begins) & (cycles < self.ends)):
-                yield self.begins, self.ends, cutoff_course(model, self.load, phases, rtol)
+                yield self.begins, self.ends, switched_dense_output(model, self.load, phases, rtol)
             return
         equation, segments = WearEquation(model, (self.load,)), self.found.found.segments
         begins = [self.begins + float(segment.begins[0]) for segment in segments]
@@ -131,7 +131,7 @@ class _Part(NamedTuple):
 
     model: Model
     stretch: _Stretch
-    within: DenseOutput | CutoffCourse
+    within: DenseOutput | SwitchedDenseOutput
     phases: FloatArray
     begins: float
 

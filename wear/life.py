@@ -113,7 +113,7 @@ class _Beyond:
 
     @cached_property
     def far(self) -> Asymptote | None:
-        """The asymptote, None where it could not be found."""
+        """Return the asymptote, None where it could not be found."""
         try:
             return asymptote(self.scene)
         except AccuracyError:
@@ -121,7 +121,7 @@ class _Beyond:
 
     @cached_property
     def counted(self) -> History | None:
-        """The last decade that is counted, None where it could not be."""
+        """Return the last decade that is counted, None where it could not be."""
         try:
             return solve(self.scene, (MOST_CYCLES // 10, MOST_CYCLES), self.rtol)
         except AccuracyError:
@@ -142,7 +142,7 @@ class _Beyond:
         return cycles, error, Reached.EXTRAPOLATED
 
     def _extrapolated(self, depth: float) -> tuple[float, float]:
-        """The cycles by the asymptote, and their error from its misfit in the last decade."""
+        """Return the cycles by the asymptote, and their error by its misfit in the last decade."""
         if self.far is None or not self.far.wear_per_cycle_mm or self.counted is None:
             return math.nan, math.inf
         rate, drift = self.far.wear_per_cycle_mm, self.far.log_coefficient_mm or 0.0

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear import pressure_root
+from wear import own_laws, pressure_root
 from wear.faults import UsageError
 from wear.scene import Scene, VariantKey
 
@@ -75,37 +75,37 @@ class Model:
 
     @property
     def module(self) -> Any:
-        """The generated module."""
+        """Return the generated module."""
         return self.bound.module
 
     @property
     def constants(self) -> Any:
-        """The constants of a run."""
+        """Return the constants of a run."""
         return self.bound.constants
 
     @property
     def variant(self) -> str:
-        """The name of the variant."""
+        """Return the name of the variant."""
         return str(self.module.VARIANT) + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
     @property
     def law(self) -> str:
-        """The name of the contact law."""
+        """Return the name of the contact law."""
         return str(self.module.LAW)
 
     @property
     def operations(self) -> Mapping[str, int]:
-        """How many arithmetic operations each generated function costs."""
+        """Return how many arithmetic operations each generated function costs."""
         return {**self.module.OPERATIONS, **(self.loss.module.OPERATIONS if self.loss else {})}
 
     @property
     def compliant(self) -> bool:
-        """Whether the bearing stands on springs."""
+        """Return whether the bearing stands on springs."""
         return "compliance" in self.constants._fields
 
     @property
     def ends_at_3_sigma(self) -> bool:
-        """Whether contact is lost at h > 3 sigma."""
+        """Return whether contact is lost at h > 3 sigma."""
         return self.loss is not None
 
     def select(self, index: Any) -> Model:
@@ -198,9 +198,26 @@ class Model:
         p = self._limited(np.inf, 1.0) * self.margin(u, U_a)
         return self.module.rate(p, self.constants), self._edge_slope(u) + np.zeros_like(U_a)
 
+    def edge_rate_gradient(self, u: Real, U_a: Real) -> dict[str, Real]:
+        """Return the derivatives of the wear rate while a compliant support keeps h at 3 sigma,
+        with respect to the load and to every physical parameter, by symbol."""
+        rate, _ = self.edge_rate_and_slope(u, U_a)
+        per_margin = self.module.rate(self._limited(np.inf, 1.0), self.constants)
+        by_constants = dict.fromkeys(self.constants._fields, 0.0 * rate)
+        # The pressure there is the margin over the compliance.
+        by_constants["wear_per_pressure"] = rate / self.module.rate(1.0, self.constants)
+        by_constants["compliance"] = -rate / self.constants.compliance
+        by_rate = self.bound.gradient(type(self.constants)(**by_constants))
+        by_margin = self.margin_gradient(u, U_a)
+        return {
+            symbol: by_rate.get(symbol, 0.0) + per_margin * by_margin.get(symbol, 0.0)
+            for symbol in ("U_a", *by_rate)
+        }
+
     @property
     def held_margin(self) -> Real:
-        """The margin (mm) up to which a compliant support keeps h at 3 sigma; 0 with a rigid one.
+        """Return the margin (mm) up to which a compliant support keeps h at 3 sigma; 0 with a rigid
+        one.
 
         There the pressure that does so is that of the contact law: all of the residual at no
         pressure.
@@ -258,6 +275,8 @@ def _complete(found: Any, u: Real, U_a: Real) -> Fields:
 
 def generated(key: VariantKey) -> ModuleType:
     """Return the generated module of a variant."""
+    if own_laws.is_own(key.law):
+        return own_laws.module(key.law, key.module)
     return import_module(f"wear.generated.{key.law}.{key.module}")
 
 

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wear import own_laws
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.model import bind
@@ -95,7 +96,11 @@ class _Case:
 
     def law(self, kind: str) -> Callable[..., Any]:
         """Return the formula of this scene's contact law."""
-        found: Callable[..., Any] = getattr(formula, f"{kind}_{self.scene.contact.law}")
+        law = self.scene.contact.law
+        if own_laws.is_own(law):
+            own = getattr(own_laws.module(law, "law"), f"{kind}_own")
+            return lambda ratio: Decimal(float(own(float(ratio))))
+        found: Callable[..., Any] = getattr(formula, f"{kind}_{law}")
         return found
 
     def wear_at(self, pressure: float) -> float:
@@ -190,7 +195,7 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
         said = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
         notices = (*notices, said)
     tanh = case.scene.contact.law == "tanh"
-    found = offset(case.scene)
+    found = offset(case.scene, per_cycle, float(mean))
     if found is None:
         notices = (*notices, f"offset unknown: {_no_offset(case.scene)}")
     return _result(
@@ -215,7 +220,7 @@ def _no_offset(scene: Scene) -> str:
 
 
 def _cycles(drift: Decimal, per_cycle: float) -> float | None:
-    """Cycles after which ``drift/(N per_cycle)`` is within the criterion."""
+    """Return the cycles after which ``drift/(N per_cycle)`` is within the criterion."""
     if per_cycle == 0.0:
         return None
     return float(drift / (Decimal(per_cycle) * TOLERANCE))
@@ -281,7 +286,7 @@ def _with_cutoff(case: _Case) -> Asymptote:
 
 
 def _arrest_depth(case: _Case) -> float | None:
-    """The wear at which the peak of the load no longer makes contact; None if there is none."""
+    """Return the wear at which the peak of the load no longer makes contact, if there is one."""
     data = case.data
     model = bind(case.scene)
     if model.margin(0.0, case.load.maximum) <= 0.0:
@@ -316,9 +321,10 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
-    """The cycle in which wear stops, from the cycle count, as far as its error lets it be told."""
-    from wear.count.approach import counted_stages
+    """Return the cycle in which wear stops, from the cycle count, as far as its error lets it be
+    told."""
     from wear.cycles import MOST_CYCLES
+    from wear.loss_of_contact.count import counted_stages
 
     found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0)
     arrest = found.arrest

@@ -6,7 +6,7 @@ import numbers
 import os
 import time
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -56,6 +56,7 @@ def solve(
     rtol: float = 1e-10,
     method: str = "auto",
     time_limit: float | None = None,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> History:
     """Solve a scene for its state after numbers of load cycles.
 
@@ -73,6 +74,8 @@ def solve(
         which go through every cycle.
     time_limit
         Seconds after which to stop with what there is.
+    progress
+        Is told in words how far an integration is that takes more than two seconds.
 
     Raises
     ------
@@ -88,14 +91,18 @@ def solve(
     ['3.0253e-05', '2.3692e-04']
     """
     from wear.model import bind
+    from wear.resampling import resampled
     from wear.scene import as_scene
 
     start = time.monotonic()
     scene = as_scene(scene)
-    wanted = _check(scene, cycles, rtol, method, time_limit)
+    wanted = checked_request(scene, cycles, rtol, method, time_limit)
     model = bind(scene)
     deadline = np.inf if time_limit is None else start + time_limit
-    wear = _solved(model, scene, wanted, rtol, method, deadline)
+    fewer = resampled(scene, model, rtol)
+    wear = _solved(model, fewer.scene, wanted, rtol - fewer.error, method, deadline, progress)
+    error = wear.error + fewer.missed(model, wear.u)
+    wear = wear._replace(error=error, notices=(*fewer.notices, *wear.notices))
     history = _history(scene, model, wanted, wear, rtol, time.monotonic() - start)
     if wear.interrupted:
         raise Interrupted(_reached(wear), history)
@@ -106,7 +113,7 @@ def solve(
     return history
 
 
-def _check(
+def checked_request(
     scene: Scene,
     cycles: float | Iterable[float],
     rtol: float,
@@ -182,12 +189,16 @@ def _solved(
     rtol: float,
     method: str,
     deadline: float,
+    progress: Callable[[str], None],
 ) -> Wear:
     """The first method's result that meets the request, or that with the smallest error."""
     results: list[Wear] = []
     special = {"abel": _cycle_count, "collocation": _collocation}
     for name, reason in _methods(scene, method, wanted, rtol):
-        wear = special.get(name, _direct)(model, scene, wanted, rtol, name, deadline)
+        if name in special:
+            wear = special[name](model, scene, wanted, rtol, name, deadline)
+        else:
+            wear = _direct(model, scene, wanted, rtol, name, deadline, progress)
         if reason:
             wear = wear._replace(notices=(f"auto: {name}, because {reason}", *wear.notices))
         results.append(wear)
@@ -249,9 +260,15 @@ def _collocation(
 
 
 def _direct(
-    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
+    model: Model,
+    scene: Scene,
+    wanted: tuple[int, ...],
+    rtol: float,
+    name: str,
+    deadline: float,
+    progress: Callable[[str], None],
 ) -> Wear:
-    found = direct.integrate(model, scene.load, wanted, rtol, name, deadline)
+    found = direct.integrate(model, scene.load, wanted, rtol, name, deadline, progress)
     cost = {
         "cycles_integrated": found.cycles_integrated,
         "rhs_evaluations": found.rhs_evaluations,

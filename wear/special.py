@@ -18,7 +18,7 @@ SERIES_FROM, SERIES_TERMS = 40.0, 40  # cut at its smallest term: 3e-15 at 40, r
 
 
 def ei_remainder(z: ArrayLike) -> FloatArray:
-    """The function 1 - z exp(-z) Ei(z) for real z of either sign; 1 at z = 0.
+    """Return the function 1 - z exp(-z) Ei(z) for real z of either sign; 1 at z = 0.
 
     Relative error: a few units of roundoff for z < 0 and z > 45, z units in between, where
     z exp(-z) Ei(z) is nearly 1.
@@ -41,7 +41,7 @@ def ei_remainder(z: ArrayLike) -> FloatArray:
 
 
 def _fraction(w: FloatArray) -> FloatArray:
-    """The function exp(w) E_2(w) for w >= 1, from its continued fraction, last term first."""
+    """Return exp(w) E_2(w) for w >= 1, from its continued fraction, last term first."""
     tail = np.zeros_like(w)
     for n in range(FRACTION_TERMS, 0, -1):
         tail = n * (n + 1) / (w + 2 + 2 * n - tail)
@@ -49,7 +49,7 @@ def _fraction(w: FloatArray) -> FloatArray:
 
 
 def _series(z: FloatArray) -> FloatArray:
-    """The series -1/z - 2!/z^2 - 3!/z^3 - ..."""
+    """Return the series -1/z - 2!/z^2 - 3!/z^3 - ..."""
     total = np.ones_like(z)
     for n in range(SERIES_TERMS, 1, -1):
         total = 1.0 + n / z * total

@@ -48,13 +48,13 @@ class StaticSolution:
 
     @property
     def largest_wear(self) -> float:
-        """Wear of one cycle under the largest pressure, mm."""
+        """Return the wear of one cycle under the largest pressure, mm."""
         names = ("T", "K_c", "H_c", "p_max", "R", "n")
         return float(formula.largest_wear(**{name: self.data[name] for name in names}))
 
     @property
     def limit(self) -> float:
-        """Wear at which the roughness vanishes, mm; infinite where it grows."""
+        """Return the wear at which the roughness vanishes, mm; infinite where it grows."""
         slope = self.data["f_c"]
         return -self.data["sigma_c0"] / slope if slope < 0.0 else math.inf
 
@@ -81,7 +81,7 @@ class StaticSolution:
         return np.where(u < self.limit, found, np.inf)
 
     def wear(self, cycles: ArrayLike) -> FloatArray:
-        """The wear in mm after numbers of cycles."""
+        """Return the wear in mm after numbers of cycles."""
         wanted = np.atleast_1d(np.asarray(cycles, dtype=np.float64))
         if np.any(wanted < 0.0):
             raise UsageError("a number of cycles is not negative")
@@ -121,12 +121,12 @@ class StaticSolution:
         return {name: self.data[name] for name in names}
 
     def _exponent(self, u: ArrayLike) -> FloatArray:
-        """The exponent ln(p_max/p - 1) at a wear, on a rigid support."""
+        """Return the exponent ln(p_max/p - 1) at a wear, on a rigid support."""
         shape = self._named("h_0", "sigma_c0", "f_c")
         return np.asarray(formula.exponent(np.asarray(u), self.load, **shape))
 
     def _gap_rigid(self, u: FloatArray) -> FloatArray:
-        """The integral of exp(exponent) from 0 to u."""
+        """Return the integral of exp(exponent) from 0 to u."""
         start, end = self._exponent(0.0), self._exponent(u)
         closed = self._primitive(u, end) - self._primitive(np.zeros_like(u), start)
         growth = np.log(self._roughness(u) / self._roughness(0.0))
@@ -139,7 +139,7 @@ class StaticSolution:
         return np.asarray(formula.roughness(np.asarray(u), **self._named("sigma_c0", "f_c")))
 
     def _primitive(self, u: FloatArray, exponent: FloatArray) -> FloatArray:
-        """A primitive of exp(exponent), by the form that suits the argument of Ei."""
+        """Return a primitive of exp(exponent), by the form that suits the argument of Ei."""
         slope = self.data["f_c"]
         shape = self._named("h_0", "sigma_c0", "f_c")
         offset = np.asarray(formula.offset(u, self.load, **shape))
@@ -153,7 +153,7 @@ class StaticSolution:
         return np.asarray(np.where(np.abs(z) > 1.0, far, close))
 
     def _gap_compliant(self, model: Model, u: FloatArray) -> FloatArray:
-        """The integral of p_max/p - 1 from 0 to u, for each u on panels of its own."""
+        """Return the integral of p_max/p - 1 from 0 to u, for each u on panels of its own."""
         over = np.vectorize(lambda end: self._over_panels(model, end), otypes=[float])
         return np.asarray(over(u))
 
@@ -188,7 +188,7 @@ class StaticSolution:
         return edges
 
     def _slowness(self, model: Model, u: FloatArray) -> FloatArray:
-        """The ratio p_max/p on a compliant support."""
+        """Return the ratio p_max/p on a compliant support."""
         return np.asarray(self.data["p_max"] / model.pressure(u, self.load))
 
 
@@ -200,7 +200,7 @@ def _gauss_legendre() -> tuple[FloatArray, FloatArray]:
 
 
 def static_solution(scene: Scene) -> StaticSolution:
-    """The closed solution of a scene with a constant load.
+    """Return the closed solution of a scene with a constant load.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Wear laws for a finite element code: what a time increment adds to the state.
+"""Laws for a finite element code: contact pressure, and what a time increment adds to the state.
 
 Overview
     A finite element code finds the contact pressure itself; of the model it needs Archard's law
@@ -7,6 +7,7 @@ Overview
 Key results
     Increment    parameters, and the growth of each state variable
     increment    that of a variant
+    contact      the contact pressure and its derivative at a closure
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..program.function import Assignment
+from ..program.function import Assignment, Function
+from ..program.rate import law, p_max
+from ..program.symbols import h, ratio, sigma
 from ..symbols import rate, symbols
 from ..variant import Variant
 
@@ -52,9 +55,9 @@ def increment(variant: Variant) -> Increment:
     known = {_p: pressure, _V: slip_rate}
     wear = {rate("u_c"): growth_of("u_c"), rate("u_a"): growth_of("u_a")}
     growth = []
-    for field, law in laws:
+    for field, statement in laws:
         name = field.func.__name__
-        value = law.claim.rhs
+        value = statement.claim.rhs
         grown = value.xreplace(wear) if name.startswith("sigma") else value * time_increment
         growth.append((sp.Symbol(name, real=True), grown.xreplace(known)))
     used = set().union(*(value.free_symbols for _, value in growth))
@@ -65,3 +68,20 @@ def increment(variant: Variant) -> Increment:
 def growth_of(name: str) -> sp.Symbol:
     """Return the symbol of what a state variable gains."""
     return sp.Symbol(f"growth_{name}", real=True)
+
+
+def contact(variant: Variant) -> Function:
+    """Return the contact law of a variant, (4), with its derivative.
+
+    >>> from derive.variant import VARIANTS
+    >>> contact(VARIANTS[0]).results
+    (p_max*share, -4*p_max*spread/sigma)
+    """
+    names, value, slope = law(variant)
+    return Function.made(
+        "contact_pressure",
+        (h, sigma, p_max),
+        ((ratio, h / sigma), *names),
+        (p_max * value, p_max * slope / sigma),
+        "contact pressure in MPa at a closure and roughness in mm, and its derivative dp/dh",
+    )

@@ -18,13 +18,15 @@ import sympy as sp
 from ..program import Program
 from ..program.function import Function
 from ..program.gradient import by_constant
-from .emit import NUMPY, TARGETS, Target, emit
-from .increment import increment
+from .emit import NUMPY, TARGETS, C, Target, emit
+from .increment import contact, increment
 from .wording import margin_title, meaning_of, remark_on, sentence, title_of
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
+HEADER = "header"
+"""The declarations of the C source: a template of its own, in C's words."""
 WIDTH = 96
 WIDEST = 100
 
@@ -61,9 +63,10 @@ def source(made: Program, target: str) -> str:
     >>> source(program(VARIANTS[0]), "c").splitlines()[1]
     ' * Tanh contact law, rigid support, smooth pin that does not wear.'
     """
-    if target not in TARGETS:
-        raise ValueError(f"{target!r} is no target; there are {', '.join(TARGETS)}")
-    return rendered(target, **_context(made, TARGETS[target]))
+    tables = {**TARGETS, HEADER: C}
+    if target not in tables:
+        raise ValueError(f"{target!r} is no target; there are {', '.join(tables)}")
+    return rendered(target, **_context(made, tables[target]))
 
 
 def definitions(made: Program) -> str:
@@ -112,6 +115,7 @@ def _context(made: Program, target: Target) -> dict[str, Any]:
         "minimum": any(expression.has(sp.Min) for expression in expressions),
         "maximum": any(expression.has(sp.Max) for expression in expressions),
         "increment": increment(variant),
+        "contact": body(contact(variant), made, target),
         "emit": partial(emit, target=target),
         "within": False,
     }

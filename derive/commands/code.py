@@ -10,7 +10,7 @@ from derive.command_line import Command
 from derive.commands import arguments
 from derive.faults import UsageError
 
-TARGETS = ("numpy", "c", "fortran", "javascript")  # known before SymPy is imported
+TARGETS = ("numpy", "c", "header", "fortran", "javascript")  # known before SymPy is imported
 
 EXAMPLE = """\
   derive code rigid_bearing                          section 4 of the note, in NumPy
@@ -30,7 +30,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     completion.suggest(variant, _short_names)
     parser.add_argument(
-        "--target", choices=TARGETS, default="numpy", help="language (default: %(default)s)"
+        "--target",
+        choices=TARGETS,
+        default="numpy",
+        help="language, or the header of the C source (default: %(default)s)",
     )
     parser.add_argument("--list", action="store_true", help="list the variants and stop")
     parser.add_argument("-o", "--output", metavar="FILE", help="write to a file")

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from derive import terminal
 from derive.command_line import Command
 from derive.commands import arguments
 from derive.faults import UsageError
 
+if TYPE_CHECKING:
+    from derive.equations import Equation
+
 EXAMPLE = r"""
   derive latex -o equations.tex      all equations; then \input{equations} and \EqWearPerCycle
   derive latex 21 22                 two of them, to the terminal
   derive latex 21 --derivation       how (21) follows, as prose with equations
+  derive latex --law 'exp(-r/2)'     the equations of a bearing with a contact law of its own
   derive latex 21 --width 246pt      for a column of 246 pt: \EqWearPerCycle or \EqNote{21}
 """.lstrip("\n")
 
@@ -29,6 +35,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="LENGTH",
         help="of a line, in pt, mm, cm or in (default: that of article)",
     )
+    parser.add_argument(
+        "--law",
+        metavar="FORMULA",
+        help="instead of ids: the equations of a bearing with this contact law, phi of r = h/sigma",
+    )
 
 
 def execute(options: argparse.Namespace) -> int:
@@ -41,7 +52,9 @@ def execute(options: argparse.Namespace) -> int:
         raise UsageError(f"--width: {fault}") from None
     if options.derivation:
         return _derivation(options, width)
-    found = arguments.equations(options.ids)
+    if options.law is not None and options.ids:
+        raise UsageError("--law: its equations have no ids; leave these out")
+    found = arguments.equations(options.ids) if options.law is None else _of_law(options.law)
     if options.json:
         terminal.print_json(
             [{"id": e.id, "macro": "\\" + macro_name(e), "latex": e.latex} for e in found]
@@ -51,13 +64,23 @@ def execute(options: argparse.Namespace) -> int:
     return terminal.DONE
 
 
+def _of_law(formula: str) -> Sequence[Equation]:
+    from derive.note.governing import Pin
+    from derive.own_law import own_law
+    from derive.variant import Variant
+    from derive.variant_equations import equations_of
+
+    law, _ = own_law(formula)
+    return equations_of(Variant(law, False, Pin.ABSENT), opening=False)
+
+
 def _derivation(options: argparse.Namespace, width: float) -> int:
     """Print or write the derivation of one equation, told with those before it in the catalogue."""
     from derive.catalogue import equations_up_to
     from derive.typeset.derivation import prose
 
-    if len(options.ids) != 1 or options.json:
-        raise UsageError("--derivation: name one equation, without --json")
+    if len(options.ids) != 1 or options.json or options.law is not None:
+        raise UsageError("--derivation: name one equation, without --json or --law")
     arguments.equations(options.ids)
     arguments.print_or_write(prose(equations_up_to(options.ids[0]), width), options.output)
     return terminal.DONE

@@ -11,15 +11,15 @@ from derive.commands import arguments
 EXAMPLE = """\
   derive verify             every check of every equation; status 1 if one does not hold
   derive verify 8 10 21     those on which these equations rest
-  derive verify --deep 17   models try to break each step too
+  derive verify --deep 13   what fails without each hypothesis, as models show
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare ids, and whether models are tried."""
+    """Declare ids, and whether hypotheses are dropped."""
     arguments.add_ids(parser)
     parser.add_argument(
-        "--deep", action="store_true", help="try every step on models too (minutes)"
+        "--deep", action="store_true", help="drop each hypothesis in turn, too (minutes)"
     )
 
 

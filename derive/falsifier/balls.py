@@ -1,10 +1,9 @@
-"""Numbers: what an expression is worth at a moment of a model, in ball arithmetic.
+"""Numbers: the value of an expression at a time in a model, in ball arithmetic.
 
 Overview
-    An expression is compiled, once, to a function of a moment (a model, a time, a number of
-    Taylor coefficients).  Rational numbers stay exact, so that 0/0 is seen; all else is a ball
-    of `python-flint` that contains the value, or a power series of balls in the time from the
-    moment on, whose coefficients give derivatives in time.
+    An expression is compiled, once, to a function of a moment (a model and a time).  Rational
+    numbers stay exact, so that 0/0 is seen; all else is a ball of `python-flint` that contains
+    the value.  Derivatives in time are those of the fields' own formulas.
 Key results
     compiled(expr, variable)   the function of a moment
     Undefined, Undecided       no value exists; the balls are too wide to say
@@ -12,21 +11,18 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache, reduce
 from math import isqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import numpy as np
 import sympy as sp
-from flint import arb, arb_series, ctx, fmpq
+from flint import arb, fmpq
 from sympy.core.function import AppliedUndef
 
-if TYPE_CHECKING:
-    from .models import Model
-
-Number = Any  # fmpq, arb or arb_series, which mix
+Number = Any  # fmpq or arb, which mix
 BITS = 320
 """Working precision: 96 digits."""
 ZERO = fmpq(0)
@@ -48,76 +44,55 @@ class NearZero(Undecided):
 
 @dataclass(frozen=True)
 class Moment:
-    """A time in a model; ``terms`` coefficients of all that varies are wanted."""
+    """A time in a model."""
 
-    model: Model
+    model: Any  # of .models: a Model, or a Present one
     time: Number = ZERO
-    terms: int = 1
-
-    def now(self) -> Number:
-        """Return time itself, as a series if one is wanted."""
-        return self.time if self.terms == 1 else arb_series([self.time, 1], self.terms)
 
 
 Value = Callable[[Moment], Number]
 
 
-@contextmanager
-def precision(bits: int = BITS, terms: int = 1) -> Iterator[None]:
-    """Work with so many bits, and so many coefficients of a series."""
-    before = ctx.prec, ctx.cap
-    ctx.prec, ctx.cap = bits, terms
-    try:
-        yield
-    finally:
-        ctx.prec, ctx.cap = before
-
-
-def head(x: Number) -> Number:
-    """Return the value at the moment itself."""
-    return x[0] if isinstance(x, arb_series) else x
-
-
 def ball(x: Number) -> arb:
-    """Return the value at the moment itself as a finite ball."""
-    found = arb(head(x))
+    """Return a number as a finite ball."""
+    found = arb(x)
     if not found.is_finite():
         raise Undecided("not finite")
     return found
 
 
-def _nonzero(x: Number) -> None:
-    first = head(x)
-    if first == 0:
-        raise Undefined("division by zero")
-    if isinstance(first, arb) and first.contains(0):
-        narrow = first.rad() < NOTHING
-        raise NearZero("division by zero") if narrow else Undecided("perhaps a division by zero")
-
-
-def _positive(x: Number, what: str) -> None:
-    first = arb(head(x))
-    if not first > 0:
-        raise Undefined(what) if first <= 0 else Undecided(what)
+def fraction(expr: sp.Expr) -> fmpq:
+    """Return a SymPy number exactly."""
+    exact = sp.Rational(expr)
+    return fmpq(int(exact.p), int(exact.q))
 
 
 def _divided(a: Number, b: Number) -> Number:
-    _nonzero(b)
+    if b == 0:
+        raise Undefined("division by zero")
+    if isinstance(b, arb) and b.contains(0):
+        narrow = b.rad() < NOTHING
+        raise NearZero("division by zero") if narrow else Undecided("perhaps a division by zero")
     return a / b
+
+
+def _positive(x: Number, what: str) -> None:
+    if not arb(x) > 0:
+        raise Undefined(what) if arb(x) <= 0 else Undecided(what)
 
 
 def _power(base: Number, exponent: Number) -> Number:
     if isinstance(exponent, fmpq) and exponent.q == 1:
         n = int(exponent.p)
         return base**n if n >= 0 else _divided(fmpq(1), base**-n)
-    if head(base) == 0 and not isinstance(base, arb_series):
-        if arb(head(exponent)) > 0:
-            return fmpq(0)
+    if base == 0:
+        if arb(exponent) > 0:
+            return ZERO
         raise Undefined("a power of zero")
     if exponent == fmpq(1, 2):
         return _root(base)
     _positive(base, "a power of a negative")
-    return _exp(exponent * _log(base))
+    return (exponent * _log(base)).exp()
 
 
 def _root(x: Number) -> Number:
@@ -125,87 +100,66 @@ def _root(x: Number) -> Number:
         p, q = isqrt(abs(int(x.p))), isqrt(int(x.q))
         if fmpq(p * p, q * q) == x:
             return fmpq(p, q)
-    if arb(head(x)) < 0:
+    if arb(x) < 0:
         raise Undefined("the root of a negative")
-    return arb(x).sqrt() if isinstance(x, fmpq) else x.sqrt()
-
-
-def _exp(x: Number) -> Number:
-    return fmpq(1) if x == 0 and isinstance(x, fmpq) else _raised(x).exp()
+    return arb(x).sqrt()
 
 
 def _log(x: Number) -> Number:
     _positive(x, "the logarithm of what is not positive")
-    return fmpq(0) if isinstance(x, fmpq) and x == 1 else _raised(x).log()
-
-
-def _raised(x: Number) -> Number:
-    return arb(x) if isinstance(x, fmpq) else x
-
-
-def _tanh(x: Number) -> Number:
-    if not isinstance(x, arb_series):
-        return fmpq(0) if x == 0 and isinstance(x, fmpq) else arb(x).tanh()
-    if head(x) > 0:
-        return -_tanh(-x)
-    grown = (2 * x).exp()
-    return (grown - 1) / (grown + 1)
-
-
-def _modulus(x: Number) -> Number:
-    return x * _sign(x) if isinstance(x, arb_series) else abs(x)
+    return arb(x).log()
 
 
 def _sign(x: Number) -> fmpq:
-    first = head(x)
-    if first == 0:
-        return fmpq(0)
-    if not (first > 0 or first < 0):
+    if x == 0:
+        return ZERO
+    if not (x > 0 or x < 0):
         raise Undecided("a sign")
-    return fmpq(1 if first > 0 else -1)
+    return fmpq(1 if x > 0 else -1)
 
 
 def _floor(x: Number) -> fmpq:
-    first = head(x)
-    if isinstance(first, fmpq):
-        return fmpq(int(first.p) // int(first.q))
-    whole = first.floor().unique_fmpz()
+    whole = arb(x).floor().unique_fmpz()
     if whole is None:
         raise Undecided("a floor")
     return fmpq(whole)
 
 
 def _lambert(x: Number, branch: Number = ZERO) -> Number:
-    edge = arb(-1).exp()
-    if arb(head(x)) + edge < 0 or (branch != 0 and not arb(head(x)) < 0):
+    if arb(x) + arb(-1).exp() < 0 or (branch != 0 and not arb(x) < 0):
         raise Undefined("a Lambert function outside its domain")
-    return _raised(x).lambertw(0 if branch == 0 else -1)
+    return arb(x).lambertw(0 if branch == 0 else -1)
 
 
 def _smaller(a: Number, b: Number) -> Number:
     return a if _sign(b - a) >= 0 else b
 
 
+def _exact_at(point: int, value: int, function: Callable[[arb], arb]) -> Callable[..., Number]:
+    """Return a function that is exact at the one point where its value is rational."""
+    return lambda x: fmpq(value) if x == point else function(arb(x))
+
+
 _FUNCTIONS: dict[type, Callable[..., Number]] = {
-    sp.exp: _exp,
-    sp.log: _log,
-    sp.tanh: _tanh,
-    sp.coth: lambda x: _divided(fmpq(1), _tanh(x)),
-    sp.sinh: lambda x: (_exp(x) - _exp(-x)) / 2,
-    sp.cosh: lambda x: (_exp(x) + _exp(-x)) / 2,
-    sp.sin: lambda x: fmpq(0) if isinstance(x, fmpq) and x == 0 else _raised(x).sin(),
-    sp.cos: lambda x: fmpq(1) if isinstance(x, fmpq) and x == 0 else _raised(x).cos(),
-    sp.tan: lambda x: _divided(_raised(x).sin(), _raised(x).cos()),
-    sp.atan: lambda x: fmpq(0) if isinstance(x, fmpq) and x == 0 else _raised(x).atan(),
-    sp.asin: lambda x: _raised(x).asin(),
-    sp.acos: lambda x: _raised(x).acos(),
-    sp.Abs: _modulus,
+    sp.exp: _exact_at(0, 1, arb.exp),
+    sp.log: _exact_at(1, 0, _log),
+    sp.tanh: _exact_at(0, 0, arb.tanh),
+    sp.coth: lambda x: _divided(fmpq(1), arb(x).tanh()),
+    sp.sinh: _exact_at(0, 0, arb.sinh),
+    sp.cosh: _exact_at(0, 1, arb.cosh),
+    sp.sin: _exact_at(0, 0, arb.sin),
+    sp.cos: _exact_at(0, 1, arb.cos),
+    sp.tan: lambda x: _divided(arb(x).sin(), arb(x).cos()),
+    sp.atan: _exact_at(0, 0, arb.atan),
+    sp.asin: _exact_at(0, 0, arb.asin),
+    sp.acos: _exact_at(1, 0, arb.acos),
+    sp.Abs: abs,
     sp.sign: _sign,
     sp.floor: _floor,
     sp.ceiling: lambda x: -_floor(-x),
     sp.LambertW: _lambert,
-    sp.Ei: lambda x: _raised(x).ei(),
-    sp.besseli: lambda order, x: arb(head(x)).bessel_i(arb(head(order))),
+    sp.Ei: lambda x: arb(x).ei(),
+    sp.besseli: lambda order, x: arb(x).bessel_i(arb(order)),
     sp.Min: lambda *xs: reduce(_smaller, xs),
     sp.Max: lambda *xs: -reduce(_smaller, [-x for x in xs]),
     sp.Pow: _power,
@@ -219,87 +173,72 @@ _CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
     sp.EulerGamma: arb.const_euler,
 }
 
+_FLOATS: dict[type, Callable[..., Any]] = {
+    **{
+        getattr(sp, name): getattr(np, name)
+        for name in ("exp", "log", "tanh", "sinh", "cosh", "sin", "cos", "tan", "sign", "floor")
+    },
+    sp.Abs: np.abs,
+    sp.atan: np.arctan,
+    sp.Pow: np.power,
+    sp.Add: lambda *xs: sum(xs),
+    sp.Mul: lambda *xs: reduce(np.multiply, xs),
+}
+"""What motions are integrated with: arrays of floats."""
+
 
 @cache
-def compiled(expr: sp.Expr, variable: sp.Symbol) -> Value:
+def compiled(expr: sp.Expr, variable: sp.Symbol, floats: bool = False) -> Value:
     """Return the function that gives an expression its value at a moment; ``variable`` is what
     runs there (time)."""
     if expr == variable:
-        return Moment.now
+        return lambda moment: moment.time
+    if floats and expr.is_number and not expr.atoms(AppliedUndef):
+        plain = float(expr)
+        return lambda _: plain
     if expr in _CONSTANTS:
         known = _CONSTANTS[expr]
         return lambda _: known()
     if expr.is_Number and expr.is_finite:
-        exact = sp.Rational(expr)
-        number = fmpq(int(exact.p), int(exact.q))
+        number = fraction(expr)
         return lambda _: number
     if isinstance(expr, sp.Symbol):
         return lambda moment: moment.model.constant(expr)
+    if floats and isinstance(expr, sp.Piecewise):
+        return _switched(expr, variable)
     for kind, build in _SPECIAL:
         if isinstance(expr, kind):
             return build(expr, variable)
-    if type(expr) not in _FUNCTIONS:
+    functions = _FLOATS if floats else _FUNCTIONS
+    if type(expr) not in functions:
         raise Undecided(f"{type(expr).__name__} has no number")
-    function = _FUNCTIONS[type(expr)]
-    arguments = [compiled(a, variable) for a in expr.args]
-    return lambda moment: function(*(argument(moment) for argument in arguments))
+    function = functions[type(expr)]
+    arguments = [compiled(a, variable, floats) for a in expr.args]
+    return lambda moment: function(*[argument(moment) for argument in arguments])
 
 
-def _field(expr: AppliedUndef, variable: sp.Symbol) -> Value:
-    name, (argument,) = expr.func.__name__, expr.args
-    if argument == variable:
-        return lambda moment: moment.model.field(name, moment.time, moment.terms)
-    at, slope = compiled(argument, variable), compiled(sp.diff(argument, variable), variable)
-
-    def value(moment: Moment) -> Number:
-        plain = replace(moment, terms=1)
-        speed = slope(plain)
-        if moment.terms == 1 or speed == 0:
-            return head(moment.model.field(name, at(plain), 1))
-        found = moment.model.field(name, at(plain), moment.terms)
-        if isinstance(found, fmpq):
-            return found
-        return arb_series([c * speed**k for k, c in enumerate(found.coeffs())], moment.terms)
-
-    return value
+def _field(expr: AppliedUndef, variable: sp.Symbol, order: int = 0) -> Value:
+    name, at = expr.func.__name__, compiled(expr.args[0], variable)
+    return lambda moment: moment.model.field(name, at(moment), order)
 
 
 def _derivative(expr: sp.Derivative, variable: sp.Symbol) -> Value:
-    if not all(v == variable for v, _ in expr.variable_count):
-        if isinstance(expr.expr, sp.Symbol):
-            name, data = expr.expr, tuple(expr.variables)
-            return lambda moment: moment.model.slope(name, data)
-        done = expr.doit()
-        if done == expr:
-            raise Undecided(f"{expr} is no derivative in time")
-        return compiled(done, variable)
-    inside, times = compiled(expr.expr, variable), sum(int(n) for _, n in expr.variable_count)
-
-    def value(moment: Moment) -> Number:
-        with precision(ctx.prec, moment.terms + times):
-            found = inside(replace(moment, terms=moment.terms + times))
-            if not isinstance(found, arb_series):
-                return fmpq(0)
-            for _ in range(times):
-                found = found.derivative()
-        return found if moment.terms > 1 else found[0]
-
-    return value
+    inside, data = expr.expr, tuple(expr.variables)
+    if set(data) != {variable} and isinstance(inside, sp.Symbol):
+        return lambda moment: moment.model.slope(inside, data)
+    if isinstance(inside, AppliedUndef) and inside.args == data[:1]:
+        return _field(inside, variable, len(data))
+    done = expr.doit()
+    if done == expr:
+        raise Undecided(f"{expr} is no derivative in time")
+    return compiled(done, variable)
 
 
 def _at(expr: sp.Subs, variable: sp.Symbol) -> Value:
     """An expression at another value of its variable: a field at time zero, one period later."""
     (name,), (point,) = expr.variables, expr.point
     inside, at = compiled(expr.expr, name), compiled(point, variable)
-    slope = sp.diff(point, variable)
-
-    def value(moment: Moment) -> Number:
-        if moment.terms > 1 and slope not in (0, 1):
-            raise Undecided("a series of a series")
-        terms = moment.terms if slope == 1 else 1
-        return inside(Moment(moment.model, head(at(replace(moment, terms=1))), terms))
-
-    return value
+    return lambda moment: inside(Moment(moment.model, at(moment)))
 
 
 def _limit(expr: sp.Limit, _: sp.Symbol) -> Value:
@@ -313,21 +252,18 @@ def _integral(expr: sp.Integral, variable: sp.Symbol) -> Value:
     ends = compiled(low, variable), compiled(high, variable)
 
     def value(moment: Moment) -> Number:
-        if moment.terms > 1:
-            raise Undecided("a series of an integral")
-        a, b = (head(end(moment)) for end in ends)
-        middle = (a + b) / 2
+        a, b = (end(moment) for end in ends)
 
         def total(order: int) -> arb:
-            found = arb(0)
-            for start, end in ((a, middle), (middle, b)):
-                for x, weight in _nodes(order):
-                    at = (start + end) / 2 + (end - start) / 2 * x
-                    found += weight * (end - start) / 2 * ball(inside(Moment(moment.model, at)))
-            return found
+            half = (b - a) / 4
+            return half * sum(
+                weight * ball(inside(Moment(moment.model, a + half * (shift + x))))
+                for shift in (1, 3)
+                for x, weight in _nodes(order)
+            )
 
-        rough, fine = total(24), total(40)
-        return arb(fine.mid(), abs(fine - rough).upper() + fine.rad())
+        coarse, fine = total(20), total(32)
+        return arb(fine.mid(), abs(fine - coarse).upper() + fine.rad())
 
     return value
 
@@ -337,6 +273,25 @@ def _nodes(order: int) -> tuple[tuple[arb, arb], ...]:
     return tuple(arb.legendre_p_root(order, k, weight=True) for k in range(order))
 
 
+def _switched(expr: sp.Piecewise, variable: sp.Symbol) -> Value:
+    """A piecewise expression over arrays: conditions are inequalities."""
+    branches = [(compiled(value, variable, True), condition) for value, condition in expr.args]
+
+    def value(moment: Moment) -> Any:
+        found: Any = np.nan
+        for branch, condition in reversed(branches):
+            if condition == sp.true:
+                found = branch(moment)
+            else:
+                gap = compiled(condition.gts, variable, True)(moment) - compiled(
+                    condition.lts, variable, True
+                )(moment)
+                found = np.where(gap >= 0, branch(moment), found)
+        return found
+
+    return value
+
+
 def _cases(expr: sp.Piecewise, variable: sp.Symbol) -> Value:
     from .truth import judged
 
@@ -344,7 +299,7 @@ def _cases(expr: sp.Piecewise, variable: sp.Symbol) -> Value:
 
     def value(moment: Moment) -> Number:
         for branch, condition in values:
-            if judged(condition, replace(moment, terms=1), variable):
+            if judged(condition, moment, variable):
                 return branch(moment)
         raise Undefined("no case of a piecewise expression")
 

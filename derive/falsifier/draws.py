@@ -14,10 +14,9 @@ Key results
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
-from typing import Any
+from functools import cache
 
 import sympy as sp
 from flint import fmpq
@@ -26,8 +25,8 @@ from sympy.core.relational import Relational
 
 from ..laws import GENERAL
 from ..symbols import symbol, t
+from .balls import fraction
 from .models import Model
-from .motion import Motion
 from .truth import truth
 
 T, U = symbol("T"), symbol("U")
@@ -171,65 +170,25 @@ def _fitting(
         made, corner = test_function(name, value, seed + 97 * attempt, outside)
         if name in draft.start:
             made = made - made.subs(t, 0) + draft.start[name]
-        alone = Model(draft.data, {**draft.fields, name: made}, None)
+        alone = Model(draft.data, {**draft.fields, name: made})
         if all(truth(relation, alone).holds for relation in about):
             break
     return made, corner
 
 
 def _model(draft: _Draft, corner: sp.Expr) -> Model | None:
-    rates = {name: _without_rates(value, draft) for name, value in draft.rates.items()}
-    start = {name: draft.start[name] for name in rates}
     period = draft.data.get(T, sp.S.One)
-    exact = fmpq(int(period.p), int(period.q)) if period.is_Rational and period > 0 else fmpq(1)
+    exact = fraction(period) if period.is_Rational and period > 0 else fmpq(1)
+    fields = {name: value for name, value in draft.fields.items() if name not in draft.loops}
+    loops = {name: draft.fields[name] for name in draft.loops}
+    start = {name: value for name, value in draft.start.items() if name in draft.rates}
     try:
-        core = (
-            _core(*_closure(draft, rates, start), frozenset(draft.loops), corner) if rates else None
-        )
-        return Model(draft.data, draft.fields, core, frozenset(draft.loops), period=exact)
-    except (ArithmeticError, RecursionError, ValueError):
+        model = Model(draft.data, fields, draft.rates, start, loops, corner, exact)
+        if model.rates:
+            _ = model.motion  # there is one
+    except (ArithmeticError, RecursionError, ValueError, StopIteration, KeyError, TypeError):
         return None
-
-
-Items = tuple[tuple[Any, sp.Expr], ...]
-
-
-def _closure(
-    draft: _Draft, rates: Mapping[str, sp.Expr], start: Mapping[str, sp.Expr]
-) -> tuple[Items, Items, Items, Items]:
-    """Return what the states rest on, and no more: what their motion is known by."""
-    waiting, seen = [*rates.values(), *start.values()], set[object]()
-    while waiting:
-        for atom in _unknowns(waiting.pop()) - seen:
-            seen.add(atom)
-            waiting += [b[atom] for b in (draft.data, draft.fields) if atom in b]
-    books = (draft.data, draft.fields)
-    data, fields = (tuple((k, b[k]) for k in sorted(b, key=str) if k in seen) for b in books)
-    return data, fields, tuple(sorted(rates.items())), tuple(sorted(start.items()))
-
-
-@lru_cache(maxsize=400)
-def _core(
-    data: Items, fields: Items, rates: Items, start: Items, loops: frozenset[str], corner: sp.Expr
-) -> Motion:
-    """Return the motion of these equations, integrated once for all judgements."""
-    within = Model(dict(data), dict(fields), None, loops)
-    return Motion(within, dict(rates), dict(start), corner)
-
-
-def _without_rates(value: sp.Expr, draft: _Draft) -> sp.Expr:
-    """Write a rate without the rates of other states, and of what depends on them."""
-    for _ in range(6):
-        rates = {d for d in value.atoms(sp.Derivative) if d.variables == (t,)}
-        if not rates:
-            break
-        for d in rates:
-            name = d.expr.func.__name__ if isinstance(d.expr, AppliedUndef) else ""
-            if name in draft.rates:
-                value = value.xreplace({d: draft.rates[name]})
-            elif name in draft.fields and name not in draft.loops:
-                value = value.xreplace({d: sp.diff(draft.fields[name], t)})
-    return value
+    return model
 
 
 def _parts(relation: sp.Basic, chance: random.Random) -> Iterator[sp.Basic]:
@@ -399,8 +358,9 @@ def test_function(name: str, value: sp.Expr, seed: int, outside: bool) -> tuple[
     ]  # fmt: skip
     shape = chance.choice(families)
     if name == "U_a":  # one kind of load after the other
-        loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, 1 - sp.exp(-s), wave, sp.sqrt(s), sp.S.Zero,
-                 sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), families[15], -s)  # fmt: skip
+        loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, 1 - sp.exp(-s), wave, sp.sqrt(s),
+                 sp.S.Zero, sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), families[15], -s,
+                 s * wave)  # fmt: skip
         shape = loads[seed % len(loads)]
         size = U * sp.Rational(chance.choice(("1", "1", "1/2", "1", "-1", "2")))
     made = size * shape

@@ -1,14 +1,13 @@
-"""Judgements tried on models: what `derive verify --deep` asks, and the table of reasons.
+"""Judgements tried on models: what `derive verify` asks, and the reasons of hypotheses.
 
 Key results
-    tried(judgement)     does a model break it?
-    reasons(judgement)   each hypothesis that a reader sees, with what happens without it
+    tried(judgement)              does a model break it?
+    without(judgement, dropped)   what breaks it without one of its hypotheses
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 
@@ -16,15 +15,20 @@ from ..claims import Asymptotic, Claim
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..symbols import symbol, t
-from .verdict import Answer, falsify, needed
+from .verdict import Answer, Counterexample, falsify, needed
 
-_DRAWS, _ENOUGH = 12, 2
+_DRAWS, _ENOUGH, _SEEDS = 12, 2, 26
 _CYCLES = symbol("N")
 
 
 def tried(judgement: Judgement) -> Answer:
     """Return what models say of a judgement."""
-    return falsify(_relations(judgement), _claimed(judgement.claim), _DRAWS, _ENOUGH)
+    return _answer(_relations(judgement), _claimed(judgement.claim))
+
+
+@cache
+def _answer(relations: tuple[sp.Basic, ...], claim: sp.Basic) -> Answer:
+    return falsify(relations, claim, _DRAWS, _ENOUGH)
 
 
 def _relations(judgement: Judgement) -> tuple[sp.Basic, ...]:
@@ -44,16 +48,9 @@ def _claimed(claim: Claim) -> sp.Basic:
     return sp.Eq(sp.Limit(rest, variable, point), 0, evaluate=False)
 
 
-@dataclass(frozen=True)
-class Reason:
-    """Why a hypothesis is there: a model of all others that breaks the claim, or ''."""
-
-    hypothesis: Hypothesis
-    counterexample: str
-
-
-def reasons(judgement: Judgement) -> Iterator[Reason]:
-    """Drop each hypothesis that stands beside the claim, in turn."""
-    seen = {h.relation: h for h in judgement.hypotheses if h.relation is not sp.true and h.shown}
-    for row in needed(_relations(judgement), _claimed(judgement.claim), chosen=tuple(seen)):
-        yield Reason(seen[row.hypothesis], str(row.counterexample or ""))
+def without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
+    """Return a model of all other hypotheses that breaks the claim; None if none is found: the
+    hypothesis is superfluous as far as models go."""
+    relations, claim = _relations(judgement), _claimed(judgement.claim)
+    (row,) = needed(relations, claim, _SEEDS, chosen=(dropped.relation,))
+    return row.counterexample

@@ -34,7 +34,7 @@ def tends_to(windows: Sequence[Window], value: arb) -> bool | None:
     first, before, last = (max(abs(v - value).mid() for v in w) for w in windows[-3:])
     size = max(*(abs(v).mid() for v in windows[-1]), abs(value).mid())
     if any(v.rad() > _GROSS * (abs(v - value) + _RESOLVED * size) for v in windows[-1]):
-        return True if last <= _RESOLVED * size else None
+        return True if all(abs(v - value).upper() <= _GROSS * size for v in windows[-1]) else None
     if last <= _RESOLVED * size or (last < arb("0.85") * before and before < arb("0.95") * first):
         return True
     if last >= arb("0.97") * before and before >= arb("0.9") * first and last > _GROSS * size:

@@ -16,21 +16,21 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sympy as sp
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import And, BooleanFunction, Equivalent, Implies, Not, Or, Xor
 
+from ..symbols import t
 from .balls import (
     BITS,
     NOTHING,
     Moment,
     NearZero,
+    Number,
     Undecided,
     Undefined,
     ball,
     compiled,
-    head,
-    precision,
 )
 
 if TYPE_CHECKING:
@@ -38,9 +38,8 @@ if TYPE_CHECKING:
 
 EARLY = 5
 """So many of a model's times are within three periods."""
-_AGREE = arb(10) ** -20
-_RESOLVED = arb(10) ** -2
-"""Relative width up to which balls that overlap are taken for equal: values, limits."""
+_ROUNDING, _AGREE = arb(10) ** -40, arb(10) ** -3
+"""Relative widths of balls: due to rounding alone; up to which those that overlap are equal."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ def judged(relation: sp.Basic, moment: Moment, variable: sp.Symbol) -> bool:
         raise Undecided(f"{relation} is no relation")
     for bits in (BITS, 4 * BITS):
         final = bits > BITS
-        with precision(bits):
+        with ctx.workprec(bits):
             try:
                 outcome = _compared(relation, moment, variable, final)
             except Undecided:
@@ -111,16 +110,15 @@ def _compared(
         outcome = _at_infinity(relation, left, right, moment, variable)
         if outcome is not None:
             return outcome
-    a, b = (head(compiled(side, variable)(moment)) for side in (left, right))
+    a, b = (compiled(side, variable)(moment) for side in (left, right))
     gap = a - b
     if isinstance(gap, fmpq) or gap.is_zero() or not gap.contains(0):
         return bool(relation.func(_sign(gap), 0))
     gap = ball(gap)
     size = max(_size(side, moment, variable) for side in (left, right))
-    wide = relation.has(sp.Limit) or moment.model.derived_by_limit(relation)
-    close = gap.rad() <= max((_RESOLVED if wide else _AGREE) * size, NOTHING)
-    if not final and not wide:
+    if not final and gap.rad() <= _ROUNDING * size:
         return None  # perhaps more digits part them
+    close = gap.rad() <= max(_AGREE * size, NOTHING)
     if close and isinstance(relation, (sp.Eq, sp.Ge, sp.Le)):
         return True
     if close and isinstance(relation, sp.Ne):
@@ -160,25 +158,40 @@ def _at_infinity(
 
 def truth(relation: sp.Basic, model: Model) -> Truth:
     """Return whether a relation holds in a model for all its times."""
-    timeless = not varies(relation, model.variable)
+    timeless = not varies(relation, t)
     decided, doubtful = False, False
     for number, time in enumerate(model.times[:1] if timeless else model.times):
+        moment = Moment(model, time)
+        when = "" if timeless else f"at {t} = {_shown(time)}: "
         try:
-            if not judged(relation, Moment(model, time), model.variable):
-                return Truth(False, "" if timeless else f"at {model.variable} = {time}")
+            if not judged(relation, moment, t):
+                return Truth(False, when + _sides(relation, moment))
             decided = True
-        except NearZero as reason:
-            if number < EARLY:  # later on, an exponential may be that small
-                return Truth(
-                    False, f"{reason}" + ("" if timeless else f" at {model.variable} = {time}")
-                )
-        except Undefined as reason:
-            return Truth(
-                False, f"{reason}" + ("" if timeless else f" at {model.variable} = {time}")
-            )
+        except (Undefined, NearZero) as reason:
+            if isinstance(reason, Undefined) or number < EARLY:
+                return Truth(False, f"{when}{reason}")  # later an exponential may be that small
         except (ArithmeticError, ValueError, RecursionError):
             doubtful = doubtful or number < EARLY
     return Truth(True if decided and not doubtful else None)
+
+
+def _sides(relation: sp.Basic, moment: Moment) -> str:
+    """Return the values of the two sides of a relation that does not hold."""
+    if not isinstance(relation, Relational):
+        return "it does not hold"
+    shown = []
+    for side in relation.args:
+        try:
+            limit = isinstance(side, sp.Limit)
+            found = moment.model.latest(side) if limit else compiled(side, t)(moment)
+            shown.append(f"{'towards ' if limit else ''}{_shown(found)}")
+        except (ArithmeticError, ValueError):
+            shown.append("oo" if side.is_infinite else "?")
+    return f"{shown[0]} on the left, {shown[1]} on the right"
+
+
+def _shown(number: Number) -> str:
+    return f"{float(arb(number).mid()):.6g}"
 
 
 def _ends(expr: sp.Integral | sp.Subs) -> tuple[sp.Basic, ...]:

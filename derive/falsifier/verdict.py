@@ -17,14 +17,16 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import sympy as sp
+from flint import fmpq
 from sympy.core.function import AppliedUndef
 
 from ..symbols import t
-from .balls import ball
+from .balls import fraction
 from .draws import WILD, drawn, with_law
 from .models import Model
 from .truth import truth, varies
 
+_ORDERS = (sp.Gt, sp.Ge, sp.Lt, sp.Le)
 DRAWS = 60
 """Seeds tried for a judgement."""
 ENOUGH = 12
@@ -33,14 +35,15 @@ ENOUGH = 12
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A model in which a claim fails."""
+    """A model in which a claim fails: what was drawn, as equations, and what is seen where."""
 
-    model: str
+    model: tuple[sp.Eq, ...]
     where: str
     seed: int
 
     def __str__(self) -> str:
-        return f"{self.model} ({self.where})" if self.where else self.model
+        drawn = ", ".join(f"{e.lhs} = {e.rhs}".replace("(t)", "") for e in self.model)
+        return ": ".join(filter(None, (drawn, self.where)))
 
 
 @dataclass(frozen=True)
@@ -87,10 +90,10 @@ def falsify(
         if outcome.holds is False:
             if not trial.fits(given):  # now that the fields are known for longer
                 continue
-            found = Counterexample(trial.described(), outcome.where, trial.seed)
+            found = Counterexample(trial.described(given, claimed), outcome.where, trial.seed)
             return Answer(found, models, decided + 1)
         decided += outcome.holds is True
-        if decided >= (enough if trial.model.motion else 3 * enough):
+        if decided >= (enough if trial.model.rates else 3 * enough):
             break
     return Answer(None, models, decided)
 
@@ -118,13 +121,16 @@ def needed(
             frozenset(map(_name, _quantities((dropped,)))) if _is_domain(dropped) else frozenset()
         )
         found = None
-        for trial in _models((*rest, dropped, claim), rest, draws, free):
+        negated = (dropped.negated,) if isinstance(dropped, _ORDERS) else ()
+        for trial in _models((*rest, dropped, claim), (*negated, *rest), draws, free):
             *given, without, claimed = trial.relations
             if not trial.fits(given, free) or truth(without, trial.model).holds is not False:
                 continue
             outcome = truth(claimed, trial.model)
             if outcome.holds is False and trial.fits(given, free):
-                found = Counterexample(trial.described(), outcome.where, trial.seed)
+                found = Counterexample(
+                    trial.described(given, claimed, without), outcome.where, trial.seed
+                )
                 break
         yield Needed(dropped, found)
 
@@ -154,21 +160,35 @@ class _Trial:
         for datum in {v for slope in slopes for v in slope.variables if v != t}:
             value = self.model.data.get(datum)
             if value is not None and value.is_Rational:
-                yield self.model.with_datum(datum, value + sp.Rational(1, 10**6))
+                yield self.model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
 
-    def described(self) -> str:
-        """Return the model in one line, as far as the relations ask for it."""
-        quantities = sorted(_quantities(self.relations), key=lambda q: (bool(q.args), str(q)))
-        return ", ".join(filter(None, (self._shown(q) for q in quantities)))
+    def described(self, given: Iterable[sp.Basic], *relations: sp.Basic) -> tuple[sp.Eq, ...]:
+        """Return what was drawn of the quantities on which relations rest, but for
+        what the hypotheses say themselves."""
+        equations = (h for h in given if isinstance(h, sp.Eq))
+        said = {e.lhs for e in equations if e.rhs.is_number or e.rhs.is_Symbol}
+        known = {**self.model.fields, **self.model.rates, **self.model.loops}
+        waiting, seen = list(_quantities(relations)), set[sp.Expr]()
+        while waiting:
+            quantity = waiting.pop()
+            seen.add(quantity)
+            value = known.get(_name(quantity), self.model.data.get(quantity, sp.S.Zero))
+            waiting += _quantities((value,)) - seen
+        starts = {f.func(t) for f in said if f.args == (sp.S.Zero,)}
+        ordered = sorted(seen - said - starts, key=lambda q: (bool(q.args), str(q)))
+        drawn = map(self._drawn, ordered)
+        return tuple(equation for equation in drawn if equation is not None)
 
-    def _shown(self, quantity: sp.Expr) -> str:
+    def _drawn(self, quantity: sp.Expr) -> sp.Eq | None:
+        """Return the value of what was drawn; None of what other quantities determine."""
         model, name = self.model, _name(quantity)
-        if model.motion is not None and name in model.motion.rates:
-            return f"{name} from {name}(0) = {model.motion.start[name]} on"
+        if name in model.start and quantity.args:
+            return sp.Eq(quantity.func(0), model.start[name], evaluate=False)
         value = model.fields.get(name, model.data.get(quantity))
-        if value is None or value.is_Rational or quantity.args:
-            return "" if value is None else f"{name} = {_bare(value)}"
-        return f"{name} = {float(ball(model.constant(quantity)).mid()):.6g}"
+        determined = (AppliedUndef, sp.Derivative, sp.Limit)
+        if value is None or value.atoms(*determined) or not (quantity.args or value.is_Rational):
+            return None
+        return sp.Eq(quantity, value, evaluate=False)
 
 
 def _models(
@@ -212,13 +232,6 @@ def _quantities(relations: Iterable[sp.Basic]) -> set[sp.Expr]:
 
 def _name(quantity: sp.Expr) -> str:
     return quantity.func.__name__ if isinstance(quantity, AppliedUndef) else str(quantity)
-
-
-def _bare(value: sp.Expr) -> sp.Expr:
-    """Return an expression with u_c for u_c(t)."""
-    return value.xreplace(
-        {f: sp.Symbol(_name(f)) for f in value.atoms(AppliedUndef) if f.args == (t,)}
-    )
 
 
 def domain(quantity: sp.Expr) -> sp.Basic | None:

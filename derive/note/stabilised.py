@@ -167,7 +167,9 @@ class Stabilised:
     @cached_property
     def increment(self) -> Judgement:
         """(20): the wear of one cycle of the asymptotic response."""
-        return defined(u_cum, printed.at("u_inf", t + T) - u_inf)
+        same = sp.Eq(later(rate("u_inf")), rate("u_inf"))
+        periodic = assume(Hypothesis("a stabilised response", same, kind=Kind.DEFINITION))
+        return defined(u_cum, printed.at("u_inf", t + T) - u_inf, "", periodic)
 
     @cached_property
     def wear_per_cycle(self) -> Judgement:

@@ -87,9 +87,6 @@ class _Drift:
 
 def formulas() -> tuple[Formula | Guard, ...]:
     """Return the long-time formulas."""
-    for law in LAWS.values():
-        if not _Drift(law).agrees():
-            raise ValueError(f"the drift of the {law.name} law does not split into its factors")
     return (*_geometry(), *_laws(), *_steady(), *_cutoff(), *_logarithmic())
 
 
@@ -123,21 +120,18 @@ def _vanishing() -> sp.Expr:
 def _laws() -> tuple[Formula | Guard, ...]:
     made = [Formula("tanh_argument", (r,), 4 - 2 * r, "argument of tanh at h/sigma = r")]
     for law in LAWS.values():
-        made += [
-            Formula(
-                f"share_{law.name}",
-                (r,),
-                _share(law),
-                "share p/p_max of the largest pressure at h/sigma = r",
-            ),
-            Formula(
-                f"steepness_{law.name}",
-                (r,),
-                _steepness(law),
-                "relative slope phi'/phi at h/sigma = r",
-            ),
-        ]
+        made += _law(law)
     return tuple(made)
+
+
+def _law(law: ContactLaw) -> tuple[Formula, Formula]:
+    if not _Drift(law).agrees():
+        raise ValueError(f"the drift of the {law.name} law does not split into its factors")
+    share, steepness = "share p/p_max of the largest pressure", "relative slope phi'/phi"
+    return (
+        Formula(f"share_{law.name}", (r,), _share(law), f"{share} at h/sigma = r"),
+        Formula(f"steepness_{law.name}", (r,), _steepness(law), f"{steepness} at h/sigma = r"),
+    )
 
 
 def _share(law: ContactLaw) -> sp.Expr:
@@ -256,3 +250,8 @@ def _logarithmic() -> tuple[Formula | Guard, ...]:
 def module() -> str:
     """Return the source of the generated module."""
     return formula_module("Long-time behaviour: the formulas of the regimes.", ORIGIN, formulas())
+
+
+def law_module(law: ContactLaw) -> str:
+    """Return the source of a module with the value and the relative slope of one law."""
+    return formula_module("A contact law.", ("4",), _law(law))

@@ -42,7 +42,7 @@ from ..note.governing import ROUGH_BEARING, Model
 from ..note.stabilised import named_limit
 from ..rules.algebra import alike, consequence, discharge, identity, insert, solve, substitute
 from ..rules.assumption import assume
-from ..rules.calculus import RIGID, differentiate
+from ..rules.calculus import DIFFERENTIABLE, RIGID, differentiate
 from ..rules.inequalities import arithmetic, monotone
 from ..rules.limits import intermittent
 from ..rules.reading import CONTINUOUS, PERIODIC
@@ -120,7 +120,7 @@ class Cutoff:
         """While h = 3 sigma is kept, wear follows the load."""
         kept = assume(Hypothesis("h = 3 sigma is kept", sp.Eq(margin, 0), kind=Kind.STATE))
         smoothing = assume(SMOOTHING)
-        solved = solve(differentiate(kept), rate("u_c"), smoothing)
+        solved = solve(differentiate(kept, assume(DIFFERENTIABLE)), rate("u_c"), smoothing)
         claim = sp.Eq(rate("u_c"), rate("U_a") / (1 - 3 * f_c))
         return insert(claim, solved, smoothing, name="sliding rate")
 

@@ -106,7 +106,8 @@ class Regimes:
         rest = sigma_c**2 / (-4 * f_c * h_star * M)
         claim = sp.Eq(sp.log(N), 4 * h_star / sigma_c - 8 + 4 / f_c + sp.log(rest))
         grown, rough = self.rough
-        gap = defined(h_star, h_0 - sigma_c0 / f_c - U_a, "gap where the roughness would vanish")
+        meaning = "gap where the roughness would vanish"
+        gap = defined(h_star, h_0 - sigma_c0 / f_c - U_a, meaning, assume(CONSTANT))
         cycles = defined(N, t / T, "number of cycles")
         facts = (largest_wear, assume(SMOOTHING), assume(CONSTANT), rough)
         return last_cycles(claim, self.rate, grown, cycles, gap, *facts, name="saturating wear")

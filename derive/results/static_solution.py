@@ -39,7 +39,7 @@ p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")
 MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(beta, 0))
 
 half_rate = defined(C, K_c * V * p_max / (6 * H_c))
-load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a))
+load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a), "", assume(CONSTANT))
 limit_argument = defined(x_inf, 4 - 2 / f_c)
 
 with as_written():

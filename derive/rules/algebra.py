@@ -16,9 +16,11 @@ import sympy as sp
 from ..claims import Claim, Equality, Inequality, Limit, claim_of
 from ..hypotheses import Hypothesis
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..language import bound_in
+from ..symbols import t
 from ..zero import is_zero
-from .proving import holds, require, require_defined
-from .reading import equality
+from .proving import holds, require, require_defined, smooth
+from .reading import constant, equality, replaced
 
 
 @dataclass(frozen=True)
@@ -26,6 +28,7 @@ class Substitute(Rule):
     """A claim and ``l = r`` give the claim with r for l."""
 
     words = "Insert {others} into {0}."
+    asks = ("the claim", "an equality")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *definitions = premises
@@ -34,25 +37,17 @@ class Substitute(Rule):
             known = equality(definition)
             if not claim.relation.has(known.lhs):
                 raise RuleError(f"{known.lhs} does not occur in {claim.relation}")
-            if known.lhs in _bound(claim.relation):
+            if known.lhs in bound_in(claim.relation):
                 raise RuleError(f"missing premise: {known.lhs} may take every value")
             claim = _put(claim, known)
         return Conclusion(claim)
 
 
 def _put(claim: Claim, known: Equality) -> Claim:
-    made = claim.map(lambda side: side.subs(known.lhs, known.rhs))
+    made = claim.map(lambda side: replaced(side, known.lhs, known.rhs))
     if made.relation.has(sp.zoo, sp.nan):
         raise RuleError(f"{claim.relation} has no value for {known.lhs} = {known.rhs}")
     return made
-
-
-def _bound(relation: sp.Basic) -> set[sp.Basic]:
-    """Return the variables of derivatives, integrals and limits."""
-    found: set[sp.Basic] = set()
-    for part in relation.atoms(sp.Derivative, sp.Integral, sp.Limit):
-        found |= set(part.args[1:2] if isinstance(part, sp.Limit) else part.variables)
-    return found
 
 
 def substitute(first: Judgement, *known: Judgement, name: str = "", remark: str = "") -> Judgement:
@@ -66,6 +61,7 @@ class Solve(Rule):
 
     unknown: sp.Expr
     words = "Solve {0} for {unknown}."
+    asks = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, x = equality(premises[0]), sp.Dummy(real=True)
@@ -73,7 +69,7 @@ class Solve(Rule):
         inner = residual.atoms(sp.Derivative, sp.Integral, sp.Limit, sp.Subs) - {self.unknown}
         residual = residual.xreplace({self.unknown: x})
         slope = sp.diff(residual, x)
-        if any(part.has(self.unknown) for part in inner) or slope.has(x):
+        if any(part.has(self.unknown) for part in inner) or slope.has(x) or not smooth(residual, x):
             raise RuleError(f"missing premise: {given.relation} is linear in {self.unknown}")
         require(sp.Ne(slope, 0), *premises)
         value = given.rhs
@@ -93,6 +89,7 @@ class Multiply(Rule):
 
     factor: sp.Expr
     words = "Multiply {0} by {factor}."
+    asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = premises[0].claim
@@ -114,10 +111,13 @@ class Restrict(Rule):
     """Where a relation holds, a piecewise expression is its branch, and ``|x| = x`` if x > 0."""
 
     words = "Keep of {0} the branch on which {others} holds."
+    asks = ("the claim", "the relation")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, condition = premises
         relation = condition.relation
+        if taken := (bound_in(first.relation) - {t}) & relation.free_symbols:
+            raise RuleError(f"missing premise: {relation} for every {sp.Tuple(*taken)}")
         written = (relation, getattr(relation, "reversed", relation))
         claim = first.claim.map(
             lambda side: side.replace(
@@ -143,7 +143,7 @@ def inserted(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
     for premise in premises:
         claim = premise.claim
         if isinstance(claim, Equality):
-            expr = expr.subs(claim.lhs, claim.rhs)
+            expr = replaced(expr, claim.lhs, claim.rhs)
         elif isinstance(claim, Limit) and claim.value.is_finite is not False:
             expr = expr.subs(claim.term, claim.value)
     return expr
@@ -203,7 +203,7 @@ class Logarithm(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         left, right = self.claim.args
         inside = left.args[0] if isinstance(left, sp.log) else sp.nan
-        require_defined(inside, *premises)
+        require_defined(self.claim, *premises)
         if not is_zero(inserted(inside, premises) - sp.exp(right)):
             raise RuleError(f"missing premise: {inside} = exp({right})")
         return Conclusion(Equality(left, right))
@@ -220,6 +220,7 @@ class Consequence(Rule):
 
     claim: sp.Basic
     words = "Insert {others} into {0}."
+    asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *others = premises
@@ -289,6 +290,7 @@ class Discharge(Rule):
 
     hypothesis: Hypothesis
     words = "{0}, where the hypothesis is met by {others}."
+    asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *known = premises
@@ -311,11 +313,15 @@ class Forget(Rule):
 
     hypothesis: Hypothesis
     words = "{0}, which says nothing of that value."
+    asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
         name, value = self.hypothesis.relation.args
         others = [h.relation for h in first.hypotheses if h != self.hypothesis]
+        if not constant(sp.Tuple(name, value)):
+            raise RuleError(f"missing premise: {name} and {value} are constant")
+        require_defined(value)
         if not name.is_Symbol or sp.Tuple(value, first.relation, *others).has(name):
             raise RuleError(f"missing premise: {name} occurs nowhere else")
         possible = name.is_real and (not name.is_nonnegative or holds(sp.Ge(value, 0)))

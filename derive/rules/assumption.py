@@ -6,10 +6,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
-from ..claims import Property, claim_of
+from ..claims import Equality, Limit, Property, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, plain
+from ..symbols import DATA, t
+from ..zero import is_zero
+from .algebra import inserted
+from .reading import at_an_instant, clocks, fields
+
+_HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
+"""Kinds that no reader sees beside an equation: they may not hide a condition."""
 
 
 @dataclass(frozen=True)
@@ -19,16 +27,39 @@ class Assume(Rule):
     hypothesis: Hypothesis
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        relation = self.hypothesis.relation
-        if premises or relation == sp.false:
-            raise RuleError(f"{self.hypothesis.text}: cannot be assumed")
-        named = self.hypothesis.kind is Kind.DEFINITION
-        true = relation is sp.true
-        claim = Property(self.hypothesis.text) if true else claim_of(relation, named)
-        return Conclusion(claim, adds=(self.hypothesis,))
+        said, relation, kind = self.hypothesis, self.hypothesis.relation, self.hypothesis.kind
+        instant = bool(clocks(relation)) and not relation.atoms(AppliedUndef)
+        named = kind is Kind.DEFINITION
+        if (
+            type(said) is not Hypothesis
+            or relation == sp.false
+            or kind is Kind.DOMAIN
+            or relation.has(landau_o)
+            or (not named and (instant or premises))
+        ):
+            raise RuleError(f"{said.text}: cannot be assumed")
+        claim = Property(said.text) if relation is sp.true else claim_of(relation, named)
+        if not isinstance(claim, Limit) and any(side in (sp.oo, -sp.oo) for side in relation.args):
+            raise RuleError(f"{said.text}: infinity is the value of limits alone")
+        if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
+            raise RuleError(f"{said.text}: no equation")
+        if named and isinstance(claim, Equality) and claim.lhs.is_Symbol:
+            _require_name(claim, premises)
+        return Conclusion(claim, adds=(said,))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         return f"Hypothesis: {self.hypothesis.text}."
+
+
+def _require_name(claim: Equality, premises: tuple[Judgement, ...]) -> None:
+    """Refuse to define what is given, or a constant by what varies."""
+    name, value = claim.lhs, at_an_instant(claim.rhs)
+    if name.name in DATA or value.has(name):
+        raise RuleError(f"missing premise: {name} is a new name")
+    moving = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
+    rate = inserted(sp.Add(*moving), premises).doit()
+    if not clocks(name) and (clocks(value) or not is_zero(rate)):
+        raise RuleError(f"missing premise: {value} is constant")
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:
@@ -36,7 +67,8 @@ def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgemen
     return infer(Assume(hypothesis), name=name, remark=remark)
 
 
-def defined(symbol: sp.Expr, value: sp.Expr, text: str = "") -> Judgement:
-    """Return the definition of a name."""
+def defined(symbol: sp.Expr, value: sp.Expr, text: str = "", *steady: Judgement) -> Judgement:
+    """Return the definition of a name; further premises say that what varies here does not."""
     relation = sp.Eq(symbol, value, evaluate=False)
-    return assume(Hypothesis(text or f"{symbol} by definition", relation, kind=Kind.DEFINITION))
+    text = text or f"{symbol} by definition"
+    return infer(Assume(Hypothesis(text, relation, kind=Kind.DEFINITION)), *steady)

@@ -24,7 +24,7 @@ from ..averaging import Averaged, average
 from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
 from ..harmonics import Harmonics, constant, sine, total
 from ..hypotheses import Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, listed
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .reading import LOAD, SINE, T, equality, fields, has_hypothesis
@@ -113,6 +113,7 @@ class Averaging(Rule):
     claim: sp.Equality
     words = "Average the rate over a cycle, order by order, with {all}."
     source = "Sanders, Verhulst, Murdock, 2007"
+    asks = ("the pressure",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, name = equality(premises[0]), self.claim.lhs
@@ -164,7 +165,9 @@ class SlowTime(Rule):
             )
             for law in laws
         ):
-            raise RuleError("missing premise: c_1 to c_4 are the drifts of the expansion")
+            raise RuleError(
+                f"missing premise: {listed(map(str, drifts))} are the drifts of the expansion"
+            )
         if EXPANSION not in hypotheses:
             raise RuleError(f"missing premise: {EXPANSION.text}")
         small = sp.Dummy("1/m", positive=True)

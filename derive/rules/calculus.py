@@ -17,14 +17,24 @@ import sympy as sp
 from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
-from ..symbols import symbols, t
-from .inequalities import smooth
-from .proving import continuous
-from .reading import LOAD, constant, equality, field_of_rate, fields, inequality, initial_value
+from ..symbols import DATA, symbols, t
+from .proving import continuous, require_defined, smooth
+from .reading import (
+    LOAD,
+    clocks,
+    constant,
+    equality,
+    field_of_rate,
+    fields,
+    inequality,
+    initial_value,
+)
 
 U_c, p, k, T, tau = symbols("U_c p k T tau")
 
 SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", sp.Eq(k * U_c - p, 0), kind=Kind.MODEL)
+WEARING = symbols("u_a u_c sigma_a sigma_c")
+DIFFERENTIABLE = Hypothesis("differentiable load", kind=Kind.LOAD)
 RIGID = Hypothesis("rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING)
 
 
@@ -34,6 +44,7 @@ class Integrate(Rule):
 
     words = "Integrate {0} over time, from {others}."
     source = "fundamental theorem of calculus"
+    asks = ("the rate", "y(0)", "x(0)")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, start_y, start_x = premises
@@ -60,6 +71,7 @@ class Grows(Rule):
 
     words = "Integrate the constant lower bound of {0}, from {others}."
     source = "mean value theorem on [0, t]"
+    asks = ("the bound of the rate", "u(0)")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         bound, start = premises
@@ -78,21 +90,30 @@ def grows(bound: Judgement, start: Judgement, name: str = "") -> Judgement:
 
 @dataclass(frozen=True)
 class Differentiate(Rule):
-    """An equality that holds at every time gives that of the rates of both sides."""
+    """An equality that holds at every time gives that of the rates of both sides.
+
+    Wear and roughness have rates, by Archard's law; the load where a premise says so.
+    """
 
     words = "Differentiate {0} with respect to time."
     source = "chain rule"
+    asks = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
-        if not all(smooth(side) for side in (given.lhs, given.rhs)):
+        rough = (fields(given.rhs) | fields(given.lhs) - {given.lhs}) - set(WEARING)
+        if DIFFERENTIABLE in {h for premise in premises for h in premise.hypotheses}:
+            rough -= {LOAD}
+        if rough or not smooth(given.relation.lhs - given.rhs) or clocks(given.relation) - {t}:
             raise RuleError(f"missing premise: {given.relation} is differentiable")
-        return Conclusion(Equality(sp.diff(given.lhs, t), sp.diff(given.rhs, t)))
+        rates = sp.diff(given.lhs, t), sp.diff(given.rhs, t)
+        require_defined(sp.Tuple(*rates), *premises)
+        return Conclusion(Equality(*rates))
 
 
-def differentiate(equation: Judgement) -> Judgement:
+def differentiate(equation: Judgement, *facts: Judgement) -> Judgement:
     """Return the equality of the rates of both sides."""
-    return infer(Differentiate(), equation)
+    return infer(Differentiate(), equation, *facts)
 
 
 @dataclass(frozen=True)
@@ -105,6 +126,7 @@ class RigidLimit(Rule):
     """
 
     words = "Let the stiffness tend to infinity in {0}: the support is rigid."
+    asks = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
@@ -112,10 +134,12 @@ class RigidLimit(Rule):
         if SPRINGS not in first.hypotheses:
             raise RuleError(f"missing premise: {SPRINGS.text}")
         others = [h for h in first.hypotheses if h != SPRINGS]
-        loads = [h for h in others if h.kind is not Kind.MODEL and h.relation.has(LOAD.func)]
+        apart = [h.relation.subs(LOAD, LOAD + U_c) for h in others]
+        loads = [r for r in apart if r.has(U_c.func) or r.atoms(LOAD.func) - {LOAD} or r == sp.true]
         if loads or given.relation.has(U_c) or any(h.relation.has(k) for h in others):
             raise RuleError("missing premise: nothing else is said of the load, of U_c and of k")
-        sides = [side.subs(k, 1 / small) for side in (given.lhs, given.rhs)]
+        deeper = {k: 1 / small, LOAD: LOAD + small * p}
+        sides = [side.subs(deeper, simultaneous=True) for side in (given.lhs, given.rhs)]
         if not all(continuous(side, {small: sp.S.Zero}, first) for side in sides):
             raise RuleError(f"missing premise: {given.relation} is continuous for k -> oo")
         left, right = (side.subs(small, 0) for side in sides)
@@ -133,6 +157,7 @@ class ChangeClock(Rule):
 
     words = "Measure time in periods, in {all}."
     source = "chain rule"
+    asks = ("the scale of y", "t = T tau")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         scaled, clock = map(equality, premises)
@@ -153,13 +178,19 @@ def change_clock(scaled: Judgement, clock: Judgement) -> Judgement:
 
 @dataclass(frozen=True)
 class ParameterLimit(Rule):
-    """The limit of ``F(N)`` for N -> oo, by continuity in 1/N at 0."""
+    """The limit of ``F(N)`` for N -> oo, by continuity in 1/N at 0; F is a function of data.
+
+    Fields, and names of other things, may depend on N.
+    """
 
     expr: sp.Expr
     variable: sp.Symbol
     words = "Let {variable} tend to infinity in {expr}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
+        others = {s.name for s in self.expr.free_symbols - {self.variable}}
+        if fields(self.expr) or others - DATA:
+            raise RuleError(f"missing premise: {self.expr} is a function of data alone")
         small = sp.Dummy("small", positive=True)
         at_end = sp.together(self.expr.subs(self.variable, 1 / small))
         if not continuous(at_end, {small: sp.S.Zero}, *premises):

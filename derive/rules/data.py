@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ..claims import Equality, Inequality
 from ..hypotheses import Kind
@@ -17,8 +18,7 @@ from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..symbols import DATA
 from ..zero import is_zero
 from .algebra import inserted
-from .inequalities import smooth
-from .proving import facts_of, holds, require_defined
+from .proving import facts_of, holds, require_defined, smooth
 from .reading import equality, fields
 
 _OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)
@@ -29,9 +29,10 @@ def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
     names = {s for s in expr.free_symbols if s.name not in DATA}
     if fields(expr) or names:
         raise RuleError(f"missing premise: {expr} is a function of data alone")
-    for hypothesis in premises[0].hypotheses:
-        relation = hypothesis.relation
-        kept = hypothesis.kind in (Kind.PARAMETER, Kind.STATE) and relation.has(parameter)
+    for hypothesis in (h for premise in premises for h in premise.hypotheses):
+        relation, kind = hypothesis.relation, hypothesis.kind
+        of_data = not relation.atoms(AppliedUndef) and kind is not Kind.DEFINITION
+        kept = relation.has(parameter) and (of_data or kind in (Kind.PARAMETER, Kind.STATE))
         if kept and not isinstance(relation, _OPEN):
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
 
@@ -46,13 +47,13 @@ class Differentiated(Rule):
     claim: sp.Equality
     parameter: sp.Symbol
     words = "Differentiate {0} with respect to {parameter}, with {others}."
+    asks = ("the result",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         result = equality(premises[0])
         if not result.lhs.is_Symbol or self.parameter.name not in DATA:
             raise RuleError(f"missing premise: {self.parameter} is one of the data")
-        _free(self.parameter, result.rhs, premises[0])
-        require_defined(result.rhs, *premises)
+        _free(self.parameter, result.rhs, *premises)
         slope = sp.diff(result.rhs, self.parameter)
         of_result = sp.Derivative(result.lhs, self.parameter, evaluate=False)
         require_defined(self.claim, *premises)
@@ -75,11 +76,13 @@ class OneSign(Rule):
 
     parameter: sp.Expr
     words = "Differentiate the rate {0} with respect to {parameter}: the sign is constant."
+    asks = ("the result",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law = equality(premises[0])
         slope = sp.diff(law.rhs, self.parameter).doit()
         known = facts_of(premises)
+        require_defined(slope, *premises)
         for relation in (sp.Ge, sp.Le):
             if holds(relation(slope, 0), known):
                 return Conclusion(Inequality(relation(slope, 0, evaluate=False)))

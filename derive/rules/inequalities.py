@@ -13,32 +13,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ..claims import Inequality, claim_of
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..zero import is_zero
-from .proving import LAW, continuity, facts_of, holds, require, require_defined, sign
+from .proving import continuity, facts_of, holds, require, require_defined, sign, smooth
 from .reading import inequality
-
-_SMOOTH = (
-    sp.Add,
-    sp.Mul,
-    sp.Pow,
-    sp.exp,
-    sp.tanh,
-    sp.log,
-    LAW,
-    sp.Symbol,
-    sp.Number,
-    sp.NumberSymbol,
-)
-
-
-def smooth(expr: sp.Expr) -> bool:
-    """Return whether an expression is differentiable where it has a value, roots but at 0."""
-    parts = sp.preorder_traversal(expr)
-    return all(isinstance(part, (*_SMOOTH, sp.NumberSymbol, AppliedUndef)) for part in parts)
 
 
 @dataclass(frozen=True)
@@ -50,7 +30,6 @@ class Arithmetic(Rule):
     source = "decided by z3: Jovanovic, de Moura, Solving nonlinear arithmetic, 2012"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        require_defined(self.claim, *premises)
         require(self.claim, *premises)
         return Conclusion(claim_of(self.claim))
 
@@ -67,6 +46,7 @@ class Monotone(Rule):
     function: sp.Lambda
     words = "Apply a monotone function to both sides of {0}."
     source = "the derivative of the function has one sign between the two sides"
+    asks = ("the bound",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         bound, at = inequality(premises[0]), sp.Dummy(real=True)
@@ -134,7 +114,7 @@ class LogarithmicSlope(Rule):
         y = sp.Dummy(real=True)
         value = self.function(y)
         require_defined(value)
-        require_defined(sp.Tuple(self.a, self.b), *premises)
+        require_defined(sp.Tuple(self.a, self.b, self.bound), *premises)
         slope = sp.cancel((sp.diff(value, y) / value).rewrite(sp.exp))
         goals = (value > 0, self.bound - slope >= 0, self.bound + slope >= 0)
         if not smooth(value) or not all(holds(goal) for goal in goals):

@@ -30,6 +30,7 @@ from sympy.core.relational import Relational
 
 from ..claims import Asymptotic, Limit, Property
 from ..kernel import Judgement, RuleError
+from ..language import certain
 from ..laws import GENERAL
 
 LAW = GENERAL.phi.func
@@ -41,6 +42,11 @@ EFFORT = 3_000_000
 _BALL = {sp.exp: flint.arb.exp, sp.log: flint.arb.log, sp.tanh: flint.arb.tanh}
 #: Functions that are continuous wherever they have a value.
 _CONTINUOUS = (sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Abs, LAW, sp.Symbol)
+#: Functions that are differentiable wherever they have a value; roots but at 0.
+_SMOOTH = (
+    *(sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Ei, sp.LambertW, AppliedUndef),
+    *(sp.Symbol, sp.Number, sp.NumberSymbol),
+)
 #: Functions that have a value at every real argument.
 _TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.atan, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
 _RELATIONS = {
@@ -58,23 +64,18 @@ def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
     claim has a value."""
     found: set[sp.Basic] = set()
     for premise in premises:
-        if not isinstance(premise.claim, Property):
+        if not isinstance(premise.claim, (Asymptotic, Property)):
             found.add(premise.relation)
-        if _valued(premise):
-            found |= set(_needed(premise.relation, set())) - {sp.false}
+        found |= {need for part in _parts((premise,)) for need in _need(part)} - {sp.false}
         found |= {h.relation for h in premise.hypotheses if h.relation is not sp.true}
     return frozenset(found)
 
 
-def _valued(premise: Judgement) -> bool:
-    """Return whether all that stands in a claim has a value at every time, not just in the end."""
-    return not isinstance(premise.claim, (Asymptotic, Limit, Property))
-
-
 def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
-    """Return the parts of claims, all of which have a value."""
-    wholes = (premise.relation for premise in premises if _valued(premise))
-    return {part for whole in wholes for part in sp.preorder_traversal(whole)}
+    """Return the parts of claims that have a value, at every time and not just in the end."""
+    late = (Asymptotic, Limit, Property)
+    wholes = (premise.relation for premise in premises if not isinstance(premise.claim, late))
+    return {part for whole in wholes for part in certain(whole)}
 
 
 @cache
@@ -223,7 +224,8 @@ def sign(expr: sp.Expr, facts: frozenset[sp.Basic] = frozenset()) -> int | None:
 
 
 def require(goal: sp.Basic, *premises: Judgement) -> None:
-    """Raise RuleError unless a relation follows from premises."""
+    """Raise RuleError unless a relation follows from premises, and has a value."""
+    require_defined(goal, *premises)
     if not holds(goal, facts_of(premises)):
         raise RuleError(f"missing premise: {goal}")
 
@@ -238,28 +240,31 @@ def require_defined(expr: sp.Basic, *premises: Judgement) -> None:
 
 def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:
     """Return the relations that give every part of an expression a value."""
-    if expr in known or not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative, sp.Limit)):
-        if expr in (sp.zoo, sp.nan):
-            return [sp.false]
+    if expr in known or isinstance(expr, (sp.Derivative, sp.Limit)):
         return []
-    needs = [goal for part in expr.args for goal in _needed(part, known)]
+    return [*(goal for part in expr.args for goal in _needed(part, known)), *_need(expr)]
+
+
+def _need(expr: sp.Basic) -> list[sp.Basic]:
+    """Return the relation that gives an expression a value where its arguments have one."""
+    if expr in (sp.zoo, sp.nan):
+        return [sp.false]
     if isinstance(expr, sp.Pow):
         base, exponent = expr.args
         if exponent.is_Integer:
-            return [*needs, sp.Ne(base, 0)] if exponent.is_negative else needs
+            return [sp.Ne(base, 0)] if exponent.is_negative else []
         relation = sp.Ge if exponent.is_positive else sp.Gt
-        return [*needs, relation(base, 0, evaluate=False)]
+        return [relation(base, 0, evaluate=False)]
     if isinstance(expr, sp.log):
-        return [*needs, sp.Gt(expr.args[0], 0)]
+        return [sp.Gt(expr.args[0], 0)]
     if isinstance(expr, sp.LambertW):
-        return [*needs, sp.Ge(expr.args[0], 0) if len(expr.args) == 1 else sp.false]
+        return [sp.Ge(expr.args[0], 0) if len(expr.args) == 1 else sp.false]
     if isinstance(expr, sp.Ei):
-        return [*needs, sp.Ne(expr.args[0], 0)]
+        return [sp.Ne(expr.args[0], 0)]
     if isinstance(expr, sp.atanh):
-        return [*needs, sp.Lt(expr.args[0] ** 2, 1)]
-    if isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise)):
-        return [sp.false]
-    return needs
+        return [sp.Lt(expr.args[0] ** 2, 1)]
+    partial = isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise))
+    return [sp.false] if partial and not isinstance(expr, AppliedUndef) else []
 
 
 def continuous(expr: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgement) -> bool:
@@ -267,8 +272,9 @@ def continuous(expr: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgeme
 
     It must be made of continuous functions, which have a value at the point and near it.
     """
-    goals = continuity(expr, set(at), _parts(premises))
-    points = [goal.subs(dict(at)) for goal in goals]
+    plain = {unknown: sp.Dummy(real=True) for unknown in at}
+    goals = continuity(expr.xreplace(plain), set(plain.values()), _parts(premises))
+    points = [goal.subs({plain[unknown]: end for unknown, end in at.items()}) for goal in goals]
     facts = facts_of(premises)
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
 
@@ -281,6 +287,14 @@ def continuity(
     if not all(isinstance(part, _CONTINUOUS) or part in unknowns for part in changing):
         return [sp.false]
     return [_strict(goal) for goal in _needed(expr, known)]
+
+
+def smooth(expr: sp.Expr, *unknowns: sp.Basic) -> bool:
+    """Return whether an expression is differentiable (in some unknowns, or all) where it has a
+    value, roots but at 0."""
+    parts = sp.preorder_traversal(expr)
+    changing = (part for part in parts if not unknowns or part.has(*unknowns))
+    return all(isinstance(part, _SMOOTH) for part in changing)
 
 
 def _strict(goal: sp.Basic) -> sp.Basic:

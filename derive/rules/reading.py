@@ -13,10 +13,11 @@ from typing import TypeVar
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Between, Claim, Equality, Equivalence, Inequality, Limit
+from ..claims import Between, Claim, Drift, Equality, Equivalence, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, RuleError
-from ..symbols import symbol, t
+from ..language import bound
+from ..symbols import CLOCKS, symbol, t
 from .proving import LAW
 
 C = TypeVar("C", bound=Claim)
@@ -102,7 +103,34 @@ def fields(expr: sp.Basic) -> set[sp.Expr]:
 
 def constant(expr: sp.Expr) -> bool:
     """Return whether an expression does not depend on time."""
-    return not expr.has(t) and not expr.atoms(sp.Derivative, sp.Integral, sp.Limit) - _slopes(expr)
+    moving = expr.has(t) or clocks(expr)
+    return not moving and not expr.atoms(sp.Derivative, sp.Integral, sp.Limit) - _slopes(expr)
+
+
+def clocks(expr: sp.Basic) -> set[sp.Basic]:
+    """Return the symbols in an expression that vary in time, and time itself."""
+    still = {field: sp.Dummy() for field in expr.atoms(AppliedUndef)}
+    free = at_an_instant(expr).xreplace(still).free_symbols
+    return {s for s in free if s.name in CLOCKS and not isinstance(s, sp.Dummy)}
+
+
+def at_an_instant(expr: sp.Basic) -> sp.Basic:
+    """Return an expression with a constant for each integral and limit in it."""
+    return expr.xreplace({whole: sp.Dummy() for whole in expr.atoms(sp.Integral, sp.Limit, Drift)})
+
+
+def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
+    """Return an expression with another for a part that equals it at every time.
+
+    RuleError where that part stands below a variable that is bound there and occurs in either,
+    or below the derivative with respect to a datum: of that the equality says nothing.
+    """
+    touched = [node for node in sp.preorder_traversal(expr) if bound(node) and node.has(old)]
+    taken = {v for node in touched for v in bound(node)} - {t}
+    of_data = any(isinstance(node, sp.Derivative) and bound(node) != {t} for node in touched)
+    if of_data or taken & (old.free_symbols | new.free_symbols):
+        raise RuleError(f"missing premise: {old} = {new} for every {sp.Tuple(*taken)}")
+    return expr.subs(old, new)
 
 
 def _slopes(expr: sp.Expr) -> set[sp.Basic]:

@@ -18,9 +18,17 @@ from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
 from ..symbols import t
 from ..zero import is_zero
 from .algebra import inserted
-from .inequalities import smooth
-from .proving import require, require_defined, sign
-from .reading import CONSTANT, LOAD, equality, fields, has_hypothesis, initial_value, rate_law
+from .proving import require, require_defined, sign, smooth
+from .reading import (
+    CONSTANT,
+    LOAD,
+    constant,
+    equality,
+    fields,
+    has_hypothesis,
+    initial_value,
+    rate_law,
+)
 
 
 @dataclass(frozen=True)
@@ -35,6 +43,7 @@ class Solution(Rule):
         "Differentiating the claim gives back the rate {0}; at t = 0 it gives the first wear, {1}."
     )
     source = "fundamental theorem of calculus"
+    asks = ("the rate", "u(0)")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, start, *names = premises
@@ -47,9 +56,10 @@ class Solution(Rule):
         plain = {u: sp.Dummy("u", nonnegative=True), LOAD: sp.Dummy("U", real=True)}
         known = tuple(names)
         found, slope = (inserted(e, known).xreplace(plain) for e in (time, rate))
-        if found.has(t) or slope.has(t) or fields(found):
-            raise RuleError(f"missing premise: {time} depends on the wear alone")
+        if not constant(found) or not constant(slope) or fields(found) or not smooth(found):
+            raise RuleError(f"missing premise: {time} is a smooth function of the wear alone")
         wear = plain[u]
+        require(sp.Ge(initial_value(start, u), 0), *premises)
         if not is_zero(sp.diff(found, wear) - (1 / slope).rewrite(sp.exp)):
             raise RuleError("missing premise: its derivative is the reciprocal of the rate")
         if not is_zero(found.subs(wear, initial_value(start, u))):
@@ -73,6 +83,7 @@ class Inverted(Rule):
     claim: sp.Equality
     words = "Solve {0} for the wear, by Lambert's function."
     source = "Corless et al., Adv. Comput. Math. 5 (1996) 329"
+    asks = ("the time",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
@@ -120,6 +131,7 @@ class Parametric(Rule):
     pressure: sp.Expr
     words = "Wear and rate are known at a pressure, {0} and {1}; integrate over it."
     source = "chain rule"
+    asks = ("the rate", "the wear", "u(0)")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, wear, start, *names = premises
@@ -131,15 +143,21 @@ class Parametric(Rule):
         p = sp.Dummy("p", positive=True)
         first, load = sp.Dummy("p_0", positive=True), sp.Dummy("U", real=True)
         begin = self.pressure.subs(t, 0)
-        plain = {self.pressure: p, begin: first, LOAD: load}
+        plain = {self.pressure: p, begin: first, LOAD: load, LOAD.subs(t, 0): load}
         q, g, f = (
             inserted(e, tuple(names)).xreplace(plain) for e in (rate, worn.rhs, self.claim.rhs)
         )
-        if fields(sp.Tuple(q, g, f)) or q.has(t) or not is_zero(sp.diff(f, p) - sp.diff(g, p) / q):
+        flat = sp.Tuple(q, g, f.replace(sp.Integral, lambda integrand, _: integrand))
+        if fields(flat) or not constant(flat) or not all(map(smooth, flat)):
+            raise RuleError("missing premise: wear and time are smooth functions of the pressure")
+        if not is_zero(sp.diff(f, p) - sp.diff(g, p) / q):
             raise RuleError("missing premise: its derivative is that of the wear over the rate")
-        zero = g.subs(p, first)  # u(0) = 0 gives the load at which the pressure is p(0)
-        at_start = load - zero / sp.diff(zero, load)
-        if not is_zero(f.subs(p, first).doit().subs(load, at_start)):
+        f, zero = (e.subs(p, first).doit() for e in (f, g))
+        if f.has(load):  # u(0) = 0 gives the load at which the pressure is p(0)
+            if sp.diff(zero, load, 2) != 0:
+                raise RuleError("missing premise: the wear is linear in the load")
+            f = f.subs(load, load - zero / sp.diff(zero, load))
+        if not is_zero(f):
             raise RuleError("missing premise: it begins at 0")
         return Conclusion(Equality(t, self.claim.rhs))
 
@@ -162,6 +180,7 @@ class FirstRoot(Rule):
     factor: sp.Expr
     words = "The first root of a quadratic equation, {all}."
     source = "the quadratic formula, in the form without cancellation"
+    asks = ("the definition",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         meaning = equality(premises[0])

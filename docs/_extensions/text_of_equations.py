@@ -6,6 +6,7 @@ from itertools import groupby
 
 from mathml_renderer import anchor
 
+from derive import reasons
 from derive.catalogue import equation, equations
 from derive.equations import Equation, Status
 from derive.symbols import QUANTITIES
@@ -39,6 +40,23 @@ def catalogue() -> str:
         parts.append("## Beyond the note" if is_own else "## The note's equations")
         parts += [_entry(member) for member in group]
     return "\n\n".join(parts)
+
+
+def conditions() -> str:
+    """Every condition of every equation, with a model that breaks the equation without it."""
+    parts = []
+    for identifier, rows in groupby(reasons.table(), key=lambda row: row.equation):
+        parts.append(f"## {_heading(equation(identifier))}\n\n{_block(equation(identifier).latex)}")
+        parts.append("\n".join(map(_without, rows)))
+    return "\n\n".join(parts)
+
+
+def _without(row: reasons.Reason) -> str:
+    condition = row.condition if row.latex.startswith(r"\text") else f"${row.latex}$"
+    if not row.model:
+        return f"- Without *{condition}*: no counterexample was found."
+    model = ", ".join(f"${part}$" for part in row.model)
+    return f"- Without *{condition}* it fails for {model}: {row.where}."
 
 
 def symbols() -> str:

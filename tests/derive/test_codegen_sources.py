@@ -8,6 +8,7 @@ import json
 import math
 import re
 import subprocess
+from pathlib import Path
 
 import pytest
 import sympy as sp
@@ -79,7 +80,9 @@ def test_what_a_target_has_no_word_for_is_refused(target, expr):
 
 
 def test_an_unknown_target_is_refused():
-    with pytest.raises(ValueError, match=r"'rust' is no target; there are numpy, c, fortran"):
+    with pytest.raises(
+        ValueError, match=r"'rust' is no target; there are numpy, c, fortran, javascript, header"
+    ):
         source(exact.made(VARIANTS[0]), "rust")
 
 
@@ -415,11 +418,152 @@ def test_not_a_number_is_not_hidden(need_tool, tmp_path):
         assert math.isnan(float(printed.split()[0])), language
 
 
-# Wear laws for finite element codes
+# Laws for finite element codes
 
 
+def test_every_c_source_is_what_its_header_declares(need_tool, tmp_path):
+    compiler, plus = need_tool("gcc"), need_tool("g++")
+    for name in RUN:
+        variant = exact.variant_of(*name.split("/"))
+        (tmp_path / "wear_model.h").write_text(source(exact.made(variant), "header"))
+        (tmp_path / "wear_model.c").write_text(source(exact.made(variant), "c"))
+        flags = ("-fsyntax-only", "-Wmissing-prototypes", "-Wall", "-Wextra", "-Werror")
+        run(compiler, "-std=c99", *flags, "-include", "wear_model.h", "wear_model.c", cwd=tmp_path)
+        (tmp_path / "user.cpp").write_text('#include "wear_model.h"\n#include "wear_model.h"\n')
+        run(plus, "-fsyntax-only", "-Wall", "-Werror", "user.cpp", cwd=tmp_path)
+
+
+@pytest.mark.parametrize("law", ["tanh", "exponential"])
+def test_the_contact_pressure_and_its_derivative_are_those_of_the_law(law, need_tool, tmp_path):
+    """At closures from deep in contact to far apart; nothing is hidden at none."""
+    variant = exact.variant_of(law, "rigid_bearing")
+    ratios = (-3.0, 0.25, 1.0, 2.5, 7.0, 60.0)
+    pairs = ", ".join(f"{2.0**-11 * ratio!r}" for ratio in ratios)
+    (tmp_path / "user.c").write_text(
+        f"""{source(exact.made(variant), "c")}
+#include <stdio.h>
+int main(void)
+{{
+    const double closures[] = {{{pairs}, NAN}};
+    for (int i = 0; i < {len(ratios) + 1}; ++i) {{
+        double pressure, slope;
+        wear_contact_pressure(closures[i], 0x1p-11, 300.0, &pressure, &slope);
+        printf("%.17g %.17g\\n", pressure, slope);
+    }}
+    return 0;
+}}
+"""
+    )
+    run(need_tool("gcc"), "-std=c99", *FLAGS, "user.c", "-lm", "-o", "user", cwd=tmp_path)
+    *printed, none = run(str(tmp_path / "user")).splitlines()
+    assert all(math.isnan(float(number)) for number in none.split())
+    forms = (300 * variant.law.phi, 300 * sp.diff(variant.law.phi, r) * 2**11)
+    for ratio, line in zip(ratios, printed, strict=True):
+        for number, form in zip(line.split(), forms, strict=True):
+            assert float(number) == pytest.approx(
+                float(form.subs(r, sp.Rational(ratio)).evalf(50)), rel=1e-14, abs=0
+            )
+
+
+STUB = """
+module calls
+  implicit none
+contains
+  subroutine wanted(pressure)
+    use, intrinsic :: iso_fortran_env, only: dp => real64
+    real(dp), intent(in) :: pressure
+    real(dp) :: ulocal(2), frame(2, 2), time(2), pnewdt
+    integer :: lsmooth, none(1)
+    common /contact/ p
+    real(dp) :: p
+    p = pressure
+    ulocal = [0.25_dp, 0.5_dp]
+    frame = 0
+    time = 0
+    pnewdt = 1
+    lsmooth = 0
+    none = 0
+    call umeshmotion(8.0_dp, ulocal, 1, 2, 3, frame, 2, time, 0.125_dp, pnewdt, 1, 1, 0, none, &
+      none, lsmooth)
+    print *, ulocal
+  end subroutine wanted
+end module calls
+program stub
+  use calls
+  use, intrinsic :: iso_fortran_env, only: dp => real64
+  call wanted(0.0_dp)
+  call wanted(100.0_dp)
+end program stub
+subroutine getnodetoelemconn(node, number, elements, kinds, status, block)
+  integer :: node, number, elements(*), kinds(*), status, block(*)
+  elements(1) = node; kinds(1) = block(1); number = 1; status = 0
+end subroutine
+subroutine getvrmavgatnode(node, kind, name, values, status, elements, number, types, block)
+  use, intrinsic :: iso_fortran_env, only: dp => real64
+  integer :: node, kind, status, elements(*), number, types(*), block(*)
+  character(*) :: name
+  real(dp) :: values(15), p
+  common /contact/ p
+  status = merge(0, 1, name == 'CSTRESS' .and. node + kind + number + types(1) + block(1) >= 0)
+  values = 0
+  values(1) = p + 0 * elements(1)
+end subroutine
+"""
+
+
+def test_umeshmotion_moves_a_node_inwards_by_archards_law(need_tool, tmp_path):
+    compiler = need_tool("gfortran")
+    variant = exact.variant_of("tanh", "rigid_bearing")
+    example = (Path(__file__).parents[2] / "docs/examples/umeshmotion.f90").read_text()
+    (tmp_path / "user.f90").write_text(source(exact.made(variant), "fortran") + example)
+    (tmp_path / "stub.f90").write_text(STUB)
+    run(compiler, "-O2", "user.f90", "stub.f90", "-o", "stub", cwd=tmp_path)
+    untouched, worn = run(str(tmp_path / "stub")).splitlines()
+    assert [float(number) for number in untouched.split()] == [0.25, 0.5]
+    velocity = 8.0 * 1e-6 * 100.0 * 4607.669 / (3 * 200.0)
+    assert [float(number) for number in worn.split()] == pytest.approx([0.25, 0.5 - velocity])
+
+
+def c_user(start, data):
+    """A program that prints the states after ten increments."""
+    states = list(start)
+    arguments = ", ".join([*map(repr, data), *(f"&{name}" for name in states)])
+    return f"""#include <stdio.h>
+#include "wear_model.h"
+int main(void)
+{{
+    double {", ".join(f"{name} = {value!r}" for name, value in start.items())};
+    for (int i = 1; i <= 10; ++i)
+        wear_increment(100.0, 4.0, 0.1 * i, {arguments});
+    printf("{" %.17g" * len(states)}", {", ".join(states)});
+    return 0;
+}}
+"""
+
+
+def fortran_user(made, start, data):
+    """The same in Fortran."""
+    states = list(start)
+    continued = ", &\n      "
+    return f"""{source(made, "fortran")}
+program user
+  use, intrinsic :: iso_fortran_env, only: dp => real64
+  implicit none
+  real(dp) :: {", ".join(states)}
+  integer :: i
+  {"; ".join(f"{name} = {value!r}_dp" for name, value in start.items())}
+  do i = 1, 10
+    call wear_increment(100.0_dp, 4.0_dp, 0.1_dp * i, &
+      {continued.join([*(f"{value!r}_dp" for value in data), *states])})
+  end do
+  write (*, '({len(states)}es28.17e4)') {", ".join(states)}
+end program user
+"""
+
+
+@pytest.mark.parametrize("language", ["c", "fortran"])
 @pytest.mark.parametrize("module", ["rigid_bearing", "rigid_worn", "rigid_worn_rough"])
-def test_increments_add_up_to_the_wear_that_the_model_has(module, need_tool, tmp_path):
+def test_increments_add_up_to_the_wear_that_the_model_has(module, language, need_tool, tmp_path):
     """Ten unequal increments at constant pressure: wear and roughness of the generated fields."""
     variant = exact.variant_of("tanh", module)
     made = increment(variant)
@@ -429,26 +573,16 @@ def test_increments_add_up_to_the_wear_that_the_model_has(module, need_tool, tmp
     start["sigma_c"] = at.parameters["sigma_c0"]
     if "sigma_a" in start:
         start["sigma_a"] = at.parameters["sigma_a0"]
-    data = [repr(at.parameters[s.name]) + "_dp" for s in made.parameters]
-    continued = ", &\n      "
-    (tmp_path / "user.f90").write_text(
-        f"""{source(exact.made(variant), "fortran")}
-program user
-  use, intrinsic :: iso_fortran_env, only: dp => real64
-  implicit none
-  real(dp) :: {", ".join(states)}
-  integer :: i
-  {"; ".join(f"{name} = {value!r}_dp" for name, value in start.items())}
-  do i = 1, 10
-    call wear_increment(100.0_dp, 4.0_dp, 0.1_dp * i, &
-      {continued.join([*data, *states])})
-  end do
-  write (*, '({len(states)}es28.17e4)') {", ".join(states)}
-end program user
-"""
-    )
-    compiler = need_tool("gfortran")
-    run(compiler, "-std=f2008", *FLAGS, "user.f90", "-o", "user", cwd=tmp_path)
+    data = [at.parameters[s.name] for s in made.parameters]
+    if language == "c":
+        for name, target in (("wear_model.c", "c"), ("wear_model.h", "header")):
+            (tmp_path / name).write_text(source(exact.made(variant), target))
+        (tmp_path / "user.c").write_text(c_user(start, data))
+        files = ("-std=c99", "user.c", "wear_model.c", "-lm")
+        run(need_tool("gcc"), *FLAGS, *files, "-o", "user", cwd=tmp_path)
+    else:
+        (tmp_path / "user.f90").write_text(fortran_user(exact.made(variant), start, data))
+        run(need_tool("gfortran"), "-std=f2008", *FLAGS, "user.f90", "-o", "user", cwd=tmp_path)
     found = dict(zip(states, map(float, run(str(tmp_path / "user")).split()), strict=True))
     p = at.parameters
     worn = p["K_c"] * 100.0 * 4.0 * 5.5 / (3.0 * p["H_c"])

@@ -3,7 +3,8 @@
 import pytest
 
 from derive import catalogue
-from derive.falsifier.judgements import reasons, tried
+from derive.falsifier.judgements import tried, without
+from derive.reasons import outdated, table
 
 
 @pytest.mark.parametrize("identifier", ["7c", "8", "13", "share", "threshold", "deviation"])
@@ -16,5 +17,17 @@ def test_models_agree_with_an_equation(identifier: str):
 
 def test_a_condition_of_the_threshold_is_needed():
     (statement,) = catalogue.equation("threshold").statements
-    found = {row.hypothesis.typed: row.counterexample for row in reasons(statement)}
-    assert "f_c = 0" in found["f_c > 0"]
+    (grows,) = (h for h in statement.conditions if h.typed == "f_c > 0")
+    assert "f_c = 0" in str(without(statement, grows))
+
+
+def test_the_table_of_reasons_is_of_these_equations():
+    """`python -m derive.reasons` renews it."""
+    of_the_note = [found for found in catalogue.equations() if found.id[0].isdigit()]
+    assert outdated(of_the_note, table()) == []
+
+
+def test_a_reason_is_missing_for_a_condition_that_is_new():
+    found = catalogue.equation("13")
+    rows = [row for row in table() if row.condition != "smooth pin"]
+    assert outdated([found], rows) == ["13"]

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from derive import catalogue
+from derive.cli import main
 from derive.typeset.derivation import prose
 from derive.typeset.macros import macro_name, macros, room
 
@@ -61,6 +62,27 @@ def test_what_is_quoted_most_fits_with_its_symbols(
     shown = "".join(rf"\begin{{equation}}\{macro_name(e)}\end{{equation}}" for e in chosen)
     log = _log(tmp_path, engine, head, shown + r"\begin{table*}\WearNomenclature\end{table*}")
     assert _too_wide(log) == []
+
+
+def test_the_equations_of_an_own_law_fit_a_column(
+    tmp_path: Path, need_tool: Callable[..., str]
+) -> None:
+    engine = need_tool("pdflatex")
+    place = str(tmp_path / "equations.tex")
+    assert main(["latex", "--law", "1/(1 + exp(r - 1))^2", "--width", "246pt", "-o", place]) == 0
+    text = Path(place).read_text(encoding="utf-8")
+    names = re.findall(r"\\def(\\EqScene\w+)", text)
+    assert {r"\EqScenePressure", r"\EqSceneWhole"} <= set(names)
+    shown = "".join(rf"\begin{{equation}}{name}\end{{equation}}" for name in names)
+    assert _too_wide(_log(tmp_path, engine, _HEAD["two columns"], shown)) == []
+
+
+@pytest.mark.parametrize("arguments", [["21", "--law", "exp(-r)"], ["--law", "sin(r)"]])
+def test_a_law_has_no_ids_and_is_read_by_its_grammar(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["latex", *arguments]) == 2
+    assert "Traceback" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("width", ["246pt", "345pt"])

@@ -27,7 +27,7 @@ from wear.direct.problem import problem
 from wear.model import bind
 from wear.scene import load_scene
 
-peers = bench.load_peers()
+peers, jumps = bench.load_peers("peers"), bench.load_peers("jumps")
 EFFORT = Effort(cap=10.0, repeated=5.0, rounds=3, rest=1e9)
 
 
@@ -37,7 +37,7 @@ class Clock:
     def __init__(self) -> None:
         self.now = 0.0
 
-    def perf_counter(self) -> float:
+    def process_time(self) -> float:
         return self.now
 
 
@@ -158,6 +158,8 @@ def test_silent_failures_are_listed(result):
 
 def test_figures_are_drawn_where_there_is_something_to_compare(result):
     assert results.figure_cycles(result.runs, "made") == (100,)
+    (exact,) = results.curves([result.runs[0]._replace(error=0.0)])
+    assert exact.x.tolist() == [np.finfo(float).eps / 2]
 
 
 def test_the_raw_csv_reads_back(result):
@@ -234,6 +236,70 @@ def test_installed_peers_agree():
             assert answer.wear == pytest.approx(wanted, rel=1e-5), peer.name
 
 
+@pytest.fixture(scope="module")
+def cycles():
+    """The cycles of the fastest wear of the comparison."""
+    return jumps.cycles_of(load_scene("fast-wear"))
+
+
+def test_a_jump_of_one_cycle_is_no_jump(cycles):
+    assert jumps.fixed_jumps(cycles, 100, 0.01) == pytest.approx(REFERENCE["S4"][100], rel=1e-12)
+    assert jumps.adaptive_jumps(cycles, 10, 0.0) == pytest.approx(REFERENCE["S4"][10], rel=1e-12)
+    assert jumps.envelope(cycles, 10, 0.0) == pytest.approx(REFERENCE["S4"][10], rel=1e-12)
+    assert jumps.stroboscopic(cycles, 10, 0.0) == pytest.approx(REFERENCE["S4"][10], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("method", "coarse", "fine", "order"),
+    [
+        (jumps.fixed_jumps, 1 / 90, 1 / 900, 1),
+        (jumps.adaptive_jumps, 0.2, 0.02, 1),
+        (jumps.envelope, 1e-2, 1e-4, 2),  # the estimate is one of first order
+    ],
+)
+def test_jumps_are_of_the_order_that_they_claim(cycles, method, coarse, fine, order):
+    """A tenth of the length, or of the root of the tolerance: 10^order times as exact."""
+    errors = [abs(method(cycles, 9000, far) / REFERENCE["S4"][9000] - 1) for far in (coarse, fine)]
+    assert np.log10(errors[0] / errors[1]) == pytest.approx(order, abs=0.5)
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-9])
+def test_stroboscopic_averaging_keeps_its_tolerance(cycles, tolerance):
+    for number in (100, 10**6):
+        error = jumps.stroboscopic(cycles, number, tolerance) / REFERENCE["S4"][number] - 1
+        assert abs(error) < tolerance
+
+
+def test_the_page_on_jumps_has_what_is_measured(monkeypatch):
+    monkeypatch.syspath_prepend(bench.PEERS)
+    how_far = bench.load_peers("how_far")
+    (case,) = cases("speed", ["section4"], [9000])
+    one = jumps.cycles_of(case.scene)
+    rows = [how_far.fixed(one, case, 10), how_far.adaptive(one, case, 0.1)]
+    written = (bench.PEERS / "how-far.md").read_text()
+    for line in results.markdown_table(how_far.table(rows)).splitlines():
+        assert line in written
+    assert all(0.9 < row.foretold / row.error < 1.1 for row in rows)
+
+
+def test_averaging_of_first_order_has_an_error_that_no_tolerance_reduces(cycles):
+    errors = [jumps.averaged(cycles, 100, far) / REFERENCE["S4"][100] - 1 for far in (1e-6, 1e-9)]
+    assert errors[0] == pytest.approx(errors[1], rel=1e-2)
+    assert abs(errors[1]) > 1e-4
+
+
+def test_the_end_of_contact_is_not_jumped_over():
+    with pytest.raises(UnsuitableError, match="loss of contact"):
+        jumps.cycles_of(load_scene("section4", ["contact.ends_at_3_sigma=true"]))
+
+
+def test_the_figure_over_cycles_shows_what_was_expected(result):
+    slow = results.curves_by_cycles(result.runs, "made", 6)[1]
+    assert (slow.name, slow.x.tolist()) == ("slow", [1, 100, 9000])
+    assert slow.failed.tolist() == [False, False, True]
+    assert slow.seconds[2] == pytest.approx(180.0)
+
+
 @pytest.fixture
 def wear(capsys, monkeypatch):
     """Run `wear bench` with the least effort; give status and results."""
@@ -276,9 +342,9 @@ def test_a_place_that_cannot_be_written_is_told_before_the_work(wear, tmp_path):
 
 
 def test_an_installation_says_where_the_peers_are(wear, monkeypatch, tmp_path):
-    monkeypatch.setattr(bench, "PEERS", tmp_path / "peers.py")
+    monkeypatch.setattr(bench, "PEERS", tmp_path / "none")
     status, _, message = wear("--quick", "--peers")
-    assert (status, "docs/bench/peers.py" in message) == (2, True)
+    assert (status, "docs/bench" in message) == (2, True)
 
 
 def test_the_hard_cases_have_no_peers(wear):

@@ -169,7 +169,7 @@ def test_a_figure_of_several_scenes_with_readings_and_a_limit(call: Call, tmp_pa
     data, file = tmp_path / "read.csv", tmp_path / "both.svg"
     data.write_text("cycles,wear_um\n10,0.3\n50,0.7\n")
     request = ("figure", "section4", "section4-cutoff", "-o", str(file), "--data", str(data))
-    shown = json.loads(call(*request, "--until-wear", "5e-3", "--axis", "hours", "--json")[1])
+    shown = json.loads(call(*request, "--until-wear", "5e-3", "--axis", "distance", "--json")[1])
     assert (shown["scenes"], shown["cycles"]) == (["section4", "section4-cutoff"], [0, 50])
     assert shown["reached"] == ["counted", "never"]
     assert shown["cycles_until"][1] is None

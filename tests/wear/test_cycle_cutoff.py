@@ -15,10 +15,10 @@ from tests.wear.reference_scenes import reference_scene, tables
 from tests.wear.test_cycle_count import between, problem
 from wear import cycles as count
 from wear import direct
-from wear.count.cutoff import cutoff_cycle
-from wear.count.edge import edge_of_contact, turning_points
-from wear.count.kinks import kinks
 from wear.load import Harmonics, Load, Sine, Table
+from wear.loss_of_contact.grazing import grazing_wears
+from wear.loss_of_contact.period_map import switched_period_map
+from wear.loss_of_contact.switching import edge_of_contact, turning_points
 from wear.model import bind
 from wear.orbit.period_map import settings as sizes
 from wear.scene import Scene, load_scene, scene_from_tables
@@ -125,10 +125,10 @@ def test_the_margin_of_one_solid_keeps_its_digits(f_c: float) -> None:
 
 def test_kinks_are_where_contact_grazes() -> None:
     scene = scene_from_tables(tables(f_c=0.25, cutoff=True), "cutoff")
-    cycle = cutoff_cycle(bind(scene), scene.periodic_load)
+    cycle = switched_period_map(bind(scene), scene.periodic_load)
     # Section 4: (1 - 3 f) u = U_a at the edge, of which only the peak, 5e-4 mm, is ahead.
-    (kink,) = kinks(cycle, 1e-4)
-    assert kink.wear == pytest.approx(2e-3, rel=1e-14)
+    (grazing,) = grazing_wears(cycle, 1e-4)
+    assert grazing.wear == pytest.approx(2e-3, rel=1e-14)
 
 
 def test_a_load_turns_where_its_slope_vanishes() -> None:
@@ -302,7 +302,7 @@ def test_a_count_on_a_compliant_support_goes_on_from_any_cycle() -> None:
     scene = supported(1e-5, 0.25, True, 1e5)
     model, load = bind(scene), scene.periodic_load
     found = count.wear_after(model, load, np.array([40.0, 240.0]), 1e-12)
-    fine = cutoff_cycle(model, load).resolved(sizes(1e-13))
+    fine = switched_period_map(model, load).resolved(sizes(1e-13))
     wear = found.u_c[0]
     with np.errstate(all="ignore"):  # of a load that does not rise on a stretch
         for _ in range(200):

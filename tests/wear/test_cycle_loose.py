@@ -136,10 +136,10 @@ def sine(amplitude_mm: float) -> dict[str, Any]:
 
 def holds(scene: Scene, rtol: float) -> bool:
     """Whether counts and sweeps are as good as they tell."""
-    want = counted(scene, FEW, 1e-13).u_c
+    want = counted(scene, FEW, 1e-13)
     swept, found = sweep([scene], FEW, rtol), counted(scene, FEW, rtol)
-    good = np.abs(found.u_c / want - 1) <= found.error + 1e-14
-    good &= np.abs(swept.u_c[0] / want - 1) <= swept.error[0] + 1e-14
+    good = np.abs(found.u_c / want.u_c - 1) <= found.error + want.error
+    good &= np.abs(swept.u_c[0] / want.u_c - 1) <= swept.error[0] + want.error
     return bool(good.all())
 
 

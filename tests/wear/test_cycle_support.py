@@ -14,8 +14,8 @@ from tests.wear.test_cycle_count import between, problem
 from tests.wear.test_cycle_cutoff import loads, supported
 from wear import cycles as count
 from wear import direct
-from wear.count.edge import edge_of_contact, phase_of
 from wear.load import Harmonics, Load, Sine, Table
+from wear.loss_of_contact.switching import edge_of_contact, phase_of
 from wear.model import bind
 from wear.scene import Scene, scene_from_tables
 

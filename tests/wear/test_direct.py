@@ -14,7 +14,8 @@ from wear.direct.problem import Setting, problem, widest_step
 from wear.direct.step import Meter, leg
 from wear.load import Constant, Sine
 from wear.model import bind
-from wear.scene import Scene, scene_from_tables
+from wear.scene import Scene, load_scene, scene_from_tables
+from wear.solver import solve
 
 from .reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
 
@@ -205,3 +206,16 @@ def test_default_tolerances_are_silently_wrong(name, method):
     scene = reference_scene(name)
     naive = plain(bind(scene), scene.load, 100, method).u
     assert abs(naive / REFERENCE[name][100] - 1.0) > 0.02
+
+
+@pytest.mark.parametrize("name", ["section4", "section4-cutoff"])
+def test_progress_is_told_from_cycle_to_cycle(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("wear.direct.step.SILENT", 0.0)
+    monkeypatch.setattr("wear.direct.step.APART", 0.0)
+    told: list[str] = []
+    solve(load_scene(name), [4], 1e-6, "DOP853", progress=told.append)
+    first = [text for text in told if text.startswith("DOP853, run 1: cycle ")]
+    cycles = [int(text.split()[4]) for text in first]
+    assert cycles == sorted(cycles)
+    assert set(cycles) >= {0, 1, 2, 3}
+    assert all(text.endswith(" s left") and " of 4, about " in text for text in told)

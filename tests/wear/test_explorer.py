@@ -97,7 +97,9 @@ def curves(page):
 def number(shown: str) -> float:
     """A number as the page shows it."""
     powers = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
-    plain = shown.split(" mm")[0].split(" MPa")[0].replace("\u2212", "-")
+    if shown.endswith("µm"):
+        return 1e-3 * number(shown.removesuffix(" µm"))
+    plain = shown.split(" MPa")[0].replace("\u2212", "-")
     if " × 10" in plain:
         digits, power = plain.split(" × 10")
         return float(digits) * 10.0 ** int(power.translate(powers))
@@ -220,7 +222,7 @@ def test_a_load_that_does_not_repeat_is_refused(tmp_path, capsys):
 
 
 def test_command_reports_in_json(page_file, capsys, monkeypatch):
-    monkeypatch.setattr(explorer, "page", lambda scene: f"page of {scene.name}")
+    monkeypatch.setattr(explorer, "page", lambda scene, _: f"page of {scene.name}")
     target = page_file.with_name("other.html")
     assert main(["explore", "section3", "-o", str(target), "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {"page": str(target), "bytes": 16}
@@ -306,7 +308,7 @@ def test_arrest_of_two_solids_is_found_in_its_cycle(page):
 
 def test_page_says_when_nothing_wears(page):
     click(page, "cutoff")
-    put(page, "number-h_0", "0.1", event="change")
+    put(page, "number-h_0", "100", event="change")
     assert text(page, "notices") == "Nothing wears."
     assert number(text(page, "value-wear-now")) == 0.0
 
@@ -397,8 +399,8 @@ REGIMES = {
     "closing": {"pin": "worn", "number-f_c": "0", "number-K_a": "1e-4"},
     "arrest": {"cutoff": "", "number-f_c": "-0.05"},
     "partial": {"cutoff": "", "number-f_c": repr(1 / 3)},
-    "never": {"cutoff": "", "number-h_0": "0.1"},
-    "finite-time": {"number-f_c": "-0.05", "number-U": "9e-3"},
+    "never": {"cutoff": "", "number-h_0": "100"},
+    "finite-time": {"number-f_c": "-0.05", "number-U": "9"},
 }
 
 
@@ -424,7 +426,8 @@ def test_regimes_at_the_edges_are_those_of_python(page, name):
             put(page, "number-H_a", "200", event="change")
         else:
             put(page, control, value, event="change")
-            settings[overrides[control]] = value
+            small = control in ("number-h_0", "number-U")  # in micrometres
+            settings[overrides[control]] = repr(float(value) * 1e-3) if small else value
     found = wear.asymptote(load_scene("section4", [f"{k}={v}" for k, v in settings.items()]))
     assert text(page, "value-regime").startswith(found.regime)
     shown = {
@@ -462,7 +465,7 @@ def test_on_a_phone_the_plot_stays_in_sight(page):
 def test_page_says_when_it_does_not_carry_so_far(page):
     """The bearing is pressed smooth: its roughness vanishes after a finite number of cycles."""
     put(page, "number-f_c", "-0.05", event="change")
-    put(page, "number-U", "9e-3", event="change")
+    put(page, "number-U", "9", event="change")
     put(page, "cycles", "9")
     reached = page.run("document.querySelector('[data-cycles]').textContent")
     assert 1 < number(reached) < 1e9
@@ -508,7 +511,7 @@ def test_the_scene_file_has_any_load(kind, window, tmp_path):
     file.write_text(explorer.page(scene), encoding="utf-8")
     window.open(file, READY)
     assert parse_scene(text(window, "scene-file"), folder=tmp_path).load(0.3) == scene.load(0.3)
-    put(window, "number-U", "2e-4" if kind == "sine" else "2", event="change")
+    put(window, "number-U", "0.2" if kind == "sine" else "2", event="change")
     doubled = text(window, "scene-file")
     if kind == "table":
         assert "# to be multiplied in that file: its displacements by 2, its times by 1" in doubled
@@ -566,8 +569,8 @@ def test_axis_is_logarithmic_or_linear(page):
 
 def test_plots_are_told_to_those_who_do_not_see_them(page):
     said = page.run("document.getElementById('plot-wear').getAttribute('aria-label')")
-    assert said.startswith("wear in mm against number of cycles: bearing, u_c goes from ")
-    assert "to 0.004597 at 10000; as if steady from the start goes from 4.6355 × 10⁻⁸" in said
+    assert said.startswith("wear in µm against number of cycles: bearing, u_c goes from ")
+    assert "to 4.597 at 10000; as if steady from the start goes from 4.6355 × 10⁻⁵" in said
     labelled = page.run(
         "[...document.querySelectorAll('input, select')].every((e) => e.labels.length"
         " || e.getAttribute('aria-label'))"
@@ -606,3 +609,26 @@ def test_script_outside_the_policy_does_not_run(window, page_file):
         " document.body.append(s); })()"
     )
     assert window.run("window.broken === undefined")
+
+
+def test_a_noisy_record_and_readings_are_shown(tmp_path, window):
+    """2001 rows: as good as Python, with peak and mean of the last cycle, and what was measured."""
+    times = np.arange(2001) * 3e-5
+    noise = 1e-5 * np.random.default_rng(3).standard_normal(2001)
+    path = 5e-4 * np.sin(2.0 * np.pi * times / 0.06003) + noise
+    rows = "\n".join(f"{t!r},{u!r}" for t, u in zip(times.tolist(), path.tolist(), strict=True))
+    (tmp_path / "record.csv").write_text(f"t_s,U_a_mm\n{rows}\n")
+    text_of_scene = load_scene("section4").to_toml().partition("[load]")[0]
+    load = '[load]\nkind = "table"\nfile = "record.csv"\nrepeat = true\n'
+    (tmp_path / "mine.toml").write_text(text_of_scene + load)
+    (tmp_path / "read.csv").write_text("cycles,wear_um\n10,0.3\n5000,3.5\n")
+    file = tmp_path / "page.html"
+    data = ["--data", str(tmp_path / "read.csv")]
+    assert main(["explore", str(tmp_path / "mine.toml"), *data, "-o", str(file)]) == 0
+    window.open(file, READY)
+    assert window.run("document.getElementById('check').className").endswith("good")
+    assert window.run("document.querySelectorAll('#plot-wear .dot').length") == 2
+    found = wear.solve(tmp_path / "mine.toml", [10_000], rtol=1e-8).pressures
+    assert number(text(window, "value-mean-now")) == pytest.approx(found.mean[0], rel=1e-4)
+    assert number(text(window, "value-peak-now")) == pytest.approx(found.peak[0], rel=1e-3)
+    assert text(window, "value-contact-now") == "1"

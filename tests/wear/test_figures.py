@@ -51,7 +51,7 @@ def _wear(**options: Any) -> Figure:
 
 
 def _methods() -> list[Method]:
-    error = np.array([1e-3, 1e-9, 0.0])
+    error = np.array([1e-3, 1e-9, 1e-16])
     missed = np.array([True, False, False])
     return [
         Method(f"method {i}", error * (i + 1), np.array([1.0, 2.0, 3.0]) * 2.0**i, missed)
@@ -74,6 +74,7 @@ def _all() -> dict[str, Figure]:
         "asymptote": figures.wear_with_asymptote(_lines()[:1], _lines()[2:]),
         "pressure": figures.pressure_in_cycles([Line("first", CYCLES / 100.0, DEPTH)]),
         "speed": figures.speed_against_error(_methods()),
+        "cycles": figures.speed_against_cycles(_methods()),
         "map": figures.regime_map(
             _two_regimes,
             ("without", "with"),
@@ -272,6 +273,12 @@ def test_one_run_has_a_colour_a_quantity_and_several_a_colour_each() -> None:
     assert [line.name for line in pressure.lines] == ["A, peak", "A, mean", "B, peak", "B, mean"]
     assert [line.name for line in contact.lines] == ["B"]
     np.testing.assert_allclose(contact.lines[0].x * 3600.0, [0.06, 6.0, 300.0])
+
+
+def test_sliding_distance_is_that_of_the_speed() -> None:
+    """22 mm at 2000 rpm: two turns in a cycle of 0.06 s."""
+    slid = Abscissa.DISTANCE.of(load_scene("section4"), np.array([1.0, 1e6]))
+    np.testing.assert_allclose(slid, 2.0 * 2.0 * np.pi * 0.022 * np.array([1.0, 1e6]), rtol=1e-12)
 
 
 def test_hours_of_blocks_are_those_of_their_periods() -> None:

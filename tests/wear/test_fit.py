@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+from scipy import stats
+from scipy.optimize import least_squares
 
+import wear
+from wear.cli import main
 from wear.faults import UsageError
-from wear.fitting.readings import read_readings
+from wear.fitting.estimate import Fit
+from wear.fitting.forecast import forecast, life, next_reading, undetermined
+from wear.fitting.laws import alternatives
+from wear.fitting.posterior import posterior
+from wear.fitting.readings import FloatArray, Specimen, read_readings
+from wear.fitting.residuals import Residuals
+from wear.scene import Scene, load_scene
 
 # Readings
 
@@ -53,3 +65,231 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     (tmp_path / "wear.csv").write_bytes(b"cycles,wear_mm\n1,\xff\n")
     with pytest.raises(UsageError, match="no CSV file in UTF-8"):
         read_readings(tmp_path / "wear.csv")
+
+
+# Fits
+
+K, GROWTH, ROUGHNESS = (
+    "bearing.wear_coefficient",
+    "bearing.roughness_growth",
+    "bearing.roughness_mm",
+)
+SCATTER = 0.05
+CYCLES = np.array([1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0])
+
+
+def synthetic(seed: int, cycles: FloatArray = CYCLES, scene: str = "section4") -> Specimen:
+    """Return readings of a scene with a scatter of 5 %."""
+    noise = np.random.default_rng(seed).standard_normal(len(cycles))
+    wear_mm = wear.solve(scene, cycles.astype(int), rtol=1e-8).u_c * np.exp(SCATTER * noise)
+    return Specimen("", cycles, wear_mm, None, {})
+
+
+@pytest.fixture(scope="module")
+def far_off() -> Scene:
+    """The scene of the synthetic readings with other numbers than theirs, to start from."""
+    return load_scene("section4").with_({K: 5e-6, GROWTH: 0.15})
+
+
+@pytest.fixture(scope="module")
+def found(far_off: Scene) -> Fit:
+    return wear.fit([synthetic(1)], far_off, [K, GROWTH])
+
+
+def test_intervals_of_synthetic_readings_cover_the_truth(found: Fit, far_off: Scene) -> None:
+    fits = [found, *(wear.fit([synthetic(seed)], far_off, [K, GROWTH]) for seed in (2, 3))]
+    covered = [
+        profile.interval[0] < truth < profile.interval[1]
+        for each in fits
+        for profile, truth in zip(each.profiles, (1e-6, 0.25), strict=True)
+    ]
+    assert sum(covered) >= 5
+    assert not any(list(undetermined(each)) for each in fits)
+
+
+def test_what_late_readings_leave_open_is_named(far_off: Scene) -> None:
+    late = synthetic(7, np.array([1e6, 1.26e6, 1.587e6, 2e6]))  # they see one rate of wear
+    found = wear.fit([late], far_off, [K, GROWTH], intervals=False)
+    ((combination, sentence),) = undetermined(found)
+    assert set(combination) == {K, GROWTH}
+    assert "do not determine" in sentence
+    (ahead,) = forecast(found, [3e6])
+    truth = float(wear.solve("section4", 3_000_000).u_c[0])
+    assert ahead.interval_95[0] < truth < ahead.interval_95[1]
+
+
+def test_the_estimate_is_that_of_scipys_least_squares(found: Fit) -> None:
+    other = least_squares(
+        lambda theta: found.problem(theta[None])[0][0],
+        found.theta + 0.05,
+        jac=lambda theta: found.problem(theta[None])[1][0],
+        x_scale="jac",
+    )
+    np.testing.assert_allclose(found.theta, other.x, rtol=1e-5)
+    variance = 2 * other.cost / found.degrees_of_freedom
+    expected = np.linalg.inv(other.jac.T @ other.jac) * variance
+    np.testing.assert_allclose(found.covariance, expected, rtol=1e-3)
+    np.testing.assert_allclose(found.correlation[0, 1], found.correlation[1, 0])
+
+
+def test_the_jacobian_is_that_of_differences(found: Fit) -> None:
+    slope = found.problem(found.theta[None])[1][0]
+    for place, step in enumerate(1e-3 * np.eye(2)):
+        off, _ = found.problem(found.theta + np.array([step, -step]))
+        np.testing.assert_allclose(slope[:, place], (off[0] - off[1]) / 2e-3, rtol=1e-3, atol=1e-5)
+
+
+def test_an_interval_ends_where_the_deviance_reaches_its_quantile(far_off: Scene) -> None:
+    found = wear.fit([synthetic(6)], far_off.with_({GROWTH: 0.25}), [K])
+    ends = np.log(np.array(found.profiles[0].interval))[:, None]
+    deviance = (found.problem.cost(ends) - found.chi_square) / found.scatter**2
+    np.testing.assert_allclose(np.sqrt(deviance), found.quantile, rtol=0.02)
+    assert found.quantile == pytest.approx(stats.t.ppf(0.975, len(CYCLES) - 1))
+
+
+def test_two_keys_that_enter_only_as_a_quotient_are_said_to() -> None:
+    found = wear.fit([synthetic(1)], "section4", [K, "bearing.hardness_MPa"])
+    ((combination, sentence),) = undetermined(found)
+    assert combination == pytest.approx({K: 1.0, "bearing.hardness_MPa": 1.0}, rel=1e-3)
+    assert "enter only as" in sentence
+    assert all(np.isinf(profile.interval).all() for profile in found.profiles)
+    assert np.isinf(found.standard_errors).all()
+    (ahead,) = forecast(found, [1e5])  # determined all the same
+    assert ahead.interval_95[1] / ahead.interval_95[0] < 1.5
+
+
+def test_a_forecast_covers_the_truth_and_a_life_is_its_inverse(found: Fit) -> None:
+    (ahead,) = forecast(found, [100_000])
+    truth = float(wear.solve("section4", 100_000).u_c[0])
+    assert ahead.interval_95[0] < truth < ahead.interval_95[1]
+    (reached,) = life(found, ahead.bearing_wear_mm)
+    assert reached.cycles == pytest.approx(1e5, rel=1e-4)
+    wide = np.log(reached.interval_95[1] / reached.interval_95[0])
+    (before, after) = forecast(found, [90_000, 110_000])
+    steepness = np.log(after.bearing_wear_mm / before.bearing_wear_mm) / np.log(11 / 9)
+    band = np.log(ahead.interval_95[1] / ahead.interval_95[0])
+    assert wide == pytest.approx(band / steepness, rel=0.01)
+
+
+def test_the_next_reading_narrows_the_band_as_if_it_had_been_read(found: Fit) -> None:
+    advice = next_reading(found, 1e6)
+    slope = found.problem(found.theta[None])[1][0]
+    _, ahead = found.model.log_wear(found.theta[None], [np.array([advice.cycles, 1e6])])
+    reading, target = ahead[0]
+    more = np.vstack([slope, reading])
+    bands = [np.sqrt(target @ np.linalg.inv(J.T @ J) @ target) for J in (slope, more)]
+    assert advice.band_of_forecast_times == pytest.approx(bands[1] / bands[0], rel=1e-3)
+    assert 1 <= advice.cycles <= CYCLES[-1]
+
+
+def test_specimens_share_some_parameters_and_have_others_of_their_own() -> None:
+    changes = [{"load.amplitude_mm": 5e-4}, {"load.amplitude_mm": 8e-4}]
+    scene = load_scene("section4")
+    specimens = []
+    for name, own, roughness in zip("ab", changes, (3.6e-4, 5e-4), strict=True):
+        truth = scene.with_({**own, ROUGHNESS: roughness, K: 2e-6, "contact.closure_mm": 1.5e-3})
+        u = wear.solve(truth, CYCLES.astype(int), rtol=1e-8).u_c
+        specimens.append(Specimen(name, CYCLES, u, 0.01 * u, own))
+    base = scene.with_({"contact.closure_mm": 1.5e-3})
+    found = wear.fit(specimens, base, [K], [ROUGHNESS], intervals=False)
+    names = [(p.key, p.specimen) for p in found.parameters]
+    assert names == [(K, ""), (ROUGHNESS, "a"), (ROUGHNESS, "b")]
+    np.testing.assert_allclose(found.estimates, [2e-6, 3.6e-4, 5e-4], rtol=1e-5)
+    assert found.scatter == 1.0
+    assert found.chi_square < 1e-6
+
+
+def test_as_many_parameters_as_readings_leave_every_interval_open() -> None:
+    found = wear.fit([synthetic(1, np.array([10.0, 1000.0]))], "section4", [K, GROWTH])
+    assert found.rms < 1e-4
+    assert all(np.isinf(profile.interval).all() for profile in found.profiles)
+
+
+@pytest.mark.parametrize("relative", [True, False])
+def test_every_law_describes_its_own_data(relative: bool) -> None:
+    shapes = {"archard": CYCLES, "power": CYCLES**0.3, "logarithm": np.log1p(0.2 * CYCLES)}
+    for law, shape in shapes.items():
+        pair = [Specimen(n, CYCLES, s * shape, None, {}) for n, s in (("a", 1e-3), ("b", 3e-3))]
+        found = {each.law: each for each in alternatives(pair, relative)}
+        assert found[law].rms < 1e-6
+        assert found[law].forecast_rms < 1e-4
+        assert found[law].aicc < min(each.aicc for each in found.values() if each.law != law) or (
+            law == "archard"  # a power of one does as well
+        )
+
+
+def test_an_information_criterion_is_that_of_the_likelihood() -> None:
+    readings = Specimen("", CYCLES, CYCLES, None, {})
+    off = 0.1 * np.random.default_rng(1).standard_normal(len(CYCLES))
+    scale = np.sqrt(np.mean(off**2))
+    n, k = len(off), 3
+    expected = -2 * np.sum(stats.norm.logpdf(off, scale=scale)) + 2 * k * n / (n - k - 1)
+    constant = n * (1 + np.log(2 * np.pi))
+    assert Residuals.of([readings], True).aicc(off, 2) == pytest.approx(expected - constant)
+
+
+def test_the_posterior_of_a_determined_parameter_is_that_of_the_fit() -> None:
+    found = wear.fit([synthetic(1, CYCLES[:4])], "section4", [K], intervals=False)
+    error = found.standard_errors[0] / found.estimates[0]
+    samples = np.log(posterior(found, 20, seed=1)[:, 0])
+    assert np.mean(samples) == pytest.approx(found.theta[0], abs=0.5 * error)
+    assert np.std(samples) == pytest.approx(error, rel=0.5)
+
+
+# Bad requests and the command
+
+
+@pytest.mark.parametrize(
+    ("free", "each", "words"),
+    [
+        ([], [], ["name at least one key"]),
+        ([K, K], ["pin.hardness_MPa"], ["named twice", "pin.hardness_MPa"]),
+        (["contact.width_mm"], ["bearing.wear_coefficent"], ["width_mm", "wear_coefficent"]),
+        (["load.amplitude_mm"], [], ["given by the data"]),
+        ([K, GROWTH], [ROUGHNESS], ["2 readings are fewer than 3 parameters"]),
+    ],
+)
+def test_everything_that_is_wrong_with_a_request_is_said_at_once(
+    free: list[str], each: list[str], words: list[str]
+) -> None:
+    readings = Specimen("", CYCLES[:2], np.array([1e-3, 0.0]), None, {"load.amplitude_mm": 5e-4})
+    with pytest.raises(UsageError) as caught:
+        wear.fit([readings], "section4", free, each, error="relative")
+    for word in [*words, "a wear of zero has no logarithm"]:
+        assert word in str(caught.value)
+
+
+def test_a_bad_command_line_has_status_2_and_writes_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "wear.csv"
+    file.write_text("cycles,wear_mm\n3,-1\n")
+    out = tmp_path / "out"
+    words = ["fit", str(file), "section4", "--free", "bearing.hardnes", "--error", "both",
+             "--forecast", "0", "-o", str(out)]  # fmt: skip
+    assert main(words) == 2
+    said = capsys.readouterr().err
+    for word in ("line 2: wear_mm", "one reading", "bearing.hardnes", '"both"', "fresh state"):
+        assert word in said
+    assert not out.exists()
+
+
+def test_the_command_says_and_writes_what_was_found(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, out = tmp_path / "wear.csv", tmp_path / "out"
+    readings = synthetic(1, CYCLES[:7])
+    rows = zip(readings.cycles.tolist(), readings.wear_mm.tolist(), strict=True)
+    file.write_text("cycles,wear_mm\n" + "".join(f"{n:.0f},{u!r}\n" for n, u in rows))
+    words = ["fit", str(file), "section4", "--free", K, "--forecast", "1e5", "--until-wear", "0.01"]
+    assert main([*words, "-o", str(out), "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document == json.loads((out / "fit.json").read_text())
+    (parameter,) = document["parameters"]
+    low, high = parameter["interval_95"]
+    assert low < 1e-6 < high
+    assert load_scene(out / "fitted.toml").bearing.wear_coefficient == parameter["estimate"]
+    assert [law["law"] for law in document["alternatives"]] == ["archard", "power", "logarithm"]
+    assert document["observations"] == 7
+    for name in ("data.svg", "profiles.svg"):
+        assert "<svg" in (out / name).read_text()

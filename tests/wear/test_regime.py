@@ -14,9 +14,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wear.count import approach
-from wear.count.stage import Stages
 from wear.generated import asymptotics as formula
+from wear.loss_of_contact import count as counting
+from wear.loss_of_contact.stage import Stages
 from wear.regime import Asymptote, asymptote
 from wear.scene import load_scene
 from wear.solver import solve
@@ -79,14 +79,14 @@ def test_arrest(name: str, overrides: tuple[str, ...], depth: float, cycle: int)
 
 def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """A count whose error is infinite says neither when wear stops nor that it goes on."""
-    count = approach.counted_stages
+    count = counting.counted_stages
 
     def missed(*arguments: Any) -> Stages:
         found = count(*arguments)
         last = found.stages[-1]._replace(inherited=np.inf)
         return found._replace(stages=(*found.stages[:-1], last))
 
-    monkeypatch.setattr(approach, "counted_stages", missed)
+    monkeypatch.setattr(counting, "counted_stages", missed)
     found = _asymptote("section4-cutoff")
     assert found.arrest_cycle is None
     assert found.arrest_wear_mm == pytest.approx(0.002, rel=1e-14)

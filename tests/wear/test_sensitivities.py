@@ -13,8 +13,9 @@ from derive.results.sensitivities import POWERS, WITHOUT_EFFECT
 from wear.cycles import sweep
 from wear.faults import UsageError
 from wear.load import Block, Blocks, Constant, Force, Harmonics, Load, Sine, Table
+from wear.parameters import parameters_of
 from wear.scene import KEYS, Scene, load_scene
-from wear.sensitivities import gradients, parameters_of
+from wear.sensitivities import gradients, sensitivity
 
 FloatArray = NDArray[np.float64]
 
@@ -34,7 +35,7 @@ def _differences(scene: Scene, keys: list[str], cycles: FloatArray) -> tuple[Flo
     return best, STEP * np.abs(best - half) + np.sum(missed, axis=(1, 2)) * 4 / (3 * STEP)
 
 
-SMOOTH: dict[str, tuple[str, dict[str, Any], tuple[str, ...]]] = {
+SCENES: dict[str, tuple[str, dict[str, Any], tuple[str, ...]]] = {
     "one solid": ("section4", {}, ()),
     "two solids": (
         "section5",
@@ -53,12 +54,32 @@ SMOOTH: dict[str, tuple[str, dict[str, Any], tuple[str, ...]]] = {
         {"bearing.roughness_growth": -0.05, "contact.law": "exponential"},
         ("bearing.roughness_growth", "load.amplitude_mm", "load.period_s"),
     ),
+    "loss of contact": (
+        "section4-cutoff",
+        {"contact.closure_mm": 1e-3},
+        ("bearing.wear_coefficient", "contact.closure_mm"),
+    ),
+    "sliding along the edge": (
+        "chatter",
+        {"contact.closure_mm": 1e-3},
+        ("bearing.roughness_mm", "load.amplitude_mm"),
+    ),
+    "contact held at its edge": (
+        "section4-cutoff",
+        {"contact.closure_mm": 1e-3, "support.stiffness_MPa_per_mm": 1e5},
+        ("support.stiffness_MPa_per_mm",),
+    ),
+    "two solids that lose contact": (
+        "section3-cutoff",
+        {"contact.closure_in_sigma": 2.9},
+        ("pin.wear_coefficient", "contact.closure_in_sigma"),
+    ),
 }
 
 
-@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize("name", SCENES)
 def test_derivatives_are_those_of_differences_within_the_estimates(name: str) -> None:
-    builtin, changes, some = SMOOTH[name]
+    builtin, changes, some = SCENES[name]
     scene = load_scene(builtin).with_(changes)
     keys = list(some or parameters_of(scene))
     found = gradients([scene], keys, CYCLES)
@@ -140,6 +161,53 @@ def test_in_the_end_elasticities_are_those_derived_of_the_wear_per_cycle() -> No
             assert abs(by_cycles[1]) <= 0.2 * abs(by_cycles[0])  # like ln(N)/N
             tried += 1
     assert tried == 11
+
+
+@pytest.mark.parametrize("stiffness", [None, 1e5])
+def test_wear_that_has_stopped_depends_on_the_margin_alone(stiffness: float | None) -> None:
+    """The depth of arrest is (3 sigma_0 - h_0 + U)/(1 - 3 f), whatever the wear coefficient."""
+    changes = {} if stiffness is None else {"support.stiffness_MPa_per_mm": stiffness}
+    found = sensitivity(load_scene("section4-cutoff").with_(changes), 1e12)
+    expected = {
+        "bearing.roughness_mm": 3 / (1 - 3 * 0.25),
+        "bearing.roughness_growth": 3 * found.wear_mm[0] / (1 - 3 * 0.25),
+        "contact.closure_mm": -1 / (1 - 3 * 0.25),
+        "load.amplitude_mm": 1 / (1 - 3 * 0.25),
+    }
+    for key, derivative in zip(found.keys, found.derivative[:, 0], strict=True):
+        assert derivative == pytest.approx(expected.get(key, 0.0), rel=1e-12, abs=1e-300)
+    assert np.all(found.error[:, 0] <= 1e-11 * np.abs(found.derivative[:, 0]))
+
+
+def test_where_contact_grazes_at_first_it_is_said() -> None:
+    assert "from one side" in sensitivity("section4-cutoff", 1).notices[0]
+    scene = load_scene("section4-cutoff", ["contact.closure_mm=1e-3"])
+    assert sensitivity(scene, 1).notices == ()
+
+
+def test_random_scenes_agree_with_differences() -> None:
+    random = np.random.default_rng(13)
+    cycles = np.array([1.0, 300.0, 1e6])
+    for _ in range(6):
+        builtin = random.choice(["section3", "section4"])
+        changes = {
+            "bearing.wear_coefficient": 10 ** random.uniform(-8, -4),
+            "bearing.roughness_growth": random.uniform(-0.1, 0.5),
+            "bearing.roughness_mm": (sigma := 10 ** random.uniform(-4, -3)),
+            "contact.closure_in_sigma": random.uniform(1.5, 3.2),
+            "load.amplitude_mm": sigma * random.uniform(0.2, 2.0),
+        }
+        if random.random() < 0.4:
+            changes["support.stiffness_MPa_per_mm"] = 10 ** random.uniform(4.5, 7.0)
+        scene = load_scene(str(builtin)).with_(changes)
+        values = parameters_of(scene)
+        key = str(random.choice(list(values)))
+        found = gradients([scene], [key], cycles)
+        reference, uncertainty = _differences(scene, [key], cycles)
+        error = found.derivative[0, 0] * values[key] - reference[0]
+        estimate = found.error[0, 0] * abs(values[key])
+        assert np.all(np.abs(error) <= estimate + uncertainty[0])
+        assert np.all(estimate <= 1e-8 * np.maximum(np.abs(reference[0]), found.wear[0]))
 
 
 def test_many_scenes_have_the_derivatives_that_each_has_alone() -> None:

@@ -27,8 +27,8 @@ LEAST_GROWTH = 0.5  # of time with cycles, in powers, that a next run is feared 
 
 
 class Effort(NamedTuple):
-    """How long to measure, in seconds: a run may be expected to take `cap`, one of up to `repeated`
-    is repeated in at most so many `rounds`, which together take `rest`."""
+    """How long to measure, in seconds of processor time: a run may be expected to take `cap`, one
+    of up to `repeated` is repeated in at most so many `rounds`, which together take `rest`."""
 
     cap: float
     repeated: float
@@ -93,10 +93,10 @@ class Job:
     seconds: list[float] = field(default_factory=list)
 
     def once(self) -> None:
-        """Run and look at the clock."""
-        start = time.perf_counter()
+        """Run and look at the processor's clock: other programs take none of this time."""
+        start = time.process_time()
         self.answer = self.run(self.case.cycles, self.tolerance)
-        self.seconds.append(time.perf_counter() - start)
+        self.seconds.append(time.process_time() - start)
 
     def measured(self) -> Measurement:
         """The median; of several runs the first one, which warms up, does not count."""
@@ -161,11 +161,11 @@ def benchmark(
 
 def _repeat(jobs: Sequence[Job], effort: Effort, progress: Callable[[str], None]) -> None:
     """Round after round over all jobs, so that a busy machine disturbs all methods alike."""
-    begin = time.perf_counter()
+    begin = time.process_time()
     for repeat in range(effort.rounds):
         progress(f"round {repeat + 1} of {effort.rounds}")
         for job in jobs:
-            if time.perf_counter() - begin > effort.rest:
+            if time.process_time() - begin > effort.rest:
                 return
             job.once()
 
@@ -174,11 +174,11 @@ def _begin(method: Method, cases: Sequence[Case], cap: float) -> Iterator[Outcom
     """Get ready for each scene and solve its cases once."""
     for name in dict.fromkeys(case.name for case in cases):
         of_scene = sorted((c for c in cases if c.name == name), key=lambda case: case.cycles)
-        start = time.perf_counter()
+        start = time.process_time()
         try:
             run = method.prepare(of_scene[0].scene)
             run(1, method.tolerances[0])  # what is imported or compiled when first needed
-            yield StartUp(method.name, name, time.perf_counter() - start)
+            yield StartUp(method.name, name, time.process_time() - start)
             for tolerance in method.tolerances:
                 yield from _first_runs(method, run, of_scene, tolerance, cap)
         except UnsuitableError as fault:

@@ -15,6 +15,7 @@ from wear.benchmark.machine import footer
 from wear.figure_data import Method
 
 FEWEST_DRAWN = 4  # methods in a figure
+LEAST = float(np.finfo(float).eps) / 2  # relative error that a figure shows
 YEAR = 3.15576e7  # s
 UNITS = (
     (1e-3, 1e-6, "µs"),
@@ -151,18 +152,38 @@ def figure_cycles(runs: Sequence[Measurement], scene: str) -> tuple[int, ...]:
 
 
 def curves(runs: Sequence[Measurement]) -> list[Method]:
-    """The runs of one case that took place, by method and rising tolerance."""
+    """Return the runs of one case that took place, by method and rising tolerance; errors of zero
+    are shown at the resolution of double precision."""
     shown = [run for run in runs if run.repeats and math.isfinite(run.error)]
     shown.sort(key=lambda run: run.tolerance)
     return [
         Method(
             name,
-            np.array([abs(run.error) for run in shown if run.method == name]),
+            np.array([max(abs(run.error), LEAST) for run in shown if run.method == name]),
             np.array([run.seconds for run in shown if run.method == name]),
             np.array([run.status is not Status.MET for run in shown if run.method == name]),
         )
         for name in unique(run.method for run in runs if run in shown)
     ]
+
+
+def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> list[Method]:
+    """Return each method's time to so many digits against the number of cycles, with what the next
+    number that it was not given time for was expected to take."""
+    here = [run for run in runs if run.scene == scene]
+    made = []
+    for name in unique(run.method for run in here):
+        points = []
+        for cycles in cycles_of(here):
+            own = [run for run in at(here, scene, cycles) if run.method == name]
+            waits = [run.seconds for run in own if run.status is Status.SKIPPED]
+            if reached := best(own, digits):
+                points.append((cycles, reached[0].seconds, False))
+            elif waits and points:
+                points.append((cycles, min(waits), True))
+        if points:
+            made.append(Method(name, *map(np.array, zip(*points, strict=True))))
+    return made
 
 
 class Result(NamedTuple):

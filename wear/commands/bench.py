@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from wear.benchmark.results import Result, Table
 
 READER = "section4"  # the scene of the sentences and of the figure
-PEERS = Path(__file__).parents[2] / "docs" / "bench" / "peers.py"
+PEERS = Path(__file__).parents[2] / "docs" / "bench"
 HARD_SECONDS, HARD_SECONDS_QUICK = 2.0, 0.3
 
 EXAMPLE = """\
@@ -36,8 +36,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--peers",
         action="store_true",
-        help="also what is installed of heyoka, diffrax, JiTCODE, SUNDIALS, numba "
-        "(pip install 'derive-wear[peers]'); in a checkout of the source",
+        help="also cycle jumps and averaging, and what is installed of heyoka, diffrax, JiTCODE, "
+        "SUNDIALS, numba (pip install 'derive-wear[peers]'); in a checkout of the source",
     )
     effort = parser.add_mutually_exclusive_group()
     effort.add_argument("--quick", action="store_true", help="one scene, short runs")
@@ -104,25 +104,27 @@ def _methods(*, peers: bool) -> tuple[Sequence[Method], dict[str, tuple[str, ...
     from wear.benchmark.machine import missing
     from wear.benchmark.methods import OWN
 
-    wanted = (*OWN, *load_peers().PEERS) if peers else OWN
+    wanted = OWN
+    if peers:
+        wanted = (*OWN, *load_peers("jumps").JUMPS, *load_peers("peers").PEERS)
     absent = {method.name: lack for method in wanted if (lack := missing(method))}
     return [method for method in wanted if method.name not in absent], absent
 
 
-def load_peers() -> ModuleType:
-    """Return the benchmark of other people's integrators, which lies beside the documentation.
+def load_peers(name: str) -> ModuleType:
+    """Return a module of other methods, "jumps" or "peers", which lies beside the documentation.
 
     Raises
     ------
     UsageError
         if this is no checkout of the source.
     """
-    if not PEERS.is_file():
+    if not PEERS.is_dir():
         raise UsageError(
-            "--peers: the other integrators are set up in docs/bench/peers.py of the source, "
+            "--peers: the other methods are set up in docs/bench of the source, "
             "which is not installed; run `wear bench --peers` in a checkout of the repository"
         )
-    specification = spec_from_file_location("peers", PEERS)
+    specification = spec_from_file_location(name, PEERS / f"{name}.py")
     assert specification is not None
     assert specification.loader is not None
     module = module_from_spec(specification)
@@ -143,20 +145,19 @@ def _write_speed(result: Result, folder: Path) -> None:
 
 
 def _figures(result: Result) -> dict[str, bytes]:
-    """Time against true error, by name of the file, for the numbers of cycles worth a figure."""
-    from wear.benchmark.results import at, curves, figure_cycles
+    """Return the figures by name of the file: time against the number of cycles, and against true
+    error for the numbers of cycles worth a figure."""
+    from wear.benchmark.results import DIGITS, at, curves, curves_by_cycles, figure_cycles
     from wear.figure_style import encoded
-    from wear.figures import speed_against_error
+    from wear.figures import speed_against_cycles, speed_against_error
 
     drawn = {
-        cycles: speed_against_error(curves(at(result.runs, READER, cycles)))
+        f"speed-{cycles}": speed_against_error(curves(at(result.runs, READER, cycles)))
         for cycles in figure_cycles(result.runs, READER)
     }
-    return {
-        f"speed-{cycles}{suffix}": encoded(figure, suffix)
-        for cycles, figure in drawn.items()
-        for suffix in (".svg", ".pdf")
-    }
+    if by_cycles := curves_by_cycles(result.runs, READER, DIGITS[0]):
+        drawn["speed-cycles"] = speed_against_cycles(by_cycles)
+    return {f"{name}.svg": encoded(figure, ".svg") for name, figure in drawn.items()}
 
 
 def _hard(options: argparse.Namespace) -> int:

@@ -19,6 +19,9 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_scene(parser, default="section4")
     parser.add_argument(
+        "--data", metavar="FILE.csv", help="show readings: columns cycles, wear_mm or wear_um"
+    )
+    parser.add_argument(
         "-o",
         "--output",
         metavar="FILE",
@@ -32,12 +35,16 @@ def execute(options: argparse.Namespace) -> int:
 
     faults = Faults()
     scene = faults.scene(options)
+    scenes = [scene] if scene is not None else []
+    specimens = () if options.data is None else faults.readings(options.data, scenes)
+    if any(each.changes for each in specimens):
+        faults.add(f"--data: {options.data}: the page has one scene; leave its entries out")
     if problem := files.obstacle(options.output):
         faults.add(f"--output: {problem}")
     faults.stop_if_any()
     assert scene is not None
     terminal.progress("solving the scenes that the page checks itself against ...")
-    text = page(scene)
+    text = page(scene, specimens)
     terminal.progress("")
     files.write_atomically(options.output, text)
     if options.json:

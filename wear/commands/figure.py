@@ -23,7 +23,7 @@ SUFFIXES = (".pdf", ".png", ".svg")
 POINTS = 160
 LAST = 9000  # cycle shown, unless the load ends before or readings go on
 MOST_AT_ONCE = 7  # scenes or cycles in one figure: as many as there are colours
-ABSCISSAE = ("cycles", "hours")
+ABSCISSAE = ("cycles", "hours", "distance")
 
 EXAMPLE = """\
   wear figure section4 -o wear.pdf                          9000 cycles
@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"last cycle shown (default: that of the last reading, or {LAST})",
     )
     parser.add_argument(
-        "--axis", default="cycles", help="what is drawn along it: cycles or hours (default: cycles)"
+        "--axis", default="cycles", help="cycles, hours, or sliding distance (default: cycles)"
     )
     parser.add_argument(
         "--log",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from pathlib import Path
 
 from derive import files, terminal
@@ -12,12 +13,18 @@ from wear.commands.arguments import Faults, add_scene
 EXAMPLE = """\
   wear report scene.toml              into the folder scene-report
   wear report section4 -o elsewhere   model, data, equations, wear, life
+  wear report scene.toml --data readings.csv      and what was measured
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scene and the folder."""
     add_scene(parser)
+    parser.add_argument(
+        "--data",
+        metavar="FILE.csv",
+        help="compare readings with the prediction: columns cycles, wear_mm or wear_um, specimen",
+    )
     parser.add_argument("-o", "--output", metavar="DIR", help="folder (default: NAME-report)")
 
 
@@ -25,6 +32,8 @@ def execute(options: argparse.Namespace) -> int:
     """Solve the scene and write its report."""
     faults = Faults()
     scene = faults.scene(options)
+    scenes = [scene] if scene is not None else []
+    specimens = () if options.data is None else faults.readings(options.data, scenes)
     if scene is not None and options.output is None:
         options.output = f"{Path(scene.name).stem}-report"
     folder = Path(options.output or ".")
@@ -36,7 +45,10 @@ def execute(options: argparse.Namespace) -> int:
     from wear.report.publish import publish
 
     terminal.progress("solving the scene and deriving its equations ...")
-    document = report(scene, f"wear report {options.scene}")
+    changes = [part for entry in options.overrides for part in ("--set", entry)]
+    data = [] if options.data is None else ["--data", options.data]
+    command = shlex.join(["wear", "report", options.scene, *changes, *data])
+    document = report(scene, command, specimens)
     with files.replacing_in(folder) as draft:
         published = publish(document, draft)
         written = sorted(path.name for path in published.files)

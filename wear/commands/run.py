@@ -92,13 +92,15 @@ def execute(options: argparse.Namespace) -> int:
 
     status, fault = terminal.DONE, ""
     try:
-        history = solve(scene, cycles, rtol=rtol, method=method, time_limit=limit)
+        history = solve(scene, cycles, rtol, method, limit, terminal.progress)
     except Interrupted as stop:
         history, status, fault = stop.history, terminal.INTERRUPTED, str(stop)
     except AccuracyError as miss:
         if miss.best is None:
             raise
         history, status, fault = miss.best, terminal.INACCURATE, str(miss)
+    finally:
+        terminal.progress("")
     if options.strict:
         faults.refuse_implausible(history.notices)
         faults.stop_if_any()

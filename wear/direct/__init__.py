@@ -12,7 +12,7 @@ What else may go wrong is excluded by construction: steps cannot jump over a con
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -76,7 +76,7 @@ class Run(NamedTuple):
     states: list[State]
 
     def wear(self) -> FloatArray:
-        """Wear in mm at the marks that were reached."""
+        """Return the wear in mm at the marks that were reached."""
         return np.array([state.u for state in self.states], dtype=float)
 
 
@@ -102,6 +102,7 @@ def integrate(
     rtol: float,
     method: str = "DOP853",
     deadline: float = np.inf,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> DirectResult:
     """Integrate the wear from the fresh state to the ends of `cycles`.
 
@@ -115,15 +116,18 @@ def integrate(
         One of `METHODS`, SciPy's names.
     deadline
         A `time.monotonic()` at which to stop with what there is.
+    progress
+        Is told in words how far the integration is, once it takes more than two seconds.
     """
     marks = _marks(cycles)
-    meter = Meter(deadline)
+    meter = Meter(deadline, progress)
     blur = cutoff.roundoff(model, 0.0, load.maximum) if model.ends_at_3_sigma else 0.0
     runs: list[Run] = []
     stopped, interrupted = None, False
     try:
         for setting in _settings(method, rtol):
             runs.append(Run(setting, []))
+            meter.begin(f"{method}, run {len(runs)}", max(marks, default=0))
             for state in _march(model, load, marks, setting, meter):
                 runs[-1].states.append(state)
             if len(runs) > 1 and np.max(_errors(runs, blur), initial=0.0) <= rtol:
@@ -148,7 +152,8 @@ def _settings(method: str, rtol: float) -> Iterator[Setting]:
 
 
 def _marks(cycles: Sequence[int]) -> tuple[int, ...]:
-    """The requested cycles with powers of two between: there wear is compared and steps adapt."""
+    """Return the requested cycles with powers of two between: there wear is compared and steps
+    adapt."""
     last = max(cycles, default=0)
     powers = {1 << k for k in range(last.bit_length())}
     return tuple(sorted({mark for mark in powers if mark <= last} | set(cycles)))
@@ -161,7 +166,7 @@ def _march(
     setting: Setting,
     meter: Meter,
 ) -> Iterator[State]:
-    """The states at the marked cycles, one after another."""
+    """Yield the states at the marked cycles, one after another."""
     acting = span(load, 0)
     of = problem(model, acting.load)
     state, steps_before = State(0, 0.0, _mode(of, 0.0), None, 0), meter.steps
@@ -198,7 +203,7 @@ def _smooth_cycles(of: Problem, state: State, to: int, setting: Setting, meter: 
 
 
 def _stops(kinks: tuple[float, ...], length: int) -> Iterator[float]:
-    """The phases after 0 at which a step has to end, up to `length` cycles."""
+    """Yield the phases after 0 at which a step has to end, up to `length` cycles."""
     inner = (cycle + kink for cycle in range(length if kinks else 0) for kink in kinks)
     yield from (phase for phase in inner if phase > 0.0)
     yield float(length)
@@ -221,7 +226,8 @@ def _cycles_with_cutoff(
 
 
 def _errors(runs: Sequence[Run], blur: float) -> FloatArray:
-    """Relative error of the last run at each mark that it reached, from its distance to the others.
+    """Return the relative error of the last run at each mark that it reached, from its distance to
+    the others.
 
     Errors fall with the tolerance, if not in proportion: the square root of the ratio is counted
     on, but where contact is lost: steps begin anew there, and one that is too long may stand in the
@@ -255,7 +261,7 @@ def _result(
     stopped: str | None,
     interrupted: bool,
 ) -> DirectResult:
-    """The finest states that there are, and their distance to the run before as their error."""
+    """Return the finest states, and their distance to the run before as their error."""
     states, error = _best(runs, blur)
     wanted = set(cycles)
     chosen = [index for index, state in enumerate(states) if state.cycle in wanted]

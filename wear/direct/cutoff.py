@@ -68,17 +68,19 @@ def pieces(load: Load) -> tuple[Piece, ...]:
 
 
 def first_mode(of: Problem, u: float) -> Mode:
-    """The mode at phase 0: a contact that only touches counts as open until it closes."""
+    """Return the mode at phase 0: a contact that only touches counts as open until it closes."""
     return Mode.CLOSED if of.margin(0.0, u) > 0.0 else Mode.OPEN
 
 
 def is_arrested(of: Problem, u: float, mode: Mode, maximum: float) -> bool:
-    """Whether no load up to `maximum` (mm) closes the contact again, as far as rounding tells."""
+    """Return whether no load up to `maximum` (mm) closes the contact again, as far as rounding
+    tells."""
     return mode is not Mode.CLOSED and _threshold(of, u) >= maximum - _slack(of, u)
 
 
 def fades(of: Problem, cut: tuple[Piece, ...], u: float, maximum: float) -> bool:
-    """Whether wear that has come to its end `u` (mm), as far as rounding tells, only tends to it.
+    """Return whether wear that has come to its end `u` (mm), as far as rounding tells, only tends
+    to it.
 
     A rigid support stops wear at a smooth peak of the load, and at a plateau. At a peak so sharp
     that the load closes the contact up to the very peak each cycle leaves a part of what is left;
@@ -99,7 +101,8 @@ def fades(of: Problem, cut: tuple[Piece, ...], u: float, maximum: float) -> bool
 
 
 def pressure_share(model: Model, u: Real, U_a: Real, rise: Real) -> Real:
-    """The share of the closed contact's pressure that acts: 1 closed, 0 open, between when sliding.
+    """Return the share of the closed contact's pressure that acts: 1 closed, 0 open, between when
+    sliding.
 
     At the edge of contact a rigid support leaves the pressure undetermined; it is the share that
     lets wear keep up with the load, which rises by `rise` mm/s. All broadcast.
@@ -111,7 +114,7 @@ def pressure_share(model: Model, u: Real, U_a: Real, rise: Real) -> Real:
 
 
 def roundoff(model: Model, u: Real, U_a: Real) -> Real:
-    """The uncertainty of the margin (mm)."""
+    """Return the uncertainty of the margin (mm)."""
     now = model.fields(u, U_a)
     return 16 * EPS * (now.sigma + np.abs(now.h) + np.abs(U_a))
 
@@ -119,7 +122,7 @@ def roundoff(model: Model, u: Real, U_a: Real) -> Real:
 def cycle(
     of: Problem, cut: tuple[Piece, ...], u: float, mode: Mode, setting: Setting, meter: Meter
 ) -> tuple[float, Mode]:
-    """Wear (mm) and mode at the end of a cycle that starts with wear `u` in `mode`.
+    """Return the wear (mm) and mode at the end of a cycle that starts with wear `u` in `mode`.
 
     Raises
     ------
@@ -165,7 +168,7 @@ def _wear(
 
 
 def _following(of: Problem) -> Callable[[Real, Real], Real]:
-    """How far the wear rate at the edge of contact is above that of the contact law (mm/s).
+    """Return how far the wear rate at the edge of contact is above that of the contact law (mm/s).
 
     While it is negative, a compliant support keeps the contact at its edge.
     """
@@ -210,14 +213,14 @@ def _slide(of: Problem, piece: Piece, now: Moment) -> Moment:
 
 
 def _pull(of: Problem, phase: Real, u: Real) -> Real:
-    """How fast closed contact at the edge would open (mm per cycle); negative: it closes."""
+    """Return how fast closed contact at the edge would open (mm per cycle); negative: it closes."""
     U_a = of.load(phase)
     opening = -of.model.margin_slope(u, U_a) * of.load.period * of.model.rate(u, U_a)
     return opening - of.load.slope(phase)
 
 
 def _edge(of: Problem, phase: Real, u: Real) -> Real:
-    """The wear at which the margin is zero, by Newton's method from the nearby wear `u`.
+    """Return the wear at which the margin is zero, by Newton's method from the nearby wear `u`.
 
     The margin is convex in u, and linear for one rough surface.
     """
@@ -231,17 +234,18 @@ def _edge(of: Problem, phase: Real, u: Real) -> Real:
 
 
 def _threshold(of: Problem, u: float) -> float:
-    """The displacement U_a (mm) that just closes the contact: the margin's slope in U_a is 1."""
+    """Return the displacement U_a (mm) that just closes the contact: the margin's slope in U_a is
+    1."""
     return -float(of.model.margin(u, 0.0))
 
 
 def _slack(of: Problem, u: float) -> float:
-    """The uncertainty of the margin over the cycle (mm)."""
+    """Return the uncertainty of the margin over the cycle (mm)."""
     return max(float(roundoff(of.model, u, U_a)) for U_a in (of.load.minimum, of.load.maximum))
 
 
 def _troughs(load: Load) -> tuple[float, ...]:
-    """The lowest phase between each two neighbouring peaks, in [0, 1)."""
+    """Return the lowest phase between each two neighbouring peaks, in [0, 1)."""
     from scipy.optimize import minimize_scalar
 
     if not load.peaks:

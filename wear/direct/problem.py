@@ -50,11 +50,11 @@ class Problem:
     limit: float
 
     def speed(self, phase: Real, u: Real) -> Real:
-        """Wear in mm per cycle at `phase` and wear `u`, contact assumed."""
+        """Return the wear in mm per cycle at `phase` and wear `u`, contact assumed."""
         return self.load.period * self.model.rate(u, self.load(phase))
 
     def margin(self, phase: Real, u: Real) -> Real:
-        """How deep in contact, in mm: negative when open (cutoff only)."""
+        """Return how deep in contact, in mm: negative when open (cutoff only)."""
         return self.model.margin(u, self.load(phase))
 
 
@@ -71,7 +71,8 @@ def problem(model: Model, load: Load) -> Problem:
 
 
 def widest_step(of: Problem, u: float, end: float) -> float:
-    """The longest step, in cycles, that cannot jump over a contact pulse when the wear is `u`.
+    """Return the longest step, in cycles, that cannot jump over a contact pulse when the wear is
+    `u`.
 
     Around a peak of the load the pressure falls like exp(lambda (U_a - peak)), lambda being the
     steepest logarithmic slope of the contact law; to second order in phase that is a bell of
@@ -86,12 +87,13 @@ def widest_step(of: Problem, u: float, end: float) -> float:
 
 
 def _grid(load: Load) -> Any:
-    """Phases of a cycle, its peaks among them: a needle between the samples is not missed."""
+    """Return the phases of a cycle, its peaks among them: a needle between the samples is not
+    missed."""
     return np.concatenate([np.arange(PHASES) / PHASES, load.peaks])
 
 
 def _logarithmic_slope(model: Model, load: Load, u: float) -> float:
-    """The largest d ln(rate)/dU_a (1/mm) while the closure at the highest load opens.
+    """Return the largest d ln(rate)/dU_a (1/mm) while the closure at the highest load opens.
 
     The search starts where the surfaces touch: deeper, a saturated law has no slope.
     """
@@ -106,7 +108,7 @@ def _logarithmic_slope(model: Model, load: Load, u: float) -> float:
 
 
 def _sharpest_bend(load: Load) -> float:
-    """The largest -U_a'' (mm per cycle squared) where the load is smooth.
+    """Return the largest -U_a'' (mm per cycle squared) where the load is smooth.
 
     At a kink the integrator stops anyway, and so cannot jump over it.
     """
@@ -118,7 +120,7 @@ def _sharpest_bend(load: Load) -> float:
 
 
 def _smooth_at(model: Model, load: Load, roughness: float) -> float:
-    """The wear at which the only rough surface is smooth; infinity for two or a growing one."""
+    """Return the wear at which the only rough surface is smooth, infinite if there is none."""
     fresh, worn = (model.fields(u, load.maximum) for u in (0.0, roughness))
     if fresh.sigma_a != 0.0 or worn.sigma_a != 0.0 or worn.sigma_c >= fresh.sigma_c:
         return np.inf

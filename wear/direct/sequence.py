@@ -55,7 +55,8 @@ class Window:
 
 
 def span(load: Load | AperiodicLoad, cycle: int) -> Span:
-    """The load that acts from the start of a cycle (counted from 0), and how long it repeats."""
+    """Return the load that acts from the start of a cycle (counted from 0), and how long it
+    repeats."""
     if isinstance(load, HistoryLoad):
         return Span(Window(load, cycle), cycle + 1)
     if not isinstance(load, Blocks):
@@ -69,5 +70,5 @@ def span(load: Load | AperiodicLoad, cycle: int) -> Span:
 
 
 def most_cycles(load: Load | AperiodicLoad) -> int:
-    """How many whole cycles the load has."""
+    """Return how many whole cycles the load has."""
     return int(load.cycles * (1.0 + 1e-12)) if isinstance(load, Blocks | HistoryLoad) else FOREVER

@@ -19,6 +19,7 @@ METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
 FINEST_TOLERANCE = 110 * EPS  # SciPy accepts no relative tolerance below 100 units of roundoff
 NEAR = 1e-6  # of a cycle: by how much an interpolant may misplace the end of contact
 LOOKS_PER_STEP = 8  # where a step is searched for the end of contact
+SILENT, APART = 2.0, 0.5  # s, before the first report of progress, and between two
 
 
 class OutOfTimeError(Exception):
@@ -31,18 +32,40 @@ class EndOfModelError(Exception):
 
 @dataclass
 class Meter:
-    """What an integration has cost so far, and when it has to stop (`time.monotonic`)."""
+    """What an integration has cost so far, and when it has to stop (`time.monotonic`).
+
+    After two seconds `progress` is told now and then how far the run is.
+    """
 
     deadline: float = np.inf
+    progress: Callable[[str], None] = lambda _: None
     evaluations: int = 0
     steps: int = 0
     cycles: int = 0
+    run: str = ""
+    last: int = 0
 
-    def step(self) -> None:
-        """Count a step; raise when time is up."""
+    def __post_init__(self) -> None:
+        self._next = time.monotonic() + SILENT
+        self.begin("", 0)
+
+    def begin(self, run: str, last: int) -> None:
+        """Start a run up to the cycle `last`."""
+        self.run, self.last = run, last
+        self._before, self._start = self.cycles, time.monotonic()
+
+    def step(self, phase: float = 0.0) -> None:
+        """Count a step, that ends so many cycles after the last that was counted; raise when time
+        is up."""
         self.steps += 1
-        if time.monotonic() > self.deadline:
+        now = time.monotonic()
+        if now > self.deadline:
             raise OutOfTimeError
+        if now >= self._next:
+            self._next = now + APART
+            done = self.cycles - self._before + phase
+            left = (now - self._start) * (self.last - done) / max(done, 1e-9)
+            self.progress(f"{self.run}: cycle {int(done)} of {self.last}, about {left:.0f} s left")
 
 
 class Leg(NamedTuple):
@@ -78,7 +101,7 @@ def leg(
     while solver.status == "running":
         before = Leg(float(solver.t), u, False)
         complaint = solver.step()
-        meter.step()
+        meter.step(float(solver.t))
         if solver.status == "failed":
             raise EndOfModelError(f"{setting.method} gave up: {str(complaint).rstrip('.')}")
         u = float(solver.y[0]) * of.unit
@@ -106,7 +129,7 @@ def leg(
 
 
 def _opened(of: Problem, at: Leg, slack: float) -> Leg:
-    """The end of contact near a leg's end, by a step of Newton's method on the margin."""
+    """Return the end of contact near a leg's end, by a step of Newton's method on the margin."""
     speed = of.speed(at.phase, at.u)
     slope = of.model.margin_slope(at.u, of.load(at.phase))
     falls = float(of.load.slope(at.phase) + slope * speed)
@@ -159,16 +182,16 @@ class _Step(NamedTuple):
     unit: float
 
     def wear(self, phase: Real) -> Real:
-        """Wear in mm inside the step."""
+        """Return the wear in mm inside the step."""
         return self.dense(phase)[0] * self.unit
 
     def side(self, function: Callable[[Real, Real], Real]) -> float:
-        """The sign of a function soon after the start, which may be its zero."""
+        """Return the sign of a function soon after the start, which may be its zero."""
         phase = self.start + (self.end - self.start) / LOOKS_PER_STEP
         return float(np.sign(function(phase, float(self.wear(phase)))))
 
     def first(self, function: Callable[[Real, Real], Real]) -> float | None:
-        """The first phase at which a function of phase and wear has fallen to zero, if any."""
+        """Return the first phase at which a function of phase and wear has become negative or 0."""
         phases = np.linspace(self.start, self.end, LOOKS_PER_STEP + 1)
         below = np.flatnonzero(function(phases, self.wear(phases))[1:] < 0.0)
         if len(below) == 0:
@@ -190,7 +213,7 @@ def _plus(term: float, function: Callable[[Real, Real], Real]) -> Callable[[Real
 
 
 def first_zero(function: Callable[[float], Any], start: float, end: float) -> float:
-    """The zero of a function that changes sign between `start` and `end`, to roundoff.
+    """Return the zero of a function that changes sign between `start` and `end`, to roundoff.
 
     A start that roundoff has put beyond the zero counts as the zero.
     """

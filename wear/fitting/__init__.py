@@ -2,4 +2,11 @@
 
 Contents
     readings    measured wear of one or several specimens
+    residuals   how far a law is from the readings
+    model       the scenes of the specimens as a function of the free parameters
+    estimate    least squares: estimates, covariance
+    profiles    profile likelihoods and the intervals that they give
+    forecast    what is left open, forecasts, lives, the next reading
+    laws        simpler laws that the same data are held against
+    posterior   samples by an ensemble of walkers
 """

@@ -154,4 +154,6 @@ def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:
     if len(amplitudes) == len(loads):
         unit = Sine(1.0, 1.0)(phases)
         return np.array(amplitudes).reshape(-1, *[1] * (phases.ndim - 1)) * unit
+    if all(load is loads[0] for load in loads):
+        return loads[0](phases)
     return np.stack([load(x) for load, x in zip(loads, phases, strict=True)])

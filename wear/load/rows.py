@@ -114,6 +114,10 @@ class TableFile(RowsFile):
         description="true: take one period out of the record, from its first row on; a straight "
         "line to the first row closes it. The period is period_s, or the last time plus one step",
     )
+    resample: Flag = Field(
+        default=True,
+        description="true: rows are merged as far as the requested accuracy allows",
+    )
 
 
 @table("load", kind="history")

@@ -12,7 +12,7 @@ from wear.numerics.gauss import FloatArray
 
 
 def chebyshev_nodes(m: int) -> FloatArray:
-    """The m roots of the Chebyshev polynomial T_m, rising."""
+    """Return the m roots of the Chebyshev polynomial T_m, rising."""
     nodes: FloatArray = -np.cos(np.pi * (np.arange(m) + 0.5) / m)
     return nodes
 

@@ -47,7 +47,7 @@ class Rates(Protocol):
 
     @property
     def tolerance(self) -> float:
-        """Relative error of the increment at which the iteration may end."""
+        """Return the relative error of the increment at which the iteration may end."""
 
     def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
         """Return the rate times the length of each interval at states `u` (..., k, q, m), or

@@ -41,7 +41,7 @@ class Gauss(NamedTuple):
 
 @lru_cache(maxsize=32)
 def gauss(m: int) -> Gauss:
-    """The m-point Gauss-Legendre rule of [0, 1] and its integration matrix.
+    """Return the m-point Gauss-Legendre rule of [0, 1] and its integration matrix.
 
     >>> rule = gauss(8)
     >>> bool(np.allclose(rule.integrate @ rule.nodes**3, rule.nodes**4 / 4, rtol=1e-14))
@@ -52,7 +52,7 @@ def gauss(m: int) -> Gauss:
 
 @lru_cache(maxsize=32)
 def radau(m: int) -> Gauss:
-    """The same for the m-point Radau rule, whose last node is the end.
+    """Return the same for the m-point Radau rule, whose last node is the end.
 
     Collocation with it damps what decays within less than the interval, however fast: E. Hairer,
     G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, section IV.5.
@@ -73,7 +73,7 @@ def radau(m: int) -> Gauss:
 
 
 def _with_matrices(x: FloatArray, w: FloatArray) -> Gauss:
-    """The rule with nodes x and weights w of [-1, 1], exact to degree 2 m - 2 at least."""
+    """Return the rule with nodes x and weights w of [-1, 1], exact to degree 2 m - 2 at least."""
     m = len(x)
     values = np.polynomial.legendre.legvander(x, m).T  # (m + 1, m): P_k at the nodes
     order = np.arange(m)
@@ -101,7 +101,7 @@ class Mesh(NamedTuple):
     rule: Gauss
 
     def interval(self, i: int) -> "Mesh":
-        """One interval alone."""
+        """Return one interval alone."""
         return Mesh(
             self.edges[..., i : i + 2],
             self.lengths[..., i : i + 1],
@@ -111,7 +111,7 @@ class Mesh(NamedTuple):
 
 
 def mesh(edges: FloatArray, m: int) -> Mesh:
-    """The mesh with these edges and m nodes on each interval."""
+    """Return the mesh with these edges and m nodes on each interval."""
     rule = gauss(m)
     lengths = np.diff(edges)
     return Mesh(edges, lengths, edges[..., :-1, None] + lengths[..., None] * rule.nodes, rule)
@@ -127,8 +127,8 @@ def _running_matrix(q: int, m: int) -> FloatArray:
 
 
 def product(values: FloatArray, matrix: FloatArray) -> FloatArray:
-    """The rows `values` (k, m) times a `matrix` (m, n), in pieces that BLAS leaves to one thread:
-    several would wait for each other longer than they work."""
+    """Return the rows `values` (k, m) times a `matrix` (m, n), in pieces that BLAS leaves to one
+    thread: several would wait for each other longer than they work."""
     rows = max(1, ONE_THREAD // matrix.size)
     if len(values) <= rows:
         return values @ matrix

@@ -102,7 +102,7 @@ def dense_output(
     observable: Observable | None = None,
 ) -> DenseOutput:
     """Prepare for the cycles that are `counted`, of one scene, and for `phases` (m,) in [0, 1]."""
-    size, states = settings(rtol), counted.transient[0]
+    size, states = settings(rtol, problem.breakpoints), counted.transient[0]
     # The first cycle is not interpolated even if panels begin with it.
     first = states[: max(1, len(states) - 1)] if counted.cells else states
     maps = period_map(problem, counted.edges, size.finer_nodes)
@@ -134,7 +134,8 @@ def _on_panels(
     """Return the panels of the count, cut in two where a phase needs it: there what a cycle adds
     depends on the state more sharply than at its end."""
     assert counted.panels is not None
-    size, number, frame = settings(rtol), len(phases), counted.panels.frame
+    size = settings(rtol, maps.equation.breakpoints)
+    number, frame = len(phases), counted.panels.frame
     forcing = maps.equation.forcing(phases[None])[0]
     to_series = chebyshev_analysis(size.panel_nodes)
     to_checks = chebyshev_values(CHECKS, size.panel_nodes)

@@ -262,6 +262,14 @@ class Iterates(NamedTuple):
             return np.asarray(self._rows(self.cells.first_rate)[:, 0])
         return np.asarray(np.sum(np.diff(self.transient[:, :2], axis=1), axis=1))
 
+    @property
+    def largest_error(self) -> FloatArray:
+        """Return the largest relative error (s,) of the states where cells meet."""
+        if self.cells is None:
+            return np.zeros(len(self.transient))
+        rate, u = (self._rows(x)[:, 1:] for x in (self.cells.first_rate, self.cells.u))
+        return np.asarray(np.max(self.count_error[:, 1:-1] * rate / u, axis=1, initial=0.0))
+
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the states after `cycles` (s, c) and their estimated relative errors, infinite
         where out of reach."""

@@ -137,7 +137,7 @@ def _judged(
     nodes, checks = chebyshev_nodes(size.panel_nodes), frame.states(CHECKS)
     ahead = coarse.advance(frame.states(nodes))
     density = abel.solve(frame, ahead.increment)
-    judge = fine.advance(checks, _at_checks(ahead, size.finer_nodes))
+    judge = fine.advance(checks, at_checks(ahead, size.finer_nodes))
     residuals = np.abs(abel.residual(density, CHECKS, judge.increment))
     far = np.max(residuals[:, -2:], axis=1) > FAR_OUT * np.max(residuals[:, :-2], axis=1)
     far &= frame.c > 0.0
@@ -216,7 +216,7 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
     return Planned(scene[order], frame.take(order), cycles[order])
 
 
-def _at_checks(ahead: CycleSolution, m: int) -> InitialGuess:
+def at_checks(ahead: CycleSolution, m: int) -> InitialGuess:
     """Return the cycles from the CHECKS as a guess for m nodes on each interval: interpolated
     between those `ahead` from the nodes of panels."""
     nodes = ahead.increment.shape[1]

@@ -32,7 +32,10 @@ from wear.numerics.tolerances import ROUNDOFF, TINY
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase do not show what they miss
 LOOSEST = 1e-4  # relative error: a looser count saves nothing
-MOST_INTERVALS = 256  # of one cycle; or twice as many as its breakpoints make
+MOST_INTERVALS = 256  # of one cycle; or so many for each that its breakpoints make:
+MOST_CUTS = 8
+FEW_NODES = 8
+MANY_BREAKPOINTS = 128  # of one cycle: between as many the rate changes little, few nodes do
 NUMBERS = (1, 2, 3, 6, 12, 24, 48, 96, 192)  # of intervals, of many scenes: few different ones
 IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
 # Of `truncation_error`: in 99 of 100 random scenes the error is less than three times that.
@@ -60,9 +63,12 @@ class Settings(NamedTuple):
         return self.phase_nodes + 6
 
 
-def settings(rtol: float) -> Settings:
-    """Return the cheapest sizes for `rtol` where the forcing is smooth."""
+def settings(rtol: float, breakpoints: Sequence[FloatArray] = ()) -> Settings:
+    """Return the cheapest sizes for `rtol` where the forcing is smooth between `breakpoints` of
+    each scene."""
     phase_nodes, panel_nodes = (24, 48) if rtol < 1e-8 else (16, 24)
+    if min(map(len, breakpoints), default=0) > MANY_BREAKPOINTS:
+        phase_nodes = FEW_NODES
     return Settings(
         phase_nodes=phase_nodes,
         phase_tolerance=max(2 * min(rtol, COARSEST), ROUNDOFF),
@@ -80,6 +86,10 @@ class Equation(Protocol):
 
     @property
     def scenes(self) -> int: ...
+
+    @property
+    def breakpoints(self) -> Sequence[FloatArray]:
+        """Return the phases from 0 to 1 of each scene between which the forcing is smooth."""
 
     def take(self, rows: Rows) -> Equation:
         """Return some of the scenes, each perhaps several times."""
@@ -113,7 +123,10 @@ class PeriodMap(NamedTuple):
     @property
     def full(self) -> bool:
         """Return whether the mesh has as many intervals as it may."""
-        return int(self.over.lengths.shape[-1]) >= MOST_INTERVALS
+        intervals = int(self.over.lengths.shape[-1])
+        if intervals < MOST_INTERVALS:
+            return False
+        return intervals >= MOST_CUTS * max(map(len, self.equation.breakpoints))
 
     def take(self, rows: Rows) -> PeriodMap:
         """Return some of the scenes, each perhaps several times; one scene broadcasts."""

@@ -223,6 +223,8 @@ def orbit(
                 begins = cycles[mine] - asked.cycles
                 zero = np.zeros(len(rows))
                 found.append(Segment(mine, counted, begins, zero, zero))
+                if not request.late:
+                    lost.append(mine[counted.largest_error > rtol])
                 ran = counted.whole_cycles
                 ended = counted.at_rest | ~(counted.last_state < NEARLY * counted.limit)
                 more = np.flatnonzero(~ended & (ran < asked.cycles) & (ran > 0))
@@ -309,7 +311,7 @@ class _Work:
 
     def __init__(self, problem: Problem, request: Request, rtol: float) -> None:
         self.problem, self.request, self.rtol = problem, request, rtol
-        self.size = size = settings(rtol)
+        self.size = size = settings(rtol, problem.breakpoints)
         self.cost = Cost(0, 0)
         self.scale, self.limit = problem.scale, problem.limit
         self.end = _look_ahead(problem, request)
@@ -462,12 +464,8 @@ class _Work:
         small as requested."""
         met, order = np.full(len(job.which), True), np.argsort(job.which)
         for rows, counted in self._counted(job, panels):
-            table = counted.cells
-            assert table is not None
-            rate, u = (x.reshape(len(rows), -1)[:, 1:] for x in (table.first_rate, table.u))
-            error = counted.count_error[:, 1:-1] * rate / u
             place = order[np.searchsorted(job.which, rows, sorter=order)]
-            met[place] = np.all(error <= self.rtol, axis=1)
+            met[place] = counted.largest_error <= self.rtol
         return met
 
     def _is_gentle(self, job: _Job) -> BoolArray:

@@ -26,10 +26,12 @@ from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_i
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
-from wear.orbit.panels import CHECKS
+from wear.orbit.panels import CHECKS, at_checks
 from wear.orbit.period_map import PeriodMap, Rows, Settings, period_map, settings
 from wear.orbit.segments import Orbit, Problem
 from wear.orbit.transient import SAFETY
+
+ITERATION_TOLERANCE = 1e-13  # of the period map: its derivatives have no more digits
 
 
 class Parametrised(Problem, Protocol):
@@ -84,7 +86,7 @@ def linearised(maps: PeriodMap, starts: FloatArray, run: CycleSolution) -> Linea
     return Linearised(np.exp(integral(slope, over)), by_parameters)
 
 
-class _Sums(NamedTuple):
+class Sums(NamedTuple):
     """S = (dn/du) (du/dp) on the cells of a count (s, cells, parameters): its value where each cell
     starts, and its estimated error there and where the last one ends (s, cells + 1, parameters);
     with the coefficients `series` (panels, m, parameters) of dS/dn."""
@@ -115,15 +117,14 @@ def tangents(
         counted = cast(Iterates, segment.counted)
         last = counted.whole_cycles
         wanted = np.concatenate([np.clip(since, 0.0, last[:, None]), last[:, None]], axis=1)
-        each = _in_segment(
+        own, own_error, added = _in_segment(
             problem.take(which), counted, wanted, rtol, onward[which], onward_error[which]
         )
         here = (since >= 0)[:, None]
-        derivative[which] = np.where(here, each.derivative[..., :-1], derivative[which])
-        missed[which] = np.where(here, each.derivative_error[..., :-1], missed[which])
-        increment[which] = np.where(here[:, 0], each.increment[:, :-1], increment[which])
-        onward[which] = each.derivative[..., -1]
-        onward_error[which] = each.derivative_error[..., -1]
+        derivative[which] = np.where(here, own[..., :-1], derivative[which])
+        missed[which] = np.where(here, own_error[..., :-1], missed[which])
+        increment[which] = np.where(here[:, 0], added[:, :-1], increment[which])
+        onward[which], onward_error[which] = own[..., -1], own_error[..., -1]
     missed = np.where(np.isfinite(error)[:, None], missed, np.inf)
     return Tangents(u, error, derivative, missed, increment)
 
@@ -135,10 +136,11 @@ def _in_segment(
     rtol: float,
     start: FloatArray,
     start_error: FloatArray,
-) -> Tangents:
-    """Return the derivatives after `cycles` (s, c) since the start of a segment."""
-    size = settings(rtol)
-    maps = period_map(problem, counted.edges, size.phase_nodes, size.iteration_tolerance)
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the derivatives (s, parameters, c) after `cycles` (s, c) since the start of a segment,
+    their error, and what the last cycle has added (s, c)."""
+    size = settings(rtol, problem.breakpoints)
+    maps = period_map(problem, counted.edges, size.phase_nodes, ITERATION_TOLERANCE)
     early, early_error = _in_transient(maps, counted, size, start, start_error)
     number = counted.integrated_cycles
     index = np.minimum(cycles, number).astype(int)
@@ -146,16 +148,14 @@ def _in_segment(
     derivative, missed = early[rows, index], early_error[rows, index]
     added = np.diff(counted.transient, axis=1)
     increment = added[rows, np.maximum(index - 1, 0)] if number else np.empty(cycles.shape)
-    u, error = counted.after(cycles)
     if counted.cells is not None:
         sums = _on_panels(maps, counted, size, early[:, -1], early_error[:, -1])
         late = cycles > number if number else np.full(cycles.shape, True)
-        far = _after(counted, sums, np.maximum(cycles, float(number)))
+        far = after_on_cells(counted, sums, np.maximum(cycles, float(number)))
         derivative = np.where(late[..., None], far[0], derivative)
         missed = np.where(late[..., None], far[1], missed)
         increment = np.where(late, far[2], increment)
-    derivative, missed = (np.moveaxis(x, 2, 1) for x in (derivative, missed))
-    return Tangents(u, error, derivative, missed, increment)
+    return np.moveaxis(derivative, 2, 1), np.moveaxis(missed, 2, 1), increment
 
 
 def _in_transient(
@@ -211,20 +211,37 @@ def _on_panels(
     size: Settings,
     start: FloatArray,
     start_error: FloatArray,
-) -> _Sums:
+) -> Sums:
     """Return S on the cells of a count, from du/dp where they start."""
+    panels = counted.panels
+    assert panels is not None
+    scenes = len(start)
+    some = maps.take(np.repeat(np.arange(scenes), len(panels.series) // scenes))
+    t, fine = chebyshev_nodes(panels.series.shape[1]), some.finer(size)
+    run = some.advance(panels.frame.states(t))
+    judge = fine.advance(panels.frame.states(CHECKS), at_checks(run, size.finer_nodes))
+    nodes, checks = _added(some, panels, t, run), _added(fine, panels, CHECKS, judge)
+    return sums_on_cells(counted, nodes, checks, start, start_error)
+
+
+class Added(NamedTuple):
+    """What cycles from some positions of panels add to the state, `increment` (panels, n), and to
+    S, `to_sums` (panels, n, parameters)."""
+
+    increment: FloatArray
+    to_sums: FloatArray
+
+
+def sums_on_cells(
+    counted: Iterates, nodes: Added, checks: Added, start: FloatArray, start_error: FloatArray
+) -> Sums:
+    """Return S on the cells of a count, from du/dp (s, parameters) where they start, its error, and
+    the cycles from the nodes of panels; those from the CHECKS, with a finer map, are to judge."""
     panels, table = counted.panels, counted.cells
     assert panels is not None
     assert table is not None
-    scenes = len(start)
-    each = len(panels.series) // scenes
-    some = maps.take(np.repeat(np.arange(scenes), each))
-    t = chebyshev_nodes(panels.series.shape[1])
-    run, added = _added(some, panels, t)
-    series = abel.sum_per_cycle(panels, run.increment, added)
-    fine = some.finer(size)
-    judge, judged = _added(fine, panels, CHECKS)
-    residual = abel.sum_residual(panels, CHECKS, judge.increment, series, judged)
+    series = abel.sum_per_cycle(panels, *nodes)
+    residual = abel.sum_residual(panels, CHECKS, checks.increment, series, checks.to_sums)
     worst = np.max(np.abs(residual), axis=1)  # (panels, parameters)
 
     density, rates = _at_cells(panels, table, series, gauss(NODES).nodes)
@@ -234,20 +251,18 @@ def _on_panels(
     of_panel = len(gain) // len(worst)
     of_count = np.diff(counted.count_error, axis=1).reshape(-1, 1) / table.gain[:, None]
     lost = SAFETY * (np.repeat(worst, of_panel, axis=0) * table.gain[:, None] + of_count * size_of)
-    first = 1.0 / table.first_rate.reshape(scenes, -1)[:, 0, None, None]
-    shape = (scenes, -1, start.shape[1])
+    first = 1.0 / table.first_rate.reshape(len(start), -1)[:, 0, None, None]
+    shape = (len(start), -1, start.shape[1])
     sums = np.concatenate([first * start[:, None], gain.reshape(shape)], axis=1).cumsum(axis=1)
     errors = np.concatenate([first * start_error[:, None], lost.reshape(shape)], axis=1)
-    return _Sums(sums[:, :-1], errors.cumsum(axis=1), series)
+    return Sums(sums[:, :-1], errors.cumsum(axis=1), series)
 
 
-def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray) -> tuple[CycleSolution, FloatArray]:
-    """Return the cycles from the positions `t` (n,) of each panel, and what they add to S, (panels,
-    n, parameters)."""
-    states = panels.frame.states(t)
-    run = maps.advance(states)
-    by_parameters = linearised(maps, states, run).by_parameters
-    return run, abel.density_after(panels, t, run.increment)[..., None] * by_parameters
+def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: CycleSolution) -> Added:
+    """Return what the cycles `run` from the positions `t` (n,) of each panel add."""
+    by_parameters = linearised(maps, panels.frame.states(t), run).by_parameters
+    density = abel.density_after(panels, t, run.increment)
+    return Added(run.increment, density[..., None] * by_parameters)
 
 
 def _at_cells(
@@ -273,8 +288,8 @@ def _at_cells(
     return density, basis @ series[panel]
 
 
-def _after(
-    counted: Iterates, sums: _Sums, cycles: FloatArray
+def after_on_cells(
+    counted: Iterates, sums: Sums, cycles: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return du/dp (s, c, parameters) after `cycles` (s, c) on the cells, its error, and du/dn."""
     table, panels = counted.cells, counted.panels
@@ -291,15 +306,20 @@ def _after(
     density, rates = _at_cells(panels, table, sums.series, nodes, flat)
     # du/dn from the density itself: Newton's last step may be larger than rounding.
     pace = table.length[flat] * (table.offset[flat] + u - table.u[flat]) / density[:, -1]
+    last = x * (1.0 - rule.nodes[-1]) * density[:, -1] + TINY  # cycles from the last node
+    bend = np.abs(np.log(density[:, -1] / density[:, -2]) / last).reshape(*cycles.shape, 1)
+    onward = np.abs(rates[:, -1]).reshape(*cycles.shape, -1)
     density, rates = density[:, :-1] * (x[:, None] * rule.weights), rates[:, :-1]
     rows = np.arange(scenes)[:, None]
     within = np.einsum("cg,cgk->ck", density, rates).reshape(*cycles.shape, -1)
     total = sums.start[rows, cell] + within
     share = x.reshape(cycles.shape)[..., None]
     missed = (1 - share) * sums.error[rows, cell] + share * sums.error[rows, cell + 1]
-    # The density and the count themselves are out by as much, where the state is.
+    # The density and the count themselves are out, where the state is.
     steps = np.diff(counted.count_error, axis=1)
     own = SAFETY * (steps.reshape(-1)[flat] / table.gain[flat]).reshape(*cycles.shape, 1)
+    count = counted.count_error[rows, cell + 1][..., None]
+    missed = missed + (own + bend * count + ROUNDOFF) * np.abs(total) + onward * count
     pace = pace.reshape(*cycles.shape, 1)
-    missed = pace * (missed + own * np.abs(total)) + ROUNDOFF * np.abs(pace * total)
+    missed = pace * missed
     return pace * total, missed, pace[..., 0]

@@ -12,7 +12,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, FancyArrowPatch
 from numpy.typing import NDArray
 
-from wear.figure_style import COLUMN, GREY, INK, canvas, stroke, styled
+from wear.figure_data import WEAR
+from wear.figure_style import COLUMN, GREY, INK, canvas, side_by_side, stroke, styled
+from wear.load import Blocks, HistoryLoad
+from wear.scene import Scene
 
 #: What the drawing shows, for those who do not see it.
 DESCRIPTION = (
@@ -41,6 +44,50 @@ def system() -> Figure:
     return figure
 
 
+def of_scene(scene: Scene) -> Figure:
+    """The rough surfaces before any wear, heights to scale, and the path of the pin above them."""
+    sigma_c, closure = scene.bearing.roughness_mm * WEAR.scale, scene.closure * WEAR.scale
+    sigma_a = scene.pin.roughness_mm * WEAR.scale if scene.pin is not None else 0.0
+    x, waves = _profile(1.1, 0.0)
+    _, others = _profile(0.3, 0.0)
+    paths, label = _paths(scene)
+    with styled():
+        figure, [left, right] = side_by_side(2, COLUMN, 0.72 * COLUMN)
+        bearing, pin = stroke(0).colour, stroke(1).colour
+        surface = sigma_c * waves / np.std(waves)
+        above = closure - (0.0 if scene.given_load else paths[0][1][0])
+        lower = above + sigma_a * others / np.std(others)
+        span = np.concatenate([surface, lower, *(closure - y for _, y in paths)])
+        low, high = span.min() - 0.35 * np.ptp(span), span.max() + 0.35 * np.ptp(span)
+        left.fill_between(x, low, surface, color=bearing, alpha=0.18, linewidth=0.0)
+        left.plot(x, surface, color=bearing)
+        left.fill_between(x, lower, high, color=pin, alpha=0.18, linewidth=0.0)
+        left.plot(x, lower, color=pin)
+        left.text(x[6], high, " pin", va="top")
+        left.text(x[6], low, " bearing", va="bottom")
+        left.annotate("", (x[120], 0.0), (x[120], above), arrowprops={"arrowstyle": "<|-|>"})
+        left.text(x[126], 0.5 * above, "$h$", va="center")
+        left.set(ylabel=r"Height  ($\mathrm{\mu m}$)", ylim=(low, high), xticks=[])
+        left.spines["bottom"].set_visible(False)
+        right.axhline(0.0, color=bearing, linewidth=0.8)
+        right.axhspan(-sigma_c, sigma_c, color=bearing, alpha=0.18, linewidth=0.0)
+        for time, displacement in paths:
+            right.plot(time, closure - displacement, color=pin)
+        right.set(xlabel=label, xlim=(paths[0][0][0], paths[0][0][-1]))
+    return figure
+
+
+def _paths(scene: Scene) -> tuple[list[tuple[NDArray[np.float64], NDArray[np.float64]]], str]:
+    """Displacements (um) of each load over the phase of its period, or over time (s)."""
+    load = scene.load
+    if isinstance(load, HistoryLoad):
+        times = np.asarray(load.times_s)
+        return [(times, load.value(times) * WEAR.scale)], "Time  (s)"
+    loads = [b.load for b in load.blocks] if isinstance(load, Blocks) else [scene.periodic_load]
+    phase = np.linspace(0.0, 1.0, 801)
+    return [(phase, each(phase) * WEAR.scale) for each in loads], "Phase in the cycle"
+
+
 def _profile(seed: float, height: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """A surface that looks rough: a few incommensurable waves, the same in every run."""
     x = np.linspace(_LEFT, _RIGHT, 241)
@@ -50,7 +97,7 @@ def _profile(seed: float, height: float) -> tuple[NDArray[np.float64], NDArray[n
 
 
 def _solids(axes: Axes) -> None:
-    pin, bearing = stroke(0).colour, stroke(1).colour
+    bearing, pin = stroke(0).colour, stroke(1).colour
     x, lower = _profile(0.3, _PIN)
     axes.fill_between(x, lower, _TOP, color=pin, alpha=0.18, linewidth=0.0)
     axes.plot(x, lower, color=pin)
@@ -94,7 +141,7 @@ def _closure(axes: Axes) -> None:
 
 
 def _displacements(axes: Axes) -> None:
-    pin, bearing = stroke(0).colour, stroke(1).colour
+    bearing, pin = stroke(0).colour, stroke(1).colour
     for x, top, name, colour, side in (
         (_RIGHT + 0.5, 6.5, r"$U_a$ pin moves", pin, 0.15),
         (_RIGHT + 0.5, 5.6, r"$u_a$ pin wears", pin, 0.15),

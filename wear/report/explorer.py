@@ -19,6 +19,7 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
+from wear.fitting.readings import Specimen
 from wear.report import explorer_data, mathml
 from wear.report.html import style
 from wear.scene import KEYS, Scene, builtin_names, load_scene
@@ -45,6 +46,9 @@ _VALUES = {
     "regime": "Regime",
     "wear-now": "Wear after <span data-cycles></span> cycles",
     "cycle-now": "Wear of the cycle after",
+    "peak-now": "Peak pressure of the last cycle",
+    "mean-now": "Mean pressure of the last cycle",
+    "contact-now": "Fraction of the last cycle in contact",
     "limit-cycle": "Asymptotic wear per cycle",
     "limit-pressure": "Asymptotic pressure",
     "limit-ratio": "Limit of closure over roughness",
@@ -61,8 +65,9 @@ _SCENE_FILE = """<section aria-labelledby="setting">
 </section>"""
 
 
-def page(scene: Scene) -> str:
-    """Return the page, opened at a scene, which must have a load that repeats.
+def page(scene: Scene, specimens: Sequence[Specimen] = ()) -> str:
+    """Return the page, opened at a scene, which must have a load that repeats, with what was
+    measured on `specimens` of it.
 
     Raises
     ------
@@ -70,7 +75,7 @@ def page(scene: Scene) -> str:
         if the load does not repeat.
     """
     derived = json.loads(_asset("explorer.derived.json"))
-    data = _data(scene, derived)
+    data = _data(scene, derived, specimens)
     scripts = [derived["models"], *(_asset(name) for name in SCRIPTS)]
     styles = f"{style()}\n{_asset('explorer.css')}"
     tags = "\n".join(f"<script>{text}</script>" for text in scripts)
@@ -116,15 +121,23 @@ cycles, by this page alone. The model on it is generated from the derivation.</p
 """
 
 
-def _data(first: Scene, derived: Mapping[str, Any]) -> dict[str, Any]:
+def _data(
+    first: Scene, derived: Mapping[str, Any], specimens: Sequence[Specimen]
+) -> dict[str, Any]:
     scenes = {name: load_scene(name) for name in builtin_names()}
     if first.name not in scenes or scenes[first.name] != first:
         first = replace(first, name=_free_name(first.name, scenes))
         scenes = {first.name: first} | scenes
+    shown = [explorer_data.scene_data(scene) for scene in scenes.values()]
+    next(each for each in shown if each["name"] == first.name)["readings"] = [
+        [float(n), float(wear) * explorer_data.MICROMETRES]
+        for each in specimens
+        for n, wear in zip(each.cycles, each.wear_mm, strict=True)
+    ]
     own = [first] if first.name not in CHECKED else []
     return {
         "first": first.name,
-        "scenes": [explorer_data.scene_data(scene) for scene in scenes.values()],
+        "scenes": shown,
         "parameters": derived["parameters"],
         "keys": KEYS,
         "checks": explorer_data.checked([*(scenes[name] for name in CHECKED), *own]),

@@ -12,11 +12,15 @@ from typing import Any
 
 import numpy as np
 
+from wear import own_laws
 from wear.faults import UsageError
 from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.scene import Scene, load_scene
 
 CYCLES = (1, 10, 100, 1000, 10000)
+MICROMETRES = 1e3  # in a mm
+SMALL = ("sigma_c0", "sigma_a0", "h_0", "U")
+"""Lengths that the page shows in micrometres."""
 NOT_NEGATIVE = ("h_0",)
 """What a scene file takes from zero on."""
 GROUPS: Mapping[str, tuple[str, ...]] = {
@@ -30,6 +34,8 @@ GROUPS: Mapping[str, tuple[str, ...]] = {
 
 def scene_data(scene: Scene) -> dict[str, Any]:
     """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
+    if own_laws.is_own(scene.contact.law):
+        raise UsageError("the explorer has the contact laws of the package alone")
     other = load_scene("section3").parameters() | {"k": 1e5}
     numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
     key = scene.variant

@@ -20,8 +20,9 @@ from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from derive.laws import LAWS, TANH
 from wear.report import mathml
-from wear.report.explorer_data import GROUPS, NOT_NEGATIVE
+from wear.report.explorer_data import GROUPS, MICROMETRES, NOT_NEGATIVE, SMALL
 
 FILE = "explorer.derived.json"
 
@@ -35,7 +36,8 @@ _RIGID: Choices = {"compliant": (False,)}
 _COMPLIANT: Choices = {"compliant": (True,)}
 _AS_PRINTED: Choices = {"opening": (False,)}
 _OPENING: Choices = {"opening": (True,)}
-_TANH: Choices = {"law": ("tanh",)}
+_TANH: Choices = {"law": (TANH.name,)}
+_OTHERS = tuple(name for name in LAWS if name != TANH.name)
 _CUTOFF: Choices = {"cutoff": (True,)}
 _NO_CUTOFF: Choices = {"cutoff": (False,)}
 _STEADY: Choices = {"regime": ("steady",)}
@@ -63,6 +65,7 @@ _MODEL = (
     _Row("All in one", "8", _TANH | _COMPLIANT | _AS_PRINTED | _NO_CUTOFF),
 )
 _LONG_RUN = (
+    _Row("Pressure in the end", "general-law", {"law": _OTHERS} | _STEADY | _SMOOTH),
     _Row("Wear per cycle in the end", "21", _TANH | _STEADY | _SMOOTH),
     _Row("Pressure in the end", "22", _TANH | _STEADY | _SMOOTH),
     _Row("Logarithm in the wear", "log-drift", _TANH | _STEADY | _SMOOTH | _RIGID),
@@ -80,23 +83,21 @@ _LONG_RUN = (
 
 def rows() -> str:
     """Return all equations, in the order of the argument."""
-    from derive.laws import LAWS, TANH
-
-    others = tuple(name for name in LAWS if name != TANH.name)
-    other: Choices = {"law": others}
-    limit = _Row("Pressure in the end", "general-law", other | _STEADY | _SMOOTH)
-    found = (*_forms(others), *_listed((*_MODEL, limit, *_LONG_RUN)))
+    found = (*_forms(_OTHERS), *_listed((*_MODEL, *_LONG_RUN)))
     return "\n".join(_html(*row) for row in found)
 
 
 def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
-    """Return the ids of the equations that hold for these choices and this regime."""
+    """Return the ids of what holds in the long run for these choices and this regime.
+
+    Of a contact law of a scene's own, that is what holds for any law.
+    """
+    if chosen["law"] not in LAWS:
+        chosen = {**chosen, "law": _OTHERS[0]}
     return tuple(
-        dict.fromkeys(
-            row.identifier
-            for row in (*_MODEL, *_LONG_RUN)
-            if all(chosen[name] in values for name, values in row.holds.items())
-        )
+        row.identifier
+        for row in _LONG_RUN
+        if all(chosen[name] in values for name, values in row.holds.items())
     )
 
 
@@ -113,7 +114,6 @@ def _listed(listed: tuple[_Row, ...]) -> Iterator[_Formula]:
 
 def _forms(laws: tuple[str, ...]) -> Iterator[_Formula]:
     """The closure with the physical sign, and the contact laws other than the note's."""
-    from derive.laws import LAWS
     from derive.note.governing import Model
     from derive.typeset.display import latex
 
@@ -135,8 +135,6 @@ def _html(title: str, latex: str, number: str, holds: Choices) -> str:
 
 def derived() -> str:
     """Return the file: models, equations, rows of the sliders, contact laws."""
-    from derive.laws import LAWS
-
     content = {
         "models": models(),
         "equations": rows(),
@@ -187,7 +185,8 @@ def parameter_rows() -> list[dict[str, Any]]:
                 "name": name,
                 "meaning": quantity.meaning.split(", ")[0],
                 "latex": quantity.latex,
-                "unit": unit,
+                "unit": "µm" if name in SMALL else unit,
+                "scale": MICROMETRES if name in SMALL else 1.0,
                 "low": domain.low,
                 "high": domain.high,
                 "logarithmic": domain.logarithmic,

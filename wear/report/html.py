@@ -237,7 +237,7 @@ class _Writer(Writer):
         if exponent is not None:
             shown += f"\u202f×\u202f10<sup>{exponent}</sup>"
         unit = f"\u00a0{escape(node.unit, quote=False)}" if node.unit else ""
-        value = int(node.value) if isinstance(node.value, Integral) else float(node.value)
+        value = int(node.value) if isinstance(node.value, Integral | int) else float(node.value)
         shown = shown.replace("-", "\u2212")
         return f'<data value="{value!r}" title="{escape(node.source)}">{shown}{unit}</data>'
 

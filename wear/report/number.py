@@ -42,7 +42,7 @@ class Number:
     @property
     def decimal(self) -> tuple[str, int | None]:
         """Digits, with a sign if negative, and the power of ten if there is one."""
-        if isinstance(self.value, Integral) and abs(self.value) < 10**6:
+        if isinstance(self.value, Integral | int) and abs(self.value) < 10**6:
             return str(int(self.value)), None
         if self.value == 0.0:
             return "0", None

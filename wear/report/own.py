@@ -2,27 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib.resources import files
 from typing import Any
 
+import numpy as np
+from matplotlib.figure import Figure as Drawn
+
+from derive import equations as derived
+from derive.catalogue import equation
+from derive.laws import LAWS
+from derive.note.governing import Pin
+from derive.own_law import own_law
+from derive.symbols import QUANTITIES
+from derive.variant import Variant
+from derive.variant_equations import equations_of
 from wear import figures
-from wear.figure_data import panels_of, pressure_inside
-from wear.figure_style import pdf, svg
+from wear.direct.sequence import most_cycles
+from wear.faults import UsageError
+from wear.figure_data import WEAR, Abscissa, Line, Panel, panels_of, points_of, pressure_inside
+from wear.figure_style import COLUMN_AND_HALF, pdf, svg
+from wear.fitting.readings import Specimen
 from wear.history import History
 from wear.life import Reached, cycles_until
+from wear.load import Blocks, HistoryLoad
+from wear.own_laws import PREFIX, is_own
 from wear.regime import Asymptote, asymptote
+from wear.report import drawing
 from wear.report.document import Document, Figure
-from wear.report.explorer_data import scene_data
+from wear.report.equations import shown
+from wear.report.explorer_derived import holding
 from wear.report.manifest import versions
+from wear.report.markup import markup, number
 from wear.report.number import Number
 from wear.report.text import parsed
 from wear.scene import Scene
-from wear.solver import solve
+from wear.scene.plausibility import implausible_results
+from wear.sensitivities import Sensitivities, sensitivity
+from wear.solver import obstacle, solve
 
-#: Depths whose life is told, in initial roughnesses, and cycles whose pressure is drawn.
-_DEPTHS = (1.0, 10.0, 100.0)
+#: Depths whose life is reported, in initial roughnesses, and cycles whose pressure is drawn.
+_DEPTHS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 _INSIDE = (0, 10, 100, 1000)
+_LAST = 10**8
+_POINTS = 120  # of a curve
+_EARLY = 1000  # cycles whose sensitivities stand beside those of the last
+_BARS = 15
+_EXACT = 1e6  # numbers of cycles below are shown in full
+_MICROMETRES = WEAR.scale
 _SOLVED = "solution of this scene"
 _CONSTANTS = {
     "tanh_argument": ("Limit of the argument of $\\tanh$", ""),
@@ -34,69 +61,137 @@ _CONSTANTS = {
     "arrest_wear_mm": ("Depth at which wear stops", "mm"),
     "arrest_cycle": ("Cycle in which wear stops", ""),
 }
+_MEANINGS = {
+    "steady": "every cycle wears as much as the one before, up to a logarithm of their number",
+    "logarithmic": "it goes on ever more slowly, like the logarithm of the number of cycles",
+    "saturating": "it ends at the depth at which the roughness would vanish",
+    "finite-time": "the roughness vanishes at a finite time, and the model ends there",
+    "arrest": "the gap outgrows the roughness, contact ends, and wear stops",
+}
 
 
-def report(scene: Scene, command: str) -> Document:
-    """Return the report of a scene, which must have a load that repeats."""
-    from derive.catalogue import equation
-    from wear.report.equations import shown
-    from wear.report.explorer_derived import holding
-
-    limit = asymptote(scene)
-    chosen = scene_data(scene) | {"regime": limit.regime}
-    identifiers = holding(chosen)
-    curve = solve(scene, [int(n) for n in _cycles(20)], rtol=1e-8)
+def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Document:
+    """Return the report of a scene, with what was measured on `specimens` of it."""
+    limit = None if isinstance(scene.load, Blocks | HistoryLoad) else asymptote(scene)
+    curve = _solved(scene)
+    pressed = None if limit is None else pressure_inside(scene, _begun(int(curve.cycles[-1])))
+    equations = shown(_equations(scene, limit))
+    predicted = [_predicted(scene, each) for each in specimens]
+    found = _sensitivities(
+        scene, [n for n in (_EARLY, int(curve.cycles[-1])) if n <= curve.cycles[-1]]
+    )
     values = {
         "title": scene.title or scene.name,
         "description": scene.description,
-        "regime": limit.regime,
+        "regime": limit.regime if limit else "",
+        "meaning": _MEANINGS[limit.regime] if limit else "",
         "assumptions": list(_assumptions(scene)),
-        "notices": list(dict.fromkeys((*scene.notices, *limit.notices, *curve.notices))),
+        "notices": _notices(scene, limit, curve),
         "data": list(_data(scene)),
-        "identifiers": identifiers,
-        "constants": list(_constants(limit)),
-        "states": list(_states(solve(scene, [int(n) for n in _cycles(1)], rtol=1e-10))),
-        "life": list(_life(scene)),
+        "identifiers": list(equations),
+        "constants": list(_constants(limit)) if limit else [],
+        "states": list(_states(curve)),
+        "life": list(_life(scene)) if obstacle(scene) is None else [],
         "last": {
-            "cycle": Number(float(curve.cycles[-1]), "request", 1),
-            "wear": Number(float(curve.u_c[-1]), _SOLVED, 6, "mm"),
+            "cycle": Number(int(curve.cycles[-1]), "request", 1),
+            "wear": Number(float(curve.u_c[-1]) * _MICROMETRES, _SOLVED, 6, "µm"),
             "error": Number(float(curve.error[-1]), _SOLVED, 1),
         },
-        "inside": True,
+        "inside": pressed is not None,
+        "loses_contact": bool(np.any(curve.pressures.contact_fraction < 1.0)),
+        "sensitivities": found is not None,
+        **_compared(specimens, predicted),
         "command": command,
         "scene_file": scene.to_toml().strip(),
         "versions": list(versions().items()),
     }
     text = files("wear.report").joinpath("scene.md").read_text(encoding="utf-8")
-    equations = shown([equation(identifier) for identifier in identifiers])
-    return Document(parsed(text, values), equations, _figures(scene, curve))
-
-
-def _cycles(per_decade: int) -> Iterator[float]:
-    """Yield numbers of cycles from one to a hundred million."""
-    for place in range(8 * per_decade + 1):
-        yield 10.0 ** (place / per_decade)
-
-
-def _figures(scene: Scene, curve: History) -> dict[str, Figure]:
-    history = figures.history(panels_of([curve]), logarithmic=True)
-    inside = figures.pressure_in_cycles(pressure_inside(scene, _INSIDE))
-    said = "Wear, roughness and contact pressure against cycles on logarithmic axes."
-    pulses = (
-        "Contact pressure over the phase of a few cycles: the pulses get lower from line to line."
-    )
-    return {
-        "fig:history": Figure(said, svg(history), pdf(history), "history"),
-        "fig:inside": Figure(pulses, svg(inside), pdf(inside), "inside"),
+    drawn = {
+        "scene": (drawing.of_scene(scene), drawing.of_scene.__doc__ or ""),
+        "history": (
+            figures.history(panels_of([curve]), logarithmic=True),
+            "Wear, roughness and contact pressure against cycles on logarithmic axes.",
+        ),
     }
+    if pressed is not None:
+        drawn["inside"] = (
+            figures.pressure_in_cycles(pressed),
+            "Contact pressure over the phase of a few cycles, pulses that get lower.",
+        )
+    if found is not None:
+        drawn["sensitivities"] = (
+            _tornado(found),
+            "Bars for the numbers of the scene, the longest on top.",
+        )
+    if specimens:
+        drawn["readings"] = (
+            _readings_figure(scene, specimens, predicted),
+            "Measured wear as points beside the predicted curves, against cycles.",
+        )
+    return Document(
+        parsed(text, values),
+        equations,
+        {f"fig:{name}": Figure(said, svg(f), pdf(f), name) for name, (f, said) in drawn.items()},
+    )
+
+
+def _solved(scene: Scene) -> History:
+    """Return the state along cycles, powers of ten among them: as far as the load goes, and no
+    further than the model is meant for."""
+    found = solve(scene, _along(min(_LAST, most_cycles(scene.load))), rtol=1e-10)
+    ends = [n for n in range(1, len(found.cycles) + 1) if _is_round(found.cycles[n - 1])]
+    meant = [
+        int(found.cycles[n - 1])
+        for n in ends
+        if not any(implausible_results(scene, found.cycles[:n], found.u_c[:n], found.sigma_c[:n]))
+    ]
+    if not meant or len(meant) == len(ends):
+        return found
+    return solve(scene, _along(meant[-1]), rtol=1e-10)
+
+
+def _along(last: int) -> list[int]:
+    """Numbers of cycles up to the last one, the same share apart."""
+    decades = [10**n for n in range(9) if 10**n < last]
+    cycles = np.concatenate([decades, np.geomspace(1, last, _POINTS)])
+    return [int(n) for n in np.unique(np.rint(cycles))]
+
+
+def _is_round(cycle: int) -> bool:
+    return str(cycle).strip("0") == "1"
+
+
+def _begun(last: int) -> list[int]:
+    return [n for n in _INSIDE if n < last] or [0]
+
+
+def _equations(scene: Scene, limit: Asymptote | None) -> list[derived.Equation]:
+    """Those of the variant, and those of its long run."""
+    key, opening = scene.variant, scene.contact.pin_wear_opens_gap
+    if key.given_load:
+        return [equation("problem-i")]
+    own = own_law(key.law.removeprefix(PREFIX))[0] if is_own(key.law) else LAWS[key.law]
+    variant = Variant(own, key.support == "compliant", Pin(key.pin), key.ends_at_3_sigma)
+    chosen: dict[str, str | bool] = {
+        "law": key.law, "pin": key.pin, "compliant": variant.compliant, "opening": opening,
+        "cutoff": key.ends_at_3_sigma, "regime": limit.regime if limit else "",
+    }  # fmt: skip
+    model = equations_of(variant, opening=opening)
+    return [*model, *(equation(identifier) for identifier in holding(chosen))]
+
+
+def _notices(scene: Scene, limit: Asymptote | None, curve: History) -> list[str]:
+    found = (*scene.notices, *(limit.notices if limit else ()), *curve.notices)
+    return [markup(said) for said in dict.fromkeys(found) if not said.startswith("auto: ")]
 
 
 def _assumptions(scene: Scene) -> Iterator[str]:
     """Yield what is assumed, a sentence each."""
-    contact = scene.contact
-    yield f"The contact law is `{contact.law}`."
+    contact, load = scene.contact, scene.load
+    yield f"The contact law is `{scene.variant.law}`."
     yield (
-        "Contact ends where the closure exceeds three times the roughness."
+        "Contact ends where the closure (the gap between the mean surfaces) exceeds three times "
+        "the roughness."
         if contact.ends_at_3_sigma
         else "Contact does not end, however wide the gap."
     )
@@ -106,19 +201,22 @@ def _assumptions(scene: Scene) -> Iterator[str]:
     else:
         opens = "opens" if contact.pin_wear_opens_gap else "closes"
         yield f"The pin is modelled; its wear {opens} the gap."
-    yield f"The load is of kind `{scene.to_tables()['load']['kind']}`."
+    low, high, mean = (number(f"{x:.5g}") for x in (load.minimum, load.maximum, load.mean))
+    given = "reaction, in N" if scene.given_load else "displacement of the pin, in mm"
+    yield (
+        f"The load is of kind `{scene.to_tables()['load']['kind']}`, the {given}: "
+        f"from {low} to {high}, on average {mean}."
+    )
 
 
 def _data(scene: Scene) -> Iterator[tuple[str, str, Number]]:
-    from derive.symbols import QUANTITIES
-    from wear.report.markup import markup
-
     for name, value in scene.parameters().items():
         if name in QUANTITIES:
             quantity = QUANTITIES[name]
             unit = "" if quantity.unit == "1" else quantity.unit
-            number = Number(value, f"scene {scene.name}", 6, unit)
-            yield f"${quantity.latex}$", markup(quantity.meaning), number
+            digits = len(f"{value:.12g}".partition("e")[0].replace(".", "").strip("0")) or 1
+            shown = Number(value, f"scene {scene.name}", digits, unit)
+            yield f"${quantity.latex}$", markup(quantity.meaning), shown
 
 
 def _constants(limit: Asymptote) -> Iterator[tuple[str, Number]]:
@@ -128,23 +226,99 @@ def _constants(limit: Asymptote) -> Iterator[tuple[str, Number]]:
             yield said, Number(value, f"asymptote, {name}", 6, unit)
 
 
-def _states(history: History) -> Iterator[list[Number]]:
-    for place, cycle in enumerate(history.cycles):
-        shown: list[tuple[Any, int]] = [
-            (float(cycle), 1),
-            (history.u_c[place], 6),
+def _states(history: History) -> Iterator[list[Number | str]]:
+    peak, mean, fraction = history.pressures
+    last = len(history.cycles) - 1
+    for place, cycle in enumerate(history.cycles.tolist()):
+        if not _is_round(cycle) and place != last:
+            continue
+        shown = (
+            (history.u_c[place] * _MICROMETRES, 6),
             (history.error[place], 1),
-            (history.sigma_c[place], 6),
-            (history.h[place], 6),
-            (history.p[place], 4),
-        ]
-        yield [Number(float(value), _SOLVED, digits) for value, digits in shown]
+            (history.sigma_c[place] * _MICROMETRES, 5),
+            (history.h[place] * _MICROMETRES, 5),
+            (peak[place], 4),
+            (mean[place], 4),
+            (fraction[place], 3),
+        )
+        yield [Number(cycle, "request", 1), *(_known(float(v), digits) for v, digits in shown)]
 
 
-def _life(scene: Scene) -> Iterator[tuple[Number, Number | str]]:
+def _known(value: float, digits: int, source: str = _SOLVED) -> Number | str:
+    return Number(value, source, digits) if np.isfinite(value) else "–"
+
+
+def _life(scene: Scene) -> Iterator[tuple[Number, Number | str, Number | str]]:
     depths = [depth * scene.initial_roughness for depth in _DEPTHS]
     found = cycles_until(scene, depths, rtol=1e-8)
     for depth, cycles, way in zip(depths, found.cycles, found.reached, strict=True):
         known = way in (Reached.COUNTED, Reached.EXTRAPOLATED)
-        number = Number(float(cycles), "life of this scene", 5) if known else way.value
-        yield Number(depth, "initial roughness", 4), number
+        hours = float("nan")
+        if known and (cycles <= most_cycles(scene.load)):
+            hours = float(Abscissa.HOURS.of(scene, np.array([cycles]))[0])
+        yield (
+            Number(depth * _MICROMETRES, "initial roughness", 4),
+            Number(round(cycles) if cycles < _EXACT else cycles, "life of this scene", 5)
+            if known
+            else way.value,
+            _known(hours, 4, "life of this scene"),
+        )
+
+
+def _sensitivities(scene: Scene, cycles: list[int]) -> Sensitivities | None:
+    """Return how the wear depends on the numbers of the scene, None where that is not known."""
+    try:
+        found = sensitivity(scene, sorted(set(cycles)), rtol=1e-8)
+    except UsageError:
+        return None
+    return found if np.isfinite(found.error).all() else None
+
+
+def _tornado(found: Sensitivities) -> Drawn:
+    """The elasticities that are largest."""
+    most = np.argsort(-np.max(np.abs(np.nan_to_num(found.elasticity)), axis=1))[:_BARS]
+    labels = [f"$N = {n}$" for n in found.cycles]
+    keys = [found.keys[i] for i in most]
+    return figures.tornado(keys, found.elasticity[most], labels, width=COLUMN_AND_HALF)
+
+
+def _compared(specimens: Sequence[Specimen], predicted: Sequence[History]) -> dict[str, Any]:
+    """Return the readings beside the prediction, and how they scatter about it."""
+    rows: list[tuple[str, list[Number]]] = []
+    ratios = []
+    for each, history in zip(specimens, predicted, strict=True):
+        meant = history.u_c[np.searchsorted(history.cycles, each.cycles)]
+        for cycle, wear, found in zip(each.cycles, each.wear_mm, meant, strict=True):
+            ratios.append(wear / found)
+            numbers = (wear * _MICROMETRES, found * _MICROMETRES, wear / found)
+            shown = [Number(float(x), "readings", 4) for x in numbers]
+            rows.append((each.name, [Number(int(cycle), "readings"), *shown]))
+    logarithms = np.log([ratio for ratio in ratios if ratio > 0.0] or [1.0])
+    scatter = 100.0 * float(np.std(logarithms))
+    return {
+        "readings": rows,
+        "ratio": Number(float(np.exp(np.mean(logarithms))), "readings", 3),
+        "scatter": Number(scatter, "readings", 2, "%"),
+    }
+
+
+def _predicted(scene: Scene, specimen: Specimen) -> History:
+    """Return the wear at the readings of a specimen, and between."""
+    first, last = specimen.cycles[[0, -1]].tolist()
+    between = np.geomspace(first, last, _POINTS)
+    cycles = np.unique(np.rint(np.concatenate([specimen.cycles, between]))).astype(int)
+    return solve(scene.with_(specimen.changes), cycles.tolist(), rtol=1e-8)
+
+
+def _readings_figure(
+    scene: Scene, specimens: Sequence[Specimen], predicted: Sequence[History]
+) -> Drawn:
+    runs = {each.name or "predicted": scene.with_(each.changes) for each in specimens}
+    lines = tuple(
+        Line(name, history.cycles.astype(float), history.u_c, place)
+        for place, (name, history) in enumerate(zip(runs, predicted, strict=True))
+    )
+    read = np.concatenate([each.cycles for each in specimens])
+    logarithmic = bool(read.max() > 100.0 * read.min())
+    panel = Panel(WEAR, lines, points_of(specimens, runs, Abscissa.CYCLES))
+    return figures.history([panel], logarithmic=logarithmic)

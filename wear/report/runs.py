@@ -24,7 +24,6 @@ from wear.equation import equation_of
 from wear.history import History
 from wear.load import Constant
 from wear.model import bind
-from wear.offset import offset
 from wear.orbit.period_map import resolved, settings
 from wear.regime import Asymptote, asymptote
 from wear.report.reconcile import PRINTED, Reconciliation, reconciliations
@@ -167,7 +166,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
         printed_increment=_increment(scene, PRINTED.cycles),
         reconciliation=reconciliations()[0],
         threshold_excess=float(_approach(scene, [round(required(foretold))]).excess[0]),
-        offset=required(offset(scene)).value,
+        offset=required(cases["section4"].asymptote.offset_mm),
         phases=_steady_phases(cases["section4"]),
         static=_static(scene),
         integrated={name: _integrated(cases[name]) for name in INTEGRATED},

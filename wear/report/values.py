@@ -87,7 +87,10 @@ def values(material: Material) -> dict[str, Any]:
         **_agreement(runs),
         **speed.values(material.speed),
         "elasticity": _elasticity(material),
+        "conditions": list(_conditions()),
         "data": [_data_row(runs, name, of) for name, of in _DATA] + [_amplitudes(runs)],
+        "p_max": _datum(runs, "p_max"),
+        "hardness": _datum(runs, "H_c"),
         "speed_rpm": Number(runs.cases["section3"].scene.motion.speed_rpm, "scene section3", 4),
         "symbols": [_symbol(name) for name in _MODEL],
         "further_symbols": [_symbol(name) for name in _further(material.equations)],
@@ -131,8 +134,21 @@ def _verification(material: Material) -> dict[str, Any]:
         "checks": _count(checked.checks, "verification"),
         "proofs": _count(checked.of_kind("proof"), "verification"),
         "dimensions": _count(checked.of_kind("dimensions"), "verification"),
+        "on_models": _count(checked.of_kind("falsifier"), "verification"),
+        "by_coq": _count(checked.of_kind("coq"), "verification"),
         "failed": _count(len(checked.failures), "verification"),
     }
+
+
+def _conditions() -> Iterator[dict[str, str]]:
+    """Yield the conditions of the equations of the note, with what fails without them."""
+    from derive.reasons import table
+
+    for row in table():
+        if row.model:
+            said = markup(row.condition) if row.latex.startswith(r"\text") else f"${row.latex}$"
+            model = ", ".join(f"${part}$" for part in row.model)
+            yield {"id": row.equation, "said": said, "model": f"{model}: {row.where}"}
 
 
 def _limits(runs: Runs) -> dict[str, Any]:
@@ -306,6 +322,12 @@ def _expressions(equations: Sequence[Equation]) -> Iterator[sp.Basic]:
             yield from equation.printed
         yield from (condition.relation for condition in equation.conditions)
         yield from (step.relation for step in equation.steps)
+
+
+def _datum(runs: Runs, name: str) -> Number:
+    """A number of the application in MPa."""
+    value = runs.cases["section4"].scene.parameters()[name]
+    return Number(round(value), "scene section4", 3, "MPa")
 
 
 def _thresholds() -> Iterator[tuple[str, Number, Number]]:

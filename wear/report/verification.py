@@ -58,7 +58,7 @@ def verified(
     equations: Sequence[Equation], progress: Callable[[str], None] = lambda _: None
 ) -> Verification:
     """Check every step of these equations, and that what is typeset is what was derived."""
-    from derive.check import Check, checks
+    from derive.check import Check, checks, on_models
 
     outcomes: dict[Hashable, tuple[Check, ...]] = {}
     failures: list[tuple[str, Check]] = []
@@ -69,7 +69,7 @@ def verified(
         for step in equation.steps:
             key = identity(step)
             if key not in outcomes:
-                outcomes[key] = checks(step)
+                outcomes[key] = (*checks(step), *on_models(step))
             found += outcomes[key]
         failures += [(equation.id, outcome) for outcome in found if not outcome.passed]
     return Verification(outcomes, tuple(failures), len(equations))

@@ -16,8 +16,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import Field, PlainValidator, ValidationError, model_validator
+from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
+from pydantic_core import core_schema
 
+from wear import own_laws
 from wear.checked import (
     Flag,
     NonNegative,
@@ -28,10 +30,12 @@ from wear.checked import (
     SceneTable,
     Text,
     all_wrong,
+    choice,
     did_you_mean,
     problems,
     shown,
     table,
+    wrong,
 )
 from wear.faults import Fault, SceneError, UsageError
 from wear.load import AperiodicLoad, Blocks, Force, ForceTable, HistoryLoad, Load
@@ -49,6 +53,42 @@ def contact_laws() -> tuple[str, ...]:
     """Return the contact laws that can run: the packages of generated code, one a law."""
     found = Path(__file__).parents[1].joinpath("generated").glob("[a-z]*/__init__.py")
     return tuple(sorted(module.parent.name for module in found))
+
+
+def _law(raw: object, info: ValidationInfo) -> str:
+    """Return the name of a contact law of the package, or of one that is given by its formula."""
+    if isinstance(raw, str) and own_laws.is_own(raw):
+        raw = {"phi": raw.removeprefix(own_laws.PREFIX)}
+    if not isinstance(raw, Mapping):
+        return choice(raw, contact_laws())
+    text = raw.get("phi")
+    if raw.keys() == {"file"} and isinstance(raw["file"], str):
+        text = _formula(raw["file"], (info.context or {}).get("folder"))
+    elif raw.keys() != {"phi"} or not isinstance(text, str):
+        raise wrong("is no contact law", 'write law = { phi = "..." } or law = { file = "..." }')
+    try:
+        return own_laws.named(text)
+    except UsageError as fault:
+        raise wrong(str(fault), "see the page on contact laws") from None
+
+
+def _formula(name: str, folder: Path | None) -> str:
+    """Return the text of a file beside the scene, less what follows # in a line."""
+    if folder is None:
+        raise wrong(f"{shown(name)}: there is no folder to look in", "load the scene by its path")
+    data = read_bytes(folder / name, MOST_BYTES)
+    if isinstance(data, tuple):
+        raise wrong(f"{shown(name)}: {data[0]}", data[1])
+    lines = data.decode("utf-8", "replace").splitlines()
+    text = " ".join(line.partition("#")[0].strip() for line in lines).strip()
+    return text.removeprefix("phi").strip().removeprefix("=")
+
+
+class LawOf(OneOf):
+    """The contact laws among which a scene chooses, or gives one of its own."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.with_info_plain_validator_function(_law)
 
 
 @table("bearing")
@@ -91,8 +131,10 @@ class Contact(SceneTable):
         default=None,
         description="h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
     )
-    law: Annotated[str, OneOf(contact_laws())] = Field(
-        default="tanh", description="contact law p/p_max = phi(h/sigma)"
+    law: Annotated[str, LawOf(contact_laws())] = Field(
+        default="tanh",
+        description='contact law p/p_max = phi(h/sigma): a name, { phi = "..." } in r = h/sigma, '
+        'or { file = "..." } with the formula in a file beside the scene',
     )
     ends_at_3_sigma: Flag = Field(
         default=False,
@@ -425,7 +467,7 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     return parse_scene(data, name, file.parent, overrides)
 
 
-def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:
+def as_scene(scene: object) -> Scene:
     """Return a scene as it is, or that of a built-in name or a file."""
     if isinstance(scene, Scene):
         return scene
@@ -450,7 +492,7 @@ def parse_scene(
 
 
 def _checked(tables: Mapping[str, Any], source: Source, name: str, folder: Path | None) -> Scene:
-    named = (("load",), ("load", "file"), ("load", "blocks"))
+    named = (("load",), ("load", "file"), ("load", "blocks"), ("contact", "law"))
     if any(path in source.overrides for path in named):
         folder = Path()  # an option that names a file means the current folder
     faults = list(source.faults)

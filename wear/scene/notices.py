@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from wear.load import Blocks, HistoryLoad, Table
+from wear import own_laws
+from wear.load import Blocks, ForceTable, HistoryLoad, Table
 from wear.scene.plausibility import implausible_entries
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
+DIGITS_LOST = 1e-12  # relative error of a contact law: more is worth a notice
 CONTACT_REACH = 3  # contact needs h <= 3 sigma, the text under (4); a test holds it to derive's
 
 
@@ -18,10 +20,20 @@ def notices(scene: Scene) -> tuple[str, ...]:
     """One sentence for each thing worth knowing before the scene is solved."""
     return (
         *implausible_entries(scene),
+        *_law_notices(scene),
         *_pin_notices(scene),
         *_closure_notices(scene),
         *_load_notices(scene),
     )
+
+
+def _law_notices(scene: Scene) -> Iterator[str]:
+    law = scene.contact.law
+    if own_laws.is_own(law) and (lost := own_laws.about(law)["rounding_error"]) > DIGITS_LOST:
+        yield (
+            f"the contact law {law} loses digits: its relative error is up to {lost:.1g} between "
+            "h/sigma = -5 and 1e4; another way to write it may keep them"
+        )
 
 
 def _pin_notices(scene: Scene) -> Iterator[str]:
@@ -76,12 +88,13 @@ def initial_displacement(scene: Scene) -> float:
 
 def _load_notices(scene: Scene) -> Iterator[str]:
     load = scene.load
-    if isinstance(load, Table) and load.source is not None and load.source.repeat:
-        rise = load.values_mm[-1] - load.values_mm[-2]
+    if isinstance(load, Table | ForceTable) and load.source is not None and load.source.repeat:
+        name, unit = ("R_a", "N") if scene.given_load else ("U_a", "mm")
+        seam, length = load.rows[-1] - load.rows[-2], load.times_s[-1] - load.times_s[-2]
         yield (
             f"one period of {load.period:.6g} s out of {load.source.file}: {len(load.times_s)} "
-            f"rows with the seam, mean {load.mean:.6g} mm; there U_a changes by {rise:.4g} mm "
-            f"in {load.times_s[-1] - load.times_s[-2]:.4g} s (mean and drift are not removed)"
+            f"rows with the seam, mean {load.mean:.6g} {unit}; there {name} changes by "
+            f"{seam:.4g} {unit} in {length:.4g} s (mean and drift are not removed)"
         )
     if not isinstance(scene.load, Blocks):
         return

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
+from wear.checked import words_of
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, canvas, stroke, styled
 from wear.studies.vary import FloatArray
 
@@ -172,8 +173,4 @@ def _scale(axes: Axes, axis: str, values: FloatArray) -> None:
 def _label(results: xarray.Dataset, key: str) -> str:
     """Return a key with its unit, in words."""
     unit = str(results[key].attrs.get("units", "1"))
-    name = key.split(".")[-1]
-    for end in ("_MPa_per_mm", "_MPa", "_mm", "_s", "_rpm", "_N"):
-        name = name.removesuffix(end)
-    words = f"{key.split('.')[0]}: {name.replace('_', ' ')}"
-    return words if unit == "1" else f"{words} ({unit})"
+    return words_of(key) if unit == "1" else f"{words_of(key)} ({unit})"

@@ -3,6 +3,7 @@
 
 const DATA = JSON.parse(document.getElementById("data").textContent);
 const $ = (id) => document.getElementById(id);
+const MICROMETRES = 1000; // in a millimetre; the model counts in mm
 const loaded = {}; // generated functions by variant
 let chosen; // the scene, whose numbers the controls change
 const parameters = {}; // the numbers that hold; a field may show one that was refused
@@ -35,7 +36,7 @@ function variantOf(state) {
 // A load that is no sine is multiplied by the number on the slider of the amplitude.
 function rowOf(row) {
   if (row.name !== "U" || chosen.load.kind === "sine") return row;
-  return { ...row, meaning: "the load is multiplied by", unit: "", low: 0.1, high: 10 };
+  return { ...row, meaning: "the load is multiplied by", unit: "", scale: 1, low: 0.1, high: 10 };
 }
 
 function position(row, value) {
@@ -46,14 +47,14 @@ function setNumber(row, value) {
   const slider = $(`slider-${row.name}`);
   const number = $(`number-${row.name}`);
   parameters[row.name] = value;
-  const short = Number(value.toPrecision(12));
+  const short = Number((value * row.scale).toPrecision(12));
   number.value = short !== 0 && Math.abs(short) < 1e-3 ? short.toExponential() : short;
   number.setCustomValidity("");
   const at = position(row, value);
   slider.min = Math.min(position(row, row.low), at);
   slider.max = Math.max(position(row, row.high), at);
   slider.value = at;
-  slider.setAttribute("aria-valuetext", `${shown(value)} ${row.unit}`);
+  slider.setAttribute("aria-valuetext", `${shown(value * row.scale)} ${row.unit}`);
 }
 
 function useScene(name) {
@@ -102,15 +103,16 @@ function solveState(state) {
   return { functions, c, load, solver, fields, history };
 }
 
-// Pressure at phases of the cycle that starts with wear u.
+// Pressure at phases of the cycle that starts with wear u, the peak of the load among them.
 function insideCycle({ solver, load, fields }, u) {
-  const pieces = 200;
-  let worn = u;
-  const points = [[0, fields(u, load.value(0)).p]];
+  const pieces = Array.from({ length: 200 }, (_, i) => (i + 1) / 200);
+  const phases = [...new Set([...pieces, load.peak])].filter((phase) => phase > 0).sort((a, b) => a - b);
   const scale = solver.cycle(u, 0);
-  for (let i = 0; i < pieces; i += 1) {
-    worn += solver.span(i / pieces, (i + 1) / pieces, worn, scale);
-    points.push([(i + 1) / pieces, fields(worn, load.value((i + 1) / pieces)).p]);
+  const points = [[0, fields(u, load.value(0)).p]];
+  let worn = u;
+  for (const phase of phases) {
+    worn += solver.span(points.at(-1)[0], phase, worn, scale);
+    points.push([phase, fields(worn, load.value(phase)).p]);
   }
   return points;
 }
@@ -123,28 +125,50 @@ function draw(state, solved, inTheEnd) {
   const start = (u) => fields(u, load.value(0));
   const has = Object.keys(start(0));
   const over = (value) => points.map(({ n, u }) => [n, value(u)]);
+  const micrometres = (value) => over((u) => MICROMETRES * value(u));
   const axis = { x: "number of cycles", logarithmic: state.logarithmic };
-  const wear = [{ name: "bearing, u_c", points: over((u) => u) }];
-  if (has.includes("u_a")) wear.push({ name: "pin, u_a", points: over((u) => start(u).u_a) });
+  const wear = [{ name: "bearing, u_c", points: micrometres((u) => u) }];
+  if (has.includes("u_a")) wear.push({ name: "pin, u_a", points: micrometres((u) => start(u).u_a) });
   const { perCycle } = inTheEnd;
-  if (perCycle) wear.push({ name: "as if steady from the start", points: points.map(({ n }) => [n, n * perCycle]) });
-  show("wear", wear, { ...axis, y: "wear in mm", zero: true });
-  const rough = [{ name: "bearing, σ_c", points: over((u) => start(u).sigma_c) }];
+  if (perCycle) wear.push({ name: "as if steady from the start", points: points.map(({ n }) => [n, MICROMETRES * n * perCycle]) });
+  const measured = (chosen.readings ?? []).filter(([n]) => n <= end.n);
+  if (measured.length) wear.push({ name: "measured", points: measured, dots: true });
+  show("wear", wear, { ...axis, y: "wear in µm", zero: true });
+  const rough = [{ name: "bearing, σ_c", points: micrometres((u) => start(u).sigma_c) }];
   if (has.includes("sigma_a")) {
-    rough.push({ name: "pin, σ_a", points: over((u) => start(u).sigma_a) });
-    rough.push({ name: "both, σ", points: over((u) => start(u).sigma) });
+    rough.push({ name: "pin, σ_a", points: micrometres((u) => start(u).sigma_a) });
+    rough.push({ name: "both, σ", points: micrometres((u) => start(u).sigma) });
   }
-  show("roughness", rough, { ...axis, y: "roughness in mm", zero: true });
+  show("roughness", rough, { ...axis, y: "roughness in µm", zero: true });
   show("pressure", [
     { name: "at the peak of the load", points: over((u) => fields(u, load.value(load.peak)).p) },
+    { name: "mean of a cycle", points: means(points, wearOfUnit(state)) },
     { name: "at the end of a cycle", points: over((u) => start(u).p) },
   ], { ...axis, y: "pressure in MPa", zero: true });
   const last = Math.max(0, end.n - 1);
+  const inside = insideCycle(solved, history.at(last));
   show("inside", [
     { name: "first cycle", points: insideCycle(solved, 0) },
-    { name: `cycle ${shown(Math.max(1, end.n))}`, points: insideCycle(solved, history.at(last)) },
+    { name: `cycle ${shown(Math.max(1, end.n))}`, points: inside },
   ], { x: "phase in the cycle, t/T", y: "pressure in MPa", zero: true, logarithmic: false });
-  return end;
+  const pressures = inside.map((point) => point[1]);
+  return {
+    ...end,
+    peak: Math.max(...pressures),
+    mean: (end.u - history.at(last)) / wearOfUnit(state),
+    fraction: pressures.filter((p) => p > 0).length / pressures.length,
+  };
+}
+
+// Wear of a cycle under a mean pressure of 1 MPa, mm: Archard's law.
+const wearOfUnit = (state) => FORMULAS.wear_per_cycle({ ...state.parameters, p_inf: 1 });
+
+// Mean pressure over the cycles between each point and the next.
+function means(points, unit) {
+  return points.slice(1).map(({ n, u }, i) => {
+    const cycles = n - points[i].n;
+    return [cycles > 1 ? n - cycles / 2 : n, (u - points[i].u) / (cycles * unit)];
+  });
 }
 
 function show(name, curves, options) {
@@ -152,7 +176,9 @@ function show(name, curves, options) {
   $(`legend-${name}`).replaceChildren(...names.map((text, index) => {
     const item = document.createElement("span");
     const key = element("svg", { viewBox: "0 0 26 8", class: "key", "aria-hidden": "true" },
-      element("path", { class: `curve curve-${index}`, d: "M1 4H25" }));
+      curves[index].dots
+        ? element("circle", { class: "dot", cx: 13, cy: 4, r: 3 })
+        : element("path", { class: `curve curve-${index}`, d: "M1 4H25" }));
     item.append(key, symbols(text));
     return item;
   }));
@@ -248,16 +274,20 @@ function constantRoughness(data) {
 
 function tell(state, solved, end, found) {
   const number = (value, unit) => (value === undefined ? "does not apply" : `${shown(value)} ${unit}`.trim());
+  const length = (value) => number(value && MICROMETRES * value, "µm");
   const rate = solved.solver.cycle(end.u, 0);
   const values = {
     regime: REGIMES[found.kind],
-    "wear-now": number(end.u, "mm"),
-    "cycle-now": Number.isFinite(rate) ? number(rate, "mm") : "not found",
+    "wear-now": length(end.u),
+    "cycle-now": Number.isFinite(rate) ? length(rate) : "not found",
+    "peak-now": number(end.peak, "MPa"),
+    "mean-now": number(end.mean, "MPa"),
+    "contact-now": number(end.fraction, ""),
     "limit-ratio": number(found.limit, ""),
     "limit-pressure": number(found.pressure, "MPa"),
-    "limit-cycle": number(found.perCycle, "mm"),
-    "limit-drift": number(found.drift, "mm"),
-    "arrest-wear": number(found.arrest, "mm"),
+    "limit-cycle": length(found.perCycle),
+    "limit-drift": length(found.drift),
+    "arrest-wear": length(found.arrest),
     variant: variantOf(state),
   };
   for (const [id, text] of Object.entries(values)) $(`value-${id}`).textContent = text;
@@ -378,7 +408,9 @@ function begin() {
       changed();
     });
     $(`number-${row.name}`).addEventListener("change", (event) => {
-      const value = event.target.valueAsNumber;
+      const { scale } = rowOf(row);
+      const typed = event.target.valueAsNumber;
+      const value = scale === 1 ? typed : Number((typed / scale).toPrecision(15));
       const fault = faultOf(row, value);
       event.target.setCustomValidity(fault);
       event.target.reportValidity();

@@ -99,7 +99,11 @@ function plot(svg, curves, { x, y, logarithmic, zero }) {
   parts.push(element("rect", {
     class: "frame", x: MARGIN.left, y: MARGIN.top, width: across, height: down,
   }));
+  for (const [a, b] of drawn.filter((curve) => curve.dots).flatMap((curve) => curve.points)) {
+    parts.push(element("circle", { class: "dot", cx: position(a).toFixed(1), cy: level(b).toFixed(1), r: 3 }));
+  }
   drawn.forEach((curve, index) => {
+    if (curve.dots) return;
     const path = thinned(curve.points.map(([a, b]) => [position(a), level(b)]))
       .map(([a, b], i) => `${i ? "L" : "M"}${a.toFixed(1)} ${b.toFixed(1)}`).join("");
     if (path) parts.push(element("path", { class: `curve curve-${index}`, d: path }));

@@ -8,7 +8,7 @@
 "use strict";
 
 const WEAR_TOLERANCE = 1e-9;
-const MOST_EVALUATIONS = 1.5e6;
+const MOST_EVALUATIONS = 1.5e6; // of a load with up to a hundred corners, else in proportion
 const MOST_PANELS = 400;
 const PANEL_TOLERANCE = 1e-8;
 const LOOSE_TOLERANCE = 1e-5; // where the rate has corners and halving a panel helps little
@@ -40,8 +40,13 @@ function makeLoad(data, size) {
   const { phase, value } = data; // a table, from phase 0 to phase 1
   const at = (x) => {
     const inside = x - Math.floor(x);
-    let k = 1;
-    while (k < phase.length - 1 && phase[k] <= inside) k += 1;
+    let k = 1; // of the first row after it
+    let high = phase.length - 1;
+    while (k < high) {
+      const middle = (k + high) >> 1;
+      if (phase[middle] <= inside) k = middle + 1;
+      else high = middle;
+    }
     return [k, inside];
   };
   const slope = (k) => (value[k] - value[k - 1]) / (phase[k] - phase[k - 1]);
@@ -93,6 +98,7 @@ function step(f, x, y, h) {
 
 function makeSolver(functions, c, load, period) {
   let evaluations = 0;
+  const most = MOST_EVALUATIONS * Math.max(1, load.corners.length / 100);
   const ends = functions.margin !== undefined;
   const jumps = ends && functions.residual === undefined; // a support makes the jump a bend
   const rate = jumps ? functions.rate : functions.right_hand_side;
@@ -110,7 +116,7 @@ function makeSolver(functions, c, load, period) {
     const f = (phase, y) => speed(phase, u + y);
     while (x < to) {
       h = Math.min(h, to - x);
-      if (evaluations > MOST_EVALUATIONS) return { gained: NaN, x: to };
+      if (evaluations > most) return { gained: NaN, x: to };
       const [next, error] = step(f, x, gained, h);
       const size = WEAR_TOLERANCE * Math.max(scale, Math.abs(next));
       if (error > size && h > 1e-12) {

@@ -1,0 +1,267 @@
+"""A contact law that is given as text: read, never executed, proved and made into sources.
+
+Overview
+    The text is parsed by Python's own parser and rebuilt from the few nodes that the grammar
+    allows: numbers, r, + - * / ^ and exp, tanh, sqrt.  That phi is positive and falls is proved,
+    its inflection is found, and of equal forms that which loses fewest digits is written out.
+Key results
+    normal      the text in one spelling, or what is wrong with it
+    own_law     the contact law
+    file_of     the modules of its variants, and what to know of it
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+from collections.abc import Callable, Mapping
+from functools import cache
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from .faults import UsageError
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from .stable import ComputedLaw
+
+NAME = "own"
+LONGEST = 500  # characters
+LARGEST = 10**6  # numbers in the text
+HIGHEST = 20  # powers
+SECONDS = 30.0  # of CPU time for each symbolic step
+RANGE = (-5.0, 1e4)  # of h/sigma: where digits are counted
+GOOD = 1e-14  # relative error: a form with less needs no other
+TINIEST = 1e-280  # values below are as good as zero
+DIGITS = 320  # that remain of a value so small where all others cancel
+GRID = range(-120, 121)  # quarters of h/sigma: where the curvature is looked at
+FUNCTIONS = ("exp", "tanh", "sqrt")
+DOMAIN = "where the digits were counted"
+GRAMMAR = "use numbers, r, + - * / ^, parentheses, exp, tanh and sqrt"
+
+
+def normal(text: str) -> str:
+    """Return the text of a law in one spelling.
+
+    >>> normal("(1 - (r-2)/sqrt(1 + (r - 2)^2)) / 2")
+    '(1 - (r - 2) / sqrt(1 + (r - 2) ** 2)) / 2'
+
+    Raises
+    ------
+    UsageError
+        naming what the grammar does not have.
+    """
+    if len(text) > LONGEST:
+        raise UsageError(f"phi has {len(text)} characters; give at most {LONGEST}")
+    try:
+        tree = ast.parse(text.strip().replace("^", "**"), mode="eval").body
+        _check(tree)
+        return ast.unparse(tree)
+    except (SyntaxError, MemoryError, RecursionError):
+        raise UsageError(f"phi is no formula; {GRAMMAR}") from None
+
+
+def _check(node: ast.AST) -> None:
+    match node:
+        case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
+            if not abs(number) <= LARGEST:
+                raise UsageError(f"phi: {ast.unparse(node)[:40]} is too large")
+        case ast.Name(id="r"):
+            pass
+        case ast.BinOp(left=left, op=ast.Pow(), right=right):
+            _check(left)
+            if not abs(_half_integer(right)) <= HIGHEST:
+                raise UsageError(f"phi: the power {ast.unparse(right)[:40]} is beyond {HIGHEST}")
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Div(), right=right):
+            _check(left)
+            _check(right)
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
+            _check(operand)
+        case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FUNCTIONS:
+            _check(argument)
+        case _:
+            raise UsageError(f"phi: {ast.unparse(node)[:40]!r} is not understood; {GRAMMAR}")
+
+
+def _half_integer(node: ast.expr) -> float:
+    """Return a power: a whole number or half of one, perhaps negative."""
+    match node:
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return -_half_integer(operand)
+        case ast.BinOp(
+            left=ast.Constant(value=int(above)), op=ast.Div(), right=ast.Constant(value=2)
+        ):
+            return above / 2
+        case ast.Constant(value=int() | float() as number) if number * 2 == int(number * 2):
+            return float(number)
+    raise UsageError(f"phi: {ast.unparse(node)[:40]!r} is no power: give a number such as 2 or 3/2")
+
+
+def _expression(node: ast.AST) -> sp.Expr:
+    """Return the SymPy form of what `_check` has passed, with exact numbers."""
+    import sympy as sp
+
+    from .laws import r
+
+    match node:
+        case ast.Constant():
+            return sp.Rational(ast.unparse(node))
+        case ast.Name():
+            return r
+        case ast.UnaryOp(op=op, operand=operand):
+            inner = _expression(operand)
+            return -inner if isinstance(op, ast.USub) else inner
+        case ast.BinOp(left=left, op=op, right=right):
+            above, below = _expression(left), _expression(right)
+            operations: Mapping[type, Callable[[Any, Any], Any]] = {
+                ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b,
+                ast.Mult: lambda a, b: a * b, ast.Div: lambda a, b: a / b,
+                ast.Pow: lambda a, b: a**b,
+            }  # fmt: skip
+            return operations[type(op)](above, below)
+        case ast.Call(func=ast.Name(id=name), args=[argument]):
+            return {"exp": sp.exp, "tanh": sp.tanh, "sqrt": sp.sqrt}[name](_expression(argument))
+    raise AssertionError("checked before")
+
+
+@cache
+def own_law(text: str) -> tuple[ComputedLaw, float]:
+    """Return the contact law of a text, and the relative error of its value and slope by rounding.
+
+    Raises
+    ------
+    UsageError
+        if the law cannot be read, is not proved to be positive and falling, or does not turn from
+        concave to convex once at most.
+    """
+    import sympy as sp
+
+    from .generate import faults_of
+    from .laws import r
+    from .stable import ComputedLaw, Stable, share
+    from .time_limit import TimeLimitError, time_limit
+
+    text = normal(text)
+    try:
+        with time_limit(SECONDS, f"phi = {text}"):
+            phi = _expression(ast.parse(text, mode="eval").body)
+            if r not in phi.free_symbols or phi.has(sp.zoo, sp.nan, sp.I):
+                raise UsageError(f"phi = {text} is no function of r = h/sigma")
+            (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))
+            row = Stable(((share, value),), share, slope, DOMAIN, value, slope / value)
+            law = ComputedLaw(NAME, phi, _inflection(phi), f"phi = {text}", row=row)
+            if faults := faults_of(law):
+                raise UsageError("\n".join(faults))
+    except (TimeLimitError, ArithmeticError, RecursionError, MemoryError) as fault:
+        raise UsageError(f"phi = {text} could not be checked: {fault}") from fault
+    return law, max(value_loss, slope_loss)
+
+
+def _inflection(phi: sp.Expr) -> sp.Expr:
+    """Return where phi turns from concave to convex; minus infinity if it is convex everywhere."""
+    import mpmath
+    import sympy as sp
+
+    from .laws import r
+
+    curvature = sp.diff(phi, r, 2)
+    value = sp.lambdify(r, curvature, "mpmath")
+    with mpmath.workdps(50):
+        found = [(mpmath.mpf(x) / 4, value(mpmath.mpf(x) / 4)) for x in GRID]
+        signs = [(x, mpmath.sign(y)) for x, y in found if y != 0]
+        turns = [(a, b) for (a, s), (b, t) in pairwise(signs) if s != t]
+        if not turns and signs and signs[0][1] > 0:
+            return sp.S.NegativeInfinity
+        if len(turns) != 1 or signs[0][1] > 0:
+            raise UsageError("phi must be concave below one value of r and convex above it")
+        root = mpmath.findroot(value, turns[0], solver="anderson", tol=1e-60)
+        place = sp.Rational(mpmath.nstr(root, 17))
+        near = sp.nsimplify(sp.Float(place, 30), rational=True, tolerance=1e-12)
+        return near if curvature.subs(r, near) == 0 else place
+
+
+def _best(expression: sp.Expr) -> tuple[float, sp.Expr]:
+    """Return the form of an expression that loses fewest digits, and its relative error."""
+    import sympy as sp
+
+    from .zero import is_zero
+
+    found = [(_loss(expression, expression), expression)]
+    for form in (_falling(expression), 1 / sp.radsimp(1 / expression)):
+        if found[0][0] > GOOD and is_zero((form - expression).rewrite(sp.exp)):
+            found.append((_loss(form, expression), form))
+    return min(found, key=lambda each: each[0])
+
+
+def _falling(expression: sp.Expr) -> sp.Expr:
+    """Return an expression as a quotient in exponentials that fall, where these are powers of one
+    another, so that nothing overflows and no digits cancel."""
+    import sympy as sp
+
+    from .laws import r
+
+    plain = expression.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x)))
+    exponents = sorted((e.args[0] for e in plain.atoms(sp.exp)), key=sp.count_ops)
+    if not exponents or not sp.diff(exponents[0], r).is_number:
+        return expression
+    fall = exponents[0] if sp.diff(exponents[0], r) < 0 else -exponents[0]
+    powers = {each: sp.cancel(each / fall) for each in exponents}
+    if not all(power.is_Integer for power in powers.values()):
+        return expression
+    step = sp.Dummy(positive=True)
+    quotient = plain.subs({sp.exp(each): step**power for each, power in powers.items()})
+    return sp.factor(quotient).subs(step, sp.exp(fall))
+
+
+def _loss(form: sp.Expr, exact: sp.Expr) -> float:
+    """Return the largest relative error of a form in floating point."""
+    import mpmath
+    import numpy as np
+    import sympy as sp
+
+    from .laws import r
+
+    low, high = RANGE
+    at = np.concatenate([np.linspace(low, 10.0, 61), np.geomspace(11.0, high, 40)])
+    with np.errstate(all="ignore"):
+        rounded = sp.lambdify(r, form, "numpy")(at) + 0.0 * at
+    if not np.isfinite(rounded).all():
+        return float("inf")
+    worst = 0.0
+    with mpmath.workdps(DIGITS):
+        value = sp.lambdify(r, exact, "mpmath")
+        for place, found in zip(at.tolist(), rounded.tolist(), strict=True):
+            true = value(mpmath.mpf(place))
+            if abs(true) < TINIEST:
+                break  # it falls
+            worst = max(worst, float(abs(found / true - 1)))
+    return worst
+
+
+def file_of(text: str, name: str) -> str:
+    """Return the text of a file of a law by its name.
+
+    `about.json` has the law, its inflection and the relative error by rounding, `law.py` the law
+    and its relative slope; a variant without loss of contact is in a module of its name.
+
+    Raises
+    ------
+    UsageError
+        as `own_law` does.
+    """
+    from .codegen.sources import source
+    from .note.governing import Pin
+    from .program import program
+    from .results.asymptotics import law_module
+    from .variant import Variant
+
+    law, loss = own_law(text)
+    if name == "about.json":
+        about = {"phi": text, "inflection": str(law.inflection), "rounding_error": loss}
+        return json.dumps(about)
+    if name == "law.py":
+        return law_module(law)
+    variants = [Variant(law, compliant, pin) for compliant in (False, True) for pin in Pin]
+    chosen = next(each for each in variants if f"{each.module}.py" == name)
+    return source(program(chosen), "numpy")

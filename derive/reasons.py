@@ -1,0 +1,100 @@
+"""Why each condition is there: what fails without it, as a committed table.
+
+Overview
+    The falsifier drops the conditions of each equation of the note in turn and looks for a model
+    of all the others in which the equation is false.  That takes minutes, so the outcome is kept
+    in ``reasons.json``, under a hash of hypotheses and claim; ``python -m derive.reasons`` tries
+    what is missing there.
+Key results
+    table        the rows, equation after equation
+    outdated     the equations that have changed since
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import sympy as sp
+
+from .equations import Equation
+from .falsifier.judgements import without
+from .hypotheses import Hypothesis
+from .kernel import Judgement
+from .typeset.display import inline
+
+TABLE = Path(__file__).with_name("reasons.json")
+
+
+@dataclass(frozen=True)
+class Reason:
+    """A condition of an equation, and a model that breaks it without this condition.
+
+    ``model`` is in LaTeX, an equation each, ``where`` says what is seen; both are empty where no
+    model was found.  ``key`` is a hash of hypotheses and claim.
+    """
+
+    equation: str
+    condition: str
+    latex: str
+    model: tuple[str, ...]
+    where: str
+    key: str
+
+
+def table() -> tuple[Reason, ...]:
+    """Return the committed rows, in the order of the catalogue."""
+    rows = json.loads(TABLE.read_text(encoding="utf-8"))
+    return tuple(Reason(**{**row, "model": tuple(row["model"])}) for row in rows)
+
+
+def outdated(equations: Sequence[Equation], rows: Sequence[Reason]) -> list[str]:
+    """Return the ids of the equations of which a condition is missing in the rows."""
+    kept = {(row.equation, row.condition, row.key) for row in rows}
+    return [e.id for e in equations if any(place not in kept for place in _places(e))]
+
+
+def _places(equation: Equation) -> dict[tuple[str, str, str], tuple[Judgement, Hypothesis]]:
+    """Return the conditions of an equation that models can be asked about, each by its place."""
+    return {
+        (equation.id, condition.typed, _key(statement)): (statement, condition)
+        for statement in equation.statements
+        for condition in statement.conditions
+        if condition.relation is not sp.true
+    }
+
+
+def _key(statement: Judgement) -> str:
+    said = (statement.relation, *(h.relation for h in statement.hypotheses))
+    return hashlib.sha256("\n".join(map(str, said)).encode()).hexdigest()[:12]
+
+
+def renewed(equations: Sequence[Equation], rows: Sequence[Reason]) -> Iterator[Reason]:
+    """Return a row for every condition; those that are missing are found."""
+    known = {(row.equation, row.condition, row.key): row for row in rows}
+    for equation in equations:
+        for place, (statement, condition) in _places(equation).items():
+            yield known.get(place) or _reason(equation.id, statement, condition)
+
+
+def _reason(identifier: str, statement: Judgement, condition: Hypothesis) -> Reason:
+    found = without(statement, condition)
+    model = tuple(map(inline, found.model)) if found else ()
+    where = found.where if found else ""
+    return Reason(identifier, condition.typed, condition.latex, model, where, _key(statement))
+
+
+def main() -> None:
+    """Write the table of the note's equations anew."""
+    from .catalogue import equations
+
+    of_the_note = [found for found in equations() if found.id[0].isdigit()]
+    rows = [asdict(row) for row in renewed(of_the_note, table() if TABLE.exists() else ())]
+    TABLE.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

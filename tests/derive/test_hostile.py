@@ -1,0 +1,449 @@
+"""What a hostile reader got through the public rules once, and a true neighbour of each.
+
+Every false statement follows a comment with the model in which it fails.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+import sympy as sp
+
+from derive.claims import Equality, landau_o
+from derive.hypotheses import Hypothesis, Kind
+from derive.kernel import Conclusion, Judgement, RuleError, infer, replayed
+from derive.laws import GENERAL, r
+from derive.rules.algebra import (
+    Identity,
+    alike,
+    discharge,
+    forget,
+    identity,
+    insert,
+    logarithm,
+    restrict,
+    solve,
+    substitute,
+)
+from derive.rules.assumption import Assume, assume, defined
+from derive.rules.calculus import (
+    DIFFERENTIABLE,
+    SPRINGS,
+    differentiate,
+    grows,
+    parameter_limit,
+    rigid,
+)
+from derive.rules.data import differentiated
+from derive.rules.drift import first_order, logarithmic_drift, logarithmic_growth
+from derive.rules.inequalities import LogarithmicSlope, arithmetic, monotone
+from derive.rules.limits import at_infinity, forever
+from derive.rules.reading import CONSTANT, SINE, replaced
+from derive.rules.solutions import inverted, solution
+from derive.symbols import initial, rate, symbol, symbols, t
+from tests.derive.test_rules import BOUNDED, DEEP, ROUGHENS, START, drift_premises, given, tends
+
+u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
+h_0, sigma_c0, f_c, C, T, N, q, k, b_0 = symbols("h_0 sigma_c0 f_c C T N q k b_0")
+U, u_cum, theta, x_inf, tau, M = symbols("U u_cum theta x_inf tau M")
+y = sp.Symbol("y", real=True)
+RATE = given(sp.Eq(rate("u_c"), C))
+SLOPE = sp.Derivative(u_cum, f_c, evaluate=False)
+GROWING = defined(u_cum, h_0 * f_c)
+
+
+def supposed(relation: sp.Basic, kind: Kind = Kind.STATE) -> Hypothesis:
+    return Hypothesis("supposed", relation, kind=kind)
+
+
+def forgotten(relation: sp.Equality, claim: sp.Basic) -> Judgement:
+    """Drop the value of a symbol after something was made of it."""
+    return forget(arithmetic(claim, assume(supposed(relation))), supposed(relation))
+
+
+def discharged(met: sp.Basic, claim: sp.Basic, *known: Judgement) -> Judgement:
+    return discharge(arithmetic(claim, assume(supposed(met))), supposed(met), *known)
+
+
+def integral(body: sp.Expr, low: int = -1) -> Judgement:
+    return given(sp.Eq(G, sp.Integral(body, (theta, low, 2))))
+
+
+def with_conclusion_of_ones_own() -> Judgement:
+    rule = Identity(sp.Eq(h_0, h_0))
+    object.__setattr__(rule, "conclude", lambda: Conclusion(Equality(h_0, 2 * h_0)))
+    return infer(rule)
+
+
+def from_a_look_alike() -> Judgement:
+    class Forged:
+        claim, hypotheses, parents = Equality(u_a, 2 * u_a), (), ()
+
+    return substitute(given(sp.Eq(h, u_a)), Forged())  # type: ignore[arg-type]
+
+
+CONSTANTLY, SMOOTH = assume(CONSTANT), assume(DIFFERENTIABLE)
+
+
+class Lie(sp.Expr):  # type: ignore[misc]
+    """Something that says it is zero."""
+
+    is_zero = True
+    is_commutative = True
+
+
+def timed(time: sp.Expr, speed: sp.Expr, start: Judgement, *facts: Judgement) -> Judgement:
+    law = given(sp.Eq(rate("u_c"), speed))
+    return solution(sp.Eq(t, time), law, start, assume(CONSTANT), *facts)
+
+
+def approach(rest: sp.Expr) -> Judgement:
+    ratio = (h - U_a) / sigma_c0
+    law, limit = given(sp.Eq(rate("u_c"), C * sp.exp(-ratio))), tends(ratio, q)
+    speed = tends(rate("u_c"), C * sp.exp(-q))
+    return first_order(law, tends(u_c * (ratio - q) - rest, 0), limit, speed, BOUNDED)
+
+
+def opened(*facts: Judgement) -> Judgement:
+    """Return the closure over a support of stiffness k."""
+    return insert(sp.Eq(h, h_0 + p / k - U_a), *facts[:1], solve(assume(SPRINGS), U_c), *facts[1:])
+
+
+def rigidly(*facts: Judgement) -> Judgement:
+    return rigid(opened(given(sp.Eq(h, h_0 + U_c - U_a)), *facts))
+
+
+def sloped(*facts: Judgement) -> Judgement:
+    return differentiated(sp.Eq(SLOPE, h_0, evaluate=False), f_c, GROWING, *facts)
+
+
+def two_orders(order: sp.Expr) -> Judgement:
+    small = landau_o(order)
+    return arithmetic(sp.Eq(h, G), given(sp.Eq(u_c, h + small)), given(sp.Eq(u_c, G + small)))
+
+
+Case = tuple[Callable[[], Judgement], Callable[[], Judgement], str]
+KINKED = sp.Piecewise((x_inf, x_inf < 0), (x_inf - 1, True))
+WHOLE = sp.Piecewise((1 / f_c, sp.Ne(f_c, 0)), (0, True))
+
+CASES: dict[str, Case] = {
+    # ---- what has no value
+    "ln f_c = ln f_c says that f_c > 0": (  # f_c = -1
+        lambda: logarithm(sp.Eq(sp.log(f_c), sp.log(f_c), evaluate=False)),
+        lambda: logarithm(sp.Eq(sp.log(f_c), sp.log(f_c), evaluate=False), ROUGHENS),
+        "f_c > 0",
+    ),
+    "b_0 = ln f_c, forgotten": (  # f_c = -1
+        lambda: forgotten(sp.Eq(b_0, sp.log(f_c)), sp.Gt(f_c, 0)),
+        lambda: forgotten(sp.Eq(b_0, sp.log(h_0 + 1)), sp.Gt(h_0, -1, evaluate=False)),
+        "f_c > 0",
+    ),
+    "(ln f_c)^2 >= 0 is not met where it has no value": (  # f_c = -1
+        lambda: discharged(sp.Ge(sp.log(f_c) ** 2, 0, evaluate=False), sp.Gt(f_c, 0), START),
+        lambda: discharged(sp.Ge(sp.log(f_c) ** 2, 0, evaluate=False), sp.Gt(f_c, 0), ROUGHENS),
+        "f_c > 0",
+    ),
+    "a branch that is not taken": (  # f_c = 0, G = 0
+        lambda: arithmetic(sp.Ne(f_c, 0), given(sp.Eq(G, WHOLE))),
+        lambda: arithmetic(sp.Ne(f_c, 0), given(sp.Eq(G, 1 / f_c))),
+        "Ne",
+    ),
+    "an integrand": (  # theta = -1
+        lambda: arithmetic(sp.Gt(theta, 0), integral(sp.log(theta), 1)),
+        lambda: arithmetic(sp.Gt(theta, 0), given(sp.Eq(G, sp.log(theta)))),
+        "theta > 0",
+    ),
+    "a root that starts at 0 has no rate": (  # u_c = t^2, h = t
+        lambda: differentiate(given(sp.Eq(h, sp.sqrt(u_c)))),
+        lambda: differentiate(given(sp.Eq(h, sp.sqrt(u_c))), given(sp.Gt(u_c, 0))),
+        r"u_c\(t\) > 0",
+    ),
+    "a bound that has no value": (  # f_c = -1
+        lambda: infer(
+            LogarithmicSlope(sp.Lambda(y, sp.exp(y)), theta, x_inf, 4 + sp.log(f_c) ** 2)
+        ),
+        lambda: infer(LogarithmicSlope(sp.Lambda(y, sp.exp(y)), theta, x_inf, 4 + f_c**2)),
+        "f_c > 0",
+    ),
+    "the pole inside a contact law": (  # y = -1, 1
+        lambda: monotone(sp.Lambda(y, GENERAL.phi.subs(r, -1 / y)), given(sp.Ge(x_inf, theta))),
+        lambda: monotone(sp.Lambda(y, GENERAL.phi.subs(r, -y)), given(sp.Ge(x_inf, theta))),
+        "monotone",
+    ),
+    # ---- bound variables
+    "a branch under an integral": (  # 1, not 3
+        lambda: restrict(integral(sp.Piecewise((1, theta < 0), (0, True))), given(theta < 0)),
+        lambda: restrict(integral(sp.Piecewise((1, f_c < 0), (0, True))), given(f_c < 0)),
+        "for every",
+    ),
+    "a modulus under an integral": (  # int_-1^2 |theta|
+        lambda: restrict(integral(sp.Abs(theta)), given(sp.Ge(theta, 0))),
+        lambda: restrict(integral(sp.Abs(x_inf) * theta), given(sp.Ge(x_inf, 0))),
+        "for every",
+    ),
+    "capture by an integral": (  # theta = 1: G = 3, not 3/2
+        lambda: substitute(integral(b_0), given(sp.Eq(b_0, theta))),
+        lambda: substitute(integral(b_0), given(sp.Eq(b_0, x_inf))),
+        "for every",
+    ),
+    "capture by a limit": (  # lim f_c/N = 0, lim N/N = 1
+        lambda: substitute(parameter_limit(f_c / M, M), given(sp.Eq(f_c, M))),
+        lambda: substitute(parameter_limit(f_c / M, M), given(sp.Eq(f_c, b_0))),
+        "for every",
+    ),
+    "under the derivative with respect to a datum": (  # d b_0/d f_c = 0
+        lambda: substitute(sloped(), given(sp.Eq(u_cum, b_0))),
+        lambda: substitute(sloped(), given(sp.Eq(h_0, b_0))),
+        "for every",
+    ),
+    # ---- time
+    "at t = 5 alone": (  # t = 4
+        lambda: given(sp.Eq(t, 5)),
+        lambda: given(sp.Eq(u_c, C * t)),
+        "cannot be assumed",
+    ),
+    "a constant that is the load": (  # U_a = sin t
+        lambda: defined(b_0, U_a),
+        lambda: defined(b_0, U_a, "", assume(CONSTANT)),
+        "is constant",
+    ),
+    "the rate of the number of cycles": (  # u_c = h_0 t/T
+        lambda: differentiate(given(sp.Eq(u_c, h_0 * N))),
+        lambda: differentiate(given(sp.Eq(u_c, h_0 * t / T))),
+        "differentiable",
+    ),
+    "the number of cycles held fixed": (  # u_c = C t^2/(2 T)
+        lambda: grows(given(sp.Ge(rate("u_c"), C * N)), START),
+        lambda: grows(given(sp.Ge(rate("u_c"), C)), START),
+        "constant",
+    ),
+    "time held fixed as u_c grows": (  # u_c = C t
+        lambda: at_infinity(sp.Eq(forever(C * t / u_c), 0), DEEP),
+        lambda: at_infinity(sp.Eq(forever(C * T / u_c), 0), DEEP),
+        "bounded fields alone",
+    ),
+    "cycles held fixed as u_c grows": (  # u_c = h_0 t/T
+        lambda: at_infinity(sp.Eq(forever(h_0 * N / u_c), 0), DEEP),
+        lambda: at_infinity(sp.Eq(forever(h_0 / u_c), 0), DEEP),
+        "bounded fields alone",
+    ),
+    "the rate of a load that jumps": (  # a square load
+        lambda: differentiate(given(sp.Eq(h, h_0 - U_a))),
+        lambda: differentiate(given(sp.Eq(h, h_0 - U_a)), assume(DIFFERENTIABLE)),
+        "differentiable",
+    ),
+    "a deviation that grows with time": (  # U_a = sin(t)/sqrt(t)
+        lambda: approach(t * U_a / T),
+        lambda: approach(U_a),
+        "linear in bounded",
+    ),
+    "two remainders are not one": (  # h = 1/t, G = 2/t
+        lambda: two_orders(sp.S.One),
+        lambda: arithmetic(sp.Eq(h, G), given(sp.Eq(u_c, h)), given(sp.Eq(u_c, G))),
+        "cannot be assumed",
+    ),
+    "a limit from below": (  # from above it is 1
+        lambda: given(sp.Eq(sp.Limit(sp.sign(theta), theta, 0, "-"), -1, evaluate=False)),
+        lambda: given(sp.Eq(sp.Limit(sp.sign(theta), theta, 0), 1, evaluate=False)),
+        "no limit from above",
+    ),
+    "a field held fixed while a datum grows": (  # u_c depends on h_0
+        lambda: parameter_limit(u_c * h_0 / (1 + h_0), h_0),
+        lambda: parameter_limit(f_c * h_0 / (1 + h_0), h_0),
+        "data alone",
+    ),
+    "a name held fixed while a datum grows": (  # b_0 = sigma_c0/f_c - h_0
+        lambda: parameter_limit(b_0 / h_0, h_0),
+        lambda: parameter_limit(sigma_c0 / h_0, h_0),
+        "data alone",
+    ),
+    # ---- pieces
+    "solved across a jump": (  # x_inf = -1/2
+        lambda: solve(given(sp.Eq(KINKED, theta)), x_inf),
+        lambda: solve(given(sp.Eq(x_inf - 1, theta)), x_inf),
+        "linear in",
+    ),
+    "a time that jumps": (  # u_c = 2
+        lambda: timed(sp.Piecewise((u_c / C, u_c < 1), (u_c / C + 5, True)), C, START),
+        lambda: timed(u_c / C, C, START),
+        "smooth function",
+    ),
+    "a start below zero": (  # u_c = -1/2
+        lambda: timed(
+            (u_c**2 - 1) / (2 * C * q), C * q / sp.Abs(u_c), given(sp.Eq(initial("u_c"), -1))
+        ),
+        lambda: timed((u_c - 1) / C, C, given(sp.Eq(initial("u_c"), 1))),
+        "missing premise",
+    ),
+    # ---- of the false statements that were known, those without a case elsewhere
+    "strictness in a limit": (  # h = u_a
+        lambda: arithmetic(sp.Gt(h, u_a), given(sp.Gt(h + q / M, u_a))),
+        lambda: arithmetic(sp.Gt(h, u_a), given(sp.Ge(h - q, u_a))),
+        r"h\(t\) > u_a",
+    ),
+    "the square of an unbounded load": (  # U_a^2 = q u_c
+        lambda: at_infinity(sp.Eq(forever(u_c / (u_c + U_a**2 / q)), 1), DEEP),
+        lambda: at_infinity(sp.Eq(forever(u_c / (u_c + U_a**2 / q)), 1), DEEP, BOUNDED),
+        "U_a is bounded",
+    ),
+    "a part of an or": (  # u_a = 2 q
+        lambda: arithmetic(sp.Lt(u_a, q), given(sp.Lt(sp.Min(u_a, h), q))),
+        lambda: arithmetic(sp.Lt(u_a, q), given(sp.Lt(sp.Max(u_a, h), q))),
+        "u_a",
+    ),
+    "the converse": (  # u_a = h = 0
+        lambda: alike(sp.Equivalent(sp.Gt(u_a, q), sp.Lt(h, q))),
+        lambda: alike(sp.Equivalent(sp.Gt(u_a, q), sp.Lt(q - u_a, 0))),
+        "differences",
+    ),
+    "a deviation that grows like the root of the wear": (
+        lambda: approach(U_a * sp.sqrt(1 + u_c**2 / q**2)),
+        lambda: approach(2 * U_a),
+        "linear in bounded|is bounded",
+    ),
+    "a drift from a bound of the limit": (  # u_c = C t - ln(1 + t)
+        lambda: logarithmic_drift(
+            given(sp.Le(forever(t * (rate("u_c") - C) - U_a), 0)), *drift_premises()[1:]
+        ),
+        lambda: logarithmic_drift(*drift_premises()),
+        "is no limit",
+    ),
+    "theta has f_c": (  # theta = tanh(4 - 2/f_c)
+        lambda: differentiated(
+            sp.Eq(SLOPE, 0, evaluate=False), f_c, given(sp.Eq(u_cum, h_0 * (1 + theta) / 2))
+        ),
+        lambda: sloped(),
+        "data alone",
+    ),
+    "the other branch of Lambert's function": (  # u_c = q/3
+        lambda: inverted(
+            sp.Eq(u_c, -q * sp.LambertW(-t / T, -1), evaluate=False),
+            given(sp.Eq(t, T * u_c / q * sp.exp(-u_c / q))),
+        ),
+        lambda: inverted(sp.Eq(u_c, q * t / T), given(sp.Eq(t, T * u_c / q))),
+        "missing premise",
+    ),
+    "the tail of one solid and the wear of the other": (  # u_a = 0
+        lambda: logarithmic_growth(
+            q, tends(rate("u_a") * sp.exp((u_c - U_a) / q), C), assume(SINE)
+        ),
+        lambda: logarithmic_growth(
+            q, tends(rate("u_c") * sp.exp((u_c - U_a) / q), C), assume(SINE)
+        ),
+        "the limit of exp",
+    ),
+    "a load that is constant under no condition": (  # sin t
+        lambda: discharge(differentiate(CONSTANTLY, SMOOTH), CONSTANT, START),
+        lambda: differentiate(CONSTANTLY, SMOOTH),
+        "missing premise",
+    ),
+    # ---- what is said of the world
+    "a bounded load, called an equation of the model": (  # U_a + p/k <= U for no k
+        lambda: rigidly(assume(supposed(sp.Le(sp.Abs(U_a), U), Kind.MODEL))),
+        lambda: rigidly(),
+        "no equation",
+    ),
+    "words about the load": (
+        lambda: rigidly(assume(supposed(sp.true, Kind.LOAD))),
+        lambda: rigidly(ROUGHENS),
+        "nothing else is said",
+    ),
+    "a value called a definition": (  # f_c = 1
+        lambda: defined(f_c, sp.Integer(5)),
+        lambda: given(sp.Eq(f_c, 5)),
+        "is a new name",
+    ),
+    "a number that is infinite": (  # 0 times oo
+        lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo), Kind.DEFINITION)),
+        lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo))),
+        "limits alone",
+    ),
+    "a circle of definitions": (
+        lambda: defined(b_0, b_0 + 1),
+        lambda: defined(b_0, h_0 + 1),
+        "is a new name",
+    ),
+    "a condition called a definition": (
+        lambda: assume(supposed(sp.Gt(f_c, 0), Kind.DEFINITION)),
+        lambda: assume(supposed(sp.Gt(f_c, 0))),
+        "no equation",
+    ),
+    "a slope at a value of the datum": (  # called a property of the load
+        lambda: sloped(assume(supposed(sp.Eq(f_c, 1), Kind.LOAD))),
+        lambda: sloped(),
+        "may vary",
+    ),
+    # ---- forgeries
+    "a conclusion of one's own": (
+        with_conclusion_of_ones_own,
+        lambda: infer(Identity(sp.Eq(h_0, h_0, evaluate=False))),
+        "fields that are not its own",
+    ),
+    "a look-alike as a premise": (from_a_look_alike, lambda: RATE, "a judgement"),
+    "a premise that is not needed": (
+        lambda: infer(Assume(supposed(sp.Gt(f_c, 0))), START),
+        lambda: infer(Assume(supposed(sp.Gt(f_c, 0)))),
+        "cannot be assumed",
+    ),
+    "an expression that says it is zero": (
+        lambda: identity(sp.Eq(h_0, h_0 + Lie(), evaluate=False)),
+        lambda: identity(sp.Eq(h_0, h_0 + 0 * h_0, evaluate=False)),
+        "of no kind",
+    ),
+    "another f_c, which is positive": (
+        lambda: arithmetic(sp.Gt(sp.Symbol("f_c", positive=True), 0, evaluate=False)),
+        lambda: arithmetic(sp.Gt(q, 0, evaluate=False)),
+        "not the f_c of the vocabulary",
+    ),
+    "another u_c, which is positive": (
+        lambda: arithmetic(sp.Gt(sp.Function("u_c", positive=True)(t), 0, evaluate=False)),
+        lambda: arithmetic(sp.Gt(p, 0, evaluate=False)),
+        "not the u_c of the vocabulary",
+    ),
+    "two symbols x": (
+        lambda: identity(
+            sp.Eq(sp.Symbol("x", real=True) + y, y + sp.Symbol("x", positive=True), evaluate=False)
+        ),
+        lambda: identity(sp.Eq(y + 1, 1 + y, evaluate=False)),
+        "one name|no identity",
+    ),
+    "a square of what is not real": (  # i
+        lambda: arithmetic(sp.Ge(sp.Symbol("x") ** 2, 0)),
+        lambda: arithmetic(sp.Ge(y**2, 0, evaluate=False)),
+        "no real quantity",
+    ),
+    "a symbol that is zero": (
+        lambda: identity(sp.Eq(h_0, h_0 + sp.Symbol("x", zero=True), evaluate=False)),
+        lambda: identity(sp.Eq(h_0 + y, y + h_0, evaluate=False)),
+        "no real quantity",
+    ),
+    "a number of fifteen digits": (  # 1 + 1e-20
+        lambda: given(sp.Eq(b_0, sp.Float(1e-20))),
+        lambda: given(sp.Eq(b_0, sp.Rational(1, 10**20))),
+        "of no kind",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_what_got_through_once_is_refused_and_its_true_neighbour_is_not(name: str) -> None:
+    false, true, said = CASES[name]
+    with pytest.raises(RuleError, match=said):
+        false()
+    assert replayed(true()) is None
+
+
+def test_a_subclass_of_a_hypothesis_is_none() -> None:
+    class Changing(Hypothesis):
+        pass
+
+    with pytest.raises(RuleError, match="cannot be assumed"):
+        assume(Changing("rough", sp.Gt(f_c, 0)))
+
+
+def test_what_holds_at_every_time_is_inserted_under_time() -> None:
+    """t may be bound: an equality of fields holds at every time."""
+    mean = sp.Integral(U_a, (t, 0, T))
+    assert replaced(mean, U_a, U * sp.sin(t)) == sp.Integral(U * sp.sin(t), (t, 0, T))
+    assert replaced(rate("u_c"), u_c, symbol("u_a")) == rate("u_a")

@@ -1,0 +1,395 @@
+"""Every rule refuses when one of its premises is dropped, and says what is missing.
+
+The applications are the true neighbours of false statements, and those below for the other rules.
+A rule without an application fails here, and so does a refusal that no case brings about: whoever
+adds a rule, or a side condition, adds the case in which it is not met.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import traceback
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+import sympy as sp
+
+from derive import rules
+from derive.claims import Drift, FirstZero
+from derive.kernel import Judgement, Rule, RuleError, infer
+from derive.language import names
+from derive.results.expansion import Expansion
+from derive.rules.algebra import (
+    alike,
+    consequence,
+    forget,
+    identity,
+    multiply,
+    restrict,
+    substitute,
+)
+from derive.rules.assumption import assume, defined
+from derive.rules.averages import SlowTime, averaging
+from derive.rules.calculus import change_clock, integrate, rigid
+from derive.rules.data import differentiated, one_sign
+from derive.rules.drift import first_order, last_cycles, logarithmic_drift, logarithmic_growth
+from derive.rules.inequalities import Lipschitz, LogarithmicSlope, threshold
+from derive.rules.limits import (
+    accumulates,
+    at_infinity,
+    forever,
+    intermittent,
+    one_period_later,
+    passes,
+    reciprocal,
+    unbounded,
+    vanishes,
+)
+from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC, SINE
+from derive.rules.solutions import first_root, inverted, parametric, solution
+from derive.symbols import initial, rate, symbols, t
+from tests.derive import test_hostile, test_rules
+from tests.derive.test_hostile import GROWING, SLOPE, forgotten, integral, supposed, timed
+from tests.derive.test_rules import (
+    BOUNDED,
+    DEEP,
+    FIRST_DRIFT,
+    ROUGHENS,
+    START,
+    drift_premises,
+    expansion_premises,
+    given,
+    tends,
+)
+
+ROOM = Path(inspect.getfile(rules)).parent
+
+u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
+h_0, sigma_c0, sigma_c, f_c, C, T, N, q, k, b_0 = symbols("h_0 sigma_c0 sigma_c f_c C T N q k b_0")
+U, u_cum, theta, x_inf, tau, h_star, epsilon, d, M = symbols(
+    "U u_cum theta x_inf tau h_star epsilon d M"
+)
+p_max, u_stop, c_1, m = symbols("p_max u_stop c_1 m")
+x = sp.Symbol("x", positive=True)
+y = sp.Symbol("y", real=True)
+v = sp.Function("v", real=True)(tau)
+RATIO = (h - U_a) / sigma_c0
+LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
+FALLS = sp.Lt(f_c, 0)
+LOG_N = sp.log(N)
+FEW = sp.log(-(h_star**2) / (f_c * C * T * sigma_c))
+SQUARE = U_a**2 / U - h_0 * p / p_max
+TOUCHING = sp.Ge(U_a, b_0)
+TIME = h_0 / C * sp.log(initial("p") / p)
+CONSTANTLY = assume(CONSTANT)
+
+
+def ordered(
+    law: sp.Expr = LAW,
+    rest: sp.Expr = U_a,
+    end: sp.Expr = sp.S.Zero,
+    speed: sp.Expr = STEADY,
+) -> Judgement:
+    """Apply FirstOrder, with one thing wrong."""
+    approach = tends(u_c * (RATIO - q) - rest, end)
+    limits = approach, tends(RATIO, q), tends(rate("u_c"), speed)
+    return first_order(given(sp.Eq(rate("u_c"), law)), *limits, BOUNDED)
+
+
+def some_of_the_time(
+    contact: sp.Basic = TOUCHING,
+    on: sp.Expr = C,
+    off: sp.Expr = sp.S.Zero,
+    part: sp.Basic = TOUCHING,
+    least: sp.Expr = sp.S.Zero,
+) -> Judgement:
+    """Apply Intermittent, with one thing wrong."""
+    law = given(sp.Eq(rate("u_c"), sp.Piecewise((on, contact), (off, True))))
+    share = sp.Integral(sp.Piecewise((1, part), (0, True)), (t, 0, T)) / T
+    above = given(sp.Ge(u_c, least))
+    loads = assume(PERIODIC), assume(CONTINUOUS), BOUNDED
+    return intermittent(law, defined(d, share), above, *loads)
+
+
+def by_pressure(
+    time: sp.Expr = TIME,
+    wear: sp.Expr = U_a - h_0 * p / p_max,
+) -> Judgement:
+    """Apply Parametric, with one thing wrong."""
+    law = given(sp.Eq(rate("u_c"), C * p / p_max))
+    return parametric(sp.Eq(t, time), p, law, given(sp.Eq(u_c, wear)), START, assume(CONSTANT))
+
+
+def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Judgement:
+    grown = rate("u_c") * sp.exp((u_c - U_a) / size)
+    return logarithmic_growth(scale, tends(grown, C), assume(SINE))
+
+
+def last(
+    cycles: sp.Expr = FEW,
+    gap: sp.Expr = h_0 - U_a,
+    of: sp.Expr = LOG_N,
+    sign: sp.Basic = FALLS,
+) -> Judgement:
+    """Apply LastCycles where the rate is as the square of the roughness, with one thing wrong."""
+    size = sigma_c0 + f_c * u_c
+    law = given(sp.Eq(rate("u_c"), C * size**2 / h_star**2 * (h_0 - U_a) / h))
+    facts = defined(N, t / T), given(sp.Eq(h, gap)), assume(CONSTANT), given(sign)
+    return last_cycles(
+        sp.Eq(of, cycles), law, given(sp.Eq(sigma_c, size)), *facts, given(sp.Gt(sigma_c, 0))
+    )
+
+
+def root(function: sp.Expr, factor: sp.Expr = sp.S.One) -> Judgement:
+    return first_root(factor, defined(u_stop, FirstZero(function, x)))
+
+
+def faded(value: sp.Expr, inside: sp.Expr, small: sp.Expr) -> Judgement:
+    return at_infinity(sp.Eq(forever(inside), value), DEEP, BOUNDED, small=small)
+
+
+def exceeds(function: sp.Expr, level: sp.Expr, point: sp.Expr) -> Judgement:
+    claim = sp.Equivalent(sp.Gt(function, level), sp.Gt(f_c, point))
+    return threshold(claim, f_c, ROUGHENS)
+
+
+def sloped(claim: sp.Equality, datum: sp.Symbol = f_c) -> Judgement:
+    return differentiated(claim, datum, GROWING)
+
+
+def averaged_as(claim: sp.Expr, *premises: Judgement) -> Judgement:
+    return averaging(sp.Eq(c_1, claim), *premises)
+
+
+def slow(place: int | None = None, lhs: sp.Expr | None = None) -> Judgement:
+    known = Expansion().slow_time
+    claim = sp.Eq(lhs or known.claim.lhs, known.claim.rhs)
+    premises = [j for i, j in enumerate(known.parents) if i != place]
+    return infer(SlowTime(claim), *premises)
+
+
+def opened() -> Judgement:
+    """Return the closure over a support of stiffness k."""
+    return test_hostile.opened(given(sp.Eq(h, h_0 + U_c - U_a)))
+
+
+FADING = sp.exp(-u_c / sigma_c0)
+SIMPLE = {
+    "the reciprocal of what grows": lambda: reciprocal(DEEP),
+    "one period later": lambda: one_period_later(given(sp.Ge(u_c, h_0))),
+    "a double root": lambda: root(h_star - x),
+    "a mean over contact": some_of_the_time,
+    "a drift": lambda: logarithmic_drift(*drift_premises()),
+    "an exponential tail": exponential_tail,
+    "the last cycles": last,
+    "time by pressure": by_pressure,
+    "a term of the expansion": lambda: averaged_as(FIRST_DRIFT, *expansion_premises("c_1")),
+    "slow time": slow,
+    "scaled": lambda: change_clock(defined(u_c, sigma_c0 * v), defined(t, T * tau)),
+    "a slope in a sum": lambda: sloped(sp.Eq(SLOPE, h_0, evaluate=False)),
+}
+
+#: What is refused, by what the refusal says.
+REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
+    # algebra
+    ("has no value", lambda: substitute(given(sp.Eq(h, 1 / b_0)), given(sp.Eq(b_0, 0)))),
+    ("does not occur", lambda: substitute(given(sp.Eq(h, u_a)), given(sp.Eq(b_0, q)))),
+    ("every value", lambda: substitute(integral(theta), given(sp.Eq(theta, b_0)))),
+    ("is an equality or", lambda: multiply(given(sp.Ne(h, u_a)), q)),
+    ("has no branch", lambda: restrict(given(sp.Eq(h, q)), ROUGHENS)),
+    ("is an equality", lambda: identity(sp.Ge(f_c, q))),
+    ("Ne", lambda: consequence(sp.Eq(h / f_c, u_a / f_c), given(sp.Eq(h, u_a)))),
+    ("Ne", lambda: alike(sp.Equivalent(sp.Le(u_a, 1 / f_c), sp.Le(u_a - 1 / f_c, 0)))),
+    ("constant", lambda: forget(given(sp.Eq(b_0, U_a)), supposed(sp.Eq(b_0, U_a)))),
+    ("may be -1", lambda: forgotten(sp.Eq(q, -1, evaluate=False), sp.Ge(h_0, 0, evaluate=False))),
+    # calculus
+    ("dy/dt = c dx/dt", lambda: integrate(given(sp.Eq(rate("u_c"), C)), START, START)),
+    (
+        "is constant",
+        lambda: integrate(given(sp.Eq(rate("u_c"), u_a * rate("u_a"))), START, START),
+    ),
+    ("continuous for k", lambda: rigid(multiply(opened(), k))),
+    ("t = T tau", lambda: change_clock(defined(u_c, sigma_c0 * v), defined(t, 2 * T * tau))),
+    ("is constant", lambda: change_clock(given(sp.Eq(u_c, h * v)), defined(t, T * tau))),
+    # data
+    ("one of the data", lambda: sloped(sp.Eq(sp.Derivative(u_cum, b_0), 0, evaluate=False), b_0)),
+    ("Ne", lambda: sloped(sp.Eq(SLOPE / (f_c - 1), h_0 / (f_c - 1), evaluate=False))),
+    ("the derivative is", lambda: sloped(sp.Eq(SLOPE, 2 * h_0, evaluate=False))),
+    ("Ne|> 0", lambda: one_sign(given(sp.Eq(G, sp.sqrt(h_0))), h_0)),
+    # drift
+    ("with that limit", lambda: ordered(end=sp.S.One)),
+    ("with that limit", lambda: ordered(law=C * sp.exp(-RATIO) * (1 + G**2))),
+    ("differentiable at the limit", lambda: ordered(law=C * sp.Abs(RATIO), speed=C * q)),
+    ("is bounded", lambda: ordered(rest=U_a + h_0 * t / T)),
+    ("at the limit", lambda: ordered(speed=C)),
+    (
+        "f_c",
+        lambda: ordered(law=f_c * C * sp.exp(-RATIO), speed=f_c * C * sp.exp(-q)),
+    ),
+    (
+        "linear in the load",
+        lambda: logarithmic_drift(*drift_premises(approach=t**2 * (rate("u_c") - C) - U_a)),
+    ),
+    ("the limit of exp", lambda: exponential_tail(size=h_star)),
+    ("b_0 > 0", lambda: exponential_tail(scale=b_0, size=b_0)),
+    ("logarithm of the cycles", lambda: last(of=N)),
+    ("linear in the load", lambda: last(gap=h_0 - U_a**3 / U**2)),
+    ("functions of the roughness", lambda: last(FEW + G**2)),
+    ("grows without bound", lambda: last(-FEW)),
+    ("quotient of the slopes", lambda: last(2 * FEW)),
+    ("f_c < 0", lambda: last(sign=sp.Ne(f_c, 0))),
+    ("b_0", lambda: last(FEW + 1 / b_0)),
+    # inequalities
+    (">= 0", lambda: infer(Lipschitz(sp.Lambda(y, -sp.sqrt(y)), theta, q, M))),
+    ("f_c", lambda: infer(Lipschitz(sp.Lambda(y, -y), 1 / f_c, q, M))),
+    (">= 0", lambda: infer(LogarithmicSlope(sp.Lambda(y, sp.exp(sp.sqrt(y))), q, M, M))),
+    ("Ne", lambda: exceeds(1 / (f_c - 1), epsilon, 1 + 1 / epsilon)),
+    ("b_0 > 0", lambda: exceeds(2 * f_c, 2 * b_0, b_0)),
+    ("increases with", lambda: exceeds(-2 * f_c, -2 * q, q)),
+    ("the left side is", lambda: exceeds(2 * f_c, q, q)),
+    # limits
+    ("smooth function at", lambda: at_infinity(sp.Eq(forever(sp.log(u_c) / u_c), 0), DEEP)),
+    ("is smooth", lambda: at_infinity(sp.Eq(forever(1 / (U_a + h_0 / u_c)), 0), DEEP, BOUNDED)),
+    ("is bounded", lambda: at_infinity(sp.Eq(forever(u_c), 0), DEEP)),
+    ("-> 0 as", lambda: faded(sp.S.Zero, FADING, 1 / u_c**2)),
+    ("f_c/q > 0", lambda: faded(sp.S.Zero, FADING, sp.exp(-f_c * u_c / q))),
+    ("is a power of", lambda: faded(sp.S.Zero, sp.sqrt(FADING), FADING)),
+    (
+        "is a constant over",
+        lambda: vanishes(given(sp.And(sp.Le(G, U_a / u_c), sp.Ge(G, -U_a / u_c))), DEEP),
+    ),
+    ("the limit of", lambda: passes(sp.Eq(forever(2 * G), theta), tends(G, theta))),
+    ("is finite", lambda: accumulates(tends(rate("u_c"), sp.oo))),
+    ("-> oo", lambda: reciprocal(tends(u_c, h_0))),
+    ("solved for the rate", lambda: unbounded(given(sp.Eq(rate("u_c"), C + rate("u_a"))))),
+    ("above a constant", lambda: some_of_the_time(least=G)),
+    ("0 out of contact", lambda: some_of_the_time(off=C / 2)),
+    ("on the load alone", lambda: some_of_the_time(contact=sp.Ge(U_a, u_c))),
+    ("fraction of the period", lambda: some_of_the_time(part=sp.Ge(U_a, 2 * b_0))),
+    ("positive and continuous", lambda: some_of_the_time(on=C * f_c)),
+    ("rate in contact", lambda: some_of_the_time(on=C * (1 + U_a**2 / U**2))),
+    # solutions
+    ("gives the time", lambda: solution(sp.Eq(u_a, u_c), test_hostile.RATE, START, CONSTANTLY)),
+    ("Ne", lambda: timed(u_c / f_c, f_c, START)),
+    ("f_c > 0", lambda: timed(u_c / f_c, f_c, START, given(sp.Ne(f_c, 0)))),
+    ("reciprocal of the rate", lambda: timed(2 * u_c / C, C, START)),
+    ("begins at 0", lambda: timed(u_c / C, C, given(sp.Eq(initial("u_c"), 1)))),
+    ("gives the time", lambda: inverted(sp.Eq(u_c, T), given(sp.Eq(u_a, T * u_c)))),
+    ("increases with", lambda: inverted(sp.Eq(u_c, -t), given(sp.Eq(t, -u_c)))),
+    ("gives back the time", lambda: inverted(sp.Eq(u_c, 2 * t), given(sp.Eq(t, u_c)))),
+    ("Ne", lambda: by_pressure(time=TIME + 1 / f_c)),
+    ("smooth functions", lambda: by_pressure(wear=U_a - sp.Abs(b_0 - p))),
+    ("linear in the load", lambda: by_pressure(TIME + T * SQUARE.subs(t, 0) / U, SQUARE)),
+    ("wear over the rate", lambda: by_pressure(time=TIME * 2)),
+    ("begins at 0", lambda: by_pressure(time=TIME + T)),
+    ("a first zero", lambda: first_root(sp.S.One, given(sp.Eq(u_stop, h_star)))),
+    ("is quadratic", lambda: root(h_star - x**3)),
+    ("Ne", lambda: root((h_star - x) / (x - 1), x - 1)),
+    ("f_c > 0", lambda: root(h_star - x, f_c)),
+    ("f_c > 0", lambda: root(f_c - x)),
+    # averages
+    ("by definition", lambda: averaged_as(FIRST_DRIFT, *expansion_premises("A"))),
+    (
+        "at given wear",
+        lambda: averaged_as(FIRST_DRIFT, given(sp.Eq(h, u_c)), *expansion_premises("c_1")),
+    ),
+    ("c_1 to c_4", lambda: averaged_as(FIRST_DRIFT, *expansion_premises("c_1", Drift, 5))),
+    ("c_1 = ", lambda: averaged_as(2 * FIRST_DRIFT, *expansion_premises("c_1"))),
+    ("the drifts", lambda: slow(0)),
+    ("averaged roughness", lambda: slow(4)),
+    ("dtau/dm", lambda: slow(lhs=h_0)),
+)
+
+
+def applications() -> Iterator[Callable[[], Judgement]]:
+    yield from (true for _, true in test_rules.CASES.values())
+    yield from (true for _, true, _ in test_hostile.CASES.values())
+    yield from SIMPLE.values()
+
+
+def kinds(kind: type[Rule] = Rule) -> Iterator[type[Rule]]:
+    for rule in kind.__subclasses__():
+        if rule.__module__.startswith(rules.__name__):
+            yield rule
+        yield from kinds(rule)
+
+
+@cache
+def made() -> dict[type[Rule], Judgement]:
+    """Return the application of each rule that has most premises."""
+    found: dict[type[Rule], Judgement] = {}
+    for build in applications():
+        judgement = build()
+        kind = type(judgement.rule)
+        if kind not in found or len(judgement.parents) > len(found[kind].parents):
+            found[kind] = judgement
+    return found
+
+
+@cache
+def dropped(kind: type[Rule]) -> tuple[RuleError | Judgement, ...]:
+    """Return how a rule refuses without each of its premises in turn, or what it gives then."""
+    known = made()[kind]
+    refusals: list[RuleError | Judgement] = []
+    for place in range(len(known.parents)):
+        rest = known.parents[:place] + known.parents[place + 1 :]
+        try:
+            refusals.append(infer(known.rule, *rest))
+        except RuleError as refusal:
+            refusals.append(refusal)
+    return tuple(refusals)
+
+
+@cache
+def refusal(false: Callable[[], Judgement]) -> RuleError:
+    with pytest.raises(RuleError) as caught:
+        false()
+    return caught.value
+
+
+@pytest.mark.parametrize("kind", sorted(kinds(), key=str), ids=lambda kind: kind.__name__)
+def test_a_rule_needs_each_of_its_premises(kind: type[Rule]) -> None:
+    """The refusal says a name that the dropped premise has, or what the rule rests on."""
+    known = made()[kind]
+    for premise, found in zip(known.parents, dropped(kind), strict=True):
+        if isinstance(found, Judgement):
+            assert found.claim != known.claim, premise.relation
+            continue
+        said = [name for name, _ in names(premise.relation)] + [
+            *kind.asks,
+            premise.claim.text if premise.relation == sp.true else "",
+        ]
+        assert any(word and word in str(found) for word in said), (premise.relation, found)
+
+
+@pytest.mark.parametrize(("said", "false"), REFUSED, ids=[said for said, _ in REFUSED])
+def test_a_side_condition_is_asked_for(said: str, false: Callable[[], Judgement]) -> None:
+    assert said in str(refusal(false)) or any(s in str(refusal(false)) for s in said.split("|"))
+
+
+def test_every_refusal_of_the_rules_is_brought_about() -> None:
+    """A line of a rule that refuses, or asks for a condition, and never did is not tested."""
+    cases = (*test_rules.CASES.values(), *test_hostile.CASES.values())
+    errors = [error for kind in kinds() for error in dropped(kind) if isinstance(error, RuleError)]
+    errors += [refusal(false) for false in (*(c[0] for c in cases), *(f for _, f in REFUSED))]
+    hit = {
+        (Path(frame.filename).name, frame.lineno)
+        for error in errors
+        for frame in traceback.extract_tb(error.__traceback__)
+    }
+    sites = {(path.name, line) for path in ROOM.glob("*.py") for line in asked(path)}
+    assert sorted(sites - hit) == []
+
+
+def asked(path: Path) -> Iterator[int]:
+    """Yield the lines of a module on which a rule refuses or asks for a condition."""
+    helpers = {"require", "require_defined", "has_hypothesis"}
+    for node in ast.walk(ast.parse(path.read_text())):
+        called = node.func if isinstance(node, ast.Call) else None
+        if isinstance(called, ast.Name) and called.id in helpers:
+            yield called.lineno
+        if isinstance(node, ast.Raise):
+            yield node.lineno

@@ -1,0 +1,196 @@
+"""Contact laws of a scene's own: read, never executed, derived, and kept for this user."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import wear
+from derive.faults import UsageError as NotUnderstood
+from derive.own_law import normal
+from wear import own_laws
+
+ALGEBRAIC = "(1 - (r - 2)/sqrt(1 + (r - 2)^2))/2"
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache of this module's own."""
+    folder = tmp_path_factory.mktemp("cache")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(folder))
+        yield folder
+
+
+def with_law(text: str, name: str = "section4") -> wear.Scene:
+    return wear.load_scene(name).with_({"contact.law": {"phi": text}})
+
+
+@pytest.mark.parametrize("name", ["section4", "section3", "soft-support"])
+def test_the_note_s_law_by_its_formula_gives_the_note_s_wear(name: str) -> None:
+    """The cancelling form, too: of equal forms the one that keeps its digits is written."""
+    scene = with_law("(1 - tanh(2*r - 4))/2", name)
+    cycles = [1, 9000, 10**8]
+    np.testing.assert_allclose(
+        wear.solve(scene, cycles).u_c, wear.solve(name, cycles).u_c, rtol=1e-12
+    )
+    ours, package = wear.asymptote(scene), wear.asymptote(name)
+    assert ours.wear_per_cycle_mm == pytest.approx(package.wear_per_cycle_mm, rel=1e-13)
+    assert ours.log_coefficient_mm == pytest.approx(package.log_coefficient_mm, rel=1e-13)
+
+
+@pytest.mark.parametrize("name", ["section4", "soft-support"])
+def test_a_law_with_an_algebraic_tail_is_integrated(name: str) -> None:
+    scene = with_law(ALGEBRAIC, name)
+    load, n = scene.periodic_load, 3
+    of = scene.bearing
+    slip = 2 * np.pi * scene.motion.speed_rpm / 60 * scene.motion.radius_mm
+    per_pressure = of.wear_coefficient * slip / (3 * of.hardness_MPa)
+
+    def pressure(gap: float, sigma: float) -> float:
+        """The root of p = p_max phi by bisection; on a rigid support phi itself."""
+
+        def law(p: float) -> float:
+            give = 0.0 if scene.support is None else p / scene.support.stiffness_MPa_per_mm
+            x = (gap + give) / sigma - 2
+            return scene.contact.max_pressure_MPa * (1 - x / np.sqrt(1 + x * x)) / 2
+
+        low, high = 0.0, scene.contact.max_pressure_MPa
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if law(middle) > middle else (low, middle)
+        return (low + high) / 2
+
+    def grows(phase: float, u: np.ndarray) -> list[float]:
+        sigma = of.roughness_mm + of.roughness_growth * u[0]
+        gap = scene.closure + u[0] - float(load(phase))
+        return [load.period * per_pressure * pressure(gap, sigma)]
+
+    found = solve_ivp(grows, (0, n), [0.0], "DOP853", rtol=1e-9, atol=1e-14, max_step=0.1)
+    assert wear.solve(scene, [n]).u_c[0] == pytest.approx(found.y[0, -1], rel=1e-8)
+
+
+def test_the_asymptote_is_that_of_the_law() -> None:
+    scene = with_law(ALGEBRAIC)
+    found, x = wear.asymptote(scene), 1 / 0.25 - 2
+    assert found.pressure_MPa == pytest.approx(150 * (1 - x / np.sqrt(1 + x * x)), rel=1e-13)
+    late = wear.solve(scene, [10**9, 10**10]).u_c
+    assert found.offset_mm is not None
+    expected = [
+        found.wear_per_cycle_mm * n + found.log_coefficient_mm * np.log(n) + found.offset_mm
+        for n in (1e9, 1e10)
+    ]
+    np.testing.assert_allclose(late, expected, rtol=1e-9)
+
+
+def test_a_law_is_derived_once_and_the_package_stays_as_it_is(home: Path) -> None:
+    wear.solve(with_law(ALGEBRAIC), [1])
+    text = with_law(ALGEBRAIC.replace(" ", "")).contact.law
+    assert text == with_law(ALGEBRAIC).contact.law
+    (home / "scene.toml").write_text(with_law(ALGEBRAIC).to_toml())
+    code = "import sys, wear; wear.solve('scene.toml', [1]); sys.exit('sympy' in sys.modules)"
+    subprocess.run(
+        [sys.executable, "-c", code], cwd=home, check=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    kept = ROOT / "wear" / "generated"
+    assert {path.name for path in kept.iterdir() if path.is_dir()} >= {"tanh", "exponential"}
+    assert not list(kept.rglob("*own*"))
+
+
+def test_a_scene_with_a_law_of_its_own_reads_back() -> None:
+    scene = with_law("1/(1 + exp(r - 1))^2")
+    assert scene.contact.law == "phi = 1 / (1 + exp(r - 1)) ** 2"
+    assert wear.Scene.from_dict(json.loads(scene.to_json())) == scene
+    assert wear.scene.parse_scene(scene.to_toml()) == scene
+
+
+def test_the_formula_may_stand_in_a_file_beside_the_scene(tmp_path: Path) -> None:
+    (tmp_path / "soft.law").write_text("# measured in 2026\nphi = 1/(1 +\n  exp(r - 1))^2  # fit\n")
+    text = (
+        wear.load_scene("section4").to_toml().replace('law = "tanh"', 'law = {file = "soft.law"}')
+    )
+    (tmp_path / "scene.toml").write_text(text)
+    assert wear.load_scene(tmp_path / "scene.toml") == with_law("1/(1 + exp(r - 1))^2")
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("__import__('os').system('x')", "is not understood"),
+        ("r.real", "is not understood"),
+        ("[r for r in r]", "is not understood"),
+        ("lambda: 1", "is not understood"),
+        ("sin(r)", "is not understood"),
+        ("exp(r, r)", "is not understood"),
+        ("exp(r=r)", "is not understood"),
+        ("True", "is not understood"),
+        ("1j*r", "is not understood"),
+        ("x", "is not understood"),
+        ("1/(r", "is no formula"),
+        ("", "is no formula"),
+        ("r**r", "is no power"),
+        ("r**(1/3)", "is no power"),
+        ("r**999999999", "is beyond 20"),
+        ("9**9**9**9", "is no power"),
+        ("1e999*r", "is too large"),
+        ("(" * 400 + "r" + ")" * 400, "characters"),
+        ("-" * 499 + "r", "is no formula"),
+    ],
+)
+def test_nothing_but_the_grammar_is_read(text: str, problem: str) -> None:
+    with pytest.raises(wear.SceneError, match=problem):
+        with_law(text)
+
+
+@pytest.mark.parametrize("raw", [3.0, {"phi": 3.0}, {}, {"phi": "exp(-r)", "x": 1}, ["exp(-r)"]])
+def test_what_is_no_law_is_a_fault(raw: object) -> None:
+    with pytest.raises(wear.SceneError, match="law"):
+        wear.load_scene("section4").with_({"contact.law": raw})
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("exp(r)", "not proved to be negative"),
+        ("2", "no function of r"),
+        ("sqrt(-1)*r", "no function of r"),
+        ("-exp(-r)", "not proved to be positive|concave below"),
+        ("1/(1 + r^2)", "concave below one value"),
+        ("1/r", "not proved|concave below|could not be checked"),
+    ],
+)
+def test_what_the_theorems_ask_for_must_be_proved(text: str, problem: str) -> None:
+    with pytest.raises(wear.UsageError, match=problem):
+        wear.solve(with_law(text), [1])
+
+
+def test_lost_digits_are_said() -> None:
+    scene = with_law("(1 - r/sqrt(1 + r^2))/2 + exp(-r)")
+    assert any("loses digits" in notice for notice in scene.notices)
+    assert not any("loses digits" in notice for notice in with_law(ALGEBRAIC).notices)
+
+
+def test_code_is_not_run_from_a_cache_that_others_may_write(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    folder = tmp_path / "derive-wear" / "contact-laws"
+    folder.mkdir(parents=True)
+    folder.chmod(0o777)
+    with pytest.raises(wear.UsageError, match="others may write there"):
+        own_laws.about("phi = exp(-3 * r)")
+
+
+def test_the_spelling_does_not_matter() -> None:
+    assert normal("exp( -r )^2") == normal("exp(-r)**2")
+    with pytest.raises(NotUnderstood, match="is not understood"):
+        normal("r if r else r")

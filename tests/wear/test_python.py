@@ -1,0 +1,35 @@
+"""What a script or a notebook has of the packages: names, short forms, pictures.
+
+`typed_script.py` is checked by mypy along with the packages (`make test`).
+"""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+import derive
+import wear
+
+
+def test_a_script_needs_no_deep_import(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    made = runpy.run_path(str(Path(__file__).with_name("typed_script.py")))
+    assert made["deepest"] > made["many"].u_c[0, 0] > 0.0
+    assert made["regime"] == "steady"
+    assert (tmp_path / "wear.svg").stat().st_size > 1000
+
+
+def test_an_equation_shows_itself_in_short_and_typeset() -> None:
+    found = derive.equation("21")
+    assert repr(found) == f"<Equation 21: {found.title}>"
+    assert found._repr_latex_() == f"$\\displaystyle {found.latex}$"
+
+
+def test_a_history_draws_wear_roughness_and_pressure() -> None:
+    figure = wear.solve("section4", [1, 10, 100], rtol=1e-6).plot()
+    labels = " ".join(axes.get_ylabel().lower() for axes in figure.axes)
+    assert all(word in labels for word in ("wear", "roughness", "pressure"))

@@ -1,0 +1,224 @@
+"""`wear fit`: the parameters of a scene from measured wear, and how certain they are."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Iterator
+from dataclasses import asdict
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from derive import files, terminal
+from derive.command_line import Command
+from wear.commands.arguments import Faults, add_scene
+
+if TYPE_CHECKING:
+    from wear.fitting.estimate import Fit
+    from wear.fitting.readings import FloatArray
+
+EXAMPLE = """\
+  wear fit readings.csv scene.toml --free bearing.wear_coefficient
+  wear fit readings.csv scene.toml --free bearing.wear_coefficient bearing.roughness_growth \\
+      --free-each bearing.roughness_mm --ignore load_g --forecast 1e5,1e6 -o fitted
+"""
+ERRORS = ("relative", "absolute")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare data, scene, what is free and what is asked."""
+    parser.add_argument(
+        "data",
+        metavar="DATA.csv",
+        help="columns cycles and wear_mm or wear_um; if need be standard_error_mm, specimen, and "
+        "entries of the scene such as load.value_mm",
+    )
+    add_scene(parser)
+    several: dict[str, Any] = {"nargs": "+", "default": [], "action": "extend"}
+    parser.add_argument("--free", metavar="KEY", help="estimate one value for all", **several)
+    parser.add_argument("--free-each", metavar="KEY", help="one for each specimen", **several)
+    parser.add_argument("--ignore", metavar="COLUMN", help="columns to drop", **several)
+    parser.add_argument(
+        "--error", default=ERRORS[0], help="relative (default) or absolute: what scatters"
+    )
+    parser.add_argument(
+        "--forecast", metavar="N,...", help="the wear after these cycles, with band"
+    )
+    parser.add_argument("--until-wear", metavar="MM", help="cycles to a wear depth, with band")
+    parser.add_argument(
+        "--posterior", metavar="STEPS", help="also sample the posterior, so many steps a walker"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="write fit.json, fitted.toml and the figures there"
+    )
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Fit, and print what came out."""
+    from wear.faults import UsageError
+    from wear.fitting.estimate import estimated, prepare
+    from wear.fitting.posterior import posterior
+    from wear.fitting.profiles import profiles
+
+    faults = Faults()
+    scene = faults.scene(options)
+    error = faults.choice("--error", options.error, ERRORS)
+    cycles = faults.cycles("--forecast", options.forecast) if options.forecast else ()
+    if options.forecast and 0 in cycles:
+        faults.add("--forecast: 0 is the fresh state; give cycles from 1 on")
+    wear, steps = None, 0.0
+    if options.until_wear is not None:
+        wear = faults.number("--until-wear", options.until_wear, 1e-30, 1e30)
+    if options.posterior is not None:
+        steps = faults.number("--posterior", options.posterior, 10, 1e6)
+        if not find_spec("emcee"):
+            faults.add("--posterior needs emcee: pip install 'derive-wear[fit]'")
+    if options.output is not None and (against := files.obstacle_to_folder(options.output)):
+        faults.add(f"--output: {against}")
+    problem = None
+    if scene is not None:
+        chosen = (options.data, scene, options.free, options.free_each, error, options.ignore)
+        try:
+            problem = prepare(*chosen)
+        except UsageError as fault:
+            faults.add(str(fault))
+    faults.stop_if_any()
+    assert problem is not None
+    found = profiles(estimated(problem))
+    samples = posterior(found, int(steps)) if steps else None
+    document = as_json(found, options.data, cycles, wear, samples)
+    if options.output is not None:
+        _write(Path(options.output), found, document, samples)
+    if options.json:
+        terminal.print_json(document)
+    else:
+        print("\n".join(_lines(document)))
+    for notice in document["notices"]:
+        terminal.complain("wear fit", notice)
+    return terminal.DONE
+
+
+def as_json(
+    found: Fit, data: str, cycles: tuple[int, ...], wear: float | None, samples: FloatArray | None
+) -> dict[str, Any]:
+    """Return the document of `wear fit --json`."""
+    import numpy as np
+
+    from wear.fitting import forecast
+    from wear.fitting.laws import alternatives
+
+    rows = zip(found.parameters, found.estimates, found.standard_errors, found.profiles,
+               strict=True)  # fmt: skip
+    parameters = [
+        {"key": p.key, "specimen": p.specimen or None, "estimate": estimate,
+         "standard_error": error, "interval_95": list(profile.interval)}
+        for p, estimate, error, profile in rows
+    ]  # fmt: skip
+    if samples is not None:
+        for row, ends in zip(parameters, np.quantile(samples, [0.025, 0.5, 0.975], axis=0).T,
+                             strict=True):  # fmt: skip
+            row |= {"posterior_median": ends[1], "posterior_95": [ends[0], ends[2]]}
+    others = alternatives(found.model.specimens, found.problem.residuals.relative)
+    own_forecast = forecast.forecast_rms_from_first_half(found)
+    notices = [f"the {law.law} law describes these data better (AICc)"
+               for law in others if law.aicc < found.aicc]  # fmt: skip
+    notices += [f"the {law.law} law foretells the last readings better, from the first half"
+                for law in others if law.forecast_rms < own_forecast]  # fmt: skip
+    if found.degrees_of_freedom == 0 and not found.problem.residuals.known:
+        notices.append("there are as many parameters as readings: the scatter is unknown")
+    return {
+        "scene": found.model.scene.title or found.model.scene.name,
+        "data": data,
+        "observations": len(found.residuals),
+        "specimens": len(found.model.specimens),
+        "parameters": parameters,
+        "correlation": found.correlation,
+        "rms": found.rms,
+        "chi_square": found.chi_square,
+        "degrees_of_freedom": found.degrees_of_freedom,
+        "aicc": found.aicc,
+        "forecast_rms": own_forecast,
+        "undetermined": [each._asdict() for each in forecast.undetermined(found)],
+        "forecast": [each._asdict() for each in forecast.forecast(found, cycles)] if cycles else [],
+        "cycles_to_wear": [each._asdict() for each in forecast.life(found, wear)] if wear else [],
+        "alternatives": [asdict(other) for other in others],
+        "next_reading": forecast.next_reading(found, max(cycles, default=None))._asdict(),
+        "notices": notices,
+    }
+
+
+def _lines(document: dict[str, Any]) -> Iterator[str]:
+    """Yield what came out, for a reader."""
+    yield document["scene"]
+    yield (f"{document['observations']} readings of "
+           f"{terminal.count(document['specimens'], 'specimen')}, rms {document['rms']:.3g}, "
+           f"AICc {document['aicc']:.1f}")  # fmt: skip
+    yield ""
+    sampled = "posterior_95" in document["parameters"][0]
+    yield terminal.table(
+        ["parameter", "estimate", "standard\nerror", "95 %\nfrom", "\nto",
+         *(["posterior\nfrom", "\nto"] if sampled else [])],
+        [[f"{row['key']} {row['specimen'] or ''}".strip(), f"{row['estimate']:.4g}",
+          _end(row["standard_error"], 2), *map(_end, row["interval_95"]),
+          *map(_end, row.get("posterior_95", []))]
+         for row in document["parameters"]],
+    )  # fmt: skip
+    for row in document["undetermined"]:
+        yield f"\n{row['sentence']}"
+    both = ("cycles", "bearing_wear_mm")
+    for (asked, answer), rows in ((both, document["forecast"]),
+                                  (both[::-1], document["cycles_to_wear"])):  # fmt: skip
+        if rows:
+            yield ""
+            yield terminal.table(
+                ["specimen", *(name.replace("_mm", "\n(mm)").replace("_", " ")
+                               for name in (asked, answer)), "95 %\nfrom", "\nto"],
+                [[row["specimen"], f"{row[asked]:.6g}", _end(row[answer]),
+                  *map(_end, row["interval_95"])] for row in rows],
+            )  # fmt: skip
+    yield ""
+    own = {"law": "this scene"} | {key: document[key] for key in ("rms", "aicc", "forecast_rms")}
+    yield terminal.table(
+        ["law", "rms", "AICc", "rms of the last reading,\nforetold from the first half"],
+        [[row["law"], f"{row['rms']:.3g}", f"{row['aicc']:.1f}", f"{row['forecast_rms']:.3g}"]
+         for row in (own, *document["alternatives"])],
+    )  # fmt: skip
+    after = document["next_reading"]
+    which = f"of specimen {after['specimen']} " * bool(after["specimen"])
+    yield (f"\nOne more reading {which}after {after['cycles']:.6g} cycles narrows the forecast "
+           f"most, to {after['band_of_forecast_times']:.0%} of its band.")  # fmt: skip
+
+
+def _end(value: float, digits: int = 4) -> str:
+    """Return a number, or that it is open.
+
+    >>> _end(0.12345), _end(-float("inf"))
+    ('0.1235', 'open')
+    """
+    return f"{value:.{digits}g}" if abs(value) < float("inf") else "open"
+
+
+def _write(folder: Path, found: Fit, document: dict[str, Any], samples: FloatArray | None) -> None:
+    """Write the document, the scenes with the estimates, and the figures, all or none."""
+    from wear.figure_style import encoded
+    from wear.fitting import figures
+
+    drawn = {"data.svg": figures.data_and_band(found), "profiles.svg": figures.profiles(found)}
+    if samples is not None:
+        drawn["corner.svg"] = figures.corner(found, samples)
+    with files.replacing_in(folder) as made:
+        text = json.dumps(terminal.plain(document), indent=2, allow_nan=False)
+        made.joinpath("fit.json").write_text(text + "\n", encoding="utf-8")
+        scenes = found.model.scenes(found.theta)
+        for place, (specimen, scene) in enumerate(zip(found.model.specimens, scenes, strict=True)):
+            safe = "".join(c if c.isalnum() or c in "-_" else "_" for c in specimen.name)
+            name = f"fitted-{safe or place + 1}.toml" if len(scenes) > 1 else "fitted.toml"
+            made.joinpath(name).write_text(scene.to_toml(), encoding="utf-8")
+        for name, figure in drawn.items():
+            made.joinpath(name).write_bytes(encoded(figure, ".svg"))
+
+
+COMMAND = Command(
+    "fit", "parameters of a scene from measured wear", EXAMPLE, add_arguments, execute
+)

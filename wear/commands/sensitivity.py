@@ -1,0 +1,142 @@
+"""`wear sensitivity`: how the wear depends on every number of the scene."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from derive import files, terminal
+from derive.command_line import Command
+from wear.commands.arguments import Faults, add_scene
+
+if TYPE_CHECKING:
+    from wear.sensitivities import Sensitivities
+
+EXAMPLE = """\
+  wear sensitivity section4                             elasticities, a table
+  wear sensitivity section4 --cycles 1,9000,1e8 --json  with derivatives and error estimates
+  wear sensitivity section4 --until-wear 1e-3           of the cycles to a wear depth, too
+  wear sensitivity scene.toml -o tornado.png            a tornado diagram
+"""
+PICTURES = (".pdf", ".png", ".svg")
+RESULTS = (".csv", *PICTURES)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the scene, the numbers of cycles and the file."""
+    add_scene(parser)
+    parser.add_argument(
+        "--cycles",
+        metavar="N,...",
+        default="1,9000,100000000",
+        help="numbers of cycles (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--until-wear", metavar="MM", help="also after as many cycles as take it to this wear depth"
+    )
+    parser.add_argument(
+        "--rtol",
+        default="1e-10",
+        help="requested relative accuracy of the wear (default: %(default)s)",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="write a .csv file, or draw a tornado diagram: .png, .svg, .pdf",
+    )
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Print how the wear depends on the numbers of a scene."""
+    from wear.sensitivities import sensitivity
+
+    faults = Faults()
+    scene = faults.scene(options)
+    cycles = faults.cycles("--cycles", options.cycles)
+    rtol = faults.number("--rtol", options.rtol, 1e-13, 0.1)
+    depth = None
+    if options.until_wear is not None:
+        depth = faults.number("--until-wear", options.until_wear, 1e-30, 1e30)
+    output = None if options.output is None else Path(options.output)
+    if output is not None:
+        if output.suffix not in RESULTS:
+            faults.add(f"--output: {output}: end it in {', '.join(RESULTS)}")
+        elif problem := files.obstacle(output):
+            faults.add(f"--output: {problem}")
+    faults.stop_if_any()
+    assert scene is not None
+    if depth is not None:
+        from wear.life import cycles_until
+
+        life = cycles_until(scene, depth, rtol)
+        if life.reached[0].value != "counted":
+            faults.add(f"--until-wear: {depth:g} mm: {life.reached[0].value}, no derivative")
+            faults.stop_if_any()
+        cycles = (*cycles, int(life.cycles[0]))
+    found = sensitivity(scene, cycles, rtol)
+    if options.json:
+        terminal.print_json(found.as_json())
+    elif output is None:
+        print("\n".join([*_lines(found), *([] if depth is None else _lines_of_life(found, depth))]))
+    if output is not None:
+        files.write_atomically(output, _written(found, output.suffix))
+    for notice in found.notices:
+        terminal.complain("wear sensitivity", notice)
+    known = [bool(np.isfinite(column).all()) for column in found.error.T]
+    if not all(known):
+        late = ", ".join(str(n) for n, yes in zip(found.cycles, known, strict=True) if not yes)
+        terminal.complain("wear sensitivity", f"not known after {late} cycles")
+        return terminal.INACCURATE
+    return terminal.DONE
+
+
+def _lines(found: Sensitivities) -> Iterator[str]:
+    """Yield the elasticities as a table, and what they are worth."""
+    width = max(len(key) for key in found.keys)
+    yield "change of the wear in % for 1 % more of each number (elasticity)"
+    yield f"{'cycles':{width}} {'':>12}" + "".join(f"{n:>14.6g}" for n in found.cycles)
+    yield f"{'bearing wear, mm':{width}} {'':>12}" + "".join(f"{u:>14.6e}" for u in found.wear_mm)
+    for key, value, row in zip(found.keys, found.values, found.elasticity, strict=True):
+        shown = "".join(f"{'-':>14}" if np.isnan(e) else f"{e:>14.6f}" for e in row)
+        yield f"{key:{width}} {value:>12.6g}{shown}"
+    yield f"largest estimated error: {np.nanmax(found.elasticity_error, initial=0.0):.0e}"
+
+
+def _lines_of_life(found: Sensitivities, depth: float) -> Iterator[str]:
+    """Yield the elasticities of the cycles to a wear depth, the last of all cycles."""
+    width = max(len(key) for key in found.keys)
+    cycles = found.cycles[-1]
+    yield f"\nthe same of the {cycles} cycles to {depth:g} mm"
+    for key, value, row in zip(found.keys, found.values, found.cycles_derivative, strict=True):
+        shown = f"{row[-1] * value / cycles:>14.6f}" if value else f"{'-':>14}"
+        yield f"{key:{width}} {value:>12.6g}{shown}"
+
+
+def _written(found: Sensitivities, suffix: str) -> bytes:
+    """Return the file with this suffix."""
+    if suffix in PICTURES:
+        from wear.figure_style import encoded
+        from wear.figures import tornado
+
+        labels = [f"$N$ = {n:.6g}".replace("e+0", "e").replace("e+", "e") for n in found.cycles]
+        return encoded(tornado(found.keys, found.elasticity, labels), suffix)
+    rows = ["key,value,cycles,bearing_wear_mm,derivative,elasticity,error_estimate"]
+    for key, value, *each in zip(
+        found.keys, found.values, found.derivative, found.elasticity, found.elasticity_error,
+        strict=True,
+    ):  # fmt: skip
+        for n, wear, *numbers in zip(found.cycles, found.wear_mm, *each, strict=True):
+            row = (float(value), n, float(wear), *(float(number) for number in numbers))
+            rows.append(",".join([key, *map(repr, row)]))
+    return ("\n".join(rows) + "\n").encode()
+
+
+COMMAND = Command(
+    "sensitivity", "how the wear depends on every number of the scene", EXAMPLE, add_arguments,
+    execute,
+)  # fmt: skip

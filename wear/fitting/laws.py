@@ -1,0 +1,90 @@
+"""Simpler laws that the data are held against: constant Archard wear, a power, a logarithm.
+
+Each has a scale for every specimen and, but for Archard's, one number that all share.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from wear.fitting.readings import FloatArray, Specimen
+from wear.fitting.residuals import Residuals, rms
+
+LAWS: dict[str, tuple[Callable[[FloatArray, float], FloatArray], tuple[float, ...]]] = {
+    "archard": (lambda cycles, _: np.log(cycles), ()),
+    "power": (lambda cycles, power: power * np.log(cycles), (0.5,)),
+    "logarithm": (lambda cycles, rate: np.log(np.log1p(cycles * np.exp(rate))), (-8.0, -2.0, 4.0)),
+}
+"""The logarithm of each law but for its scales, and where the search for the shared number starts:
+the power, or the logarithm of a rate."""
+
+
+LOST = 1e6  # residual of a law that overflows
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """How a law does: root mean square of its residuals, AICc, and the root mean square error of
+    ln(wear) where the first half of the readings of each specimen foretells the last."""
+
+    law: str
+    rms: float
+    aicc: float
+    forecast_rms: float
+
+
+def alternatives(specimens: Sequence[Specimen], relative: bool) -> list[Alternative]:
+    """Return how each law does on these specimens."""
+    early = first_half(specimens)
+    residuals = Residuals.of(specimens, relative)
+    found = []
+    for law, (_, starts) in LAWS.items():
+        levels = _fitted(law, specimens, relative)([s.cycles for s in specimens])
+        off = residuals(np.concatenate(levels))
+        last = _fitted(law, early, relative)([s.cycles[-1:] for s in specimens])
+        parameters = len(specimens) + bool(starts)
+        foretold = forecast_rms(specimens, np.concatenate(last))
+        found.append(Alternative(law, rms(off), residuals.aicc(off, parameters), foretold))
+    return found
+
+
+def first_half(specimens: Sequence[Specimen]) -> list[Specimen]:
+    """Return the specimens with the first half of their readings."""
+    return [specimen.first((len(specimen.cycles) + 1) // 2) for specimen in specimens]
+
+
+def forecast_rms(specimens: Sequence[Specimen], log_wear: FloatArray) -> float:
+    """Return how far forecasts (specimens,) of ln(wear) are from the last readings, root mean
+    square; a wear that was read as zero is left out."""
+    last = np.array([specimen.wear_mm[-1] for specimen in specimens])
+    return rms((log_wear - np.log(np.where(last > 0.0, last, np.nan)))[last > 0.0])
+
+
+def _fitted(
+    law: str, specimens: Sequence[Specimen], relative: bool
+) -> Callable[[Sequence[FloatArray]], list[FloatArray]]:
+    """Return the logarithm of the wear of every specimen by a law, fitted by least squares, as a
+    function of their numbers of cycles."""
+    from scipy.optimize import least_squares
+
+    shape, starts = LAWS[law]
+    residuals, cycles = Residuals.of(specimens, relative), [s.cycles for s in specimens]
+    wear = [np.log(np.mean(s.wear_mm)) for s in specimens]
+
+    def levels(x: FloatArray, cycles: Sequence[FloatArray]) -> list[FloatArray]:
+        shared = x[-1] if starts else 0.0
+        return [scale + shape(own, shared) for scale, own in zip(x, cycles, strict=False)]
+
+    def off(x: FloatArray) -> FloatArray:
+        return np.nan_to_num(residuals(np.concatenate(levels(x, cycles))), posinf=LOST)
+
+    tried = []
+    for start in starts or (0.0,):
+        scales = [u - np.mean(shape(own, start)) for u, own in zip(wear, cycles, strict=True)]
+        with np.errstate(all="ignore"):
+            tried.append(least_squares(off, [*scales, *((start,) if starts else ())]))
+    x = min(tried, key=lambda each: each.cost).x
+    return lambda cycles: levels(x, cycles)

@@ -1,0 +1,209 @@
+"""The wear of all specimens as a function of the free parameters, with its exact derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wear.faults import SceneError, UsageError
+from wear.fitting.readings import FloatArray, Specimen
+
+if TYPE_CHECKING:
+    from wear.scene import Scene
+
+RTOL = 1e-7  # of the wear: far below any scatter
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A free entry of the scene, of one specimen or (empty name) of all; where only positive
+    numbers make a scene, its logarithm is estimated."""
+
+    key: str
+    specimen: str
+    positive: bool
+
+    def __str__(self) -> str:
+        return f"{self.key} ({self.specimen})" if self.specimen else self.key
+
+    def value(self, theta: FloatArray) -> FloatArray:
+        """Return the entry in the unit of its key."""
+        return np.exp(theta) if self.positive else np.asarray(theta)
+
+    def theta(self, value: float) -> float:
+        """Return what is estimated."""
+        return float(np.log(value)) if self.positive else value
+
+
+@dataclass(frozen=True)
+class Model:
+    """Specimens, the scene they share, and what is free in it.
+
+    A point `theta` (p,) holds what is estimated of each parameter.
+    """
+
+    scene: Scene
+    specimens: tuple[Specimen, ...]
+    parameters: tuple[Parameter, ...]
+
+    @classmethod
+    def of(
+        cls,
+        scene: Scene,
+        specimens: tuple[Specimen, ...],
+        free: Sequence[str],
+        free_each: Sequence[str],
+    ) -> Model:
+        """Return the model in which some keys are free for all specimens, some for each."""
+        wanted = [(key, "") for key in free]
+        wanted += [(key, specimen.name) for key in free_each for specimen in specimens]
+        parameters = (Parameter(key, name, is_positive(scene, key)) for key, name in wanted)
+        return cls(scene, specimens, tuple(parameters))
+
+    @property
+    def keys(self) -> list[str]:
+        """Return the keys that are free, each once."""
+        return list(dict.fromkeys(parameter.key for parameter in self.parameters))
+
+    @property
+    def cycles(self) -> list[FloatArray]:
+        """Return the numbers of cycles at which each specimen was read."""
+        return [specimen.cycles for specimen in self.specimens]
+
+    def start(self) -> FloatArray:
+        """Return the point (p,) that the scene itself is."""
+        return np.array([p.theta(given(self.scene, p.key) or 0.0) for p in self.parameters])
+
+    def scale(self, theta: FloatArray) -> FloatArray:
+        """Return the size (p,) of every parameter: 1 for a logarithm, else what it is at a point
+        or in the scene, whichever is larger."""
+        sizes = np.maximum(np.abs(theta), np.abs(self.start()))
+        positive = [parameter.positive for parameter in self.parameters]
+        return np.where(positive | (sizes == 0.0), 1.0, sizes)
+
+    def values(self, theta: FloatArray) -> list[float]:
+        """Return the parameters themselves, in the units of their keys."""
+        return [float(p.value(x)) for p, x in zip(self.parameters, theta, strict=True)]
+
+    def scenes(self, theta: FloatArray) -> list[Scene]:
+        """Return the scene of every specimen; a `SceneError` if the point is in no domain."""
+        entries = list(zip(self.parameters, self.values(theta), strict=True))
+        return [
+            self.scene.with_(
+                dict(specimen.changes)
+                | {p.key: value for p, value in entries if p.specimen in ("", specimen.name)}
+            )
+            for specimen in self.specimens
+        ]
+
+    def log_wear(
+        self, points: FloatArray, cycles: Sequence[FloatArray]
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the logarithm of the wear (m, n) at many points (m, p), and its derivatives with
+        respect to theta (m, n, p): of every specimen after its cycles, one after the other.
+
+        What has no scene, or no wear, is no number.
+        """
+        wanted, keys = np.unique(np.concatenate(cycles)), self.keys
+        scenes: dict[int, list[Scene]] = {}
+        for place, theta in enumerate(points):
+            try:
+                scenes[place] = self.scenes(theta)
+            except (SceneError, OverflowError):
+                continue
+        level = np.full((len(points), sum(map(len, cycles))), np.nan)
+        slope = np.zeros((*level.shape, len(self.parameters)))
+        if not scenes:
+            return level, slope
+        there, many = list(scenes), len(self.specimens)
+        wear, derivative = _gradients([s for own in scenes.values() for s in own], keys, wanted)
+        wear = wear.reshape(len(there), many, -1)
+        derivative = derivative.reshape(len(there), many, len(keys), -1)
+        scale = np.array(
+            [p.value(points[there, i]) if p.positive else np.ones(len(there))
+             for i, p in enumerate(self.parameters)]
+        )  # fmt: skip
+        end = 0
+        with np.errstate(all="ignore"):
+            for at, (specimen, own) in enumerate(zip(self.specimens, cycles, strict=True)):
+                begin, end = end, end + len(own)
+                column = np.searchsorted(wanted, own)
+                u = wear[:, at, column]
+                level[there, begin:end] = np.log(u)
+                for i, parameter in enumerate(self.parameters):
+                    if parameter.specimen in ("", specimen.name):
+                        own_slope = derivative[:, at, keys.index(parameter.key)][:, column] / u
+                        slope[there, begin:end, i] = scale[i][:, None] * own_slope
+        return level, slope
+
+
+def _gradients(
+    scenes: Sequence[Scene], keys: Sequence[str], cycles: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the wear (s, n) of scenes and its derivatives (s, k, n); a scene that is beyond the
+    engine has neither, and does not spoil the others."""
+    from wear.sensitivities import gradients
+
+    try:
+        return gradients(scenes, keys, cycles, RTOL)[:2]
+    except UsageError:
+        raise
+    except (ArithmeticError, ValueError):  # LinAlgError is a ValueError
+        if len(scenes) == 1:
+            shape = (1, len(keys), len(cycles))
+            return np.full((1, len(cycles)), np.nan), np.full(shape, np.nan)
+    parts = [_gradients([scene], keys, cycles) for scene in scenes]
+    return np.concatenate([u for u, _ in parts]), np.concatenate([d for _, d in parts])
+
+
+def given(scene: Scene, key: str) -> float | None:
+    """Return the number that a scene has for a key, None if its wear depends on none such."""
+    from wear.parameters import parameters_of
+
+    return parameters_of(scene).get(key)
+
+
+def is_positive(scene: Scene, key: str) -> bool:
+    """Return whether only positive numbers make a scene: the sign is tried."""
+    return not _may_change(scene, key, -abs(given(scene, key) or 1.0))
+
+
+def _may_change(scene: Scene, key: str, value: float) -> bool:
+    try:
+        scene.with_({key: value})
+    except SceneError:
+        return False
+    return True
+
+
+def faults(
+    scene: Scene, specimens: Sequence[Specimen], free: Sequence[str], free_each: Sequence[str]
+) -> Iterator[str]:
+    """Yield what is wrong with the choice of what is free."""
+    keys = [*free, *free_each]
+    if not keys:
+        yield "free: name at least one key"
+    for key in dict.fromkeys(keys):
+        value = given(scene, key)
+        if keys.count(key) > 1:
+            yield f"free: {key} is named twice"
+        if any(key in specimen.changes for specimen in specimens):
+            yield f"free: {key} is given by the data"
+        if value is None:
+            yield f"free: {key}: the wear of this scene depends on no such number"
+        elif not _may_change(scene, key, value):
+            yield f"free: {key}: an entry of a list cannot be free"
+        elif value == 0.0 and is_positive(scene, key):
+            yield f"free: {key} is 0 in the scene, and is sought as a factor: give it a start"
+    for specimen in specimens:
+        try:
+            scene.with_(dict(specimen.changes))
+        except SceneError as fault:
+            yield f"specimen {specimen.name}: {fault}"
+    parameters = len(free) + len(free_each) * len(specimens)
+    readings = sum(len(specimen.cycles) for specimen in specimens)
+    if specimens and readings < parameters:
+        yield f"{readings} readings are fewer than {parameters} parameters"

@@ -1,0 +1,73 @@
+"""Posterior of the parameters by an ensemble sampler whose walkers are one batch of scenes."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wear.faults import UsageError
+from wear.fitting.estimate import FARTHEST, Fit
+from wear.fitting.readings import FloatArray
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+WALKERS = 4  # a parameter, and no fewer than LEAST_WALKERS
+LEAST_WALKERS = 32
+BURN_IN = 0.3  # share of the steps that is dropped
+BEGIN = 0.3  # standard errors, and sizes at most, around the estimate where walkers begin
+
+
+def posterior(found: Fit, steps: int, seed: int = 0) -> FloatArray:
+    """Return samples (m, p) of the posterior, in the units of the keys.
+
+    Priors are flat in what is estimated (logarithms of positive parameters) up to factors of e^7,
+    or seven times its size; an unknown scatter has Jeffreys' prior, and is integrated out (A.
+    Gelman et al., *Bayesian Data Analysis*, CRC 2013, chapter 3). The sampler is that of D.
+    Foreman-Mackey et al., PASP 125, 306 (2013).
+
+    Parameters
+    ----------
+    found
+        The fit, which gives the walkers their beginnings.
+    steps
+        Steps of every walker; the first 30 % are dropped.
+    seed
+        Of the random numbers.
+
+    Raises
+    ------
+    UsageError
+        if emcee is not installed.
+    """
+    if not find_spec("emcee"):
+        raise UsageError("a posterior needs emcee: pip install 'derive-wear[fit]'")
+    import emcee
+
+    def log_density(points: FloatArray) -> FloatArray:
+        inside = np.all(np.abs(points - found.theta) < FARTHEST * found.scale, axis=1)
+        density = np.full(len(points), -np.inf)
+        if inside.any():
+            square = found.problem.cost(points[inside])
+            n = len(found.residuals)
+            known = found.problem.residuals.known
+            density[inside] = -square / 2.0 if known else -n / 2.0 * np.log(square)
+        return density
+
+    random = np.random.default_rng(seed)
+    walkers = max(WALKERS * len(found.theta), LEAST_WALKERS)
+    sampler = emcee.EnsembleSampler(walkers, len(found.theta), log_density, vectorize=True)
+    sampler.random_state = np.random.RandomState(seed).get_state()
+    sampler.run_mcmc(_beginnings(found, walkers, random), steps)
+    samples = sampler.get_chain(discard=int(BURN_IN * steps), flat=True)
+    columns = zip(found.parameters, samples.T, strict=True)
+    return np.column_stack([parameter.value(column) for parameter, column in columns])
+
+
+def _beginnings(found: Fit, walkers: int, random: Generator) -> FloatArray:
+    """Return where the walkers begin, along the directions that the data see."""
+    errors, rows = found.directions
+    steps = np.minimum(BEGIN * errors, BEGIN) * random.standard_normal((walkers, len(errors)))
+    return np.asarray(found.theta + steps @ rows * found.scale)

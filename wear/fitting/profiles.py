@@ -1,0 +1,143 @@
+"""Profile likelihoods: a parameter is moved, all others follow.
+
+The ends of all intervals are sought side by side, so that each round is one batch of scenes. What
+each specimen has for itself beside shared parameters is not moved: its interval is that of the
+linearised model.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from wear.fitting.estimate import FARTHEST, ROUGHLY, Fit, Profile
+from wear.fitting.readings import FloatArray
+
+FLAT = 0.02  # of the slope that the root of the deviance has at the estimate: it rises no more
+NEAR = 0.01  # of the quantile: how closely the end of an interval is sought
+FIRST, FARTHER = 1.0, 2.5  # e-folds, or sizes, of the first step; times as far for the next
+MOST_ROUNDS, MOST_STEPS = 8, 15
+MOST_DESCENTS = 3  # where a profile finds a better estimate
+BETTER = 1e-4  # of the sum of squares: what is worth another descent
+
+
+@dataclass
+class _End:
+    """One end of an interval: what is moved, how far it went, the root of the deviance there."""
+
+    index: int
+    side: float
+    error: float  # standard error of the parameter
+    farthest: float
+    path: FloatArray  # how all parameters move with it
+    step: float  # the next
+    inner: float = 0.0
+    below: float = 0.0  # root of the deviance at `inner`
+    outer: float = np.inf
+    above: float = np.inf
+    done: bool = False
+    seen: dict[float, float] = field(default_factory=dict)
+
+    def learn(self, point: FloatArray, root: float, limit: float) -> None:
+        """Take in the root of the deviance at the step, (p,) away from the estimate, and choose
+        the next."""
+        self.seen[self.side * self.step] = root
+        if root < limit:
+            self.path = point / (self.side * self.step)
+            flat = root - self.below < FLAT * (self.step - self.inner) / self.error
+            self.inner, self.below = self.step, root
+            if np.isinf(self.outer):
+                self.done = flat or self.step >= self.farthest
+                farther = self.step * min(FARTHER, 1.1 * limit / max(root, 1e-9))
+                self.step = min(farther, self.farthest)
+                return
+        else:
+            self.outer, self.above = self.step, root
+        self.done = abs(root / limit - 1.0) < NEAR and np.isfinite(self.outer)
+        share = (limit - self.below) / (min(self.above, 3.0 * limit) - self.below)
+        self.step = self.inner + (self.outer - self.inner) * min(share, 0.95)
+
+
+def profiles(found: Fit) -> Fit:
+    """Return the fit with its profile likelihoods; where they come upon a better estimate, with
+    that."""
+    if not np.isfinite(found.scatter):
+        nothing = np.array([0.0])
+        opened = (
+            Profile(np.array([value]), nothing, (-np.inf, np.inf)) for value in found.estimates
+        )
+        return replace(found, profiles=tuple(opened))
+    for _ in range(MOST_DESCENTS):
+        ends, best, cost = _followed(found)
+        if not cost < found.chi_square * (1.0 - BETTER):
+            break
+        found = replace(found, theta=found.problem.settle(best, _box(found)))
+    made = {end.index: _profile(found, end, high)
+            for end, high in zip(ends[::2], ends[1::2], strict=True)}  # fmt: skip
+    indices = range(len(found.theta))
+    return replace(found, profiles=tuple(made.get(i) or _linear(found, i) for i in indices))
+
+
+def moved(found: Fit) -> list[int]:
+    """Return which parameters have a profile: the shared ones, or all if none is shared."""
+    shared = [i for i, parameter in enumerate(found.parameters) if not parameter.specimen]
+    return shared or list(range(len(found.parameters)))
+
+
+def _followed(found: Fit) -> tuple[list[_End], FloatArray, float]:
+    """Return the ends, low and high in turn, and the best point seen with its sum of squares."""
+    errors = found.spread(np.eye(len(found.theta)))
+    covariance = found.covariance
+    limit, best, least = found.quantile, found.theta, found.chi_square
+    ends = []
+    for index in moved(found):
+        error = float(errors[index])
+        for side in (-1.0, 1.0):
+            farthest = FARTHEST * float(found.scale[index])
+            step = min(limit * error, FIRST * float(found.scale[index]))
+            path = covariance[:, index] / covariance[index, index]
+            ends.append(_End(index, side, error, farthest, path, step))
+    for _ in range(MOST_ROUNDS):
+        active = [end for end in ends if not end.done]
+        if not active:
+            break
+        starts = np.array([found.theta + end.side * end.step * end.path for end in active])
+        fixed = np.arange(len(found.theta)) == np.array([[end.index] for end in active])
+        points, costs = found.problem.follow(starts, fixed, _box(found), ROUGHLY, MOST_STEPS)
+        for end, point, cost in zip(active, points, costs.tolist(), strict=True):
+            if cost < least:
+                best, least = point, cost
+            root = float(np.sqrt(max(cost - found.chi_square, 0.0))) / found.scatter
+            end.learn(point - found.theta, root, limit)
+    return ends, best, least
+
+
+def _box(found: Fit) -> tuple[FloatArray, FloatArray]:
+    """Return where the other parameters may follow."""
+    return found.theta, FARTHEST * found.scale
+
+
+def _linear(found: Fit, index: int) -> Profile:
+    """Return the profile of a parameter in the linearised model."""
+    parameter, limit = found.parameters[index], found.quantile
+    width = limit * float(found.spread(np.eye(len(found.theta))[index]))
+    steps = np.array([-width, 0.0, width])
+    values = parameter.value(found.theta[index] + steps)
+    ends = values[[0, 2]] if width < FARTHEST * found.scale[index] else np.array([-np.inf, np.inf])
+    return Profile(values, np.array([limit, 0.0, limit]), (float(ends[0]), float(ends[1])))
+
+
+def _profile(found: Fit, low: _End, high: _End) -> Profile:
+    """Return the profile of a parameter, in its own unit."""
+    parameter, theta = found.parameters[low.index], found.theta[low.index]
+    seen = {0.0: 0.0} | low.seen | high.seen
+    steps = np.array(sorted(seen))
+    interval = [
+        float(parameter.value(theta + end.side * end.outer))
+        if np.isfinite(end.outer)
+        else end.side * np.inf
+        for end in (low, high)
+    ]
+    roots = np.array([seen[step] for step in steps.tolist()])
+    return Profile(parameter.value(theta + steps), roots, (interval[0], interval[1]))

@@ -1,0 +1,116 @@
+"""The count of cycles between two grazing wears, or towards the wear at which contact is lost."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.loss_of_contact.increments import Coordinate
+from wear.numerics.gauss import FloatArray
+from wear.numerics.tolerances import ROUNDOFF
+from wear.orbit.abel import Panels
+from wear.orbit.iterates import Cells, Iterates
+
+NO_DIGIT = 0.1  # relative error
+RESOLVABLE = 1e5  # times the uncertainty of the limit wear
+TO_ROUNDOFF = 0.25 * ROUNDOFF  # of the wear: the distance at which the count ends
+
+
+class LimitWear(NamedTuple):
+    """The limit `wear` (mm), at which the peak of the load just fails to make contact, with its
+    `uncertainty` (mm) by rounding."""
+
+    wear: float
+    uncertainty: float
+
+    @property
+    def nearest(self) -> float:
+        """Return the smallest distance (mm) from it at which cycles are integrated."""
+        return RESOLVABLE * self.uncertainty
+
+
+class TabulatedCount(NamedTuple):
+    """The count n of cycles as a function of z, a `coordinate` of the wear, by the density on
+    `panels`; its estimated error in cycles where each part of the `table` starts and where the last
+    one ends; the `limit_wear` that wear tends to at the end of the table, if any."""
+
+    coordinate: Coordinate
+    table: Cells
+    panels: Panels
+    count_error: FloatArray
+    limit_wear: LimitWear | None
+    limit: float
+
+    @property
+    def in_z(self) -> Iterates:
+        """Return the same count, of z as the state."""
+        begin, none, edges = self.table.u[:1][None], np.zeros((1, 1)), np.array([[0.0, 1.0]])
+        limit = np.array([np.inf])
+        return Iterates(begin, none, self.table, self.panels, self.count_error[None], limit, edges)
+
+    @property
+    def rests(self) -> bool:
+        """Return whether its last cycle adds nothing that double precision resolves."""
+        return self.limit_wear is not None
+
+    @property
+    def first_increment(self) -> float:
+        """Return the wear (mm) that its first cycle adds."""
+        z, rate = self.table.u[:1], self.table.first_rate[:1]
+        return float(self.coordinate.rate(z, rate)[0])
+
+    @property
+    def last_wear(self) -> float:
+        """Return the wear (mm) up to which it counts."""
+        if self.limit_wear:
+            return self.limit_wear.wear
+        return float(self.coordinate.wear(self.table.ends[-1]))
+
+    @property
+    def reach(self) -> float:
+        """Return how many cycles it counts."""
+        return self.table.last_cycles
+
+    @property
+    def ran(self) -> float:
+        """Return how many whole cycles it counts; to the limit wear, up to rounding."""
+        return float(np.ceil(self.reach) if self.limit_wear else np.floor(self.reach))
+
+    @property
+    def uncertainty(self) -> float:
+        """Return the estimated error of the last count, in cycles."""
+        return float(self.count_error[-1])
+
+    def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after `cycles`, and its estimated relative error."""
+        z, rate = self.table.state_after(cycles)
+        missed = rate * self._error_at(cycles)  # of z
+        if self.limit_wear:
+            distance = np.where(cycles < self.reach, 1.0 / z, 0.0)
+            wear = self.limit_wear.wear - distance
+            error = self.limit_wear.uncertainty + np.minimum(missed * distance, 1.0) / z
+            return wear, error / wear
+        wear = self.coordinate.wear(z)
+        error = self.coordinate.rate(z, missed) / np.where(wear > 0.0, wear, 1.0)
+        return wear, np.where((error < NO_DIGIT) & (cycles <= self.reach), error, np.inf)
+
+    def cycles_until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the whole cycles after which each wear (mm) is reached, infinite beyond the end,
+        and the error of the count in cycles."""
+        if self.limit_wear:
+            within = self.limit_wear.wear - wear > TO_ROUNDOFF * self.limit_wear.wear
+        else:
+            within = wear <= self.last_wear
+        count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
+        z = np.clip(self.coordinate.at(wear[within]), self.table.u[0], self.table.ends[-1])
+        found = self.table.cycles_until(z)
+        missed = self._error_at(found)
+        if self.limit_wear:
+            missed += self.limit_wear.uncertainty * z**2 / self.table.state_after(found)[1]
+        # A wear that is reached at the very end of a cycle must not ask for another one.
+        count[within] = np.maximum(np.ceil(found - missed), 0.0)
+        error[within] = 2 * missed
+        return count, error
+
+    def _error_at(self, cycles: FloatArray) -> FloatArray:
+        ends = np.append(self.table.cycles, self.table.last_cycles)
+        return np.interp(cycles, ends, self.count_error)

@@ -1,0 +1,391 @@
+"""The cycle count with loss of contact: from one grazing wear to the next, and to the last.
+
+Between two grazing wears (`wear.loss_of_contact.grazing`) the increments of a cycle are series
+(`wear.loss_of_contact.increments`), of which Abel's equation makes the count where cycles are many;
+the few cycles next to a grazing wear are taken one by one, from the series as long as they do not
+pass it. Only the cycle that passes is integrated by itself, and the last ones before wear stops.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.load import Load
+from wear.loss_of_contact.arrest import TO_ROUNDOFF, LimitWear, TabulatedCount
+from wear.loss_of_contact.grazing import limit_wear_of
+from wear.loss_of_contact.increments import Increments, Span, fitted, frame_of, middle
+from wear.loss_of_contact.period_map import switched_period_map
+from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
+from wear.loss_of_contact.roundoff import roundoff, roundoff_of_cycles
+from wear.loss_of_contact.stage import Integrated, Stage, Stages, UnresolvedStage
+from wear.model import Model
+from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
+from wear.numerics.gauss import FloatArray
+from wear.numerics.tolerances import ROUNDOFF, TINY
+from wear.orbit import abel
+from wear.orbit.iterates import Cells, Iterates, cells
+from wear.orbit.panels import CHECKS
+from wear.orbit.period_map import Settings
+from wear.orbit.segments import Cost
+from wear.orbit.transient import SAFETY
+
+FEW = 4.0  # cycles to the next grazing wear: they are integrated
+CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
+MOST_WALKED = 250  # cycles on a series that are taken one by one
+LOOKS = 65  # at a series, for how many cycles it takes
+KEPT = 5  # cycles integrated one by one even when there is no time left
+MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
+MOST_CUTS = 16  # rounds of cutting panels in two
+ENOUGH = 1.5  # cycles per coefficient of a panel
+APART = 1e-9  # of roughness and wear: a small difference
+MOST_AT_ONCE = 1000
+VIOLENT = 0.5  # of the wear and its scale: increments that have no series
+MOST_POOR = 8  # times that panels may hold too few cycles
+COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
+
+
+@np.errstate(all="ignore")
+def counted_stages(
+    model: Model,
+    load: Load,
+    cycles: float,
+    rtol: float,
+    start: float,
+    deadline: float = np.inf,
+    begun_with: float = 0.0,
+) -> Stages:
+    """Count from the wear `start` (mm), known up to `begun_with`, up to `cycles`, or until wear
+    ends.
+
+    After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
+    """
+    cycle = switched_period_map(model, load)
+    problem = problem_of(cycle, rtol, deadline)
+    runs = _Count(problem, start)
+    while not runs.over and (runs.done < cycles or not runs.parts):
+        runs.go(max(cycles - runs.done, 1.0))
+    return _judged(problem, runs, begun_with, cycles)
+
+
+class Single(NamedTuple):
+    """Cycles one by one: the `wear` (mm) before and after each and what each has `added` (mm), by
+    a `series`; integrated if there is none."""
+
+    wear: list[float]
+    added: list[float]
+    series: Increments | None
+
+    @property
+    def ran(self) -> float:
+        """Return how many cycles."""
+        return float(len(self.added))
+
+    def missed(self) -> tuple[FloatArray, FloatArray]:
+        """Return what each cycle may have missed (mm), and its derivative."""
+        assert self.series is not None
+        wear, added = np.array(self.wear), np.array(self.added)
+        misfit = self.series.missed(self.series.coordinate.at(wear[:-1]))
+        slope = np.diff(added, append=added[-1]) / (added + TINY)
+        return misfit * added, np.abs(1 + slope)
+
+
+class Counted(NamedTuple):
+    """A count by Abel's equation on `panels` of z, with its `residual` on each and the `series` of
+    the increments; to the `limit_wear`, if it goes so far."""
+
+    table: Cells
+    panels: abel.Panels
+    residual: FloatArray
+    series: Increments
+    limit_wear: LimitWear | None
+    line: bool
+
+    @property
+    def ran(self) -> float:
+        """Return how many whole cycles."""
+        last = self.table.last_cycles
+        return float(np.ceil(last) if self.limit_wear else np.floor(last))
+
+    def judged(self, problem: Problem) -> TabulatedCount:
+        """Return the count with its estimated error: of the increments, of Abel's equation, at
+        junctions of panels, by rounding."""
+        table, panels = self.table, self.panels
+        coordinate = self.series.coordinate
+        parts = len(table.length) // len(panels.series)
+        ends = self.series.missed(np.append(table.u, table.ends[-1]))
+        misfit = np.maximum(ends[1:], ends[:-1])
+        if self.line:
+            misfit[table.u >= self.series.frame.starts[-1]] = 0.0  # there the residual says it all
+        missed = SAFETY * (np.repeat(self.residual, parts) + misfit) * table.gain + table.missed
+        if len(panels.series) > 1:
+            apart = abel.matching_defect(panels.take(slice(-1)), panels.take(slice(1, None)))
+            missed[parts - 1 : -1 : parts] += SAFETY * apart
+        wear = coordinate.wear(np.append(table.u, table.ends[-1]))
+        rounding = roundoff(problem.model, problem.load, wear)
+        terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
+        of_density = ROUNDOFF * np.repeat(terms, parts)
+        missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
+        error = np.concatenate([[0.0], np.cumsum(missed)])
+        return TabulatedCount(coordinate, table, panels, error, self.limit_wear, problem.end)
+
+
+class _Count:
+    """The way so far: `parts`, one after the other, `done` cycles in all, and the `wear` (mm)."""
+
+    def __init__(self, problem: Problem, start: float) -> None:
+        self.problem, self.wear, self.done, self.over = problem, start, 0.0, False
+        self.parts: list[Single | Counted | UnresolvedStage] = []
+        self.known: list[tuple[Span, Increments]] = []
+        self.problem_of = start
+        self.singles = self.poor = 0
+        self.arrested = self.fades = False
+        self.cost = Cost(0, 0)
+
+    def go(self, cycles: float) -> None:
+        """Go on for so many `cycles`, or less."""
+        in_time = time.monotonic() <= self.problem.deadline
+        if self.wear >= self.problem_of and cycles > FEW and in_time:
+            self._prepare(cycles)
+            return
+        for span, series in self.known:
+            if span.start <= self.wear < span.end:
+                self._along(span, series, cycles)
+                return
+        ahead = min(self._ahead(), default=np.inf)
+        if ahead - self.wear <= 2 * GRAIN * ROUNDOFF * ahead:
+            # Contact shrinks like the root of what is left: twice the cycles at the present pace.
+            rate = self.problem.plain.increment_without_feedback(np.array([self.wear]))[0] + TINY
+            left = 2 * (ahead - self.wear) / rate
+            if FEW < left < np.inf:
+                self._append(UnresolvedStage(self.wear, ahead, float(np.floor(left))), ahead)
+                return
+        self._single()
+
+    def _ahead(self) -> list[float]:
+        return [
+            k.wear for k in self.problem.grazing_wears if k.wear > self.wear * (1 + 8 * ROUNDOFF)
+        ]
+
+    def _prepare(self, cycles: float) -> None:
+        if self.problem.plain.increment_without_feedback(np.array([self.wear]))[0] > VIOLENT * (
+            SHIFT * self.problem.scale + self.wear
+        ):
+            self._single()
+            return
+        spans, self.problem_of = planned(self.problem, self.wear, cycles)
+        number = COEFFICIENTS if self.problem.rtol < 1e-8 else FEWER_COEFFICIENTS
+        tolerance = self.problem.size.residual_tolerance / 2
+        self.known, cost = fitted(self.problem.both, spans, number, tolerance)
+        self.cost = self.cost.plus(*cost)
+        if self.known and self.known[-1][0].tends:
+            (span, series), limit = self.known[-1], spans[-1].coordinate.origin
+            width = -np.log(TO_ROUNDOFF * limit * series.end)
+            self.known[-1] = span._replace(end=limit), series.on_a_line(float(width))
+
+    def _append(self, part: Single | Counted | UnresolvedStage, wear: float) -> None:
+        self.parts.append(part)
+        self.wear, self.done = wear, self.done + part.ran
+
+    def _single(self) -> None:
+        """Integrate one cycle."""
+        run = self.problem.both.coarse.advance(np.array([self.wear]))
+        self.cost = self.cost.plus(1, run.evaluations)
+        self.singles += 1
+        added = float(run.increment[0])
+        if (
+            not added > 0.0
+            and self.problem.limit_wear is not None
+            and self.wear < self.problem.limit_wear.wear
+        ):
+            added = self.problem.limit_wear.wear - self.wear  # nearer than rounding resolves
+        part = Single([self.wear, self.wear + added], [added], None)
+        last = self.parts[-1] if self.parts else None
+        if isinstance(last, Single) and last.series is None:
+            last.wear.append(self.wear + added)
+            last.added.append(added)
+            self.wear, self.done = self.wear + added, self.done + 1
+        else:
+            self._append(part, self.wear + added)
+        self.arrested = not added > 0.0
+        self.fades = self.arrested and self.problem.limit_wear is not None
+        late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
+        failed = not run.converged.all() or not self.wear < self.problem.end
+        self.over = self.arrested or failed or late or self.singles >= MOST_SINGLE
+
+    def _along(self, span: Span, series: Increments, cycles: float) -> None:
+        """Count along a span on which the increments are known."""
+        coordinate = span.coordinate
+        begin = float(coordinate.at(np.array(self.wear)))
+        end = series.end if span.tends else float(coordinate.at(np.array(span.end)))
+        width = np.log([(end + coordinate.shift) / (begin + coordinate.shift)])
+        whole = frame_of(coordinate, np.array([begin]), width)
+        looks = whole.states(np.linspace(-1.0, 1.0, LOOKS))[0]
+        lasts = (looks + coordinate.shift) / coordinate.step(looks, series.at(looks))
+        gains = (lasts[1:] + lasts[:-1]) / 2 * np.diff(np.log(looks + coordinate.shift))
+        calm = np.flatnonzero(lasts >= CALM)
+        number = float(np.sum(gains[calm[0] : calm[-1]])) if len(calm) else 0.0
+        if np.sum(gains) < MOST_WALKED or number < 2 * ENOUGH * self.problem.size.panel_nodes:
+            self._walk(span, series, end, cycles)
+        elif calm[0] > 0:
+            self._walk(span, series, float(looks[calm[0]]), cycles)
+        else:
+            before = float(np.sum(gains[looks[1:] <= series.frame.starts[-1]]))
+            line = before > ENOUGH * self.problem.size.panel_nodes
+            self._count(span, series, begin, float(looks[calm[-1]]), line)
+
+    def _count(self, span: Span, series: Increments, begin: float, end: float, line: bool) -> None:
+        """Count by Abel's equation from one z to another, on a line at last if that is to be."""
+        limit_wear = (
+            self.problem.limit_wear if span.tends and end >= series.end * (1 - 1e-9) else None
+        )
+        line &= limit_wear is not None
+        end = float(series.frame.starts[-1]) if line else end
+        panels, residual, poor = solved(series, begin, end, self.problem.size)
+        if poor and self.poor < MOST_POOR:  # panels of too few cycles: some more one by one
+            self.poor += 1
+            self._walk(span, series, end, MOST_WALKED)
+            return
+        if line:
+            panels, residual = on_a_line(panels, residual, series)
+        part = Counted(cells(panels), panels, residual, series, limit_wear, line)
+        if limit_wear is not None:
+            self._append(part, limit_wear.wear)
+            self.over = self.arrested = self.fades = True
+        elif part.ran < 1.0:
+            self._single()
+        else:
+            z, _ = part.table.state_after(np.array([part.ran]))
+            self._append(part, float(span.coordinate.wear(z)[0]))
+
+    def _walk(self, span: Span, series: Increments, end: float, cycles: float) -> None:
+        """Go on cycle by cycle until z passes `end`."""
+        walked = series.walk(self.wear, end, min(cycles, MOST_AT_ONCE))
+        if len(walked) == 1:
+            self._single()
+            return
+        if span.tends and end == series.end and len(walked) <= min(cycles, MOST_AT_ONCE):
+            walked += [span.end, span.end]
+            self.over = self.arrested = self.fades = True
+        added = np.diff(walked).tolist()
+        self._append(Single(walked, added, series), walked[-1])
+
+
+def solved(
+    series: Increments, begin: float, end: float, size: Settings
+) -> tuple[abel.Panels, FloatArray, bool]:
+    """Solve Abel's equation from one z to another; return also the residual off the nodes, and
+    whether it is poor on a panel that holds too few cycles to be cut."""
+    coordinate, m = series.coordinate, size.panel_nodes
+    shift = coordinate.shift
+    starts, ends = np.array([begin]), np.array([end])
+    done: list[tuple[float, float, FloatArray, float]] = []
+    poor = False
+    for rounds in range(MOST_CUTS):
+        across = np.log((ends + shift) / (starts + shift))
+        frame = frame_of(coordinate, starts, across)
+        nodes = frame.states(chebyshev_nodes(m))
+        steps = coordinate.step(nodes, series.at(nodes))
+        panels = abel.solve(frame, steps)
+        checks = frame.states(CHECKS)
+        more = coordinate.step(checks, series.at(checks))
+        residual = np.max(np.abs(abel.residual(panels, CHECKS, more)), axis=1)
+        allowed = np.full(len(starts), size.residual_tolerance)
+        if coordinate.ahead:
+            allowed *= np.clip(coordinate.origin * starts, 1.0, 10.0)
+        number = across / 2 * np.mean((nodes + shift) / steps, axis=1)
+        short = number <= ENOUGH * m
+        poor |= bool(np.any(~(residual <= allowed) & short))
+        bad = ~(residual <= allowed) & ~short & (rounds < MOST_CUTS - 1)
+        done += list(
+            zip(starts[~bad], across[~bad], panels.series[~bad], residual[~bad], strict=True)
+        )
+        if not bad.any():
+            break
+        middles = np.array(
+            [middle(shift, *ends_of) for ends_of in zip(starts[bad], ends[bad], strict=True)]
+        )
+        starts, ends = np.append(starts[bad], middles), np.append(middles, ends[bad])
+    done.sort(key=lambda panel: float(panel[0]))
+    starts, across, coefficients, residual = map(np.array, zip(*done, strict=True))
+    return abel.Panels(frame_of(coordinate, starts, across), coefficients), residual, poor
+
+
+def on_a_line(
+    panels: abel.Panels, residual: FloatArray, series: Increments
+) -> tuple[abel.Panels, FloatArray]:
+    """Return the panels with one more, to the end of the series, on which the density dn/dy in
+    y = ln z goes on as a power of z: 0, 1/2 or 1, as decay is geometric or algebraic. What the last
+    e-fold differs from that by is its residual."""
+    start, width = float(series.frame.starts[-1]), float(series.frame.widths[-1])
+    last = float(panels.frame.widths[-1])
+    t = np.array([1.0 - 2.0 * min(1.0, last) / last, 1.0])
+    before, level = chebyshev_values(t, panels.series.shape[1]) @ panels.series[-1]
+    found = 1.0 + (level - before) / min(1.0, last)
+    slope = float(np.clip(np.round(2 * found) / 2, 0.0, 1.0))
+    line = np.zeros((1, panels.series.shape[1]))
+    line[0, :2] = level + (slope - 1) * width / 2, (slope - 1) * width / 2
+    frame = panels.frame.with_panel(start, width)
+    more = abel.Panels(frame, np.concatenate([panels.series, line]))
+    return more, np.append(residual, abs(found - slope))
+
+
+def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) -> Stages:
+    """Return the parts of the way as stages, each with its estimate of error."""
+    single = [part for part in runs.parts if isinstance(part, Single) and part.series is None]
+    at = np.array([wear for part in single for wear in part.wear[:-1]])
+    added = np.array([x for part in single for x in part.added])
+    cost = runs.cost
+    if len(at):
+        fine = problem.both.fine.advance(at)
+        missed = np.abs(fine.increment - added)
+        if not fine.converged.all():
+            missed[:] = np.inf
+        roughness = 4 * problem.scale
+        beside = problem.both.coarse.advance(at + APART * (roughness + at))
+        growth = np.abs(1 + (beside.increment - added) / (APART * (roughness + at)))
+        cost = cost.plus(2 * len(at), fine.evaluations + beside.evaluations)
+    stages: list[Stage] = []
+    begins, inherited, adrift, used = 0.0, begun_with, 0.0, 0
+    for part in runs.parts:
+        counted: Integrated | TabulatedCount | UnresolvedStage
+        if isinstance(part, Single):
+            if part.series is None:
+                some = slice(used, used + len(part.added))
+                used += len(part.added)
+                counted = _one_by_one(problem, part, missed[some], growth[some])
+            else:
+                counted = _one_by_one(problem, part, *part.missed())
+        elif isinstance(part, Counted):
+            counted = part.judged(problem)
+        else:
+            counted = part
+        stage = Stage(begins, counted, inherited, adrift)
+        stages.append(stage)
+        begins += stage.ran
+        after, relative = stage.wear_after(np.array([begins]))
+        inherited, adrift = float(relative[0] * after[0]), stage.drift
+    last = stages[-1].counted.last_wear
+    limit_wear = limit_wear_of(problem.model, problem.load, last) if runs.arrested else None
+    at_rest = limit_wear.uncertainty / last if limit_wear else np.inf
+    arrested = runs.arrested and begins <= cycles
+    return Stages(tuple(stages), arrested, at_rest, cost, runs.fades, problem.model.compliant)
+
+
+def _one_by_one(
+    problem: Problem, part: Single, missed: FloatArray, growth: FloatArray
+) -> Integrated:
+    """Return the cycles with what each may have missed (mm) and the factor by which it changes an
+    error."""
+    wear, added = np.array(part.wear), np.array(part.added)
+    response = problem.plain.response(added, growth)
+    lost = roundoff_of_cycles(problem.model, problem.load, wear) * response
+    error = [0.0]
+    for more, factor in zip(SAFETY * missed + lost, growth, strict=True):
+        error.append(error[-1] * factor + more)
+    estimate = np.array(error) + ROUNDOFF * wear
+    one = np.zeros((1, 1))
+    limit = np.array([problem.end])
+    return Integrated(Iterates(wear[None], estimate[None], None, None, one, limit, one))

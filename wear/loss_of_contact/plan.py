@@ -1,0 +1,244 @@
+"""The plan of a count with loss of contact: where series of the increments are wanted.
+
+By wear that is frozen over a cycle: good enough for a plan, and cheap. What the plan misses, the
+misfit of the series and the residual of Abel's equation report.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.load import Load
+from wear.loss_of_contact.arrest import LimitWear
+from wear.loss_of_contact.grazing import GrazingWear, fades, grazing_wears, limit_wear_of
+from wear.loss_of_contact.increments import Coordinate, Span
+from wear.loss_of_contact.period_map import Maps, SwitchedPeriodMap
+from wear.model import Model
+from wear.numerics.gauss import FloatArray, mesh
+from wear.numerics.tolerances import ROUNDOFF, TINY
+from wear.orbit.period_map import Settings, settings
+
+LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
+STEP, STEPS_AHEAD = 0.2, 180  # in ln(u + scale)
+SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
+ROUGH = settings(1e-3)._replace(phase_nodes=10)
+NEARLY = 0.99  # of the wear at which the roughness vanishes
+FEWEST = 8.0  # cycles between two grazing wears for which a series pays
+BEGINS = 0.03  # of the increment at a grazing wear: how far beyond it a series begins
+ENDS = 0.7  # of the distance that is left: the largest increment for which a series is wanted
+BEFORE = 0.95  # of the way to a grazing wear: the longest last cycle on a series
+NEXT = 0.05  # of an increment: how near to a branch point a series ends
+GRAIN = 4096.0  # roundoffs of the wear: the smallest distance at which cycles are counted
+FACTOR, STEPS = 0.25, 21  # of distances at which one looks ahead
+FARTHEST = 1e12  # roughnesses
+AHEAD = 1.3  # of the cycles asked for: how far one looks ahead
+
+
+class Problem(NamedTuple):
+    """What is ahead: the `grazing_wears`, rising; the `limit_wear` if wear tends to the last of
+    them for ever; the wear `end` (mm) beyond which nothing has a meaning. The maps of a cycle:
+    `plain`, for frozen wear, and `both`, resolved."""
+
+    plain: SwitchedPeriodMap
+    both: Maps
+    grazing_wears: list[GrazingWear]
+    limit_wear: LimitWear | None
+    end: float
+    scale: float
+    rtol: float
+    size: Settings
+    deadline: float
+
+    @property
+    def model(self) -> Model:
+        """Return the model."""
+        return self.plain.model
+
+    @property
+    def limit(self) -> float:
+        """Return the grazing wear (mm) to which wear tends for ever, if any."""
+        return self.limit_wear.wear if self.limit_wear else np.inf
+
+    @property
+    def load(self) -> Load:
+        """Return the load."""
+        return self.plain.load
+
+
+def problem_of(cycle: SwitchedPeriodMap, rtol: float, deadline: float) -> Problem:
+    """Return what is ahead of a count to the relative accuracy `rtol`."""
+    model, load, size = cycle.model, cycle.load, settings(rtol)
+    scale = roughness_scale(model)
+    end = roughness_limit(model, FARTHEST * scale)
+    grazing = [each for each in grazing_wears(cycle, scale) if each.wear < end]
+    limit_wear = limit_wear_of(model, load, grazing[-1].wear) if grazing else None
+    if limit_wear is not None and not fades(cycle, limit_wear.wear):
+        limit_wear = None
+    coarse = cycle.resolved(size)
+    finer = coarse.on(mesh(coarse.over.edges, size.finer_nodes))
+    return Problem(
+        cycle, Maps(coarse, finer), grazing, limit_wear, end, scale, rtol, size, deadline
+    )
+
+
+class Grazing(NamedTuple):
+    """A grazing wear `at` (mm), which rounding leaves an `uncertainty`; the branch points of the
+    map `before` it, as starts that come nearer see them, and `behind`, as those beyond it do; and
+    what a cycle adds there."""
+
+    at: float
+    before: float
+    behind: float
+    added: float
+    uncertainty: float
+
+
+def _grazings(problem: Problem) -> list[Grazing]:
+    """Return all grazing wears. Contact grazes when the pieces before have added their part: the
+    map has its branch point where a cycle starts that much earlier."""
+    if not problem.grazing_wears:
+        return []
+    wear = np.array([grazing.wear for grazing in problem.grazing_wears])
+    upto = problem.plain.increments_without_feedback(wear)
+    peak = np.array([problem.load.maximum])
+    slope = np.abs(problem.model.margin_slope(wear, peak)) + TINY
+    uncertainty = ROUNDOFF * problem.model.margin_terms(wear, peak) / slope
+    found = []
+    for i, grazing in enumerate(problem.grazing_wears):
+        part, whole = upto[grazing.before, i], grazing.before == len(upto) - 1
+        before = grazing.wear - (0.0 if grazing.wear == problem.limit else part)
+        behind = grazing.wear - (0.0 if whole else part)
+        found.append(
+            Grazing(grazing.wear, before, behind, float(upto[-1, i]), float(uncertainty[i]))
+        )
+    return found
+
+
+def planned(problem: Problem, wear: float, cycles: float) -> tuple[list[Span], float]:
+    """Plan where increments are wanted from a `wear` (mm) on, for so many `cycles` about; return
+    also the wear up to which that is a plan."""
+    stops = _grazings(problem)
+    ahead = [stop for stop in stops if stop.at > wear * (1 + 8 * ROUNDOFF)]
+    last = next((stop for stop in reversed(stops) if stop not in ahead), None)
+    looks = _looks(problem, [wear, *(stop.at for stop in ahead)], [stop.before for stop in ahead])
+    spans: list[Span] = []
+    counted, wanted, begin = 0.0, AHEAD * max(cycles, LEAST), wear
+    for i, stop in enumerate(ahead):
+        if counted > wanted:
+            return spans, begin
+        lefts, rights, outwards, onwards = (part[i] for part in looks)
+        half = begin + lefts[0]
+        numbers = counted + np.cumsum((lefts / outwards)[::-1])[::-1] * -np.log(FACTOR)
+        if numbers[0] > wanted:
+            half = begin + float(lefts[np.sum(numbers > wanted) - 1])
+            return [*spans, *_outwards(problem, last, begin, half)], half
+        number = -np.log(FACTOR) * float(np.sum(lefts / outwards + rights / onwards))
+        if number >= FEWEST:
+            if outwards[-1] < ENDS * (stop.at - begin):
+                spans += _outwards(problem, last, begin, half)
+            spans += _towards(problem, stop, half, rights, onwards)
+        counted, begin, last = counted + number, stop.at, stop
+    if counted > wanted or (problem.limit_wear is not None and ahead):
+        return spans, begin if counted > wanted else np.inf
+    if not problem.plain.increment_without_feedback(np.array([begin * (1 + 1e-9)]))[0] > 0.0:
+        return spans, np.inf
+    reach = float(
+        look_ahead(problem.plain, problem.scale, begin, max(cycles - counted, LEAST), problem.end)[
+            -1
+        ]
+    )
+    half = begin if last is None else min(begin + problem.scale, (begin + reach) / 2)
+    spans += [*_outwards(problem, last, begin, half), *_outwards(problem, None, half, reach)]
+    return spans, reach  # wear that is not frozen may take more cycles to there, and fewer
+
+
+def _looks(
+    problem: Problem, ends: list[float], branches: list[float]
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Distances (stretches, k) out from the wear at the one end of every stretch, and before the
+    branch point at the other, both from its middle on and shrinking; and what cycles add there."""
+    begin, end = np.array(ends[:-1]), np.array(ends[1:])
+    branch, half = np.array(branches), (begin + end) / 2
+    shrinking = FACTOR ** np.arange(STEPS)
+    lefts = (half - begin)[:, None] * shrinking
+    rights = np.maximum(branch - half, TINY)[:, None] * shrinking
+    wear = np.stack([begin[:, None] + lefts, branch[:, None] - rights])
+    outwards, onwards = problem.plain.increment_without_feedback(wear) + TINY
+    return lefts, rights, outwards, onwards
+
+
+def _outwards(problem: Problem, last: Grazing | None, begin: float, end: float) -> list[Span]:
+    """Return the span from the wear `begin` to `end` (mm), beyond the `last` grazing wear."""
+    if last is None or begin > last.at + problem.scale:
+        span = Span(Coordinate(0.0, False, SHIFT * problem.scale), begin, end)
+    else:
+        beyond = last.at + max(BEGINS * last.added, GRAIN * ROUNDOFF * last.at)
+        span = Span(Coordinate(last.behind), max(begin, beyond), end)
+    return [span] if span.start < span.end else []
+
+
+def _towards(
+    problem: Problem, stop: Grazing, half: float, left: FloatArray, added: FloatArray
+) -> list[Span]:
+    """Return the span from the wear `half` (mm) on the way to a grazing wear; a cycle adds so much
+    (k,) where so much is `left`, mm."""
+    coordinate = Coordinate(stop.before, True)
+    if problem.limit_wear is not None and stop.at == problem.limit_wear.wear:
+        calm = added < ENDS * left
+        end = problem.limit_wear.wear - problem.limit_wear.nearest
+        begin = stop.at - float(left[np.argmax(calm)]) if calm.any() else end
+        return [Span(coordinate, begin, end, stop.uncertainty, True)] if begin < end else []
+    least = np.maximum(added / BEFORE - (stop.at - stop.before), NEXT * added)
+    least = np.maximum(least + 2 * added**2 / problem.scale, GRAIN * ROUNDOFF * stop.at)
+    enough = left >= least
+    if not enough[0]:
+        return []
+    nearest = len(left) - 1 if enough.all() else int(np.argmin(enough)) - 1
+    end = stop.before - float(min(left[nearest], least[nearest]))
+    return [Span(coordinate, half, end, stop.uncertainty)] if half < end else []
+
+
+def roughness_scale(model: Model) -> float:
+    """Return a wear (mm) that changes the pressure by a factor of order 1: a quarter of the
+    roughness."""
+    return float(model.fields(np.array(0.0), np.array(0.0)).sigma) / 4
+
+
+def roughness_limit(model: Model, upto: float) -> float:
+    """Return nearly the wear (mm) at which the equivalent roughness vanishes; infinite if it does
+    not.
+
+    The roughness of one solid is linear in the wear; that of two never vanishes.
+    """
+    ends = np.array([0.0, upto])
+    start, end = model.fields(ends, np.zeros_like(ends)).sigma.tolist()
+    return NEARLY * upto * start / (start - end) if end <= 0 else math.inf
+
+
+def look_ahead(
+    cycle: SwitchedPeriodMap, scale: float, start: float, cycles: float, limit: float
+) -> FloatArray:
+    """Return the wear (k,) in mm, rising from `start` to where the frozen rate puts `cycles`,
+    roughly, and no higher than `limit`; the rate changes over wear of the `scale` (mm)."""
+    y = STEP * np.arange(STEPS_AHEAD)
+    if np.isfinite(limit):
+        y = np.linspace(0.0, np.log1p((limit - start) / (start + scale)), STEPS_AHEAD)
+    wear: FloatArray = start + (start + scale) * np.expm1(y)
+    cycle = cycle.resolved(ROUGH)
+    density = np.minimum(-np.log(cycle.increment_without_feedback(wear) + TINY), 650.0)
+    rise = np.diff(density)
+    rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)
+    # Between two points the density is taken as exponential in the wear.
+    parts = np.exp(density[:-1]) * np.expm1(rise) / rise * np.diff(wear)
+    counts = np.concatenate([[0.0], np.cumsum(parts)])
+    wanted = 1.3 * max(cycles, LEAST)
+    last = int(np.searchsorted(counts, wanted)) - 1
+    if last >= len(parts):
+        return wear
+    share = np.log1p((wanted - counts[last]) / parts[last] * np.expm1(rise[last])) / rise[last]
+    end = wear[last] + share * (wear[last + 1] - wear[last])
+    ahead: FloatArray = np.append(wear[: last + 1], end)
+    return ahead

@@ -1,0 +1,203 @@
+"""The numbers of a scene on which its wear depends, by their keys in the scene file.
+
+Key results
+    parameters_of    the numbers that the variant of a scene contains
+    links            how the parameters of the model depend on them
+    parametrised     the equation of scenes with its derivatives with respect to such numbers
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.equation import WearEquation
+from wear.load import Blocks, Load
+from wear.model import bind, bind_many
+from wear.scene import KEYS, Scene
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
+
+AREA = {"b": ("contact", "width_mm"), "L": ("contact", "length_mm")}
+MOST_ROWS = 100  # of a table: each is a parameter
+
+
+def parameters_of(scene: Scene) -> dict[str, float]:
+    """Return the numbers of the scene on which its wear depends, by their key in the scene file.
+
+    What the variant of the model does not contain is left out, and so are the rows of a table that
+    has more than a hundred of them. Entries of a list are counted from 0.
+
+    >>> from wear.scene import load_scene
+    >>> parameters_of(load_scene("section4"))["load.amplitude_mm"]
+    0.0005
+    """
+    found = {key: value for _, key, value, _ in links(scene)}
+    for name, load in _loads(scene).items():
+        found |= {f"{name}.{key}": _entry(load, key) for key in numbers_of(load)}
+        found[f"{name}.period_s"] = load.period
+    return found
+
+
+class Link(NamedTuple):
+    """By how much (`factor`) the parameter with a `symbol` changes with the number with a `key`."""
+
+    symbol: str
+    key: str
+    value: float
+    factor: float
+
+
+def links(scene: Scene) -> list[Link]:
+    """Return how the parameters of the model depend on the numbers of the scene but the load's."""
+    numbers = scene.parameters()
+    found = []
+    entries = {**KEYS, **AREA} if scene.given_load else KEYS
+    for symbol, entry in entries.items():
+        if symbol in numbers and symbol != "h_0":
+            found.append(Link(symbol, ".".join(entry), numbers[symbol], 1.0))
+    contact, sigma = scene.contact, scene.initial_roughness
+    if contact.closure_mm is not None:
+        return [*found, Link("h_0", "contact.closure_mm", contact.closure_mm, 1.0)]
+    multiple = numbers["h_0"] / sigma
+    for link in list(found):
+        if link.symbol in ("sigma_c0", "sigma_a0"):
+            found.append(link._replace(symbol="h_0", factor=multiple * link.value / sigma))
+    return [*found, Link("h_0", "contact.closure_in_sigma", multiple, sigma)]
+
+
+def _loads(scene: Scene) -> dict[str, Load]:
+    """Return the loads of a scene that repeat, by their place in the scene file."""
+    if isinstance(scene.load, Blocks):
+        return {f"load.blocks[{i}]": block.load for i, block in enumerate(scene.load.blocks)}
+    return {"load": scene.periodic_load}
+
+
+def numbers_of(load: Load) -> list[str]:
+    """Return the keys of the numbers of a load, but its period."""
+    found = list(load.gradient(np.zeros(1)))
+    return found if len(found) <= MOST_ROWS else []
+
+
+def _entry(load: Load, key: str) -> float:
+    """Return a number of a load, which may stand in a list.
+
+    >>> from wear.load import Harmonics
+    >>> _entry(Harmonics(0.0, (1e-4, 2e-4), (), 1.0), "cosine_mm[1]")
+    0.0002
+    """
+    name, _, place = key.rstrip("]").partition("[")
+    value = getattr(load, name)
+    return float(value[int(place)] if place else value)
+
+
+class Acting(NamedTuple):
+    """The `loads` of scenes from cycle `begins` to cycle `until`, which stand at a `place` of the
+    scene file."""
+
+    place: str
+    loads: tuple[Load, ...]
+    begins: float
+    until: float
+
+
+def acting_loads(scenes: Sequence[Scene]) -> Iterator[Acting]:
+    """Return the loads of scenes one after the other: of many, one that repeats for ever."""
+    load = scenes[0].load
+    if not isinstance(load, Blocks):
+        yield Acting("load", tuple(scene.periodic_load for scene in scenes), 0.0, np.inf)
+        return
+    begins = 0.0
+    for number, block in enumerate(load.stretches()):
+        place = f"load.blocks[{number % len(load.blocks)}]"
+        yield Acting(place, (block.load,), begins, begins + block.cycles)
+        begins += block.cycles
+
+
+@dataclass(frozen=True)
+class ParametrisedEquation(WearEquation):
+    """The wear of scenes with its derivatives with respect to numbers of the scene: `chain`
+    (scenes, symbols, parameters) leads from the parameters of the model to these, and `of_load`
+    has the place among these of numbers of the load."""
+
+    chain: FloatArray
+    of_load: Mapping[str, int]
+
+    @property
+    def parameters(self) -> int:
+        """Return how many numbers there are."""
+        return int(self.chain.shape[2])
+
+    def take(self, rows: slice | IntArray) -> ParametrisedEquation:
+        """Return some of the scenes."""
+        if self.scenes == 1:
+            return self
+        some = super().take(rows)
+        return dataclasses.replace(self, model=some.model, loads=some.loads, chain=self.chain[rows])
+
+    def along(self, gradient: Mapping[str, FloatArray], phases: FloatArray) -> FloatArray:
+        """Return derivatives (k, m, parameters) of what has a `gradient` by symbol of the model,
+        (k, m) each, at the phases (k, m); of one scene."""
+        symbols = self.model.module.Parameters._fields
+        found = np.zeros((*phases.shape, self.parameters))
+        for row, symbol in zip(self.chain[0], symbols, strict=False):
+            if symbol in gradient and row.any():
+                found += np.asarray(gradient[symbol])[..., None] * row
+        if self.of_load:
+            waves = self.loads[0].gradient(phases)
+            for key, place in self.of_load.items():
+                found[..., place] += gradient["U_a"] * waves[key]
+        return found
+
+    def by_parameters(
+        self, u: FloatArray, phases: FloatArray, forcing: FloatArray, weights: FloatArray
+    ) -> FloatArray:
+        """Return the sum over all nodes of weights times the derivative of the wear per cycle."""
+        weights = weights * self._period
+        by_load, *by_symbol = self._model.rate_gradient(
+            u, forcing, lambda values: np.sum(weights * values, axis=(2, 3), keepdims=True)
+        ).values()
+        found = np.stack(by_symbol, axis=-1)[:, :, 0, 0] @ self.chain
+        if self.of_load:
+            flat = (weights * by_load).reshape(*u.shape[:2], -1)
+            found[..., list(self.of_load.values())] = flat @ self._load_gradient(phases)
+        return np.asarray(found)
+
+    def _load_gradient(self, phases: FloatArray) -> FloatArray:
+        """Return the derivatives (scenes, nodes, parameters of the load) of the displacement."""
+        shape = (-1, phases[0].size, len(self.of_load))
+        if len(phases) == 1 or self.scenes == 1:
+            parts = [self.loads[0].gradient(phases)]
+        else:
+            parts = [load.gradient(at) for load, at in zip(self.loads, phases, strict=True)]
+        waves = [np.stack([part[key] for key in self.of_load], axis=-1) for part in parts]
+        return np.concatenate([wave.reshape(shape) for wave in waves])
+
+
+def parametrised(
+    scenes: Sequence[Scene], acting: Acting, keys: Sequence[str]
+) -> ParametrisedEquation:
+    """Return the equation of scenes of one variant under the loads that act, with the numbers that
+    have these `keys`."""
+    place, loads = acting.place, acting.loads
+    model = bind(scenes[0]) if len(scenes) == 1 else bind_many(scenes)
+    symbols = [*model.module.Parameters._fields, *(AREA if scenes[0].given_load else ())]
+    column = {key: i for i, key in enumerate(keys)}
+    chain = np.zeros((len(scenes), len(symbols), len(keys)))
+    for own, scene, load in zip(chain, scenes, loads, strict=True):
+        for link in links(scene):
+            if link.key in column:
+                own[symbols.index(link.symbol), column[link.key]] += link.factor
+        if (period := f"{place}.period_s") in column:
+            # The wear per cycle is proportional to the period as it is to the speed.
+            own[symbols.index("n"), column[period]] = scene.motion.speed_rpm / load.period
+    of_load = {
+        key: column[f"{place}.{key}"] for key in numbers_of(loads[0]) if f"{place}.{key}" in column
+    }
+    return ParametrisedEquation(model, loads, chain, of_load)

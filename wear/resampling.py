@@ -1,0 +1,124 @@
+"""Fewer rows for a measured load: as few as the requested accuracy of the wear allows.
+
+Rows are merged by weighted least squares, which keeps the mean of the load over every stretch, so
+that noise changes the wear in second order only. What merging changes is measured: the largest
+part of a cycle's wear by which the two loads ever differ within the cycle, without feedback, over
+wears from none to the deepest. Neither offset nor trend is removed.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wear.equation import WearEquation
+from wear.load import ForceTable, Table
+from wear.numerics.gauss import Mesh, mesh
+from wear.numerics.tolerances import TINY
+
+if TYPE_CHECKING:
+    from wear.model import Model
+    from wear.scene import Scene
+
+FloatArray = NDArray[np.float64]
+Rows = Table | ForceTable
+
+FEWEST_ROWS = 64  # a load of fewer costs next to nothing
+NODES = 6  # between two rows, to measure what merging changes
+SHARE = 0.25  # of the requested error, for merging
+STEPS = (128, 64, 32, 16, 8, 6, 4, 3, 2)  # rows that become one
+WEARS = np.concatenate([[0.0], np.geomspace(0.01, 1e4, 8)])  # in roughnesses
+
+
+class Resampled(NamedTuple):
+    """A scene with fewer rows, the relative `error` of its wear by that, and what to say."""
+
+    scene: Scene
+    error: float
+    notices: tuple[str, ...]
+
+    def missed(self, model: Model, wear: FloatArray) -> FloatArray:
+        """Return the relative error of wears (n,), more where the wear accelerates."""
+        from wear.cycles import growth
+
+        if not self.error:
+            return np.zeros(wear.shape)
+        load = self.scene.periodic_load
+        grown = [growth(model, load, 0.0, u) if u > 0.0 else 0.0 for u in wear.tolist()]
+        return self.error * np.array(grown)
+
+
+def resampled(scene: Scene, model: Model, rtol: float) -> Resampled:
+    """Return a scene whose measured load has as few rows as `rtol` allows.
+
+    Only rows of a file that lets it by `resample = true` are merged, and none where contact may be
+    lost: there the wear depends on single rows.
+    """
+    load = scene.load
+    if not isinstance(load, Rows) or load.source is None or not load.source.resample:
+        return Resampled(scene, 0.0, ())
+    if len(load.times_s) < FEWEST_ROWS or model.ends_at_3_sigma:
+        return Resampled(scene, 0.0, ())
+    rows = len(load.times_s) - 1
+    for step in (step for step in STEPS if rows >= FEWEST_ROWS * step / 2):
+        fewer = _merged(load, step)
+        error = _changed(model, load, fewer)
+        if error <= SHARE * rtol:
+            left = len(fewer.times_s) - 1
+            said = (
+                f"{rows} rows of the load are merged to {left}, which changes the wear by at most "
+                f"{error:.1e} of it; resample = false keeps all"
+            )
+            return Resampled(dataclasses.replace(scene, load=fewer), error, (said,))
+    said = f"all {rows} rows of the load are kept: fewer would change the wear by more than rtol"
+    return Resampled(scene, 0.0, (said,))
+
+
+@lru_cache(maxsize=64)  # many scenes on one load share what it is merged to
+def _merged(load: Rows, step: int) -> Rows:
+    """Return the periodic line with every `step`-th row as a corner, by least squares."""
+    from scipy.sparse import csr_array, diags_array
+    from scipy.sparse.linalg import spsolve
+
+    times, values = np.asarray(load.times_s), np.asarray(load.rows)
+    corners = np.append(times[:-1:step], times[-1])
+    number, rows = len(corners) - 1, len(times) - 1
+    place = np.searchsorted(corners, times[:-1], side="right") - 1
+    share = (times[:-1] - corners[place]) / np.diff(corners)[place]
+    at = np.arange(rows)
+    hats = csr_array(
+        (
+            np.concatenate([1.0 - share, share]),
+            (np.tile(at, 2), np.concatenate([place, (place + 1) % number])),
+        ),
+        shape=(rows, number),
+    )
+    lengths = np.diff(times)
+    weights = diags_array((lengths + np.roll(lengths, 1)) / 2)
+    levels = spsolve((hats.T @ weights @ hats).tocsc(), hats.T @ (weights @ values[:-1]))
+    closed = tuple(np.append(levels, levels[0]).tolist())
+    fewer = tuple(corners.tolist())
+    if isinstance(load, ForceTable):
+        return dataclasses.replace(load, times_s=fewer, forces_N=tuple(max(0.0, x) for x in closed))
+    return dataclasses.replace(load, times_s=fewer, values_mm=closed)
+
+
+def _changed(model: Model, load: Rows, fewer: Rows) -> float:
+    """Return the largest part of the wear of a cycle by which two loads differ within it."""
+    equation = WearEquation(model, (load,))
+    wears = np.minimum(float(equation.scale[0]) * WEARS, float(equation.limit[0]))
+    over = mesh(np.append(load.kinks, 1.0), NODES)
+    worn, other = (_worn(equation, each, wears, over) for each in (load, fewer))
+    apart = np.abs(np.cumsum(worn, axis=1) - np.cumsum(other, axis=1))
+    return float(np.max(np.max(apart, axis=1) / (np.sum(worn, axis=1) + TINY)))
+
+
+def _worn(equation: WearEquation, load: Rows, wears: FloatArray, over: Mesh) -> FloatArray:
+    """Return the wear (k, q) of every interval at frozen `wears` (k,)."""
+    rate = equation.rate(wears[None, :, None, None], load(over.phases)[None, None])[0]
+    worn: FloatArray = (rate @ over.rule.weights) * over.lengths
+    return worn
