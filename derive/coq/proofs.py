@@ -106,7 +106,7 @@ def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
 
 def stated(step: Step, steps: Sequence[Step]) -> tuple[str, list[Named]]:
     """Return the tactic that states the claims of other steps at this time, and their labels."""
-    text, named = "", []
+    text, named = "", list[Named]()
     for i, other in enumerate(s for s in steps if not s.relation.has(sp.Limit)):
         parts = other.relation.args if isinstance(other.relation, sp.And) else [other.relation]
         labels = [f"P{i}" if len(parts) == 1 else f"P{i}_{j}" for j in range(len(parts))]
@@ -249,9 +249,9 @@ def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
                 yield f"{text}{insert}split; intro; [apply {label} | apply {label}]; arithmetic"
         else:
             order = list(_ordered(goal))
-            parts = [w for w in _parts(goal, []) if w not in order]
+            alone = [w for w in _parts(goal, []) if w not in order]
             more = (*_multiples(goal, facts), *_rests(goal, facts))
-            for way in (*order, *more, *into, *parts):
+            for way in (*order, *more, *into, *alone):
                 yield f"{text}{insert}{way}"
 
 
