@@ -22,9 +22,9 @@ from functools import cached_property
 from pathlib import Path
 
 from ..equations import Equation
-from . import proofs
+from . import proofs, refutations
 from .record import Record, Row, record
-from .statements import world
+from .statements import key, world
 from .steps import Step, steps
 
 LIBRARY = Path(__file__).parent / "library"
@@ -39,6 +39,8 @@ AXIOMS = frozenset(
         "Classical_Prop.classic",
     }
 )
+MACHINE_INTEGERS = ("PrimInt63.", "Uint63.")
+"""Coq's own 63-bit integers, with which its interval arithmetic computes."""
 PACKAGES = "coq libcoq-coquelicot libcoq-interval"
 
 HEAD = f"""From Coq Require Import Reals Lra Psatz.
@@ -125,6 +127,7 @@ class Export:
         stated = self._stated[0].values()
         relations = [s.relation for s in stated]
         relations += [h.relation for s in stated for h in s.judgement.hypotheses]
+        relations += refutations.RELATIONS
         return f"{HEAD}Open Scope R_scope.\n\n{world(relations)}"
 
     @cached_property
@@ -138,12 +141,25 @@ class Export:
             needs = ["World", *(g for g in self.groups if g in cited)]
             head = f"{HEAD}From Wear Require Import {' '.join(needs)}.\nOpen Scope R_scope.\n\n"
             files[group] = head + text, needs
+        if refuting := self.refuting:
+            needs = list(dict.fromkeys(("World", *(home[s.name] for s in refuting.values()))))
+            head = f"From Interval Require Import Tactic.\n{HEAD}"
+            head += f"From Wear Require Import {' '.join(needs)}.\nOpen Scope R_scope.\n\n"
+            files["Refutations"] = head + refutations.text(refuting), needs
         files["Assumptions"] = self._assumptions(list(files)), list(files)
         return files
+
+    @property
+    def refuting(self) -> dict[str, Step]:
+        """Return the steps that contradict claims of the note; none unless all are closed."""
+        wanted = {e.id: key(e.statements[0]) for e in self.equations if e.id in refutations.NEEDS}
+        found = {i: s for i, k in wanted.items() if (s := self._stated[0][k]).closed}
+        return found if len(found) == len(refutations.NEEDS) else {}
 
     def _assumptions(self, files: list[str]) -> str:
         """Return the file that prints what all theorems together rest on."""
         proved = [name for name, text in self.lemmas.items() if "\nLemma " in text]
+        proved += refutations.NAMES.values() if self.refuting else ()
         everything = ", ".join(f"@{name}" for name in proved)
         return (
             f"From Wear Require Import {' '.join(files)}.\n"
@@ -203,4 +219,5 @@ def compiled(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:
     if "Closed under the global context" not in said and "Axioms:" not in said:
         return "Coq does not say what the theorems rest on\n"
     found = set(re.findall(r"^([\w.]+)\s*:", said.partition("Axioms:")[2], re.MULTILINE))
-    return "".join(f"an axiom that is not pinned: {name}\n" for name in sorted(found - AXIOMS))
+    other = {name for name in found - AXIOMS if not name.startswith(MACHINE_INTEGERS)}
+    return "".join(f"an axiom that is not pinned: {name}\n" for name in sorted(other))

@@ -183,7 +183,7 @@ def in_terms_of(expr: sp.Expr, quantity: sp.Expr, stand_in: sp.Expr) -> sp.Expr:
 
 def _cancelled(expr: sp.Expr) -> sp.Expr:
     """Cancel common factors, inside the arguments of functions too."""
-    if not expr.args or isinstance(expr, sp.Derivative):
+    if not expr.args or isinstance(expr, (sp.Derivative, sp.Subs)):
         return expr
     inner = expr.func(*map(_cancelled, expr.args))
     return inner if isinstance(inner, sp.Function) else sp.cancel(inner)

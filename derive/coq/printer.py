@@ -17,7 +17,9 @@ from functools import cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..symbols import QUANTITIES, t
+from ..symbols import QUANTITIES, symbol, t
+
+tau = symbol("tau")
 
 _TAKEN = frozenset("RCISONEtl") | {"fun", "forall", "exists", "let", "in", "if", "then", "else"}
 _FUNCTIONS = {
@@ -137,6 +139,8 @@ def _power(expr: sp.Pow) -> str:
 
 
 def _call(expr: sp.Function) -> str:
+    if tau in expr.args:
+        raise UntranslatableError("a claim in scaled time")
     head = _FUNCTIONS.get(expr.func)
     if head is None and isinstance(expr, AppliedUndef):
         head = field(expr)

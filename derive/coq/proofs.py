@@ -13,15 +13,17 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import islice
+from itertools import islice, product
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
+from sympy.core.relational import _Inequality as Inequality
 
-from ..symbols import symbol
+from ..symbols import t
 from . import limits, theorems
 from .printer import term
+from .statements import Premise
 from .steps import Step
 
 _UNKNOWN = sp.Symbol("unknown", real=True)
@@ -36,11 +38,15 @@ def script(step: Step, way: int | None = None) -> str:
     if cited:
         return "\n".join((step.introduction, *cited))
     lines = [step.introduction, *now(step)]
-    found = _equation(step) if isinstance(step.relation, sp.Equality) else _inequality(step)
+    found = (
+        _equation(step)
+        if isinstance(step.relation, sp.Equality)
+        else inequality(step, step.relation)
+    )
     if way is not None:
         return "\n".join((*lines, f"{next(islice(_different(found), way, None))}."))
     tried = (
-        f'timeout 6 ({text}); idtac "WAY {step.name} {i}"'
+        f'timeout 12 ({text}); idtac "WAY {step.name} {i}"'
         for i, text in enumerate(_different(found))
     )
     return "\n".join((*lines, "first [\n  " + "\n| ".join(tried) + "]."))
@@ -59,15 +65,14 @@ def now(step: Step) -> list[str]:
     """Return the lines that fix an instant, and say what is positive then."""
     if not step.statement.conclusion.startswith("forall t, "):
         return []
-    lines = ["intros t Ht."]
-    for premise in step.statement.premises:
-        if (
-            premise.timed
-            and not isinstance(premise.relation, sp.Equality)
-            and premise.relation is not sp.true
-        ):
-            lines.append(f"pose proof ({premise.label} t Ht) as {premise.label}_now.")
-    return lines + divisors(step)
+    facts = (f"pose proof ({p.label} t Ht) as {p.label}_now." for p in _fixed(step))
+    return ["intros t Ht.", *facts, *divisors(step)]
+
+
+def _fixed(step: Step) -> list[Premise]:
+    """Return the premises that say an inequality of every time, if the claim does too."""
+    premises = step.statement.premises if step.timed else ()
+    return [p for p in premises if p.timed and isinstance(p.relation, (Inequality, sp.Ne))]
 
 
 def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
@@ -92,19 +97,23 @@ def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
         for premise in step.statement.premises:
             if isinstance(premise.relation, sp.Gt) and premise.relation.args == (relation.lhs, 0):
                 at = term(relation.rhs if time == "t" else limits.one_period_later(relation.rhs))
-                said = (
-                    f"rewrite <- ({step.cited(other)} _ {proof}); exact ({premise.label} _ {proof})"
-                )
+                now = f" _ {proof}" if other.timed else ""
+                here = f" _ {proof}" if premise.timed else ""
+                said = f"rewrite <- ({step.cited(other)}{now}); exact ({premise.label}{here})"
                 lines.append(f"assert (0 < {at}) by ({said}).")
     return list(dict.fromkeys(lines))
 
 
 def stated(step: Step, steps: Sequence[Step]) -> tuple[str, list[Named]]:
     """Return the tactic that states the claims of other steps at this time, and their labels."""
-    named = [(f"P{i}", s) for i, s in enumerate(steps) if not s.relation.has(sp.Limit)]
-    at = {True: " t Ht", False: ""}
-    text = "; ".join(f"pose proof ({step.cited(s)}{at[s.timed]}) as {label}" for label, s in named)
-    return f"{text}; " if text else "", [(label, s.relation) for label, s in named]
+    text, named = "", list[Named]()
+    for i, other in enumerate(s for s in steps if not s.relation.has(sp.Limit)):
+        parts = other.relation.args if isinstance(other.relation, sp.And) else [other.relation]
+        labels = [f"P{i}" if len(parts) == 1 else f"P{i}_{j}" for j in range(len(parts))]
+        pattern = f"[{' '.join(labels)}]" if len(parts) > 1 else labels[0]
+        text += f"pose proof ({step.cited(other)}{' t Ht' if other.timed else ''}) as {pattern}; "
+        named += zip(labels, parts, strict=True)
+    return text, named
 
 
 def _sources(step: Step) -> Iterator[tuple[str, list[Named]]]:
@@ -122,20 +131,26 @@ def _equation(step: Step) -> Iterator[str]:
     for text, named in _sources(step):
         equations = [(label, e) for label, e in named if isinstance(e, sp.Equality)]
         if equations:
-            yield text + _from_first(goal, equations)
+            yield text + _from_first(goal, equations, getattr(step.judgement.rule, "factor", None))
         lines, _ = _inserted(goal, equations)
-        yield text + "; ".join((*lines, "identity"))
+        unequal = [label for label, e in named if isinstance(e, sp.Ne)]
+        unequal += [f"{p.label}_now" for p in _fixed(step) if isinstance(p.relation, sp.Ne)]
+        lines += [f"rewrite ?{e} in {label}" for label in unequal for e, _ in equations]
+        yield text + "; ".join(
+            (*lines, "logarithm" if isinstance(goal.lhs, sp.log) else "identity")
+        )
 
 
-def _from_first(goal: sp.Equality, equations: list[Named]) -> str:
-    """Insert the further equations into the first, which then is the goal."""
+def _from_first(goal: sp.Equality, equations: list[Named], factor: sp.Expr | None) -> str:
+    """Insert the further equations into the first, of which the goal then is a multiple."""
     (first, relation), *others = equations
     lines = []
     for label, other in others:
         if relation.has(other.lhs) and _atomic(other.lhs):
             lines.append(f"rewrite {label} in {first}")
             relation = _replaced(relation, other.lhs, other.rhs)
-    factor = _factor(goal.lhs - goal.rhs, relation.lhs - relation.rhs, goal.lhs)
+    if factor is None:
+        factor = _factor(goal.lhs - goal.rhs, relation.lhs - relation.rhs, goal.lhs)
     return "; ".join((*lines, f"from_equation {first} ({term(factor)})"))
 
 
@@ -167,7 +182,7 @@ def _vanishes(expr: sp.Expr) -> bool:
 
 
 def _atomic(expr: sp.Expr) -> bool:
-    return isinstance(expr, (sp.Symbol, AppliedUndef, sp.Derivative))
+    return isinstance(expr, (sp.Symbol, AppliedUndef, sp.Derivative, sp.log))
 
 
 def _inserted(goal: sp.Basic, equations: list[Named]) -> tuple[list[str], sp.Basic]:
@@ -208,35 +223,83 @@ def _sorted(rules: dict[sp.Expr, tuple[str, sp.Expr]]) -> list[sp.Expr]:
     return done
 
 
-def _inequality(step: Step) -> Iterator[str]:
+def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
     """Return the ways in which an inequality, or several, may follow."""
     for text, named in _sources(step):
         equations = [(label, e) for label, e in named if isinstance(e, sp.Equality)]
-        known = [label for label, e in named if not isinstance(e, sp.Equality)]
-        lines, goal = _inserted(step.relation, equations)
+        facts = [(label, e) for label, e in named if not isinstance(e, sp.Equality)]
+        facts += [(f"{p.label}_now", p.relation) for p in _fixed(step)]
+        known = [label for label, _ in facts]
+        lines, goal = _inserted(claim, equations)
         insert = "".join(f"{line}; " for line in lines)
         into = [
             f"{''.join(f'rewrite ?{e} in {label}; ' for e, _ in equations)}same_inequality {label}"
             for label in known
         ]
         if isinstance(goal, sp.And):
-            parts = " | ".join(f"first [{' | '.join(_parts(part, known))}]" for part in goal.args)
+            parts = " | ".join(
+                f"first [{' | '.join((*_rests(part, facts), *_parts(part, known)))}]"
+                for part in goal.args
+            )
             yield f"{text}{insert}split; [{parts}]"
         elif isinstance(goal, sp.Equivalent):
+            yield f"{text}{insert}apply same_difference; identity"
             yield f"{text}{insert}split; intro; arithmetic"
             for label in known:
                 yield f"{text}{insert}split; intro; [apply {label} | apply {label}]; arithmetic"
         else:
             order = list(_ordered(goal))
-            for way in (*order, *into, *(w for w in _parts(goal, []) if w not in order)):
+            alone = [w for w in _parts(goal, []) if w not in order]
+            more = (*_multiples(goal, facts), *_rests(goal, facts))
+            for way in (*order, *more, *into, *alone):
                 yield f"{text}{insert}{way}"
-    yield from _last_ways(step)
 
 
-def _last_ways(step: Step) -> Iterator[str]:
-    """Return the ways of a bound that a bounded load gives."""
-    text, _ = next(_sources(step))
-    yield from (f"{text}manifest ({term(form)})" for form in _loaded(step.relation))
+def _multiples(goal: sp.Basic, facts: list[Named]) -> Iterator[str]:
+    """Return ways by an inequality of which the goal is a multiple."""
+    if isinstance(goal, Inequality):
+        for label, fact in facts:
+            if isinstance(fact, Inequality) and not fact.atoms(sp.Abs):
+                factor = sp.factor(sp.cancel((goal.gts - goal.lts) / (fact.gts - fact.lts)))
+                if factor.count_ops() < (goal.gts - goal.lts).count_ops():
+                    yield f"from_inequality {label} ({term(factor)})"
+
+
+def _rests(goal: sp.Basic, facts: list[Named]) -> Iterator[str]:
+    """Return ways by a polynomial whose coefficients are positive in the rests of inequalities.
+
+    The rest of ``a <= b`` is ``b - a``; it takes the place of a field or datum in it.
+    """
+    if not isinstance(goal, Inequality):
+        return
+    numerator, denominator = sp.fraction(sp.together(goal.gts - goal.lts))
+    places: dict[sp.Expr, list[sp.Expr]] = {}
+    for _, fact in facts:
+        for low, high in _bounds(fact):
+            for atom in sorted((high - low).atoms(AppliedUndef, sp.Symbol), key=str):
+                if atom != t and numerator.has(atom) and sp.diff(high - low, atom) in (1, -1):
+                    places.setdefault(atom, []).append(high - low)
+    chosen = sorted(places, key=lambda a: (not a.args, str(a)))[:3]
+    for choice in product(*([*places[a], None] for a in chosen)):
+        inside, back = numerator, {}
+        for i, (atom, rest) in enumerate(zip(chosen, choice, strict=True)):
+            if rest is not None:
+                name = sp.Symbol(f"rest_{i}", positive=True)
+                back[name] = rest
+                inside = sp.expand(inside).subs(atom, atom + (name - rest) / sp.diff(rest, atom))
+        inside = sp.expand(inside)
+        if back and all(part.as_coeff_Mul()[0] > 0 for part in sp.Add.make_args(inside)):
+            yield f"manifest ({term((inside / sp.factor(denominator)).xreplace(back))})"
+
+
+def _bounds(fact: sp.Basic) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """Return the sides of the inequalities that a relation consists of."""
+    for part in fact.args if isinstance(fact, sp.And) else (fact,):
+        if isinstance(part, Inequality):
+            if isinstance(part.lts, sp.Abs):
+                yield from ((part.lts.args[0], part.gts), (-part.gts, part.lts.args[0]))
+            else:
+                yield part.lts, part.gts
 
 
 def _parts(goal: sp.Basic, known: list[str]) -> Iterator[str]:
@@ -256,20 +319,21 @@ def _manifest(goal: sp.Basic) -> Iterator[sp.Expr]:
         back = {dummy: f for f, dummy in functions.items()}
         flat = difference.xreplace(functions)
         yield sp.factor(flat).xreplace(back)
+        turned = list(map(_turned, sp.Mul.make_args(sp.factor(flat))))
+        sign = sp.Mul(*(s for s, _ in turned))
+        yield sp.Mul(*((f if i else sign * f) for i, (_, f) in enumerate(turned))).xreplace(back)
         numerator, denominator = sp.fraction(sp.together(flat))
         yield (sp.expand(numerator) / sp.factor(denominator)).xreplace(back)
 
 
-def _loaded(goal: sp.Basic) -> Iterator[sp.Expr]:
-    """Return forms of the difference that are positive for every load between -U and U."""
-    if not isinstance(goal, Relational):
-        return
-    numerator, denominator = sp.fraction(sp.together(goal.gts - goal.lts))
-    load, bound, rest = symbol("U_a"), symbol("U"), sp.Symbol("rest", positive=True)
-    for sign in (1, -1) if numerator.has(load) and numerator.has(bound) else ():
-        inside = sp.expand(sp.expand(numerator).subs(load, sign * (rest - bound)))
-        if all(term.as_coeff_Mul()[0] > 0 for term in sp.Add.make_args(inside)):
-            yield (inside / sp.factor(denominator)).xreplace({rest: bound + sign * load})
+def _turned(factor: sp.Expr) -> tuple[int, sp.Expr]:
+    """Return the sign, where all is below 1, of a power of a sum, and what remains."""
+    base, power = factor.as_base_exp()
+    if not base.is_Add or not power.is_Integer:
+        return 1, factor
+    draw = random.Random(1)
+    size = base.subs([(s, draw.uniform(0.1, 0.9)) for s in sorted(base.free_symbols, key=str)])
+    return (1, factor) if size > 0 else ((-1) ** int(power), (-base) ** power)
 
 
 def _ordered(goal: sp.Basic) -> Iterator[str]:
@@ -277,8 +341,11 @@ def _ordered(goal: sp.Basic) -> Iterator[str]:
     if not isinstance(goal, Relational):
         return
     low, high = goal.lts, goal.gts
+    form = next(_manifest(goal))
+    for a in sorted(low.atoms(sp.tanh), key=sp.default_sort_key) if high.has(sp.exp) else ():
+        below = f"pose proof (share_below_exp ({term(a.args[0])})) as Q"
+        yield f"{below}; manifest_by Q ({term(form)})"
     for function in (sp.tanh, sp.Function("phi", positive=True)):
         for a in sorted(low.atoms(function), key=sp.default_sort_key):
             for b in sorted(high.atoms(function), key=sp.default_sort_key):
-                form = next(_manifest(goal))
                 yield f"ordered ({term(a.args[0])}) ({term(b.args[0])}) ({term(form)})"

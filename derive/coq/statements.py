@@ -24,7 +24,7 @@ from sympy.core.function import AppliedUndef
 
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
-from ..symbols import t
+from ..symbols import QUANTITIES, t
 from . import printer
 
 _LAW = (
@@ -69,7 +69,8 @@ class Statement:
 def statement(judgement: Judgement) -> Statement:
     """Return the lemma of a judgement; UntranslatableError where Coq's library lacks the words."""
     premises = [_premise(h) for h in judgement.hypotheses]
-    premises += [_domain(h) for h in judgement.domains if _of_quantity(h.relation.args[0])]
+    premises += [_domain(h.relation) for h in judgement.domains if _of_quantity(h.relation.args[0])]
+    premises += _assumed(judgement)
     premises += _smooth(judgement)
     conclusion = printer.always(claim(judgement))
     if any(re.search(r"\bphi\b", text) for text in (conclusion, *(p.said for p in premises))):
@@ -117,10 +118,18 @@ def _premise(hypothesis: Hypothesis) -> Premise:
     raise printer.UntranslatableError(f"only words say that {hypothesis.text}")
 
 
-def _domain(hypothesis: Hypothesis) -> Premise:
-    atom = hypothesis.relation.args[0]
+def _domain(relation: sp.Basic) -> Premise:
+    atom = relation.args[0]
     label = f"domain_{printer.name(atom.func.__name__ if atom.args else str(atom))}"
-    return Premise(label, printer.always(hypothesis.relation), hypothesis.relation)
+    return Premise(label, printer.always(relation), relation)
+
+
+def _assumed(judgement: Judgement) -> list[Premise]:
+    """Return the signs of symbols that a rule or an author made for the occasion."""
+    found = sorted(judgement.relation.free_symbols, key=str)
+    own = [s for s in found if s.name not in QUANTITIES and not isinstance(s, sp.Dummy)]
+    signs = ((s, sp.Gt if s.is_positive else sp.Ge) for s in own if s.is_nonnegative)
+    return [_domain(relation(symbol, 0, evaluate=False)) for symbol, relation in signs]
 
 
 def _smooth(judgement: Judgement) -> list[Premise]:
@@ -158,13 +167,14 @@ def _numbered(premises: list[Premise]) -> tuple[Premise, ...]:
 
 def world(relations: list[sp.Basic]) -> str:
     """Return the record of all quantities that occur, with the type of each."""
-    fields: dict[str, str] = {"phi": "R -> R"}
+    fields = {"law": "> contact_law"}
     for relation in relations:
         bound = {v for e in relation.atoms(sp.Derivative, sp.Integral) for v in e.variables}
         for function in relation.atoms(AppliedUndef):
-            fields[printer.field(function)] = "R -> R"
+            fields[printer.field(function)] = " R -> R"
         for symbol in relation.atoms(sp.Symbol):
             if symbol not in bound and str(symbol) != "t" and not isinstance(symbol, sp.Dummy):
-                fields.setdefault(printer.name(str(symbol)), "R")
-    rows = ";\n".join(f"  {name} : {kind}" for name, kind in sorted(fields.items()))
+                fields.setdefault(printer.name(str(symbol)), " R")
+    fields.pop("phi", None)
+    rows = ";\n".join(f"  {name} :{kind}" for name, kind in sorted(fields.items()))
     return f"Class world := {{\n{rows}\n}}.\n"

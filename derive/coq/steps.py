@@ -151,7 +151,8 @@ def steps(
         try:
             said, name = statement(judgement), key(judgement)
         except UntranslatableError as reason:
-            refused[str(judgement.relation)] = str(reason)
+            if judgement.parents:
+                refused[str(judgement.relation)] = str(reason)
         else:
             parents = [known[k] for p in judgement.parents if (k := _key(p)) in known]
             proved = name in closed

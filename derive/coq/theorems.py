@@ -7,6 +7,7 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -22,7 +23,17 @@ _WEAR = symbol("u_c")
 
 def proof(step: Step) -> list[str]:
     """Return the lines of a proof by a general theorem."""
-    for way in (_discharges, _grows, _integrates, _bounded_load, _first_order, _drift, _derivative):
+    for way in (
+        _later,
+        _same_rate,
+        _discharges,
+        _grows,
+        _integrates,
+        _bounded_load,
+        _first_order,
+        _drift,
+        _derivative,
+    ):
         if lines := list(way(step)):
             return lines
     return []
@@ -30,23 +41,41 @@ def proof(step: Step) -> list[str]:
 
 def _discharges(step: Step) -> Iterator[str]:
     """A hypothesis of the first parent that the others imply."""
+    from .proofs import inequality
+
     if step.rule != "Discharge":
         return
     (first, premises), *_ = step.missing
-    usable = [s for s in step.frontier if s in step.parents and not s.relation.has(sp.Limit)]
     for premise in premises:
-        facts = "".join(
-            f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''}) as P{i}; "
-            for i, s in enumerate(usable)
-        )
+        ways = " | ".join(f"solve [{way}]" for way in inequality(step, premise.relation))
         fixed = "intros t Ht; " if premise.timed else ""
-        yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}{facts}arithmetic)."
+        yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}first [{ways}])."
     labels = step.labels | {p.said: f"{p.label}_met" for p in premises}
     yield (
         "exact ("
         + " ".join((first.name, *(labels[p.said] for p in first.statement.premises)))
         + ")."
     )
+
+
+def _later(step: Step) -> Iterator[str]:
+    """What holds at every time, one period later."""
+    if step.rule == "OnePeriodLater":
+        yield "intros t Ht; assert (HT : 0 <= T + t) by lra."
+        yield f"pose proof ({step.cited(step.frontier[0])} (T + t) HT) as P0."
+        yield "first [exact P0 | rewrite ?derive_later; exact P0]."
+
+
+def _same_rate(step: Step) -> Iterator[str]:
+    """The rates of two sides that are equal at every time."""
+    if step.rule == "Differentiate":
+        given = step.parents[0]
+        rates = [f"(fun t => {term(side)})" for side in given.relation.args]
+        slopes = [term(sp.diff(side, t)) for side in given.relation.args]
+        for label, rate, slope in zip("AB", rates, slopes, strict=True):
+            yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; auto_derive; [repeat split; auto | ring])."
+        yield f"intros t Ht; pose proof (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) as P0."
+        yield "from_equation P0 1."
 
 
 def _grows(step: Step) -> Iterator[str]:
@@ -91,49 +120,64 @@ def _integrates(step: Step) -> Iterator[str]:
             yield f"- intros s Hs; rewrite ({step.cited(other)} s Hs); identity."
 
 
-def _affine(expr: sp.Expr) -> tuple[str, str, sp.Expr] | None:
-    """Return c0, c1 of an expression c0 + c1 U_a; None where it is none."""
+@dataclass(frozen=True)
+class _Affine:
+    """An expression c0 + c1 L in a load, which is U_a, or U_a - U_c on a compliant support."""
+
+    load: str
+    c0: str
+    c1: str
+
+    @property
+    def function(self) -> str:
+        """Return the load as a function."""
+        return "U_a" if self.load == "U_a t" else f"(fun t => {self.load})"
+
+    def __str__(self) -> str:
+        return f"({self.c0} + ({self.c1}) * ({self.load}))"
+
+
+def _affine(expr: sp.Expr) -> _Affine | None:
+    """Return an expression as one that is affine in the load; None where it is not."""
     flat = sp.Symbol("load", real=True)
-    inside = sp.expand(expr.xreplace({_LOAD: flat}))
-    slope = sp.diff(inside, flat)
-    if inside.has(t) or slope.has(flat):
-        return None
-    return term(inside.subs(flat, 0)), term(slope), inside
+    for load, value in (("U_a t", flat), ("U_a t - U_c t", flat + symbol("U_c"))):
+        inside = sp.expand(expr.xreplace({_LOAD: value}))
+        slope = sp.diff(inside, flat)
+        if not inside.has(t) and not slope.has(flat):
+            return _Affine(load, term(inside.subs(flat, 0)), term(slope))
+    return None
 
 
-def _bounded(step: Step) -> str:
-    """Return the label of the premise that bounds the load."""
-    found = (
-        p
-        for p in step.statement.premises
-        if isinstance(p.relation, sp.Le) and p.relation.lhs == sp.Abs(_LOAD)
+def _bounded(step: Step, affine: _Affine) -> Iterator[str]:
+    """State that the load is bounded."""
+    yield f"assert (B : exists b, forall t, 0 <= t -> Rabs ({affine.load}) <= b)."
+    bound = "U" if affine.load == "U_a t" else "(U + p_max / k)"
+    yield f"{{ exists {bound}; intros t Ht."
+    yield from (
+        f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''})."
+        for s in step.ancestors
+        if not isinstance(s.relation, sp.Equality)
     )
-    premise = next(found, None)
-    return premise.label if premise else ""
+    yield "arithmetic. }"
+    yield "destruct B as [b B]."
 
 
 def _bounded_load(step: Step) -> Iterator[str]:
     """What tends to 0 because only a bounded load stands over a roughness that diverges."""
-    if step.rule != "AtInfinity" or step.relation.rhs != 0 or not _bounded(step):
+    if step.rule != "AtInfinity" or step.relation.rhs != 0:
         return
-    inside = sp.together(step.relation.lhs.args[0])
-    size = next(
-        (
-            d
-            for d in sorted(step.relation.lhs.args[0].atoms(sp.Add), key=sp.default_sort_key)
-            if sp.denom(inside).has(_WEAR)
-            and sp.diff(d, _WEAR).is_Symbol
-            and (1 / d) in step.relation.lhs.args[0].atoms(sp.Pow)
-        ),
-        None,
-    )
-    parts = _affine(sp.cancel(inside * size)) if size is not None else None
-    if size is None or parts is None:
+    claimed = step.relation.lhs.args[0]
+    inside = sp.together(claimed)
+    below = (1 / p for p in sorted(claimed.atoms(sp.Pow), key=sp.default_sort_key))
+    size = next((d for d in below if d.is_Add and sp.diff(d, _WEAR).is_Symbol), None)
+    affine = _affine(sp.cancel(inside * size)) if size is not None else None
+    if size is None or affine is None:
         return
     slope, start = sp.diff(size, _WEAR), size.subs(_WEAR, 0)
     diverges = next(s for s in step.limits if s.relation.rhs == sp.oo)
     yield f"assert (S : diverges (fun t => {term(start)} + {term(slope)} * u_c t)) by (apply diverges_affine; [positive | exact ({step.cited(diverges)})])."
-    yield f"generalize (vanishes_affine U_a _ _ ({parts[0]}) ({parts[1]}) {_bounded(step)} S); apply tends_ext; intros t Ht."
+    yield from _bounded(step, affine)
+    yield f"generalize (vanishes_affine {affine.function} _ b ({affine.c0}) ({affine.c1}) B S); apply tends_ext; intros t Ht."
     facts = [s for s in step.frontier if not isinstance(s.relation, sp.Equality)]
     yield from (f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''})." for s in facts)
     yield f"assert (0 < {term(size)}) by positive; identity."
@@ -141,22 +185,35 @@ def _bounded_load(step: Step) -> Iterator[str]:
 
 def _first_order(step: Step) -> Iterator[str]:
     """The rate to first order in 1/t, from that of h/sigma."""
-    if step.rule != "FirstOrder" or not _bounded(step):
+    from .proofs import divisors
+
+    if step.rule != "FirstOrder":
         return
     law, deviation, ratio, limit = step.parents[:4]
     quantity, end = ratio.relation.lhs.args[0], ratio.relation.rhs
     y = sp.Symbol("ratio", real=True)
     function = in_terms_of(law.relation.rhs, quantity, y)
-    parts = _affine(sp.expand(_WEAR * (quantity - end) - deviation.relation.lhs.args[0]))
-    if parts is None or function.has(t):
+    affine = _affine(sp.expand(_WEAR * (quantity - end) - deviation.relation.lhs.args[0]))
+    if affine is None or function.has(t):
         return
     slope = sp.diff(function, y).subs(y, end).doit()
-    speed = limit.relation.rhs
-    yield f"assert (D : is_derive (fun ratio => {term(function)}) ({term(end)}) ({term(slope)})) by (auto_derive; [repeat split; positive | identity])."
-    yield f"assert (E : tends (fun t => u_c t * ({term(quantity)} - {term(end)}) - ({parts[0]} + ({parts[1]}) * U_a t)) 0) by (generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht; field; positive)."
+    speed, made, at = limit.relation.rhs, f"(fun ratio => {term(function)})", term(quantity)
+    known = list(divisors(step))
+    yield f"assert (D : is_derive {made} ({term(end)}) ({term(slope)})) by (auto_derive; [repeat split; first [positive | auto] | identity])."
+    yield f"assert (W : forall t, 0 <= t -> Derive u_c t = {made} ({at}))."
+    yield from (
+        "{ intros t Ht.",
+        *known,
+        f"rewrite ({step.cited(law)} t Ht); cbv beta; identity. }}",
+    )
+    yield f"assert (E : tends (fun t => u_c t * ({at} - {term(end)}) - {affine}) 0)."
+    yield f"{{ generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht."
+    yield from (*known, "field; positive. }")
     yield f"assert (N : {term(speed)} <> 0) by (apply Rgt_not_eq, Rlt_gt; positive)."
-    yield f"generalize (first_order_affine u_c (fun t => {term(quantity)}) U_a _ _ _ ({term(speed)}) _ ({parts[0]}) ({parts[1]}) smooth_u_c ({step.cited(law)}) D eq_refl N {_bounded(step)} ({step.cited(ratio)}) ({step.cited(limit)}) E)."
-    yield "apply tends_ext; intros t Ht; bounds; identity."
+    yield f"assert (L : {made} ({term(end)}) = {term(speed)}) by (cbv beta; identity)."
+    yield from _bounded(step, affine)
+    yield f"generalize (first_order_affine u_c (fun t => {at}) {affine.function} {made} _ _ ({term(speed)}) b ({affine.c0}) ({affine.c1}) smooth_u_c W D L N B ({step.cited(ratio)}) ({step.cited(limit)}) E)."
+    yield "apply tends_ext; intros t Ht; cbv beta; bounds; identity."
 
 
 def _drift(step: Step) -> Iterator[str]:
@@ -165,22 +222,13 @@ def _drift(step: Step) -> Iterator[str]:
         return
     approach = step.parents[0]
     inside = approach.relation.lhs.args[0]
-    (rate,) = inside.atoms(sp.Derivative)
-    speed_now = sp.Symbol("speed_now", real=True)
-    flat = inside.xreplace({rate: speed_now})
-    parts = (
-        _affine(-flat.subs(t, 0))
-        if not flat.has(_LOAD)
-        else _affine(
-            -flat.xreplace({_LOAD: sp.Symbol("load", real=True)})
-            .subs(t, 0)
-            .xreplace({sp.Symbol("load", real=True): _LOAD})
-        )
-    )
-    if parts is None:
+    rate = next(d for d in inside.atoms(sp.Derivative) if d.has(AppliedUndef) and t in d.variables)
+    now, load = sp.symbols("speed_now load", real=True)
+    flat = inside.xreplace({rate: now, _LOAD: load})
+    affine = _affine(-flat.subs(t, 0).xreplace({load: _LOAD}))
+    if affine is None:
         return
-    load = flat.xreplace({_LOAD: sp.Symbol("load", real=True)})
-    speed = sp.expand(speed_now - sp.diff(load, t))
+    speed = sp.expand(now - sp.diff(flat, t))
     mean = next(
         p
         for p in step.statement.premises
@@ -193,9 +241,9 @@ def _drift(step: Step) -> Iterator[str]:
     )
     smooth = next(p for p in step.statement.premises if p.said.endswith("continuous U_a t"))
     yield f"assert (M : RInt U_a 0 T = U_mean * T) by (rewrite {mean.label}; exact (mean_times _ T domain_T))."
-    yield f"assert (E : tends (fun t => t * (Derive u_c t - ({term(speed)})) - ({parts[0]} + ({parts[1]}) * U_a t)) 0) by (generalize ({step.cited(approach)}); apply tends_ext; intros t Ht; field; positive)."
+    yield f"assert (E : tends (fun t => t * (Derive u_c t - ({term(speed)})) - {affine}) 0) by (generalize ({step.cited(approach)}); apply tends_ext; intros t Ht; field; positive)."
     yield f"pose proof (logarithmic_drift_affine u_c U_a _ _ _ _ T domain_T smooth_u_c {smooth.label} {periodic.label} M E) as L."
-    yield f"apply (tends_value _ (({parts[0]}) + ({parts[1]}) * U_mean)); [field; positive |]."
+    yield f"apply (tends_value _ (({affine.c0}) + ({affine.c1}) * U_mean)); [field; positive |]."
     yield f"apply (tends_ext (fun t => (u_c t - ({term(speed)}) * t) / ln (t / T))); [| exact L]."
     yield "intros t Ht; unfold Rdiv; f_equal; field; positive."
 
@@ -212,8 +260,8 @@ def _derivative(step: Step) -> Iterator[str]:
         if isinstance(s.relation, sp.Equality) and not s.timed and not s.relation.has(sp.Limit)
     ]
     variable = binder(slope.variables[0])
-    yield f"assert (D : is_derive (fun {variable} => {term(slope.expr)}) {variable} ({value})) by (auto_derive; [repeat split; positive | identity])."
-    yield "rewrite (is_derive_unique _ _ _ D)."
+    yield f"assert (D : Derive (fun {variable} => {term(slope.expr)}) {variable} = {value}) by (apply is_derive_unique; auto_derive; [repeat split; positive | identity])."
+    yield "rewrite D; clear D."
     used = {
         s.relation.lhs: s
         for s in named

@@ -12,7 +12,7 @@ import pytest
 import sympy as sp
 
 from derive import catalogue
-from derive.coq import export, printer
+from derive.coq import export, printer, refutations
 from derive.coq.record import proved_by_coq, record
 from derive.coq.statements import statement
 from derive.symbols import symbols, t
@@ -68,6 +68,13 @@ def test_a_statement_has_the_hypotheses_as_premises():
 def test_every_step_of_the_note_is_closed(identifier):
     for step in catalogue.equation(identifier).steps:
         assert step.rule.__class__.__name__ == "Assume" or proved_by_coq(step), step.relation
+
+
+def test_what_the_note_claims_is_refuted_from_closed_steps():
+    made = export.Export(tuple(map(catalogue.equation, refutations.NEEDS)))
+    text, _ = made.files["Refutations"]
+    assert all(f"Lemma {name} " in text for name in refutations.NAMES.values())
+    assert set(refutations.NAMES) == {"C24", "C27", "C32", "C36", "contact"}
 
 
 def test_what_is_not_closed_has_a_reason():

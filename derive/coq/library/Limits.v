@@ -244,3 +244,18 @@ Proof.
   apply increases; [| | lra]; intros s Hs; [eexists; apply E, Hs |].
   rewrite (is_derive_unique _ _ _ (E s Hs)); specialize (Hr s Hs); lra.
 Qed.
+
+(** What is equal at every time has equal rates. *)
+Lemma same_rate (f g : R -> R) a b t : 0 <= t -> (forall s, 0 <= s -> f s = g s) ->
+  is_derive f t a -> is_derive g t b -> a = b.
+Proof.
+  intros Ht E Hf Hg; pose proof (is_derive_minus _ _ _ _ _ Hf Hg) as D.
+  apply is_derive_Reals in D; destruct (Req_dec a b) as [| N]; [assumption | exfalso].
+  assert (P : 0 < Rabs (a - b)) by (apply Rabs_pos_lt; lra).
+  destruct (D _ P) as [del B]; pose proof (cond_pos del) as Q.
+  specialize (B (del / 2)); rewrite (Rabs_pos_eq (del / 2)) in B by lra.
+  unfold minus, plus, opp in B; simpl in B; rewrite !E in B by lra.
+  replace ((g (t + del / 2) + - g (t + del / 2) - (g t + - g t)) / (del / 2) - (a + - b))
+    with (- (a - b)) in B by (field; lra).
+  rewrite Rabs_Ropp in B; assert (Rabs (a - b) < Rabs (a - b)) by (apply B; lra); lra.
+Qed.

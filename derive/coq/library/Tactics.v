@@ -5,6 +5,47 @@ From Coquelicot Require Import Coquelicot.
 From Wear Require Import Tanh Limits.
 Open Scope R_scope.
 
+(** An unspecified contact law; what is assumed of it stands in the lemmas. *)
+Class contact_law := { phi : R -> R }.
+
+(** ** Facts that the tactics use *)
+
+Lemma one_minus_tanh_square_pos (x : R) : 0 < 1 - tanh x ^ 2.
+Proof. pose proof (tanh_below x); pose proof (tanh_above x); nra. Qed.
+
+Lemma tanh_pos (x : R) : 0 < x -> 0 < tanh x.
+Proof. intro H; pose proof (tanh_increasing 0 x H) as T; rewrite tanh_0 in T; assumption. Qed.
+
+Lemma tanh_nonneg (x : R) : 0 <= x -> 0 <= tanh x.
+Proof. intro H; pose proof (tanh_order 0 x H) as T; rewrite tanh_0 in T; assumption. Qed.
+
+Lemma sqrt_positive (x : R) : 0 < sqrt x -> 0 < x.
+Proof.
+  intro H; destruct (Rlt_or_le 0 x) as [| L]; [assumption |].
+  rewrite (sqrt_neg_0 x L) in H; lra.
+Qed.
+
+Lemma below_inverse (a b : R) : 0 < b -> a < / b -> a * b < 1.
+Proof. intros Hb H; apply (Rmult_lt_compat_r b) in H; rewrite ?Rinv_l in H; lra. Qed.
+
+(** Inequalities whose differences are equal hold together. *)
+Lemma same_difference (a b c d : R) : b - a = d - c -> (a <= b <-> c <= d).
+Proof. intro; split; intro; lra. Qed.
+
+Lemma slope_of_decreasing (f : R -> R) : (forall r r', r < r' -> f r' < f r) ->
+  (forall r, ex_derive f r) -> forall r, Derive f r <= 0.
+Proof.
+  intros Hf Hd r; destruct (Rle_lt_dec (Derive f r) 0) as [| L]; [assumption |].
+  assert (D : derivable_pt_lim f r (Derive f r)) by (apply is_derive_Reals, Derive_correct, Hd).
+  destruct (D (Derive f r) L) as [del B]; pose proof (cond_pos del) as P.
+  specialize (B (del / 2)); rewrite Rabs_pos_eq in B by lra.
+  assert (E : Rabs ((f (r + del / 2) - f r) / (del / 2) - Derive f r) < Derive f r) by (apply B; lra).
+  apply Rabs_def2 in E; specialize (Hf r (r + del / 2)).
+  assert (Q : (f (r + del / 2) - f r) / (del / 2) < 0)
+    by (apply Rlt_div_l; [lra | rewrite Rmult_0_l; lra]).
+  lra.
+Qed.
+
 (** ** Signs *)
 
 (** A goal [0 < e], [0 <= e] or [e <> 0] by the signs of the parts of e. *)
@@ -25,7 +66,9 @@ with positive_part :=
   | |- 0 < / ?a => apply Rinv_0_lt_compat; positive
   | |- 0 < ?a ^ ?n => apply pow_lt; positive
   | |- 0 < exp _ => apply exp_pos
+  | |- 0 < tanh ?x => apply tanh_pos; positive
   | |- 0 < 1 + tanh _ => apply one_plus_tanh_pos
+  | |- 0 < 1 - tanh _ ^ 2 => apply one_minus_tanh_square_pos
   | |- 0 < tanh ?x / 2 + 1 / 2 => pose proof (tanh_above x); lra
   | |- 0 < 1 / 2 - tanh ?x / 2 => pose proof (tanh_below x); lra
   | |- 0 < sqrt _ => apply sqrt_lt_R0; positive
@@ -36,6 +79,7 @@ with positive_part :=
   | |- 0 <= / ?a => left; apply Rinv_0_lt_compat; positive
   | |- 0 <= ?a ^ 2 => apply pow2_ge_0
   | |- 0 <= ?a ^ ?n => apply pow_le; positive
+  | |- 0 <= tanh ?x => apply tanh_nonneg; positive
   | |- 0 <= Rabs _ => apply Rabs_pos
   | |- 0 <= sqrt _ => apply sqrt_pos
   | |- 0 <= ?a + ?b => apply Rplus_le_le_0_compat; positive
@@ -48,6 +92,11 @@ with positive_part :=
 Ltac bounds :=
   repeat match goal with
   | H : Rabs _ <= _ |- _ => apply Rabs_le_between in H
+  | H : 0 < sqrt _ |- _ => apply sqrt_positive in H
+  | H : _ < / _ |- _ => apply below_inverse in H; [| positive]
+  | |- Rabs _ <= _ => apply Rabs_le; split
+  | |- context [sin ?a] => lazymatch goal with H : -1 <= sin a <= 1 |- _ => fail
+      | _ => pose proof (SIN_bound a) end
   | |- context [tanh ?a] => lazymatch goal with H : tanh a < 1 |- _ => fail
       | _ => pose proof (tanh_below a); pose proof (tanh_above a) end
   | |- context [exp ?a] => lazymatch goal with H : 0 < exp a |- _ => fail
@@ -67,6 +116,8 @@ Ltac same_under f :=
       tryif constr_eq a b then fail else replace (f b) with (f a) by (f_equal; same_argument) end
   end.
 
+Ltac same_under_law := match goal with |- context [@phi ?c _] => same_under (@phi c) end.
+
 Ltac tanh_of_opposite :=
   match goal with
   | |- context [tanh ?a] => match goal with |- context [tanh ?b] =>
@@ -85,7 +136,7 @@ Ltac exp_of_multiple :=
   end.
 
 Ltac same_functions :=
-  repeat first [same_under tanh | same_under exp | same_under ln | same_under sqrt | same_under Rabs];
+  repeat first [same_under_law | same_under tanh | same_under exp | same_under ln | same_under sqrt | same_under Rabs];
   repeat tanh_of_opposite.
 
 Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_of_multiple];
@@ -110,6 +161,9 @@ Ltac identity := in_contact; same_functions; first
   [ reflexivity | ring | field; positive | same_exponentials; field; positive
   | progress roots; first [reflexivity | ring | field; positive] ].
 
+(** [ln x = y] from [x = exp y]. *)
+Ltac logarithm := match goal with |- ln ?x = ?y => replace x with (exp y); [apply ln_exp | identity] end.
+
 (** The goal is c times the equation H, up to the form of arguments. *)
 Ltac from_equation H c :=
   apply Rminus_diag_uniq; apply Rminus_diag_eq in H; revert H; same_functions;
@@ -123,6 +177,19 @@ Ltac from_equation H c :=
 Ltac manifest e :=
   first [apply Rminus_le_0 | apply Rminus_lt_0];
   match goal with |- ?r 0 ?d => replace d with e by identity end; arithmetic.
+
+(** The same, where the fact H gives the sign. *)
+Ltac manifest_by H e :=
+  first [apply Rminus_le_0 | apply Rminus_lt_0];
+  match goal with |- ?r 0 ?d => replace d with e by identity end;
+  revert H; same_functions; intro H; arithmetic.
+
+(** The goal is c times the inequality H. *)
+Ltac from_inequality H c :=
+  first [apply Rminus_le_0 in H | apply Rminus_lt_0 in H];
+  first [apply Rminus_le_0 | apply Rminus_lt_0];
+  match goal with |- ?r 0 ?d => match type of H with _ 0 ?e => replace d with (c * e) by identity end end;
+  positive.
 
 (** The same inequality up to form. *)
 Ltac same_inequality H := revert H; same_functions; intro H; arithmetic.
@@ -152,8 +219,8 @@ Ltac limit_of_parts :=
   | |- tends (fun t => / @?f t) _ => eapply (tends_inv f); [| limit_of_parts]; positive
   | |- tends (fun t => tanh (@?f t)) _ => apply (passes f tanh); [limit_of_parts | apply tanh_continuous]
   | |- tends (fun t => exp (@?f t)) _ => apply (passes f exp); [limit_of_parts | apply continuous_exp]
-  | |- tends (fun t => ?F (@?f t)) _ => apply (passes f F);
-      [limit_of_parts | apply (ex_derive_continuous F); auto]
+  | |- tends (fun t => @phi ?c (@?f t)) _ => apply (passes f (@phi c));
+      [limit_of_parts | apply (ex_derive_continuous (@phi c)); auto]
   end.
 
 Ltac limit := eapply tends_value; [| limit_of_parts]; identity.

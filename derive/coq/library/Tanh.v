@@ -18,6 +18,9 @@ Lemma tanh_opp (x : R) : tanh (- x) = - tanh x.
 Proof. unfold tanh, sinh, cosh; rewrite Ropp_involutive; pose proof (exp_pos x);
   pose proof (exp_pos (- x)); field; lra. Qed.
 
+Lemma tanh_0 : tanh 0 = 0.
+Proof. rewrite tanh_exp, Rmult_0_r, exp_0; lra. Qed.
+
 Lemma tanh_below (x : R) : tanh x < 1.
 Proof.
   rewrite tanh_exp; pose proof (exp_pos (2 * x)).
