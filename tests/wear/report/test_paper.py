@@ -153,7 +153,7 @@ _CONSTANT = re.compile(
 def test_a_changed_run_changes_every_number(paper: Document) -> None:
     found = equations()
     trusted = quick.trusted(found)
-    checks = tuple(Check(kind, False, "") for kind in ("proof", "sample", "dimensions"))
+    checks = tuple(Check(kind, False, "") for kind in ("proof", "falsifier", "coq", "dimensions"))
     changed = Verification(
         {**trusted.outcomes, "one more": checks}, (("1", checks[0]),), trusted.equations + 1
     )
