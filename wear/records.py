@@ -71,7 +71,7 @@ def follow(
     After the `deadline` (`time.monotonic()`) or on Ctrl-C the cycles reached by then are kept.
     """
     marks = tuple(sorted(set(cycles)))
-    ends = np.array([load.time_at(mark) for mark in marks])
+    ends = load.time_at(np.array(marks))
     times = np.union1d(np.append(load.breakpoints(0.0, ends[-1]), 0.0), ends)
     asked = np.isin(times[1:], ends)
     equation = WearEquation(model, (Record(load),))  # type: ignore[arg-type]  # all that it asks of one

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear import direct
-from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history import History
 from wear.load import HistoryLoad
+from wear.load.spans import most_cycles
 from wear.scene.plausibility import implausible_results
 from wear.states import displacement_of, fields_at, negative_roughness, reaction_of
 

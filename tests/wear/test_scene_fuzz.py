@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from wear.checked import TABLES, keys_of
 from wear.faults import SceneError
-from wear.scene import Scene, builtin_names, load_scene, parse_scene, scene_from_tables
+from wear.scene import Scene, builtin_names, load_scene, parse_scene
 
 NAMES = sorted(
     {"title", "description", "load", "kind", "cycles", "blocks"}
@@ -94,7 +94,7 @@ def test_changed_tables(name: str, data: st.DataObject) -> None:
         if not tables:
             break
     try:
-        answer: Scene | SceneError = scene_from_tables(tables)
+        answer: Scene | SceneError = Scene.from_dict(tables)
     except SceneError as error:
         answer = error
     check_answer(answer)

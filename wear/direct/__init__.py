@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from wear.direct import cutoff
 from wear.direct.cutoff import Mode
 from wear.direct.problem import EPS, Problem, Setting, problem, widest_step
-from wear.direct.sequence import span
 from wear.direct.step import (
     FINEST_TOLERANCE,
     METHODS,
@@ -31,9 +30,10 @@ from wear.direct.step import (
     OutOfTimeError,
     leg,
 )
+from wear.load.spans import span
 
 if TYPE_CHECKING:
-    from wear.load import AperiodicLoad, Load
+    from wear.load import Loading
     from wear.model import Model
 
 __all__ = ["METHODS", "DirectResult", "integrate"]
@@ -97,7 +97,7 @@ class State(NamedTuple):
 
 def integrate(
     model: Model,
-    load: Load | AperiodicLoad,
+    load: Loading,
     cycles: Sequence[int],
     rtol: float,
     method: str = "DOP853",
@@ -161,7 +161,7 @@ def _marks(cycles: Sequence[int]) -> tuple[int, ...]:
 
 def _march(
     model: Model,
-    load: Load | AperiodicLoad,
+    load: Loading,
     marks: Sequence[int],
     setting: Setting,
     meter: Meter,

@@ -38,7 +38,7 @@ from wear.checked import (
     wrong,
 )
 from wear.faults import Fault, SceneError, UsageError
-from wear.load import AperiodicLoad, Blocks, Force, ForceTable, HistoryLoad, Load
+from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
 from wear.load.rows import read_bytes
 from wear.load.tables import as_table, load_from
 from wear.scene.text import MOST_BYTES, Source, read_tables, set_entry
@@ -236,9 +236,7 @@ class Scene(SceneTable):
     bearing: Bearing = Field(description="the bearing, which wears")
     contact: Contact = Field(description="how closure and roughness make a pressure")
     motion: Motion = Field(description="the rotation of the pin")
-    load: Annotated[Load | AperiodicLoad, PlainValidator(load_from)] = Field(
-        description="the motion U_a(t)"
-    )
+    load: Annotated[Loading, PlainValidator(load_from)] = Field(description="the motion U_a(t)")
     pin: Pin | None = Field(default=None, description="the pin")
     support: Support | None = Field(default=None, description="the springs under the bearing")
     title: Text = Field(default="", description="one line that names the scene")
@@ -319,7 +317,7 @@ class Scene(SceneTable):
             raise UsageError(
                 f'{self.name}: a load of kind "{kind}" does not repeat; this needs one that does'
             )
-        return self.load  # type: ignore[return-value]  # what is left of the union
+        return self.load
 
     @property
     def variant(self) -> VariantKey:
@@ -525,9 +523,6 @@ class BuiltinScene(NamedTuple):
     def hard(self) -> bool:
         """Whether it belongs to the catalogue of hard cases, not to the note's own sections."""
         return not self.name.startswith("section")
-
-
-scene_from_tables = Scene.from_dict
 
 
 def builtin_names() -> tuple[str, ...]:
