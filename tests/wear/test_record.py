@@ -22,7 +22,8 @@ from wear.load import HistoryLoad
 from wear.model import bind
 from wear.numerics.collocation import iterate
 from wear.numerics.gauss import FloatArray
-from wear.records import Followed, follow
+from wear.outcome import Outcome
+from wear.records import follow
 from wear.scene import Scene
 from wear.solver import solve
 
@@ -54,7 +55,7 @@ def scene(load: HistoryLoad, **changes: Any) -> Scene:
     return dataclasses.replace(made, load=load)
 
 
-def followed(load: HistoryLoad, cycles: list[int], rtol: float = 1e-12, **changes: Any) -> Followed:
+def followed(load: HistoryLoad, cycles: list[int], rtol: float = 1e-12, **changes: Any) -> Outcome:
     return follow(bind(scene(load, **changes)), load, cycles, rtol)
 
 
