@@ -9,9 +9,8 @@ from typing import Annotated, NamedTuple, Self
 
 import numpy as np
 from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
-from pydantic_core import InitErrorDetails
 
-from wear.checked import MOST_CYCLES, Count, SceneTable, all_wrong, below, table, wrong
+from wear.checked import MOST_CYCLES, Count, Problem, SceneTable, all_wrong, problems, table, wrong
 from wear.load.phase import FloatArray
 from wear.load.protocol import Load
 from wear.load.tables import PERIODIC, load_from
@@ -40,22 +39,22 @@ def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
     if not 1 <= len(raw) <= MOST_BLOCKS:
         raise wrong(f"has {len(raw)} blocks", f"give from 1 to {MOST_BLOCKS}; see repeat")
     made: list[Block] = []
-    faults: list[InitErrorDetails] = []
+    faults: list[Problem] = []
     for place, block in enumerate(raw):
         rest = block._asdict() if isinstance(block, Block) else dict(block)
         cycles = {key: rest.pop(key) for key in ("cycles",) if key in rest}
         try:
             checked = BlockCycles.__pydantic_validator__.validate_python(cycles)  # type: ignore[attr-defined]
         except ValidationError as error:
-            faults += below(place, error)
+            faults += problems(error, (place,))
         try:
             load = load_from(rest.get("load", rest), info, PERIODIC)
         except ValidationError as error:
-            faults += below(place, error)
+            faults += problems(error, (place,))
         if not faults:
             made.append(Block(load, checked.cycles))
     if faults:
-        raise ValidationError.from_exception_data("blocks", faults)
+        raise all_wrong(*faults)
     return tuple(made)
 
 

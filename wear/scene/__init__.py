@@ -17,10 +17,10 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
-from pydantic_core import core_schema
 
 from wear import own_laws
 from wear.checked import (
+    Finding,
     Flag,
     NonNegative,
     OneOf,
@@ -84,13 +84,6 @@ def _formula(name: str, folder: Path | None) -> str:
     return text.removeprefix("phi").strip().removeprefix("=")
 
 
-class LawOf(OneOf):
-    """The contact laws among which a scene chooses, or gives one of its own."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        return core_schema.with_info_plain_validator_function(_law)
-
-
 @table("bearing")
 class Bearing(SceneTable):
     """The bearing (index c), which wears."""
@@ -131,7 +124,7 @@ class Contact(SceneTable):
         default=None,
         description="h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
     )
-    law: Annotated[str, LawOf(contact_laws())] = Field(
+    law: Annotated[str, OneOf(contact_laws()), PlainValidator(_law)] = Field(
         default="tanh",
         description='contact law p/p_max = phi(h/sigma): a name, { phi = "..." } in r = h/sigma, '
         'or { file = "..." } with the formula in a file beside the scene',
@@ -154,7 +147,7 @@ class Contact(SceneTable):
     )
 
     @classmethod
-    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         """Yield the faults of closures and of the contact's two lengths."""
         match [key in given for key in CLOSURES]:
             case [False, False]:
@@ -245,7 +238,7 @@ class Scene(SceneTable):
     folder: Annotated[Path | None, NO_ENTRY] = dataclasses.field(default=None, compare=False)
 
     @classmethod
-    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         """Yield the fault of a roughness that is zero on both solids."""
         solids = [given[name] for name in ("bearing", "pin") if name in given]
         rough = [
