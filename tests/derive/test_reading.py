@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from derive.typeset.reading import Part, read
+from derive.typeset.reading import read
 
 
 @pytest.mark.parametrize(
@@ -31,7 +31,9 @@ def test_formulas_are_found(text: str, formulas: list[str]) -> None:
     assert [part.text for part in read(text) if part.kind == "formula"] == formulas
 
 
-@pytest.mark.parametrize("text", ["electroencephalographically" * 20, "(" + "x(k) y[z] " * 200 + ";"])
+@pytest.mark.parametrize(
+    "text", ["electroencephalographically" * 20, "(" + "x(k) y[z] " * 200 + ";"]
+)
 def test_long_texts_are_read_without_trying_every_way(text: str) -> None:
     assert read(text)
 
