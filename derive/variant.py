@@ -15,7 +15,6 @@ from itertools import product
 from .laws import LAWS, ContactLaw
 from .note.governing import Model, Pin
 
-
 modelled = cache(Model)
 """The hypotheses of a law, a sign of pin wear and a kind of pin; what follows is derived once."""
 
