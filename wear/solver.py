@@ -247,9 +247,9 @@ def _history(
     return History(
         cycles=np.array(cycles, dtype=np.int64),
         u_c=u,
-        u_a=fields.u_a,
+        u_a=getattr(fields, "u_a", None),
         sigma_c=fields.sigma_c,
-        sigma_a=fields.sigma_a,
+        sigma_a=getattr(fields, "sigma_a", None),
         h=fields.h,
         p=fields.p,
         error=error,
@@ -269,7 +269,9 @@ def _history(
             *scene.notices,
             *wear.notices,
             *negative_roughness(model, fields, u),
-            *implausible_results(scene, np.array(cycles), u, fields.sigma_c, fields.sigma_a),
+            *implausible_results(
+                scene, np.array(cycles), u, fields.sigma_c, getattr(fields, "sigma_a", np.zeros(1))
+            ),
         ),
         stopped=wear.stopped is not None,
     )

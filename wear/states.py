@@ -59,6 +59,8 @@ def negative_roughness(model: Model, fields: Fields, u: FloatArray) -> tuple[str
     fresh = model.fields(0.0, 0.0)
     notices = []
     for solid, name in (("bearing", "sigma_c"), ("pin", "sigma_a")):
+        if name not in fields._fields:
+            continue
         worn, new = getattr(fields, name), float(getattr(fresh, name))
         if len(u) and np.min(worn) < 0.0:
             at = int(np.argmin(worn))

@@ -63,6 +63,17 @@ def test_a_compliant_support_gives_way(compliant, section3):
     assert section3.U_c is None
 
 
+def test_what_a_variant_does_not_have_is_absent(compliant, tmp_path):
+    """A smooth pin that does not wear: no zeros; JSON has its keys always, without a value."""
+    assert compliant.u_a is compliant.sigma_a is None
+    absent = {"pin_wear_mm", "pin_roughness_mm"}
+    assert not absent & set(compliant.to_dataframe().columns)
+    assert [compliant.as_json()[key] for key in sorted(absent)] == [[None, None]] * 2
+    compliant.write(tmp_path / "wear.nc")
+    with netcdf_file(tmp_path / "wear.nc", mmap=False) as file:
+        assert not absent & set(file.variables)
+
+
 def test_a_history_cannot_be_changed(section3):
     with pytest.raises(dataclasses.FrozenInstanceError):
         section3.rtol = 1.0
@@ -297,6 +308,8 @@ def test_a_history_inside_the_cycles_is_written_chunk_by_chunk(name, tmp_path):
         assert file.variables["cycle"][:].tolist() == cycles.tolist()
         assert file.variables["phase"][:].tolist() == phases.tolist()
         written = {key: value[:] for key, value in file.variables.items()}
+        assert ("bearing_displacement_mm" in written) == (scene.support is not None)
+        assert "pin_wear_mm" not in written
         assert Scene.from_dict(json.loads(file.scene)) == scene
         assert file.variables["bearing_wear_mm"].units == b"mm"
     np.testing.assert_allclose(written["bearing_wear_mm"], whole.u, rtol=1e-14)
