@@ -74,11 +74,14 @@ def cycles_until(
     """
     from wear.cycles import cycles_until as count_until
     from wear.model import bind
+    from wear.resampling import resampled
 
     scene = as_scene(scene)
     depths = _checked(scene, wear_mm, rtol)
-    found = count_until(bind(scene), scene.load, np.array(depths), rtol)
-    cycles, error = found.cycles.copy(), found.error.copy()
+    model = bind(scene)
+    fewer = resampled(scene, model, rtol)
+    found = count_until(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
+    cycles, error = found.cycles.copy(), found.error + fewer.error
     known = np.isfinite(cycles) & np.isfinite(error)
     reached = [Reached.COUNTED] * len(depths)
     if not known.all():

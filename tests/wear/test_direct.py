@@ -208,8 +208,8 @@ def test_default_tolerances_are_silently_wrong(name, method):
 
 @pytest.mark.parametrize("name", ["section4", "section4-cutoff"])
 def test_progress_is_told_from_cycle_to_cycle(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("wear.direct.step.SILENT", 0.0)
-    monkeypatch.setattr("wear.direct.step.APART", 0.0)
+    monkeypatch.setattr("wear.progress.SILENT", 0.0)
+    monkeypatch.setattr("wear.progress.APART", 0.0)
     told: list[str] = []
     solve(load_scene(name), [4], 1e-6, "DOP853", progress=told.append)
     first = [text for text in told if text.startswith("DOP853, run 1: cycle ")]

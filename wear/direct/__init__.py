@@ -33,6 +33,7 @@ from wear.direct.step import (
 from wear.load.spans import span
 from wear.orbit.segments import Cost
 from wear.outcome import Outcome
+from wear.progress import Pace
 
 if TYPE_CHECKING:
     from wear.load import Loading
@@ -101,7 +102,7 @@ def integrate(
         Is told in words how far the integration is, once it takes more than two seconds.
     """
     marks = _marks(cycles)
-    meter = Meter(deadline, progress)
+    meter = Meter(deadline, Pace(progress))
     blur = cutoff.roundoff(model, 0.0, load.maximum) if model.ends_at_3_sigma else 0.0
     runs: list[Run] = []
     stopped, interrupted = None, False
