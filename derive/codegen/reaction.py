@@ -11,7 +11,7 @@ import sympy as sp
 
 from ..note.governing import Model
 from ..note.problems import given_load
-from ..rules.algebra import solve
+from ..rules.algebra import Solve
 from ..symbols import symbol, symbols
 from .formulas import Formula, formula_module
 
@@ -24,7 +24,7 @@ mu, distance = sp.symbols("mu distance", nonnegative=True)
 
 def module() -> str:
     """Return the source of the generated module."""
-    force = solve(Model().reaction, symbol("R_a")).claim.rhs.subs(symbol("p"), pressure)
+    force = Solve(symbol("R_a"))(Model().reaction).claim.rhs.subs(symbol("p"), pressure)
     carried = given_load().order[0].claim.rhs.subs(symbol("R_a"), given)
     width, length = symbols("b L")
     slid = Model().slip.claim.rhs * symbol("T")

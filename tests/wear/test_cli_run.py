@@ -17,8 +17,8 @@ import pytest
 
 from wear import cli
 from wear.commands.run_output import latex_number, text
-from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, Interrupted
+from wear.load.spans import most_cycles
 from wear.scene import load_scene
 from wear.solver import METHODS, solve
 
@@ -252,7 +252,7 @@ def test_an_unusual_choice_of_a_method_is_told(run, tmp_path):
 
 
 def test_no_state_at_all_is_told_in_words(history):
-    fields = ("cycles", "u_c", "u_a", "sigma_c", "sigma_a", "h", "p", "error")
+    fields = ("cycles", "u_c", "sigma_c", "h", "p", "error")
     nothing = replace(history, **{name: getattr(history, name)[:0] for name in fields})
     shown = text(nothing)
     assert "No requested cycle was reached." in shown

@@ -43,7 +43,8 @@ def execute(options: argparse.Namespace) -> int:
     from wear.regime import asymptote
 
     arguments.read(options).stop_if_any()
-    found = asymptote(options.scene)
+    with terminal.busy("seeking the asymptote"):
+        found = asymptote(options.scene)
     if options.json:
         terminal.print_json(asdict(found))
         return terminal.DONE

@@ -38,9 +38,8 @@ def execute(options: argparse.Namespace) -> int:
     if problem := files.obstacle(options.output):
         faults.add(f"--output: {problem}")
     faults.stop_if_any()
-    terminal.progress("solving the scenes that the page checks itself against ...")
-    text = page(options.scene, specimens)
-    terminal.progress("")
+    with terminal.busy("solving the scenes that the page checks itself against"):
+        text = page(options.scene, specimens)
     files.write_atomically(options.output, text)
     if options.json:
         terminal.print_json({"page": options.output, "bytes": len(text.encode())})

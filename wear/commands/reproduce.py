@@ -43,9 +43,8 @@ def execute(options: argparse.Namespace) -> int:
     arguments.read(options).stop_if_any()
     folder = options.output
     start = time.monotonic()
-    progress = _progress(start)
-    verification, ledger, published = _reproduce(folder, progress)
-    progress("")
+    with terminal.busy("deriving the equations") as progress:
+        verification, ledger, published = _reproduce(folder, progress)
     summary = _summary(folder, verification, ledger, published, time.monotonic() - start)
     if options.json:
         terminal.print_json(summary)
@@ -63,7 +62,6 @@ def _reproduce(
     folder: Path, progress: Progress
 ) -> tuple[Verification, tuple[Entry, ...], Published]:
     """Make everything, then put it in place."""
-    progress("deriving the equations")
     from derive.catalogue import equations
     from derive.note.claim_checks import SYMBOLIC
     from wear.report.claims import SIMULATED, as_json, decided, ledger
@@ -98,15 +96,6 @@ def _json(document: object) -> str:
     import json
 
     return json.dumps(terminal.plain(document), indent=2, allow_nan=False) + "\n"
-
-
-def _progress(start: float) -> Progress:
-    """Show what is being done, and since when."""
-
-    def show(what: str) -> None:
-        terminal.progress(f"{time.monotonic() - start:4.0f} s  {what}" if what else "")
-
-    return show
 
 
 def _summary(

@@ -19,7 +19,7 @@ SUFFIXES = (".csv", ".nc")
 
 def check(options: argparse.Namespace, faults: arguments.Faults) -> None:
     """Add what stands against states inside the cycles."""
-    from wear.direct.sequence import most_cycles
+    from wear.load.spans import most_cycles
     from wear.solver import obstacle
 
     if not options.phases.is_integer():
