@@ -184,7 +184,7 @@ def test_the_suffix_names_the_kind_of_file(
 
 
 def test_an_unknown_suffix_is_told_with_the_known_ones(drawn: dict[str, Figure]) -> None:
-    with pytest.raises(ValueError, match=r"\.bmp.*\.svg, \.pdf or \.png"):
+    with pytest.raises(ValueError, match=r"\.bmp.*\.svg, \.pdf, \.png"):
         figure_style.encoded(drawn["wear"], ".bmp")
 
 
