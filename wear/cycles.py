@@ -19,9 +19,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.direct.sequence import most_cycles, span
 from wear.equation import WearEquation, equation_of
-from wear.load import AperiodicLoad, Blocks, Load
+from wear.load import Blocks, Load, Loading
+from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import counted_stages
 from wear.model import Model, bind
 from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
@@ -156,7 +156,7 @@ def count_cycles(
 
 def wear_after(
     model: Model,
-    load: Load | AperiodicLoad,
+    load: Loading,
     cycles: FloatArray,
     rtol: float,
     start: float = 0.0,
@@ -176,7 +176,7 @@ def wear_after(
     missed, done, cost = 0.0, 0, Cost(0, 0)
     notices: list[str] = []
     while True:
-        acting, until = span(load, done)
+        acting, until, _ = span(load, done)
         end = min(float(until), last)
         here = (cycles >= done) & (cycles <= end)
         wanted = np.append(cycles[here], end) - done
@@ -196,7 +196,7 @@ def wear_after(
         done = until
 
 
-def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rtol: float) -> Cycles:
+def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> Cycles:
     """Return the whole cycles after which each wear u_c (mm, (n,)) is first reached, infinite where
     it is not within the load or 1e12 cycles, and the estimated relative error of their number.
 
@@ -209,7 +209,7 @@ def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rto
     most = min(MOST_CYCLES, float(most_cycles(load)))
     doubtful = np.full(wear.shape, False)
     while (np.isinf(count) | doubtful).any() and done < most:
-        acting, until = span(load, done)
+        acting, until, _ = span(load, done)
         length = min(float(until), most) - done
         still = np.isinf(count)
         if doubtful.any():

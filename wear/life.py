@@ -17,10 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, UsageError
 from wear.history import History
 from wear.load import Blocks
+from wear.load.spans import most_cycles
 from wear.regime import Asymptote, asymptote
 from wear.scene import Scene, as_scene
 from wear.solver import LARGEST_RTOL, LEAST_RTOL, MOST_CYCLES, is_number, obstacle, solve

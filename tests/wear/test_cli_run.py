@@ -17,8 +17,8 @@ import pytest
 
 from wear import cli
 from wear.commands.run_output import latex_number, text
-from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, Interrupted
+from wear.load.spans import most_cycles
 from wear.scene import load_scene
 from wear.solver import METHODS, solve
 

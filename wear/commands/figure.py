@@ -118,7 +118,7 @@ class _Asked(NamedTuple):
 
 
 def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int:
-    from wear.direct.sequence import most_cycles
+    from wear.load.spans import most_cycles
 
     read = [int(each.cycles[-1]) for each in specimens]
     return max(read) if read else min(LAST, *(most_cycles(scene.load) for scene in scenes))
