@@ -91,7 +91,7 @@ class Problem:
         costs = np.sum(off**2, axis=1)
         damping, todo = np.full(len(points), DAMPING), np.arange(len(points))
         for _ in range(most):
-            self.pace.say(f"least sum of squares: {costs.min():.6g}, {len(todo)} searches go on")
+            self.pace.say(f"least sum of squares: {costs.min():.6g}, searches left: {len(todo)}")
             J = np.where(fixed[todo, None], 0.0, slope[todo])
             normal = np.swapaxes(J, 1, 2) @ J
             diagonal = np.einsum("mii->mi", normal)  # a view

@@ -54,6 +54,7 @@ def _data(
     first: Scene, derived: Mapping[str, Any], specimens: Sequence[Specimen]
 ) -> dict[str, Any]:
     scenes = {name: load_scene(name) for name in builtin_names()}
+    first = explorer_data.opened(first)
     if first.name not in scenes or scenes[first.name] != first:
         name = f"{first.name} (changed)" if first.name in scenes else first.name
         first = replace(first, name=name)
