@@ -21,6 +21,9 @@ import numpy as np
 import sympy as sp
 from flint import arb, fmpq
 from sympy.core.function import AppliedUndef
+from sympy.functions.elementary.piecewise import ExprCondPair
+
+from ..symbols import t
 
 Number = Any  # fmpq or arb, which mix
 BITS = 320
@@ -173,6 +176,15 @@ _CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
     sp.EulerGamma: arb.const_euler,
 }
 
+
+def _switched(*cases: tuple[Any, Any]) -> Any:
+    """Return the value of the first condition that holds, place by place."""
+    found: Any = np.nan
+    for condition, value in reversed(cases):
+        found = np.where(condition, value, found)
+    return found
+
+
 _FLOATS: dict[type, Callable[..., Any]] = {
     **{
         getattr(sp, name): getattr(np, name)
@@ -183,12 +195,16 @@ _FLOATS: dict[type, Callable[..., Any]] = {
     sp.Pow: np.power,
     sp.Add: lambda *xs: sum(xs),
     sp.Mul: lambda *xs: reduce(np.multiply, xs),
+    **{sp.Ge: np.greater_equal, sp.Gt: np.greater, sp.Le: np.less_equal, sp.Lt: np.less},
+    type(sp.true): lambda: True,
+    ExprCondPair: lambda value, condition: (condition, value),
+    sp.Piecewise: _switched,
 }
 """What motions are integrated with: arrays of floats."""
 
 
 @cache
-def compiled(expr: sp.Expr, variable: sp.Symbol, floats: bool = False) -> Value:
+def compiled(expr: sp.Basic, variable: sp.Symbol = t, floats: bool = False) -> Value:
     """Return the function that gives an expression its value at a moment; ``variable`` is what
     runs there (time)."""
     if expr == variable:
@@ -204,12 +220,10 @@ def compiled(expr: sp.Expr, variable: sp.Symbol, floats: bool = False) -> Value:
         return lambda _: number
     if isinstance(expr, sp.Symbol):
         return lambda moment: moment.model.constant(expr)
-    if floats and isinstance(expr, sp.Piecewise):
-        return _switched(expr, variable)
-    for kind, build in _SPECIAL:
-        if isinstance(expr, kind):
-            return build(expr, variable)
     functions = _FLOATS if floats else _FUNCTIONS
+    for kind, build in _SPECIAL:
+        if isinstance(expr, kind) and type(expr) not in functions:
+            return build(expr, variable)
     if type(expr) not in functions:
         raise Undecided(f"{type(expr).__name__} has no number")
     function = functions[type(expr)]
@@ -217,9 +231,19 @@ def compiled(expr: sp.Expr, variable: sp.Symbol, floats: bool = False) -> Value:
     return lambda moment: function(*[argument(moment) for argument in arguments])
 
 
+def field_of(expr: AppliedUndef) -> sp.Expr:
+    """Return a field at time t, always the same object: it is looked up often."""
+    return _at_time_t(expr.func)
+
+
+@cache
+def _at_time_t(function: sp.FunctionClass) -> sp.Expr:
+    return function(t)
+
+
 def _field(expr: AppliedUndef, variable: sp.Symbol, order: int = 0) -> Value:
-    name, at = expr.func.__name__, compiled(expr.args[0], variable)
-    return lambda moment: moment.model.field(name, at(moment), order)
+    field, at = field_of(expr), compiled(expr.args[0], variable)
+    return lambda moment: moment.model.field(field, at(moment), order)
 
 
 def _derivative(expr: sp.Derivative, variable: sp.Symbol) -> Value:
@@ -271,25 +295,6 @@ def _integral(expr: sp.Integral, variable: sp.Symbol) -> Value:
 @cache
 def _nodes(order: int) -> tuple[tuple[arb, arb], ...]:
     return tuple(arb.legendre_p_root(order, k, weight=True) for k in range(order))
-
-
-def _switched(expr: sp.Piecewise, variable: sp.Symbol) -> Value:
-    """A piecewise expression over arrays: conditions are inequalities."""
-    branches = [(compiled(value, variable, True), condition) for value, condition in expr.args]
-
-    def value(moment: Moment) -> Any:
-        found: Any = np.nan
-        for branch, condition in reversed(branches):
-            if condition == sp.true:
-                found = branch(moment)
-            else:
-                gap = compiled(condition.gts, variable, True)(moment) - compiled(
-                    condition.lts, variable, True
-                )(moment)
-                found = np.where(gap >= 0, branch(moment), found)
-        return found
-
-    return value
 
 
 def _cases(expr: sp.Piecewise, variable: sp.Symbol) -> Value:

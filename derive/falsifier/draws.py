@@ -19,14 +19,12 @@ from dataclasses import dataclass, field
 from functools import cache
 
 import sympy as sp
-from flint import fmpq
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from ..laws import GENERAL
 from ..symbols import symbol, t
-from .balls import fraction
-from .models import Model
+from .models import Model, of, quantities, reached
 from .truth import truth
 
 T, U = symbol("T"), symbol("U")
@@ -58,52 +56,30 @@ def with_law(relation: sp.Basic, seed: int) -> sp.Basic:
 
 @dataclass
 class _Draft:
-    """What is determined so far."""
+    """What is determined so far; ``loop``: the field that rests on itself."""
 
-    data: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    fields: dict[str, sp.Expr] = field(default_factory=dict)
-    rates: dict[str, sp.Expr] = field(default_factory=dict)
-    start: dict[str, sp.Expr] = field(default_factory=dict)
-    loops: set[str] = field(default_factory=set)
+    values: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+    loop: sp.Expr | None = None
 
-    def takes(self, kind: str, name: str | sp.Symbol, value: sp.Expr, looped: bool) -> bool:
-        """Take ``name = value``, unless something else determines it already."""
-        known = {"data": self.data, "fields": self.fields, "rates": self.rates, "start": self.start}
-        book = known[kind]
-        if name in book or (kind == "fields" and name in self.rates):
+    def takes(self, quantity: sp.Expr, value: sp.Expr, looped: bool) -> bool:
+        """Take ``quantity = value``, unless something else determines it already."""
+        rate = isinstance(quantity, sp.Derivative)
+        field_or_rate = of(quantity.expr if rate else quantity)[:2]
+        if any(known in self.values for known in (quantity, *field_or_rate)):
             return False
-        if kind == "rates" and name in self.fields:
-            return False
-        if kind in ("fields", "data") and self._reaches(value, name):
-            if not looped or kind == "data" or self.loops:
+        if not rate and quantity in reached((value,), _stateless(self.values)):
+            if not looped or not quantity.args or self.loop:
                 return False
-            self.loops.add(str(name))
-        book[name] = value
+            self.loop = quantity
+        self.values[quantity] = value
         return True
-
-    def _reaches(self, value: sp.Expr, name: str | sp.Symbol) -> bool:
-        """Return whether a value rests on ``name``, states apart."""
-        seen, waiting = set(), [value]
-        while waiting:
-            for atom in _unknowns(waiting.pop()):
-                if atom == name:
-                    return True
-                if atom not in seen and atom not in self.rates:
-                    seen.add(atom)
-                    waiting += [b[atom] for b in (self.data, self.fields) if atom in b]
-        return False
-
-
-def _unknowns(expr: sp.Basic) -> set[str | sp.Symbol]:
-    fields = {f.func.__name__ for f in expr.atoms(AppliedUndef)}
-    return fields | {s for s in expr.free_symbols if s != t}
 
 
 def drawn(
     relations: Iterable[sp.Basic],
     wanted: Iterable[sp.Basic],
     seed: int,
-    free: frozenset[str] = frozenset(),
+    free: frozenset[sp.Expr] = frozenset(),
 ) -> Model | None:
     """Return a model that is made to satisfy ``relations`` and gives all of ``wanted`` a value.
 
@@ -119,31 +95,36 @@ def drawn(
         edge = chance.choice(edges)
         parts.append(sp.Eq(*edge.args, evaluate=False))
     parts.sort(key=lambda part: not isinstance(part, sp.Eq))
-    still = {f: sp.Symbol(f"{f.func.__name__}(0)", real=True) for f in map(_constant, parts) if f}
-    draft.fields.update({f.func.__name__: value for f, value in still.items()})
+    still = {f: sp.Symbol(f"{_name(f)}(0)", real=True) for f in map(_constant, parts) if f}
+    draft.values.update(still)
     parts = [p if p.has(sp.Derivative) else p.xreplace(still) for p in parts]
     pending = [_imposed(part, chance, seed % WILD == WILD - 1) for part in parts]
     slopes = {d.expr for d in everything.atoms(sp.Derivative) if t not in d.variables}
     _assign([p for p in pending if p is not None], draft, chance, slopes)
-    corners: sp.Expr = sp.S.Zero
-    functions = {f.func.__name__: f.func for f in everything.atoms(AppliedUndef)}
-    symbols = {s for s in everything.free_symbols if isinstance(s, sp.Symbol) and s != t}
-    for book in (draft.fields, draft.rates, draft.start, draft.data):
-        symbols |= {s for e in book.values() for s in e.free_symbols if s != t}
-    for name in sorted(symbols | {T, U}, key=str):
-        if name not in draft.data:
-            draft.data[name] = _value(str(name), name, seed, str(name) in free)
-    for name in sorted(functions):
-        value = functions[name](t)
-        if name in draft.rates:
-            least = sp.S.One if value.is_positive else sp.S.Zero
-            first = _value(name, value, seed, name in free)
-            draft.start.setdefault(name, first if chance.random() < 0.5 else least)
-        elif name not in draft.fields:
-            about = [p for p in parts if _fields(p) == {name}]
-            draft.fields[name], corner = _fitting(name, value, seed, name in free, about, draft)
-            corners = corner or corners
-    return _model(draft, corners)
+    values = draft.values
+    unknown = quantities(sp.Tuple(everything, T, U, *values.values()))
+    for datum in sorted((q for q in unknown if not q.args), key=str):
+        if datum not in values:
+            values[datum] = _value(datum, seed, datum in free)
+    for varying in sorted((q for q in unknown if q.args), key=str):
+        _, rate, start = of(varying)
+        if rate in values:
+            least = sp.S.One if varying.is_positive else sp.S.Zero
+            first = _value(varying, seed, varying in free)
+            values.setdefault(start, first if chance.random() < 0.5 else least)
+        elif varying not in values:
+            about = [p for p in parts if {q for q in quantities(p) if q.args} == {varying}]
+            values[varying] = _fitting(varying, seed, varying in free, about, values)
+    return _model(draft)
+
+
+def _stateless(values: dict[sp.Expr, sp.Expr]) -> dict[sp.Expr, sp.Expr]:
+    """Return the values of data and fields, without rates and initial values."""
+    return {key: value for key, value in values.items() if key in quantities(key)}
+
+
+def _name(quantity: sp.Expr) -> str:
+    return str(quantity.func if quantity.args else quantity)
 
 
 def _constant(part: sp.Basic) -> sp.Expr | None:
@@ -157,36 +138,34 @@ def _constant(part: sp.Basic) -> sp.Expr | None:
     return None
 
 
-def _fields(expr: sp.Basic) -> set[str]:
-    return {f.func.__name__ for f in expr.atoms(AppliedUndef)}
-
-
 def _fitting(
-    name: str, value: sp.Expr, seed: int, outside: bool, about: list[sp.Basic], draft: _Draft
-) -> tuple[sp.Expr, sp.Expr]:
+    varying: sp.Expr,
+    seed: int,
+    outside: bool,
+    about: list[sp.Basic],
+    values: dict[sp.Expr, sp.Expr],
+) -> sp.Expr:
     """Return a test function of which holds what is said of it alone; the last one tried if none
     is found."""
     for attempt in range(12 if about else 1):
-        made, corner = test_function(name, value, seed + 97 * attempt, outside)
-        if name in draft.start:
-            made = made - made.subs(t, 0) + draft.start[name]
-        alone = Model(draft.data, {**draft.fields, name: made})
+        made = test_function(varying, seed + 97 * attempt, outside)
+        if varying.subs(t, 0) in values:
+            made = made - made.subs(t, 0) + values[varying.subs(t, 0)]
+        alone = Model({**_stateless(values), varying: made})
         if all(truth(relation, alone).holds for relation in about):
             break
-    return made, corner
+    return made
 
 
-def _model(draft: _Draft, corner: sp.Expr) -> Model | None:
-    period = draft.data.get(T, sp.S.One)
-    exact = fraction(period) if period.is_Rational and period > 0 else fmpq(1)
-    fields = {name: value for name, value in draft.fields.items() if name not in draft.loops}
-    loops = {name: draft.fields[name] for name in draft.loops}
-    start = {name: value for name, value in draft.start.items() if name in draft.rates}
+def _model(draft: _Draft) -> Model | None:
+    states = {key.expr for key in draft.values if isinstance(key, sp.Derivative)}
+    starts = {key for key in draft.values if key.args == (0,) and key.func(t) not in states}
+    values = {key: value for key, value in draft.values.items() if key not in starts}
+    model = Model(values, draft.loop)
     try:
-        model = Model(draft.data, fields, draft.rates, start, loops, corner, exact)
-        if model.rates:
+        if model.states:
             _ = model.motion  # there is one
-    except (ArithmeticError, RecursionError, ValueError, StopIteration, KeyError, TypeError):
+    except (ArithmeticError, RecursionError, ValueError):
         return None
     return model
 
@@ -256,14 +235,13 @@ def _assign(
     rest = []
     for equation in equations:
         offers = list(solutions(equation))
-        named = [offer for offer in offers if offer[1] in slopes]
         if slopes:
-            offers = named or offers[:1]
+            offers = [offer for offer in offers if offer[0] in slopes] or offers[:1]
         if not offers:
             continue
-        factors = [s for s in _coefficients(equation) if s not in draft.data]
+        factors = [s for s in _coefficients(equation) if s not in draft.values]
         if factors and chance.random() < 0.2:
-            draft.data[chance.choice(factors)] = sp.S.Zero
+            draft.values[chance.choice(factors)] = sp.S.Zero
             continue
         if chance.random() < 0.2:
             chance.shuffle(offers)
@@ -274,30 +252,20 @@ def _assign(
 
 
 @cache
-def solutions(equation: sp.Eq) -> tuple[tuple[str, str | sp.Symbol, sp.Expr], ...]:
-    """Return what an equation can be solved for: kind, name, value; the left side first."""
-    found = []
-    open_part = equation.replace(lambda e: isinstance(e, _CLOSED), lambda _: sp.Dummy())
-    timeless = not open_part.has(t)
-    rates = set(open_part.atoms(sp.Derivative))
-    moving = {d.expr.func for d in rates if isinstance(d.expr, AppliedUndef)}
-    for d in sorted(rates, key=str):
-        if isinstance(d.expr, AppliedUndef) and d.variables == (t,):
-            found.append(("rates", d.expr.func.__name__, d))
-    for f in sorted(open_part.atoms(AppliedUndef), key=str):
-        if f.args[0] == t and f.func not in moving:
-            found.append(("fields", f.func.__name__, f))
-        elif f.args[0] == 0:
-            found.append(("start", f.func.__name__, f))
-    if any(d.variables != (t,) * len(d.variables) for d in rates):
+def solutions(equation: sp.Eq) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
+    """Return what an equation can be solved for, each with its value; the left side first."""
+    plain = equation.replace(lambda e: isinstance(e, _CLOSED), lambda _: sp.Dummy())
+    rates = sorted(plain.atoms(sp.Derivative), key=str)
+    if any(set(d.variables) != {t} for d in rates):
         return ()
-    if timeless and not open_part.atoms(AppliedUndef):
-        found += [("data", s, s) for s in sorted(open_part.free_symbols, key=str)
-                  if not isinstance(s, sp.Dummy)]  # fmt: skip
-    solved = ((kind, name, atom, _solved(equation, atom)) for kind, name, atom in found)
-    good = [(k, n, a, v) for k, n, a, v in solved if v is not None and not _dangling(v, a)]
-    good.sort(key=lambda offer: offer[2] != equation.lhs)
-    return tuple((k, n, v) for k, n, a, v in good)
+    moving = {d.expr for d in rates}
+    fields = sorted(plain.atoms(AppliedUndef), key=str)
+    found = [d for d in rates if d.variables == (t,) and isinstance(d.expr, AppliedUndef)]
+    found += [f for f in fields if f.args[0] == 0 or (f.args[0] == t and f not in moving)]
+    if not plain.has(t, AppliedUndef):
+        found += sorted(plain.free_symbols - plain.atoms(sp.Dummy), key=str)
+    solved = [(q, value) for q in found if (value := _solved(equation, q)) is not None]
+    return tuple(sorted(solved, key=lambda offer: offer[0] != equation.lhs))
 
 
 @cache
@@ -308,31 +276,31 @@ def _coefficients(equation: sp.Eq) -> tuple[sp.Symbol, ...]:
                  and not s.is_positive and s != t)  # fmt: skip
 
 
-def _dangling(value: sp.Expr, atom: sp.Expr) -> bool:
-    """Return whether the value still has the unknown, at this time or another."""
-    if isinstance(atom, sp.Derivative):
-        return any(f.func == atom.expr.func and f != atom.expr for f in value.atoms(AppliedUndef))
-    return isinstance(atom, AppliedUndef) and any(
-        f.func == atom.func for f in value.atoms(AppliedUndef)
-    )
-
-
-def _solved(equation: sp.Eq, atom: sp.Expr) -> sp.Expr | None:
+def _solved(equation: sp.Eq, quantity: sp.Expr) -> sp.Expr | None:
+    """Return what a quantity equals, where the equation is linear in it; None where the value
+    still rests on it, at this time or another."""
     left, right = equation.args
-    for here, other in ((left, right), (right, left)):
-        if here == atom and not other.has(atom):
-            return other
-    dummy = sp.Dummy()
-    residual = (left - right).xreplace({atom: dummy})
-    slope = sp.diff(residual, dummy)
-    if slope == 0 or slope.has(dummy) or slope.has(sp.Derivative):
+    if quantity in (left, right) and not (other := right if left == quantity else left).has(
+        quantity
+    ):
+        value = other
+    else:
+        dummy = sp.Dummy()
+        residual = (left - right).xreplace({quantity: dummy})
+        slope = sp.diff(residual, dummy)
+        if slope == 0 or slope.has(dummy, sp.Derivative):
+            return None
+        value = -residual.xreplace({dummy: sp.S.Zero}) / slope
+    known = quantity.expr if isinstance(quantity, sp.Derivative) else None
+    field = (known or quantity).func
+    if quantity.args and any(f.func == field and f != known for f in value.atoms(AppliedUndef)):
         return None
-    return -residual.xreplace({dummy: sp.S.Zero}) / slope
+    return value
 
 
-def _value(name: str, quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
+def _value(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
     """Draw a number for a quantity, outside of its domain if asked."""
-    chance = random.Random(f"{seed} {name}")
+    chance = random.Random(f"{seed} {_name(quantity)}")
     wild = seed % WILD == WILD - 1 and chance.random() < 0.4
     size = sp.Rational(chance.choice(_EXTREME if wild else _ORDINARY))
     if quantity.is_positive:
@@ -344,27 +312,27 @@ def _value(name: str, quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
     return -size if chance.random() < 0.3 else size
 
 
-def test_function(name: str, value: sp.Expr, seed: int, outside: bool) -> tuple[sp.Expr, sp.Expr]:
-    """Return a test function of time, and the spacing of its corners (0: it has none)."""
-    chance = random.Random(f"{seed} {name}")
+def test_function(varying: sp.Expr, seed: int, outside: bool) -> sp.Expr:
+    """Return a test function of time."""
+    chance = random.Random(f"{seed} {_name(varying)}")
     s = t / T
     size = sp.Rational(chance.choice(("1", "1", "1", "2", "1/2", "-1", "1/4")))
     wave = sp.sin(2 * sp.pi * s)
-    families: list[sp.Expr] = [
+    both = wave / 2 + sp.cos(4 * sp.pi * s) / 3
+    shapes: list[sp.Expr] = [
         sp.S.One, s, wave, sp.exp(-s), 1 - sp.exp(-s), sp.log(1 + s), sp.sqrt(s), s + wave / 8,
         sp.exp(s), sp.tanh(s), 1 / (1 + s), s / (1 + s), sp.sin(sp.log(1 + s)), s**2, sp.S.Zero,
-        wave / 2 + sp.cos(4 * sp.pi * s) / 3, 1 + s, 2 + wave, s - sp.log(1 + s),
-        sp.cos(2 * sp.pi * s),
+        both, 1 + s, 2 + wave, s - sp.log(1 + s), sp.cos(2 * sp.pi * s),
     ]  # fmt: skip
-    shape = chance.choice(families)
-    if name == "U_a":  # one kind of load after the other
+    shape = chance.choice(shapes)
+    if varying == symbol("U_a"):  # one kind of load after the other
         loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, 1 - sp.exp(-s), wave, sp.sqrt(s),
-                 sp.S.Zero, sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), families[15], -s,
+                 sp.S.Zero, sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), both, -s,
                  s * wave)  # fmt: skip
         shape = loads[seed % len(loads)]
         size = U * sp.Rational(chance.choice(("1", "1", "1/2", "1", "-1", "2")))
-    made = size * shape
-    if value.is_positive or value.is_nonnegative:
-        made = abs(size) * chance.choice((1, 1 + s, 2 + wave, sp.exp(-s), 1 / (1 + s), sp.exp(s)))
-        made = -made if outside else made
-    return made, T / 2 if made.has(sp.floor) else sp.S.Zero
+    if varying.is_positive or varying.is_nonnegative:
+        size = abs(size)
+        shape = chance.choice((1, 1 + s, 2 + wave, sp.exp(-s), 1 / (1 + s), sp.exp(s)))
+        return -size * shape if outside else size * shape
+    return size * shape

@@ -15,7 +15,7 @@ from ..claims import Asymptotic, Claim
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..symbols import symbol, t
-from .verdict import Answer, Counterexample, falsify, needed
+from .verdict import Answer, Counterexample, falsify
 
 _DRAWS, _ENOUGH, _SEEDS = 12, 2, 26
 _CYCLES = symbol("N")
@@ -52,5 +52,4 @@ def without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
     """Return a model of all other hypotheses that breaks the claim; None if none is found: the
     hypothesis is superfluous as far as models go."""
     relations, claim = _relations(judgement), _claimed(judgement.claim)
-    (row,) = needed(relations, claim, _SEEDS, chosen=(dropped.relation,))
-    return row.counterexample
+    return falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample

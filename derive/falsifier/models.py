@@ -1,18 +1,20 @@
 """Models: data, and fields over time, of which every hypothesis can be asked whether it holds.
 
 Overview
-    A model gives a number to every datum and a function of time to every field: an explicit
-    one, one computed from other fields, or the solution of a differential equation.  A field
-    that rests on itself, as the pressure on a support does, is the root of its equation.
+    A model says of quantities what they equal: of a datum a, a field f(t), a rate df/dt or an
+    initial value f(0).  A field of which the rate is given is a state, the solution of its
+    differential equation; a field that rests on itself, as the pressure on a support does, is
+    the root of its equation.
 Key results
-    Model    what balls.py evaluates in
+    Model      what balls.py evaluates in
+    reached    the quantities on which expressions rest
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cache, cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,10 +22,21 @@ import sympy as sp
 from flint import arb, ctx, fmpq
 from sympy.core.function import AppliedUndef
 
-from ..symbols import t
+from ..symbols import symbol, t
 from . import trend
-from .balls import BITS, Moment, Number, Undecided, Undefined, ball, compiled, fraction
-from .motion import Motion
+from .balls import (
+    BITS,
+    ZERO,
+    Moment,
+    Number,
+    Undecided,
+    Undefined,
+    ball,
+    compiled,
+    field_of,
+    fraction,
+)
+from .motion import Array, Motion
 
 _FACTORS = ((1, 5), (1.3, 21), (1.9, 37), (2.7, 58), (3.9, 83))
 """Times of a window: a factor, and a phase in hundredths of the period."""
@@ -32,179 +45,177 @@ _EARLY = (0, 137, 620, 1210, 2870)
 _LATE = (10**2, 3 * 10**5)
 _FAR, _FARTHEST = 10**5, 10**8
 """Periods after which trends are read, and refusals confirmed."""
+
 _TRUSTED = arb(10) ** -12
 """Relative error of a state."""
 
 Windows = list[list[arb]]
-Items = tuple[tuple[Any, sp.Expr], ...]
+
+
+@cache
+def quantities(expr: sp.Basic) -> frozenset[sp.Expr]:
+    """Return the data and the fields in an expression, the fields at time t."""
+    fields = map(field_of, expr.atoms(AppliedUndef))
+    return frozenset((*fields, *(s for s in expr.free_symbols if s != t)))
+
+
+def reached(expressions: Iterable[sp.Basic], values: Mapping[sp.Basic, sp.Expr]) -> set[sp.Expr]:
+    """Return the quantities on which expressions rest, through the values of quantities."""
+    waiting, seen = list(expressions), set[sp.Expr]()
+    while waiting:
+        for found in quantities(waiting.pop()) - seen:
+            seen.add(found)
+            waiting += [values[key] for key in of(found) if key in values]
+    return seen
+
+
+@cache
+def of(quantity: sp.Expr) -> tuple[sp.Expr, ...]:
+    """Return what a model may give of a quantity: itself; of a field its rate and start too."""
+    if quantity.args != (t,):
+        return (quantity,)
+    return quantity, quantity.diff(t), quantity.subs(t, 0)
 
 
 @dataclass(eq=False)
 class Model:
-    """One model.  ``data``, ``fields`` and ``rates`` may be defined in terms of one another;
-    ``loops``: what ``y = G(y)`` defines; ``corner``: the spacing of the load's jumps, or 0."""
+    """One model: of quantities what they equal, in terms of one another.  ``loop`` is the field
+    that is the root of its equation."""
 
-    data: Mapping[sp.Symbol, sp.Expr]
-    fields: Mapping[str, sp.Expr]
-    rates: Mapping[str, sp.Expr] = field(default_factory=dict)
-    start: Mapping[str, sp.Expr] = field(default_factory=dict)
-    loops: Mapping[str, sp.Expr] = field(default_factory=dict)
-    corner: sp.Expr = sp.S.Zero
-    period: fmpq = field(default_factory=lambda: fmpq(1))
+    values: Mapping[sp.Expr, sp.Expr]
+    loop: sp.Expr | None = None
 
     def __post_init__(self) -> None:
-        self.rates = dict(sorted(self.rates.items()))
         self._known: dict[object, Number] = {}
-        self._formulas: dict[tuple[str, int], sp.Expr] = {}
+        self._formulas: dict[tuple[sp.Expr, int], sp.Expr] = {}
         self._windows: dict[tuple[sp.Limit, int], Windows] = {}
+
+    @cached_property
+    def states(self) -> dict[sp.Expr, int]:
+        """Return the fields that follow from their rates, with their places."""
+        found = (field_of(key.expr) for key in self.values if isinstance(key, sp.Derivative))
+        return {state: place for place, state in enumerate(sorted(found, key=str))}
+
+    @cached_property
+    def period(self) -> fmpq:
+        """Return the period where it is a number, else 1."""
+        period = self.values.get(symbol("T"), sp.S.One)
+        return fraction(period) if period.is_Rational and period > 0 else fmpq(1)
 
     @property
     def times(self) -> tuple[fmpq, ...]:
         """Return the times at which claims for all times are tried."""
-        reached = float(self.motion.reached) if self.rates else float("inf")
         late = (self.period * (fmpq(at) + fmpq(43, 100)) for at in _LATE)
         early = (self.period * fmpq(at, 1000) for at in _EARLY)
-        return (*early, *(at for at in late if float(arb(at)) < reached))
+        return (
+            *early,
+            *(at for at in late if not self.states or float(arb(at)) < self.motion.reached),
+        )
 
     def constant(self, symbol: sp.Symbol) -> Number:
         """Return a datum; one that others define is computed from them."""
         key = (symbol, ctx.prec)
         if key not in self._known:
-            if symbol not in self.data:
+            if symbol not in self.values:
                 raise Undecided(f"{symbol} is not in the model")
-            self._known[key] = compiled(self.data[symbol], t)(Moment(self))
+            self._known[key] = self._valued(self.values[symbol])
         return self._known[key]
 
-    def field(self, name: str, at: Number, order: int = 0) -> Number:
+    def field(self, field: sp.Expr, at: Number, order: int = 0) -> Number:
         """Return a field at a time, or its derivative of an order."""
-        key = (name, order, at, ctx.prec) if isinstance(at, fmpq) else None
+        key = (field, order, at, ctx.prec) if isinstance(at, fmpq) else None
         if key in self._known:
             return self._known[key]
-        if order == 0 and name in self.rates:
-            value = self._state(name, at)
-        else:
-            value = self._evaluated(name, at, order)
+        value = self._evaluated(field, at, order)
         if key is not None:
             self._known[key] = value
         return value
 
-    def _evaluated(self, name: str, at: Number, order: int) -> Number:
-        if name in self.loops:
-            return self._looped(name, float(arb(at)), order)
-        try:
-            return compiled(self.formula(name, order), t)(Moment(self, at))
-        except Undefined as reason:
-            if order == 0:
-                raise
-            raise Undecided(f"{name} has no slope") from reason
+    def _evaluated(self, field: sp.Expr, at: Number, order: int) -> Number:
+        if order == 0 and field in self.states:
+            return self._state(field, at)
+        if order == 0 and self.loop and field == self.loop:
+            return self._root(float(arb(at)))
+        return self._valued(self.formula(field, order), at)
 
-    def _looped(self, name: str, at: float, order: int) -> arb:
-        """Return what a loop of equations defines, or its slope, by differences."""
-        if order > 1:
-            raise Undecided("a loop differentiated twice")
-        step = float(arb(self.period)) / 1000
-        times = at + step * np.array([0.0] if order == 0 else [-2.0, -1.0, 1.0, 2.0])
-        states = (
-            [self.motion.at(time)[0] for time in times]
-            if self.rates
-            else [np.zeros(0)] * len(times)
-        )
-        present = Present(self)
-        present.time, present.states = times, np.array(states).T
-        y = np.broadcast_to(present.field(name, times), times.shape)
-        if not np.all(np.isfinite(y)):
-            raise Undecided("a loop without a root")
-        if order == 0:
-            return arb(float(y[0]), 1e-11 * abs(float(y[0])) + 1e-14)
-        slope = float(y[0] - 8 * y[1] + 8 * y[2] - y[3]) / (12 * step)
-        return arb(slope, 1e-6 * (abs(slope) + float(np.max(np.abs(y)))))
-
-    def _state(self, name: str, at: Number) -> Number:
+    def _state(self, field: sp.Expr, at: Number) -> Number:
         if at == 0:
-            return compiled(self.start[name], t)(Moment(self))
+            return self._valued(self.values[field.subs(t, 0)])
         values, rounding = self.motion.at(float(arb(at)))
-        number = list(self.rates).index(name)
-        value = arb(float(values[number]))
-        return value + arb(0, (abs(value) * _TRUSTED + float(rounding[number])).upper())
+        place = self.states[field]
+        value = arb(float(values[place]))
+        return value + arb(0, (abs(value) * _TRUSTED + float(rounding[place])).upper())
 
-    def formula(self, name: str, order: int) -> sp.Expr:
+    def _root(self, at: float) -> arb:
+        states = self.motion.at(at)[0] if self.states else np.zeros(0)
+        time = np.array([at])
+        (y,) = Present(self).at(time, states[:, None]).field(self.loop, time)
+        if not np.isfinite(y):
+            raise Undecided("a loop without a root")
+        return arb(float(y), 1e-11 * abs(float(y)) + 1e-14)
+
+    def _valued(self, expr: sp.Expr, at: Number = ZERO) -> Number:
+        """Return what a quantity equals; a claim is not false because a model is none."""
+        try:
+            return compiled(expr)(Moment(self, at))
+        except Undefined as reason:
+            raise Undecided(f"the model has no value for {expr}") from reason
+
+    def formula(self, field: sp.Expr, order: int) -> sp.Expr:
         """Return what a field, or its derivative, is computed from; jumps have no slope."""
-        if (name, order) not in self._formulas:
-            book = self.fields if order == 0 else self.rates
-            if name in book and order <= 1:
-                found = book[name]
-            elif order == 0:
-                raise Undecided(f"{name} is not in the model")
-            else:
-                before = self.formula(name, order - 1)
-                steps = {step: sp.Dummy() for step in before.atoms(sp.floor)}
-                back = {dummy: step for step, dummy in steps.items()}
-                found = sp.diff(before.xreplace(steps), t).xreplace(back)
-            self._formulas[name, order] = found
-        return self._formulas[name, order]
+        key = (field, order)
+        if key not in self._formulas:
+            self._formulas[key] = self._formula(field, order)
+        return self._formulas[key]
+
+    def _formula(self, field: sp.Expr, order: int) -> sp.Expr:
+        given = field if order == 0 else field.diff(t) if order == 1 else None
+        if given in self.values:
+            return self.values[given]
+        if order == 0:
+            raise Undecided(f"{field} is not in the model")
+        if (field, order) == (self.loop, 1):  # y' = G_t + G_y y'
+            slope = sp.Dummy()
+            whole = _slope(self._inlined(self.values[field])).xreplace({field.diff(t): slope})
+            return whole.xreplace({slope: sp.S.Zero}) / (1 - sp.diff(whole, slope))
+        return _slope(self.formula(field, order - 1))
+
+    def _inlined(self, expr: sp.Expr) -> sp.Expr:
+        """Return an expression in terms of states, the loop and data."""
+        known = {f for f in self.values if f.args == (t,)} - {self.loop}
+        while found := known & expr.atoms(AppliedUndef):
+            expr = expr.xreplace({field: self.values[field] for field in found})
+        return expr
 
     @cached_property
     def motion(self) -> Motion:
         """The states over time: one motion for all models that agree in what they rest on."""
-        waiting = [*self.rates.values(), *self.start.values(), *self.loops.values(), self.corner]
-        known = (*self.data.items(), *self.fields.items())
-        seen = set[object]()
-        while waiting:
-            for atom in _unknowns(waiting.pop()) - seen:
-                seen.add(atom)
-                waiting += [value for name, value in known if name == atom]
-        books: tuple[Mapping[Any, sp.Expr], ...] = (
-            {k: v for k, v in self.data.items() if k in seen},
-            {k: v for k, v in self.fields.items() if k in seen},
-            self.rates,
-            self.start,
-            self.loops,
-        )
-        parts = (tuple(sorted(book.items(), key=str)) for book in books)
-        return _integrated(*parts, self.corner, self.period)
-
-    def integrated(self) -> Motion:
-        """Return the states over time, at their start."""
-        with ctx.workprec(BITS):
-            first = [
-                float(ball(compiled(self.start[n], t)(Moment(self))).mid()) for n in self.rates
-            ]
-            spacing = float(ball(compiled(self.corner, t)(Moment(self))).mid())
-        present = Present(self)
-        present.rates(np.zeros(1), np.array(first)[:, None])  # they can be computed
-        return Motion(present.rates, np.array(first), spacing, float(arb(self.period)) / 4)
+        roots = (*self.states, *([self.loop] if self.loop else []))
+        needed = reached(roots, self.values)
+        held = {key: self.values[key] for q in needed for key in of(q) if key in self.values}
+        return _integrated(frozenset(held.items()), self.loop)
 
     def limit(self, expr: sp.Limit) -> arb:
         """Return a limit, with the error that its trend shows."""
         return trend.limit(self._late(expr, _FARTHEST))
 
-    def tends(self, expr: sp.Limit, value: arb) -> bool | None:
-        """Return whether a limit has a value."""
-        return self._confirmed(expr, lambda windows: trend.tends_to(windows, value))
-
-    def diverges(self, expr: sp.Limit, sign: int) -> bool | None:
-        """Return whether an expression exceeds (sign 1) or falls below (-1) every bound."""
-        return self._confirmed(
-            expr, lambda windows: trend.diverges([[sign * v for v in w] for w in windows])
-        )
-
     def latest(self, expr: sp.Limit) -> arb:
         """Return the last value from which a limit was judged."""
         return self._late(expr, _FAR)[-1][-1]
 
-    def _confirmed(self, expr: sp.Limit, judge: Callable[[Windows], bool | None]) -> bool | None:
+    def confirmed(self, expr: sp.Limit, judge: Callable[[Windows], bool | None]) -> bool | None:
         """Judge a trend; a refusal, from fields that may not have left their start, again later."""
         outcome = judge(self._late(expr, _FAR))
-        if outcome is False and self.rates and expr.args[2] == sp.oo:
+        if outcome is False and self.states and expr.args[2] == sp.oo:
             return judge(self._late(expr, _FARTHEST)) or False
         return outcome
 
     def slope(self, name: sp.Symbol, data: tuple[sp.Symbol, ...]) -> arb:
         """Return the derivative of a constant with respect to one datum, all others held."""
         (datum,) = data[:1]
-        if len(data) != 1 or not self.data.get(datum, sp.nan).is_Rational:
+        if len(data) != 1 or not self.values.get(datum, sp.nan).is_Rational:
             raise Undecided("a derivative of a higher order")
-        here, step = fraction(self.data[datum]), fmpq(1, 10**3 if self.rates else 10**6)
+        here, step = fraction(self.values[datum]), fmpq(1, 10**3 if self.states else 10**6)
         step *= abs(here) if here != 0 else 1
         high, low = (
             arb(self.with_datum(datum, at).constant(name)) for at in (here + step, here - step)
@@ -214,7 +225,8 @@ class Model:
 
     def with_datum(self, datum: sp.Symbol, value: fmpq) -> Model:
         """Return the model with one datum changed."""
-        return replace(self, data={**self.data, datum: sp.Rational(int(value.p), int(value.q))})
+        changed = {**self.values, datum: sp.Rational(int(value.p), int(value.q))}
+        return replace(self, values=changed)
 
     def _late(self, expr: sp.Limit, far: int) -> Windows:
         """Return the values of an expression in windows towards the point of its limit."""
@@ -222,7 +234,7 @@ class Model:
         if key not in self._windows:
             inside, variable, point, _ = expr.args
             with ctx.workprec(BITS):
-                value = compiled(inside, t)
+                value = compiled(inside)
                 if variable == t:
                     self._windows[key] = [
                         [ball(value(Moment(self, at))) for at in window]
@@ -237,10 +249,10 @@ class Model:
         """Return times in windows: towards infinity as far as the fields are known."""
         if point != sp.oo:
             return [[at] for at in _towards(point)]
-        if not self.rates:
+        if not self.states:
             return [self._window(10**k) for k in (8, 16, 32, 64)]
-        reached = self.motion.upto(float(arb(self.period)) * far * 5)
-        periods = min(reached / float(arb(self.period)), 5 * far) / 4
+        period = float(arb(self.period))
+        periods = min(self.motion.upto(period * far * 5) / period, 5 * far) / 4
         if periods > far / 2:
             return [self._window(int(periods ** (0.5**k))) for k in (2, 1, 0)]
         if periods < 25 or far == _FARTHEST:
@@ -259,22 +271,33 @@ def _towards(point: sp.Expr) -> list[fmpq]:
     return [fraction(point) + 1 / step for step in steps]
 
 
+def _slope(expr: sp.Expr) -> sp.Expr:
+    """Return the derivative in time, jumps apart."""
+    steps = {step: sp.Dummy() for step in expr.atoms(sp.floor)}
+    return sp.diff(expr.xreplace(steps), t).xreplace({dummy: s for s, dummy in steps.items()})
+
+
 class Present:
     """A model while it is integrated: floats, at the times of one step all at once."""
 
     def __init__(self, model: Model) -> None:
-        self.of, self.time, self.states = model, np.zeros(1), np.zeros((0, 1))
+        self.of, self.time = model, np.zeros(1)
         self._constants: dict[sp.Symbol, float] = {}
-        self._known: dict[tuple[str, int], Any] = {}
-        self._near: dict[str, Any] = {}
+        self._known: dict[tuple[sp.Expr, int], Any] = {}
+        self._near: Any = 0.0
 
-    def rates(self, times: Any, states: Any) -> Any:
+    def rates(self, times: Array, states: Array) -> Array:
         """Return the rates of the states at times, shape ``(states, times)``."""
-        self.time, self.states, self._known = times, states, {}
-        now = Moment(self, times)
         with np.errstate(all="ignore"):
-            found = [compiled(rate, t, True)(now) for rate in self.of.rates.values()]
+            self.at(times, states)
+            found = [self.field(state, times, 1) for state in self.of.states]
         return np.array([np.broadcast_to(rate, times.shape) for rate in found], float)
+
+    def at(self, times: Array, states: Array) -> Present:
+        """Go to times at which the states are known."""
+        self.time = times
+        self._known = {(f, 0): state for f, state in zip(self.of.states, states, strict=True)}
+        return self
 
     def constant(self, symbol: sp.Symbol) -> float:
         """Return a datum."""
@@ -283,31 +306,29 @@ class Present:
                 self._constants[symbol] = float(ball(self.of.constant(symbol)).mid())
         return self._constants[symbol]
 
-    def field(self, name: str, at: Any, order: int = 0) -> Any:
+    def field(self, field: sp.Expr, at: Any, order: int = 0) -> Any:
         """Return a field, or its derivative, at the times of the step."""
         if isinstance(at, fmpq) and at == 0 and order == 0:
-            return float(ball(self.of.field(name, at)).mid())
+            return float(ball(self.of.field(field, at)).mid())
         if at is not self.time:
             raise Undecided("a rate that needs another time")
-        if order == 0 and name in self.of.rates:
-            return self.states[list(self.of.rates).index(name)]
-        if (name, order) not in self._known:
-            if name in self.of.loops and order == 0:
-                self._known[name, 0] = self._near[name] = self._root(name)
-            else:
-                formula = self.of.formula(name, order)
-                self._known[name, order] = compiled(formula, t, True)(Moment(self, self.time))
-        return self._known[name, order]
+        if (field, order) not in self._known:
+            self._known[field, order] = (
+                self._root(field)
+                if self.of.loop and order == 0 and field == self.of.loop
+                else compiled(self.of.formula(field, order), t, True)(Moment(self, self.time))
+            )
+        return self._known[field, order]
 
-    def _root(self, name: str) -> Any:
+    def _root(self, loop: sp.Expr) -> Any:
         """Return the root of ``y - G(y)``, which increases: by Newton's method, else by halves."""
-        value, known = compiled(self.of.loops[name], t, True), dict(self._known)
+        value, known = compiled(self.of.values[loop], t, True), dict(self._known)
 
         def rest(y: Any) -> Any:
-            self._known = {**known, (name, 0): y}
+            self._known = {**known, (loop, 0): y}
             return y - value(Moment(self, self.time))
 
-        y = self._near.get(name, 0.0) + 0.0 * self.time
+        y = self._near + 0.0 * self.time
         with np.errstate(all="ignore"):
             for _ in range(12):
                 small = 1e-7 * (1 + np.abs(y))
@@ -322,24 +343,23 @@ class Present:
                     y = (low + high) / 2
                     low, high = np.where(rest(y) < 0, y, low), np.where(rest(y) < 0, high, y)
                 y = np.where(np.abs(rest(y)) < 1e-6 * (1 + np.abs(y)), y, np.nan)
-        self._known = known
+        self._known, self._near = known, y
         return y
 
 
-def _unknowns(expr: sp.Basic) -> set[object]:
-    fields = {f.func.__name__ for f in expr.atoms(AppliedUndef)}
-    return fields | {s for s in expr.free_symbols if s != t}
-
-
 @lru_cache(maxsize=400)
-def _integrated(
-    data: Items,
-    fields: Items,
-    rates: Items,
-    start: Items,
-    loops: Items,
-    corner: sp.Expr,
-    period: fmpq,
-) -> Motion:
-    model = Model(dict(data), dict(fields), dict(rates), dict(start), dict(loops), corner, period)
-    return model.integrated()
+def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]], loop: sp.Expr | None) -> Motion:
+    """Return the motion of a model that holds no more than its states rest on."""
+    model = Model(dict(values), loop)
+    with ctx.workprec(BITS):
+        first = np.array([float(ball(model.field(f, ZERO)).mid()) for f in model.states])
+        spacing = min(_spacings(model), default=0.0)
+    present = Present(model)
+    present.rates(np.zeros(1), first[:, None])  # they can be computed
+    return Motion(present.rates, first, spacing, float(arb(model.period)) / 4)
+
+
+def _spacings(model: Model) -> Iterator[float]:
+    """Return the times between jumps of the fields of a model."""
+    for jump in {f for value in model.values.values() for f in value.atoms(sp.floor)}:
+        yield 1 / float(ball(compiled(sp.diff(jump.args[0], t))(Moment(model))).mid())

@@ -42,13 +42,13 @@ def tends_to(windows: Sequence[Window], value: arb) -> bool | None:
     return None
 
 
-def diverges(windows: Sequence[Window]) -> bool | None:
-    """Return whether values exceed every bound in the end."""
-    first, before, last = (min(v.mid() for v in window) for window in windows[-3:])
+def diverges(windows: Sequence[Window], sign: int) -> bool | None:
+    """Return whether values exceed (sign 1) or fall below (-1) every bound in the end."""
+    first, before, last = (min(sign * v.mid() for v in window) for window in windows[-3:])
     gain, gained = last - before, before - first
     if gain > 0 and gained > 0 and gain >= arb("0.9") * gained:
         return True
-    highest = max(v.mid() for v in windows[-3])
+    highest = max(sign * v.mid() for v in windows[-3])
     return False if gain <= arb("0.75") * gained or last <= highest else None
 
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 from flint import arb, ctx, fmpq
 from sympy.core.relational import Relational
-from sympy.logic.boolalg import And, BooleanFunction, Equivalent, Implies, Not, Or, Xor
+from sympy.logic.boolalg import And, BooleanFunction, Equivalent, Implies, Not, Or
 
 from ..symbols import t
 from .balls import (
@@ -32,6 +32,7 @@ from .balls import (
     ball,
     compiled,
 )
+from .trend import diverges, tends_to
 
 if TYPE_CHECKING:
     from .models import Model
@@ -78,9 +79,8 @@ def _composed(relation: BooleanFunction, moment: Moment, variable: sp.Symbol) ->
         return not judged(parts[0], moment, variable)
     if isinstance(relation, Implies):
         return not judged(parts[0], moment, variable) or judged(parts[1], moment, variable)
-    if isinstance(relation, (Equivalent, Xor)):
-        sides = [judged(part, moment, variable) for part in parts]
-        return (len(set(sides)) == 1) == isinstance(relation, Equivalent)
+    if isinstance(relation, Equivalent):
+        return len({judged(part, moment, variable) for part in parts}) == 1
     if isinstance(relation, (And, Or)):
         return _joined(relation, moment, variable)
     raise Undecided(f"{type(relation).__name__} has no truth")
@@ -146,11 +146,13 @@ def _at_infinity(
     if not isinstance(left, sp.Limit):
         return None
     if right.is_infinite:
-        outcome = moment.model.diverges(left, 1 if right == sp.oo else -1)
+        sign = 1 if right == sp.oo else -1
+        outcome = moment.model.confirmed(left, lambda found: diverges(found, sign))
     else:
-        if varies(right, variable):
+        if variable in right.free_symbols:
             raise Undefined("a limit in time that still depends on time")
-        outcome = moment.model.tends(left, ball(compiled(right, variable)(moment)))
+        value = ball(compiled(right, variable)(moment))
+        outcome = moment.model.confirmed(left, lambda found: tends_to(found, value))
     if outcome is None:
         raise Undecided("the trend is not clear")
     return outcome == isinstance(relation, sp.Eq)
@@ -158,7 +160,7 @@ def _at_infinity(
 
 def truth(relation: sp.Basic, model: Model) -> Truth:
     """Return whether a relation holds in a model for all its times."""
-    timeless = not varies(relation, t)
+    timeless = t not in relation.free_symbols
     decided, doubtful = False, False
     for number, time in enumerate(model.times[:1] if timeless else model.times):
         moment = Moment(model, time)
@@ -192,19 +194,3 @@ def _sides(relation: sp.Basic, moment: Moment) -> str:
 
 def _shown(number: Number) -> str:
     return f"{float(arb(number).mid()):.6g}"
-
-
-def _ends(expr: sp.Integral | sp.Subs) -> tuple[sp.Basic, ...]:
-    """Return where an integral ends, or the point of a substitution."""
-    if isinstance(expr, sp.Subs):
-        return tuple(expr.point)
-    return tuple(end for limits in expr.limits for end in limits[1:])
-
-
-def varies(expr: sp.Basic, variable: sp.Symbol) -> bool:
-    """Return whether an expression depends on the running variable, limits aside."""
-    if isinstance(expr, sp.Limit):
-        return False
-    if isinstance(expr, (sp.Integral, sp.Subs)) and variable in expr.variables:
-        return any(varies(end, variable) for end in _ends(expr))
-    return expr == variable or any(varies(part, variable) for part in expr.args)

@@ -2,13 +2,12 @@
 
 Overview
     Models are drawn; of each it is asked which hypotheses it violates, and whether the claim
-    holds.  From that table follow all answers: *false* (a model violates no hypothesis, and the
+    holds.  From that follow all answers: *false* (a model violates no hypothesis, and the
     claim), *vacuous* (no model satisfies all hypotheses), and for each hypothesis a model that
     violates it alone, and the claim: why it is there; or it is *superfluous* as far as models
     go.
 Key results
     falsify(hypotheses, claim)    the answer, as data
-    needed(hypotheses, claim)     each hypothesis with the counterexample without it
 """
 
 from __future__ import annotations
@@ -23,8 +22,8 @@ from sympy.core.function import AppliedUndef
 from ..symbols import t
 from .balls import fraction
 from .draws import WILD, drawn, with_law
-from .models import Model
-from .truth import truth, varies
+from .models import Model, quantities, reached
+from .truth import truth
 
 _ORDERS = (sp.Gt, sp.Ge, sp.Lt, sp.Le)
 DRAWS = 60
@@ -76,63 +75,35 @@ class Answer:
 
 
 def falsify(
-    hypotheses: Iterable[sp.Basic], claim: sp.Basic, draws: int = DRAWS, enough: int = ENOUGH
+    hypotheses: Iterable[sp.Basic],
+    claim: sp.Basic,
+    draws: int = DRAWS,
+    enough: int = ENOUGH,
+    dropped: sp.Basic = sp.false,
 ) -> Answer:
-    """Return whether some model satisfies the hypotheses and not the claim."""
-    hypotheses = tuple(hypotheses)
+    """Return whether some model satisfies the hypotheses and not the claim.
+
+    Of ``dropped``, a hypothesis or the domain of a quantity, the models satisfy the contrary.
+    """
+    free = quantities(dropped) if _is_domain(dropped) else set()
+    hypotheses = tuple(h for h in hypotheses if h != dropped)
+    imposed = (*((dropped.negated,) if isinstance(dropped, _ORDERS) else ()), *hypotheses)
     models = decided = 0
-    for trial in _models((*hypotheses, claim), hypotheses, draws):
-        *given, claimed = trial.relations
-        if not trial.fits(given):
+    for trial in _models((*hypotheses, dropped, claim), imposed, draws, frozenset(free)):
+        *given, without, claimed = trial.relations
+        if not trial.fits(given, free) or truth(without, trial.model).holds is not False:
             continue
         models += 1
         outcome = truth(claimed, trial.model)
         if outcome.holds is False:
-            if not trial.fits(given):  # now that the fields are known for longer
+            if not trial.fits(given, free):  # now that the fields are known for longer
                 continue
-            found = Counterexample(trial.described(given, claimed), outcome.where, trial.seed)
-            return Answer(found, models, decided + 1)
+            described = trial.described(given, sp.Tuple(without, claimed))
+            return Answer(Counterexample(described, outcome.where, trial.seed), models, decided + 1)
         decided += outcome.holds is True
-        if decided >= (enough if trial.model.rates else 3 * enough):
+        if decided >= (enough if trial.model.states else 3 * enough):
             break
     return Answer(None, models, decided)
-
-
-@dataclass(frozen=True)
-class Needed:
-    """A hypothesis, and a model of all others in which the claim fails; None if none is found."""
-
-    hypothesis: sp.Basic
-    counterexample: Counterexample | None
-
-
-def needed(
-    hypotheses: Iterable[sp.Basic],
-    claim: sp.Basic,
-    draws: int = DRAWS,
-    chosen: Iterable[sp.Basic] = (),
-) -> Iterator[Needed]:
-    """Drop each hypothesis in turn (or those chosen), the domains of quantities too, and look for
-    the model that shows why it is there."""
-    hypotheses = tuple(hypotheses)
-    for dropped in tuple(chosen) or hypotheses:
-        rest = tuple(h for h in hypotheses if h != dropped)
-        free = (
-            frozenset(map(_name, _quantities((dropped,)))) if _is_domain(dropped) else frozenset()
-        )
-        found = None
-        negated = (dropped.negated,) if isinstance(dropped, _ORDERS) else ()
-        for trial in _models((*rest, dropped, claim), (*negated, *rest), draws, free):
-            *given, without, claimed = trial.relations
-            if not trial.fits(given, free) or truth(without, trial.model).holds is not False:
-                continue
-            outcome = truth(claimed, trial.model)
-            if outcome.holds is False and trial.fits(given, free):
-                found = Counterexample(
-                    trial.described(given, claimed, without), outcome.where, trial.seed
-                )
-                break
-        yield Needed(dropped, found)
 
 
 @dataclass(frozen=True)
@@ -143,48 +114,46 @@ class _Trial:
     relations: tuple[sp.Basic, ...]
     seed: int
 
-    def fits(self, given: Iterable[sp.Basic], free: frozenset[str] = frozenset()) -> bool:
+    def fits(self, given: Iterable[sp.Basic], free: Iterable[sp.Expr] = ()) -> bool:
         """Return whether the model satisfies the hypotheses, and all quantities lie where their
         symbols say."""
-        fixed = {_name(h.lhs) for h in given if isinstance(h, sp.Eq) and h.rhs.is_number}
-        domains = (domain(q) for q in _quantities(self.relations) if _name(q) not in free | fixed)
-        demands = (*given, *(d for d in domains if d is not None))
-        return all(_holds(demand, self.model) for demand in demands) and all(
-            _holds(demand, moved) for moved in self._moved() for demand in given
+        fixed = {h.lhs for h in given if isinstance(h, sp.Eq) and h.rhs.is_number}
+        bounded = quantities(sp.Tuple(*self.relations)) - fixed.union(free)
+        demands = sorted((*given, *map(domain, bounded)), key=self._rests_on_a_limit)
+        return all(truth(demand, self.model).holds for demand in demands) and all(
+            truth(demand, moved).holds for moved in self._moved() for demand in given
         )
+
+    def _rests_on_a_limit(self, relation: sp.Basic) -> bool:
+        """Return whether a relation costs more than others."""
+        values = (self.model.values.get(q, q) for q in quantities(relation))
+        return sp.Tuple(relation, *values).has(sp.Limit)
 
     def _moved(self) -> Iterator[Model]:
         """Return the models next to this one, where a claim has a derivative with respect to
         data: the hypotheses must hold there too."""
         slopes = sp.Tuple(*self.relations).atoms(sp.Derivative)
         for datum in {v for slope in slopes for v in slope.variables if v != t}:
-            value = self.model.data.get(datum)
+            value = self.model.values.get(datum)
             if value is not None and value.is_Rational:
                 yield self.model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
 
-    def described(self, given: Iterable[sp.Basic], *relations: sp.Basic) -> tuple[sp.Eq, ...]:
+    def described(self, given: Iterable[sp.Basic], said: sp.Basic) -> tuple[sp.Eq, ...]:
         """Return what was drawn of the quantities on which relations rest, but for
         what the hypotheses say themselves."""
-        equations = (h for h in given if isinstance(h, sp.Eq))
-        said = {e.lhs for e in equations if e.rhs.is_number or e.rhs.is_Symbol}
-        known = {**self.model.fields, **self.model.rates, **self.model.loops}
-        waiting, seen = list(_quantities(relations)), set[sp.Expr]()
-        while waiting:
-            quantity = waiting.pop()
-            seen.add(quantity)
-            value = known.get(_name(quantity), self.model.data.get(quantity, sp.S.Zero))
-            waiting += _quantities((value,)) - seen
-        starts = {f.func(t) for f in said if f.args == (sp.S.Zero,)}
-        ordered = sorted(seen - said - starts, key=lambda q: (bool(q.args), str(q)))
-        drawn = map(self._drawn, ordered)
-        return tuple(equation for equation in drawn if equation is not None)
+        known = {
+            h.lhs for h in given if isinstance(h, sp.Eq) and (h.rhs.is_number or h.rhs.is_Symbol)
+        }
+        starts = {f.func(t) for f in known if f.args == (sp.S.Zero,)}
+        drawn = reached((said,), self.model.values) - known - starts
+        equations = map(self._drawn, sorted(drawn, key=lambda q: (bool(q.args), str(q))))
+        return tuple(equation for equation in equations if equation is not None)
 
     def _drawn(self, quantity: sp.Expr) -> sp.Eq | None:
         """Return the value of what was drawn; None of what other quantities determine."""
-        model, name = self.model, _name(quantity)
-        if name in model.start and quantity.args:
-            return sp.Eq(quantity.func(0), model.start[name], evaluate=False)
-        value = model.fields.get(name, model.data.get(quantity))
+        if quantity in self.model.states:
+            quantity = quantity.subs(t, 0)
+        value = self.model.values.get(quantity)
         determined = (AppliedUndef, sp.Derivative, sp.Limit)
         if value is None or value.atoms(*determined) or not (quantity.args or value.is_Rational):
             return None
@@ -195,7 +164,7 @@ def _models(
     relations: tuple[sp.Basic, ...],
     imposed: tuple[sp.Basic, ...],
     draws: int,
-    free: frozenset[str] = frozenset(),
+    free: frozenset[sp.Expr],
 ) -> Iterator[_Trial]:
     """Draw models that are made to satisfy what is imposed; the relations are given a value."""
     trends = sp.Tuple(*relations).has(sp.Limit)
@@ -214,31 +183,21 @@ def _in_time(
 ) -> tuple[sp.Basic, ...]:
     """Write relations without the names of what varies: N for t/T, say."""
     for named in imposed:
-        if isinstance(named, sp.Eq) and isinstance(named.lhs, sp.Symbol) and varies(named.rhs, t):
+        if (
+            isinstance(named, sp.Eq)
+            and isinstance(named.lhs, sp.Symbol)
+            and t in named.rhs.free_symbols
+        ):
             written = (r.subs(named.lhs, named.rhs) if r != named else sp.true for r in relations)
             relations = tuple(written)
     return relations
 
 
-def _holds(relation: sp.Basic, model: Model) -> bool:
-    return truth(relation, model).holds is True
-
-
-def _quantities(relations: Iterable[sp.Basic]) -> set[sp.Expr]:
-    everything = sp.Tuple(*relations)
-    fields = {f.func(t) for f in everything.atoms(AppliedUndef)}
-    return fields | {s for s in everything.free_symbols if s != t}
-
-
-def _name(quantity: sp.Expr) -> str:
-    return quantity.func.__name__ if isinstance(quantity, AppliedUndef) else str(quantity)
-
-
-def domain(quantity: sp.Expr) -> sp.Basic | None:
+def domain(quantity: sp.Expr) -> sp.Basic:
     """Return the domain of a quantity as its symbol says it."""
     if quantity.is_positive:
         return sp.Gt(quantity, 0, evaluate=False)
-    return sp.Ge(quantity, 0, evaluate=False) if quantity.is_nonnegative else None
+    return sp.Ge(quantity, 0, evaluate=False) if quantity.is_nonnegative else sp.true
 
 
 def _is_domain(relation: sp.Basic) -> bool:
