@@ -55,7 +55,7 @@ def worn(pressure, seconds, u, sigma):
 
 # %% [markdown]
 # The structure: springs under every node and between neighbours. Each increment is solved by
-# Newton's method, in which the stiffness of the contact enters; the wear lags behind by an increment.
+# Newton's method, in which the stiffness of the contact enters.
 
 
 # %%
@@ -84,13 +84,7 @@ from wear.figures import history
 
 across = np.linspace(0.0, 20.0, 21)
 depths = dict(enumerate(cycles(20, tilt=2e-5 * across, stiffness=3e5, increments=40), start=1))
-drawn = history(
-    [
-        Panel(
-            BEARING_WEAR,
-            tuple(Line(f"after {n} cycles", across, depths[n], k) for k, n in enumerate((1, 5, 20))),
-        )
-    ]
-)
+lines = [Line(f"after {n} cycles", across, depths[n], k) for k, n in enumerate((1, 5, 20))]
+drawn = history([Panel(BEARING_WEAR, tuple(lines))])
 drawn.axes[0].set_xlabel("Across the bearing  (mm)")
 drawn

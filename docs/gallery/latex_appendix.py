@@ -22,8 +22,8 @@ print(f"{len(lines)} lines, of which")
 print("\n".join(lines[start : start + 8]))
 
 # %% [markdown]
-# In a notebook an equation shows itself; `.latex` is what the macro holds, `.relation` is a relation
-# of SymPy.
+# In a notebook an equation shows itself; `.latex` is what the macro holds, `.relation` is a
+# relation of SymPy.
 
 # %%
 import derive
