@@ -187,7 +187,7 @@ def test_loads_are_those_of_python(kind, tmp_path, need_tool):
     phases = np.linspace(0.0, 1.0, 40, endpoint=False) + 0.003
     text = definitions(made(variant_of("tanh", "rigid_bearing")))
     (tmp_path / "run.js").write_text(
-        f"""{explorer._asset("explorer.solve.js")}
+        f"""{explorer.asset("explorer.solve.js")}
 const model = (() => {{ {text} }})();
 const P = {json.dumps(data["parameters"])};
 const load = makeLoad({json.dumps(data["load"])}, P.U);
