@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from wear.direct.sequence import most_cycles, span
 from wear.equation import WearEquation, equation_of
 from wear.load import AperiodicLoad, Blocks, Load
-from wear.loss_of_contact.count import counted_stages
+from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.model import Model, bind
 from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
 from wear.resampling import resampled
@@ -147,7 +147,7 @@ def count_cycles(
     """Count up to `cycles` of a load that repeats, from the wear `start` (mm), known up to
     `start_error`; after the `deadline` (`time.monotonic()`) nothing is refined any more."""
     if model.ends_at_3_sigma:
-        return counted_stages(model, load, cycles, rtol, start, deadline, start_error)
+        return counted_stages([Wanted(model, load, cycles, start, start_error)], rtol, deadline)[0]
     equation = WearEquation(model, (load,))
     one = np.ones(1)
     return InContact(orbit(equation, cycles * one, rtol, start * one, start_error * one, deadline))
@@ -285,13 +285,17 @@ def sweep(scenes: Sequence[Scene], cycles: FloatArray, rtol: float = 1e-7) -> Sw
     cycles = np.asarray(cycles, dtype=float)
     last = float(np.max(cycles, initial=0.0))
 
-    def together(equation: WearEquation) -> tuple[FloatArray, FloatArray]:
-        some = equation.scenes
-        none = np.zeros(some)
-        found = orbit(equation, np.full(some, last), rtol, none, none)
-        return found.after(np.broadcast_to(cycles, (some, len(cycles))))
+    def together(some: Sequence[Scene]) -> Answer:
+        if some[0].contact.ends_at_3_sigma:
+            wanted = [Wanted(bind(scene), scene.periodic_load, last) for scene in some]
+            rows = [each.after(cycles) for each in counted_stages(wanted, rtol)]
+            u, error = np.array(rows).swapaxes(0, 1)
+            return u, error
+        none = np.zeros(len(some))
+        found = orbit(equation_of(some), np.full(len(some), last), rtol, none, none)
+        return found.after(np.broadcast_to(cycles, (len(some), len(cycles))))
 
-    def alone(scene: Scene) -> tuple[FloatArray, FloatArray]:
+    def alone(scene: Scene) -> Answer:
         return wear_after(bind(scene), scene.load, cycles, rtol)[:2]
 
     models = [bind(scene) for scene in scenes]
@@ -312,9 +316,13 @@ def cycles_to_depth(scenes: Sequence[Scene], wear: FloatArray, rtol: float = 1e-
     """
     wear = np.asarray(wear, dtype=float)
 
-    def together(equation: WearEquation) -> tuple[FloatArray, FloatArray]:
-        count, error = np.full((2, equation.scenes, len(wear)), np.inf)
-        todo, reach = np.arange(equation.scenes), LEAST
+    def together(some: Sequence[Scene]) -> Answer:
+        if some[0].contact.ends_at_3_sigma:
+            rows = np.array([alone(scene) for scene in some])
+            return rows[:, 0], rows[:, 1]
+        equation = equation_of(some)
+        count, error = np.full((2, len(some), len(wear)), np.inf)
+        todo, reach = np.arange(len(some)), LEAST
         while len(todo):
             none, reach = np.zeros(len(todo)), min(reach * FARTHER, MOST_CYCLES)
             found = orbit(equation.take(todo), np.full(len(todo), reach), rtol, none, none)
@@ -326,7 +334,7 @@ def cycles_to_depth(scenes: Sequence[Scene], wear: FloatArray, rtol: float = 1e-
             todo = todo[more] if reach < MOST_CYCLES else todo[:0]
         return count, np.where(np.isinf(count), 0.0, error)
 
-    def alone(scene: Scene) -> tuple[FloatArray, FloatArray]:
+    def alone(scene: Scene) -> Answer:
         return cycles_until(bind(scene), scene.load, wear, rtol)[:2]
 
     return CyclesToDepth(*_each(scenes, len(wear), together, alone))
@@ -339,26 +347,31 @@ Answer = tuple[FloatArray, FloatArray]
 def _each(
     scenes: Sequence[Scene],
     number: int,
-    together: Callable[[WearEquation], Answer],
+    together: Callable[[Sequence[Scene]], Answer],
     alone: Callable[[Scene], Answer],
 ) -> Answer:
     """Return two numbers (scenes, number) of every scene: of those of one variant `together`, of
-    those with loss of contact or a load in blocks each `alone`."""
+    those whose load consists of blocks each `alone`."""
     first, second = np.empty((2, len(scenes), number))
     for which in groups(scenes):
         some = [scenes[i] for i in which.tolist()]
-        lone = some[0].contact.ends_at_3_sigma or isinstance(some[0].load, Blocks)
-        first[which], second[which] = alone(some[0]) if lone else together(equation_of(some))
+        lone = isinstance(some[0].load, Blocks)
+        first[which], second[which] = alone(some[0]) if lone else together(some)
     return first, second
 
 
 def groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
     """Return which scenes are solved together: those of one variant whose loads repeat, no more
-    than go together; a scene with loss of contact or a load in blocks is alone."""
+    than go together; with loss of contact only those under loads of one kind, for all of them
+    wait for the one with the most pieces; a scene with a load in blocks is alone."""
     kinds: dict[object, list[int]] = {}
     for i, scene in enumerate(scenes):
-        alone = scene.contact.ends_at_3_sigma or isinstance(scene.load, Blocks)
-        kinds.setdefault(i if alone else scene.variant, []).append(i)
+        kind: object = scene.variant
+        if isinstance(scene.load, Blocks):
+            kind = i
+        elif scene.contact.ends_at_3_sigma:
+            kind = scene.variant, type(scene.load)
+        kinds.setdefault(kind, []).append(i)
     for which in kinds.values():
         most = max(len(getattr(scenes[i].load, "kinks", ())) for i in which)
         few = max(1, TOGETHER // max(1, most // KINKS))

@@ -81,10 +81,10 @@ def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch: pytest.Monkey
     """A count whose error is infinite says neither when wear stops nor that it goes on."""
     count = counting.counted_stages
 
-    def missed(*arguments: Any) -> Stages:
-        found = count(*arguments)
+    def missed(*arguments: Any) -> list[Stages]:
+        (found,) = count(*arguments)
         last = found.stages[-1]._replace(inherited=np.inf)
-        return found._replace(stages=(*found.stages[:-1], last))
+        return [found._replace(stages=(*found.stages[:-1], last))]
 
     monkeypatch.setattr(counting, "counted_stages", missed)
     found = _asymptote("section4-cutoff")
