@@ -23,7 +23,7 @@ test: $(VENV)/installed-test ## run all checks: style, types, import walls, test
 	$(BIN)/mypy || status=1; \
 	$(BIN)/mypy tests/wear/typed_script.py || status=1; \
 	$(BIN)/lint-imports --no-logo || status=1; \
-	$(BIN)/python -m pytest -n 2 || status=1; \
+	$(BIN)/python -m pytest -n 2 --dist worksteal || status=1; \
 	exit $$status
 
 proof: $(VENV)/installed ## prove the steps of the derivation anew with Coq

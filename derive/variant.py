@@ -2,16 +2,21 @@
 
 Key results
     Variant     law, support, pin, loss of contact
+    modelled    the hypotheses of a law, a sign of pin wear and a kind of pin, stated once
     VARIANTS    every variant that source code can be written for
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from itertools import product
 
 from .laws import LAWS, ContactLaw
 from .note.governing import Model, Pin
+
+modelled = cache(Model)
+"""The hypotheses of a law, a sign of pin wear and a kind of pin; what follows is derived once."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +48,7 @@ class Variant:
     @property
     def model(self) -> Model:
         """Return the hypotheses that the variant rests on, with the printed sign of pin wear."""
-        return Model(self.law, opening=False, pin=self.pin)
+        return modelled(self.law, False, self.pin)
 
     @property
     def equations(self) -> tuple[str, ...]:

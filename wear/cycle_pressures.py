@@ -17,10 +17,9 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
-from wear.direct.sequence import span
 from wear.inside import Inside, fields_inside
-from wear.load import Blocks, HistoryLoad
-from wear.load.protocols import Load
+from wear.load import Blocks, HistoryLoad, Load
+from wear.load.spans import span
 from wear.model import Model, bind
 from wear.numerics.gauss import Mesh, mesh
 from wear.numerics.tolerances import ROUNDOFF
@@ -119,7 +118,8 @@ def _of(part: Inside, over: Mesh, wear_of_unit: FloatArray, given_load: bool) ->
     whole &= (touching.edges[:, :-1] > 0.0) & (touching.edges[:, 1:] > 0.0)
     fraction = np.ones(len(part.cycles))
     if not whole.all():
-        margin = fields.p if given_load else CONTACT_REACH * fields.sigma - fields.h + fields.U_c
+        undeflected = fields.h - getattr(fields, "U_c", 0.0)
+        margin = fields.p if given_load else CONTACT_REACH * fields.sigma - undeflected
         fraction = _share_above_zero(_sampled(margin, over), touching, over, whole)
     whole |= given_load
     tail = np.max(np.abs(p.nodes @ over.rule.coefficients.T)[..., -2:], axis=-1)

@@ -139,7 +139,8 @@ def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatA
     fields = model.fields(wear, displacement)
     sigma, fresh = fields.sigma, model.fields(np.zeros_like(wear), displacement).sigma
     cancelled = (fresh + np.abs(sigma - fresh)) / sigma  # where roughness vanishes
-    terms = np.abs(fields.h) * (1 + cancelled) + np.abs(displacement) + np.abs(fields.U_c)
+    terms = np.abs(fields.h) * (1 + cancelled) + np.abs(displacement)
+    terms += np.abs(getattr(fields, "U_c", 0.0))
     apart = APART * sigma
     more, less = (model.rate(wear, displacement + sign * apart) for sign in (1.0, -1.0))
     steepness = np.abs(more - less) / (2 * apart * (np.minimum(more, less) + TINY))

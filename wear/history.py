@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from wear import history_files
 from wear.faults import UsageError
-from wear.history_files import Column
+from wear.history_files import Column, columns_of
 
 if TYPE_CHECKING:
     import pandas
@@ -39,8 +39,8 @@ class History:
     cycles
         Numbers of cycles in the order of the request (of a run that was stopped: those reached).
     u_c, u_a, sigma_c, sigma_a, h
-        Wear and roughness of bearing and pin, and the closure, in mm, along `cycles`;
-        zero where not modelled.
+        Wear and roughness of bearing and pin, and the closure, in mm, along `cycles`; None where
+        the pin does not wear, or is smooth.
     p
         Contact pressure in MPa; zero out of contact.
     error
@@ -67,9 +67,9 @@ class History:
 
     cycles: NDArray[np.int64]
     u_c: FloatArray
-    u_a: FloatArray
+    u_a: FloatArray | None
     sigma_c: FloatArray
-    sigma_a: FloatArray
+    sigma_a: FloatArray | None
     h: FloatArray
     p: FloatArray
     error: FloatArray
@@ -105,30 +105,17 @@ class History:
             return nothing
 
     def columns(self) -> tuple[Column, ...]:
-        """The quantities along `cycles`, as they are named in files and JSON."""
+        """Return the quantities along `cycles`, as they are named in files and JSON."""
         peak, mean, fraction = self.pressures
         columns = [
-            Column("bearing_wear_mm", "mm", "wear of the bearing", self.u_c),
-            Column("pin_wear_mm", "mm", "wear of the pin", self.u_a),
-            Column("bearing_roughness_mm", "mm", "roughness of the bearing", self.sigma_c),
-            Column("pin_roughness_mm", "mm", "roughness of the pin", self.sigma_a),
-            Column("closure_mm", "mm", "closure of the mean surfaces", self.h),
-            Column("pressure_at_start_MPa", "MPa", "contact pressure", self.p),
+            *columns_of(self.u_c, self),
             Column("peak_pressure_MPa", "MPa", "largest pressure in the cycle", peak),
             Column("mean_pressure_MPa", "MPa", "mean pressure over the cycle", mean),
             Column("contact_fraction", "1", "share of the cycle in contact", fraction),
         ]
-        columns += self._displacements() + self._forces(peak, mean)
+        columns += self._forces(peak, mean)
         meaning = "estimated relative error of the bearing wear"
         return (*columns, Column("error_estimate", "1", meaning, self.error))
-
-    def _displacements(self) -> list[Column]:
-        found = (("bearing", self.U_c), ("pin", self.U_a))
-        return [
-            Column(f"{solid}_displacement_mm", "mm", f"displacement of the {solid}", values)
-            for solid, values in found
-            if values is not None
-        ]
 
     def _forces(self, peak: FloatArray, mean: FloatArray) -> list[Column]:
         from wear.states import friction_work, reaction_of, sliding_distance
@@ -198,7 +185,8 @@ class History:
         return f"<p>{title}</p><table><tr><th>cycle</th>{heads}</tr>{rows}</table>{rest}"
 
     def as_json(self) -> dict[str, Any]:
-        """The document of `wear run --json`, in plain values; what does not exist is None."""
+        """Return the document of `wear run --json`, in plain values; what does not exist is None,
+        also along the cycles the wear and roughness of a pin that has none."""
         head = {
             "scene": self.scene,
             "model": {"variant": self.variant, "operations": dict(self.operations)},
@@ -206,7 +194,9 @@ class History:
             "rtol": self.rtol,
             "cycles": self.cycles.tolist(),
         }
-        lists = {column.name: _finite(column.values) for column in self.columns()}
+        lists = dict.fromkeys(history_files.OF_THE_PIN, [None] * len(self.cycles)) | {
+            column.name: _finite(column.values) for column in self.columns()
+        }
         tail = {"cost": dict(self.cost), "seconds": self.seconds, "notices": list(self.notices)}
         return head | lists | tail
 

@@ -28,6 +28,31 @@ class Column(NamedTuple):
     values: NDArray[Any]
 
 
+_FIELDS = (  # symbol, name in files, unit, meaning
+    ("u_a", "pin_wear_mm", "mm", "wear of the pin"),
+    ("sigma_c", "bearing_roughness_mm", "mm", "roughness of the bearing"),
+    ("sigma_a", "pin_roughness_mm", "mm", "roughness of the pin"),
+    ("h", "closure_mm", "mm", "closure of the mean surfaces"),
+    ("p", "pressure_at_start_MPa", "MPa", "contact pressure"),
+    ("U_c", "bearing_displacement_mm", "mm", "displacement of the bearing"),
+    ("U_a", "pin_displacement_mm", "mm", "displacement of the pin"),
+)
+OF_THE_PIN = ("pin_wear_mm", "pin_roughness_mm")
+"""Keys that JSON has also of a pin that does not wear, or is smooth."""
+
+
+def columns_of(wear: NDArray[Any], fields: object) -> tuple[Column, ...]:
+    """Return the wear (mm) of the bearing and the fields that there are, by symbol."""
+    return (
+        Column("bearing_wear_mm", "mm", "wear of the bearing", wear),
+        *(
+            Column(name, unit, meaning, getattr(fields, symbol))
+            for symbol, name, unit, meaning in _FIELDS
+            if getattr(fields, symbol, None) is not None
+        ),
+    )
+
+
 def write_csv(
     cycles: NDArray[np.int64], columns: Sequence[Column], attributes: Attributes, path: Path
 ) -> None:
@@ -79,7 +104,7 @@ def _write_lines(parts: Iterable[Inside], path: Path, attributes: Attributes) ->
         writer = csv.writer(file, lineterminator="\n")
         begun = False
         for part in parts:
-            columns = _columns_inside(part)
+            columns = columns_of(part.u, part.fields)
             if not begun:
                 names = (column.name for column in columns)
                 writer.writerow(["cycle", "phase", *names, "error_estimate"])
@@ -99,7 +124,7 @@ def _write_records(parts: Iterable[Inside], path: Path, attributes: Attributes) 
     """
     rows = 0
     for part in parts:
-        columns = _columns_inside(part)
+        columns = columns_of(part.u, part.fields)
         if rows == 0:
             _write_first_cycle(part, columns, attributes, path)
         records = np.column_stack([part.cycles, part.error, *(c.values for c in columns)])
@@ -115,7 +140,7 @@ _NUMBER_OF_RECORDS = 4  # where it stands in a NetCDF-3 file, behind "CDF" and t
 
 
 def _write_first_cycle(
-    part: Inside, columns: tuple[Column, ...], attributes: Attributes, path: Path
+    part: Inside, columns: Sequence[Column], attributes: Attributes, path: Path
 ) -> None:
     from scipy.io import netcdf_file
 
@@ -136,19 +161,6 @@ def _write_first_cycle(
             variable = file.createVariable(column.name, "d", ("cycle", "phase"))
             variable[0] = column.values[0]
             variable.units, variable.long_name = column.unit, column.meaning
-
-
-def _columns_inside(part: Inside) -> tuple[Column, ...]:
-    fields = part.fields
-    return (
-        Column("bearing_wear_mm", "mm", "wear of the bearing", part.u),
-        Column("pin_wear_mm", "mm", "wear of the pin", fields.u_a),
-        Column("bearing_roughness_mm", "mm", "roughness of the bearing", fields.sigma_c),
-        Column("pin_roughness_mm", "mm", "roughness of the pin", fields.sigma_a),
-        Column("closure_mm", "mm", "closure of the mean surfaces", fields.h),
-        Column("pressure_at_start_MPa", "MPa", "contact pressure", fields.p),
-        Column("bearing_displacement_mm", "mm", "displacement of the bearing", fields.U_c),
-    )
 
 
 @contextmanager

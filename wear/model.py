@@ -20,24 +20,13 @@ from wear.faults import UsageError
 from wear.scene import Scene, VariantKey
 
 Real = Any  # a float or an array of floats
+Fields = Any  # the named tuple of a generated module: the fields that its variant has, mm and MPa
 Summed = Callable[[Real], Real]
 
 
 def as_it_is(values: Real) -> Real:
     """Return the values."""
     return values
-
-
-class Fields(NamedTuple):
-    """Every field, in mm and MPa; what a scene does not model is zero."""
-
-    u_a: Real
-    sigma_a: Real
-    sigma_c: Real
-    sigma: Real
-    h: Real
-    U_c: Real
-    p: Real
 
 
 class Bound(NamedTuple):
@@ -165,17 +154,17 @@ class Model:
         return p if self.loss is None else self._limited(p, self.margin(u, U_a))
 
     def fields(self, u: Real, U_a: Real) -> Fields:
-        """Return every field at given wear and load."""
+        """Return the fields that the variant has, at given wear and load."""
         if self.compliant:
             return self.fields_under(self.pressure(u, U_a), u, U_a)
-        fields = _complete(self.module.fields(u, U_a, self.constants), u, U_a)
+        fields = self.module.fields(u, U_a, self.constants)
         if self.loss is None:
             return fields
         return fields._replace(p=np.where(self.margin(u, U_a) >= 0.0, fields.p, 0.0))
 
     def fields_under(self, p: Real, u: Real, U_a: Real) -> Fields:
-        """Return every field on a compliant support, whose contact pressure `p` (MPa) is known."""
-        return _complete(self.module.fields(p, u, U_a, self.constants), u, U_a)
+        """Return the fields on a compliant support, whose contact pressure `p` (MPa) is known."""
+        return self.module.fields(p, u, U_a, self.constants)
 
     def law_rate(self, u: Real, U_a: Real) -> Real:
         """Return the wear rate (mm/s) by the contact law, as if contact were never lost."""
@@ -265,12 +254,6 @@ class Model:
         return loss.module.limited_slope(
             change, of.compliance, of.wear_per_pressure, loss.constants
         )
-
-
-def _complete(found: Any, u: Real, U_a: Real) -> Fields:
-    """Return the fields that a generated module gives, and zero for those that it has not."""
-    zero = np.zeros(np.broadcast(u, U_a).shape)
-    return Fields(**(dict.fromkeys(Fields._fields, zero) | found._asdict()))
 
 
 def generated(key: VariantKey) -> ModuleType:

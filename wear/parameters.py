@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from wear.equation import WearEquation
 from wear.load import Blocks, Load
+from wear.load.spans import span
 from wear.model import bind, bind_many
 from wear.scene import KEYS, Scene
 
@@ -113,11 +114,11 @@ def acting_loads(scenes: Sequence[Scene]) -> Iterator[Acting]:
     if not isinstance(load, Blocks):
         yield Acting("load", tuple(scene.periodic_load for scene in scenes), 0.0, np.inf)
         return
-    begins = 0.0
-    for number, block in enumerate(load.stretches()):
-        place = f"load.blocks[{number % len(load.blocks)}]"
-        yield Acting(place, (block.load,), begins, begins + block.cycles)
-        begins += block.cycles
+    done = 0
+    while done < load.cycles:
+        acting = span(load, done)
+        yield Acting(acting.place, (acting.load,), float(done), float(acting.until))
+        done = acting.until
 
 
 @dataclass(frozen=True)

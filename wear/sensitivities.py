@@ -11,7 +11,7 @@ Key results
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -30,6 +30,7 @@ from wear.model import bind
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import acting_loads, parameters_of, parametrised
+from wear.progress import Pace
 from wear.scene import Scene, as_scene
 from wear.solver import checked_request, obstacle
 
@@ -51,10 +52,16 @@ class Gradients(NamedTuple):
 
 
 def gradients(
-    scenes: Sequence[Scene], keys: Sequence[str], cycles: FloatArray, rtol: float = 1e-10
+    scenes: Sequence[Scene],
+    keys: Sequence[str],
+    cycles: FloatArray,
+    rtol: float = 1e-10,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> Gradients:
     """Return the wear of scenes of one variant after whole numbers of cycles (n,), and its
     derivatives with respect to the numbers of the scene with these `keys`.
+
+    After two seconds `progress` is told now and then how far the scenes are.
 
     Raises
     ------
@@ -71,9 +78,13 @@ def gradients(
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
     found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
+    pace, done = Pace(progress), 0
+    pace.begin("scene", len(scenes))
     for which in _groups(scenes):
         some, parts = _in_parts([scenes[i] for i in which.tolist()])
-        part = _of_one_variant(some, keys, cycles * parts, rtol)
+        part = _of_one_variant(some, keys, cycles * parts, rtol, pace.say)
+        done += len(which)
+        pace.at(done)
         per_key = np.array([1.0 / parts if key == PERIOD else 1.0 for key in keys])[:, None]
         found.wear[which] = part.u
         found.derivative[which] = part.derivative * per_key
@@ -121,10 +132,14 @@ def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:
 
 @np.errstate(all="ignore")  # trial states far off the solution; what is no number has no digit
 def _of_one_variant(
-    scenes: Sequence[Scene], keys: Sequence[str], cycles: FloatArray, rtol: float
+    scenes: Sequence[Scene],
+    keys: Sequence[str],
+    cycles: FloatArray,
+    rtol: float,
+    say: Callable[[str], None],
 ) -> Tangents:
     """Return the derivatives of the wear of scenes of one variant; of one alone if its load
-    consists of blocks."""
+    consists of blocks, of which it tells `say` how far they are."""
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
     found = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
@@ -132,6 +147,7 @@ def _of_one_variant(
     slope, slope_error = np.zeros((2, number, len(keys)))
     for acting in acting_loads(scenes):
         end = min(acting.until, last)
+        say(f"cycle {acting.begins:.10g} of {last:.10g}")
         here = (cycles >= acting.begins) & (cycles <= end)
         wanted = np.tile(np.append(cycles[here], end) - acting.begins, (number, 1))
         equation = parametrised(scenes, acting, keys)
@@ -214,7 +230,10 @@ class Sensitivities:
 
 
 def sensitivity(
-    scene: Scene | str | os.PathLike[str], cycles: float | Iterable[float], rtol: float = 1e-10
+    scene: Scene | str | os.PathLike[str],
+    cycles: float | Iterable[float],
+    rtol: float = 1e-10,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> Sensitivities:
     """Return how the wear of a scene after numbers of cycles depends on every number of the scene.
 
@@ -226,6 +245,8 @@ def sensitivity(
         Whole numbers from 0 to 1e12, in any order; or one such number.
     rtol
         Requested relative accuracy of the wear; the derivatives have an estimate of their own.
+    progress
+        Is told in words how far the count is that takes more than two seconds.
 
     Raises
     ------
@@ -242,7 +263,8 @@ def sensitivity(
         raise UsageError(f"cycles cannot be counted: {against}")
     wanted = checked_request(scene, cycles, rtol, "abel", None)
     numbers = parameters_of(scene)
-    found = _of_one_variant([scene], list(numbers), np.array(wanted, dtype=float), rtol)
+    counted = np.array(wanted, dtype=float)
+    found = _of_one_variant([scene], list(numbers), counted, rtol, Pace(progress).say)
     u, _, derivative, error, added = (part[0] for part in found)
     values = np.array(list(numbers.values()))
     return Sensitivities(

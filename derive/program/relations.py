@@ -11,23 +11,25 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 
 from ..kernel import Judgement
 from ..note.condensed import Condensed
-from ..note.governing import Model, Pin
-from ..rules.algebra import solve, substitute
+from ..note.governing import Pin
+from ..rules.algebra import Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.calculus import RIGID
 from ..symbols import QUANTITIES, symbols
-from ..variant import Variant
+from ..variant import Variant, modelled
 from . import symbols as named
 from .function import Assignment
 
 kappa, K_a, K_c, H_a, H_c, k, p, p_max, f_a = symbols("kappa K_a K_c H_a H_c k p p_max f_a")
 
 
+@cache
 def groups(variant: Variant) -> tuple[Assignment, ...]:
     """Return the named constants of a run: each a combination of parameters."""
     model = variant.model
@@ -44,6 +46,7 @@ def groups(variant: Variant) -> tuple[Assignment, ...]:
     return tuple(found)
 
 
+@cache
 def _kappa() -> Judgement:
     """Return the wear of the pin per wear of the bearing."""
     return defined(kappa, K_a * H_c / (K_c * H_a))
@@ -98,13 +101,13 @@ class Relations:
 
     def _closure(self, opening: bool, deflected: bool) -> sp.Expr:
         """Return h where wear of the pin opens the gap, or where it closes it."""
-        model = Model(self.variant.law, opening, self.variant.pin)
+        model = modelled(self.variant.law, opening, self.variant.pin)
         deflection = Condensed(model).deflection if deflected else assume(RIGID)
         return _plain(substitute(model.closure, self._wear_of_pin(), deflection).claim.rhs)
 
     def _wear_of_pin(self) -> Judgement:
         worn = self.variant.model.wear_of_pin
-        return substitute(worn, solve(_kappa(), K_a)) if self.variant.pin.wears else worn
+        return substitute(worn, Solve(K_a)(_kappa())) if self.variant.pin.wears else worn
 
     def _hoisted(self, expr: sp.Expr) -> sp.Expr:
         """Write a polynomial in the state with named constants for its coefficients."""

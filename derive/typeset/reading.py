@@ -1,10 +1,11 @@
 r"""Formulas in plain text: what one types into a terminal, read as LaTeX.
 
 Overview
-    Titles, remarks and evidence are written as ``h/sigma -> 1/f_c`` or ``4.6e-8 mm``.  ``read``
-    splits such a text into words, formulas and numbers.  A formula is the longest run that parses
-    as one: names of quantities, numbers, ``+ - * / ^``, brackets, relations, and factors side by
-    side.  A letter that may be a word (a, A, d, m) is one unless an operator says otherwise.
+    Titles, remarks and evidence are written as ``h/sigma -> 1/f_c`` or ``4.6e-8 mm``.  A formula
+    is what one regular expression matches: sides with relations between them, sums of products of
+    names, small numbers and brackets.  It has to hold a name of the model, a relation or a power;
+    a letter alone that may be a word is one.  A number with a point, an exponent or three digits
+    is a result, and stands outside of formulas.
 Key results
     read    the parts of a text
     Part    words, a formula, a number, or a name that is none of the model's
@@ -13,29 +14,73 @@ Key results
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Literal, NamedTuple
 
-from .tokens import Token, tokens_of
+from ..symbols import QUANTITIES
 
-_NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?")
-#: What makes a number a result, and no part of a formula.
-_RESULT = re.compile(r"[.e]|\d{3}")
-#: Letters that are words more often than not.
-_AMBIGUOUS = frozenset("aAIidmgb")
-_BRACKETS = {"(": ")", "[": "]", "|": "|"}
+_NAMES = {name: quantity.latex for name, quantity in QUANTITIES.items()} | {
+    "phi": r"\phi", "pi": r"\pi", "oo": r"\infty", "K": "K", "Q": "Q", "F": "F",
+    "f_ij": "f_{ij}", "f_i": "f_i", "a_n": "a_n", "c_n": "c_n", "w_n": "w_n",
+}  # fmt: skip
+_RELATIONS = {"<=": r"\le", ">=": r"\ge", "!=": r"\ne", "->": r"\to", "=": "=", "<": "<", ">": ">"}
+_FUNCTIONS = ("tanh", "ln", "sin", "cos", "max", "min")
+_AMBIGUOUS = "aAIidmgb"
+"""Letters that are words more often than not."""
 
 
-@dataclass(frozen=True)
-class Part:
+def _any(words: Iterable[str]) -> str:
+    return f"(?:{'|'.join(sorted(map(re.escape, words), key=len, reverse=True))})"
+
+
+_END = r"(?![\w'])"
+_WORDS = r"[A-Za-z]+'[A-Za-z]*|[A-Za-z]{2,}(?:-[A-Za-z]{2,})+|(?:[A-Za-z]\.){2,}"
+_IDENTIFIER = rf"(?<![A-Za-z\d])(?!{_any(_NAMES)}{_END})[A-Za-z]+(?:[_-][A-Za-z]+)*[_-]?\d[\w\-]*"
+_NUMBER = r"(?:(?<!\w)[-+])?(?<![\w.])\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w]|\.\d)"
+_RESULT = rf"(?=[-+]?(?:\d+[.e]|\d{{3}})){_NUMBER}"
+_RELATION = r"(?: ?(?:<=|>=|!=|->|=) ?| [<>] )"
+_KNOWN = rf"(?<![\w'])(?![{_AMBIGUOUS}]{_END}){_any(_NAMES)}{_END}"
+_BARE = rf"(?:{_any(_NAMES)}|[A-Za-z])"
+_NAME = rf"(?<![\w']){_BARE}{_END}"
+_SLOPE = rf"\bd ?{_BARE}/d ?{_BARE}{_END}"
+_FUNCTION = rf"(?<!\w){_any(_FUNCTIONS)}{_END}"
+_SMALL = r"(?<![\w.])\d{1,2}(?!\d|\.\d|e[-+]?\d|[A-Za-z]\w)"
+_SURE, _UNSURE = 0xE000, 0xF000
+"""Private characters for brackets whose inside is a formula, or may be one."""
+_GROUP = "[\ue000-\uf8ff]"
+_ATOM = rf"(?:{_SLOPE}|{_NAME}{_GROUP}?+|{_SMALL}|<{_NAME}>|{_GROUP})"
+_POWER = rf"{_ATOM}(?:\^-?{_ATOM})?"
+_FACTOR = rf"(?:{_FUNCTION} ?)?{_POWER}"
+
+
+def _sum(beside: str) -> str:
+    """Return the expression of a sum; ``beside`` is what may stand beside a factor."""
+    product = rf"{_FACTOR}(?: ?[*/] ?{_FACTOR}| ?(?={beside}){_FACTOR})*"
+    return rf"[-+]?{product}(?:(?: [-+] |[-+]){product})*"
+
+
+_INSIDE = _sum(r"[A-Za-z\ue000-\uefff]")
+_OUTSIDE = _sum(rf"(?![{_AMBIGUOUS}]{_END})[A-Za-z\ue000-\uefff]")
+_BRACKETS = re.compile(rf"\({_INSIDE}(?:, ?{_INSIDE})*\)|\[{_INSIDE}\]|\|{_INSIDE}\|")
+_PART = re.compile(
+    rf"(?P<identifier>{_IDENTIFIER})|(?P<words>{_WORDS})|(?P<number>{_RESULT})"
+    rf"|(?P<formula>(?:(?<=\d){_RELATION})?{_OUTSIDE}(?:{_RELATION}{_OUTSIDE})*"
+    rf"(?:{_RELATION}(?={_RESULT}))?)"
+)
+_CERTAIN = re.compile(rf"{_KNOWN}|{_SLOPE}|{_FUNCTION}|\^|\d/|<{_NAME}>|{_RELATION}")
+_NUMBER_ALONE = re.compile(rf"[-+]?{_NUMBER}")
+_TOKEN = re.compile(
+    rf"(?P<slope>\bd ?(?P<above>{_BARE})/d ?(?P<below>{_BARE}){_END})|(?P<function>{_FUNCTION}) ?"
+    rf"|(?P<name>{_NAME})|\^(?P<power>-?(?:\w+|{_GROUP}))|<(?P<mean>{_NAME})>"
+    rf"|(?P<relation>{_RELATION})|(?P<product> ?[*/] ?)|(?P<group>{_GROUP})"
+)
+
+
+class Part(NamedTuple):
     """A piece of a text: words as they stand, a formula in LaTeX, a number or another name."""
 
     kind: Literal["words", "formula", "number", "identifier"]
     text: str
-
-
-class _NoFormulaError(Exception):
-    """What stands here is no formula."""
 
 
 def read(text: str) -> tuple[Part, ...]:
@@ -44,263 +89,87 @@ def read(text: str) -> tuple[Part, ...]:
     >>> [part.text for part in read("at h = 3 sigma, for f_c = 0.25 and a load")]
     ['at ', 'h = 3 \\\\bar{\\\\sigma}', ', for ', 'f_c =', ' ', '0.25', ' and a load']
     """
-    tokens = tuple(tokens_of(text))
-    parts: list[Part] = []
-    place = start = 0
-    while place < len(tokens):
-        found = _Formula(tokens, place).read()
-        if found is None:
-            place += 1
-            continue
-        pieces, end = found
-        parts += [Part("words", text[start : tokens[place].start]), *pieces]
-        place, start = end, tokens[end - 1].end
-    parts.append(Part("words", text[start:]))
-    return tuple(part for part in parts if part.text)
+    groups: list[str] = []
+    if re.search(_GROUP, text):
+        return (Part("words", text),)
+
+    def fold(brackets: re.Match[str]) -> str:
+        groups.append(brackets[0])
+        first = _SURE if _is_certain(_unfolded(brackets[0], groups)) else _UNSURE
+        return chr(first + len(groups) - 1)
+
+    while (folded := _BRACKETS.sub(fold, text)) != text:
+        text = folded
+    return tuple(part for part in _parts(text, groups) if part.text)
 
 
-class _Formula:
-    """Reads one formula by recursive descent; ``_place`` is the token that comes next."""
+def _is_certain(text: str) -> bool:
+    """Return whether a match is a formula, and no words that happen to look like one."""
+    return _CERTAIN.search(text) is not None
 
-    def __init__(self, tokens: tuple[Token, ...], place: int) -> None:
-        self._tokens, self._place = tokens, place
-        self._depth = 0
-        self._certain = False
 
-    def read(self) -> tuple[list[Part], int] | None:
-        """Return the parts of the formula that starts here and the token after it."""
-        start = self._tokens[self._place]
-        if start.kind == "identifier":
-            return [Part("identifier", start.text)], self._place + 1
-        try:
-            parts = self._relation()
-        except _NoFormulaError:
-            return None
-        return (parts, self._place) if parts else None
+def _parts(text: str, groups: Sequence[str]) -> Iterator[Part]:
+    """Yield the parts of a text in which groups stand for brackets."""
+    end = 0
+    for found in _PART.finditer(text):
+        kind, inside = str(found.lastgroup), _unfolded(found[0], groups)
+        if kind == "words" or (kind == "formula" and not _is_certain(inside)):
+            if not _NUMBER_ALONE.fullmatch(inside):
+                continue
+            kind = "number"
+        yield from _words(text[end : found.start()], groups)
+        shown = _latex(found[0], groups).strip() if kind == "formula" else inside
+        yield Part(kind, shown)  # type: ignore[arg-type]
+        yield Part("words", " " * (kind == "formula" and found[0].endswith(" ")))
+        end = found.end()
+    yield from _words(text[end:], groups)
 
-    def _relation(self) -> list[Part]:
-        """Sides with relations between them; a side that is but a result is a number of its own."""
-        first = self._place
-        parts, latex = [], ""
-        while True:
-            side, number = self._sum(), self._number_since(first)
-            alone = not latex and not self._relation_follows()
-            if number and (alone or _RESULT.search(number)):
-                if latex:
-                    parts += [Part("formula", latex.strip()), Part("words", " ")]
-                parts.append(Part("number", number))
-                latex = ""
-            else:
-                latex += side
-            if not self._relation_follows():
-                break
-            self._skip()
-            self._certain = True
-            latex += f" {self._next().latex} "
-            self._skip()
-            first = self._place
-        if latex:
-            parts.append(Part("formula", latex.strip()))
-        only_number = all(part.kind == "number" for part in parts)
-        return parts if self._certain or only_number else []
 
-    def _relation_follows(self) -> bool:
-        """Whether a relation and another side follow."""
-        state = self._place, self._certain
-        try:
-            self._skip()
-            if self._peek("relation") is None:
-                return False
-            self._next()
-            self._skip()
-            self._certain = True
-            self._sum()
-        except _NoFormulaError:
-            return False
-        finally:
-            self._place, self._certain = state
-        return True
+def _words(text: str, groups: Sequence[str]) -> Iterator[Part]:
+    """Yield words, and what stands in their brackets."""
+    for piece in re.split(f"({_GROUP})", text):
+        if re.fullmatch(_GROUP, piece):
+            brackets = _inner(piece, groups)
+            yield Part("words", brackets[0])
+            yield from _parts(brackets[1:-1], groups)
+            yield Part("words", brackets[-1])
+        else:
+            yield Part("words", piece)
 
-    def _number_since(self, first: int) -> str:
-        """The text of one number, with its sign, if no more than that has been read."""
-        text = "".join(token.text for token in self._tokens[first : self._place]).strip()
-        return text if _NUMBER.fullmatch(text) else ""
 
-    def _sum(self) -> str:
-        latex = ""
-        if (sign := self._mark("+-")) is not None:
-            latex = sign
-        latex += self._product()
-        while (sign := self._sign_between()) is not None:
-            latex += f" {sign} {self._product()}"
-        return latex
+def _unfolded(text: str, groups: Sequence[str]) -> str:
+    """Return a text with its brackets."""
+    return re.sub(_GROUP, lambda group: _unfolded(_inner(group[0], groups), groups), text)
 
-    def _sign_between(self) -> str | None:
-        """A plus or minus between two terms: with spaces on both sides or on none."""
-        before = self._place
-        spaced = self._skip()
-        sign = self._mark("+-")
-        if sign is not None and self._skip() == spaced and self._starts_operand():
-            return sign
-        self._place = before
-        return None
 
-    def _product(self) -> str:
-        latex = self._power()
-        while not (_NUMBER.fullmatch(latex) and _RESULT.search(latex)):  # a result stays alone
-            before = self._place
-            if (sign := self._mark("*/")) is not None and self._starts_operand():
-                self._certain = self._certain or latex.isdigit()
-                latex += ("/" if sign == "/" else r"\,") + self._power()
-            elif self._place == before and self._factor_follows():
-                self._skip()
-                factor = self._power()
-                latex += (r"\," if factor.startswith(r"\mathrm{d}") else " ") + factor
-            else:
-                self._place = before
-                break
-        return latex
+def _inner(group: str, groups: Sequence[str]) -> str:
+    return groups[(ord(group) - _SURE) % (_UNSURE - _SURE)]
 
-    def _factor_follows(self) -> bool:
-        """Whether the next thing, at most a space away, is one more factor."""
-        before = self._place
-        self._skip()
-        token = self._peek()
-        self._place = before
-        if token is None:
-            return False
-        if token.kind == "mark":
-            return token.text in "([" and self._starts_operand(certain=True)
-        if token.kind == "function":
-            return True
-        lone = token.text in _AMBIGUOUS and self._depth == 0
-        return token.kind in ("name", "slope") and bool(token.latex) and not lone
 
-    def _power(self) -> str:
-        latex = self._atom()
-        before = self._place
-        if self._mark("^") is None:
-            return latex
-        try:
-            sign = self._mark("-") or ""
-            exponent = ", ".join(self._inside(")")) if self._mark("(") else self._atom()
-        except _NoFormulaError:
-            self._place = before
-            return latex
-        self._certain = True
-        power = sign + exponent
-        return f"{latex}^{power}" if len(power) == 1 else f"{latex}^{{{power}}}"
+def _latex(text: str, groups: Sequence[str]) -> str:
+    """Return a formula in LaTeX."""
 
-    def _atom(self) -> str:
-        token = self._next()
-        if token.kind in ("number", "factor"):
-            return token.text
-        if token.kind == "slope":
-            self._certain = True
-            return token.latex
-        if token.kind == "function":
-            self._certain = True
-            self._skip()
-            return f"{token.latex} {self._power()}"
-        if token.kind == "name" and token.latex:
-            return self._named(token)
-        if token.kind == "mark" and token.text in _BRACKETS:
-            return self._bracketed(token.text)
-        if token.kind == "mark" and token.text == "<":
-            return self._mean()
-        raise _NoFormulaError
+    def symbol(name: str) -> str:
+        return _NAMES.get(name, name)
 
-    def _named(self, token: Token) -> str:
-        """A symbol, or a function at its arguments."""
-        follows = self._peek("mark")
-        applied = follows is not None and follows.text == "("
-        ambiguous = token.text in _AMBIGUOUS or not token.known
-        if ambiguous and not (self._certain or self._depth or applied or self._operator_follows()):
-            raise _NoFormulaError
-        self._certain = self._certain or not ambiguous
-        if not applied:
-            return token.latex if token.latex != "e" else r"\mathrm{e}"
-        before = self._place
-        try:
-            arguments = self._bracketed(self._next().text)
-        except _NoFormulaError:
-            self._place = before
-            return token.latex
-        self._certain = True
-        return token.latex + arguments
+    def write(token: re.Match[str]) -> str:
+        if token["slope"]:
+            return rf"\mathrm{{d}}{symbol(token['above'])}/\mathrm{{d}}{symbol(token['below'])}"
+        if token["function"]:
+            return rf"\{token['function']} "
+        if token["name"]:
+            return r"\mathrm{e}" if token[0] == "e" else symbol(token[0])
+        if token["power"]:
+            inner = _latex(token["power"], groups)
+            inner = inner[1:-1] if inner.startswith("(") else inner
+            return f"^{inner}" if len(inner) == 1 else f"^{{{inner}}}"
+        if token["mean"]:
+            return rf"\langle {symbol(token['mean'])}\rangle"
+        if token["relation"]:
+            return f" {_RELATIONS[token[0].strip()]} "
+        if token["product"]:
+            return r"\," if "*" in token[0] else "/"
+        brackets = _latex(_inner(token[0], groups), groups)
+        return rf"\lvert {brackets[1:-1]}\rvert" if brackets[0] == "|" else brackets
 
-    def _operator_follows(self) -> bool:
-        before = self._place
-        self._skip()
-        token = self._peek()
-        self._place = before
-        if token is None:
-            return False
-        power = token.kind == "mark" and token.text in "/^*"
-        return power or token.kind in ("relation", "function")
-
-    def _bracketed(self, opening: str) -> str:
-        """What stands in brackets, with commas."""
-        closing = _BRACKETS[opening]
-        left, right = (r"\lvert ", r"\rvert") if opening == "|" else (opening, closing)
-        return left + ", ".join(self._inside(closing)) + right
-
-    def _inside(self, closing: str) -> list[str]:
-        """The sums between commas up to a closing bracket."""
-        self._depth += 1
-        try:
-            inside = [self._sum()]
-            while self._mark(",") is not None:
-                self._skip()
-                inside.append(self._sum())
-            if self._mark(closing) is None:
-                raise _NoFormulaError
-        finally:
-            self._depth -= 1
-        return inside
-
-    def _mean(self) -> str:
-        """``<U_a>``, a mean."""
-        token = self._next()
-        if token.kind != "name" or not token.latex or self._mark(">") is None:
-            raise _NoFormulaError
-        self._certain = True
-        return rf"\langle {token.latex}\rangle"
-
-    def _starts_operand(self, *, certain: bool = False) -> bool:
-        """Whether an operand, one that can be no words, follows; nothing is consumed."""
-        state = self._place, self._certain
-        self._skip()
-        try:
-            self._power()
-            return self._certain or not certain
-        except _NoFormulaError:
-            return False
-        finally:
-            self._place, self._certain = state
-
-    def _skip(self) -> bool:
-        """Pass a space; return whether there was one."""
-        there = self._peek("space") is not None
-        self._place += there
-        return there
-
-    def _peek(self, kind: str = "") -> Token | None:
-        if self._place >= len(self._tokens):
-            return None
-        token = self._tokens[self._place]
-        return token if not kind or token.kind == kind else None
-
-    def _mark(self, marks: str) -> str | None:
-        """Pass a mark if it is one of these."""
-        token = self._peek("mark")
-        if token is None or token.text not in marks:
-            return None
-        self._place += 1
-        return token.text
-
-    def _next(self) -> Token:
-        if self._place >= len(self._tokens):
-            raise _NoFormulaError
-        self._place += 1
-        return self._tokens[self._place - 1]
+    return _TOKEN.sub(write, text)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from derive.typeset.reading import Part, read
+from derive.typeset.reading import read
 
 
 @pytest.mark.parametrize(
@@ -33,10 +31,11 @@ def test_formulas_are_found(text: str, formulas: list[str]) -> None:
     assert [part.text for part in read(text) if part.kind == "formula"] == formulas
 
 
-def test_a_long_word_takes_no_longer_than_short_ones() -> None:
-    start = time.process_time()
-    assert read("electroencephalographically") == (Part("words", "electroencephalographically"),)
-    assert time.process_time() - start < 1.0
+@pytest.mark.parametrize(
+    "text", ["electroencephalographically" * 20, "(" + "x(k) y[z] " * 200 + ";"]
+)
+def test_long_texts_are_read_without_trying_every_way(text: str) -> None:
+    assert read(text)
 
 
 @pytest.mark.parametrize("text", ["f_c = 0.25", "K = 1e-6, 1e-5", "by 0.018 p_max", "h > -1.5 mm"])

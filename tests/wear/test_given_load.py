@@ -59,8 +59,8 @@ def test_closure_and_displacement_are_those_of_problem_i() -> None:
     numbers = {symbol(name): value for name, value in scene.parameters().items() if name != "T"}
     fields = {
         symbol(name): float(getattr(history, name)[0])
-        for name in ("u_c", "u_a", "sigma_c", "h", "p", "R_a", "U_c")
-    } | {symbol("sigma"): float(history.sigma_c[0])}
+        for name in ("u_c", "sigma_c", "h", "p", "R_a", "U_c")
+    } | {symbol("sigma"): float(history.sigma_c[0]), symbol("u_a"): 0.0}
     for claim, found in ((closure, history.h), (displacement, history.U_a)):
         assert found is not None
         expected = float(claim.rhs.subs(fields).subs(numbers))

@@ -29,7 +29,6 @@ from wear.scene import (
     contact_laws,
     load_scene,
     parse_scene,
-    scene_from_tables,
 )
 from wear.scene.notices import CONTACT_REACH
 
@@ -241,8 +240,8 @@ def test_a_checksum_pins_the_file(tmp_path: Path) -> None:
 def test_to_toml_and_to_tables_read_back(name: str) -> None:
     scene = load_scene(name)
     assert parse_scene(scene.to_toml()) == scene
-    assert scene_from_tables(scene.to_tables()) == scene
-    assert scene_from_tables(json.loads(scene.to_json())) == scene
+    assert Scene.from_dict(scene.to_tables()) == scene
+    assert Scene.from_dict(json.loads(scene.to_json())) == scene
     assert parse_scene(scene.to_toml()).to_json() == scene.to_json()
 
 

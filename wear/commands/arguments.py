@@ -61,11 +61,10 @@ def built_in_names() -> Sequence[str]:
 
 def _entries() -> Sequence[str]:
     """Return the beginnings of what `--set` takes, but for the load, whose keys vary."""
-    from wear.checked import keys_of
     from wear.scene import Bearing, Contact, Motion, Pin, Support
 
     tables = (Bearing, Pin, Contact, Support, Motion)
-    return [f"{table.place}.{name}=" for table in tables for name in keys_of(table)]
+    return [f"{table.place}.{name}=" for table in tables for name in table.entries]
 
 
 class Faults:

@@ -46,7 +46,8 @@ def execute(options: argparse.Namespace) -> int:
     scene = faults.scene(options)
     faults.stop_if_any()
     assert scene is not None
-    found = asymptote(scene)
+    with terminal.busy("seeking the asymptote"):
+        found = asymptote(scene)
     if options.json:
         terminal.print_json(asdict(found))
         return terminal.DONE

@@ -21,7 +21,7 @@ _WIDTH = 96
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the ids of claims."""
-    parser.add_argument("ids", metavar="ID", nargs="*", help="a claim, C1 to C40 (default: all)")
+    parser.add_argument("ids", metavar="ID", nargs="*", help="a claim, C1 to C41 (default: all)")
 
 
 def execute(options: argparse.Namespace) -> int:

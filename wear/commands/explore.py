@@ -43,9 +43,8 @@ def execute(options: argparse.Namespace) -> int:
         faults.add(f"--output: {problem}")
     faults.stop_if_any()
     assert scene is not None
-    terminal.progress("solving the scenes that the page checks itself against ...")
-    text = page(scene, specimens)
-    terminal.progress("")
+    with terminal.busy("solving the scenes that the page checks itself against"):
+        text = page(scene, specimens)
     files.write_atomically(options.output, text)
     if options.json:
         terminal.print_json({"page": options.output, "bytes": len(text.encode())})

@@ -118,7 +118,7 @@ class _Asked(NamedTuple):
 
 
 def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int:
-    from wear.direct.sequence import most_cycles
+    from wear.load.spans import most_cycles
 
     read = [int(each.cycles[-1]) for each in specimens]
     return max(read) if read else min(LAST, *(most_cycles(scene.load) for scene in scenes))
@@ -134,7 +134,8 @@ def _against_cycles(asked: _Asked, output: Path, *, as_json: bool) -> int:
     if any(each.changes for each in asked.specimens):
         runs = {each.name: asked.scenes[0].with_(each.changes) for each in asked.specimens}
     cycles = shown_cycles(asked.last, logarithmic=asked.logarithmic)
-    found = [solve(scene, cycles, rtol=1e-6) for scene in runs.values()]
+    with terminal.busy("counting cycles") as tell:
+        found = [solve(scene, cycles, rtol=1e-6, progress=tell) for scene in runs.values()]
     wear, *others = panels_of(found, tuple(runs), asked.abscissa)
     points = points_of(asked.specimens, runs, asked.abscissa)
     summary = _summary(found[0].scene, cycles, output) | {"scenes": list(runs)}

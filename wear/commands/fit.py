@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -60,6 +60,7 @@ def execute(options: argparse.Namespace) -> int:
     from wear.fitting.estimate import estimated, prepare
     from wear.fitting.posterior import posterior
     from wear.fitting.profiles import profiles
+    from wear.progress import Pace
 
     faults = Faults()
     scene = faults.scene(options)
@@ -85,9 +86,12 @@ def execute(options: argparse.Namespace) -> int:
             faults.add(str(fault))
     faults.stop_if_any()
     assert problem is not None
-    found = profiles(estimated(problem))
-    samples = posterior(found, int(steps)) if steps else None
-    document = as_json(found, options.data, cycles, wear, samples)
+    with terminal.busy("fitting") as tell:
+        found = profiles(estimated(replace(problem, pace=Pace(tell))))
+        tell("sampling the posterior")
+        samples = posterior(found, int(steps)) if steps else None
+        tell("forecasting")
+        document = as_json(found, options.data, cycles, wear, samples)
     if options.output is not None:
         _write(Path(options.output), found, document, samples)
     if options.json:

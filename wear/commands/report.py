@@ -44,15 +44,14 @@ def execute(options: argparse.Namespace) -> int:
     from wear.report.own import report
     from wear.report.publish import publish
 
-    terminal.progress("solving the scene and deriving its equations ...")
     changes = [part for entry in options.overrides for part in ("--set", entry)]
     data = [] if options.data is None else ["--data", options.data]
     command = shlex.join(["wear", "report", options.scene, *changes, *data])
-    document = report(scene, command, specimens)
-    with files.replacing_in(folder) as draft:
-        published = publish(document, draft)
-        written = sorted(path.name for path in published.files)
-    terminal.progress("")
+    with terminal.busy("solving the scene and deriving its equations"):
+        document = report(scene, command, specimens)
+        with files.replacing_in(folder) as draft:
+            published = publish(document, draft)
+            written = sorted(path.name for path in published.files)
     if options.json:
         terminal.print_json({"folder": str(folder), "files": written})
     else:

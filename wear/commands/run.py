@@ -92,15 +92,14 @@ def execute(options: argparse.Namespace) -> int:
 
     status, fault = terminal.DONE, ""
     try:
-        history = solve(scene, cycles, rtol, method, limit, terminal.progress)
+        with terminal.busy("counting cycles") as tell:
+            history = solve(scene, cycles, rtol, method, limit, tell)
     except Interrupted as stop:
         history, status, fault = stop.history, terminal.INTERRUPTED, str(stop)
     except AccuracyError as miss:
         if miss.best is None:
             raise
         history, status, fault = miss.best, terminal.INACCURATE, str(miss)
-    finally:
-        terminal.progress("")
     if options.strict:
         faults.refuse_implausible(history.notices)
         faults.stop_if_any()
@@ -128,7 +127,8 @@ def _cycles_until(scene: Scene, wears: Sequence[float], rtol: float) -> dict[str
     """The part of the JSON with the cycles after which wears are reached, null where unknown."""
     from wear.life import cycles_until
 
-    found = cycles_until(scene, wears, rtol)
+    with terminal.busy("counting cycles to the wear"):
+        found = cycles_until(scene, wears, rtol)
     return {
         "cycles_until": {
             "bearing_wear_mm": list(wears),

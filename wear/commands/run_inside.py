@@ -40,7 +40,7 @@ def read_phases(
 
 
 def _check(scene: Scene, cycles: Sequence[int], faults: Faults) -> None:
-    from wear.direct.sequence import most_cycles
+    from wear.load.spans import most_cycles
     from wear.solver import obstacle
 
     against, most = obstacle(scene), most_cycles(scene.load)

@@ -137,8 +137,8 @@ def write(history: History, path: Path) -> None:
 
 
 def _modelled(history: History) -> Sequence[Column]:
-    """Return the physical columns that say something: not those of a pin that is not modelled, nor
-    of contact that is never lost or of cycles whose pressures are unknown."""
+    """Return the physical columns that say something: not those of contact that is never lost or of
+    cycles whose pressures are unknown."""
     import numpy as np
 
     return [
@@ -146,7 +146,6 @@ def _modelled(history: History) -> Sequence[Column]:
         for column in history.columns()
         if column.name != "error_estimate"
         and not np.isnan(column.values).all()
-        and (not column.name.startswith("pin") or column.values.any())
         and (column.name != "contact_fraction" or np.any(column.values < 1.0))
     ]
 

@@ -78,7 +78,8 @@ def execute(options: argparse.Namespace) -> int:
             faults.add(f"--until-wear: {depth:g} mm: {life.reached[0].value}, no derivative")
             faults.stop_if_any()
         cycles = (*cycles, int(life.cycles[0]))
-    found = sensitivity(scene, cycles, rtol)
+    with terminal.busy("counting cycles") as tell:
+        found = sensitivity(scene, cycles, rtol, tell)
     if options.json:
         terminal.print_json(found.as_json())
     elif output is None:

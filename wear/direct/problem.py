@@ -122,6 +122,6 @@ def _sharpest_bend(load: Load) -> float:
 def _smooth_at(model: Model, load: Load, roughness: float) -> float:
     """Return the wear at which the only rough surface is smooth, infinite if there is none."""
     fresh, worn = (model.fields(u, load.maximum) for u in (0.0, roughness))
-    if fresh.sigma_a != 0.0 or worn.sigma_a != 0.0 or worn.sigma_c >= fresh.sigma_c:
+    if "sigma_a" in fresh._fields or worn.sigma_c >= fresh.sigma_c:
         return np.inf
     return float(roughness * fresh.sigma_c / (fresh.sigma_c - worn.sigma_c))

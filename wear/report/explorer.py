@@ -125,6 +125,7 @@ def _data(
     first: Scene, derived: Mapping[str, Any], specimens: Sequence[Specimen]
 ) -> dict[str, Any]:
     scenes = {name: load_scene(name) for name in builtin_names()}
+    first = explorer_data.opened(first)
     if first.name not in scenes or scenes[first.name] != first:
         first = replace(first, name=_free_name(first.name, scenes))
         scenes = {first.name: first} | scenes

@@ -18,7 +18,6 @@ from derive.symbols import QUANTITIES
 from derive.variant import Variant
 from derive.variant_equations import equations_of
 from wear import figures
-from wear.direct.sequence import most_cycles
 from wear.faults import UsageError
 from wear.figure_data import WEAR, Abscissa, Line, Panel, panels_of, points_of, pressure_inside
 from wear.figure_style import COLUMN_AND_HALF, pdf, svg
@@ -26,6 +25,7 @@ from wear.fitting.readings import Specimen
 from wear.history import History
 from wear.life import Reached, cycles_until
 from wear.load import Blocks, HistoryLoad
+from wear.load.spans import most_cycles
 from wear.own_laws import PREFIX, is_own
 from wear.regime import Asymptote, asymptote
 from wear.report import drawing
