@@ -24,6 +24,7 @@ from wear.load import Blocks, Load, Loading
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.model import Model, bind
+from wear.orbit.iterates import Iterates
 from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
 from wear.progress import Pace
 from wear.resampling import resampled
@@ -78,6 +79,9 @@ class Counted(Protocol):
     """The cycles of one scene, counted from some wear under a load that repeats."""
 
     @property
+    def orbit(self) -> Orbit: ...
+
+    @property
     def cost(self) -> Cost: ...
 
     @property
@@ -102,34 +106,35 @@ class Counted(Protocol):
 class InContact(NamedTuple):
     """A count without loss of contact."""
 
-    found: Orbit
+    orbit: Orbit
 
     @property
     def cost(self) -> Cost:
-        return self.found.cost
+        return self.orbit.cost
 
     @property
     def last_wear(self) -> float:
-        return float(self.found.last(0).counted.last_state[0])
+        return float(self.orbit.last(0).counted.last_state[0])
 
     @property
     def ended(self) -> bool:
-        return bool(self.found.last(0).counted.at_rest[0])
+        return bool(self.orbit.last(0).counted.at_rest[0])
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        wear, error = self.found.after(cycles[None])
+        wear, error = self.orbit.after(cycles[None])
         return wear[0], error[0]
 
     def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
-        count, error = self.found.until(wear[None])
+        count, error = self.orbit.until(wear[None])
         return count[0], error[0]
 
     def notices(self, wear: FloatArray) -> Iterator[str]:
-        last = self.found.last(0)
+        last = self.orbit.last(0)
         limit = float(last.counted.limit[0])
         if np.any(wear >= NEARLY * limit):
             yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
         elif self.ended:
+            assert isinstance(last.counted, Iterates)
             idle = int(last.begins[0]) + last.counted.first_idle_cycle
             yield f"from cycle {idle} on a cycle adds less than double precision resolves"
 

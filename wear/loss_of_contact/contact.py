@@ -244,8 +244,8 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Interval) -> _Part
     last, evaluations = np.ones(len(u)), 0
     done, lost = np.full((2, len(u)), False)
     steepness = contact.steepness(u, over.begin)
+    U_a = contact.cycles.load(over.begin + length * nodes)
     for iteration in range(MOST_ITERATIONS):
-        U_a = contact.cycles.load(over.begin + length * nodes)
         rate, slope = contact.rate_per_cycle(u + inside, U_a)
         evaluations += rate.size
         missing = length * (rule.integrate @ rate) - inside
@@ -272,6 +272,8 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Interval) -> _Part
         if np.all(done | lost):
             break
         last = apart
+        if ends:
+            U_a = contact.cycles.load(over.begin + length * nodes)
     return _Part(added, length, inside, rate, noise, stiffness, done, evaluations)
 
 

@@ -29,7 +29,7 @@ from wear.loss_of_contact.requests import (
     without_feedback,
 )
 from wear.loss_of_contact.roundoff import roundoff, roundoff_of_cycles
-from wear.loss_of_contact.stage import Integrated, Stage, Stages, UnresolvedStage
+from wear.loss_of_contact.stage import CountToArrest, Unresolved
 from wear.loss_of_contact.switching import Edge, edge_of_contact
 from wear.model import Model
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
@@ -39,7 +39,7 @@ from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import Settings, settings
-from wear.orbit.segments import Cost
+from wear.orbit.segments import Cost, Counted, Orbit, Segment
 from wear.orbit.transient import SAFETY
 
 FEW = 4.0  # cycles to the next grazing wear: they are integrated
@@ -54,6 +54,7 @@ APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: increments that have no series
 MOST_POOR = 8  # times that panels may hold too few cycles
+_FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
 
 
@@ -69,7 +70,9 @@ class Wanted(NamedTuple):
 
 
 @np.errstate(all="ignore")
-def counted_stages(wanted: Sequence[Wanted], rtol: float, deadline: float = np.inf) -> list[Stages]:
+def counted_stages(
+    wanted: Sequence[Wanted], rtol: float, deadline: float = np.inf
+) -> list[CountToArrest]:
     """Count the cycles of scenes of one variant, or until wear ends.
 
     After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
@@ -83,7 +86,7 @@ def counted_stages(wanted: Sequence[Wanted], rtol: float, deadline: float = np.i
     return answered(counts, [coarse, fine])
 
 
-def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[Stages]:
+def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[CountToArrest]:
     problem = yield from problem_of(wanted.model, wanted.load, edge, rtol, deadline)
     runs = _Count(problem, wanted.start)
     while not runs.over and (runs.done < wanted.cycles or not runs.parts):
@@ -113,7 +116,7 @@ class Single(NamedTuple):
         return misfit * added, np.abs(1 + slope)
 
 
-class Counted(NamedTuple):
+class OnPanels(NamedTuple):
     """A count by Abel's equation on `panels` of z, with its `residual` on each and the `series` of
     the increments; to the `limit_wear`, if it goes so far."""
 
@@ -150,7 +153,8 @@ class Counted(NamedTuple):
         of_density = ROUNDOFF * np.repeat(terms, parts)
         missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
         error = np.concatenate([[0.0], np.cumsum(missed)])
-        return TabulatedCount(coordinate, table, panels, error, self.limit_wear, problem.end)
+        limit = np.array([problem.end])
+        return TabulatedCount(coordinate, table, panels, error, self.limit_wear, limit)
 
 
 class _Count:
@@ -158,7 +162,7 @@ class _Count:
 
     def __init__(self, problem: Problem, start: float) -> None:
         self.problem, self.wear, self.done, self.over = problem, start, 0.0, False
-        self.parts: list[Single | Counted | UnresolvedStage] = []
+        self.parts: list[Single | OnPanels | Unresolved] = []
         self.known: list[tuple[Span, Increments]] = []
         self.problem_of = start
         self.singles = self.poor = 0
@@ -181,7 +185,8 @@ class _Count:
             rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
             left = 2 * (ahead - self.wear) / rate
             if FEW < left < np.inf:
-                self._append(UnresolvedStage(self.wear, ahead, float(np.floor(left))), ahead)
+                way = np.array([[self.wear], [ahead], [np.floor(left)]])
+                self._append(Unresolved(*way), ahead)
                 return
         yield from self._single()
 
@@ -203,9 +208,10 @@ class _Count:
             width = -np.log(TO_ROUNDOFF * limit * series.end)
             self.known[-1] = span._replace(end=limit), series.on_a_line(float(width))
 
-    def _append(self, part: Single | Counted | UnresolvedStage, wear: float) -> None:
+    def _append(self, part: Single | OnPanels | Unresolved, wear: float) -> None:
         self.parts.append(part)
-        self.wear, self.done = wear, self.done + part.ran
+        ran = float(part.whole_cycles[0]) if isinstance(part, Unresolved) else part.ran
+        self.wear, self.done = wear, self.done + ran
 
     def _single(self) -> Asking[None]:
         """Integrate one cycle."""
@@ -270,7 +276,7 @@ class _Count:
             return
         if line:
             panels, residual = on_a_line(panels, residual, series)
-        part = Counted(cells(panels), panels, residual, series, limit_wear, line)
+        part = OnPanels(cells(panels), panels, residual, series, limit_wear, line)
         if limit_wear is not None:
             self._append(part, limit_wear.wear)
             self.over = self.arrested = self.fades = True
@@ -352,7 +358,9 @@ def on_a_line(
     return more, np.append(residual, abs(found - slope))
 
 
-def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) -> Asking[Stages]:
+def _judged(
+    problem: Problem, runs: _Count, begun_with: float, cycles: float
+) -> Asking[CountToArrest]:
     """Return the parts of the way as stages, each with its estimate of error."""
     single = [part for part in runs.parts if isinstance(part, Single) and part.series is None]
     at = np.array([wear for part in single for wear in part.wear[:-1]])
@@ -367,36 +375,34 @@ def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) ->
         beside = yield Request(COARSE, at + apart)
         growth = np.abs(1 + (beside.increment - added) / apart)
         cost = cost.plus(2 * len(at), fine.evaluations + beside.evaluations)
-    stages: list[Stage] = []
-    begins, inherited, adrift, used = 0.0, begun_with, 0.0, 0
+    segments: list[Segment] = []
+    begins, drift, one, used = 0.0, 0.0, np.zeros(1), 0
+    inherited = one + begun_with
     for part in runs.parts:
-        counted: Integrated | TabulatedCount | UnresolvedStage
-        if isinstance(part, Single):
-            if part.series is None:
-                some = slice(used, used + len(part.added))
-                used += len(part.added)
-                counted = _one_by_one(problem, part, missed[some], growth[some])
-            else:
-                counted = _one_by_one(problem, part, *part.missed())
-        elif isinstance(part, Counted):
-            counted = part.judged(problem)
+        counted: Counted
+        if isinstance(part, Single) and part.series is None:
+            some = slice(used, used + len(part.added))
+            used += len(part.added)
+            counted = _one_by_one(problem, part, missed[some], growth[some])
+        elif isinstance(part, Single):
+            counted = _one_by_one(problem, part, *part.missed())
         else:
-            counted = part
-        stage = Stage(begins, counted, inherited, adrift)
-        stages.append(stage)
-        begins += stage.ran
-        after, relative = stage.wear_after(np.array([begins]))
-        inherited, adrift = float(relative[0] * after[0]), stage.drift
-    last = stages[-1].counted.last_wear
+            counted = part.judged(problem) if isinstance(part, OnPanels) else part
+        segments.append(Segment(_FIRST, counted, one + begins, inherited, one + drift))
+        ran = counted.whole_cycles
+        after, relative = counted.after(ran[None])
+        inherited = after[0] * (relative[0] + inherited / (after[0] + TINY))
+        begins += float(ran[0])
+        drift += float(part.reach[0]) if isinstance(part, Unresolved) else 0.0
+    last = float(segments[-1].counted.last_state[0])
     limit_wear = limit_wear_of(problem.model, problem.load, last) if runs.arrested else None
     at_rest = limit_wear.uncertainty / last if limit_wear else np.inf
-    arrested = runs.arrested and begins <= cycles
-    return Stages(tuple(stages), arrested, at_rest, cost, runs.fades, problem.model.compliant)
+    arrested, compliant = runs.arrested and begins <= cycles, problem.model.compliant
+    orbit = Orbit(1, tuple(segments), cost)
+    return CountToArrest(orbit, arrested, at_rest, runs.fades, compliant)
 
 
-def _one_by_one(
-    problem: Problem, part: Single, missed: FloatArray, growth: FloatArray
-) -> Integrated:
+def _one_by_one(problem: Problem, part: Single, missed: FloatArray, growth: FloatArray) -> Iterates:
     """Return the cycles with what each may have missed (mm) and the factor by which it changes an
     error."""
     wear, added = np.array(part.wear), np.array(part.added)
@@ -410,4 +416,4 @@ def _one_by_one(
     estimate = np.array(error) + ROUNDOFF * wear
     one = np.zeros((1, 1))
     limit = np.array([problem.end])
-    return Integrated(Iterates(wear[None], estimate[None], None, None, one, limit, one))
+    return Iterates(wear[None], estimate[None], None, None, one, limit, one)

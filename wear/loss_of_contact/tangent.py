@@ -20,12 +20,13 @@ import numpy as np
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.loss_of_contact.contact import ContactPart
 from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
-from wear.loss_of_contact.stage import Integrated, Stages
+from wear.loss_of_contact.stage import CountToArrest
 from wear.loss_of_contact.switching import Piece, edge_of_contact
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
+from wear.orbit.iterates import Iterates
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import settings
 from wear.orbit.tangent import Added, Tangents, after_on_cells, sums_on_cells
@@ -37,7 +38,7 @@ LEFT = 1e12  # digits of the derivative of a limit, which follows from the margi
 
 @np.errstate(all="ignore")
 def stage_tangents(
-    found: Stages,
+    found: CountToArrest,
     equation: ParametrisedEquation,
     cycles: FloatArray,
     rtol: float,
@@ -57,11 +58,12 @@ def stage_tangents(
     derivative, missed = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
     increment = np.zeros(cycles.shape)
     now, now_error = start[0], start_error[0]
-    for stage in found.stages:
-        here = cycles[0] >= stage.begins
-        wanted = np.append(np.minimum(cycles[0, here] - stage.begins, stage.ran), stage.ran)
-        counted = stage.counted
-        if isinstance(counted, Integrated):
+    for segment in found.segments:
+        begins, counted = segment.begins, segment.counted
+        here = cycles[0] >= begins
+        last = counted.whole_cycles
+        wanted = np.append(np.minimum(cycles[0, here] - begins, last), last)
+        if isinstance(counted, Iterates):
             part = _one_by_one(both, equation, counted, wanted, now, now_error)
         elif isinstance(counted, TabulatedCount):
             part = _tabulated(both, equation, counted, wanted, now, now_error)
@@ -100,13 +102,13 @@ class _Part(NamedTuple):
 def _one_by_one(
     both: _Maps,
     equation: ParametrisedEquation,
-    counted: Integrated,
+    counted: Iterates,
     cycles: FloatArray,
     start: FloatArray,
     start_error: FloatArray,
 ) -> _Part:
     """Return the derivatives after `cycles` (n,) that were taken one by one."""
-    wear, uncertain = counted.found.transient[0], counted.found.transient_error[0]
+    wear, uncertain = counted.transient[0], counted.transient_error[0]
     fine = linearised(both.fine, equation, wear[:-1]).tangent
     # Beside the start by its error: near a grazing wear that may be the larger part.
     judge = linearised(both.coarse, equation, wear[:-1] + uncertain[:-1]).tangent
