@@ -25,7 +25,9 @@ from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.model import Model, bind
 from wear.orbit.iterates import Iterates
-from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
+from wear.orbit.plan import LEAST
+from wear.orbit.problem import Cost
+from wear.orbit.segments import NEARLY, Orbit, orbit
 from wear.progress import Pace
 from wear.resampling import resampled
 

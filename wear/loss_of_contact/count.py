@@ -39,7 +39,8 @@ from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import Settings, settings
-from wear.orbit.segments import Cost, Counted, Orbit, Segment
+from wear.orbit.problem import Cost
+from wear.orbit.segments import Counted, Orbit, Segment
 from wear.orbit.transient import SAFETY
 
 FEW = 4.0  # cycles to the next grazing wear: they are integrated

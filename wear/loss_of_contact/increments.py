@@ -22,7 +22,7 @@ from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.abel import Frame
 from wear.orbit.iterates import cell_of
 from wear.orbit.panels import CHECKS, SPLIT
-from wear.orbit.segments import Cost
+from wear.orbit.problem import Cost
 
 MOST_ROUNDS = 6  # of cutting panels: those that are not resolved then are not used
 GRAIN = 16.0  # times the uncertainty of a distance: what rounding may make of the increment

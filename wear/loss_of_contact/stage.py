@@ -10,7 +10,8 @@ import numpy as np
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.orbit.iterates import NEARLY, Iterates
-from wear.orbit.segments import Cost, Orbit, Segment
+from wear.orbit.problem import Cost
+from wear.orbit.segments import Orbit, Segment
 
 
 class Unresolved(NamedTuple):
