@@ -36,6 +36,7 @@ docs: $(VENV)/installed-docs ## build the documentation
 bench: $(VENV)/installed-docs ## measure speed against error anew, about five minutes: docs/bench and README
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[peers]'
 	@$(BIN)/wear bench --peers -o docs/bench
+	@mv docs/bench/speed.json wear/data/speed.json
 	@$(BIN)/python docs/bench/readme.py
 
 clean: ## remove everything that the targets above made

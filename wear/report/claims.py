@@ -239,20 +239,25 @@ SIMULATED = MappingProxyType(
 """The checks that need the note's scenes, by claim."""
 
 
+def decided(identifier: str) -> Entry:
+    """Decide one claim."""
+    return Entry(CLAIMS[identifier], {**SYMBOLIC, **SIMULATED}[identifier]())
+
+
 def ledger(
-    progress: Callable[[int, int, str], None] | None = None, ids: Sequence[str] = ()
+    progress: Callable[[int, int, str], None] = lambda *_: None,
+    ids: Sequence[str] = (),
+    decide: Callable[[str], Entry] = decided,
 ) -> tuple[Entry, ...]:
     """Decide every claim (or those of the given ids), in the order of the note.
 
     ``progress`` is told how many of how many are done, and which is next.
     """
-    chosen = [CLAIMS[identifier] for identifier in ids] or list(CLAIMS.values())
-    checks = {**SYMBOLIC, **SIMULATED}
+    chosen = ids or list(CLAIMS)
     entries = []
-    for number, claim in enumerate(chosen):
-        if progress is not None:
-            progress(number, len(chosen), claim.id)
-        entries.append(Entry(claim, checks[claim.id]()))
+    for number, identifier in enumerate(chosen):
+        progress(number, len(chosen), identifier)
+        entries.append(decide(identifier))
     return tuple(entries)
 
 
