@@ -132,6 +132,7 @@ def execute(options: argparse.Namespace) -> int:
 
 def _dry_run(options: argparse.Namespace, plan: Design, question: Question, workers: int) -> int:
     """Solve a few rows, and print what all of them would take."""
+    from wear.benchmark.results import duration
     from wear.studies.rows import solve_rows
     from wear.studies.store import disk_bytes
 
@@ -143,8 +144,8 @@ def _dry_run(options: argparse.Namespace, plan: Design, question: Question, work
         terminal.print_json({"scenes": plan.rows, "core_seconds": seconds, "disk_bytes": size})
         return terminal.DONE
     print(
-        f"{plan.rows} scenes, about {_duration(seconds)} of one core "
-        f"({_duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
+        f"{plan.rows} scenes, about {duration(seconds)} of one core "
+        f"({duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
     )
     return terminal.DONE
 
@@ -186,19 +187,11 @@ def _cluster(address: str) -> Iterator[Executor]:
 
 def _show(progress: Progress) -> None:
     """Show how far the study is on one line of a terminal."""
+    from wear.benchmark.results import duration
+
     share = progress.done / progress.rows
-    left = _duration(progress.seconds_left)
+    left = duration(progress.seconds_left)
     terminal.progress(f"{progress.done} of {progress.rows} scenes ({share:.0%}), {left} left")
-
-
-def _duration(seconds: float) -> str:
-    """
-    >>> _duration(0.5), _duration(90.0), _duration(7200.0)
-    ('0.5 s', '90 s', '2 h')
-    """
-    if seconds < 120:
-        return f"{seconds:.2g} s"
-    return f"{seconds / 60:.3g} min" if seconds < 7200 else f"{seconds / 3600:.3g} h"
 
 
 def _print(options: argparse.Namespace, store: Store) -> None:

@@ -81,27 +81,16 @@ def approach(found: Approach) -> Figure:
     """Relative excess of wear per cycle and of pressure over (21) and (22) against cycles."""
     with styled():
         figure, axes = canvas(COLUMN_AND_HALF, 0.55 * COLUMN_AND_HALF)
-        axes.loglog(
-            found.cycles,
-            found.predicted,
-            color=GREY,
-            linewidth=0.9,
-            label=r"$A/(N u_{\mathrm{cum}})$",
-        )
+        law = r"$A/(N u_{\mathrm{cum}})$"
+        axes.loglog(found.cycles, found.predicted, color=GREY, linewidth=0.9, label=law)
         for family, (excess, name) in enumerate(
             ((found.excess, "wear per cycle"), (found.pressure_excess, "pressure"))
         ):
             look = stroke(family, family)
             axes.loglog(
-                found.cycles,
-                excess,
-                color=look.colour,
-                linestyle="",
-                marker=look.marker,
-                markerfacecolor=look.face,
-                markersize=5.5 - family,
-                label=name,
-            )
+                found.cycles, excess, color=look.colour, linestyle="", marker=look.marker,
+                markerfacecolor=look.face, markersize=5.5 - family, label=name,
+            )  # fmt: skip
         axes.axvline(note.PRINTED.cycles, color=INK, linewidth=0.7, linestyle=(0, (4.0, 2.0)))
         axes.axhline(note.PRINTED.criterion, color=INK, linewidth=0.7, linestyle=(0, (1.0, 1.5)))
         axes.text(
