@@ -22,6 +22,7 @@ from wear.checked import did_you_mean
 from wear.cycles import groups
 from wear.faults import UsageError
 from wear.load import Constant
+from wear.load.spans import span
 from wear.loss_of_contact.count import counted_stages
 from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import edge_of_contact
@@ -29,7 +30,7 @@ from wear.loss_of_contact.tangent import stage_tangents
 from wear.model import bind
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
-from wear.parameters import acting_loads, parameters_of, parametrised
+from wear.parameters import parameters_of, parametrised
 from wear.progress import Pace
 from wear.scene import Scene, as_scene
 from wear.solver import checked_request, obstacle
@@ -135,15 +136,17 @@ def _of_one_variant(
     found = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
     start, missed = np.zeros((2, number))
     slope, slope_error = np.zeros((2, number, len(keys)))
-    for acting in acting_loads(scenes):
-        end = min(acting.until, last)
-        say(f"cycle {acting.begins:.10g} of {last:.10g}")
-        here = (cycles >= acting.begins) & (cycles <= end)
-        wanted = np.tile(np.append(cycles[here], end) - acting.begins, (number, 1))
+    done = 0
+    while True:
+        acting = [span(scene.load, done) for scene in scenes]
+        end = min(float(acting[0].until), last)
+        say(f"cycle {done} of {last:.10g}")
+        here = (cycles >= done) & (cycles <= end)
+        wanted = np.tile(np.append(cycles[here], end) - done, (number, 1))
         equation = parametrised(scenes, acting, keys)
         if equation.model.ends_at_3_sigma:
             begin = float(start[0]), np.inf, float(missed[0])
-            stages = counted_stages(equation.model, acting.loads[0], wanted[0, -1], rtol, *begin)
+            stages = counted_stages(equation.model, acting[0].load, wanted[0, -1], rtol, *begin)
             part = stage_tangents(stages, equation, wanted, rtol, slope, slope_error)
         else:
             counted = orbit(equation, wanted[:, -1], rtol, start, missed)
@@ -154,6 +157,7 @@ def _of_one_variant(
         slope, slope_error = part.derivative[..., -1], part.derivative_error[..., -1]
         if end >= last or not np.isfinite(missed).all():
             break
+        done = acting[0].until
     unknown = np.isnan(found.derivative_error)
     return found._replace(derivative_error=np.where(unknown, np.inf, found.derivative_error))
 
@@ -266,7 +270,7 @@ def _notices(scene: Scene) -> tuple[str, ...]:
     model = bind(scene)
     if not model.ends_at_3_sigma:
         return ()
-    load = next(acting_loads([scene])).loads[0]
+    load = span(scene.load, 0).load
     heights = edge_of_contact(model, load).grazing
     none = np.zeros_like(heights)
     if np.all(np.abs(model.margin(none, heights)) > margin_roundoff(model, load, none)):

@@ -17,9 +17,7 @@ from wear import processes
 from wear.commands import arguments
 
 if TYPE_CHECKING:
-    from wear.studies.design import Design
-    from wear.studies.rows import Question
-    from wear.studies.run import Progress
+    from wear.studies.rows import Study
     from wear.studies.store import Store
 
 EXAMPLE = """\
@@ -114,12 +112,11 @@ def execute(options: argparse.Namespace) -> int:
     request = (
         options.design, int(options.samples), int(options.seed), options.until_wear, options.rtol,
     )  # fmt: skip
-    plan, question = prepare(options.scene, options.vary, options.cycles, *request)
+    asked = prepare(options.scene, options.vary, options.cycles, *request)
     if options.dry_run:
-        return _dry_run(options, plan, question, workers)
-    with _executor(options.scheduler, workers) as executor:
-        store = run(plan, question, Path(options.output), executor, _show)
-    terminal.progress("")
+        return _dry_run(options, asked, workers)
+    with _executor(options.scheduler, workers) as executor, terminal.busy("solving") as tell:
+        store = run(asked, Path(options.output), executor, tell)
     if options.figure is not None:
         from wear.figure_style import encoded
         from wear.studies.figures import picture
@@ -130,21 +127,22 @@ def execute(options: argparse.Namespace) -> int:
     return terminal.DONE
 
 
-def _dry_run(options: argparse.Namespace, plan: Design, question: Question, workers: int) -> int:
+def _dry_run(options: argparse.Namespace, asked: Study, workers: int) -> int:
     """Solve a few rows, and print what all of them would take."""
     from wear.benchmark.results import duration
     from wear.studies.rows import solve_rows
     from wear.studies.store import disk_bytes
 
     start = time.process_time()
-    solve_rows(question, plan.some(TRIED))
-    seconds = (time.process_time() - start) / TRIED * plan.rows
-    size = disk_bytes(plan, question)
+    solve_rows(asked, asked.design.some(TRIED))
+    rows = asked.design.rows
+    seconds = (time.process_time() - start) / TRIED * rows
+    size = disk_bytes(asked)
     if options.json:
-        terminal.print_json({"scenes": plan.rows, "core_seconds": seconds, "disk_bytes": size})
+        terminal.print_json({"scenes": rows, "core_seconds": seconds, "disk_bytes": size})
         return terminal.DONE
     print(
-        f"{plan.rows} scenes, about {duration(seconds)} of one core "
+        f"{rows} scenes, about {duration(seconds)} of one core "
         f"({duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
     )
     return terminal.DONE
@@ -183,15 +181,6 @@ def _cluster(address: str) -> Iterator[Executor]:
         yield client.get_executor()
     finally:
         client.close(timeout=LONGEST_WAIT)
-
-
-def _show(progress: Progress) -> None:
-    """Show how far the study is on one line of a terminal."""
-    from wear.benchmark.results import duration
-
-    share = progress.done / progress.rows
-    left = duration(progress.seconds_left)
-    terminal.progress(f"{progress.done} of {progress.rows} scenes ({share:.0%}), {left} left")
 
 
 def _print(options: argparse.Namespace, store: Store) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,15 +17,27 @@ from wear.load.phase import FloatArray, centred, within_cycle
 MOST_HARMONICS = 100
 
 
+@table("")
+class Smooth(SceneTable):
+    """A load without kinks, whose table has a `period_s`."""
+
+    kinks: ClassVar[tuple[float, ...]] = ()
+    if TYPE_CHECKING:
+        period_s: float
+
+    @property
+    def period(self) -> float:
+        return self.period_s
+
+
 @table("load", kind="harmonics")
-class Harmonics(SceneTable):
+class Harmonics(Smooth):
     """U_a = mean + sum over j = 1, 2, ... of cosine_j cos(2 pi j t/T) + sine_j sin(2 pi j t/T)."""
 
     mean_mm: Real = Field(description="mean of U_a")
     cosine_mm: Reals = Field(max_length=MOST_HARMONICS, description="cosine_1, cosine_2, ...")
     sine_mm: Reals = Field(max_length=MOST_HARMONICS, description="sine_1, sine_2, ...")
     period_s: Positive = Field(description="period T of a cycle")
-    kinks: ClassVar[tuple[float, ...]] = ()
     left_out: ClassVar[Mapping[str, Any]] = {"mean_mm": 0.0, "cosine_mm": (), "sine_mm": ()}
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
@@ -49,10 +61,6 @@ class Harmonics(SceneTable):
         terms[1, : len(self.cosine_mm)] = self.cosine_mm
         terms[2, : len(self.sine_mm)] = self.sine_mm
         return terms
-
-    @property
-    def period(self) -> float:
-        return self.period_s
 
     @property
     def mean(self) -> float:

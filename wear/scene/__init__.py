@@ -505,29 +505,12 @@ def _place(name: str) -> str:
 # Built-in scenes
 
 
-class BuiltinScene(NamedTuple):
-    """A scene that comes with the package."""
-
-    name: str
-    title: str
-    description: str
-
-    @property
-    def hard(self) -> bool:
-        """Whether it belongs to the catalogue of hard cases, not to the note's own sections."""
-        return not self.name.startswith("section")
-
-
 def builtin_names() -> tuple[str, ...]:
     """The names of the built-in scenes: the note's sections, then the hard cases."""
     names = [file.stem for file in SCENES.glob("*.toml")]
     return tuple(sorted(names, key=lambda name: (not name.startswith("section"), name)))
 
 
-def builtin_scenes() -> tuple[BuiltinScene, ...]:
-    """Name, title and description of every built-in scene."""
-    scenes = (load_scene(name) for name in builtin_names())
-    return tuple(
-        BuiltinScene(scene.name, scene.title, " ".join(scene.description.split()))
-        for scene in scenes
-    )
+def hard_names() -> tuple[str, ...]:
+    """The names of the built-in scenes of the catalogue of hard cases."""
+    return tuple(name for name in builtin_names() if not name.startswith("section"))
