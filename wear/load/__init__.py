@@ -17,7 +17,7 @@ from pydantic import Field
 
 from wear.checked import Positive, Real, table
 from wear.load.blocks import Block, Blocks
-from wear.load.harmonics import Harmonics, Smooth
+from wear.load.harmonics import Harmonics, Smooth, Waves
 from wear.load.lines import ForceTable, HistoryLoad, Table
 from wear.load.phase import FloatArray, centred
 from wear.load.protocol import Load
@@ -36,7 +36,9 @@ __all__ = [
     "Loading",
     "Sine",
     "Table",
+    "Waves",
     "sampled",
+    "waves",
 ]
 
 
@@ -62,6 +64,10 @@ class Sine(Smooth):
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         return {"amplitude_mm": np.sin(2.0 * math.pi * centred(phase))}
+
+    def terms(self) -> FloatArray:
+        """Return the rows j, cosine_j, sine_j of the harmonics."""
+        return np.array([[1.0], [0.0], [self.amplitude_mm]])
 
     @property
     def minimum(self) -> float:
@@ -136,3 +142,12 @@ def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:
     if all(load is loads[0] for load in loads):
         return loads[0](phases)
     return np.stack([load(x) for load, x in zip(loads, phases, strict=True)])
+
+
+def waves(loads: Sequence[Load]) -> Waves:
+    """Return the displacements of many loads, sines or harmonics."""
+    each = [load.terms() for load in loads if isinstance(load, (Sine, Harmonics))]
+    terms = np.zeros((3, max(own.shape[1] for own in each), len(loads)))
+    for k, own in enumerate(each):
+        terms[:, : own.shape[1], k] = own
+    return Waves(np.array([load.mean for load in loads]), terms)

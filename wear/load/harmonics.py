@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,10 +41,10 @@ class Harmonics(Smooth):
     left_out: ClassVar[Mapping[str, Any]] = {"mean_mm": 0.0, "cosine_mm": (), "sine_mm": ()}
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
-        return self.mean_mm + _trigonometric_sum(self._terms(), phase)
+        return self.mean_mm + _trigonometric_sum(self.terms(), phase)
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
-        return _trigonometric_sum(_derivative(self._terms()), phase)
+        return _trigonometric_sum(_derivative(self.terms()), phase)
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         turn = 2.0 * math.pi * centred(phase)
@@ -54,7 +54,7 @@ class Harmonics(Smooth):
                 found[f"{name}[{j}]"] = wave((j + 1) * turn)
         return found
 
-    def _terms(self) -> FloatArray:
+    def terms(self) -> FloatArray:
         """Rows j, cosine_j, sine_j of the harmonics."""
         terms = np.zeros((3, max(len(self.cosine_mm), len(self.sine_mm))))
         terms[0] = np.arange(1, terms.shape[1] + 1)
@@ -84,14 +84,37 @@ class Harmonics(Smooth):
     @cached_property
     def _turning_points(self) -> FloatArray:
         """Phases of zero slope (and perhaps a few more), in [0, 1), increasing, never empty."""
-        return _zeros(_derivative(self._terms()))
+        return _zeros(_derivative(self.terms()))
+
+
+class Waves(NamedTuple):
+    """The `mean` (k,) and `terms` (3, n, k), rows j, cosine_j, sine_j, of the displacements in many
+    cycles."""
+
+    mean: FloatArray
+    terms: FloatArray
+
+    def take(self, which: NDArray[Any]) -> Waves:
+        """Return the displacements in some of the cycles."""
+        return Waves(self.mean[which], self.terms[..., which])
+
+    def __call__(self, phase: FloatArray) -> FloatArray:
+        """Return the displacement (mm) at phases (..., k)."""
+        return self.mean + _trigonometric_sum(self.terms, phase)
+
+    def slope(self, phase: FloatArray) -> FloatArray:
+        """Return its derivative with respect to the phase, mm."""
+        return _trigonometric_sum(_derivative(self.terms), phase)
 
 
 def _trigonometric_sum(terms: FloatArray, phase: FloatArray | float) -> FloatArray:
     turn = 2.0 * math.pi * centred(phase)
     total = np.zeros_like(turn)
-    for order, cosine, sine in terms.T:
-        total += cosine * np.cos(order * turn) + sine * np.sin(order * turn)
+    for order, cosine, sine in np.moveaxis(terms, 1, 0):
+        if np.any(cosine):
+            total += cosine * np.cos(order * turn)
+        if np.any(sine):
+            total += sine * np.sin(order * turn)
     return total
 
 
