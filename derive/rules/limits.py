@@ -103,22 +103,17 @@ class Diverges(Rule):
 
 def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
     """Return relations that keep a field between two constants; RuleError where there are none."""
+    parts = (p for f in facts_of(premises) for p in (f.args if isinstance(f, sp.And) else (f,)))
     found = []
-    for fact in facts_of(premises):
-        for part in fact.args if isinstance(fact, sp.And) else (fact,):
-            if isinstance(part, (sp.LessThan, sp.StrictLessThan)):
-                pair = (part.lhs, part.rhs)
-            elif isinstance(part, (sp.GreaterThan, sp.StrictGreaterThan)):
-                pair = (part.rhs, part.lhs)
-            else:
-                continue
-            small, large = pair
-            if small == sp.Abs(field) != field and _fixed(large):
-                return (sp.Le(small, large, evaluate=False),)
-            if small == field and _fixed(large):
-                found.append((1, sp.Le(field, large, evaluate=False)))
-            if large == field and _fixed(small):
-                found.append((0, sp.Ge(field, small, evaluate=False)))
+    for small, large in (
+        (p.lts, p.gts) for p in parts if isinstance(p, (sp.Ge, sp.Gt, sp.Le, sp.Lt))
+    ):
+        if small == sp.Abs(field) != field and _fixed(large):
+            return (sp.Le(small, large, evaluate=False),)
+        if small == field and _fixed(large):
+            found.append((1, sp.Le(field, large, evaluate=False)))
+        if large == field and _fixed(small):
+            found.append((0, sp.Ge(field, small, evaluate=False)))
     if field.is_nonnegative:
         found.append((0, sp.Ge(field, 0, evaluate=False)))
     if {side for side, _ in found} != {0, 1}:
@@ -210,59 +205,35 @@ class AtInfinity(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         u, inside = growing(premises[0]), self.claim.lhs.args[0]
-        z, w = sp.Dummy("z", positive=True), sp.Dummy("w", positive=True)
-        self._tends_to_zero(u, w, premises)
+        z = sp.Dummy("z", positive=True)
+        deep = self._deep(u, z, premises)
         if not constant(inside.subs(dict.fromkeys(fields(inside), z))):
             raise RuleError(f"missing premise: {inside} depends on {u} and bounded fields alone")
         plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(inside) if f != u}
         for field in plain:
             bounds(field, *premises)
-        value = self._coefficient(inside.xreplace({u: w}).xreplace(plain), w, z, premises)
+        flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
+        order, smooth = expanded(flat.subs(u, deep), z)
+        if smooth.has(sp.Piecewise) or not continuous(smooth, {z: sp.S.Zero}, *premises):
+            raise RuleError(f"missing premise: {inside} is smooth at infinity")
+        for n in range(max(order, 0)):
+            if not is_zero(_taylor(smooth, z, n)):
+                raise RuleError(f"missing premise: {inside} is bounded")
+        value = sp.powsimp(_taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
         if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
             raise RuleError(f"missing premise: the limit is {value}")
         return Conclusion(in_time(inside, self.claim.rhs))
 
-    def _tends_to_zero(self, u: sp.Expr, w: sp.Symbol, premises: tuple[Judgement, ...]) -> None:
+    def _deep(self, u: sp.Expr, z: sp.Symbol, premises: tuple[Judgement, ...]) -> sp.Expr:
+        """Return u in terms of what is small, for ``z = 1/u`` and for ``z = exp(-c u)``."""
         if self.small == 1 / u:
-            return
-        exponent = (
-            sp.log(self.small.subs(u, w)).expand(force=False) if self.small.func == sp.exp else w
-        )
-        fall = -sp.diff(exponent, w)
-        if not isinstance(self.small, sp.exp) or not _fixed(fall) or fall.has(w):
+            return 1 / z
+        inside = self.small.args[0] if isinstance(self.small, sp.exp) else u**2
+        fall = -sp.cancel(inside / u)
+        if not _fixed(fall):
             raise RuleError(f"missing premise: {self.small} -> 0 as {u} -> oo")
         require(sp.Gt(fall, 0), *premises)
-
-    def _coefficient(
-        self, flat: sp.Expr, w: sp.Symbol, z: sp.Symbol, premises: tuple[Judgement, ...]
-    ) -> sp.Expr:
-        if self.small.func == sp.exp:
-            in_z = sp.powsimp(sp.expand(flat)).replace(
-                lambda e: isinstance(e, sp.exp) and e.has(w), lambda e: _power(e, self.small, w, z)
-            )
-        else:
-            in_z = flat.subs(w, 1 / z)
-        order, smooth = expanded(in_z, z)
-        if (
-            in_z.has(w)
-            or smooth.has(sp.Piecewise)
-            or not continuous(smooth, {z: sp.S.Zero}, *premises)
-        ):
-            raise RuleError(f"missing premise: {self.claim.lhs.args[0]} is smooth at infinity")
-        for n in range(max(order, 0)):
-            if not is_zero(_taylor(smooth, z, n)):
-                raise RuleError(f"missing premise: {self.claim.lhs.args[0]} is bounded")
-        return _taylor(smooth, z, order) if order >= 0 else sp.S.Zero
-
-
-def _power(expr: sp.exp, small: sp.exp, w: sp.Symbol, z: sp.Symbol) -> sp.Expr:
-    """Return ``exp(a - n c w)`` as ``exp(a) z**n``, where z stands for ``exp(-c w)``."""
-    argument = sp.expand(expr.args[0])
-    (u,) = fields(small)
-    power = sp.cancel(sp.diff(argument, w) / sp.diff(small.args[0], u))
-    if not power.is_Integer:
-        raise RuleError(f"missing premise: {expr} is a power of {small}")
-    return sp.exp(argument.subs(w, 0)) * z**power
+        return -sp.log(z) / fall
 
 
 def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
@@ -293,11 +264,11 @@ class Vanishes(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         squeeze, divergence = premises
-        found, size = between(squeeze), growing(divergence)
-        for side in (found.low, found.high):
+        (low, middle, high), size = between(squeeze), growing(divergence)
+        for side in (low, high):
             if not _fixed(sp.cancel(side * size)):
                 raise RuleError(f"missing premise: {side} is a constant over {size}")
-        return Conclusion(in_time(found.middle, sp.S.Zero))
+        return Conclusion(in_time(middle, sp.S.Zero))
 
 
 vanishes = Vanishes()

@@ -259,7 +259,8 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("is bounded", lambda: AtInfinity(sp.Eq(forever(u_c), 0), 1 / u_c)(DEEP)),
     ("-> 0 as", lambda: faded(sp.S.Zero, FADING, 1 / u_c**2)),
     ("f_c/q > 0", lambda: faded(sp.S.Zero, FADING, sp.exp(-f_c * u_c / q))),
-    ("is a power of", lambda: faded(sp.S.Zero, sp.sqrt(FADING), FADING)),
+    ("smooth function at", lambda: faded(sp.S.Zero, sp.sqrt(FADING), FADING)),
+    ("encloses", lambda: vanishes(given(sp.And(sp.Le(G, h_0 / u_c), sp.Ge(h, 0))), DEEP)),
     (
         "is a constant over",
         lambda: vanishes(given(sp.And(sp.Le(G, U_a / u_c), sp.Ge(G, -U_a / u_c))), DEEP),
