@@ -27,7 +27,7 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
-from .reading import LOAD, SINE, T, equality, fields, has_hypothesis
+from .reading import LOAD, SINE, T, equality, fields, require_hypothesis
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
@@ -118,7 +118,7 @@ class Averaging(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, name = equality(premises[0]), self.claim.lhs
         for relation in (SINE.relation, OFFSET, SATURATION, sp.Gt(f_c, 0)):
-            has_hypothesis(relation, *premises)
+            require_hypothesis(relation, *premises)
         if given.lhs != p or fields(given.rhs) - {u_c, LOAD}:
             raise RuleError("missing premise: the pressure at given wear and load")
         meaning, solved = _meaning(name, premises[1:]), averaged(given.rhs)
@@ -130,6 +130,14 @@ class Averaging(Rule):
         if not is_zero(sp.expand_trig(self.claim.rhs) - sp.expand_trig(known[meaning])):
             raise RuleError(f"missing premise: {name} = {known[meaning]}")
         return Conclusion(Equality(name, self.claim.rhs))
+
+
+def _definitions(law: sp.Expr) -> set[sp.Equality]:
+    """Return that c_1 to c_4 are the drifts of the expansion for a law."""
+    return {
+        sp.Eq(symbol(f"c_{n}"), Drift(sp.Integer(n), law, ROUGHNESS, tau, rho), evaluate=False)
+        for n in range(1, ORDER + 1)
+    }
 
 
 @dataclass(frozen=True)
@@ -145,26 +153,13 @@ class SlowTime(Rule):
     source = "termwise integration of an asymptotic series"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        hypotheses = {h for premise in premises for h in premise.hypotheses}
-        defined = [h.relation for h in hypotheses if h.relation.has(Drift)]
-        laws = {
-            relation.rhs.args[1]
-            for relation in defined
-            if isinstance(relation, sp.Equality) and isinstance(relation.rhs, Drift)
-        }
+        said = {h.relation for premise in premises for h in premise.hypotheses}
         drifts = [symbol(f"c_{n}") for n in range(1, ORDER + 1)]
-        if not any(
-            all(
-                sp.Eq(c, Drift(sp.Integer(n), law, ROUGHNESS, tau, rho), evaluate=False) in defined
-                for n, c in enumerate(drifts, 1)
-            )
-            for law in laws
-        ):
-            raise RuleError(
-                f"missing premise: {listed(map(str, drifts))} are the drifts of the expansion"
-            )
-        if EXPANSION not in hypotheses:
-            raise RuleError(f"missing premise: {EXPANSION.text}")
+        laws = {term.args[1] for relation in said for term in relation.atoms(Drift)}
+        if not any(_definitions(law) <= said for law in laws):
+            names = listed(map(str, drifts))
+            raise RuleError(f"missing premise: {names} are the drifts of the expansion")
+        require_hypothesis(EXPANSION, *premises)
         small = sp.Dummy("1/m", positive=True)
         speed = 1 + sum((c * small**n for n, c in enumerate(drifts, 1)), sp.S.Zero)
         slope = sp.diff(self.claim.rhs, m).subs(m, 1 / small)

@@ -17,6 +17,7 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import sympy as sp
@@ -39,10 +40,10 @@ from .reading import (
     field_of_rate,
     fields,
     growing,
-    has_hypothesis,
     inequality,
     limit_in_time,
     rate_law,
+    require_hypothesis,
 )
 
 
@@ -121,6 +122,20 @@ def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
     return tuple(relation for _, relation in found)
 
 
+def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judgement) -> None:
+    """Refuse a rate that is not positive and continuous wherever its fields may be.
+
+    They are taken for variables of which relations are known, and what is said of constants.
+    """
+    plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(rate)}
+    fixed = [h.relation for p in premises for h in p.hypotheses if _fixed(h.relation)]
+    given = frozenset(r.xreplace(plain) for r in (*known, *fixed))
+    flat = rate.xreplace(plain)
+    goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
+    if flat.has(t) or not all(holds(goal, given) for goal in goals):
+        raise RuleError(f"missing premise: {rate} is positive and continuous")
+
+
 def _fixed(expr: sp.Expr) -> bool:
     return constant(expr) and not fields(expr)
 
@@ -143,16 +158,9 @@ class Unbounded(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, *facts = premises
         u, function = rate_law(law)
-        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(function)}
-        closed = [r for f in plain if f != u for r in bounds(f, *premises)]
+        closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
         anywhere = [f.relation for f in facts if all(_fixed(h.relation) for h in f.hypotheses)]
-        fixed = [h.relation for p in premises for h in p.hypotheses if _fixed(h.relation)]
-        given = frozenset(r.xreplace(plain) for r in (*closed, *anywhere, *fixed))
-        flat = function.xreplace(plain)
-        if flat.has(t) or not holds(sp.Gt(flat, 0), given):
-            raise RuleError(f"missing premise: {function} > 0 wherever the fields may be")
-        if not all(holds(goal, given) for goal in continuity(flat, set(plain.values()))):
-            raise RuleError(f"missing premise: {function} is continuous")
+        _require_positive(function, (*closed, *anywhere), *premises)
         return Conclusion(in_time(u, sp.oo))
 
 
@@ -374,9 +382,8 @@ class Intermittent(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, part, start, *_ = premises
         (u, function), meaning, least = rate_law(law), equality(part), inequality(start)
-        has_hypothesis(PERIODIC.relation, *premises)
-        if CONTINUOUS not in {h for p in premises for h in p.hypotheses}:
-            raise RuleError(f"missing premise: {CONTINUOUS.text}")
+        for said in (PERIODIC.relation, CONTINUOUS):
+            require_hypothesis(said, *premises)
         if least.greater != u or not _fixed(least.lesser):
             raise RuleError(f"missing premise: {u} stays above a constant")
         (on, contact), *rest = sp.piecewise_fold(function).args
@@ -385,39 +392,20 @@ class Intermittent(Rule):
         room = sp.expand(contact.gts - contact.lts)
         if fields(room) != {LOAD} or not isinstance(contact, (sp.Le, sp.Ge)):
             raise RuleError("missing premise: contact depends on the load alone")
-        contacts = [c for e, c in _indicators(meaning.rhs) if e == 1]
-        share = [_same_side(c, room) for c in contacts]
-        if share != [True] or not meaning.lhs.is_positive:
+        shares = (
+            sp.Integral(sp.Piecewise((1, c), (0, True)), (t, 0, T)) / T
+            for c in meaning.rhs.atoms(sp.Le, sp.Ge)
+            if sp.cancel((c.gts - c.lts) / room).is_positive
+        )
+        if meaning.rhs not in shares or not meaning.lhs.is_positive:
             raise RuleError("missing premise: the fraction of the period in contact")
-        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(on)}
-        inside = (*bounds(LOAD, *premises), sp.Ge(u, least.lesser))
-        fixed = [h.relation for p in premises for h in p.hypotheses if _fixed(h.relation)]
-        given = frozenset(r.xreplace(plain) for r in (*inside, *fixed))
-        flat, z = on.xreplace(plain), sp.Dummy("z", positive=True)
-        goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
-        if flat.has(t) or not all(holds(goal, given) for goal in goals):
-            raise RuleError(f"missing premise: {on} is positive and continuous")
+        _require_positive(on, (*bounds(LOAD, *premises), sp.Ge(u, least.lesser)), *premises)
+        z = sp.Dummy("z", positive=True)
         order, smooth = expanded(on.subs(u, 1 / z), z)
         value = smooth.subs(z, 0)
         if order != 0 or not continuous(smooth, {z: sp.S.Zero}, law) or fields(value):
             raise RuleError("missing premise: the limit of the rate in contact")
         return Conclusion(in_time(u.subs(t, t + T) - u, meaning.lhs * T * value))
-
-
-def _same_side(relation: sp.Basic, room: sp.Expr) -> bool:
-    """Return whether a relation says that room is not negative."""
-    if not isinstance(relation, (sp.Le, sp.Ge)):
-        return False
-    return bool(sp.cancel((relation.gts - relation.lts) / room).is_positive)
-
-
-def _indicators(expr: sp.Expr) -> tuple[tuple[sp.Expr, sp.Basic], ...]:
-    """Return the branches of a function whose mean over a period an expression is."""
-    whole = sp.expand(expr * T)
-    if not isinstance(whole, sp.Integral) or whole.limits != ((t, 0, T),):
-        return ()
-    branches = whole.function.args if isinstance(whole.function, sp.Piecewise) else ()
-    return tuple(branches) if [e for e, _ in branches] == [1, 0] else ()
 
 
 intermittent = Intermittent()

@@ -131,12 +131,11 @@ def _slopes(expr: sp.Expr) -> set[sp.Basic]:
     return {d for d in expr.atoms(sp.Derivative) if isinstance(d.expr, LAW)}
 
 
-def has_hypothesis(relation: sp.Basic, *premises: Judgement) -> Hypothesis:
-    """Return the hypothesis of a relation, which must be among those of the premises."""
-    for hypothesis in (h for premise in premises for h in premise.hypotheses):
-        if hypothesis.relation == relation:
-            return hypothesis
-    raise RuleError(f"missing premise: {relation}")
+def require_hypothesis(said: sp.Basic | Hypothesis, *premises: Judgement) -> None:
+    """Raise RuleError unless premises suppose a relation, or what only words say."""
+    known = {h for premise in premises for h in premise.hypotheses}
+    if said not in known | {h.relation for h in known}:
+        raise RuleError(f"missing premise: {getattr(said, 'text', said)}")
 
 
 PERIODIC = Hypothesis(

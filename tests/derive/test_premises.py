@@ -390,7 +390,7 @@ def test_every_refusal_of_the_rules_is_brought_about() -> None:
 
 def asked(path: Path) -> Iterator[int]:
     """Yield the lines of a module on which a rule refuses or asks for a condition."""
-    helpers = {"require", "require_defined", "has_hypothesis"}
+    helpers = {"require", "require_defined", "require_hypothesis"}
     for node in ast.walk(ast.parse(path.read_text())):
         called = node.func if isinstance(node, ast.Call) else None
         if isinstance(called, ast.Name) and called.id in helpers:
