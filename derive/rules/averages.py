@@ -20,9 +20,8 @@ from functools import cache
 
 import sympy as sp
 
-from ..averaging import Averaged, average
+from ..averaging import Averaged, at, average, sine
 from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
-from ..harmonics import Harmonics, constant, sine, total
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed
 from ..symbols import symbol, symbols, t
@@ -88,19 +87,8 @@ def averaged(pressure: sp.Expr) -> Averaged:
         term.subs(sp.tanh(4 - 2 / f_c), theta).subs(sp.tanh(2 / f_c - 4), -theta)
         for term in powers(pressure, ORDER)
     )
-    terms = [constant(sp.S.One)]
-    terms += [_under_sine(sp.cancel(term / steady)) for term in corrections]
-    return average(terms, rho)
-
-
-def _under_sine(polynomial: sp.Expr) -> Harmonics:
-    """Insert the load into a polynomial in U_a."""
-    load = sp.Dummy()
-    power, terms = constant(sp.S.One), []
-    for coefficient in reversed(sp.Poly(polynomial.subs(LOAD, load), load).all_coeffs()):
-        terms.append(power.scaled(coefficient))
-        power = power * sine(U)
-    return total(terms)
+    under_sine = (sp.cancel(term / steady).subs(LOAD, U * sine) for term in corrections)
+    return average([sp.S.One, *under_sine], rho)
 
 
 @dataclass(frozen=True)
@@ -124,7 +112,7 @@ class Averaging(Rule):
         meaning, solved = _meaning(name, premises[1:]), averaged(given.rhs)
         known = {term_of(Drift, n, given.rhs): solved.drift[n] for n in range(1, ORDER + 1)}
         for n in (1, 2):
-            known[term_of(Oscillation, n, given.rhs)] = solved.oscillation[n].at(tau)
+            known[term_of(Oscillation, n, given.rhs)] = at(solved.oscillation[n], tau)
         if meaning not in known:
             raise RuleError(f"missing premise: {name} is c_1 to c_4, w_1 or w_2 of this pressure")
         if not is_zero(sp.expand_trig(self.claim.rhs) - sp.expand_trig(known[meaning])):
