@@ -23,7 +23,7 @@ test: $(VENV)/installed-test ## run all checks: style, types, import walls, test
 	$(BIN)/mypy || status=1; \
 	$(BIN)/mypy tests/wear/typed_script.py || status=1; \
 	$(BIN)/lint-imports --no-logo || status=1; \
-	$(BIN)/python -m pytest -n 2 || status=1; \
+	$(BIN)/python -m pytest -n 2 --dist worksteal || status=1; \
 	exit $$status
 
 proof: $(VENV)/installed ## prove the steps of the derivation anew with Coq
@@ -36,6 +36,7 @@ docs: $(VENV)/installed-docs ## build the documentation
 bench: $(VENV)/installed-docs ## measure speed against error anew, about five minutes: docs/bench and README
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[peers]'
 	@$(BIN)/wear bench --peers -o docs/bench
+	@mv docs/bench/speed.json wear/data/speed.json
 	@$(BIN)/python docs/bench/readme.py
 
 clean: ## remove everything that the targets above made

@@ -2,6 +2,7 @@
 
 Key results
     Command    one command, declared
+    Parser     gathers the faults of arguments
     parser     the parser of a program with commands
     main       parse and execute
 """
@@ -13,6 +14,7 @@ import difflib
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from derive import completion, terminal
 
@@ -43,11 +45,29 @@ class Command:
     execute: Callable[[argparse.Namespace], int]
 
 
+class Parser(argparse.ArgumentParser):
+    """A parser that gathers what the types of its arguments refuse, into `options.faults`: the
+    command reports them with all others."""
+
+    def __init__(self, **about: Any) -> None:
+        super().__init__(**about)
+        self.faults: list[str] = []
+        self.set_defaults(faults=self.faults)
+
+    def _get_value(self, action: argparse.Action, text: str) -> Any:
+        try:
+            return super()._get_value(action, text)
+        except argparse.ArgumentError as fault:
+            name = action.option_strings[-1] if action.option_strings else action.metavar
+            self.faults.append(f"{name}: {fault.message}")
+            return None
+
+
 def parser(
     program: str, description: str, examples: str, commands: Sequence[Command]
 ) -> argparse.ArgumentParser:
     """Return the parser of a whole command line."""
-    whole = argparse.ArgumentParser(
+    whole = Parser(
         prog=program,
         description=description,
         epilog=examples,

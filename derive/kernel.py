@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import InitVar, dataclass, fields
 from typing import ClassVar
 
@@ -74,6 +74,10 @@ class Rule(ABC):
     """The premises that come first, in this order; others may follow."""
     source = "elementary"
     """Where the theorem is found."""
+
+    def __call__(self, *premises: Judgement, name: str = "", remark: str = "") -> Judgement:
+        """Return the judgement that follows from premises, as ``infer`` does."""
+        return infer(self, *premises, name=name, remark=remark)
 
     @abstractmethod
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -149,6 +153,10 @@ def infer(rule: Rule, *premises: Judgement, name: str = "", remark: str = "") ->
 
 
 def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
+    """Return what a rule makes of premises: a function of its fields, their hypotheses and claims.
+
+    So the same application is worked out once, unless somebody has changed what came of it.
+    """
     kind = type(rule)
     if not kind.__module__.startswith(_ROOM) or (
         getattr(sys.modules[kind.__module__], kind.__name__, None) is not kind
@@ -161,7 +169,25 @@ def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
     if len(premises) < len(rule.asks):
         raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.asks)}")
     _require_language(*(value for value in vars(rule).values() if isinstance(value, sp.Basic)))
-    with time_limit(LIMIT_S, f"{kind.__name__}: {rule.words}"):
+    application = rule, tuple((premise.hypotheses, premise.claim) for premise in premises)
+    known = _KNOWN.get(application)
+    if known is None or _parts(known[1]) != known[2]:
+        hypotheses, claim = _concluded(rule, premises)
+        known = _KNOWN[application] = hypotheses, claim, _parts(claim)
+    return known[:2]
+
+
+_KNOWN: dict[Hashable, tuple[tuple[Hypothesis, ...], Claim, tuple[object, ...]]] = {}
+
+
+def _parts(claim: Claim) -> tuple[object, ...]:
+    """Return the type of a claim and what it is made of, which nobody can change."""
+    values = vars(claim).values()
+    return (type(claim), *(_parts(v) if isinstance(v, Claim) else v for v in values))
+
+
+def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
+    with time_limit(LIMIT_S, f"{type(rule).__name__}: {rule.words}"):
         made = rule.conclude(*premises)
     union = (h for premise in premises for h in premise.hypotheses)
     kept = (h for h in union if h not in made.discharges)
@@ -188,7 +214,7 @@ def replayed(judgement: Judgement) -> str | None:
         hypotheses, claim = _followed(judgement.rule, judgement.parents)
     except (RuleError, ValueError, TypeError, AttributeError, KeyError) as refusal:
         return str(refusal) or type(refusal).__name__
-    if type(claim) is not type(judgement.claim) or claim != judgement.claim:
+    if _parts(claim) != _parts(judgement.claim):
         return f"the rule gives {claim.relation}"
     return (
         None if hypotheses == judgement.hypotheses else "its hypotheses are not those of the rule"

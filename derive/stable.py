@@ -23,7 +23,7 @@ import sympy as sp
 
 from .kernel import Judgement
 from .laws import EXPONENTIAL, LAWS, TANH, ContactLaw, r
-from .rules.algebra import identity
+from .rules.algebra import Identity
 
 HELD = 709
 """Argument beyond which the odds are held: the largest integer whose exponential is finite."""
@@ -108,7 +108,7 @@ def proof(law_name: str) -> tuple[Judgement, Judgement]:
     for name, form in reversed(row.names):
         value, slope = (e.xreplace({name: released(form)}) for e in (value, slope))
     pairs = ((law.phi, value), (sp.diff(law.phi, r), slope))
-    of_value, of_slope = (identity(sp.Eq(*pair, evaluate=False)) for pair in pairs)
+    of_value, of_slope = (Identity(sp.Eq(*pair, evaluate=False))() for pair in pairs)
     return of_value, of_slope
 
 

@@ -11,7 +11,10 @@ import math
 import os
 import shutil
 import sys
-from collections.abc import Callable, Mapping, Sequence
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +25,7 @@ FAILED = 1  # a verification does not hold
 USAGE = 2  # bad usage, bad scene, a file that cannot be read or written
 INACCURATE = 3  # the requested accuracy was not reached
 INTERRUPTED = 130
+SILENT, APART = 2.0, 0.5  # s, before what is being done is shown, and between two times
 
 
 def run(
@@ -73,6 +77,31 @@ def progress(what: str) -> None:
     if sys.stderr.isatty() and os.environ.get("TERM") != "dumb":
         width = shutil.get_terminal_size().columns - 1
         print(f"\r\033[K{what[:width]}", end="", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def busy(what: str) -> Iterator[Callable[[str], None]]:
+    """Show on a terminal what takes more than two seconds, and for how long it has; what the
+    function that is given is told stands in its place."""
+    begun, shown, done = time.monotonic(), [what], threading.Event()
+
+    def tell(words: str) -> None:
+        shown[0] = words
+
+    def tick() -> None:
+        wait = SILENT
+        while not done.wait(wait):
+            progress(f"{shown[0]} ({time.monotonic() - begun:.0f} s)")
+            wait = APART
+
+    clock = threading.Thread(target=tick, daemon=True)
+    clock.start()
+    try:
+        yield tell
+    finally:
+        done.set()
+        clock.join()
+        progress("")
 
 
 def shows_formulas() -> bool:

@@ -20,7 +20,7 @@ import mpmath
 from tests import independent, independent_cutoff
 from tests.wear.reference_scenes import REFERENCE
 from tests.wear.test_cycle_count import problem
-from wear.scene import builtin_scenes, load_scene
+from wear.scene import hard_names, load_scene
 
 TARGET = Path(__file__).parents[1] / "wear" / "data" / "reference.json"
 INTEGRATED = (1, 10, 100)
@@ -115,14 +115,9 @@ def onward(wear: float, cycles: int, to: int) -> float:
 
 def main() -> None:
     hard = {}
-    for entry in builtin_scenes():
-        if entry.hard:
-            hard[entry.name] = {
-                "scene": entry.name,
-                "set": [],
-                "u_c_mm": wear_table(hard_case(entry.name)),
-            }
-            print(entry.name, hard[entry.name]["u_c_mm"], flush=True)
+    for name in hard_names():
+        hard[name] = {"scene": name, "set": [], "u_c_mm": wear_table(hard_case(name))}
+        print(name, hard[name]["u_c_mm"], flush=True)
     S2 = REFERENCE["S2"]
     assert math.isclose(onward(S2[10**6], 10**6, 10**8), S2[10**8], rel_tol=2e-8)
     billion = {10**9: onward(S2[10**8], 10**8, 10**9)}

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import importlib.util
+import io
 import json
-import os
 import re
 import shutil
-import subprocess
 import sys
+import warnings
 from collections import Counter
+from contextlib import redirect_stderr
 from functools import partial
 from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
 import pytest
+from sphinx.cmd.build import main as sphinx
 
 from derive.note.claims import Verdict
 from tests import pages
@@ -254,12 +256,11 @@ class _Page(HTMLParser):
 def site(tmp_path_factory):
     """The pages as `make docs` builds them; a warning is an error."""
     folder = tmp_path_factory.mktemp("site")
-    run = subprocess.run(
-        [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html",
-         "-d", str(folder / "cache"), str(DOCS), str(folder / "html")],
-        capture_output=True, text=True, check=False, env={**os.environ, "PYTHONWARNINGS": ""},
-    )  # fmt: skip
-    assert run.returncode == 0, run.stderr
+    options = ("-W", "--keep-going", "-q", "-b", "html", "-d", str(folder / "cache"))
+    told = io.StringIO()
+    with warnings.catch_warnings(action="ignore"), redirect_stderr(told):
+        status = sphinx([*options, str(DOCS), str(folder / "html")])
+    assert status == 0, told.getvalue()
     found = {
         path.relative_to(folder / "html").as_posix(): _Page(path.read_text(encoding="utf-8"))
         for path in (folder / "html").rglob("*.html")

@@ -46,9 +46,9 @@ def imports(node: ast.Import | ast.ImportFrom) -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def sources(need_tool) -> dict[Path, ast.Module]:
+def sources(need_tool) -> dict[Path, str]:
     need_tool("git")
-    return {path: ast.parse(path.read_bytes()) for path in tracked("*.py")}
+    return {path: path.read_text(encoding="utf-8") for path in tracked("*.py")}
 
 
 @pytest.mark.parametrize("package", ["wear", "derive", "derive.terminal", "wear.cli"])
@@ -151,10 +151,12 @@ def test_no_text_is_run_as_code(sources):
     """Neither `eval` nor `exec`, nor what runs code on reading: pickle, parse_expr, sympify of text
     or of anything else."""
     banned = {"eval", "exec", "parse_expr", "sympify"}
+    suspects = re.compile("|".join([*banned, "pickle"]))
     found = [
         f"{path.relative_to(ROOT)}:{node.lineno}"
-        for path, tree in sources.items()
-        for node in ast.walk(tree)
+        for path, text in sources.items()
+        if suspects.search(text)
+        for node in ast.walk(ast.parse(text))
         if (
             isinstance(node, ast.Call)
             and getattr(node.func, "id", getattr(node.func, "attr", "")) in banned
@@ -166,21 +168,17 @@ def test_no_text_is_run_as_code(sources):
 
 
 def test_every_module_says_what_it_holds(sources):
-    silent = [
-        str(path.relative_to(ROOT))
-        for path, tree in sources.items()
-        if tree.body and ast.get_docstring(tree) is None
-    ]
-    assert not silent
+    opening = re.compile(r'(#.*\n)*r?"""\S')
+    assert not [path for path, text in sources.items() if text and not opening.match(text)]
 
 
 def test_generated_code_imports_numpy_alone(sources):
     allowed = {"__future__", "typing", "numpy"}
-    generated = {path: tree for path, tree in sources.items() if "generated" in path.parts}
     foreign = [
         f"{path.relative_to(ROOT)}:{node.lineno}"
-        for path, tree in generated.items()
-        for node in ast.walk(tree)
+        for path, text in sources.items()
+        if "generated" in path.parts
+        for node in ast.walk(ast.parse(text))
         if isinstance(node, ast.Import | ast.ImportFrom)
         and imports(node)[0].split(".")[0] not in allowed
     ]

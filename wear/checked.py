@@ -8,6 +8,7 @@ Key results
     table       class decorator: a frozen dataclass whose construction raises `SceneError`
     Positive, NonNegative, Real, Count, Flag, Text     kinds of entries
     problems    all that is wrong with tables, each with its path
+    all_wrong   the error for a validator to raise that finds several faults
 """
 
 from __future__ import annotations
@@ -46,6 +47,10 @@ _UNITS = {"MPa_per_mm": "MPa/mm", "MPa": "MPa", "mm": "mm", "rpm": "rpm", "s": "
 T = TypeVar("T")
 Path = tuple[str | int, ...]
 """Where a value stands: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
+
+
+Finding = tuple[str | Path, str, str]
+"""A path, which may be dotted, the problem there, and its remedy."""
 
 
 class Problem(NamedTuple):
@@ -106,25 +111,23 @@ def wrong(problem: str, remedy: str) -> PydanticCustomError:
     return PydanticCustomError("wrong", "{problem}", {"problem": problem, "remedy": remedy})
 
 
-def all_wrong(*faults: tuple[str, str, str]) -> ValidationError:
-    """Return the error for a validator to raise that finds (key, problem, remedy) many times."""
-    return ValidationError.from_exception_data(
-        "wrong",
-        [
-            {"type": wrong(problem, remedy), "loc": _path(key), "input": None}
-            for key, problem, remedy in faults
-        ],
-    )
+def all_wrong(*faults: Finding) -> ValidationError:
+    """Return the error for a validator to raise that finds (path, problem, remedy) many times."""
+    details: list[InitErrorDetails] = [
+        {"type": wrong(problem, remedy), "loc": _path(path), "input": None}
+        for path, problem, remedy in faults
+    ]
+    return ValidationError.from_exception_data("wrong", details)
 
 
-def _path(dotted: str) -> Path:
-    return tuple(dotted.split(".")) if dotted else ()
+def _path(path: str | Path) -> Path:
+    return path if isinstance(path, tuple) else tuple(path.split(".") if path else ())
 
 
-def below(place: str | int, error: ValidationError) -> list[InitErrorDetails]:
-    """Return what was found in a table that stands at `place` of another."""
+def problems(error: ValidationError, place: Path = ()) -> list[Problem]:
+    """Return all that was found wrong in a table at a `place` of another, each with its path."""
     return [
-        {"type": wrong(*_wording(entry)), "loc": (place, *entry["loc"]), "input": entry["input"]}
+        Problem((*place, *entry["loc"]), entry["ctx"]["problem"], entry["ctx"]["remedy"])
         for entry in error.errors(include_url=False)
     ]
 
@@ -147,20 +150,18 @@ def _whole(raw: object) -> object:
 
 
 def _printable(text: str) -> str:
-    if not text.replace("\n", "").isprintable():
+    if not text.isprintable():
         raise wrong("has control characters", "use printable characters only")
     return text
+
+
+def _printable_lines(text: str) -> str:
+    return "\n".join(map(_printable, text.split("\n")))
 
 
 def listed(raw: object) -> object:
     """Return an array as a list, anything else as it is."""
     return raw.tolist() if hasattr(raw, "tolist") else raw  # NumPy's arrays
-
-
-def _one_line(text: str) -> str:
-    if "\n" in text:
-        raise wrong("has control characters", "use printable characters only")
-    return text
 
 
 def choice(raw: object, known: Collection[str]) -> str:
@@ -191,8 +192,8 @@ Real = Annotated[float, _FINITE, AfterValidator(_sane)]
 Count = Annotated[int, BeforeValidator(_whole)]
 Reals = Annotated[tuple[Real, ...], BeforeValidator(listed)]
 Flag = Annotated[bool, Field(strict=True)]
-Prose = Annotated[str, Field(strict=True, max_length=2000), AfterValidator(_printable)]
-Line = Annotated[str, Field(strict=True), AfterValidator(_printable), AfterValidator(_one_line)]
+Prose = Annotated[str, Field(strict=True, max_length=2000), AfterValidator(_printable_lines)]
+Line = Annotated[str, Field(strict=True), AfterValidator(_printable)]
 Text = Annotated[Line, Field(max_length=200)]
 
 
@@ -213,7 +214,7 @@ class SceneTable:
     entries: ClassVar[Mapping[str, Any]] = {}
 
     @classmethod
-    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:  # noqa: ARG003
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:  # noqa: ARG003
         """Yield (key, problem, remedy) for entries that do not go together; they may be wrong."""
         yield from ()
 
@@ -221,30 +222,36 @@ class SceneTable:
     @classmethod
     def _explained(cls, raw: Any, build: Callable[[Any], Any]) -> Any:
         """Build the table, or raise every fault of its entries and relations in words."""
-        details: list[InitErrorDetails] = []
-        made = None
+        known: Mapping[str, Any] = cls.entries
+        if isinstance(raw, ArgsKwargs):
+            known = cls.__pydantic_fields__  # type: ignore[attr-defined]
+            given = dict(zip(known, raw.args, strict=False)) | (raw.kwargs or {})
+            if len(given) < len(raw.args) + len(raw.kwargs or {}):
+                known_here = f"known here: {', '.join(cls.entries)}"
+                raise all_wrong(("", "a value has no entry of its own", known_here))
+        elif isinstance(raw, Mapping):
+            given = {**cls.left_out, **{str(key): value for key, value in raw.items()}}
+        else:
+            return _instance(cls, raw, build)
+        unknown = [key for key in given if key not in known]
+        shown_keys = unknown[:MOST_UNKNOWN_KEYS]
+        faults: list[Finding] = [_of_unknown(cls, key, given[key]) for key in shown_keys]
+        meant = {_meant_by(cls, key) for key in shown_keys} - {""}
+        if len(unknown) > len(shown_keys):
+            faults.append(("", "more unknown keys", f"known here: {', '.join(cls.entries)}"))
         try:
-            made = build({**cls.left_out, **raw} if isinstance(raw, Mapping) else raw)
+            made = build({key: value for key, value in given.items() if key in known})
         except ValidationError as error:
-            details = list(_details(cls, error))
-        given = _given(cls, raw)
-        if given is not None:
-            fields: Mapping[str, Any] = cls.__pydantic_fields__  # type: ignore[attr-defined]
-            known = fields if isinstance(raw, ArgsKwargs) else keys_of(cls)
-            unknown = given.keys() - known.keys()
-            details += [
-                {"type": wrong(*_of_unknown(cls, name, given[name])), "loc": (name,), "input": None}
-                for name in unknown & fields.keys()
+            entries = error.errors(include_url=False)
+            faults += [
+                _of_entry(cls, entry)
+                for entry in entries
+                if not (entry["type"] == "missing" and entry["loc"][0] in meant)
             ]
-            meant = {_meant_by(cls, name) for name in unknown} - {""}
-            details = [entry for entry in details if not _is_meant(entry, meant)]
-            present = {key: entry for key, entry in given.items() if entry is not None}
-            details += [
-                {"type": wrong(problem, remedy), "loc": _path(key), "input": None}
-                for key, problem, remedy in cls.relations(dict.fromkeys(meant, ...) | present)
-            ]
-        if details:
-            raise ValidationError.from_exception_data(cls.__name__, details)
+        present = {key: entry for key, entry in given.items() if entry is not None}
+        faults += cls.relations(dict.fromkeys(meant, ...) | present)
+        if faults:
+            raise all_wrong(*faults)
         return made
 
 
@@ -270,8 +277,8 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
             except ValidationError as error:
                 raise SceneError(
                     [
-                        Fault("", None, *_table_and_key(place, path), problem, remedy)
-                        for path, problem, remedy in problems(error)
+                        Fault("", None, *place_of(path), problem, remedy)
+                        for path, problem, remedy in problems(error, (place,) if place else ())
                     ]
                 ) from None
 
@@ -282,50 +289,37 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
     return make
 
 
-def keys_of(kind: type[SceneTable]) -> Mapping[str, Any]:
-    """Return the entries of a table in their order, each with pydantic's description of it."""
-    return kind.entries
+def place_of(path: Path) -> tuple[str, str]:
+    """Return table and key of a path, for messages.
+
+    >>> place_of(("load", "blocks", 0, "cycles"))
+    ('load.blocks, block 1', 'cycles')
+    """
+    *tables, key = path or ("",)
+    if isinstance(key, int) or any(path == (each.place,) for each in TABLES):
+        tables, key = [*tables, key], ""
+    words = ".".join(shown(part) for part in tables if isinstance(part, str))
+    block = "".join(f", block {part + 1}" for part in tables if isinstance(part, int))
+    return words + block, shown(str(key))
 
 
-def _table_and_key(place: str, path: Path) -> tuple[str, str]:
-    """Where an argument of a constructor would stand in a file."""
-    *tables, key = (*([place] if place else []), *map(str, path), *([] if path else [""]))
-    return ".".join(tables), key
+# What is wrong, in words
 
 
-def problems(error: ValidationError) -> list[Problem]:
-    """Return all that pydantic found, each with its path and in words."""
-    return [Problem(entry["loc"], *_wording(entry)) for entry in error.errors(include_url=False)]
-
-
-def _wording(entry: Any) -> tuple[str, str]:
-    if entry["type"] == "wrong":
-        return entry["ctx"]["problem"], entry["ctx"]["remedy"]
-    return entry["msg"], "correct it"  # a kind of error that no table brings about
-
-
-def _given(kind: type[SceneTable], raw: object) -> dict[str, Any] | None:
-    """Return the entries that were given by name or place, None if they are no table."""
-    if isinstance(raw, ArgsKwargs):
-        return {**dict(zip(keys_of(kind), raw.args, strict=False)), **(raw.kwargs or {})}
-    return {str(key): value for key, value in raw.items()} if isinstance(raw, Mapping) else None
+def _instance(kind: type[SceneTable], raw: Any, build: Callable[[Any], Any]) -> Any:
+    """Return what is a table already."""
+    try:
+        return build(raw)
+    except ValidationError:
+        remedy = f"write [{kind.place}] on a line of its own"
+        raise all_wrong(("", "is not a table", remedy)) from None
 
 
 def _meant_by(kind: type[SceneTable], name: str) -> str:
-    """Return the known key that an unknown one seems to stand for, '' if none or known."""
-    known = keys_of(kind)
-    if name in known:
-        return ""
-    if RENAMED.get(name) in known:
+    """Return the known key that an unknown one seems to stand for, '' if none."""
+    if RENAMED.get(name) in kind.entries:
         return RENAMED[name]
-    return "" if _homes(kind, name) else did_you_mean(name, known)
-
-
-def _is_meant(entry: InitErrorDetails, meant: set[str]) -> bool:
-    """Whether an entry is missing only because its key is misspelt."""
-    kind = entry["type"]
-    context = (isinstance(kind, PydanticCustomError) and kind.context) or {}
-    return context.get("problem") == "missing" and entry["loc"][-1] in meant
+    return "" if _homes(kind, name) else did_you_mean(name, kind.entries)
 
 
 def _homes(kind: type[SceneTable], name: str) -> str:
@@ -333,42 +327,12 @@ def _homes(kind: type[SceneTable], name: str) -> str:
     homes = [
         f'kind = "{other.kind}"' if other.kind else f"[{other.place}]"
         for other in TABLES
-        if other.place and name in keys_of(other) and (kind.kind or not other.kind)
+        if other.place and name in other.entries and (kind.kind or not other.kind)
     ]
     return " or ".join(homes)
 
 
-# Pydantic's findings in words
-
-
-def _details(kind: type[SceneTable], error: ValidationError) -> Iterator[InitErrorDetails]:
-    unknown = 0
-    entries = error.errors(include_url=False)
-    for entry in sorted(entries, key=lambda entry: "unexpected" not in entry["type"]):
-        loc, raw, key = entry["loc"], entry["input"], ""
-        if loc and isinstance(loc[0], int):  # an argument by place
-            loc = (list(keys_of(kind))[min(loc[0], len(keys_of(kind)) - 1)], *loc[1:])
-        if loc:
-            key = str(loc[0])
-        if entry["type"] == "wrong":
-            problem, remedy = _wording(entry)
-        elif entry["type"] in ("unexpected_keyword_argument", "unexpected_positional_argument"):
-            unknown += 1
-            if unknown == MOST_UNKNOWN_KEYS + 1:
-                loc, problem = (), "more unknown keys"
-                remedy = f"known here: {', '.join(keys_of(kind))}"
-            elif unknown > MOST_UNKNOWN_KEYS:
-                continue
-            else:
-                problem, remedy = _of_unknown(kind, key, raw)
-        else:
-            problem, remedy = _of_value(kind, key, entry)
-            if len(loc) > 1:  # in a list
-                loc, problem = loc[:1], f"entry {int(loc[1]) + 1}: {problem}"
-        yield {"type": wrong(problem, remedy), "loc": loc, "input": raw}
-
-
-def _of_unknown(kind: type, name: str, raw: object) -> tuple[str, str]:
+def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> Problem:
     meant = _meant_by(kind, name)
     if RENAMED.get(name) == meant:
         remedy = f"renamed to {meant}"
@@ -377,8 +341,19 @@ def _of_unknown(kind: type, name: str, raw: object) -> tuple[str, str]:
     elif meant:
         remedy = f"did you mean {meant}?"
     else:
-        remedy = f"known here: {', '.join(keys_of(kind))}"
-    return f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy
+        remedy = f"known here: {', '.join(kind.entries)}"
+    return Problem((name,), f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy)
+
+
+def _of_entry(kind: type[SceneTable], entry: Any) -> Problem:
+    """Return what pydantic found in an entry."""
+    loc = entry["loc"]
+    if entry["type"] == "wrong":
+        return Problem(loc, entry["ctx"]["problem"], entry["ctx"]["remedy"])
+    problem, remedy = _of_value(kind, str(loc[0]), entry)
+    if len(loc) > 1:  # in a list
+        problem = f"entry {int(loc[1]) + 1}: {problem}"
+    return Problem(loc[:1], problem, remedy)
 
 
 def _of_value(kind: type[SceneTable], key: str, entry: Any) -> tuple[str, str]:
@@ -386,11 +361,8 @@ def _of_value(kind: type[SceneTable], key: str, entry: Any) -> tuple[str, str]:
     match entry["type"]:
         case "missing":
             return "missing", _to_add(kind, key)
-        case "dataclass_type":
-            name = key or kind.place
-            return "is not a table", f"write [{name}] on a line of its own"
         case "float_type" | "finite_number" | "greater_than" | "greater_than_equal" | "magnitude":
-            return of_number(raw, domain_of(keys_of(kind)[key]), unit_of(key))
+            return of_number(raw, domain_of(kind.entries[key]), unit_of(key))
         case "bool_type":
             return "is no flag", "write true or false"
         case "string_type":
@@ -404,7 +376,7 @@ def _of_value(kind: type[SceneTable], key: str, entry: Any) -> tuple[str, str]:
 
 
 def _to_add(kind: type[SceneTable], key: str) -> str:
-    field = keys_of(kind)[key]
+    field = kind.entries[key]
     home = getattr(field.annotation, "place", None)
     if home is not None:
         return f"add a table [{key}] ({field.description})"
@@ -432,14 +404,12 @@ def of_number(raw: object, domain: str, unit: str) -> tuple[str, str]:
             return f'"{shown(raw)}" is text, not a number', "drop the quotes"
         return f'"{shown(raw)}" is text', f"give a number{ending}, such as 0.5 or 1e-6"
     wanted = f"give a number {domain}{ending}" if domain else f"give any finite number{ending}"
+    if isinstance(raw, bool) or not isinstance(raw, int | float):
+        return f"is {kind_of(raw)}", f"give a number{ending}"
     try:
-        number = float("nan" if isinstance(raw, bool) else raw)  # type: ignore[arg-type]
+        number = float(raw)
     except OverflowError:
         return "is a whole number too large for a float", wanted
-    except (TypeError, ValueError):
-        return f"is {kind_of(raw)}", f"give a number{ending}"
-    if isinstance(raw, bool):
-        return f"is {kind_of(raw)}", f"give a number{ending}"
     if not math.isfinite(number):
         return f"{number} is not a finite number", wanted
     if number < 0.0 and domain:

@@ -17,10 +17,9 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
-from wear.direct.sequence import span
 from wear.inside import Inside, fields_inside
-from wear.load import Blocks, HistoryLoad
-from wear.load.protocols import Load
+from wear.load import Blocks, HistoryLoad, Load
+from wear.load.spans import span
 from wear.model import Model, bind
 from wear.numerics.gauss import Mesh, mesh
 from wear.numerics.tolerances import ROUNDOFF

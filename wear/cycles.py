@@ -19,12 +19,13 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.direct.sequence import most_cycles, span
 from wear.equation import WearEquation, equation_of
-from wear.load import AperiodicLoad, Blocks, Load
+from wear.load import Blocks, Load, Loading
+from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import counted_stages
 from wear.model import Model, bind
 from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
+from wear.progress import Pace
 from wear.resampling import resampled
 
 if TYPE_CHECKING:
@@ -155,7 +156,7 @@ def count_cycles(
 
 def wear_after(
     model: Model,
-    load: Load | AperiodicLoad,
+    load: Loading,
     cycles: FloatArray,
     rtol: float,
     start: float = 0.0,
@@ -175,7 +176,7 @@ def wear_after(
     missed, done, cost = 0.0, 0, Cost(0, 0)
     notices: list[str] = []
     while True:
-        acting, until = span(load, done)
+        acting, until, _ = span(load, done)
         end = min(float(until), last)
         here = (cycles >= done) & (cycles <= end)
         wanted = np.append(cycles[here], end) - done
@@ -195,7 +196,7 @@ def wear_after(
         done = until
 
 
-def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rtol: float) -> Cycles:
+def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> Cycles:
     """Return the whole cycles after which each wear u_c (mm, (n,)) is first reached, infinite where
     it is not within the load or 1e12 cycles, and the estimated relative error of their number.
 
@@ -208,7 +209,7 @@ def cycles_until(model: Model, load: Load | AperiodicLoad, wear: FloatArray, rto
     most = min(MOST_CYCLES, float(most_cycles(load)))
     doubtful = np.full(wear.shape, False)
     while (np.isinf(count) | doubtful).any() and done < most:
-        acting, until = span(load, done)
+        acting, until, _ = span(load, done)
         length = min(float(until), most) - done
         still = np.isinf(count)
         if doubtful.any():
@@ -270,11 +271,16 @@ def _since(notice: str, done: int) -> str:
     return f"in the block after {done} cycles: {notice}" if done else notice
 
 
-def sweep(scenes: Sequence[Scene], cycles: FloatArray, rtol: float = 1e-7) -> Sweep:
+def sweep(
+    scenes: Sequence[Scene],
+    cycles: FloatArray,
+    rtol: float = 1e-7,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Sweep:
     """Return the wear of many scenes after the same whole numbers of cycles (n,).
 
     Scenes of one variant of the model whose loads repeat are solved together; variants may be
-    mixed.
+    mixed. After two seconds `progress` is told now and then how many scenes are done.
 
     >>> from wear.scene import load_scene
     >>> names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
@@ -296,14 +302,22 @@ def sweep(scenes: Sequence[Scene], cycles: FloatArray, rtol: float = 1e-7) -> Sw
 
     models = [bind(scene) for scene in scenes]
     fewer = [resampled(*each, rtol) for each in zip(scenes, models, strict=True)]
-    u, error = _each([each.scene for each in fewer], len(cycles), together, alone)
+    some = [each.scene for each in fewer]
+    u, error = _each(some, len(cycles), together, alone, Pace(progress))
     for row, (each, model) in enumerate(zip(fewer, models, strict=True)):
         error[row] += each.missed(model, u[row])
     return Sweep(u, error)
 
 
-def cycles_to_depth(scenes: Sequence[Scene], wear: FloatArray, rtol: float = 1e-7) -> CyclesToDepth:
+def cycles_to_depth(
+    scenes: Sequence[Scene],
+    wear: FloatArray,
+    rtol: float = 1e-7,
+    progress: Callable[[str], None] = lambda _: None,
+) -> CyclesToDepth:
     """Return the whole cycles after which each of many scenes first reaches each wear (n,), mm.
+
+    After two seconds `progress` is told now and then how many scenes are done.
 
     >>> from wear.scene import load_scene
     >>> scenes = [load_scene("section4"), load_scene("section5")]
@@ -329,7 +343,10 @@ def cycles_to_depth(scenes: Sequence[Scene], wear: FloatArray, rtol: float = 1e-
     def alone(scene: Scene) -> tuple[FloatArray, FloatArray]:
         return cycles_until(bind(scene), scene.load, wear, rtol)[:2]
 
-    return CyclesToDepth(*_each(scenes, len(wear), together, alone))
+    fewer = [resampled(scene, bind(scene), rtol) for scene in scenes]
+    some = [each.scene for each in fewer]
+    count, error = _each(some, len(wear), together, alone, Pace(progress))
+    return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))
 
 
 Answer = tuple[FloatArray, FloatArray]
@@ -341,14 +358,19 @@ def _each(
     number: int,
     together: Callable[[WearEquation], Answer],
     alone: Callable[[Scene], Answer],
+    pace: Pace,
 ) -> Answer:
     """Return two numbers (scenes, number) of every scene: of those of one variant `together`, of
     those with loss of contact or a load in blocks each `alone`."""
     first, second = np.empty((2, len(scenes), number))
+    pace.begin("scene", len(scenes))
+    done = 0
     for which in groups(scenes):
         some = [scenes[i] for i in which.tolist()]
         lone = some[0].contact.ends_at_3_sigma or isinstance(some[0].load, Blocks)
         first[which], second[which] = alone(some[0]) if lone else together(equation_of(some))
+        done += len(which)
+        pace.at(done)
     return first, second
 
 

@@ -119,7 +119,7 @@ class Abscissa(Enum):
             return cycles
         load = scene.load
         if isinstance(load, Blocks | HistoryLoad):
-            seconds = np.array([load.time_at(n) for n in cycles.tolist()])
+            seconds = load.time_at(cycles)
         else:
             seconds = cycles * scene.periodic_load.period
         if self is Abscissa.HOURS:

@@ -16,9 +16,10 @@ Files
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.resources import files
 from typing import Any
 
 import matplotlib as mpl
@@ -39,39 +40,15 @@ PAPER = "#ffffff"
 GREY = "#6b7480"
 
 _MILLIMETRES_PER_INCH = 25.4
-_STYLE = {
-    "font.family": "STIXGeneral",
-    "font.size": 8.5,
-    "mathtext.fontset": "stix",
-    "axes.labelsize": 8.5,
-    "axes.titlesize": 8.5,
-    "xtick.labelsize": 8.0,
-    "ytick.labelsize": 8.0,
-    "legend.fontsize": 8.0,
-    "legend.frameon": False,
-    "text.color": INK,
-    "axes.edgecolor": INK,
-    "axes.labelcolor": INK,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "axes.linewidth": 0.6,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "xtick.minor.width": 0.4,
-    "ytick.minor.width": 0.4,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 4.0,
-    "axes.formatter.use_mathtext": True,
-    "axes.unicode_minus": True,
-    "figure.facecolor": "none",
-    "axes.facecolor": "none",
-    "savefig.facecolor": "none",
-    "hatch.linewidth": 0.4,
-    "svg.fonttype": "path",
-    "svg.hashsalt": "derive-wear",
-    "pdf.fonttype": 42,
+_SETTINGS = mpl.rc_params_from_file(
+    str(files("wear").joinpath("data", "wear.mplstyle")), use_default_template=False
+)
+
+
+_FORMATS: Mapping[str, dict[str, Any]] = {
+    ".svg": {"metadata": {"Date": None}},
+    ".pdf": {"metadata": {"CreationDate": None}},
+    ".png": {"dpi": 300.0, "facecolor": PAPER},
 }
 
 
@@ -106,28 +83,25 @@ def stroke(family: int, variant: int = 0) -> Stroke:
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """The settings of this module, until the block ends."""
-    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+    """The settings of ``wear.mplstyle``, until the block ends."""
+    with mpl.rc_context(_SETTINGS):
         yield
 
 
-def panels(rows: int, width: float, height: float) -> tuple[Figure, list[Axes]]:
-    """A figure of that size in mm with axes one above the other. Call inside `styled`."""
+def panels(rows: int, columns: int, width: float, height: float) -> tuple[Figure, list[Axes]]:
+    """Return a figure of that size in mm with its axes, row by row. Call inside `styled`.
+
+    Axes one above the other share their abscissa, axes side by side their ordinate.
+    """
     size = (width / _MILLIMETRES_PER_INCH, height / _MILLIMETRES_PER_INCH)
     figure = Figure(figsize=size, layout="constrained")
-    return figure, list(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
-
-
-def side_by_side(columns: int, width: float, height: float) -> tuple[Figure, list[Axes]]:
-    """A figure of that size in mm with axes side by side. Call inside `styled`."""
-    size = (width / _MILLIMETRES_PER_INCH, height / _MILLIMETRES_PER_INCH)
-    figure = Figure(figsize=size, layout="constrained")
-    return figure, list(figure.subplots(1, columns, sharey=True, squeeze=False)[0])
+    axes = figure.subplots(rows, columns, sharex="col", sharey="row", squeeze=False)
+    return figure, list(axes.flat)
 
 
 def canvas(width: float, height: float) -> tuple[Figure, Axes]:
-    """A figure of that size in mm with one pair of axes. Call inside `styled`."""
-    figure, [axes] = panels(1, width, height)
+    """Return a figure of that size in mm with one pair of axes. Call inside `styled`."""
+    figure, [axes] = panels(1, 1, width, height)
     return figure, axes
 
 
@@ -189,35 +163,16 @@ def _settle(figure: Figure) -> None:
 
 
 def svg(figure: Figure) -> str:
-    """The figure as SVG text, without date."""
-    return _written(figure, "svg", metadata={"Date": None}).decode()
-
-
-def pdf(figure: Figure) -> bytes:
-    """The figure as PDF, without date."""
-    return _written(figure, "pdf", metadata={"CreationDate": None})
-
-
-def png(figure: Figure, dots_per_inch: float = 300.0) -> bytes:
-    """The figure as PNG on white paper."""
-    return _written(figure, "png", dpi=dots_per_inch, facecolor=PAPER)
+    """Return the figure as SVG text."""
+    return encoded(figure, ".svg").decode()
 
 
 def encoded(figure: Figure, suffix: str) -> bytes:
-    """The figure as a file of that suffix: ``.svg``, ``.pdf`` or ``.png``."""
-    match suffix.lower():
-        case ".svg":
-            return svg(figure).encode()
-        case ".pdf":
-            return pdf(figure)
-        case ".png":
-            return png(figure)
-    raise ValueError(f"no figure can be written as {suffix!r}: use .svg, .pdf or .png")
-
-
-def _written(figure: Figure, kind: str, **options: Any) -> bytes:
+    """Return the figure as a file of that suffix: ``.svg``, ``.pdf`` or ``.png``, without date."""
+    if suffix.lower() not in _FORMATS:
+        raise ValueError(f"no figure can be written as {suffix!r}: use {', '.join(_FORMATS)}")
     buffer = io.BytesIO()
     with styled():
         _settle(figure)
-        figure.savefig(buffer, format=kind, **options)
+        figure.savefig(buffer, format=suffix[1:].lower(), **_FORMATS[suffix.lower()])
     return buffer.getvalue()

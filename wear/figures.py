@@ -49,7 +49,6 @@ from wear.figure_style import (
     canvas,
     label_ends,
     panels,
-    side_by_side,
     stroke,
     styled,
 )
@@ -73,7 +72,7 @@ def history(
     """
     height = 0.66 if len(shown) == 1 else 0.44 * len(shown)
     with styled():
-        figure, rows = panels(len(shown), width, height * width)
+        figure, rows = panels(len(shown), 1, width, height * width)
         for axes, panel in zip(rows, shown, strict=True):
             if panel.quantity is PRESSURE:
                 pressed = tuple(line.pressed() for line in panel.lines if line.y.any())
@@ -227,7 +226,7 @@ def regime_map(
     """
     slopes, gaps = np.meshgrid(np.linspace(-0.6, 0.6, 480), np.linspace(-3.0, 4.0, 560))
     with styled():
-        figure, [left, right] = side_by_side(2, width, 0.5 * width)
+        figure, [left, right] = panels(1, 2, width, 0.5 * width)
         for axes, title, ends in ((left, titles[0], False), (right, titles[1], True)):
             named = regime(slopes, gaps, ends)
             for name, colour in _REGIMES.items():

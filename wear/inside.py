@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.cycles import Counted, InContact, count_cycles, growth
-from wear.direct.sequence import span
 from wear.equation import WearEquation
 from wear.faults import AccuracyError, UsageError
-from wear.load import AperiodicLoad, HistoryLoad, Load
+from wear.load import HistoryLoad, Load, Loading
+from wear.load.spans import span
 from wear.loss_of_contact.dense_output import SwitchedDenseOutput, switched_dense_output
 from wear.model import Fields, Model
 from wear.numerics.initial_value import SAFETY
@@ -39,7 +39,7 @@ class Inside(NamedTuple):
 
 def fields_inside(
     model: Model,
-    load: Load | AperiodicLoad,
+    load: Loading,
     cycles: FloatArray,
     phases: FloatArray,
     rtol: float = 1e-12,
@@ -108,13 +108,11 @@ class _Stretch(NamedTuple):
                 yield begin, end, dense_output(equation, segment.counted, phases, rtol, observable)
 
 
-def _stretches(
-    model: Model, load: Load | AperiodicLoad, last: float, rtol: float
-) -> Iterator[_Stretch]:
+def _stretches(model: Model, load: Loading, last: float, rtol: float) -> Iterator[_Stretch]:
     """Return the blocks up to cycle `last` and over it."""
     wear, missed, done = 0.0, 0.0, 0
     while done <= last:
-        acting, until = span(load, done)
+        acting, until, _ = span(load, done)
         length = min(float(until), last + 1.0) - done
         found = count_cycles(model, acting, length, rtol, wear)
         after, error = (float(x[0]) for x in found.after(np.array([length])))

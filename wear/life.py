@@ -17,10 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, UsageError
 from wear.history import History
 from wear.load import Blocks
+from wear.load.spans import most_cycles
 from wear.regime import Asymptote, asymptote
 from wear.scene import Scene, as_scene
 from wear.solver import LARGEST_RTOL, LEAST_RTOL, MOST_CYCLES, is_number, obstacle, solve
@@ -74,11 +74,14 @@ def cycles_until(
     """
     from wear.cycles import cycles_until as count_until
     from wear.model import bind
+    from wear.resampling import resampled
 
     scene = as_scene(scene)
     depths = _checked(scene, wear_mm, rtol)
-    found = count_until(bind(scene), scene.load, np.array(depths), rtol)
-    cycles, error = found.cycles.copy(), found.error.copy()
+    model = bind(scene)
+    fewer = resampled(scene, model, rtol)
+    found = count_until(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
+    cycles, error = found.cycles.copy(), found.error + fewer.error
     known = np.isfinite(cycles) & np.isfinite(error)
     reached = [Reached.COUNTED] * len(depths)
     if not known.all():

@@ -9,7 +9,7 @@ Key results
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from wear.equation import WearEquation
 from wear.load import Blocks, Load
+from wear.load.spans import Span
 from wear.model import bind, bind_many
 from wear.scene import KEYS, Scene
 
@@ -97,29 +98,6 @@ def _entry(load: Load, key: str) -> float:
     return float(value[int(place)] if place else value)
 
 
-class Acting(NamedTuple):
-    """The `loads` of scenes from cycle `begins` to cycle `until`, which stand at a `place` of the
-    scene file."""
-
-    place: str
-    loads: tuple[Load, ...]
-    begins: float
-    until: float
-
-
-def acting_loads(scenes: Sequence[Scene]) -> Iterator[Acting]:
-    """Return the loads of scenes one after the other: of many, one that repeats for ever."""
-    load = scenes[0].load
-    if not isinstance(load, Blocks):
-        yield Acting("load", tuple(scene.periodic_load for scene in scenes), 0.0, np.inf)
-        return
-    begins = 0.0
-    for number, block in enumerate(load.stretches()):
-        place = f"load.blocks[{number % len(load.blocks)}]"
-        yield Acting(place, (block.load,), begins, begins + block.cycles)
-        begins += block.cycles
-
-
 @dataclass(frozen=True)
 class ParametrisedEquation(WearEquation):
     """The wear of scenes with its derivatives with respect to numbers of the scene: `chain`
@@ -181,11 +159,11 @@ class ParametrisedEquation(WearEquation):
 
 
 def parametrised(
-    scenes: Sequence[Scene], acting: Acting, keys: Sequence[str]
+    scenes: Sequence[Scene], acting: Sequence[Span], keys: Sequence[str]
 ) -> ParametrisedEquation:
-    """Return the equation of scenes of one variant under the loads that act, with the numbers that
-    have these `keys`."""
-    place, loads = acting.place, acting.loads
+    """Return the equation of scenes of one variant, each under the load that acts, with the numbers
+    that have these `keys`."""
+    place, loads = acting[0].place, tuple(each.load for each in acting)
     model = bind(scenes[0]) if len(scenes) == 1 else bind_many(scenes)
     symbols = [*model.module.Parameters._fields, *(AREA if scenes[0].given_load else ())]
     column = {key: i for i, key in enumerate(keys)}

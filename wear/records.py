@@ -20,25 +20,14 @@ from wear.numerics.initial_value import Rules, StoppedError, integrate
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import PeriodMap
 from wear.orbit.segments import Cost
+from wear.outcome import Outcome
 
 FloatArray = NDArray[np.float64]
 
+METHOD = "collocation"
 NODES, FINER_NODES = 8, 12  # on each line: for the result, and for its judge
 NEARLY = 0.9  # of the wear at which the roughness vanishes
 STRICTER = 0.01  # tolerance on lines, over the requested accuracy
-
-
-class Followed(NamedTuple):
-    """Wear `u` (mm) after those `cycles` that were reached, in rising order, its estimated relative
-    `error`, and what it cost. `stopped` says why cycles are missing (None: none are) and
-    `interrupted` whether that was the user or the clock."""
-
-    cycles: tuple[int, ...]
-    u: FloatArray
-    error: FloatArray
-    cost: Cost
-    stopped: str | None
-    interrupted: bool
 
 
 class Record(NamedTuple):
@@ -64,14 +53,14 @@ def follow(
     cycles: Sequence[int],
     rtol: float,
     deadline: float = np.inf,
-) -> Followed:
+) -> Outcome:
     """Return the wear after whole numbers of `cycles`, in any order, along a history, without loss
     of contact.
 
     After the `deadline` (`time.monotonic()`) or on Ctrl-C the cycles reached by then are kept.
     """
     marks = tuple(sorted(set(cycles)))
-    ends = np.array([load.time_at(mark) for mark in marks])
+    ends = load.time_at(np.array(marks))
     times = np.union1d(np.append(load.breakpoints(0.0, ends[-1]), 0.0), ends)
     asked = np.isin(times[1:], ends)
     equation = WearEquation(model, (Record(load),))  # type: ignore[arg-type]  # all that it asks of one
@@ -105,7 +94,7 @@ def follow(
     reached, found = marks[: len(u)], np.array(u)
     relative = np.where(found > 0.0, np.array(error) / found + ROUNDOFF, 0.0)
     cost = Cost(2 * max(reached, default=0), evaluations)
-    return Followed(reached, found, relative, cost, stopped, interrupted)
+    return Outcome(METHOD, reached, found, relative, cost, (), stopped, interrupted)
 
 
 def _why(wear: float, limit: float) -> str:

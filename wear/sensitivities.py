@@ -11,7 +11,7 @@ Key results
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -22,6 +22,7 @@ from wear.checked import did_you_mean
 from wear.cycles import groups
 from wear.faults import UsageError
 from wear.load import Constant
+from wear.load.spans import span
 from wear.loss_of_contact.count import counted_stages
 from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import edge_of_contact
@@ -29,7 +30,8 @@ from wear.loss_of_contact.tangent import stage_tangents
 from wear.model import bind
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
-from wear.parameters import acting_loads, parameters_of, parametrised
+from wear.parameters import parameters_of, parametrised
+from wear.progress import Pace
 from wear.scene import Scene, as_scene
 from wear.solver import checked_request, obstacle
 
@@ -50,10 +52,16 @@ class Gradients(NamedTuple):
 
 
 def gradients(
-    scenes: Sequence[Scene], keys: Sequence[str], cycles: FloatArray, rtol: float = 1e-10
+    scenes: Sequence[Scene],
+    keys: Sequence[str],
+    cycles: FloatArray,
+    rtol: float = 1e-10,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> Gradients:
     """Return the wear of scenes of one variant after whole numbers of cycles (n,), and its
     derivatives with respect to the numbers of the scene with these `keys`.
+
+    After two seconds `progress` is told now and then how far the scenes are.
 
     Raises
     ------
@@ -70,9 +78,13 @@ def gradients(
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
     found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
+    pace, done = Pace(progress), 0
+    pace.begin("scene", len(scenes))
     for which in groups(scenes):
         some, parts = _in_parts([scenes[i] for i in which.tolist()])
-        part = _of_one_variant(some, keys, cycles * parts, rtol)
+        part = _of_one_variant(some, keys, cycles * parts, rtol, pace.say)
+        done += len(which)
+        pace.at(done)
         per_key = np.array([1.0 / parts if key == PERIOD else 1.0 for key in keys])[:, None]
         found.wear[which] = part.u
         found.derivative[which] = part.derivative * per_key
@@ -111,23 +123,30 @@ def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:
 
 @np.errstate(all="ignore")  # trial states far off the solution; what is no number has no digit
 def _of_one_variant(
-    scenes: Sequence[Scene], keys: Sequence[str], cycles: FloatArray, rtol: float
+    scenes: Sequence[Scene],
+    keys: Sequence[str],
+    cycles: FloatArray,
+    rtol: float,
+    say: Callable[[str], None],
 ) -> Tangents:
     """Return the derivatives of the wear of scenes of one variant; of one alone if its load
-    consists of blocks."""
+    consists of blocks, of which it tells `say` how far they are."""
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
     found = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
     start, missed = np.zeros((2, number))
     slope, slope_error = np.zeros((2, number, len(keys)))
-    for acting in acting_loads(scenes):
-        end = min(acting.until, last)
-        here = (cycles >= acting.begins) & (cycles <= end)
-        wanted = np.tile(np.append(cycles[here], end) - acting.begins, (number, 1))
+    done = 0
+    while True:
+        acting = [span(scene.load, done) for scene in scenes]
+        end = min(float(acting[0].until), last)
+        say(f"cycle {done} of {last:.10g}")
+        here = (cycles >= done) & (cycles <= end)
+        wanted = np.tile(np.append(cycles[here], end) - done, (number, 1))
         equation = parametrised(scenes, acting, keys)
         if equation.model.ends_at_3_sigma:
             begin = float(start[0]), np.inf, float(missed[0])
-            stages = counted_stages(equation.model, acting.loads[0], wanted[0, -1], rtol, *begin)
+            stages = counted_stages(equation.model, acting[0].load, wanted[0, -1], rtol, *begin)
             part = stage_tangents(stages, equation, wanted, rtol, slope, slope_error)
         else:
             counted = orbit(equation, wanted[:, -1], rtol, start, missed)
@@ -138,6 +157,7 @@ def _of_one_variant(
         slope, slope_error = part.derivative[..., -1], part.derivative_error[..., -1]
         if end >= last or not np.isfinite(missed).all():
             break
+        done = acting[0].until
     unknown = np.isnan(found.derivative_error)
     return found._replace(derivative_error=np.where(unknown, np.inf, found.derivative_error))
 
@@ -203,7 +223,10 @@ class Sensitivities:
 
 
 def sensitivity(
-    scene: Scene | str | os.PathLike[str], cycles: float | Iterable[float], rtol: float = 1e-10
+    scene: Scene | str | os.PathLike[str],
+    cycles: float | Iterable[float],
+    rtol: float = 1e-10,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> Sensitivities:
     """Return how the wear of a scene after numbers of cycles depends on every number of the scene.
 
@@ -215,6 +238,8 @@ def sensitivity(
         Whole numbers from 0 to 1e12, in any order; or one such number.
     rtol
         Requested relative accuracy of the wear; the derivatives have an estimate of their own.
+    progress
+        Is told in words how far the count is that takes more than two seconds.
 
     Raises
     ------
@@ -231,7 +256,8 @@ def sensitivity(
         raise UsageError(f"cycles cannot be counted: {against}")
     wanted = checked_request(scene, cycles, rtol, "abel", None)
     numbers = parameters_of(scene)
-    found = _of_one_variant([scene], list(numbers), np.array(wanted, dtype=float), rtol)
+    counted = np.array(wanted, dtype=float)
+    found = _of_one_variant([scene], list(numbers), counted, rtol, Pace(progress).say)
     u, _, derivative, error, added = (part[0] for part in found)
     values = np.array(list(numbers.values()))
     return Sensitivities(
@@ -244,7 +270,7 @@ def _notices(scene: Scene) -> tuple[str, ...]:
     model = bind(scene)
     if not model.ends_at_3_sigma:
         return ()
-    load = next(acting_loads([scene])).loads[0]
+    load = span(scene.load, 0).load
     heights = edge_of_contact(model, load).grazing
     none = np.zeros_like(heights)
     if np.all(np.abs(model.margin(none, heights)) > margin_roundoff(model, load, none)):

@@ -7,16 +7,18 @@ import os
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wear import direct
-from wear.direct.sequence import most_cycles
+from wear import direct, records
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history import History
 from wear.load import HistoryLoad
+from wear.load.spans import most_cycles
+from wear.orbit.segments import Cost
+from wear.outcome import Outcome
 from wear.scene.plausibility import implausible_results
 from wear.states import displacement_of, fields_at, negative_roughness, reaction_of
 
@@ -32,22 +34,6 @@ MOST_CYCLES = 10**12
 LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
-
-
-class Wear(NamedTuple):
-    """What every method gives: wear (mm) at the cycles reached, its relative error, the cost.
-
-    `stopped` says why cycles are missing, `interrupted` whether by the user or the clock.
-    """
-
-    method: str
-    cycles: tuple[int, ...]
-    u: FloatArray
-    error: FloatArray
-    cost: dict[str, int]
-    notices: tuple[str, ...]
-    stopped: str | None
-    interrupted: bool
 
 
 def solve(
@@ -190,15 +176,17 @@ def _solved(
     method: str,
     deadline: float,
     progress: Callable[[str], None],
-) -> Wear:
+) -> Outcome:
     """The first method's result that meets the request, or that with the smallest error."""
-    results: list[Wear] = []
-    special = {"abel": _cycle_count, "collocation": _collocation}
+    results: list[Outcome] = []
     for name, reason in _methods(scene, method, wanted, rtol):
-        if name in special:
-            wear = special[name](model, scene, wanted, rtol, name, deadline)
+        if name == "abel":
+            wear = _by_abel(model, scene, wanted, rtol, deadline)
+        elif name == "collocation":
+            assert isinstance(scene.load, HistoryLoad)
+            wear = records.follow(model, scene.load, wanted, rtol, deadline)
         else:
-            wear = _direct(model, scene, wanted, rtol, name, deadline, progress)
+            wear = direct.integrate(model, scene.load, wanted, rtol, name, deadline, progress)
         if reason:
             wear = wear._replace(notices=(f"auto: {name}, because {reason}", *wear.notices))
         results.append(wear)
@@ -208,96 +196,47 @@ def _solved(
     return min(complete or results, key=_worst)
 
 
-def _worst(wear: Wear) -> float:
+def _worst(wear: Outcome) -> float:
     return float(np.max(np.nan_to_num(wear.error, nan=np.inf), initial=0.0))
 
 
-def _cycle_count(
-    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
-) -> Wear:
+def _by_abel(
+    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, deadline: float
+) -> Outcome:
     from wear.cycles import wear_after
 
     cycles = tuple(sorted(set(wanted)))
+    nothing = Outcome("abel", (), np.empty(0), np.empty(0), Cost(0, 0))
     try:
         found = wear_after(
             model, scene.load, np.array(cycles, dtype=float), rtol, deadline=deadline
         )
     except KeyboardInterrupt:
-        return _nothing(name, "interrupted", interrupted=True)
+        return nothing._replace(stopped="interrupted", interrupted=True)
     except (AccuracyError, ArithmeticError, ValueError) as fault:  # LinAlgError is a ValueError
-        return _nothing(name, f"the cycles could not be counted ({fault})", interrupted=False)
-    cost = {name: int(number) for name, number in found.cost._asdict().items()}
-    wear = Wear(name, cycles, found.u_c, found.error, cost, found.notices, None, False)
-    late = _worst(wear) > rtol and time.monotonic() > deadline
+        return nothing._replace(stopped=f"the cycles could not be counted ({fault})")
+    late = not np.all(found.error <= rtol) and time.monotonic() > deadline
     reached = np.isfinite(found.error if late else found.u_c)
-    if not late and reached.all():
-        return wear
-    return wear._replace(
-        cycles=tuple(cycle for cycle, told in zip(cycles, reached, strict=True) if told),
+    outcome = nothing._replace(
+        cycles=tuple(cycle for cycle, known in zip(cycles, reached, strict=True) if known),
         u=found.u_c[reached],
         error=found.error[reached],
-        stopped="the time limit has passed" if late else "the cycles beyond could not be counted",
-        interrupted=late,
+        cost=Cost(*map(int, found.cost)),
+        notices=found.notices,
     )
+    if late:
+        return outcome._replace(stopped="the time limit has passed", interrupted=True)
+    stopped = None if reached.all() else "the cycles beyond could not be counted"
+    return outcome._replace(stopped=stopped)
 
 
-def _nothing(name: str, stopped: str, interrupted: bool) -> Wear:
-    cost = {"cycles_integrated": 0, "rhs_evaluations": 0}
-    return Wear(name, (), np.empty(0), np.empty(0), cost, (), stopped, interrupted)
-
-
-def _collocation(
-    model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, name: str, deadline: float
-) -> Wear:
-    from wear.records import follow
-
-    assert isinstance(scene.load, HistoryLoad)
-    found = follow(model, scene.load, wanted, rtol, deadline)
-    cost = found.cost._asdict()
-    return Wear(
-        name, found.cycles, found.u, found.error, cost, (), found.stopped, found.interrupted
-    )
-
-
-def _direct(
-    model: Model,
-    scene: Scene,
-    wanted: tuple[int, ...],
-    rtol: float,
-    name: str,
-    deadline: float,
-    progress: Callable[[str], None],
-) -> Wear:
-    found = direct.integrate(model, scene.load, wanted, rtol, name, deadline, progress)
-    cost = {
-        "cycles_integrated": found.cycles_integrated,
-        "rhs_evaluations": found.rhs_evaluations,
-    }
-    notices: list[str] = []
-    if found.fades:
-        cycle = found.arrested_in
-        notices.append(f"wear approaches its limit; within rounding from cycle {cycle} on")
-    elif found.arrested_in is not None:
-        notices.append(f"wear stops for good in cycle {found.arrested_in}")
-    return Wear(
-        name,
-        found.cycles,
-        found.u,
-        found.error,
-        cost,
-        tuple(notices),
-        found.stopped,
-        found.interrupted,
-    )
-
-
-def _reached(wear: Wear) -> str:
+def _reached(wear: Outcome) -> str:
     last = f"cycle {wear.cycles[-1]}" if wear.cycles else "no requested cycle"
     return f"{wear.method}: {wear.stopped}; {last} was reached"
 
 
 def _history(
-    scene: Scene, model: Model, wanted: tuple[int, ...], wear: Wear, rtol: float, seconds: float
+    scene: Scene, model: Model, wanted: tuple[int, ...], wear: Outcome, rtol: float, seconds: float
 ) -> History:
     """All fields at the requested cycles that were reached, in the order of the request."""
     place = {cycle: at for at, cycle in enumerate(wear.cycles)}
@@ -323,7 +262,7 @@ def _history(
         operations=model.operations,
         method=wear.method,
         rtol=rtol,
-        cost=wear.cost,
+        cost=wear.cost._asdict(),
         seconds=seconds,
         notices=(
             *_repeated(wanted),

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.direct.cutoff import pressure_share, roundoff
-from wear.direct.sequence import span
 from wear.generated import reaction
 from wear.given_load import GivenLoad
-from wear.load import Blocks, HistoryLoad
+from wear.load import HistoryLoad
+from wear.load.spans import span
 
 if TYPE_CHECKING:
     from wear.model import Fields, Model
@@ -40,10 +40,10 @@ def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatA
 
 def _displacement(scene: Scene, cycle: int) -> tuple[float, float]:
     """U_a (mm) and dU_a/dt (mm/s) at the end of a cycle."""
-    if isinstance(scene.load, Blocks | HistoryLoad):
+    if isinstance(scene.load, HistoryLoad):
         at = scene.load.time_at(cycle)
         return float(scene.load.value(at)), float(scene.load.slope(at))
-    load = scene.periodic_load
+    load = span(scene.load, cycle).load
     return float(load(0.0)), float(load.slope(0.0)) / load.period
 
 

@@ -11,7 +11,7 @@ import sympy as sp
 
 from ..note.governing import Model
 from ..note.problems import given_load
-from ..rules.algebra import solve
+from ..rules.algebra import Solve
 from ..symbols import symbol, symbols
 from .formulas import Formula, formula_module
 
@@ -22,14 +22,14 @@ mu, distance = sp.symbols("mu distance", nonnegative=True)
 """The coefficient of friction and the way that the pin slides."""
 
 
-def module() -> str:
-    """Return the source of the generated module."""
-    force = solve(Model().reaction, symbol("R_a")).claim.rhs.subs(symbol("p"), pressure)
+def formulas() -> tuple[Formula, ...]:
+    """Return the formulas of the forces of the pin."""
+    force = Solve(symbol("R_a"))(Model().reaction).claim.rhs.subs(symbol("p"), pressure)
     carried = given_load().order[0].claim.rhs.subs(symbol("R_a"), given)
     width, length = symbols("b L")
     slid = Model().slip.claim.rhs * symbol("T")
     of_pressure = "derivative of the pressure with respect to"
-    formulas = (
+    return (
         Formula("reaction", (pressure,), force, "reaction force of the pin, in N"),
         Formula("pressure", (given,), carried, "contact pressure under a given reaction, in MPa"),
         Formula("by_force", (), sp.diff(carried, given), f"{of_pressure} the reaction"),
@@ -43,4 +43,8 @@ def module() -> str:
             "work of friction per area under a mean pressure, in mJ/mm^2",
         ),
     )
-    return formula_module("Forces of the pin.", ("7b", "problem-i"), formulas)
+
+
+def module() -> str:
+    """Return the source of the generated module."""
+    return formula_module("Forces of the pin.", ("7b", "problem-i"), formulas())

@@ -20,7 +20,7 @@ from ..equations import Status
 from ..hypotheses import Kind
 from ..laws import TANH, r
 from ..results import validity
-from ..rules.algebra import solve
+from ..rules.algebra import Solve
 from ..rules.proving import sign
 from ..symbols import symbols
 from ..typeset.present import presentable
@@ -112,7 +112,7 @@ def initial_state() -> Finding:
     model = Model()
     start = dict.fromkeys((u_a, u_c), 0)
     gap = model.closure.claim.rhs.subs(start) - h_0
-    gap = gap.subs(U_c, solve(model.support, U_c).claim.rhs)
+    gap = gap.subs(U_c, Solve(U_c)(model.support).claim.rhs)
     rigid = sp.limit(gap, k, sp.oo).subs(U_a, 0)
     evidence = f"(1), (2), (6) give h(0) - h_0 = {sp.expand(gap)} at t = 0"
     if is_zero(gap):
@@ -157,7 +157,7 @@ def stiff_limit() -> Finding:
 
 def deflection() -> Finding:
     """C15: p/k for k to infinity at bounded p."""
-    value = sp.limit(solve(Model().support, U_c).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
+    value = sp.limit(Solve(U_c)(Model().support).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
     verdict = Verdict.CONFIRMED if value == 0 else Verdict.REFUTED
     return Finding(verdict, f"U_c = p/k with 0 < p < p_max tends to {value}")
 

@@ -87,6 +87,7 @@ _TABLE = (
     ("C38", "5", "the lower K, the fewer cycles to stabilisation"),
     ("C39", "5, data", "h_0 = 3 sigma(0) = 0.0011 mm"),
     ("C40", "3, 5", "the data respect the condition f_c > 1/8 of a stabilised response"),
+    ("C41", "3, 4, 5, data", "p_max = 300 MPa on a bearing whose hardness is H_c = 200 MPa"),
 )
 
 CLAIMS = MappingProxyType({row[0]: Claim(*row) for row in _TABLE})

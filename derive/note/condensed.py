@@ -22,7 +22,7 @@ import sympy as sp
 from ..equations import Equation
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
-from ..rules.algebra import solve, substitute
+from ..rules.algebra import Solve, substitute
 from ..rules.calculus import rigid
 from ..symbols import initial, rate, symbols
 from ..typeset.display import as_written, minus
@@ -44,12 +44,12 @@ class Condensed:
     @cached_property
     def deflection(self) -> Judgement:
         """Eq. (7c)."""
-        return solve(self.model.support, U_c)
+        return Solve(U_c)(self.model.support)
 
     @cached_property
     def pressure_from_rate(self) -> Judgement:
         """Archard's law of the bearing, read as the pressure that a wear rate needs."""
-        return solve(self.model.wear_laws[2], p)
+        return Solve(p)(self.model.wear_laws[2])
 
     @cached_property
     def pressure_at_wear(self) -> Judgement:
@@ -79,7 +79,7 @@ class Condensed:
     @cached_property
     def rigid(self) -> Judgement:
         """Eq. (10): the limit of an infinitely stiff support."""
-        return rigid(self.scalar, "rigid support")
+        return rigid(self.scalar, name="rigid support")
 
     @cached_property
     def rigid_condensed(self) -> Judgement:

@@ -27,7 +27,7 @@ from ..equations import Equation
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
-from ..rules.algebra import insert, restrict, solve, substitute
+from ..rules.algebra import Insert, Solve, restrict, substitute
 from ..rules.assumption import assume, defined
 from ..rules.calculus import SPRINGS, integrate
 from ..symbols import initial, rate, symbols
@@ -100,7 +100,7 @@ class Model:
     @cached_property
     def reaction_force(self) -> Judgement:
         """Eq. (7b), the form in which the reaction follows from the pressure."""
-        return insert(sp.Eq(p * b * L, R_a), solve(self.reaction, R_a))
+        return Insert(sp.Eq(p * b * L, R_a))(Solve(R_a)(self.reaction))
 
     @cached_property
     def support(self) -> Judgement:
@@ -188,7 +188,7 @@ class Model:
             return assume(UNWORN_PIN)
         _, start_c, start_a, *_ = self.start
         u_a_rate, _, u_c_rate, _ = self.wear_laws
-        proportional = substitute(u_a_rate, solve(u_c_rate, p))
+        proportional = substitute(u_a_rate, Solve(p)(u_c_rate))
         return integrate(proportional, start_a, start_c).named("wear of the pin")
 
     @cached_property
@@ -210,7 +210,7 @@ class Model:
         combined = substitute(self.roughness, self.roughness_of_pin)
         if not self.pin.rough:
             rough = assume(ROUGH_BEARING)
-            combined = restrict(combined, rough, "a smooth pin leaves no square root")
+            combined = restrict(combined, rough, remark="a smooth pin leaves no square root")
         return substitute(combined, self.roughness_of_bearing)
 
     @cached_property
@@ -227,7 +227,7 @@ def equations(model: Model) -> tuple[Equation, ...]:
         closure = (sp.Eq(h, h_0 + (u_c + U_c) - (u_a + U_a)),)
         reaction = (sp.Eq(p * b * L - R_a, 0),)
         support = (sp.Eq(k * U_c - p, 0),)
-    deflection = solve(model.support, U_c)
+    deflection = Solve(U_c)(model.support)
     dropped = (
         "follows from (4) where contact is active; the note then uses it at every closure, "
         "which is a hypothesis of its own"

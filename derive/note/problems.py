@@ -22,7 +22,7 @@ from ..equations import Equation
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..results.first_integral import UNSATURATED, FirstIntegral
-from ..rules.algebra import discharge, solve
+from ..rules.algebra import Solve, discharge
 from ..rules.assumption import assume
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus
@@ -90,8 +90,8 @@ def given_load(model: Model | None = None) -> Problem:
     """Problem (i): the reaction R_a of the pin is given."""
     model = model or Model()
     carried = assume(CARRIED)
-    pressure = solve(model.reaction, p)
-    closure = solve(FirstIntegral(model.law).log_odds, h)
+    pressure = Solve(p)(model.reaction)
+    closure = Solve(h)(FirstIntegral(model.law).log_odds)
     u_a_rate, _, u_c_rate, _ = model.wear_laws
     order = (
         pressure,
@@ -102,7 +102,7 @@ def given_load(model: Model | None = None) -> Problem:
         model.roughness,
         Condensed(model).deflection,
         discharge(closure, UNSATURATED, pressure, carried),
-        solve(model.closure, U_a),
+        Solve(U_a)(model.closure),
     )
     return Problem("problem-i", "given load: the pressure is prescribed", R_a, order)
 
@@ -120,7 +120,7 @@ def given_motion(model: Model | None = None) -> Problem:
         condensed.pressure_from_rate,
         condensed.deflection,
         model.closure,
-        solve(model.reaction, R_a),
+        Solve(R_a)(model.reaction),
     )
     return Problem("problem-ii", "given displacement: the pressure is free", U_a, order)
 

@@ -33,16 +33,16 @@ from ..results.steady_state import (
     roughness,
     steady_state,
 )
-from ..rules.algebra import identity, insert, substitute
+from ..rules.algebra import Identity, Insert, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import MEAN, first_order, logarithmic_drift
 from ..rules.limits import (
-    at_infinity,
-    diverges,
+    AtInfinity,
+    Diverges,
+    Passes,
     forever,
     later,
     one_period_later,
-    passes,
     reciprocal,
 )
 from ..rules.reading import CONTINUOUS, PERIODIC
@@ -69,7 +69,7 @@ class Stabilised:
         """(11) as printed holds for every field, with G_inf = G."""
         choice = assume(Hypothesis("a choice of G_inf", sp.Eq(G_inf, G), kind=Kind.DEFINITION))
         claim = sp.Eq(forever(G - G_inf), 0)
-        return passes(claim, choice, name="every field satisfies (11)")
+        return Passes(claim)(choice, name="every field satisfies (11)")
 
     @cached_property
     def asymptotic_response(self) -> Judgement:
@@ -93,7 +93,7 @@ class Stabilised:
     def periodic_rate(self) -> Judgement:
         """(14): the rates of two cycles come together."""
         claim = sp.Eq(forever(later(rate("u_c")) - rate("u_c")), 0)
-        return passes(claim, self.steady.rate, name="the rate becomes periodic")
+        return Passes(claim)(self.steady.rate, name="the rate becomes periodic")
 
     @cached_property
     def passage(self) -> Judgement:
@@ -102,30 +102,30 @@ class Stabilised:
         right = p_max / 2 * (1 + sp.tanh(argument))
         value = p_max / 2 * (1 + sp.tanh(4 - 2 / f_c))
         sides = (
-            passes(sp.Eq(forever(left), value), self.steady.rate),
-            passes(sp.Eq(forever(right), value), self.steady.ratio),
+            Passes(sp.Eq(forever(left), value))(self.steady.rate),
+            Passes(sp.Eq(forever(right), value))(self.steady.ratio),
         )
         claim = sp.Eq(forever(left), forever(right))
-        return insert(claim, *sides, name="passage to the limit")
+        return Insert(claim)(*sides, name="passage to the limit")
 
     @cached_property
     def argument(self) -> Judgement:
         """(17), second line: the argument of tanh tends to 4 - 2/f_c."""
         claim = sp.Eq(forever(argument), 4 - 2 / f_c)
-        return passes(claim, self.steady.ratio, name="limit of the argument")
+        return Passes(claim)(self.steady.ratio, name="limit of the argument")
 
     @cached_property
     def arguments_meet(self) -> Judgement:
         """(15), second line."""
         claim = sp.Eq(forever(later(argument) - argument), 0)
-        return passes(claim, self.steady.ratio, name="the arguments come together")
+        return Passes(claim)(self.steady.ratio, name="the arguments come together")
 
     @cached_property
     def bracket(self) -> Judgement:
         """The bracket in (16), second line, does not depend on the wear."""
         claim = sp.Eq(bracket, 2 * (f_c * (h_0 - U_a) - sigma_c0))
         remark = "a constant for each load, zero only for one load: (16) as printed is false"
-        return identity(claim, name="bracket of (16)", remark=remark)
+        return Identity(claim)(name="bracket of (16)", remark=remark)
 
     @cached_property
     def difference(self) -> Judgement:
@@ -136,26 +136,26 @@ class Stabilised:
         worn = self.steady.worn
         facts = (self.steady.roughening, worn, one_period_later(worn))
         remark = "the product of two roughnesses tends to infinity and must not be dropped"
-        found = insert(claim, repeats, *facts)
+        found = Insert(claim)(repeats, *facts)
         return substitute(found, repeats, name="from (15) to (16)", remark=remark)
 
     @cached_property
     def bracket_over_roughness(self) -> Judgement:
         """(16), second line, with its denominators."""
         product = forever(bracket / (roughness * later(roughness)))
-        vanishing = passes(
-            sp.Eq(product, 0), self.steady.vanishing, reciprocal(self.steady.divergence)
+        vanishing = Passes(sp.Eq(product, 0))(
+            self.steady.vanishing, reciprocal(self.steady.divergence)
         )
         claim = sp.Eq(u_cum * product, 0)
-        return insert(claim, vanishing, name="(16) with its denominators")
+        return Insert(claim)(vanishing, name="(16) with its denominators")
 
     @cached_property
     def linear_approach(self) -> Judgement:
         """The distance of the rate from its limit, to first order in 1/t."""
         steady = self.steady
-        wear = diverges(u_c, steady.growth, steady.roughening)
+        wear = Diverges(u_c)(steady.growth, steady.roughening)
         claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
-        deviation = at_infinity(claim, wear, steady.roughening, steady.worn)
+        deviation = AtInfinity(claim, 1 / u_c)(wear, steady.roughening, steady.worn)
         parents = (steady.rate_at_wear, deviation, steady.ratio, steady.rate)
         return first_order(*parents, name="approach of the rate, first order")
 
@@ -186,7 +186,7 @@ class Stabilised:
 def named_limit(symbol: sp.Expr, limit: Judgement, name: str) -> Judgement:
     """Return the value of a symbol that is defined as a limit."""
     definition = defined(symbol, limit.claim.term)
-    return insert(sp.Eq(symbol, limit.claim.value), definition, limit, name=name)
+    return Insert(sp.Eq(symbol, limit.claim.value))(definition, limit, name=name)
 
 
 def drift(approach: Judgement) -> Judgement:

@@ -18,7 +18,7 @@ import sympy as sp
 from ..kernel import Judgement
 from ..note.condensed import Condensed
 from ..note.governing import Pin
-from ..rules.algebra import solve, substitute
+from ..rules.algebra import Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.calculus import RIGID
 from ..symbols import QUANTITIES, symbols
@@ -107,7 +107,7 @@ class Relations:
 
     def _wear_of_pin(self) -> Judgement:
         worn = self.variant.model.wear_of_pin
-        return substitute(worn, solve(_kappa(), K_a)) if self.variant.pin.wears else worn
+        return substitute(worn, Solve(K_a)(_kappa())) if self.variant.pin.wears else worn
 
     def _hoisted(self, expr: sp.Expr) -> sp.Expr:
         """Write a polynomial in the state with named constants for its coefficients."""

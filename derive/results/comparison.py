@@ -21,7 +21,7 @@ from ..equations import Equation
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..rules.assumption import assume
-from ..rules.inequalities import arithmetic
+from ..rules.inequalities import Arithmetic
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
 from .first_integral import UNSATURATED
@@ -44,14 +44,14 @@ class Comparison:
     def compliant(self) -> Judgement:
         """The load that a compliant support leaves lies between two rigid ones."""
         claim = sp.And(sp.Lt(U_a - p_max / k, U_a - p / k), sp.Lt(U_a - p / k, U_a))
-        return arithmetic(claim, assume(UNSATURATED), name="load and support")
+        return Arithmetic(claim)(assume(UNSATURATED), name="load and support")
 
     @cached_property
     def strip(self) -> Judgement:
         """1/(1 + e^z) is less than 1 in modulus while the cosine of Im z is positive."""
         claim = sp.Gt(1 + 2 * sp.exp(_a) * _cosine + sp.exp(2 * _a), 1)
         remark = "|1 + e^(a + i b)|^2 with c = cos b"
-        return arithmetic(claim, assume(SAME_SIDE), name="strip of analyticity", remark=remark)
+        return Arithmetic(claim)(assume(SAME_SIDE), name="strip of analyticity", remark=remark)
 
 
 def equations() -> tuple[Equation, ...]:

@@ -23,11 +23,11 @@ from ..kernel import Judgement, RuleError
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import bearing_only
 from ..note.stabilised import drift, named_limit
-from ..rules.algebra import insert, substitute
+from ..rules.algebra import Insert, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
-from ..rules.inequalities import arithmetic
-from ..rules.limits import at_infinity, diverges, forever, passes
+from ..rules.inequalities import Arithmetic
+from ..rules.limits import AtInfinity, Diverges, Passes, forever
 from ..symbols import rate, symbols
 from ..typeset.display import as_written
 from .first_integral import UNSATURATED
@@ -55,14 +55,14 @@ class CompliantSteadyState(SteadyState):
         parents = (model.pressure, model.closure, model.wear_of_pin, model.roughness_at_wear)
         claim = sp.Eq(p, p_max * self.law.ratio(closure / roughness))
         facts = (self.roughening, self.worn)
-        return self.rough(insert(claim, *parents, *facts, name="pressure at wear and deflection"))
+        return self.rough(Insert(claim)(*parents, *facts, name="pressure at wear and deflection"))
 
     @cached_property
     def rate_at_wear(self) -> Judgement:
         """The wear rate in terms of wear, load and deflection."""
         parents = (self.model.wear_laws[2], self.pressure_at_wear)
         claim = sp.Eq(rate("u_c"), K_c * V / (3 * H_c) * self.pressure_at_wear.claim.rhs)
-        return insert(claim, *parents, name="wear rate")
+        return Insert(claim)(*parents, name="wear rate")
 
     @cached_property
     def deflected(self) -> Judgement:
@@ -70,9 +70,9 @@ class CompliantSteadyState(SteadyState):
         claim = sp.And(sp.Gt(U_c, 0), sp.Lt(U_c, p_max / k))
         deflection = bearing_only(self.law).deflection
         try:
-            return arithmetic(claim, deflection, self.model.pressure)
+            return Arithmetic(claim)(deflection, self.model.pressure)
         except RuleError:
-            return arithmetic(claim, deflection, assume(UNSATURATED))
+            return Arithmetic(claim)(deflection, assume(UNSATURATED))
 
     @property
     def facts(self) -> tuple[Judgement, ...]:
@@ -83,26 +83,26 @@ class CompliantSteadyState(SteadyState):
     def pressure(self) -> Judgement:
         """The pressure tends to p_max phi(1/f_c), whatever the stiffness."""
         claim = sp.Eq(forever(p), p_max * self.law.ratio(1 / f_c))
-        return passes(claim, self.pressure_at_wear, self.ratio, name="steady pressure")
+        return Passes(claim)(self.pressure_at_wear, self.ratio, name="steady pressure")
 
     @cached_property
     def drift(self) -> Judgement:
         """The coefficient of ln t, in terms of the deflection under the steady pressure."""
-        wear = diverges(u_c, self.growth, self.roughening)
+        wear = Diverges(u_c)(self.growth, self.roughening)
         claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
-        deviation = at_infinity(claim, wear, *self.facts)
+        deviation = AtInfinity(claim, 1 / u_c)(wear, *self.facts)
         near = first_order(self.rate_at_wear, deviation, self.ratio, self.rate, self.deflected)
-        settled = passes(
-            sp.Eq(forever(U_c), p_inf / k), bearing_only(self.law).deflection, self.steady
+        settled = Passes(sp.Eq(forever(U_c), p_inf / k))(
+            bearing_only(self.law).deflection, self.steady
         )
         at_rest = near.claim.expr.subs(U_c, p_inf / k)
-        return drift(passes(sp.Eq(forever(at_rest), 0), near, settled))
+        return drift(Passes(sp.Eq(forever(at_rest), 0))(near, settled))
 
     @cached_property
     def steady(self) -> Judgement:
         """p tends to p_inf, by the definition of that name."""
         named = named_limit(p_inf, self.pressure, "asymptotic pressure")
-        return substitute(self.pressure, insert(sp.Eq(self.pressure.claim.value, p_inf), named))
+        return substitute(self.pressure, Insert(sp.Eq(self.pressure.claim.value, p_inf))(named))
 
 
 def drift_coefficient(law: ContactLaw) -> Judgement:
@@ -111,7 +111,7 @@ def drift_coefficient(law: ContactLaw) -> Judgement:
     decline = -sp.diff(law.phi, r).subs(r, 1 / f_c) / law.ratio(1 / f_c)
     claim = sp.Eq(A, decline * (sigma_c0 / f_c - h_0 + U_mean - p_inf / k) / f_c)
     definition = defined(A, steady.drift.claim.term)
-    return insert(claim, definition, steady.drift, name="drift")
+    return Insert(claim)(definition, steady.drift, name="drift")
 
 
 def equations() -> tuple[Equation, ...]:

@@ -40,10 +40,10 @@ from ..laws import TANH, ContactLaw
 from ..note.condensed import bearing_only
 from ..note.governing import ROUGH_BEARING, Model
 from ..note.stabilised import named_limit
-from ..rules.algebra import alike, consequence, discharge, identity, insert, solve, substitute
+from ..rules.algebra import Alike, Consequence, Identity, Insert, Solve, discharge, substitute
 from ..rules.assumption import assume
 from ..rules.calculus import DIFFERENTIABLE, RIGID, differentiate
-from ..rules.inequalities import arithmetic, monotone
+from ..rules.inequalities import Arithmetic, Monotone
 from ..rules.limits import intermittent
 from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols, t
@@ -79,7 +79,7 @@ class Cutoff:
         room = 3 * sigma_c0 - h_0 + U_a
         active = sp.Le(closure, 3 * roughness)
         claim = sp.Equivalent(active, sp.Le((1 - 3 * f_c) * u_c, room))
-        return alike(claim, name="contact condition")
+        return Alike(claim)(name="contact condition")
 
     @cached_property
     def arrest_depth(self) -> Judgement:
@@ -88,13 +88,13 @@ class Cutoff:
         meaning = _defined("no margin at the peak of the load", at_peak)
         smoothing = assume(SMOOTHING)
         claim = sp.Eq(u_stop, (3 * sigma_c0 - h_0 + U_max) / (1 - 3 * f_c))
-        return insert(claim, solve(meaning, u_stop, smoothing), smoothing, name="arrest depth")
+        return Insert(claim)(Solve(u_stop)(meaning, smoothing), smoothing, name="arrest depth")
 
     @cached_property
     def no_contact(self) -> Judgement:
         """Beyond the arrest depth the margin is negative at every load."""
         claim = sp.Eq(margin, (1 - 3 * f_c) * (u_stop - u_c) - (U_max - U_a))
-        return insert(claim, self.arrest_depth, name="margin and arrest depth")
+        return Insert(claim)(self.arrest_depth, name="margin and arrest depth")
 
     @cached_property
     def geometry(self) -> tuple[Judgement, ...]:
@@ -110,31 +110,31 @@ class Cutoff:
         pressure = substitute(model.pressure_in_contact, closed, rough)
         contact_rate = substitute(model.wear_laws[2], pressure)
         ratio = sp.Le(closure / roughness, 3)
-        edge = arithmetic(ratio, assume(model.in_contact), closed, rough)
-        bound = monotone(wear_rate(self.law), edge)
+        edge = Arithmetic(ratio)(assume(model.in_contact), closed, rough)
+        bound = Monotone(wear_rate(self.law))(edge)
         claim = sp.Le(bound.claim.lesser, rate("u_c"))
-        return consequence(claim, bound, contact_rate, name="rate in contact")
+        return Consequence(claim)(bound, contact_rate, name="rate in contact")
 
     @cached_property
     def sliding(self) -> Judgement:
         """While h = 3 sigma is kept, wear follows the load."""
         kept = assume(Hypothesis("h = 3 sigma is kept", sp.Eq(margin, 0), kind=Kind.STATE))
         smoothing = assume(SMOOTHING)
-        solved = solve(differentiate(kept, assume(DIFFERENTIABLE)), rate("u_c"), smoothing)
+        solved = Solve(rate("u_c"))(differentiate(kept, assume(DIFFERENTIABLE)), smoothing)
         claim = sp.Eq(rate("u_c"), rate("U_a") / (1 - 3 * f_c))
-        return insert(claim, solved, smoothing, name="sliding rate")
+        return Insert(claim)(solved, smoothing, name="sliding rate")
 
     @cached_property
     def margin_rate(self) -> Judgement:
         """How the margin changes: wear lowers it, a rising load raises it."""
         claim = sp.Eq(sp.diff(margin, t), rate("U_a") - (1 - 3 * f_c) * rate("u_c"))
-        return identity(claim, name="rate of the margin")
+        return Identity(claim)(name="rate of the margin")
 
     @cached_property
     def in_wear(self) -> Judgement:
         """The margin is linear in the wear, and for f_c = 1/3 independent of it."""
         claim = sp.Eq(margin, 3 * sigma_c0 - h_0 + U_a + (3 * f_c - 1) * u_c)
-        return identity(claim, name="margin and wear")
+        return Identity(claim)(name="margin and wear")
 
     @cached_property
     def per_cycle(self) -> Judgement:
@@ -149,7 +149,7 @@ class Cutoff:
         load = (assume(PERIODIC), assume(CONTINUOUS), assume(BOUNDED_LOAD))
         limit = intermittent(law, part, worn(model), *load)
         claim = sp.Eq(u_cum, d * K_c * V * T * p_max * self.law.ratio(sp.Integer(3)) / (3 * H_c))
-        return insert(claim, named_limit(u_cum, limit, ""), name="wear per cycle for f_c = 1/3")
+        return Insert(claim)(named_limit(u_cum, limit, ""), name="wear per cycle for f_c = 1/3")
 
     @cached_property
     def permanent(self) -> Judgement:
@@ -158,13 +158,13 @@ class Cutoff:
         meaning = _defined("no margin at the lowest load", at_lowest)
         rougher = assume(ROUGHER)
         claim = sp.Eq(u_perm, (h_0 - 3 * sigma_c0 - U_min) / (3 * f_c - 1))
-        return insert(claim, solve(meaning, u_perm, rougher), rougher, name="permanent contact")
+        return Insert(claim)(Solve(u_perm)(meaning, rougher), rougher, name="permanent contact")
 
     @cached_property
     def always_contact(self) -> Judgement:
         """Beyond that depth the margin is positive at every load."""
         claim = sp.Eq(margin, (3 * f_c - 1) * (u_c - u_perm) + (U_a - U_min))
-        return insert(claim, self.permanent, name="margin and permanent contact")
+        return Insert(claim)(self.permanent, name="margin and permanent contact")
 
     @cached_property
     def at_edge(self) -> Judgement:
@@ -175,7 +175,7 @@ class Cutoff:
         """
         undeflected = h - p / k
         claim = sp.Equivalent(sp.Le(p, k * (3 * sigma - undeflected)), sp.Le(k * h, 3 * k * sigma))
-        return alike(claim, name="edge of contact, compliant support")
+        return Alike(claim)(name="edge of contact, compliant support")
 
 
 def _defined(text: str, relation: sp.Basic) -> Judgement:

@@ -24,9 +24,9 @@ from ..claims import FirstZero
 from ..equations import Equation
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
-from ..rules.algebra import identity, insert
+from ..rules.algebra import Identity, Insert
 from ..rules.assumption import assume, defined
-from ..rules.solutions import first_root
+from ..rules.solutions import FirstRoot
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
 
@@ -60,7 +60,7 @@ class CutoffTwoSolids:
         """The second derivative of the margin."""
         second = sp.diff(margin, u_stop, 2)
         claim = sp.Eq(second, 3 * (q**2 * (sigma_a0**2 + sigma_c0**2) - p_1**2) / sigma_stop**3)
-        return identity(claim, assume(POSSIBLE), name="curvature of the margin")
+        return Identity(claim)(assume(POSSIBLE), name="curvature of the margin")
 
     @cached_property
     def arrest_depth(self) -> Judgement:
@@ -70,9 +70,9 @@ class CutoffTwoSolids:
         meaning = defined(u_stop, FirstZero(at_peak, wear), "first wear without margin at the peak")
         facts = tuple(map(assume, (STARTS, LOST, POSSIBLE, OPENING)))
         other = 6 * sigma_stop.subs(u_stop, wear) - at_peak
-        found = first_root(other, meaning, *facts)
+        found = FirstRoot(other)(meaning, *facts)
         claim = sp.Eq(u_stop, _product / (sp.sqrt(discriminant) - _half))
-        return insert(claim, found, *facts, name="arrest depth")
+        return Insert(claim)(found, *facts, name="arrest depth")
 
 
 def equations() -> tuple[Equation, ...]:

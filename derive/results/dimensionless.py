@@ -23,10 +23,10 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note import condensed
 from ..note.condensed import bearing_only
-from ..rules.algebra import consequence, multiply
+from ..rules.algebra import Consequence, Multiply
 from ..rules.assumption import assume, defined
 from ..rules.calculus import change_clock
-from ..rules.inequalities import arithmetic
+from ..rules.inequalities import Arithmetic
 from ..symbols import symbols, t
 from ..typeset.display import as_written, over
 
@@ -81,8 +81,8 @@ def _scaled(
     definitions = tuple(DEFINITIONS[group] for group in groups if group in DEFINITIONS)
     clock = change_clock(SCALES[0], CLOCK)
     factor, pace = (1 / p_max, ()) if claim.lhs == q else (T / sigma_c0, (clock,))
-    first = multiply(parent, factor)
-    return consequence(claim, first, *pace, *SCALES, *definitions, rough, name="scaled")
+    first = Multiply(factor)(parent)
+    return Consequence(claim)(first, *pace, *SCALES, *definitions, rough, name="scaled")
 
 
 def _rate(closure: sp.Expr, roughness: sp.Expr) -> sp.Basic:
@@ -121,9 +121,8 @@ def two_solids() -> Judgement:
     problem = condensed.two_solids()
     grown = problem.model.roughness_at_wear
     squares = (zeta + f_a * (kappa * v)) ** 2 + (1 + f_c * v) ** 2
-    rough = consequence(
-        sp.Gt(sigma_c0**2 * squares, 0),
-        arithmetic(sp.Gt(grown.claim.rhs**2, 0), grown),
+    rough = Consequence(sp.Gt(sigma_c0**2 * squares, 0))(
+        Arithmetic(sp.Gt(grown.claim.rhs**2, 0))(grown),
         problem.model.wear_of_pin,
         *(SCALES[0], DEFINITIONS[zeta], DEFINITIONS[kappa]),
     )

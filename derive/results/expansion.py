@@ -25,7 +25,7 @@ from ..equations import Equation
 from ..kernel import Judgement
 from ..note.stabilised import Stabilised, drift_and_wear
 from ..rules.assumption import assume, defined
-from ..rules.averages import EXPANSION, OFFSET, SATURATION, averaging, slow_time, term_of
+from ..rules.averages import EXPANSION, OFFSET, SATURATION, Averaging, SlowTime, term_of
 from ..rules.limits import forever
 from ..rules.reading import SINE
 from ..symbols import symbol, symbols, t
@@ -45,7 +45,7 @@ growth = defined(rho, f_c * u_cum)
 
 
 def _drifts() -> dict[int, sp.Expr]:
-    """Return c_1 to c_4, as an author writes them; ``averaging`` proves them."""
+    """Return c_1 to c_4, as an author writes them; ``Averaging`` proves them."""
     rest = 1 - theta
     third = (3 * theta**2 - 1) * (3 * U**2 + 2 * b_0**2)
     fourth = (3 * theta**2 - 2) * sp.Add(3 * U**4, 24 * U**2 * b_0**2, 8 * b_0**4)
@@ -61,7 +61,7 @@ def _drifts() -> dict[int, sp.Expr]:
 
 
 def _oscillations() -> dict[int, sp.Expr]:
-    """Return w_1 and w_2, as an author writes them; ``averaging`` proves them."""
+    """Return w_1 and w_2, as an author writes them; ``Averaging`` proves them."""
     rest, angle = 1 - theta, 2 * sp.pi * tau
     waves = sp.Add(
         sp.pi * U * theta * sp.sin(4 * sp.pi * tau),
@@ -103,14 +103,14 @@ class Expansion:
         term = term_of(kind, n, pressure.claim.rhs)
         name = defined(claim.lhs, term, f"{claim.lhs} by definition, in {MEANING}")
         meaning = (assume(SINE), name, offset, saturation)
-        return averaging(claim, pressure, *meaning, name="term of the expansion")
+        return Averaging(claim)(pressure, *meaning, name="term of the expansion")
 
     @cached_property
     def slow_time(self) -> Judgement:
         """The number of cycles as a function of the averaged roughness."""
         drifts = tuple(self.drift(n) for n in (1, 2, 3, 4))
         claim = sp.Eq(rho * tau + s_0, _slow_time())
-        return slow_time(claim, *drifts, assume(EXPANSION), name="slow time")
+        return SlowTime(claim)(*drifts, assume(EXPANSION), name="slow time")
 
 
 def equations() -> tuple[Equation, ...]:

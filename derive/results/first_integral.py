@@ -26,7 +26,7 @@ from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
 from ..note.condensed import bearing_only
 from ..note.governing import Model
-from ..rules.algebra import insert, logarithm, solve
+from ..rules.algebra import Insert, Logarithm, Solve
 from ..rules.assumption import assume
 from ..rules.calculus import RIGID
 from ..symbols import symbols
@@ -58,14 +58,14 @@ class FirstIntegral:
         model = self.model
         parents = (model.closure, model.roughness_at_wear, model.wear_of_pin)
         claim = sp.Eq(h + U_a - U_c - sigma / f_c, h_0 - sigma_c0 / f_c)
-        return insert(claim, *parents, assume(SLOPED), name="line of closure")
+        return Insert(claim)(*parents, assume(SLOPED), name="line of closure")
 
     @cached_property
     def log_odds(self) -> Judgement:
         """Eq. (4) solved for the closure."""
         claim = sp.Eq(sp.log(p / (p_max - p)), 8 - 4 * h / sigma)
         parents = (self.model.pressure, assume(UNSATURATED))
-        return logarithm(claim, *parents, name="log-odds of pressure")
+        return Logarithm(claim)(*parents, name="log-odds of pressure")
 
     @cached_property
     def compliant(self) -> Judgement:
@@ -79,10 +79,10 @@ class FirstIntegral:
         return self._from(assume(RIGID), sp.S.Zero).named("first integral")
 
     def _from(self, deflection: Judgement, depth: sp.Expr) -> Judgement:
-        parents = (self.log_odds, solve(self.line, h), deflection)
+        parents = (self.log_odds, Solve(h)(self.line), deflection)
         bracket = sp.log(p / (p_max - p)) - (8 - 4 / f_c)
         claim = sp.Eq(sigma * bracket + 4 * depth - 4 * U_a, 4 * (sigma_c0 / f_c - h_0))
-        return insert(claim, *parents)
+        return Insert(claim)(*parents)
 
 
 def equations() -> tuple[Equation, ...]:

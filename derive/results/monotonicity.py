@@ -24,7 +24,7 @@ from ..laws import TANH, ContactLaw
 from ..note.condensed import bearing_only
 from ..note.governing import ROUGH_BEARING
 from ..rules.assumption import assume
-from ..rules.data import one_sign
+from ..rules.data import OneSign
 from ..symbols import symbols
 from .steady_state import worn
 
@@ -51,7 +51,7 @@ def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgem
     facts = [problem.model.roughness_of_bearing, assume(ROUGH_BEARING)]
     if datum in WHILE_APART if apart is None else apart:
         facts += [assume(APART), worn(problem.model)]
-    return one_sign(problem.rigid, datum, *facts, name=f"effect of {datum}")
+    return OneSign(datum)(problem.rigid, *facts, name=f"effect of {datum}")
 
 
 def equations() -> tuple[Equation, ...]:

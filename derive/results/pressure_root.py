@@ -29,9 +29,9 @@ from ..equations import Equation
 from ..kernel import Judgement, infer
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import two_solids
-from ..rules.algebra import identity, substitute
+from ..rules.algebra import Identity, substitute
 from ..rules.assumption import assume
-from ..rules.inequalities import Lipschitz, arithmetic
+from ..rules.inequalities import Arithmetic, Lipschitz
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
 from ..typeset.present import presentable
@@ -72,9 +72,9 @@ class PressureRoot:
         slope = sp.diff(self.residual(trial), trial).subs(trial, p)
         remark = "a continuous, increasing function that changes sign has exactly one root"
         return (
-            arithmetic(sp.Lt(self.residual(sp.S.Zero), 0), self.equation),
-            arithmetic(sp.Gt(self.residual(p_max), 0), self.equation),
-            arithmetic(sp.Gt(slope, 0), self.equation, name="one root", remark=remark),
+            Arithmetic(sp.Lt(self.residual(sp.S.Zero), 0))(self.equation),
+            Arithmetic(sp.Gt(self.residual(p_max), 0))(self.equation),
+            Arithmetic(sp.Gt(slope, 0))(self.equation, name="one root", remark=remark),
         )
 
     @cached_property
@@ -89,7 +89,7 @@ class PressureRoot:
     def error_bound(self) -> Judgement:
         """That distance is below p_max^2/(k sigma), which tends to 0 for k -> oo."""
         claim = sp.Le(p_max * p / (k * sigma), p_max**2 / (k * sigma))
-        return arithmetic(claim, assume(UNSATURATED), name="bound of the softening")
+        return Arithmetic(claim)(assume(UNSATURATED), name="bound of the softening")
 
 
 def newton(law: ContactLaw) -> tuple[Judgement, Judgement]:
@@ -104,11 +104,9 @@ def newton(law: ContactLaw) -> tuple[Judgement, Judgement]:
     distance = y - end - (y - law.ratio(a + s * y)) / steepness
     remark = "a curve lies on one side of its tangents where it is curved one way"
     return (
-        identity(sp.Eq(end, summed), name="step of Newton's iteration"),
-        identity(
-            sp.Eq(distance, (law.ratio(a + s * y) - tangent) / steepness),
-            name="distance from the root",
-            remark=remark,
+        Identity(sp.Eq(end, summed))(name="step of Newton's iteration"),
+        Identity(sp.Eq(distance, (law.ratio(a + s * y) - tangent) / steepness))(
+            name="distance from the root", remark=remark
         ),
     )
 
@@ -117,8 +115,8 @@ def curvature() -> tuple[Judgement, Judgement]:
     """The note's law is convex where h > 2 sigma, and concave where h < 2 sigma."""
     bend = sp.diff(TANH.phi, r, 2)
     return (
-        arithmetic(sp.Ge(bend.subs(r, TANH.inflection + x), 0), name="convex"),
-        arithmetic(sp.Le(bend.subs(r, TANH.inflection - x), 0), name="concave"),
+        Arithmetic(sp.Ge(bend.subs(r, TANH.inflection + x), 0))(name="convex"),
+        Arithmetic(sp.Le(bend.subs(r, TANH.inflection - x), 0))(name="concave"),
     )
 
 

@@ -27,11 +27,11 @@ from ..kernel import Judgement
 from ..laws import TANH
 from ..note.condensed import bearing_only
 from ..note.governing import ROUGH_BEARING
-from ..rules.algebra import consequence, discharge, solve, substitute
+from ..rules.algebra import Consequence, Solve, discharge, substitute
 from ..rules.assumption import assume, defined
-from ..rules.drift import last_cycles, logarithmic_growth
-from ..rules.inequalities import arithmetic, monotone
-from ..rules.limits import at_infinity, forever, unbounded
+from ..rules.drift import LastCycles, LogarithmicGrowth
+from ..rules.inequalities import Arithmetic, Monotone
+from ..rules.limits import AtInfinity, forever, unbounded
 from ..rules.reading import CONSTANT, SINE
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus
@@ -73,9 +73,9 @@ class Regimes:
     @cached_property
     def tail(self) -> Judgement:
         """The rate is below its exponential tail."""
-        bound = arithmetic(sp.Lt(self.rate.claim.rhs, self.tail_rate), *self.rough)
+        bound = Arithmetic(sp.Lt(self.rate.claim.rhs, self.tail_rate))(*self.rough)
         claim = sp.Lt(rate("u_c"), self.tail_rate)
-        return consequence(claim, bound, self.rate, name="tail of the rate")
+        return Consequence(claim)(bound, self.rate, name="tail of the rate")
 
     @cached_property
     def kept(self) -> Judgement:
@@ -88,17 +88,17 @@ class Regimes:
     def logarithmic(self) -> Judgement:
         """Wear for f_c = 0 after N cycles of a sine load: the tail adds up to a logarithm."""
         scale, sine = sigma_c0 / 4, assume(SINE)
-        bounded = arithmetic(sp.Le(sp.Abs(U_a), U), sine)
+        bounded = Arithmetic(sp.Le(sp.Abs(U_a), U))(sine)
         deep = unbounded(self.kept, bounded, name="growth")
         grown, tail = sp.exp((u_c - U_a) / scale), self.tail_rate.subs(f_c, 0)
         level = tail * grown / (1 + tail * 3 * H_c / (K_c * V * p_max))
         value = K_c * V * p_max / (3 * H_c) * sp.exp(8 - 4 * h_0 / sigma_c0)
         fading = sp.exp(-u_c / scale)
-        faded = at_infinity(sp.Eq(forever(level), value), deep, bounded, small=fading)
+        faded = AtInfinity(sp.Eq(forever(level), value), fading)(deep, bounded)
         claim = sp.Eq(forever(rate("u_c") * grown), value)
-        approach = consequence(claim, faded, self.kept)
-        worn = logarithmic_growth(scale, approach, sine)
-        return substitute(worn, solve(largest_wear, K_c), name="logarithmic wear")
+        approach = Consequence(claim)(faded, self.kept)
+        worn = LogarithmicGrowth(scale)(approach, sine)
+        return substitute(worn, Solve(K_c)(largest_wear), name="logarithmic wear")
 
     @cached_property
     def saturating(self) -> Judgement:
@@ -110,16 +110,16 @@ class Regimes:
         gap = defined(h_star, h_0 - sigma_c0 / f_c - U_a, meaning, assume(CONSTANT))
         cycles = defined(N, t / T, "number of cycles")
         facts = (largest_wear, assume(SMOOTHING), assume(CONSTANT), rough)
-        return last_cycles(claim, self.rate, grown, cycles, gap, *facts, name="saturating wear")
+        return LastCycles(claim)(self.rate, grown, cycles, gap, *facts, name="saturating wear")
 
     @cached_property
     def finite(self) -> Judgement:
         """While the load closes the gap, the rate stays above a positive constant."""
         facts = (assume(OVERLAP), assume(SMOOTHING), *self.rough)
-        ratio = arithmetic(sp.Le(closure / roughness, 1 / f_c), *facts)
-        bound = monotone(wear_rate(TANH), ratio)
+        ratio = Arithmetic(sp.Le(closure / roughness, 1 / f_c))(*facts)
+        bound = Monotone(wear_rate(TANH))(ratio)
         claim = sp.Le(bound.claim.lesser, rate("u_c"))
-        return consequence(claim, bound, self.rate, name="rate while the gap is closed")
+        return Consequence(claim)(bound, self.rate, name="rate while the gap is closed")
 
 
 def equations() -> tuple[Equation, ...]:

@@ -22,10 +22,10 @@ from ..equations import Equation
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.stabilised import Stabilised, named_limit
-from ..rules.algebra import insert, logarithm, substitute
+from ..rules.algebra import Insert, Logarithm, substitute
 from ..rules.assumption import assume
 from ..rules.calculus import RIGID
-from ..rules.data import differentiated
+from ..rules.data import Differentiated
 from ..symbols import symbols
 from ..typeset.display import as_written, over
 from .compliant import CompliantSteadyState
@@ -76,21 +76,21 @@ def _differentiated(
 ) -> Judgement:
     claim = sp.Eq(left, right, evaluate=False)
     names = [name for s, name in ((p_inf, pressure), (M, largest_wear)) if right.has(s)]
-    return differentiated(claim, parameter, result, *names, name="sensitivity")
+    return Differentiated(claim, parameter)(result, *names, name="sensitivity")
 
 
 def slope_from_wear() -> Judgement:
     """f_c from the asymptotic wear per cycle."""
     odds = sp.log(M / u_cum - 1)
-    known = logarithm(sp.Eq(odds, 4 / f_c - 8), wear_per_cycle, largest_wear)
+    known = Logarithm(sp.Eq(odds, 4 / f_c - 8))(wear_per_cycle, largest_wear)
     claim = sp.Eq(f_c, 4 / (8 + odds))
-    return insert(claim, known, assume(ROUGHENING), name="f_c from wear per cycle")
+    return Insert(claim)(known, assume(ROUGHENING), name="f_c from wear per cycle")
 
 
 def coefficient_from_wear() -> Judgement:
     """K_c from the asymptotic wear per cycle."""
     claim = sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * (1 + sp.exp(4 / f_c - 8)))
-    return insert(claim, wear_per_cycle, name="K_c from wear per cycle")
+    return Insert(claim)(wear_per_cycle, name="K_c from wear per cycle")
 
 
 def slope_from_rate() -> Judgement:
@@ -102,7 +102,7 @@ def slope_from_rate() -> Judgement:
     closure = substitute(model.closure, model.wear_of_pin, assume(RIGID))
     facts = (assume(WORN), assume(OPEN_GAP))
     parents = (integral.log_odds, closure, model.roughness_at_wear, *facts)
-    return insert(claim, *parents, name="f_c from a pressure")
+    return Insert(claim)(*parents, name="f_c from a pressure")
 
 
 def equations() -> tuple[Equation, ...]:

@@ -24,10 +24,10 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..note.governing import Model
-from ..rules.algebra import insert, solve, substitute
+from ..rules.algebra import Insert, Solve, substitute
 from ..rules.assumption import assume
 from ..rules.reading import CONSTANT
-from ..rules.solutions import parametric
+from ..rules.solutions import Parametric
 from ..symbols import initial, symbols, t
 from ..typeset.display import as_written, over
 from .first_integral import SLOPED, UNSATURATED, FirstIntegral
@@ -62,10 +62,10 @@ class StaticCompliant:
     def wear(self) -> Judgement:
         """The wear at a pressure."""
         off, sloped = assume(OFF_LIMIT), assume(SLOPED)
-        roughness = solve(FirstIntegral().compliant, sigma, off)
-        grown = solve(self.model.roughness_at_wear, u_c, sloped)
+        roughness = Solve(sigma)(FirstIntegral().compliant, off)
+        grown = Solve(u_c)(self.model.roughness_at_wear, sloped)
         parents = (grown, roughness, load_offset, off, sloped)
-        return insert(sp.Eq(u_c, _worn(p)), *parents, name="wear at a pressure")
+        return Insert(sp.Eq(u_c, _worn(p)))(*parents, name="wear at a pressure")
 
     @cached_property
     def time(self) -> Judgement:
@@ -78,10 +78,10 @@ class StaticCompliant:
         """The wear at a pressure, for f_c = 0."""
         model = self.model
         smooth = substitute(model.roughness_at_wear, assume(KEPT))
-        closed = solve(FirstIntegral().log_odds, h)
-        opened = solve(substitute(model.closure, model.wear_of_pin), u_c)
+        closed = Solve(h)(FirstIntegral().log_odds)
+        opened = Solve(u_c)(substitute(model.closure, model.wear_of_pin))
         parents = (opened, closed, bearing_only().deflection, smooth)
-        return insert(sp.Eq(u_c, _worn_smooth()), *parents, name="wear, f_c = 0")
+        return Insert(sp.Eq(u_c, _worn_smooth()))(*parents, name="wear, f_c = 0")
 
     @cached_property
     def time_smooth(self) -> Judgement:
@@ -93,7 +93,7 @@ class StaticCompliant:
         law, start = self.model.wear_laws[2], self.model.start[1]
         claim = sp.Eq(t, travelled / (2 * C))
         parents = (law, wear, start, half_rate, assume(CONSTANT), *facts)
-        return parametric(claim, p, *parents, name="time")
+        return Parametric(claim, p)(*parents, name="time")
 
 
 def _worn(at: sp.Expr) -> sp.Expr:

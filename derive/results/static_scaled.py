@@ -19,7 +19,7 @@ from ..codegen.formulas import Formula, formula_module
 from ..equations import Equation
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
-from ..rules.algebra import insert, inserted, substitute
+from ..rules.algebra import Insert, inserted, substitute
 from ..rules.assumption import assume, defined
 from ..symbols import symbols
 from ..typeset.display import as_written
@@ -49,7 +49,7 @@ def _remainder() -> sp.Expr:
 def scaled_primitive() -> Judgement:
     """The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow."""
     claim = sp.Eq(sp.exp(-2 * x_inf) * excess(sigma), sigma * sp.exp(E) * _remainder())
-    return insert(claim, exponent, argument, assume(MOVING), name="scaled primitive")
+    return Insert(claim)(exponent, argument, assume(MOVING), name="scaled primitive")
 
 
 def _of_numbers(expr: sp.Expr) -> sp.Expr:

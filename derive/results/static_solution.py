@@ -27,7 +27,7 @@ from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.assumption import assume, defined
 from ..rules.reading import CONSTANT
-from ..rules.solutions import inverted, solution
+from ..rules.solutions import Inverted, Solution
 from ..symbols import symbols, t
 from ..typeset.display import as_written, over
 from .first_integral import SLOPED
@@ -68,7 +68,7 @@ class StaticSolution:
         names = (half_rate, load_offset, limit_argument)
         facts = (assume(CONSTANT), assume(SLOPED), assume(MOVING), *Regimes().rough)
         parents = (bearing_only().rigid, self.start, *names, *facts)
-        return solution(sp.Eq(t, (u_c / 2 + gap) / C), *parents, name="static solution")
+        return Solution(sp.Eq(t, (u_c / 2 + gap) / C))(*parents, name="static solution")
 
     @cached_property
     def time_smooth(self) -> Judgement:
@@ -76,12 +76,12 @@ class StaticSolution:
         gap = sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8)
         claim = sp.Eq(t, (u_c / 2 + gap * (sp.exp(4 * u_c / sigma_c0) - 1)) / C)
         parents = (Regimes().kept, self.start, half_rate, assume(CONSTANT))
-        return solution(claim, *parents, name="static solution, f_c = 0")
+        return Solution(claim)(*parents, name="static solution, f_c = 0")
 
     @cached_property
     def wear_smooth(self) -> Judgement:
         """The wear at a time, for f_c = 0."""
-        return inverted(sp.Eq(u_c, _inverse()), self.time_smooth, "wear at a time, f_c = 0")
+        return Inverted(sp.Eq(u_c, _inverse()))(self.time_smooth, name="wear at a time, f_c = 0")
 
 
 def _inverse() -> sp.Expr:

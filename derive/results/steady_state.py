@@ -32,11 +32,11 @@ from ..kernel import Judgement, infer
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note import condensed
 from ..note.governing import ROUGH_BEARING, Model
-from ..rules.algebra import consequence, discharge, identity
+from ..rules.algebra import Consequence, Identity, discharge
 from ..rules.assumption import assume
 from ..rules.calculus import grows, rigid
-from ..rules.inequalities import LogarithmicSlope, arithmetic, monotone
-from ..rules.limits import accumulates, diverges, forever, passes, vanishes
+from ..rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
+from ..rules.limits import Diverges, Passes, accumulates, forever, vanishes
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written
 
@@ -59,8 +59,8 @@ with as_written():
 
 def worn(model: Model) -> Judgement:
     """Return that the wear of the bearing never falls below zero: its rate is positive."""
-    positive = arithmetic(sp.Ge(rate("u_c"), 0), model.wear_laws[2])
-    return grows(positive, model.start[1], "wear increases")
+    positive = Arithmetic(sp.Ge(rate("u_c"), 0))(model.wear_laws[2])
+    return grows(positive, model.start[1], name="wear increases")
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class SteadyState:
     def deviation(self) -> Judgement:
         """h/sigma differs from 1/f_c by b/sigma, exactly."""
         claim = sp.Eq(self.closure / roughness, 1 / f_c - self.excess / roughness)
-        return identity(claim, self.roughening, self.worn, name="exact deviation")
+        return Identity(claim)(self.roughening, self.worn, name="exact deviation")
 
     @property
     def facts(self) -> tuple[Judgement, ...]:
@@ -117,24 +117,24 @@ class SteadyState:
     def highest_ratio(self) -> Judgement:
         """h/sigma stays below a bound that holds for all time."""
         claim = sp.Le(self.closure / roughness, 1 / f_c + self.bound / sigma_c0)
-        return arithmetic(claim, *self.facts, name="highest closure ratio")
+        return Arithmetic(claim)(*self.facts, name="highest closure ratio")
 
     @cached_property
     def lowest_rate(self) -> Judgement:
         """The wear rate never falls below a positive constant."""
-        bound = monotone(wear_rate(self.law), self.highest_ratio)
+        bound = Monotone(wear_rate(self.law))(self.highest_ratio)
         claim = sp.Le(bound.claim.lesser, rate("u_c"))
-        return consequence(claim, bound, self.rate_at_wear, name="lowest wear rate")
+        return Consequence(claim)(bound, self.rate_at_wear, name="lowest wear rate")
 
     @cached_property
     def growth(self) -> Judgement:
         """Wear grows at least linearly, hence without bound."""
-        return grows(self.lowest_rate, self.model.start[1], "growth")
+        return grows(self.lowest_rate, self.model.start[1], name="growth")
 
     @cached_property
     def divergence(self) -> Judgement:
         """Roughness grows without bound."""
-        return diverges(roughness, self.growth, self.roughening, name="roughness diverges")
+        return Diverges(roughness)(self.growth, self.roughening, name="roughness diverges")
 
     @cached_property
     def squeeze(self) -> Judgement:
@@ -143,35 +143,35 @@ class SteadyState:
         claim = sp.And(
             sp.Le(offset, self.bound / roughness), sp.Ge(offset, -self.bound / roughness)
         )
-        return arithmetic(claim, *self.facts, name="bound of the deviation")
+        return Arithmetic(claim)(*self.facts, name="bound of the deviation")
 
     @cached_property
     def vanishing(self) -> Judgement:
         """The deviation of h/sigma tends to zero."""
-        return vanishes(self.squeeze, self.divergence, "the deviation vanishes")
+        return vanishes(self.squeeze, self.divergence, name="the deviation vanishes")
 
     @cached_property
     def ratio(self) -> Judgement:
         """h/sigma tends to 1/f_c, whatever the law."""
         claim = sp.Eq(forever(self.closure / roughness), 1 / f_c)
-        return passes(claim, self.deviation, self.vanishing, name="limit of h/sigma")
+        return Passes(claim)(self.deviation, self.vanishing, name="limit of h/sigma")
 
     @cached_property
     def rate(self) -> Judgement:
         """The wear rate tends to a constant: (18) for the law of the note."""
         claim = sp.Eq(forever(rate("u_c")), K_c * V / (3 * H_c) * p_max * self.law.ratio(1 / f_c))
-        return passes(claim, self.rate_at_wear, self.ratio, name="steady wear rate")
+        return Passes(claim)(self.rate_at_wear, self.ratio, name="steady wear rate")
 
     @cached_property
     def pressure(self) -> Judgement:
         """The pressure tends to p_max phi(1/f_c): (22) for the law of the note."""
         claim = sp.Eq(forever(p), p_max * self.law.ratio(1 / f_c))
-        return passes(claim, self.pressure_at_wear, self.ratio, name="steady pressure")
+        return Passes(claim)(self.pressure_at_wear, self.ratio, name="steady pressure")
 
     @cached_property
     def wear_per_cycle(self) -> Judgement:
         """The wear of one period tends to a constant: (21) for the law of the note."""
-        return accumulates(self.rate, "steady wear per cycle")
+        return accumulates(self.rate, name="steady wear per cycle")
 
     @cached_property
     def approach(self) -> Judgement:
@@ -186,7 +186,7 @@ class SteadyState:
             sp.Abs(sp.log(rate("u_c") / self.rate.claim.value)),
             steepest * sp.Abs(self.excess / roughness),
         )
-        return consequence(claim, lemma, self.rate_at_wear, self.deviation)
+        return Consequence(claim)(lemma, self.rate_at_wear, self.deviation)
 
 
 def wear_rate(law: ContactLaw) -> sp.Lambda:

@@ -30,11 +30,11 @@ from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note import condensed
 from ..note.stabilised import drift
-from ..rules.algebra import consequence, insert, solve, substitute
+from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
-from ..rules.inequalities import arithmetic
-from ..rules.limits import at_infinity, forever, passes, unbounded
+from ..rules.inequalities import Arithmetic
+from ..rules.limits import AtInfinity, Passes, forever, unbounded
 from ..symbols import rate, symbols, t
 from ..typeset.display import as_written, minus
 from .steady_state import BOUNDED_LOAD
@@ -73,7 +73,7 @@ class TwoSolids:
         """q^2 sigma^2 is a square plus a constant that vanishes only with both roughnesses."""
         roughening, _, cross = self.definitions
         claim = sp.Eq(q**2 * squared, (q**2 * u_c + p_1) ** 2 + apart**2)
-        separated = insert(claim, roughening, cross)
+        separated = Insert(claim)(roughening, cross)
         name = "what keeps the roughness from vanishing"
         return substitute(separated, roughening, cross, name=name)
 
@@ -82,16 +82,16 @@ class TwoSolids:
         """The roughness does not vanish, whatever the wear."""
         roughening, _, cross = self.definitions
         never = assume(NEVER_SMOOTH)
-        return arithmetic(sp.Gt(squared, 0), self.separation, roughening, cross, never)
+        return Arithmetic(sp.Gt(squared, 0))(self.separation, roughening, cross, never)
 
     @cached_property
     def rate_at_wear(self) -> Judgement:
         """Eq. (10) in terms of kappa, q, g and p_1."""
         ratio_of_wears = defined(kappa, K_a * H_c / (K_c * H_a))
         problem = condensed.two_solids(self.law, self.opening).rigid
-        proportional = substitute(problem, solve(ratio_of_wears, K_a))
+        proportional = substitute(problem, Solve(K_a)(ratio_of_wears))
         claim = sp.Eq(rate("u_c"), K_c * V / (3 * H_c) * p_max * self.law.ratio(closure_ratio))
-        return consequence(claim, proportional, *self.definitions, self.rough, name="wear rate")
+        return Consequence(claim)(proportional, *self.definitions, self.rough, name="wear rate")
 
     @cached_property
     def bounded(self) -> Judgement:
@@ -107,20 +107,22 @@ class TwoSolids:
     def ratio(self) -> Judgement:
         """h/sigma tends to g/q."""
         claim = sp.Eq(forever(closure_ratio), g / q)
-        return at_infinity(claim, self.unbounded, self.rough, name="limit of h/sigma, two solids")
+        return AtInfinity(claim, 1 / u_c)(
+            self.unbounded, self.rough, name="limit of h/sigma, two solids"
+        )
 
     @cached_property
     def rate(self) -> Judgement:
         """The steady wear rate."""
         claim = sp.Eq(forever(rate("u_c")), K_c * V / (3 * H_c) * p_max * self.law.ratio(g / q))
-        return passes(claim, self.rate_at_wear, self.ratio, name="steady wear rate")
+        return Passes(claim)(self.rate_at_wear, self.ratio, name="steady wear rate")
 
     @cached_property
     def first_order(self) -> Judgement:
         """How h/sigma approaches its limit."""
         offset = (h_0 - U_a) / q - g * p_1 / q**3
         claim = sp.Eq(forever(u_c * (closure_ratio - g / q) - offset), 0)
-        return at_infinity(claim, self.unbounded, self.rough, name="approach of h/sigma")
+        return AtInfinity(claim, 1 / u_c)(self.unbounded, self.rough, name="approach of h/sigma")
 
     @cached_property
     def drift(self) -> Judgement:

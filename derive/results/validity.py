@@ -24,10 +24,9 @@ import sympy as sp
 from ..equations import Equation
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
-from ..rules import inequalities
-from ..rules.algebra import discharge, forget, identity, substitute
+from ..rules.algebra import Identity, discharge, forget, substitute
 from ..rules.assumption import assume
-from ..rules.inequalities import arithmetic, monotone
+from ..rules.inequalities import Arithmetic, Monotone, Threshold
 from ..symbols import symbols
 from ..typeset.display import as_written, minus
 from .first_integral import SLOPED
@@ -51,30 +50,30 @@ TEN_DIGITS = Hypothesis("resolution of ten digits", sp.Eq(epsilon, 1 / (1 + sp.e
 def share() -> Judgement:
     """(22) as a share of p_max, in the form to compute with."""
     claim = sp.Eq((1 + sp.tanh(4 - 2 / f_c)) / 2, 1 / (1 + sp.exp(4 / f_c - 8)))
-    return identity(claim, assume(SLOPED), name="share of p_max")
+    return Identity(claim)(assume(SLOPED), name="share of p_max")
 
 
 def always() -> Judgement:
     """The note's criterion holds without condition."""
     claim = sp.StrictGreaterThan(sp.tanh(4 - 2 / f_c), -1)
-    return arithmetic(claim, assume(SLOPED), name="the criterion always holds")
+    return Arithmetic(claim)(assume(SLOPED), name="the criterion always holds")
 
 
 def growing() -> Judgement:
     """The asymptotic pressure grows with f_c."""
     value = share().claim.rhs
     claim = sp.Eq(sp.diff(value, f_c), 4 / f_c**2 * value * (1 - value))
-    return identity(claim, assume(SLOPED), name="slope of the share")
+    return Identity(claim)(assume(SLOPED), name="slope of the share")
 
 
 def threshold() -> Judgement:
     """A demand on the pressure is a demand on f_c."""
     bound = 4 / (8 + sp.log(1 / epsilon - 1))
     claim = sp.Equivalent(sp.Gt(share().claim.rhs, epsilon), sp.Gt(f_c, bound))
-    rare = arithmetic(sp.Gt(1 / epsilon - 1, sp.exp(-8)), assume(RESOLVED))
+    rare = Arithmetic(sp.Gt(1 / epsilon - 1, sp.exp(-8)))(assume(RESOLVED))
     x = sp.Dummy("x", real=True)
-    level = monotone(sp.Lambda(x, sp.log(x)), rare)
-    return inequalities.threshold(claim, f_c, assume(ROUGHENING), level, name="threshold")
+    level = Monotone(sp.Lambda(x, sp.log(x)))(rare)
+    return Threshold(claim, f_c)(assume(ROUGHENING), level, name="threshold")
 
 
 def eighth() -> Judgement:

@@ -2,7 +2,8 @@
 
 Overview
     A rule reads its premises, proves its side conditions from them, and concludes.  What it
-    needs and does not find it names.  The functions beside the rules apply them.
+    needs and does not find it names.  A rule is applied to premises like a function; one that
+    leaves its author nothing to choose has a name for it: ``substitute = Substitute()``.
 Contents
     assumption    hypotheses and definitions
     algebra       at an instant: substitute, solve, rewrite; hypotheses that are met

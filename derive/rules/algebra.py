@@ -1,9 +1,9 @@
 """Algebra at an instant: what holds wherever the premises do.
 
 Key results
-    substitute, solve, multiply, restrict        equations
-    identity, insert, logarithm                  claims that an author writes, then proved
-    consequence, alike                           the same relation in another form
+    substitute, Solve, Multiply, restrict        equations
+    Identity, Insert, Logarithm                  claims that an author writes, then proved
+    Consequence, Alike                           the same relation in another form
     discharge, forget                            hypotheses that follow from others
 """
 
@@ -50,9 +50,7 @@ def _put(claim: Claim, known: Equality) -> Claim:
     return made
 
 
-def substitute(first: Judgement, *known: Judgement, name: str = "", remark: str = "") -> Judgement:
-    """Insert ``left = right`` of each further premise into the first, in order."""
-    return infer(Substitute(), first, *known, name=name, remark=remark)
+substitute = Substitute()
 
 
 @dataclass(frozen=True)
@@ -78,11 +76,6 @@ class Solve(Rule):
         return Conclusion(Equality(self.unknown, value))
 
 
-def solve(first: Judgement, unknown: sp.Expr, *facts: Judgement, name: str = "") -> Judgement:
-    """Solve an equation that is linear in ``unknown`` for it."""
-    return infer(Solve(unknown), first, *facts, name=name)
-
-
 @dataclass(frozen=True)
 class Multiply(Rule):
     """``l = r`` gives ``c l = c r``; an inequality needs c > 0."""
@@ -99,11 +92,6 @@ class Multiply(Rule):
                 raise RuleError(f"missing premise: {claim.relation} is an equality or inequality")
             require(sp.Gt(self.factor, 0), *premises)
         return Conclusion(claim.map(lambda side: self.factor * side))
-
-
-def multiply(first: Judgement, factor: sp.Expr, *facts: Judgement) -> Judgement:
-    """Multiply both sides of an equality, or of an inequality by a positive factor."""
-    return infer(Multiply(factor), first, *facts)
 
 
 @dataclass(frozen=True)
@@ -133,9 +121,7 @@ class Restrict(Rule):
         return Conclusion(claim)
 
 
-def restrict(first: Judgement, condition: Judgement, remark: str = "") -> Judgement:
-    """Keep the branch of a piecewise claim, or of a modulus, on which a relation holds."""
-    return infer(Restrict(), first, condition, remark=remark)
+restrict = Restrict()
 
 
 def inserted(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
@@ -183,16 +169,6 @@ def _identical(
     return Equality(left, right)
 
 
-def identity(claim: sp.Equality, *facts: Judgement, name: str = "", remark: str = "") -> Judgement:
-    """State an equation that holds for every value of its unknowns."""
-    return infer(Identity(claim), *facts, name=name, remark=remark)
-
-
-def insert(claim: sp.Equality, *known: Judgement, name: str = "", remark: str = "") -> Judgement:
-    """State an equation that the premises turn into an identity."""
-    return infer(Insert(claim), *known, name=name, remark=remark)
-
-
 @dataclass(frozen=True)
 class Logarithm(Rule):
     """``ln a = b`` from ``a = e^b``, which the premises turn into an identity."""
@@ -207,11 +183,6 @@ class Logarithm(Rule):
         if not is_zero(inserted(inside, premises) - sp.exp(right)):
             raise RuleError(f"missing premise: {inside} = exp({right})")
         return Conclusion(Equality(left, right))
-
-
-def logarithm(claim: sp.Equality, *known: Judgement, name: str = "") -> Judgement:
-    """State a logarithm, proved from its exponential."""
-    return infer(Logarithm(claim), *known, name=name)
 
 
 @dataclass(frozen=True)
@@ -257,11 +228,6 @@ def _agree(
     )
 
 
-def consequence(claim: sp.Basic, *premises: Judgement, name: str = "") -> Judgement:
-    """State the first premise, rewritten by the others."""
-    return infer(Consequence(claim), *premises, name=name)
-
-
 @dataclass(frozen=True)
 class Alike(Rule):
     """``a <= b`` if and only if ``c <= d``, where ``b - a = d - c`` identically."""
@@ -277,11 +243,6 @@ class Alike(Rule):
         if not equal or left.strict != right.strict:
             raise RuleError(f"missing premise: the differences in {self.claim} are equal")
         return Conclusion(claim)
-
-
-def alike(claim: sp.Equivalent, *facts: Judgement, name: str = "") -> Judgement:
-    """State that two inequalities of equal differences hold together."""
-    return infer(Alike(claim), *facts, name=name)
 
 
 @dataclass(frozen=True)

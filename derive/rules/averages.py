@@ -7,8 +7,8 @@ Overview
     belong to it, too.
 Key results
     term_of              what c_n and w_n are by definition, for a pressure
-    drift, oscillation   c_n and w_n, by averaging the series again, order by order
-    slow_time            tau as a function of m, from dm/dtau
+    Averaging            c_n and w_n, by averaging the series again, order by order
+    SlowTime             tau as a function of m, from dm/dtau
 References
     Sanders, Verhulst, Murdock, Averaging Methods in Nonlinear Dynamical Systems, 2007.
 """
@@ -24,7 +24,7 @@ from ..averaging import Averaged, average
 from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
 from ..harmonics import Harmonics, constant, sine, total
 from ..hypotheses import Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, listed
+from ..kernel import Conclusion, Judgement, Rule, RuleError, listed
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .reading import LOAD, SINE, T, equality, fields, has_hypothesis
@@ -132,11 +132,6 @@ class Averaging(Rule):
         return Conclusion(Equality(name, self.claim.rhs))
 
 
-def averaging(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judgement:
-    """State a coefficient of the averaged expansion."""
-    return infer(Averaging(claim), *premises, name=name)
-
-
 @dataclass(frozen=True)
 class SlowTime(Rule):
     """``rho tau + s_0 = F(m) + o(m^-3)``: ``F' (1 + c_1/m + ... + c_4/m^4) = 1 + O(m^-5)``.
@@ -177,8 +172,3 @@ class SlowTime(Rule):
         if self.claim.lhs != rho * tau + s_0 or any(n <= ORDER for (n,) in remainder.monoms()):
             raise RuleError("missing premise: dtau/dm times dm/dtau is 1 + O(m^-5)")
         return Conclusion(Asymptotic(self.claim.lhs, self.claim.rhs, m, sp.oo, m**-3))
-
-
-def slow_time(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judgement:
-    """State the time as a function of the averaged roughness."""
-    return infer(SlowTime(claim), *premises, name=name)

@@ -16,7 +16,7 @@ import sympy as sp
 
 from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import DATA, symbols, t
 from .proving import continuous, require_defined, smooth
 from .reading import (
@@ -60,9 +60,7 @@ class Integrate(Rule):
         return Conclusion(Equality(y, begin + factor * x))
 
 
-def integrate(law: Judgement, *start: Judgement) -> Judgement:
-    """Integrate ``dy/dt = c dx/dt`` from time zero, given y(0) and x(0)."""
-    return infer(Integrate(), law, *start)
+integrate = Integrate()
 
 
 @dataclass(frozen=True)
@@ -83,9 +81,7 @@ class Grows(Rule):
         return Conclusion(Inequality(sp.Ge(u, begin + least * t, evaluate=False)))
 
 
-def grows(bound: Judgement, start: Judgement, name: str = "") -> Judgement:
-    """Integrate a constant lower bound of a rate."""
-    return infer(Grows(), bound, start, name=name)
+grows = Grows()
 
 
 @dataclass(frozen=True)
@@ -111,9 +107,7 @@ class Differentiate(Rule):
         return Conclusion(Equality(*rates))
 
 
-def differentiate(equation: Judgement, *facts: Judgement) -> Judgement:
-    """Return the equality of the rates of both sides."""
-    return infer(Differentiate(), equation, *facts)
+differentiate = Differentiate()
 
 
 @dataclass(frozen=True)
@@ -146,9 +140,7 @@ class RigidLimit(Rule):
         return Conclusion(Equality(left, right), adds=(RIGID,), discharges=(SPRINGS,))
 
 
-def rigid(first: Judgement, name: str = "") -> Judgement:
-    """Let the stiffness of the support tend to infinity."""
-    return infer(RigidLimit(), first, name=name)
+rigid = RigidLimit()
 
 
 @dataclass(frozen=True)
@@ -171,9 +163,7 @@ class ChangeClock(Rule):
         return Conclusion(Equality(sp.Derivative(scaled.lhs, t), slope))
 
 
-def change_clock(scaled: Judgement, clock: Judgement) -> Judgement:
-    """Return the rate of a scaled quantity in scaled time."""
-    return infer(ChangeClock(), scaled, clock)
+change_clock = ChangeClock()
 
 
 @dataclass(frozen=True)
@@ -196,8 +186,3 @@ class ParameterLimit(Rule):
         if not continuous(at_end, {small: sp.S.Zero}, *premises):
             raise RuleError(f"missing premise: {self.expr} is continuous for {self.variable} -> oo")
         return Conclusion(Limit(self.expr, self.variable, sp.oo, at_end.subs(small, 0)))
-
-
-def parameter_limit(expr: sp.Expr, variable: sp.Symbol, *facts: Judgement) -> Judgement:
-    """Return the limit of an expression for a parameter that tends to infinity."""
-    return infer(ParameterLimit(expr, variable), *facts)

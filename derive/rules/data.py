@@ -1,8 +1,8 @@
 """Results as functions of a parameter: their derivatives.
 
 Key results
-    differentiated   the derivative of a result with respect to a parameter
-    one_sign         a derivative that is nowhere negative, or nowhere positive
+    Differentiated   the derivative of a result with respect to a parameter
+    OneSign          a derivative that is nowhere negative, or nowhere positive
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from sympy.core.function import AppliedUndef
 
 from ..claims import Equality, Inequality
 from ..hypotheses import Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import DATA
 from ..zero import is_zero
 from .algebra import inserted
@@ -63,13 +63,6 @@ class Differentiated(Rule):
         return Conclusion(Equality(*self.claim.args))
 
 
-def differentiated(
-    claim: sp.Equality, parameter: sp.Symbol, *premises: Judgement, name: str = ""
-) -> Judgement:
-    """State the derivative of a result with respect to one of the data."""
-    return infer(Differentiated(claim, parameter), *premises, name=name)
-
-
 @dataclass(frozen=True)
 class OneSign(Rule):
     """``y = Q`` gives ``dQ/da >= 0``, or ``<= 0``, where the premises prove the sign."""
@@ -87,8 +80,3 @@ class OneSign(Rule):
             if holds(relation(slope, 0), known):
                 return Conclusion(Inequality(relation(slope, 0, evaluate=False)))
         raise RuleError(f"missing premise: {slope} has one sign")
-
-
-def one_sign(law: Judgement, parameter: sp.Expr, *facts: Judgement, name: str = "") -> Judgement:
-    """State the sign of the effect of one of the data, or of the load."""
-    return infer(OneSign(parameter), law, *facts, name=name)

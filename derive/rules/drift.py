@@ -3,8 +3,8 @@
 Key results
     first_order          u (x - l) - a -> 0 for du/dt = F(x) gives t (du/dt - R) - F'(l) a/R -> 0
     logarithmic_drift    t (du/dt - R) - a -> 0, a periodic, gives (u - R t)/ln t -> mean of a
-    logarithmic_growth   e^((u - U_a)/s) du/dt -> a gives u(N T) = s ln(1 + ...) + o(1)
-    last_cycles          the number of cycles to a vanishing roughness, to leading order
+    LogarithmicGrowth    e^((u - U_a)/s) du/dt -> a gives u(N T) = s ln(1 + ...) + o(1)
+    LastCycles           the number of cycles to a vanishing roughness, to leading order
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..claims import Asymptotic
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import symbols, t
 from ..zero import is_zero
 from .algebra import inserted
@@ -76,9 +76,7 @@ class FirstOrder(Rule):
         return Conclusion(in_time(t * (steady.expr - steady.value) - slope * first, sp.S.Zero))
 
 
-def first_order(*premises: Judgement, name: str = "") -> Judgement:
-    """Expand a rate about its limit, from rate, deviation, ratio and limit of the rate."""
-    return infer(FirstOrder(), *premises, name=name)
+first_order = FirstOrder()
 
 
 @dataclass(frozen=True)
@@ -115,9 +113,7 @@ def _laws(expr: sp.Expr) -> set[sp.Basic]:
     return {d for d in expr.atoms(sp.Derivative) if not fields(d)}
 
 
-def logarithmic_drift(*premises: Judgement, name: str = "") -> Judgement:
-    """Integrate the first-order approach of a rate under a periodic load."""
-    return infer(LogarithmicDrift(), *premises, name=name)
+logarithmic_drift = LogarithmicDrift()
 
 
 @dataclass(frozen=True)
@@ -147,11 +143,6 @@ class LogarithmicGrowth(Rule):
         mean = sp.besseli(0, U / s)
         worn = s * sp.log(1 + a * N * T * mean / s)
         return Conclusion(Asymptotic(u.subs(t, N * T), worn, N, sp.oo))
-
-
-def logarithmic_growth(scale: sp.Expr, *premises: Judgement, name: str = "") -> Judgement:
-    """Integrate an exponential tail of the rate under a sine load."""
-    return infer(LogarithmicGrowth(scale), *premises, name=name)
 
 
 @dataclass(frozen=True)
@@ -204,8 +195,3 @@ def _one_exponential(expr: sp.Expr) -> sp.Expr:
     expr = expr.replace(sp.exp, lambda argument: sp.exp(sp.expand(sp.cancel(argument))))
     expr = sp.powsimp(sp.expand(sp.together(expr)))
     return sp.factor(sp.powsimp(expr))
-
-
-def last_cycles(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judgement:
-    """State the number of cycles at which the roughness is small."""
-    return infer(LastCycles(claim), *premises, name=name)

@@ -1,11 +1,11 @@
 """Inequalities: between reals, and from one quantity to another.
 
 Key results
-    arithmetic          a relation that follows from facts in the reals
-    monotone            a >= b gives F(a) >= F(b) for an increasing F
-    lipschitz           -m <= F' <= 0 bounds the change of F
-    logarithmic_slope   |F'/F| <= m gives |ln(F(a)/F(b))| <= m |a - b|
-    threshold           F(x) > e if and only if x > x*
+    Arithmetic          a relation that follows from facts in the reals
+    Monotone            a >= b gives F(a) >= F(b) for an increasing F
+    Lipschitz           -m <= F' <= 0 bounds the change of F
+    LogarithmicSlope    |F'/F| <= m gives |ln(F(a)/F(b))| <= m |a - b|
+    Threshold           F(x) > e if and only if x > x*
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..claims import Inequality, claim_of
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..zero import is_zero
 from .proving import continuity, facts_of, holds, require, require_defined, sign, smooth
 from .reading import inequality
@@ -32,11 +32,6 @@ class Arithmetic(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         require(self.claim, *premises)
         return Conclusion(claim_of(self.claim))
-
-
-def arithmetic(claim: sp.Basic, *facts: Judgement, name: str = "", remark: str = "") -> Judgement:
-    """State an inequality that follows from facts."""
-    return infer(Arithmetic(claim), *facts, name=name, remark=remark)
 
 
 @dataclass(frozen=True)
@@ -62,11 +57,6 @@ class Monotone(Rule):
         high, low = self.function(bound.greater), self.function(bound.lesser)
         relation = (sp.Gt, sp.Lt) if bound.strict else (sp.Ge, sp.Le)
         return Conclusion(Inequality(relation[direction < 0](high, low, evaluate=False)))
-
-
-def monotone(function: sp.Lambda, bound: Judgement) -> Judgement:
-    """Apply a monotone function to both sides of an inequality."""
-    return infer(Monotone(function), bound)
 
 
 @dataclass(frozen=True)
@@ -151,10 +141,3 @@ class Threshold(Rule):
         if not is_zero(function.subs(self.variable, point) - level):
             raise RuleError(f"missing premise: the left side is {level} at {point}")
         return Conclusion(said)
-
-
-def threshold(
-    claim: sp.Equivalent, variable: sp.Symbol, *premises: Judgement, name: str = ""
-) -> Judgement:
-    """State that an increasing function exceeds a level exactly beyond a point."""
-    return infer(Threshold(claim, variable), *premises, name=name)

@@ -3,12 +3,12 @@
 Key results
     forever, later   the limit for t -> oo; an expression one period later
     one_period_later what holds at every time holds one period later
-    diverges         u >= c t + d with c > 0, and f > 0, give a + f u -> oo
+    Diverges         u >= c t + d with c > 0, and f > 0, give a + f u -> oo
     unbounded        du/dt = F(u, load) with F > 0 and a bounded load gives u -> oo
-    at_infinity      what a function of u and bounded fields tends to as u -> oo
+    AtInfinity       what a function of u and bounded fields tends to as u -> oo
     reciprocal       s -> oo gives 1/s -> 0
     vanishes         |e| <= B/s and s -> oo give e -> 0
-    passes           limits pass through continuous functions and through t -> t + T
+    Passes           limits pass through continuous functions and through t -> t + T
     accumulates      du/dt -> R gives u(t + T) - u(t) -> R T
     intermittent     a rate that is on during a fraction d of every period adds d T R
 References
@@ -24,7 +24,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from ..claims import Equality, Limit
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import t
 from ..zero import is_zero
 from .proving import LAW, continuity, continuous, facts_of, holds, require
@@ -78,9 +78,7 @@ class OnePeriodLater(Rule):
         return Conclusion(premises[0].claim.map(later))
 
 
-def one_period_later(judgement: Judgement) -> Judgement:
-    """State a judgement one period later."""
-    return infer(OnePeriodLater(), judgement)
+one_period_later = OnePeriodLater()
 
 
 @dataclass(frozen=True)
@@ -101,11 +99,6 @@ class Diverges(Rule):
         for positive in (speed, slope):
             require(sp.Gt(positive, 0), *premises)
         return Conclusion(in_time(self.expr, sp.oo))
-
-
-def diverges(expr: sp.Expr, growth: Judgement, *facts: Judgement, name: str = "") -> Judgement:
-    """Let a linear function of a growing quantity tend to infinity."""
-    return infer(Diverges(expr), growth, *facts, name=name)
 
 
 def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
@@ -168,9 +161,7 @@ class Unbounded(Rule):
         return Conclusion(in_time(u, sp.oo))
 
 
-def unbounded(law: Judgement, *facts: Judgement, name: str = "") -> Judgement:
-    """Let the wear tend to infinity under a positive rate."""
-    return infer(Unbounded(), law, *facts, name=name)
+unbounded = Unbounded()
 
 
 def expanded(expr: sp.Expr, small: sp.Symbol) -> tuple[int, sp.Expr]:
@@ -278,13 +269,6 @@ def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
     return (sp.diff(expr, z, n) / sp.factorial(n)).subs(z, 0).doit()
 
 
-def at_infinity(
-    claim: sp.Equality, *premises: Judgement, small: sp.Expr | None = None, name: str = ""
-) -> Judgement:
-    """State the limit of a function of a growing quantity and of bounded fields."""
-    return infer(AtInfinity(claim, small or 1 / growing(premises[0])), *premises, name=name)
-
-
 @dataclass(frozen=True)
 class Reciprocal(Rule):
     """``s -> oo`` gives ``1/s -> 0``."""
@@ -296,9 +280,7 @@ class Reciprocal(Rule):
         return Conclusion(in_time(1 / growing(premises[0]), sp.S.Zero))
 
 
-def reciprocal(divergence: Judgement) -> Judgement:
-    """Let the reciprocal of a growing quantity vanish."""
-    return infer(Reciprocal(), divergence)
+reciprocal = Reciprocal()
 
 
 @dataclass(frozen=True)
@@ -318,9 +300,7 @@ class Vanishes(Rule):
         return Conclusion(in_time(found.middle, sp.S.Zero))
 
 
-def vanishes(squeeze: Judgement, divergence: Judgement, name: str = "") -> Judgement:
-    """Squeeze an expression between two bounds that tend to zero."""
-    return infer(Vanishes(), squeeze, divergence, name=name)
+vanishes = Vanishes()
 
 
 @dataclass(frozen=True)
@@ -368,11 +348,6 @@ class Passes(Rule):
         return Conclusion(in_time(whole, self.claim.rhs))
 
 
-def passes(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judgement:
-    """State the limit of a continuous function of quantities whose limits are known."""
-    return infer(Passes(claim), *premises, name=name)
-
-
 def in_terms_of(expr: sp.Expr, quantity: sp.Expr, name: sp.Symbol) -> sp.Expr:
     """Write ``expr`` with ``name`` for ``quantity``, by eliminating the load or a field."""
     expr = expr.subs(quantity, name)
@@ -409,9 +384,7 @@ class Accumulates(Rule):
         return Conclusion(in_time(u.subs(t, t + T) - u, given.value * T))
 
 
-def accumulates(limit: Judgement, name: str = "") -> Judgement:
-    """Integrate the limit of a rate over one period."""
-    return infer(Accumulates(), limit, name=name)
+accumulates = Accumulates()
 
 
 @dataclass(frozen=True)
@@ -476,6 +449,4 @@ def _indicators(expr: sp.Expr) -> tuple[tuple[sp.Expr, sp.Basic], ...]:
     return tuple(branches) if [e for e, _ in branches] == [1, 0] else ()
 
 
-def intermittent(*premises: Judgement, name: str = "") -> Judgement:
-    """Integrate a rate that is on during a fraction of every period."""
-    return infer(Intermittent(), *premises, name=name)
+intermittent = Intermittent()

@@ -1,7 +1,7 @@
 """Readers: the parts of a claim, or a refusal that names what the theorem asks for.
 
 Key results
-    equality, inequality, between, limit, asked of any judgement
+    equality, inequality, between               asked of any judgement
     rate_law, initial_value, limit_in_time      the forms that theorems about time ask for
     constant                                    what does not depend on time
 """
@@ -13,7 +13,7 @@ from typing import TypeVar
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Between, Claim, Drift, Equality, Equivalence, Inequality, Limit
+from ..claims import Between, Claim, Drift, Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, RuleError
 from ..language import bound
@@ -46,19 +46,9 @@ def between(judgement: Judgement) -> Between:
     return _read(judgement, Between)
 
 
-def equivalence(judgement: Judgement) -> Equivalence:
-    """Return the parts of an equivalence."""
-    return _read(judgement, Equivalence)
-
-
-def limit(judgement: Judgement) -> Limit:
-    """Return the parts of a limit."""
-    return _read(judgement, Limit)
-
-
 def limit_in_time(judgement: Judgement) -> Limit:
     """Return the parts of a limit for t -> oo."""
-    found = limit(judgement)
+    found = _read(judgement, Limit)
     if found.variable != t or found.point != sp.oo:
         raise RuleError(f"missing premise: {judgement.relation} is no limit for t -> oo")
     return found

@@ -1,10 +1,10 @@
 """Solutions of the differential equation, found by insight and proved by differentiating back.
 
 Key results
-    solution      t(u) under a constant load: dF/du = 1/Q and F(u(0)) = 0
-    inverted      u(t), the inverse of an increasing t(u)
-    parametric    t(p), where wear and rate are functions of the pressure
-    first_root    the first zero of what a positive factor makes quadratic
+    Solution      t(u) under a constant load: dF/du = 1/Q and F(u(0)) = 0
+    Inverted      u(t), the inverse of an increasing t(u)
+    Parametric    t(p), where wear and rate are functions of the pressure
+    FirstRoot     the first zero of what a positive factor makes quadratic
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..claims import Equality, FirstZero
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import t
 from ..zero import is_zero
 from .algebra import inserted
@@ -67,11 +67,6 @@ class Solution(Rule):
         return Conclusion(Equality(t, time))
 
 
-def solution(claim: sp.Equality, *premises: Judgement, name: str = "") -> Judgement:
-    """State the time at which the wear is u."""
-    return infer(Solution(claim), *premises, name=name)
-
-
 @dataclass(frozen=True)
 class Inverted(Rule):
     """``u = G(t)``, the inverse of ``t = F(u)``: F increases, and ``F(G(t)) = t``.
@@ -113,11 +108,6 @@ def _resolved(expr: sp.Expr) -> sp.Expr:
         for e, inside in exponents.items()
     }
     return expr.xreplace(powers)
-
-
-def inverted(claim: sp.Equality, time: Judgement, name: str = "") -> Judgement:
-    """State the wear at a time."""
-    return infer(Inverted(claim), time, name=name)
 
 
 @dataclass(frozen=True)
@@ -162,13 +152,6 @@ class Parametric(Rule):
         return Conclusion(Equality(t, self.claim.rhs))
 
 
-def parametric(
-    claim: sp.Equality, pressure: sp.Expr, *premises: Judgement, name: str = ""
-) -> Judgement:
-    """State the time at which the pressure is p."""
-    return infer(Parametric(claim, pressure), *premises, name=name)
-
-
 @dataclass(frozen=True)
 class FirstRoot(Rule):
     """The first positive zero x of f, where ``f w = a_0 + 2 a_1 x + a_2 x^2`` with w > 0.
@@ -199,8 +182,3 @@ class FirstRoot(Rule):
         for goal in (sp.Gt(a_0, 0), sp.Ge(inside, 0), sp.Gt(inside, a_1 * sp.Abs(a_1))):
             require(goal, *premises)
         return Conclusion(Equality(meaning.lhs, a_0 / (sp.sqrt(inside) - a_1)))
-
-
-def first_root(factor: sp.Expr, *premises: Judgement, name: str = "") -> Judgement:
-    """Return the first zero of what a positive factor makes quadratic."""
-    return infer(FirstRoot(factor), *premises, name=name)

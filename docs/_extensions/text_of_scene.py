@@ -6,7 +6,7 @@ import re
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
-from wear.checked import TABLES, OneOf, SceneTable, domain_of, keys_of, unit_of
+from wear.checked import TABLES, OneOf, SceneTable, domain_of, unit_of
 from wear.load.blocks import Block, BlockCycles
 from wear.load.tables import KINDS, PERIODIC
 from wear.scene import Scene
@@ -53,7 +53,7 @@ def _keys(table: type[SceneTable], only: tuple[str, ...] = (), first: str = "") 
     rows += [
         f"| `{name}` | {_value(name, field)}{_default(table, name, field)} | "
         f"{_typeset(field.description)} |"
-        for name, field in keys_of(table).items()
+        for name, field in table.entries.items()
         if not only or name in only
     ]
     return "\n".join(rows)

@@ -10,10 +10,8 @@ from __future__ import annotations
 
 import time
 
-import numpy as np
-
-from wear.scene import load_scene
-from wear.studies.rows import Question, solve_rows
+from wear.studies.rows import solve_rows
+from wear.studies.run import prepare
 
 CYCLES = (9_000, 1_000_000)
 KINDS = {  # scene, number of rows
@@ -27,11 +25,11 @@ def main() -> None:
     """Print a table."""
     print("| scenes | rows | scenes a second of one core |\n| --- | ---: | ---: |")
     for kind, (name, rows) in KINDS.items():
-        question = Question(load_scene(name), CYCLES, None, 1e-7)
-        growths = np.linspace(0.2, 0.3, rows)
-        solve_rows(question, {"bearing.roughness_growth": growths[:2]})  # imports, caches
+        vary = [f"bearing.roughness_growth=0.2:0.3:{rows}"]
+        asked = prepare(name, vary, CYCLES, "grid", 0, 0, None, 1e-7)
+        solve_rows(asked, asked.design.some(2))  # imports, caches
         start = time.process_time()
-        answers = solve_rows(question, {"bearing.roughness_growth": growths})
+        answers = solve_rows(asked, asked.design.columns((slice(0, rows),)))
         seconds = time.process_time() - start
         assert not answers.status.any()
         print(f"| {kind} | {rows} | {rows / seconds:.0f} |")

@@ -25,7 +25,7 @@ from derive.program import margin_program
 from derive.program.gradient import by_constant
 from derive.program.root import tail
 from derive.program.symbols import pin_wear_sign
-from derive.rules.algebra import solve, substitute
+from derive.rules.algebra import Solve, substitute
 from derive.stable import STABLE, proof
 from derive.symbols import QUANTITIES, rate
 from derive.variant import VARIANTS, Variant
@@ -129,7 +129,7 @@ def test_rate_is_the_derived_right_hand_side(variant):
 @pytest.mark.parametrize("law", LAWS)
 def test_rate_of_a_smooth_pin_that_does_not_wear_is_13(law):
     variant = exact.variant_of(law, "rigid_bearing")
-    condensed = solve(Condensed(variant.model).rigid_condensed, rate("u_c"))
+    condensed = Solve(rate("u_c"))(Condensed(variant.model).rigid_condensed)
     wanted = substitute(condensed, variant.model.slip).claim.rhs
     assert is_zero(in_parameters(variant, "rate") - plain(wanted))
 

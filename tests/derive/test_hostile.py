@@ -15,32 +15,31 @@ from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Conclusion, Judgement, RuleError, infer, replayed
 from derive.laws import GENERAL, r
 from derive.rules.algebra import (
+    Alike,
     Identity,
-    alike,
+    Insert,
+    Logarithm,
+    Solve,
     discharge,
     forget,
-    identity,
-    insert,
-    logarithm,
     restrict,
-    solve,
     substitute,
 )
 from derive.rules.assumption import Assume, assume, defined
 from derive.rules.calculus import (
     DIFFERENTIABLE,
     SPRINGS,
+    ParameterLimit,
     differentiate,
     grows,
-    parameter_limit,
     rigid,
 )
-from derive.rules.data import differentiated
-from derive.rules.drift import first_order, logarithmic_drift, logarithmic_growth
-from derive.rules.inequalities import LogarithmicSlope, arithmetic, monotone
-from derive.rules.limits import at_infinity, forever
+from derive.rules.data import Differentiated
+from derive.rules.drift import LogarithmicGrowth, first_order, logarithmic_drift
+from derive.rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
+from derive.rules.limits import AtInfinity, forever
 from derive.rules.reading import CONSTANT, SINE, replaced
-from derive.rules.solutions import inverted, solution
+from derive.rules.solutions import Inverted, Solution
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.test_rules import BOUNDED, DEEP, ROUGHENS, START, drift_premises, given, tends
 
@@ -59,11 +58,11 @@ def supposed(relation: sp.Basic, kind: Kind = Kind.STATE) -> Hypothesis:
 
 def forgotten(relation: sp.Equality, claim: sp.Basic) -> Judgement:
     """Drop the value of a symbol after something was made of it."""
-    return forget(arithmetic(claim, assume(supposed(relation))), supposed(relation))
+    return forget(Arithmetic(claim)(assume(supposed(relation))), supposed(relation))
 
 
 def discharged(met: sp.Basic, claim: sp.Basic, *known: Judgement) -> Judgement:
-    return discharge(arithmetic(claim, assume(supposed(met))), supposed(met), *known)
+    return discharge(Arithmetic(claim)(assume(supposed(met))), supposed(met), *known)
 
 
 def integral(body: sp.Expr, low: int = -1) -> Judgement:
@@ -95,7 +94,7 @@ class Lie(sp.Expr):  # type: ignore[misc]
 
 def timed(time: sp.Expr, speed: sp.Expr, start: Judgement, *facts: Judgement) -> Judgement:
     law = given(sp.Eq(rate("u_c"), speed))
-    return solution(sp.Eq(t, time), law, start, assume(CONSTANT), *facts)
+    return Solution(sp.Eq(t, time))(law, start, assume(CONSTANT), *facts)
 
 
 def approach(rest: sp.Expr) -> Judgement:
@@ -107,7 +106,7 @@ def approach(rest: sp.Expr) -> Judgement:
 
 def opened(*facts: Judgement) -> Judgement:
     """Return the closure over a support of stiffness k."""
-    return insert(sp.Eq(h, h_0 + p / k - U_a), *facts[:1], solve(assume(SPRINGS), U_c), *facts[1:])
+    return Insert(sp.Eq(h, h_0 + p / k - U_a))(*facts[:1], Solve(U_c)(assume(SPRINGS)), *facts[1:])
 
 
 def rigidly(*facts: Judgement) -> Judgement:
@@ -115,12 +114,12 @@ def rigidly(*facts: Judgement) -> Judgement:
 
 
 def sloped(*facts: Judgement) -> Judgement:
-    return differentiated(sp.Eq(SLOPE, h_0, evaluate=False), f_c, GROWING, *facts)
+    return Differentiated(sp.Eq(SLOPE, h_0, evaluate=False), f_c)(GROWING, *facts)
 
 
 def two_orders(order: sp.Expr) -> Judgement:
     small = landau_o(order)
-    return arithmetic(sp.Eq(h, G), given(sp.Eq(u_c, h + small)), given(sp.Eq(u_c, G + small)))
+    return Arithmetic(sp.Eq(h, G))(given(sp.Eq(u_c, h + small)), given(sp.Eq(u_c, G + small)))
 
 
 Case = tuple[Callable[[], Judgement], Callable[[], Judgement], str]
@@ -130,8 +129,8 @@ WHOLE = sp.Piecewise((1 / f_c, sp.Ne(f_c, 0)), (0, True))
 CASES: dict[str, Case] = {
     # ---- what has no value
     "ln f_c = ln f_c says that f_c > 0": (  # f_c = -1
-        lambda: logarithm(sp.Eq(sp.log(f_c), sp.log(f_c), evaluate=False)),
-        lambda: logarithm(sp.Eq(sp.log(f_c), sp.log(f_c), evaluate=False), ROUGHENS),
+        lambda: Logarithm(sp.Eq(sp.log(f_c), sp.log(f_c), evaluate=False))(),
+        lambda: Logarithm(sp.Eq(sp.log(f_c), sp.log(f_c), evaluate=False))(ROUGHENS),
         "f_c > 0",
     ),
     "b_0 = ln f_c, forgotten": (  # f_c = -1
@@ -145,13 +144,13 @@ CASES: dict[str, Case] = {
         "f_c > 0",
     ),
     "a branch that is not taken": (  # f_c = 0, G = 0
-        lambda: arithmetic(sp.Ne(f_c, 0), given(sp.Eq(G, WHOLE))),
-        lambda: arithmetic(sp.Ne(f_c, 0), given(sp.Eq(G, 1 / f_c))),
+        lambda: Arithmetic(sp.Ne(f_c, 0))(given(sp.Eq(G, WHOLE))),
+        lambda: Arithmetic(sp.Ne(f_c, 0))(given(sp.Eq(G, 1 / f_c))),
         "Ne",
     ),
     "an integrand": (  # theta = -1
-        lambda: arithmetic(sp.Gt(theta, 0), integral(sp.log(theta), 1)),
-        lambda: arithmetic(sp.Gt(theta, 0), given(sp.Eq(G, sp.log(theta)))),
+        lambda: Arithmetic(sp.Gt(theta, 0))(integral(sp.log(theta), 1)),
+        lambda: Arithmetic(sp.Gt(theta, 0))(given(sp.Eq(G, sp.log(theta)))),
         "theta > 0",
     ),
     "a root that starts at 0 has no rate": (  # u_c = t^2, h = t
@@ -167,8 +166,8 @@ CASES: dict[str, Case] = {
         "f_c > 0",
     ),
     "the pole inside a contact law": (  # y = -1, 1
-        lambda: monotone(sp.Lambda(y, GENERAL.phi.subs(r, -1 / y)), given(sp.Ge(x_inf, theta))),
-        lambda: monotone(sp.Lambda(y, GENERAL.phi.subs(r, -y)), given(sp.Ge(x_inf, theta))),
+        lambda: Monotone(sp.Lambda(y, GENERAL.phi.subs(r, -1 / y)))(given(sp.Ge(x_inf, theta))),
+        lambda: Monotone(sp.Lambda(y, GENERAL.phi.subs(r, -y)))(given(sp.Ge(x_inf, theta))),
         "monotone",
     ),
     # ---- bound variables
@@ -188,8 +187,8 @@ CASES: dict[str, Case] = {
         "for every",
     ),
     "capture by a limit": (  # lim f_c/N = 0, lim N/N = 1
-        lambda: substitute(parameter_limit(f_c / M, M), given(sp.Eq(f_c, M))),
-        lambda: substitute(parameter_limit(f_c / M, M), given(sp.Eq(f_c, b_0))),
+        lambda: substitute(ParameterLimit(f_c / M, M)(), given(sp.Eq(f_c, M))),
+        lambda: substitute(ParameterLimit(f_c / M, M)(), given(sp.Eq(f_c, b_0))),
         "for every",
     ),
     "under the derivative with respect to a datum": (  # d b_0/d f_c = 0
@@ -219,13 +218,13 @@ CASES: dict[str, Case] = {
         "constant",
     ),
     "time held fixed as u_c grows": (  # u_c = C t
-        lambda: at_infinity(sp.Eq(forever(C * t / u_c), 0), DEEP),
-        lambda: at_infinity(sp.Eq(forever(C * T / u_c), 0), DEEP),
+        lambda: AtInfinity(sp.Eq(forever(C * t / u_c), 0), 1 / u_c)(DEEP),
+        lambda: AtInfinity(sp.Eq(forever(C * T / u_c), 0), 1 / u_c)(DEEP),
         "bounded fields alone",
     ),
     "cycles held fixed as u_c grows": (  # u_c = h_0 t/T
-        lambda: at_infinity(sp.Eq(forever(h_0 * N / u_c), 0), DEEP),
-        lambda: at_infinity(sp.Eq(forever(h_0 / u_c), 0), DEEP),
+        lambda: AtInfinity(sp.Eq(forever(h_0 * N / u_c), 0), 1 / u_c)(DEEP),
+        lambda: AtInfinity(sp.Eq(forever(h_0 / u_c), 0), 1 / u_c)(DEEP),
         "bounded fields alone",
     ),
     "the rate of a load that jumps": (  # a square load
@@ -240,7 +239,7 @@ CASES: dict[str, Case] = {
     ),
     "two remainders are not one": (  # h = 1/t, G = 2/t
         lambda: two_orders(sp.S.One),
-        lambda: arithmetic(sp.Eq(h, G), given(sp.Eq(u_c, h)), given(sp.Eq(u_c, G))),
+        lambda: Arithmetic(sp.Eq(h, G))(given(sp.Eq(u_c, h)), given(sp.Eq(u_c, G))),
         "cannot be assumed",
     ),
     "a limit from below": (  # from above it is 1
@@ -249,19 +248,19 @@ CASES: dict[str, Case] = {
         "no limit from above",
     ),
     "a field held fixed while a datum grows": (  # u_c depends on h_0
-        lambda: parameter_limit(u_c * h_0 / (1 + h_0), h_0),
-        lambda: parameter_limit(f_c * h_0 / (1 + h_0), h_0),
+        lambda: ParameterLimit(u_c * h_0 / (1 + h_0), h_0)(),
+        lambda: ParameterLimit(f_c * h_0 / (1 + h_0), h_0)(),
         "data alone",
     ),
     "a name held fixed while a datum grows": (  # b_0 = sigma_c0/f_c - h_0
-        lambda: parameter_limit(b_0 / h_0, h_0),
-        lambda: parameter_limit(sigma_c0 / h_0, h_0),
+        lambda: ParameterLimit(b_0 / h_0, h_0)(),
+        lambda: ParameterLimit(sigma_c0 / h_0, h_0)(),
         "data alone",
     ),
     # ---- pieces
     "solved across a jump": (  # x_inf = -1/2
-        lambda: solve(given(sp.Eq(KINKED, theta)), x_inf),
-        lambda: solve(given(sp.Eq(x_inf - 1, theta)), x_inf),
+        lambda: Solve(x_inf)(given(sp.Eq(KINKED, theta))),
+        lambda: Solve(x_inf)(given(sp.Eq(x_inf - 1, theta))),
         "linear in",
     ),
     "a time that jumps": (  # u_c = 2
@@ -278,23 +277,23 @@ CASES: dict[str, Case] = {
     ),
     # ---- of the false statements that were known, those without a case elsewhere
     "strictness in a limit": (  # h = u_a
-        lambda: arithmetic(sp.Gt(h, u_a), given(sp.Gt(h + q / M, u_a))),
-        lambda: arithmetic(sp.Gt(h, u_a), given(sp.Ge(h - q, u_a))),
+        lambda: Arithmetic(sp.Gt(h, u_a))(given(sp.Gt(h + q / M, u_a))),
+        lambda: Arithmetic(sp.Gt(h, u_a))(given(sp.Ge(h - q, u_a))),
         r"h\(t\) > u_a",
     ),
     "the square of an unbounded load": (  # U_a^2 = q u_c
-        lambda: at_infinity(sp.Eq(forever(u_c / (u_c + U_a**2 / q)), 1), DEEP),
-        lambda: at_infinity(sp.Eq(forever(u_c / (u_c + U_a**2 / q)), 1), DEEP, BOUNDED),
+        lambda: AtInfinity(sp.Eq(forever(u_c / (u_c + U_a**2 / q)), 1), 1 / u_c)(DEEP),
+        lambda: AtInfinity(sp.Eq(forever(u_c / (u_c + U_a**2 / q)), 1), 1 / u_c)(DEEP, BOUNDED),
         "U_a is bounded",
     ),
     "a part of an or": (  # u_a = 2 q
-        lambda: arithmetic(sp.Lt(u_a, q), given(sp.Lt(sp.Min(u_a, h), q))),
-        lambda: arithmetic(sp.Lt(u_a, q), given(sp.Lt(sp.Max(u_a, h), q))),
+        lambda: Arithmetic(sp.Lt(u_a, q))(given(sp.Lt(sp.Min(u_a, h), q))),
+        lambda: Arithmetic(sp.Lt(u_a, q))(given(sp.Lt(sp.Max(u_a, h), q))),
         "u_a",
     ),
     "the converse": (  # u_a = h = 0
-        lambda: alike(sp.Equivalent(sp.Gt(u_a, q), sp.Lt(h, q))),
-        lambda: alike(sp.Equivalent(sp.Gt(u_a, q), sp.Lt(q - u_a, 0))),
+        lambda: Alike(sp.Equivalent(sp.Gt(u_a, q), sp.Lt(h, q)))(),
+        lambda: Alike(sp.Equivalent(sp.Gt(u_a, q), sp.Lt(q - u_a, 0)))(),
         "differences",
     ),
     "a deviation that grows like the root of the wear": (
@@ -310,27 +309,22 @@ CASES: dict[str, Case] = {
         "is no limit",
     ),
     "theta has f_c": (  # theta = tanh(4 - 2/f_c)
-        lambda: differentiated(
-            sp.Eq(SLOPE, 0, evaluate=False), f_c, given(sp.Eq(u_cum, h_0 * (1 + theta) / 2))
+        lambda: Differentiated(sp.Eq(SLOPE, 0, evaluate=False), f_c)(
+            given(sp.Eq(u_cum, h_0 * (1 + theta) / 2))
         ),
         lambda: sloped(),
         "data alone",
     ),
     "the other branch of Lambert's function": (  # u_c = q/3
-        lambda: inverted(
-            sp.Eq(u_c, -q * sp.LambertW(-t / T, -1), evaluate=False),
-            given(sp.Eq(t, T * u_c / q * sp.exp(-u_c / q))),
+        lambda: Inverted(sp.Eq(u_c, -q * sp.LambertW(-t / T, -1), evaluate=False))(
+            given(sp.Eq(t, T * u_c / q * sp.exp(-u_c / q)))
         ),
-        lambda: inverted(sp.Eq(u_c, q * t / T), given(sp.Eq(t, T * u_c / q))),
+        lambda: Inverted(sp.Eq(u_c, q * t / T))(given(sp.Eq(t, T * u_c / q))),
         "missing premise",
     ),
     "the tail of one solid and the wear of the other": (  # u_a = 0
-        lambda: logarithmic_growth(
-            q, tends(rate("u_a") * sp.exp((u_c - U_a) / q), C), assume(SINE)
-        ),
-        lambda: logarithmic_growth(
-            q, tends(rate("u_c") * sp.exp((u_c - U_a) / q), C), assume(SINE)
-        ),
+        lambda: LogarithmicGrowth(q)(tends(rate("u_a") * sp.exp((u_c - U_a) / q), C), assume(SINE)),
+        lambda: LogarithmicGrowth(q)(tends(rate("u_c") * sp.exp((u_c - U_a) / q), C), assume(SINE)),
         "the limit of exp",
     ),
     "a load that is constant under no condition": (  # sin t
@@ -387,35 +381,35 @@ CASES: dict[str, Case] = {
         "cannot be assumed",
     ),
     "an expression that says it is zero": (
-        lambda: identity(sp.Eq(h_0, h_0 + Lie(), evaluate=False)),
-        lambda: identity(sp.Eq(h_0, h_0 + 0 * h_0, evaluate=False)),
+        lambda: Identity(sp.Eq(h_0, h_0 + Lie(), evaluate=False))(),
+        lambda: Identity(sp.Eq(h_0, h_0 + 0 * h_0, evaluate=False))(),
         "of no kind",
     ),
     "another f_c, which is positive": (
-        lambda: arithmetic(sp.Gt(sp.Symbol("f_c", positive=True), 0, evaluate=False)),
-        lambda: arithmetic(sp.Gt(q, 0, evaluate=False)),
+        lambda: Arithmetic(sp.Gt(sp.Symbol("f_c", positive=True), 0, evaluate=False))(),
+        lambda: Arithmetic(sp.Gt(q, 0, evaluate=False))(),
         "not the f_c of the vocabulary",
     ),
     "another u_c, which is positive": (
-        lambda: arithmetic(sp.Gt(sp.Function("u_c", positive=True)(t), 0, evaluate=False)),
-        lambda: arithmetic(sp.Gt(p, 0, evaluate=False)),
+        lambda: Arithmetic(sp.Gt(sp.Function("u_c", positive=True)(t), 0, evaluate=False))(),
+        lambda: Arithmetic(sp.Gt(p, 0, evaluate=False))(),
         "not the u_c of the vocabulary",
     ),
     "two symbols x": (
-        lambda: identity(
+        lambda: Identity(
             sp.Eq(sp.Symbol("x", real=True) + y, y + sp.Symbol("x", positive=True), evaluate=False)
-        ),
-        lambda: identity(sp.Eq(y + 1, 1 + y, evaluate=False)),
+        )(),
+        lambda: Identity(sp.Eq(y + 1, 1 + y, evaluate=False))(),
         "one name|no identity",
     ),
     "a square of what is not real": (  # i
-        lambda: arithmetic(sp.Ge(sp.Symbol("x") ** 2, 0)),
-        lambda: arithmetic(sp.Ge(y**2, 0, evaluate=False)),
+        lambda: Arithmetic(sp.Ge(sp.Symbol("x") ** 2, 0))(),
+        lambda: Arithmetic(sp.Ge(y**2, 0, evaluate=False))(),
         "no real quantity",
     ),
     "a symbol that is zero": (
-        lambda: identity(sp.Eq(h_0, h_0 + sp.Symbol("x", zero=True), evaluate=False)),
-        lambda: identity(sp.Eq(h_0 + y, y + h_0, evaluate=False)),
+        lambda: Identity(sp.Eq(h_0, h_0 + sp.Symbol("x", zero=True), evaluate=False))(),
+        lambda: Identity(sp.Eq(h_0 + y, y + h_0, evaluate=False))(),
         "no real quantity",
     ),
     "a number of fifteen digits": (  # 1 + 1e-20

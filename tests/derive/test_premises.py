@@ -23,33 +23,33 @@ from derive.kernel import Judgement, Rule, RuleError, infer
 from derive.language import names
 from derive.results.expansion import Expansion
 from derive.rules.algebra import (
-    alike,
-    consequence,
+    Alike,
+    Consequence,
+    Identity,
+    Multiply,
     forget,
-    identity,
-    multiply,
     restrict,
     substitute,
 )
 from derive.rules.assumption import assume, defined
-from derive.rules.averages import SlowTime, averaging
+from derive.rules.averages import Averaging, SlowTime
 from derive.rules.calculus import change_clock, integrate, rigid
-from derive.rules.data import differentiated, one_sign
-from derive.rules.drift import first_order, last_cycles, logarithmic_drift, logarithmic_growth
-from derive.rules.inequalities import Lipschitz, LogarithmicSlope, threshold
+from derive.rules.data import Differentiated, OneSign
+from derive.rules.drift import LastCycles, LogarithmicGrowth, first_order, logarithmic_drift
+from derive.rules.inequalities import Lipschitz, LogarithmicSlope, Threshold
 from derive.rules.limits import (
+    AtInfinity,
+    Passes,
     accumulates,
-    at_infinity,
     forever,
     intermittent,
     one_period_later,
-    passes,
     reciprocal,
     unbounded,
     vanishes,
 )
 from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC, SINE
-from derive.rules.solutions import first_root, inverted, parametric, solution
+from derive.rules.solutions import FirstRoot, Inverted, Parametric, Solution
 from derive.symbols import initial, rate, symbols, t
 from tests.derive import test_hostile, test_rules
 from tests.derive.test_hostile import GROWING, SLOPE, forgotten, integral, supposed, timed
@@ -120,12 +120,12 @@ def by_pressure(
 ) -> Judgement:
     """Apply Parametric, with one thing wrong."""
     law = given(sp.Eq(rate("u_c"), C * p / p_max))
-    return parametric(sp.Eq(t, time), p, law, given(sp.Eq(u_c, wear)), START, assume(CONSTANT))
+    return Parametric(sp.Eq(t, time), p)(law, given(sp.Eq(u_c, wear)), START, assume(CONSTANT))
 
 
 def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Judgement:
     grown = rate("u_c") * sp.exp((u_c - U_a) / size)
-    return logarithmic_growth(scale, tends(grown, C), assume(SINE))
+    return LogarithmicGrowth(scale)(tends(grown, C), assume(SINE))
 
 
 def last(
@@ -138,30 +138,30 @@ def last(
     size = sigma_c0 + f_c * u_c
     law = given(sp.Eq(rate("u_c"), C * size**2 / h_star**2 * (h_0 - U_a) / h))
     facts = defined(N, t / T), given(sp.Eq(h, gap)), assume(CONSTANT), given(sign)
-    return last_cycles(
-        sp.Eq(of, cycles), law, given(sp.Eq(sigma_c, size)), *facts, given(sp.Gt(sigma_c, 0))
+    return LastCycles(sp.Eq(of, cycles))(
+        law, given(sp.Eq(sigma_c, size)), *facts, given(sp.Gt(sigma_c, 0))
     )
 
 
 def root(function: sp.Expr, factor: sp.Expr = sp.S.One) -> Judgement:
-    return first_root(factor, defined(u_stop, FirstZero(function, x)))
+    return FirstRoot(factor)(defined(u_stop, FirstZero(function, x)))
 
 
 def faded(value: sp.Expr, inside: sp.Expr, small: sp.Expr) -> Judgement:
-    return at_infinity(sp.Eq(forever(inside), value), DEEP, BOUNDED, small=small)
+    return AtInfinity(sp.Eq(forever(inside), value), small)(DEEP, BOUNDED)
 
 
 def exceeds(function: sp.Expr, level: sp.Expr, point: sp.Expr) -> Judgement:
     claim = sp.Equivalent(sp.Gt(function, level), sp.Gt(f_c, point))
-    return threshold(claim, f_c, ROUGHENS)
+    return Threshold(claim, f_c)(ROUGHENS)
 
 
 def sloped(claim: sp.Equality, datum: sp.Symbol = f_c) -> Judgement:
-    return differentiated(claim, datum, GROWING)
+    return Differentiated(claim, datum)(GROWING)
 
 
 def averaged_as(claim: sp.Expr, *premises: Judgement) -> Judgement:
-    return averaging(sp.Eq(c_1, claim), *premises)
+    return Averaging(sp.Eq(c_1, claim))(*premises)
 
 
 def slow(place: int | None = None, lhs: sp.Expr | None = None) -> Judgement:
@@ -198,11 +198,11 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("has no value", lambda: substitute(given(sp.Eq(h, 1 / b_0)), given(sp.Eq(b_0, 0)))),
     ("does not occur", lambda: substitute(given(sp.Eq(h, u_a)), given(sp.Eq(b_0, q)))),
     ("every value", lambda: substitute(integral(theta), given(sp.Eq(theta, b_0)))),
-    ("is an equality or", lambda: multiply(given(sp.Ne(h, u_a)), q)),
+    ("is an equality or", lambda: Multiply(q)(given(sp.Ne(h, u_a)))),
     ("has no branch", lambda: restrict(given(sp.Eq(h, q)), ROUGHENS)),
-    ("is an equality", lambda: identity(sp.Ge(f_c, q))),
-    ("Ne", lambda: consequence(sp.Eq(h / f_c, u_a / f_c), given(sp.Eq(h, u_a)))),
-    ("Ne", lambda: alike(sp.Equivalent(sp.Le(u_a, 1 / f_c), sp.Le(u_a - 1 / f_c, 0)))),
+    ("is an equality", lambda: Identity(sp.Ge(f_c, q))()),
+    ("Ne", lambda: Consequence(sp.Eq(h / f_c, u_a / f_c))(given(sp.Eq(h, u_a)))),
+    ("Ne", lambda: Alike(sp.Equivalent(sp.Le(u_a, 1 / f_c), sp.Le(u_a - 1 / f_c, 0)))()),
     ("constant", lambda: forget(given(sp.Eq(b_0, U_a)), supposed(sp.Eq(b_0, U_a)))),
     ("may be -1", lambda: forgotten(sp.Eq(q, -1, evaluate=False), sp.Ge(h_0, 0, evaluate=False))),
     # calculus
@@ -211,14 +211,14 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
         "is constant",
         lambda: integrate(given(sp.Eq(rate("u_c"), u_a * rate("u_a"))), START, START),
     ),
-    ("continuous for k", lambda: rigid(multiply(opened(), k))),
+    ("continuous for k", lambda: rigid(Multiply(k)(opened()))),
     ("t = T tau", lambda: change_clock(defined(u_c, sigma_c0 * v), defined(t, 2 * T * tau))),
     ("is constant", lambda: change_clock(given(sp.Eq(u_c, h * v)), defined(t, T * tau))),
     # data
     ("one of the data", lambda: sloped(sp.Eq(sp.Derivative(u_cum, b_0), 0, evaluate=False), b_0)),
     ("Ne", lambda: sloped(sp.Eq(SLOPE / (f_c - 1), h_0 / (f_c - 1), evaluate=False))),
     ("the derivative is", lambda: sloped(sp.Eq(SLOPE, 2 * h_0, evaluate=False))),
-    ("Ne|> 0", lambda: one_sign(given(sp.Eq(G, sp.sqrt(h_0))), h_0)),
+    ("Ne|> 0", lambda: OneSign(h_0)(given(sp.Eq(G, sp.sqrt(h_0))))),
     # drift
     ("with that limit", lambda: ordered(end=sp.S.One)),
     ("with that limit", lambda: ordered(law=C * sp.exp(-RATIO) * (1 + G**2))),
@@ -251,9 +251,12 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("increases with", lambda: exceeds(-2 * f_c, -2 * q, q)),
     ("the left side is", lambda: exceeds(2 * f_c, q, q)),
     # limits
-    ("smooth function at", lambda: at_infinity(sp.Eq(forever(sp.log(u_c) / u_c), 0), DEEP)),
-    ("is smooth", lambda: at_infinity(sp.Eq(forever(1 / (U_a + h_0 / u_c)), 0), DEEP, BOUNDED)),
-    ("is bounded", lambda: at_infinity(sp.Eq(forever(u_c), 0), DEEP)),
+    ("smooth function at", lambda: AtInfinity(sp.Eq(forever(sp.log(u_c) / u_c), 0), 1 / u_c)(DEEP)),
+    (
+        "is smooth",
+        lambda: AtInfinity(sp.Eq(forever(1 / (U_a + h_0 / u_c)), 0), 1 / u_c)(DEEP, BOUNDED),
+    ),
+    ("is bounded", lambda: AtInfinity(sp.Eq(forever(u_c), 0), 1 / u_c)(DEEP)),
     ("-> 0 as", lambda: faded(sp.S.Zero, FADING, 1 / u_c**2)),
     ("f_c/q > 0", lambda: faded(sp.S.Zero, FADING, sp.exp(-f_c * u_c / q))),
     ("is a power of", lambda: faded(sp.S.Zero, sp.sqrt(FADING), FADING)),
@@ -261,7 +264,7 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
         "is a constant over",
         lambda: vanishes(given(sp.And(sp.Le(G, U_a / u_c), sp.Ge(G, -U_a / u_c))), DEEP),
     ),
-    ("the limit of", lambda: passes(sp.Eq(forever(2 * G), theta), tends(G, theta))),
+    ("the limit of", lambda: Passes(sp.Eq(forever(2 * G), theta))(tends(G, theta))),
     ("is finite", lambda: accumulates(tends(rate("u_c"), sp.oo))),
     ("-> oo", lambda: reciprocal(tends(u_c, h_0))),
     ("solved for the rate", lambda: unbounded(given(sp.Eq(rate("u_c"), C + rate("u_a"))))),
@@ -272,20 +275,20 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("positive and continuous", lambda: some_of_the_time(on=C * f_c)),
     ("rate in contact", lambda: some_of_the_time(on=C * (1 + U_a**2 / U**2))),
     # solutions
-    ("gives the time", lambda: solution(sp.Eq(u_a, u_c), test_hostile.RATE, START, CONSTANTLY)),
+    ("gives the time", lambda: Solution(sp.Eq(u_a, u_c))(test_hostile.RATE, START, CONSTANTLY)),
     ("Ne", lambda: timed(u_c / f_c, f_c, START)),
     ("f_c > 0", lambda: timed(u_c / f_c, f_c, START, given(sp.Ne(f_c, 0)))),
     ("reciprocal of the rate", lambda: timed(2 * u_c / C, C, START)),
     ("begins at 0", lambda: timed(u_c / C, C, given(sp.Eq(initial("u_c"), 1)))),
-    ("gives the time", lambda: inverted(sp.Eq(u_c, T), given(sp.Eq(u_a, T * u_c)))),
-    ("increases with", lambda: inverted(sp.Eq(u_c, -t), given(sp.Eq(t, -u_c)))),
-    ("gives back the time", lambda: inverted(sp.Eq(u_c, 2 * t), given(sp.Eq(t, u_c)))),
+    ("gives the time", lambda: Inverted(sp.Eq(u_c, T))(given(sp.Eq(u_a, T * u_c)))),
+    ("increases with", lambda: Inverted(sp.Eq(u_c, -t))(given(sp.Eq(t, -u_c)))),
+    ("gives back the time", lambda: Inverted(sp.Eq(u_c, 2 * t))(given(sp.Eq(t, u_c)))),
     ("Ne", lambda: by_pressure(time=TIME + 1 / f_c)),
     ("smooth functions", lambda: by_pressure(wear=U_a - sp.Abs(b_0 - p))),
     ("linear in the load", lambda: by_pressure(TIME + T * SQUARE.subs(t, 0) / U, SQUARE)),
     ("wear over the rate", lambda: by_pressure(time=TIME * 2)),
     ("begins at 0", lambda: by_pressure(time=TIME + T)),
-    ("a first zero", lambda: first_root(sp.S.One, given(sp.Eq(u_stop, h_star)))),
+    ("a first zero", lambda: FirstRoot(sp.S.One)(given(sp.Eq(u_stop, h_star)))),
     ("is quadratic", lambda: root(h_star - x**3)),
     ("Ne", lambda: root((h_star - x) / (x - 1), x - 1)),
     ("f_c > 0", lambda: root(h_star - x, f_c)),

@@ -18,60 +18,60 @@ from derive.laws import GENERAL, ContactLaw, r
 from derive.results.expansion import Expansion
 from derive.results.steady_state import BOUNDED_LOAD, steady_state
 from derive.rules.algebra import (
+    Alike,
+    Consequence,
+    Identity,
+    Insert,
+    Logarithm,
+    Multiply,
+    Solve,
     Substitute,
-    alike,
-    consequence,
     discharge,
     forget,
-    identity,
-    insert,
-    logarithm,
-    multiply,
     restrict,
-    solve,
     substitute,
 )
 from derive.rules.assumption import assume, defined
-from derive.rules.averages import EXPANSION, OFFSET, SATURATION, averaging, slow_time, term_of
+from derive.rules.averages import EXPANSION, OFFSET, SATURATION, Averaging, SlowTime, term_of
 from derive.rules.calculus import (
     SPRINGS,
+    ParameterLimit,
     change_clock,
     differentiate,
     grows,
     integrate,
-    parameter_limit,
     rigid,
 )
-from derive.rules.data import differentiated, one_sign
+from derive.rules.data import Differentiated, OneSign
 from derive.rules.drift import (
     MEAN,
+    LastCycles,
+    LogarithmicGrowth,
     first_order,
-    last_cycles,
     logarithmic_drift,
-    logarithmic_growth,
 )
 from derive.rules.inequalities import (
+    Arithmetic,
     Lipschitz,
     LogarithmicSlope,
-    arithmetic,
-    monotone,
-    threshold,
+    Monotone,
+    Threshold,
 )
 from derive.rules.limits import (
+    AtInfinity,
+    Diverges,
+    Passes,
     accumulates,
-    at_infinity,
-    diverges,
     forever,
     later,
     one_period_later,
-    passes,
     reciprocal,
     unbounded,
     vanishes,
 )
 from derive.rules.proving import sign
 from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC, SINE
-from derive.rules.solutions import first_root, inverted, parametric, solution
+from derive.rules.solutions import FirstRoot, Inverted, Parametric, Solution
 from derive.symbols import initial, rate, symbol, symbols, t
 from derive.zero import is_zero
 
@@ -112,38 +112,38 @@ CASES: dict[str, Case] = {
         lambda: substitute(given(sp.Ne(h, u_a)), given(sp.Eq(u_a, h_0))),
     ),
     "an inequality is not solved": (
-        lambda: solve(given(sp.Ge(u_a, h_0)), u_a),
-        lambda: solve(given(sp.Eq(u_a, h_0)), h_0),
+        lambda: Solve(u_a)(given(sp.Ge(u_a, h_0))),
+        lambda: Solve(h_0)(given(sp.Eq(u_a, h_0))),
     ),
     "an inequality times a factor of either sign": (  # f_c = -1
-        lambda: multiply(given(sp.Ge(u_a, h_0)), f_c),
-        lambda: multiply(given(sp.Ge(u_a, h_0)), q),
+        lambda: Multiply(f_c)(given(sp.Ge(u_a, h_0))),
+        lambda: Multiply(q)(given(sp.Ge(u_a, h_0))),
     ),
     "f_c u_a = f_c h_0 at f_c = 0": (
-        lambda: solve(given(sp.Eq(f_c * u_a, f_c * h_0)), u_a),
-        lambda: solve(given(sp.Eq(f_c * u_a, f_c * h_0)), u_a, ROUGHENS),
+        lambda: Solve(u_a)(given(sp.Eq(f_c * u_a, f_c * h_0))),
+        lambda: Solve(u_a)(given(sp.Eq(f_c * u_a, f_c * h_0)), ROUGHENS),
     ),
     "divided by what may vanish": (
-        lambda: multiply(given(sp.Eq(h, u_a)), 1 / f_c),
-        lambda: multiply(given(sp.Eq(h, u_a)), 1 / f_c, ROUGHENS),
+        lambda: Multiply(1 / f_c)(given(sp.Eq(h, u_a))),
+        lambda: Multiply(1 / f_c)(given(sp.Eq(h, u_a)), ROUGHENS),
     ),
     "solved under a derivative": (  # G = 1 - e^-t
-        lambda: solve(given(sp.Eq(T * rate("G") + G, theta)), G),
-        lambda: solve(given(sp.Eq(T * rate("G") + G, theta)), rate("G")),
+        lambda: Solve(G)(given(sp.Eq(T * rate("G") + G, theta))),
+        lambda: Solve(rate("G"))(given(sp.Eq(T * rate("G") + G, theta))),
     ),
     "a claim with more parts than the premise": (  # u_a = 2, L = 1
-        lambda: consequence(
-            sp.And(sp.Le(-G, h_0), sp.Lt(u_a, L)), given(sp.Le(-G, L)), given(sp.Eq(L, h_0))
+        lambda: Consequence(sp.And(sp.Le(-G, h_0), sp.Lt(u_a, L)))(
+            given(sp.Le(-G, L)), given(sp.Eq(L, h_0))
         ),
-        lambda: consequence(sp.Le(-G, h_0), given(sp.Le(-G, L)), given(sp.Eq(L, h_0))),
+        lambda: Consequence(sp.Le(-G, h_0))(given(sp.Le(-G, L)), given(sp.Eq(L, h_0))),
     ),
     # ---- special cases: the value stays a hypothesis
     "a hypothesis that is not met is dropped": (
         lambda: discharge(
-            solve(given(sp.Eq(f_c * u_a, h_0)), u_a, ROUGHENS), ROUGHENS.hypotheses[0], START
+            Solve(u_a)(given(sp.Eq(f_c * u_a, h_0)), ROUGHENS), ROUGHENS.hypotheses[0], START
         ),
         lambda: discharge(
-            solve(given(sp.Eq(f_c * u_a, h_0)), u_a, ROUGHENS),
+            Solve(u_a)(given(sp.Eq(f_c * u_a, h_0)), ROUGHENS),
             ROUGHENS.hypotheses[0],
             given(sp.Eq(f_c, 1)),
         ),
@@ -206,50 +206,45 @@ CASES: dict[str, Case] = {
         ),
     ),
     "f_c N/(1 + f_c N) for N -> oo": (  # f_c = 0
-        lambda: parameter_limit(f_c * N / (1 + f_c * N), N),
-        lambda: parameter_limit(f_c * N / (1 + f_c * N), N, ROUGHENS),
+        lambda: ParameterLimit(f_c * N / (1 + f_c * N), N)(),
+        lambda: ParameterLimit(f_c * N / (1 + f_c * N), N)(ROUGHENS),
     ),
     "h_0^(1/N) for N -> oo": (  # h_0 = 0
-        lambda: parameter_limit(h_0 ** (1 / N), N),
-        lambda: parameter_limit(h_0 ** (1 / N), N, given(sp.Gt(h_0, 0))),
+        lambda: ParameterLimit(h_0 ** (1 / N), N)(),
+        lambda: ParameterLimit(h_0 ** (1 / N), N)(given(sp.Gt(h_0, 0))),
     ),
     "floor(2 - 1/N) for N -> oo": (
-        lambda: parameter_limit(sp.floor(2 - 1 / N), N),
-        lambda: parameter_limit(2 - 1 / N, N),
+        lambda: ParameterLimit(sp.floor(2 - 1 / N), N)(),
+        lambda: ParameterLimit(2 - 1 / N, N)(),
     ),
     "k -> oo with U_c held fixed": (  # R_a = k b L (U_c - U)
         lambda: rigid(given(sp.Eq(R_a, k * b * L * (U_c - U)))),
-        lambda: rigid(substitute(given(sp.Eq(h, h_0 + U_c - U_a)), solve(assume(SPRINGS), U_c))),
+        lambda: rigid(substitute(given(sp.Eq(h, h_0 + U_c - U_a)), Solve(U_c)(assume(SPRINGS)))),
     ),
     "k -> oo under a bounded load": (
         lambda: rigid(
-            insert(
-                sp.Eq(h, h_0 + p / k - U_a),
-                given(sp.Eq(h, h_0 + U_c - U_a)),
-                solve(assume(SPRINGS), U_c),
-                BOUNDED,
+            Insert(sp.Eq(h, h_0 + p / k - U_a))(
+                given(sp.Eq(h, h_0 + U_c - U_a)), Solve(U_c)(assume(SPRINGS)), BOUNDED
             )
         ),
         lambda: rigid(
-            insert(
-                sp.Eq(h, h_0 + p / k - U_a),
-                given(sp.Eq(h, h_0 + U_c - U_a)),
-                solve(assume(SPRINGS), U_c),
+            Insert(sp.Eq(h, h_0 + p / k - U_a))(
+                given(sp.Eq(h, h_0 + U_c - U_a)), Solve(U_c)(assume(SPRINGS))
             )
         ),
     ),
     # ---- divergence
     "bounded below by a constant": (  # u_c = h_0
-        lambda: diverges(u_c, given(sp.Ge(u_c, h_0))),
-        lambda: diverges(u_c, given(sp.Ge(u_c, h_0 + C * t))),
+        lambda: Diverges(u_c)(given(sp.Ge(u_c, h_0))),
+        lambda: Diverges(u_c)(given(sp.Ge(u_c, h_0 + C * t))),
     ),
     "sigma_c0 + f_c u_c for any f_c": (  # f_c = -0.05
-        lambda: diverges(sigma_c0 + f_c * u_c, given(sp.Ge(u_c, C * t))),
-        lambda: diverges(sigma_c0 + f_c * u_c, given(sp.Ge(u_c, C * t)), ROUGHENS),
+        lambda: Diverges(sigma_c0 + f_c * u_c)(given(sp.Ge(u_c, C * t))),
+        lambda: Diverges(sigma_c0 + f_c * u_c)(given(sp.Ge(u_c, C * t)), ROUGHENS),
     ),
     "u_c - C t": (  # u_c = C t
-        lambda: diverges(u_c - C * t, given(sp.Ge(u_c, C * t))),
-        lambda: diverges(u_c - h_0, given(sp.Ge(u_c, C * t))),
+        lambda: Diverges(u_c - C * t)(given(sp.Ge(u_c, C * t))),
+        lambda: Diverges(u_c - h_0)(given(sp.Ge(u_c, C * t))),
     ),
     "a rate that fades with time": (  # u_c < C T
         lambda: unbounded(given(sp.Eq(rate("u_c"), C / (1 + t / T) ** 2))),
@@ -280,18 +275,18 @@ CASES: dict[str, Case] = {
     ),
     # ---- limits in time
     "h/u_c with h held fixed": (  # h = u_c
-        lambda: at_infinity(sp.Eq(forever(h / u_c), 0), DEEP),
-        lambda: at_infinity(sp.Eq(forever(U_a / u_c), 0), DEEP, BOUNDED),
+        lambda: AtInfinity(sp.Eq(forever(h / u_c), 0), 1 / u_c)(DEEP),
+        lambda: AtInfinity(sp.Eq(forever(U_a / u_c), 0), 1 / u_c)(DEEP, BOUNDED),
     ),
     "T u_c'/u_c": (  # u_c = L e^(t/T)
-        lambda: at_infinity(sp.Eq(forever(T * rate("u_c") / u_c), 0), DEEP),
-        lambda: passes(
-            sp.Eq(forever(rate("u_c") / u_c), 0), tends(rate("u_c"), C), reciprocal(DEEP)
+        lambda: AtInfinity(sp.Eq(forever(T * rate("u_c") / u_c), 0), 1 / u_c)(DEEP),
+        lambda: Passes(sp.Eq(forever(rate("u_c") / u_c), 0))(
+            tends(rate("u_c"), C), reciprocal(DEEP)
         ),
     ),
     "U_a has no limit": (  # U sin t
-        lambda: at_infinity(sp.Eq(forever(U_a + h_0**2 / u_c), U_a), DEEP, BOUNDED),
-        lambda: at_infinity(sp.Eq(forever(h_0 + U_a * h_0 / u_c), h_0), DEEP, BOUNDED),
+        lambda: AtInfinity(sp.Eq(forever(U_a + h_0**2 / u_c), U_a), 1 / u_c)(DEEP, BOUNDED),
+        lambda: AtInfinity(sp.Eq(forever(h_0 + U_a * h_0 / u_c), h_0), 1 / u_c)(DEEP, BOUNDED),
     ),
     "a squeeze between constants": (  # u_c = h_0, G = 1
         lambda: vanishes(
@@ -300,17 +295,14 @@ CASES: dict[str, Case] = {
         lambda: vanishes(given(sp.And(sp.Le(G, h_0 / u_c), sp.Ge(G, -h_0 / u_c))), DEEP),
     ),
     "u_c G/(h_0 + u_c G)": (  # G = h_0/u_c
-        lambda: passes(sp.Eq(forever(G / (h_0 / u_c + G)), 1), tends(G, 0), reciprocal(DEEP)),
-        lambda: passes(
-            sp.Eq(forever(G / (h_0 / u_c + G)), 1),
-            tends(G, theta),
-            reciprocal(DEEP),
-            given(sp.Ne(theta, 0)),
+        lambda: Passes(sp.Eq(forever(G / (h_0 / u_c + G)), 1))(tends(G, 0), reciprocal(DEEP)),
+        lambda: Passes(sp.Eq(forever(G / (h_0 / u_c + G)), 1))(
+            tends(G, theta), reciprocal(DEEP), given(sp.Ne(theta, 0))
         ),
     ),
     "e^(-u_c G/h_0)": (  # G = h_0/u_c
-        lambda: passes(sp.Eq(forever(sp.exp(-u_c * G / h_0)), 1), tends(G, 0), DEEP),
-        lambda: passes(sp.Eq(forever(sp.exp(-G)), 1), tends(G, 0)),
+        lambda: Passes(sp.Eq(forever(sp.exp(-u_c * G / h_0)), 1))(tends(G, 0), DEEP),
+        lambda: Passes(sp.Eq(forever(sp.exp(-G)), 1))(tends(G, 0)),
     ),
     "a limit that is only bounded": (  # u_c = 2 C t
         lambda: accumulates(given(sp.Ge(sp.Limit(rate("u_c"), t, sp.oo), C))),
@@ -325,18 +317,18 @@ CASES: dict[str, Case] = {
         lambda: accumulates(tends(rate("u_c"), C)),
     ),
     "lim u_c <= oo": (
-        lambda: at_infinity(
-            sp.Eq(forever(U_a / u_c), 0), given(sp.Le(sp.Limit(u_c, t, sp.oo), h_0)), BOUNDED
+        lambda: AtInfinity(sp.Eq(forever(U_a / u_c), 0), 1 / u_c)(
+            given(sp.Le(sp.Limit(u_c, t, sp.oo), h_0)), BOUNDED
         ),
-        lambda: at_infinity(sp.Eq(forever(U_a / u_c), 0), DEEP, BOUNDED),
+        lambda: AtInfinity(sp.Eq(forever(U_a / u_c), 0), 1 / u_c)(DEEP, BOUNDED),
     ),
     "a limit at 0 for one at infinity": (  # tanh t
-        lambda: passes(sp.Eq(forever(G), theta), tends(G, theta, sp.S.Zero)),
-        lambda: passes(sp.Eq(forever(2 * G), 2 * theta), tends(G, theta)),
+        lambda: Passes(sp.Eq(forever(G), theta))(tends(G, theta, sp.S.Zero)),
+        lambda: Passes(sp.Eq(forever(2 * G), 2 * theta))(tends(G, theta)),
     ),
     "a sign is not continuous": (
-        lambda: passes(sp.Eq(forever(sp.sign(G)), 0), tends(G, 0)),
-        lambda: passes(sp.Eq(forever(sp.tanh(G)), 0), tends(G, 0)),
+        lambda: Passes(sp.Eq(forever(sp.sign(G)), 0))(tends(G, 0)),
+        lambda: Passes(sp.Eq(forever(sp.tanh(G)), 0))(tends(G, 0)),
     ),
     # ---- bounds
     "a derivative with respect to the period": (  # G = omega T
@@ -356,32 +348,31 @@ CASES: dict[str, Case] = {
         lambda: grows(given(sp.Ge(rate("u_c"), C)), START),
     ),
     "a function that jumps": (  # 0, -1/2
-        lambda: monotone(
-            sp.Lambda(y, sp.Piecewise((y, y < 0), (y - 1, True))), given(sp.Ge(x_inf, theta))
+        lambda: Monotone(sp.Lambda(y, sp.Piecewise((y, y < 0), (y - 1, True))))(
+            given(sp.Ge(x_inf, theta))
         ),
-        lambda: monotone(sp.Lambda(y, y - 1), given(sp.Ge(x_inf, theta))),
+        lambda: Monotone(sp.Lambda(y, y - 1))(given(sp.Ge(x_inf, theta))),
     ),
     "a jump where no sample lies": (
-        lambda: monotone(
-            sp.Lambda(y, sp.Piecewise((y, y < 1000), (y - 2000, True))), given(sp.Ge(x_inf, theta))
+        lambda: Monotone(sp.Lambda(y, sp.Piecewise((y, y < 1000), (y - 2000, True))))(
+            given(sp.Ge(x_inf, theta))
         ),
-        lambda: monotone(sp.Lambda(y, 2 * y), given(sp.Ge(x_inf, theta))),
+        lambda: Monotone(sp.Lambda(y, 2 * y))(given(sp.Ge(x_inf, theta))),
     ),
     "tan": (  # 2, 1
-        lambda: monotone(sp.Lambda(y, sp.tan(y)), given(sp.Ge(x_inf, theta))),
-        lambda: monotone(sp.Lambda(y, sp.tanh(y)), given(sp.Ge(x_inf, theta))),
+        lambda: Monotone(sp.Lambda(y, sp.tan(y)))(given(sp.Ge(x_inf, theta))),
+        lambda: Monotone(sp.Lambda(y, sp.tanh(y)))(given(sp.Ge(x_inf, theta))),
     ),
     "-1/x across its pole": (  # 1, -1
-        lambda: monotone(sp.Lambda(y, -1 / y), given(sp.Ge(x_inf, theta))),
-        lambda: monotone(sp.Lambda(y, -1 / y), given(sp.Ge(h_0 + q, q, evaluate=False))),
+        lambda: Monotone(sp.Lambda(y, -1 / y))(given(sp.Ge(x_inf, theta))),
+        lambda: Monotone(sp.Lambda(y, -1 / y))(given(sp.Ge(h_0 + q, q, evaluate=False))),
     ),
     "the slope of any law as a function": (  # phi = e^-r
-        lambda: monotone(
-            sp.Lambda(y, sp.diff(GENERAL.phi, r).subs(r, y)),
-            given(sp.Ge(-q, -2 * q, evaluate=False)),
+        lambda: Monotone(sp.Lambda(y, sp.diff(GENERAL.phi, r).subs(r, y)))(
+            given(sp.Ge(-q, -2 * q, evaluate=False))
         ),
-        lambda: monotone(
-            sp.Lambda(y, GENERAL.phi.subs(r, y)), given(sp.Ge(-q, -2 * q, evaluate=False))
+        lambda: Monotone(sp.Lambda(y, GENERAL.phi.subs(r, y)))(
+            given(sp.Ge(-q, -2 * q, evaluate=False))
         ),
     ),
     "a slope that is too steep": (
@@ -398,159 +389,142 @@ CASES: dict[str, Case] = {
     ),
     # ---- data and signs
     "a name that has f_c inside": (  # theta = tanh(4 - 2/f_c)
-        lambda: differentiated(
-            sp.Eq(sp.Derivative(u_cum, f_c), 0, evaluate=False),
-            f_c,
-            defined(u_cum, M * (1 + theta) / 2),
+        lambda: Differentiated(sp.Eq(sp.Derivative(u_cum, f_c), 0, evaluate=False), f_c)(
+            defined(u_cum, M * (1 + theta) / 2)
         ),
-        lambda: differentiated(
-            sp.Eq(sp.Derivative(u_cum, h_0), 2 * h_0, evaluate=False),
-            h_0,
-            defined(u_cum, h_0**2),
+        lambda: Differentiated(sp.Eq(sp.Derivative(u_cum, h_0), 2 * h_0, evaluate=False), h_0)(
+            defined(u_cum, h_0**2)
         ),
     ),
     "the derivative of a bound": (  # u_cum = 5 M
-        lambda: differentiated(
-            sp.Eq(sp.Derivative(u_cum, f_c), h_0, evaluate=False),
-            f_c,
-            given(sp.Ge(u_cum, h_0 * f_c)),
+        lambda: Differentiated(sp.Eq(sp.Derivative(u_cum, f_c), h_0, evaluate=False), f_c)(
+            given(sp.Ge(u_cum, h_0 * f_c))
         ),
-        lambda: differentiated(
-            sp.Eq(sp.Derivative(u_cum, f_c), h_0, evaluate=False),
-            f_c,
-            defined(u_cum, h_0 * f_c),
+        lambda: Differentiated(sp.Eq(sp.Derivative(u_cum, f_c), h_0, evaluate=False), f_c)(
+            defined(u_cum, h_0 * f_c)
         ),
     ),
     "the derivative at a fixed value": (
-        lambda: differentiated(
-            sp.Eq(sp.Derivative(u_cum, f_c), 0, evaluate=False),
-            f_c,
+        lambda: Differentiated(sp.Eq(sp.Derivative(u_cum, f_c), 0, evaluate=False), f_c)(
             substitute(
                 substitute(defined(u_cum, h_0 * f_c), given(sp.Eq(f_c, 1))),
                 given(sp.Eq(h_0, 2)),
-            ),
+            )
         ),
-        lambda: differentiated(
-            sp.Eq(sp.Derivative(u_cum, f_c), h_0, evaluate=False),
-            f_c,
-            defined(u_cum, h_0 * f_c),
+        lambda: Differentiated(sp.Eq(sp.Derivative(u_cum, f_c), h_0, evaluate=False), f_c)(
+            defined(u_cum, h_0 * f_c)
         ),
     ),
     "the arcsine of a sine": (  # omega T = 2
-        lambda: insert(
-            sp.Eq(T, sp.asin(kappa - 1) / omega), given(sp.Eq(kappa, 1 + sp.sin(omega * T)))
+        lambda: Insert(sp.Eq(T, sp.asin(kappa - 1) / omega))(
+            given(sp.Eq(kappa, 1 + sp.sin(omega * T)))
         ),
-        lambda: insert(sp.Eq(T, (kappa - 1) / omega), given(sp.Eq(kappa, 1 + omega * T))),
+        lambda: Insert(sp.Eq(T, (kappa - 1) / omega))(given(sp.Eq(kappa, 1 + omega * T))),
     ),
     "U_max > 0": (
-        lambda: arithmetic(sp.Gt(U_max, 0)),
-        lambda: arithmetic(sp.Gt(U_max, 0), given(sp.Gt(U_max, h_0))),
+        lambda: Arithmetic(sp.Gt(U_max, 0))(),
+        lambda: Arithmetic(sp.Gt(U_max, 0))(given(sp.Gt(U_max, h_0))),
     ),
-    "f_c > -1": (lambda: arithmetic(sp.Gt(f_c, -1)), lambda: arithmetic(sp.Gt(f_c, -1), ROUGHENS)),
+    "f_c > -1": (
+        lambda: Arithmetic(sp.Gt(f_c, -1))(),
+        lambda: Arithmetic(sp.Gt(f_c, -1))(ROUGHENS),
+    ),
     "p < 10^6 p_max": (
-        lambda: arithmetic(sp.Lt(p, 10**6 * p_max)),
-        lambda: arithmetic(sp.Lt(p, 10**6 * p_max), given(sp.Lt(p, p_max))),
+        lambda: Arithmetic(sp.Lt(p, 10**6 * p_max))(),
+        lambda: Arithmetic(sp.Lt(p, 10**6 * p_max))(given(sp.Lt(p, p_max))),
     ),
     "the effect of a datum of either sign": (
-        lambda: one_sign(given(sp.Eq(rate("u_c"), C * f_c * h_0)), h_0),
-        lambda: one_sign(given(sp.Eq(rate("u_c"), C * f_c * h_0)), h_0, ROUGHENS),
+        lambda: OneSign(h_0)(given(sp.Eq(rate("u_c"), C * f_c * h_0))),
+        lambda: OneSign(h_0)(given(sp.Eq(rate("u_c"), C * f_c * h_0)), ROUGHENS),
     ),
     # ---- identities
     "|f_c| = f_c": (
-        lambda: identity(sp.Eq(sp.Abs(f_c), f_c)),
-        lambda: identity(sp.Eq(sp.Abs(f_c) ** 2, f_c**2, evaluate=False)),
+        lambda: Identity(sp.Eq(sp.Abs(f_c), f_c))(),
+        lambda: Identity(sp.Eq(sp.Abs(f_c) ** 2, f_c**2, evaluate=False))(),
     ),
     "log(x^2) = 2 log(x)": (
-        lambda: identity(sp.Eq(sp.log(x_inf**2), 2 * sp.log(x_inf))),
-        lambda: identity(sp.Eq(sp.log(2 * q), sp.log(2) + sp.log(q), evaluate=False)),
+        lambda: Identity(sp.Eq(sp.log(x_inf**2), 2 * sp.log(x_inf)))(),
+        lambda: Identity(sp.Eq(sp.log(2 * q), sp.log(2) + sp.log(q), evaluate=False))(),
     ),
     "W(x e^x) = x": (
-        lambda: identity(sp.Eq(sp.LambertW(theta * sp.exp(theta)), theta)),
-        lambda: identity(sp.Eq(theta * sp.exp(theta) * sp.exp(-theta), theta, evaluate=False)),
+        lambda: Identity(sp.Eq(sp.LambertW(theta * sp.exp(theta)), theta))(),
+        lambda: Identity(sp.Eq(theta * sp.exp(theta) * sp.exp(-theta), theta, evaluate=False))(),
     ),
     "atan(tan x) = x": (
-        lambda: identity(sp.Eq(sp.atan(sp.tan(theta)), theta)),
-        lambda: identity(sp.Eq(sp.tanh(-theta), -sp.tanh(theta), evaluate=False)),
+        lambda: Identity(sp.Eq(sp.atan(sp.tan(theta)), theta))(),
+        lambda: Identity(sp.Eq(sp.tanh(-theta), -sp.tanh(theta), evaluate=False))(),
     ),
     "(f_c^2 - 1)/(f_c - 1) at f_c = 1": (
-        lambda: identity(sp.Eq((f_c**2 - 1) / (f_c - 1), f_c + 1)),
-        lambda: identity(sp.Eq((f_c**2 - 1) / (f_c - 1), f_c + 1), given(sp.Ne(f_c, 1))),
+        lambda: Identity(sp.Eq((f_c**2 - 1) / (f_c - 1), f_c + 1))(),
+        lambda: Identity(sp.Eq((f_c**2 - 1) / (f_c - 1), f_c + 1))(given(sp.Ne(f_c, 1))),
     ),
     "the logarithm of a bound": (  # kappa = 5, f_c = 0.1
-        lambda: logarithm(sp.Eq(sp.log(kappa), f_c), given(sp.Ge(kappa, sp.exp(f_c)))),
-        lambda: logarithm(sp.Eq(sp.log(kappa), f_c), given(sp.Eq(kappa, sp.exp(f_c)))),
+        lambda: Logarithm(sp.Eq(sp.log(kappa), f_c))(given(sp.Ge(kappa, sp.exp(f_c)))),
+        lambda: Logarithm(sp.Eq(sp.log(kappa), f_c))(given(sp.Eq(kappa, sp.exp(f_c)))),
     ),
     "0/0": (  # h = u_a
-        lambda: insert(
-            sp.Eq((h - u_a) / (u_c - h_0), 1, evaluate=False), given(sp.Eq(u_c, h_0 + h - u_a))
+        lambda: Insert(sp.Eq((h - u_a) / (u_c - h_0), 1, evaluate=False))(
+            given(sp.Eq(u_c, h_0 + h - u_a))
         ),
-        lambda: insert(
-            sp.Eq((h - u_a) / (u_c - h_0), 1, evaluate=False),
-            given(sp.Eq(u_c, h_0 + h - u_a)),
-            given(sp.Ne(u_c, h_0)),
+        lambda: Insert(sp.Eq((h - u_a) / (u_c - h_0), 1, evaluate=False))(
+            given(sp.Eq(u_c, h_0 + h - u_a)), given(sp.Ne(u_c, h_0))
         ),
     ),
     "a bound inserted as an equation": (
-        lambda: insert(sp.Eq(u_a, h_0), given(sp.Le(u_a, h_0))),
-        lambda: insert(sp.Eq(u_a, h_0), given(sp.Eq(u_a, h_0))),
+        lambda: Insert(sp.Eq(u_a, h_0))(given(sp.Le(u_a, h_0))),
+        lambda: Insert(sp.Eq(u_a, h_0))(given(sp.Eq(u_a, h_0))),
     ),
     # ---- solutions
     "a load that varies": (  # U_a = t
-        lambda: solution(
-            sp.Eq(t, u_c * h_star / (C * U)), given(sp.Eq(rate("u_c"), C * U / h_star)), START
+        lambda: Solution(sp.Eq(t, u_c * h_star / (C * U)))(
+            given(sp.Eq(rate("u_c"), C * U / h_star)), START
         ),
-        lambda: solution(
-            sp.Eq(t, u_c * h_star / (C * U)),
-            given(sp.Eq(rate("u_c"), C * U / h_star)),
-            START,
-            assume(CONSTANT),
+        lambda: Solution(sp.Eq(t, u_c * h_star / (C * U)))(
+            given(sp.Eq(rate("u_c"), C * U / h_star)), START, assume(CONSTANT)
         ),
     ),
     "the wrong branch of W": (  # u_c = 3 h_star
-        lambda: inverted(
-            sp.Eq(u_c, -h_star * sp.LambertW(-t / T)),
-            given(sp.Eq(t, T * u_c / h_star * sp.exp(-u_c / h_star))),
+        lambda: Inverted(sp.Eq(u_c, -h_star * sp.LambertW(-t / T)))(
+            given(sp.Eq(t, T * u_c / h_star * sp.exp(-u_c / h_star)))
         ),
-        lambda: inverted(sp.Eq(u_c, h_star * t / T), given(sp.Eq(t, T * u_c / h_star))),
+        lambda: Inverted(sp.Eq(u_c, h_star * t / T))(given(sp.Eq(t, T * u_c / h_star))),
     ),
     "a multiple of the rate": (  # u_c = C t/2
-        lambda: solution(
-            sp.Eq(t, u_c / C), given(sp.Eq(2 * rate("u_c"), C)), START, assume(CONSTANT)
+        lambda: Solution(sp.Eq(t, u_c / C))(
+            given(sp.Eq(2 * rate("u_c"), C)), START, assume(CONSTANT)
         ),
-        lambda: solution(sp.Eq(t, u_c / C), given(sp.Eq(rate("u_c"), C)), START, assume(CONSTANT)),
+        lambda: Solution(sp.Eq(t, u_c / C))(given(sp.Eq(rate("u_c"), C)), START, assume(CONSTANT)),
     ),
     "the bound of a rate": (  # u_c = 2 C t
-        lambda: solution(sp.Eq(t, u_c / C), given(sp.Ge(rate("u_c"), C)), START, assume(CONSTANT)),
-        lambda: solution(sp.Eq(t, u_c / C), given(sp.Eq(rate("u_c"), C)), START, assume(CONSTANT)),
+        lambda: Solution(sp.Eq(t, u_c / C))(given(sp.Ge(rate("u_c"), C)), START, assume(CONSTANT)),
+        lambda: Solution(sp.Eq(t, u_c / C))(given(sp.Eq(rate("u_c"), C)), START, assume(CONSTANT)),
     ),
     "the rate of one solid and the wear of the other": (
-        lambda: parametric(
-            sp.Eq(t, (p - initial("p")) * h_0 / (C * p_max)),
-            p,
+        lambda: Parametric(sp.Eq(t, (p - initial("p")) * h_0 / (C * p_max)), p)(
             given(sp.Eq(rate("u_a"), C)),
             given(sp.Eq(u_c, h_0 * (p - initial("p")) / p_max)),
             START,
             assume(CONSTANT),
         ),
-        lambda: solution(sp.Eq(t, u_c / C), given(sp.Eq(rate("u_c"), C)), START, assume(CONSTANT)),
+        lambda: Solution(sp.Eq(t, u_c / C))(given(sp.Eq(rate("u_c"), C)), START, assume(CONSTANT)),
     ),
     # ---- logic
     "u_a <= h_0 if and only if u_a < h_0": (
-        lambda: alike(sp.Equivalent(sp.Le(u_a, h_0), sp.Lt(u_a, h_0))),
-        lambda: alike(sp.Equivalent(sp.Le(u_a, h_0), sp.Le(u_a - h_0, 0))),
+        lambda: Alike(sp.Equivalent(sp.Le(u_a, h_0), sp.Lt(u_a, h_0)))(),
+        lambda: Alike(sp.Equivalent(sp.Le(u_a, h_0), sp.Le(u_a - h_0, 0)))(),
     ),
     "strict if and only if not strict": (
-        lambda: threshold(
-            sp.Equivalent(sp.Gt(2 * f_c, epsilon), sp.Ge(f_c, epsilon / 2)), f_c, ROUGHENS
+        lambda: Threshold(sp.Equivalent(sp.Gt(2 * f_c, epsilon), sp.Ge(f_c, epsilon / 2)), f_c)(
+            ROUGHENS
         ),
-        lambda: threshold(
-            sp.Equivalent(sp.Gt(2 * f_c, epsilon), sp.Gt(f_c, epsilon / 2)), f_c, ROUGHENS
+        lambda: Threshold(sp.Equivalent(sp.Gt(2 * f_c, epsilon), sp.Gt(f_c, epsilon / 2)), f_c)(
+            ROUGHENS
         ),
     ),
     "a threshold for a slope of either sign": (  # f_c = -0.04
-        lambda: threshold(sp.Equivalent(sp.Gt(f_c**2, epsilon**2), sp.Gt(f_c, epsilon)), f_c),
-        lambda: threshold(
-            sp.Equivalent(sp.Gt(f_c**2, epsilon**2), sp.Gt(f_c, epsilon)), f_c, ROUGHENS
+        lambda: Threshold(sp.Equivalent(sp.Gt(f_c**2, epsilon**2), sp.Gt(f_c, epsilon)), f_c)(),
+        lambda: Threshold(sp.Equivalent(sp.Gt(f_c**2, epsilon**2), sp.Gt(f_c, epsilon)), f_c)(
+            ROUGHENS
         ),
     ),
 }
@@ -612,10 +586,10 @@ def test_logarithmic_growth_needs_its_tail_and_a_sine_load(dropped: int) -> None
     """A square load has the mean cosh z, not I_0."""
     grown = rate("u_c") * sp.exp((u_c - U_a) / sigma_c0)
     premises = [tends(grown, C), assume(SINE)]
-    assert replayed(logarithmic_growth(sigma_c0, *premises)) is None
+    assert replayed(LogarithmicGrowth(sigma_c0)(*premises)) is None
     premises[dropped] = START
     with pytest.raises(RuleError, match="missing premise"):
-        logarithmic_growth(sigma_c0, *premises)
+        LogarithmicGrowth(sigma_c0)(*premises)
 
 
 def expansion_premises(name: str, kind: type[Term] = Drift, n: int = 1) -> tuple[Judgement, ...]:
@@ -632,26 +606,26 @@ FIRST_DRIFT = 2 * (1 - theta) * symbol("b_0")
 def test_a_formula_of_the_expansion_belongs_to_the_name_defined_as_it(name: str) -> None:
     """A = the formula of c_1 holds where A is a name for c_1, and nowhere else."""
     premises = expansion_premises(name)
-    found = averaging(sp.Eq(symbol(name), FIRST_DRIFT), *premises)
+    found = Averaging(sp.Eq(symbol(name), FIRST_DRIFT))(*premises)
     assert replayed(found) is None
     assert premises[-1].hypotheses[0] in found.hypotheses
     other = {"c_1": "A", "A": "c_1"}[name]
     missing = f"missing premise: {other} is a coefficient of the expansion, by definition"
     with pytest.raises(RuleError, match=missing):
-        averaging(sp.Eq(symbol(other), FIRST_DRIFT), *premises)
+        Averaging(sp.Eq(symbol(other), FIRST_DRIFT))(*premises)
 
 
 @pytest.mark.parametrize("dropped", [1, 2, 3, 4])
 def test_a_term_of_the_expansion_needs_each_premise(dropped: int) -> None:
     premises = expansion_premises("c_1")
     with pytest.raises(RuleError, match="missing premise"):
-        averaging(sp.Eq(symbol("c_1"), FIRST_DRIFT), *premises[:dropped], *premises[dropped + 1 :])
+        Averaging(sp.Eq(symbol("c_1"), FIRST_DRIFT))(*premises[:dropped], *premises[dropped + 1 :])
 
 
 @pytest.mark.parametrize(("kind", "n"), [(Drift, 2), (Drift, 5)])
 def test_a_formula_of_the_expansion_is_not_that_of_another_term(kind: type[Term], n: int) -> None:
     with pytest.raises(RuleError, match="missing premise: c_1 "):
-        averaging(sp.Eq(symbol("c_1"), FIRST_DRIFT), *expansion_premises("c_1", kind, n))
+        Averaging(sp.Eq(symbol("c_1"), FIRST_DRIFT))(*expansion_premises("c_1", kind, n))
 
 
 def test_an_oscillation_is_no_constant() -> None:
@@ -663,23 +637,23 @@ def test_a_term_of_the_expansion_is_that_of_the_given_pressure() -> None:
     *premises, _ = expansion_premises("c_1")
     foreign = defined(symbol("c_1"), term_of(Drift, 1, premises[0].claim.rhs.subs(h_0, 2 * h_0)))
     with pytest.raises(RuleError, match="of this pressure"):
-        averaging(sp.Eq(symbol("c_1"), FIRST_DRIFT), *premises, foreign)
+        Averaging(sp.Eq(symbol("c_1"), FIRST_DRIFT))(*premises, foreign)
 
 
 def test_the_slow_time_is_rho_tau_and_needs_the_drifts() -> None:
     with pytest.raises(RuleError, match="c_3 and c_4"):
-        slow_time(sp.Eq(L, symbol("m")))
+        SlowTime(sp.Eq(L, symbol("m")))()
     known = Expansion().slow_time.claim
     claim = sp.Eq(known.lhs, known.rhs)
     drifts = [expansion_premises(f"c_{n}", Drift, n)[-1] for n in (1, 2, 3, 4)]
-    assert replayed(slow_time(claim, *drifts, assume(EXPANSION))) is None
+    assert replayed(SlowTime(claim)(*drifts, assume(EXPANSION))) is None
     with pytest.raises(RuleError, match="m is the averaged roughness"):
-        slow_time(claim, *drifts)
+        SlowTime(claim)(*drifts)
     with pytest.raises(RuleError, match="dtau/dm"):
-        slow_time(sp.Eq(L, claim.rhs), *drifts, assume(EXPANSION))
+        SlowTime(sp.Eq(L, claim.rhs))(*drifts, assume(EXPANSION))
     values = [defined(symbol(f"c_{n}"), sp.S.Zero) for n in (1, 2, 3, 4)]
     with pytest.raises(RuleError, match="c_3 and c_4"):
-        slow_time(claim, *values, assume(EXPANSION))
+        SlowTime(claim)(*values, assume(EXPANSION))
 
 
 def test_a_first_zero_needs_its_definition() -> None:
@@ -687,18 +661,17 @@ def test_a_first_zero_needs_its_definition() -> None:
     x = sp.Symbol("x", positive=True)
     u_stop = symbol("u_stop")
     meaning = defined(u_stop, FirstZero(h_star - x, x))
-    assert first_root(sp.S.One, meaning).claim.rhs == h_star
+    assert FirstRoot(sp.S.One)(meaning).claim.rhs == h_star
     for wrong in (given(sp.Eq(u_stop, h_star)), given(sp.Ge(u_stop, h_star))):
         with pytest.raises(RuleError, match=r"definition of a first zero|no equality"):
-            first_root(sp.S.One, wrong)
+            FirstRoot(sp.S.One)(wrong)
     with pytest.raises(RuleError, match="missing premise"):
-        first_root(h_star - x, meaning)
+        FirstRoot(h_star - x)(meaning)
 
 
 def test_the_last_cycles_need_a_constant_load() -> None:
     with pytest.raises(RuleError, match="missing premise"):
-        last_cycles(
-            sp.Eq(sp.log(N), h_star / symbol("sigma_c")),
+        LastCycles(sp.Eq(sp.log(N), h_star / symbol("sigma_c")))(
             given(sp.Eq(rate("u_c"), C)),
             given(sp.Eq(symbol("sigma_c"), sigma_c0 + f_c * u_c)),
             defined(N, t / T),

@@ -6,6 +6,7 @@ import json
 import math
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -151,6 +152,25 @@ def test_progress_stays_on_one_line(monkeypatch):
     monkeypatch.setattr(sys, "stderr", Terminal())
     terminal.progress("x" * 50)
     assert sys.stderr.getvalue().count("x") == 19
+
+
+def test_what_takes_long_is_shown_until_it_is_done(monkeypatch):
+    shown = []
+    told = {"counting": threading.Event(), "sampling": threading.Event(), "": threading.Event()}
+
+    def progress(what):
+        shown.append(what)
+        told[what.partition(" (")[0]].set()
+
+    monkeypatch.setattr(terminal, "SILENT", 0.0)
+    monkeypatch.setattr(terminal, "progress", progress)
+    with terminal.busy("counting") as tell:
+        assert told["counting"].wait(60)
+        tell("sampling")
+        assert told["sampling"].wait(60)
+        assert not told[""].is_set()
+    assert shown[0] == "counting (0 s)"
+    assert shown[-1] == ""
 
 
 DOCUMENTS = st.recursive(

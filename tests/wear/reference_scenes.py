@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from wear.scene import Scene, scene_from_tables
+from wear.scene import Scene
 
 REFERENCE: dict[str, dict[int, float]] = {
     name: {int(cycles): float(wear) for cycles, wear in row.items()}
@@ -66,4 +66,4 @@ TABLES = {
 @cache
 def reference_scene(name: str) -> Scene:
     """The scene of that name."""
-    return scene_from_tables(TABLES[name], name)
+    return Scene.from_dict(TABLES[name], name)

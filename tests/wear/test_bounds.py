@@ -15,14 +15,14 @@ from tests.wear.reference_scenes import REFERENCE, TABLES, tables
 from wear.bounds import STRIP, Enclosure, static_bounds, wear_bounds
 from wear.faults import UsageError
 from wear.load import Constant, Harmonics, Sine
-from wear.scene import Scene, scene_from_tables
+from wear.scene import Scene
 from wear.solver import solve
 
 SCENES = [name for name in TABLES if name != "S4"]
 
 
 def scene(**changes: Any) -> Scene:
-    return scene_from_tables(tables(**changes))
+    return Scene.from_dict(tables(**changes))
 
 
 def contains(bounds: Enclosure, wear: float) -> bool:
@@ -31,7 +31,7 @@ def contains(bounds: Enclosure, wear: float) -> bool:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_bounds_contain_the_reference_values(name: str) -> None:
-    made = scene_from_tables(TABLES[name])
+    made = Scene.from_dict(TABLES[name])
     cycles = [1, 10, 100]
     for count, bounds in zip(cycles, wear_bounds(made, cycles), strict=True):
         assert contains(bounds, REFERENCE[name][count]), count

@@ -102,21 +102,21 @@ def test_a_full_disk_is_told_whatever_is_printed(arguments):
         "figure section4 -o wear.svg",
     ],
 )
-def test_a_disk_that_fills_up_is_told_and_nothing_is_left(line, tmp_path):
+def test_a_disk_that_fills_up_is_told_and_nothing_is_left(wear, line, tmp_path, monkeypatch):
     """A limit on the size of files stands for the disk; what was there before stays."""
-    file = tmp_path / line.split()[-1]
+    resource = pytest.importorskip("resource", reason="limits on files are those of Unix")
+    monkeypatch.chdir(tmp_path)
+    command, *_, name = line.split()
+    file = tmp_path / name
     file.write_text("before")
-    run = subprocess.run(
-        ["sh", "-c", f'ulimit -f 8; exec "$0" -m wear {line}', sys.executable],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )
-    command = line.split()[0]
-    assert (run.returncode, run.stderr) == (2, f"wear {command}: {file.name}: File too large\n")
-    assert [path.name for path in tmp_path.iterdir()] == [file.name]
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limits[1]))
+    try:
+        status, _, messages = wear(*line.split())
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert (status, messages) == (2, f"wear {command}: {name}: File too large\n")
+    assert [path.name for path in tmp_path.iterdir()] == [name]
     assert file.read_text() == "before"
 
 

@@ -6,14 +6,15 @@ import dataclasses
 import hashlib
 import json
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
 
 from derive.check import Check
 from tests.wear.report import quick
-from wear import cli, regime
-from wear.report import claims, paper, runs, speed, typeset, verification
+from wear import cli, processes, regime
+from wear.report import claims, paper, runs, typeset, verification
 from wear.scene import load_scene
 
 Call = Callable[..., tuple[int, str, str]]
@@ -39,9 +40,11 @@ def shortened(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have the main job use quick runs, trust the derivations, and find no TeX."""
     monkeypatch.setattr(runs, "run", lambda _: quick.runs())
     monkeypatch.setattr(verification, "verified", lambda found, _: quick.trusted(found))
-    monkeypatch.setattr(claims, "ledger", lambda _: quick.few_claims())
-    monkeypatch.setattr(speed, "measured", quick.measurements)
+    alone = nullcontext(lambda task, *given: lambda: task(*given))
+    monkeypatch.setattr(processes, "assistant", lambda: alone)
+    monkeypatch.setattr(claims, "ledger", lambda *_, **__: quick.few_claims())
     monkeypatch.setattr(paper, "paper", lambda *_: quick.paper())
+    monkeypatch.setattr(paper, "drawings", lambda _: {})
     monkeypatch.setattr(typeset.shutil, "which", lambda _: None)
 
 
@@ -91,7 +94,7 @@ def test_a_step_that_does_not_hold_is_told(
 def test_an_interrupt_leaves_nothing_behind(
     call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(_):  # type: ignore[no-untyped-def]
+    def interrupted(*_, **__):  # type: ignore[no-untyped-def]
         raise KeyboardInterrupt
 
     monkeypatch.setattr(claims, "ledger", interrupted)

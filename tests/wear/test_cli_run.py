@@ -17,8 +17,8 @@ import pytest
 
 from wear import cli
 from wear.commands.run_output import latex_number, text
-from wear.direct.sequence import most_cycles
 from wear.faults import AccuracyError, Interrupted
+from wear.load.spans import most_cycles
 from wear.scene import load_scene
 from wear.solver import METHODS, solve
 
@@ -355,7 +355,7 @@ sys.exit(cli.main(sys.argv[1:]))
 
 def test_an_accuracy_that_is_missed_inside_the_cycles_is_told(run, tmp_path):
     path = str(tmp_path / "inside.nc")
-    request = ("deep-tail", "--cycles", "10", "--phases", "2", "--rtol", "1e-15", "-o", path)
+    request = ("section3", "--cycles", "10", "--phases", "2", "--rtol", "1e-15", "-o", path)
     status, _, messages = run(*request)
     assert status == 3
     assert "1.0e-15 was requested" in messages

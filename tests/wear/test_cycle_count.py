@@ -17,7 +17,7 @@ from wear.model import bind
 from wear.numerics.gauss import (
     FloatArray,
 )
-from wear.scene import Scene, scene_from_tables
+from wear.scene import Scene
 
 ROUNDING = 3e-15  # below, an error needs no estimate
 
@@ -116,7 +116,7 @@ def scenes(draw: st.DrawFn) -> Scene:
         made["pin"]["roughness_mm"] = roughness * draw(between(0.1, 1))
         made["pin"]["roughness_growth"] = draw(between(-0.2, 0.3))
         made["contact"]["pin_wear_opens_gap"] = draw(st.booleans())
-    return scene_from_tables(made, "drawn")
+    return Scene.from_dict(made, "drawn")
 
 
 @settings(max_examples=25)
@@ -177,7 +177,7 @@ def test_wear_that_is_never_reached_takes_for_ever() -> None:
 def test_no_pressure_no_wear() -> None:
     made = tables()
     made["contact"]["closure_mm"] = 1.0
-    found = counted(scene_from_tables(made, "far"), np.array([0.0, 1.0, 1e12]), 1e-9)
+    found = counted(Scene.from_dict(made, "far"), np.array([0.0, 1.0, 1e12]), 1e-9)
     assert found.u_c.tolist() == [0.0, 0.0, 0.0]
     assert "adds less" in found.notices[0]
 
@@ -186,7 +186,7 @@ def test_vanishing_roughness_is_said_and_not_solved() -> None:
     """With f < 0 and the pin pressed in, the roughness is gone after finitely many cycles."""
     made = tables(f_c=-0.5, load=CONSTANT)
     made["load"]["value_mm"] = 2e-3
-    found = counted(scene_from_tables(made, "vanishing"), np.array([1.0, 1e6]), 1e-9)
+    found = counted(Scene.from_dict(made, "vanishing"), np.array([1.0, 1e6]), 1e-9)
     assert found.error[0] < 1e-9
     assert found.error[1] == np.inf
     assert "roughness vanishes" in found.notices[0]

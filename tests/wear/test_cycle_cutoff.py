@@ -21,7 +21,7 @@ from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.switching import edge_of_contact, turning_points
 from wear.model import bind
 from wear.orbit.period_map import settings as sizes
-from wear.scene import Scene, load_scene, scene_from_tables
+from wear.scene import Scene, load_scene
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_wear_stops_in_its_cycle_and_stays(name: str, cycle: int, wear: float) -
 @pytest.mark.parametrize("slope", [0.25, 0.5])
 def test_counted_cycles_are_integrated_ones(slope: float) -> None:
     """f above and below 1/3: direct integration with events shares no code with the map."""
-    scene = scene_from_tables(tables(f_c=slope, cutoff=True), "cutoff")
+    scene = Scene.from_dict(tables(f_c=slope, cutoff=True), "cutoff")
     model, load = bind(scene), scene.periodic_load
     cycles = [1, 2, 7, 40]
     found = count.wear_after(model, load, np.array(cycles, dtype=float), 1e-10)
@@ -63,7 +63,7 @@ def with_load(load: Load, K: float, f_c: float, pin: bool = False, closure: floa
     made = tables(K=K, f_c=f_c, pin=pin, cutoff=True)
     made["contact"].pop("closure_in_sigma", None)
     made["contact"]["closure_mm"] = closure
-    return replace(scene_from_tables(made), load=load)
+    return replace(Scene.from_dict(made), load=load)
 
 
 def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
@@ -103,9 +103,9 @@ def test_drawn_scenes_agree_with_the_judge(load: Load, K: float, f_c: float, pin
 def test_in_permanent_contact_the_cutoff_changes_nothing() -> None:
     made = tables(f_c=0.5, cutoff=True)
     made["contact"]["closure_mm"] = 4e-4
-    scene = scene_from_tables(made, "closed")
+    scene = Scene.from_dict(made, "closed")
     made["contact"]["ends_at_3_sigma"] = False
-    without = scene_from_tables(made, "smooth")
+    without = Scene.from_dict(made, "smooth")
     cycles = np.array([1.0, 30.0, 1e6])
     found, want = (
         count.wear_after(bind(one), one.periodic_load, cycles, 1e-11) for one in (scene, without)
@@ -116,7 +116,7 @@ def test_in_permanent_contact_the_cutoff_changes_nothing() -> None:
 @pytest.mark.parametrize("f_c", [1 / 3, 0.25])
 def test_the_margin_of_one_solid_keeps_its_digits(f_c: float) -> None:
     """Near f = 1/3 roughness and closure outgrow their difference by orders of magnitude."""
-    scene = scene_from_tables(tables(f_c=f_c, cutoff=True))
+    scene = Scene.from_dict(tables(f_c=f_c, cutoff=True))
     p, u = scene.parameters(), 1e3
     start = 3 * Fraction(p["sigma_c0"]) - Fraction(p["h_0"])
     true = start + (3 * Fraction(f_c) - 1) * Fraction(u)
@@ -124,7 +124,7 @@ def test_the_margin_of_one_solid_keeps_its_digits(f_c: float) -> None:
 
 
 def test_kinks_are_where_contact_grazes() -> None:
-    scene = scene_from_tables(tables(f_c=0.25, cutoff=True), "cutoff")
+    scene = Scene.from_dict(tables(f_c=0.25, cutoff=True), "cutoff")
     cycle = switched_period_map(bind(scene), scene.periodic_load)
     # Section 4: (1 - 3 f) u = U_a at the edge, of which only the peak, 5e-4 mm, is ahead.
     (grazing,) = grazing_wears(cycle, 1e-4)
@@ -237,7 +237,7 @@ def test_a_loose_request_has_an_estimate_too() -> None:
 
 def supported(K: float, f_c: float, pin: bool, k: float, load: Load | None = None) -> Scene:
     """Contact with cutoff on a compliant support."""
-    scene = scene_from_tables(tables(K=K, f_c=f_c, pin=pin, k=k, cutoff=True))
+    scene = Scene.from_dict(tables(K=K, f_c=f_c, pin=pin, k=k, cutoff=True))
     return scene if load is None else replace(scene, load=load)
 
 

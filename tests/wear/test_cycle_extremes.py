@@ -20,7 +20,7 @@ from wear.load import Table
 from wear.numerics.gauss import (
     FloatArray,
 )
-from wear.scene import Scene, load_scene, scene_from_tables
+from wear.scene import Scene, load_scene
 from wear.solver import solve
 from wear.static import static_solution
 
@@ -34,7 +34,7 @@ def made(changes: dict[str, dict[str, Any]], **arguments: Any) -> Scene:
         if "closure_mm" in keys:
             scene["contact"].pop("closure_in_sigma", None)
         scene[name] |= keys
-    return scene_from_tables(scene, "made")
+    return Scene.from_dict(scene, "made")
 
 
 def constant(value_mm: float) -> dict[str, Any]:
@@ -213,7 +213,7 @@ def test_wear_that_takes_off_is_counted_at_any_tolerance() -> None:
         "sine_mm": [1.07589e-05, 1.11523e-06],
         "period_s": 0.06,
     }
-    scene = scene_from_tables(made_of, "takes off")
+    scene = Scene.from_dict(made_of, "takes off")
     cycles = np.array([9.0, 1e6, 1e12])
     loose, tight = (counted(scene, cycles, rtol) for rtol in (1e-7, 1e-12))
     assert np.all(loose.error <= 1e-7)
@@ -273,4 +273,4 @@ def test_a_rate_beyond_all_numbers_ends_with_a_reason() -> None:
     made_ = tables(load=swing)
     made_["contact"]["law"] = "exponential"
     with pytest.raises(AccuracyError, match="estimated error is inf"):
-        solve(scene_from_tables(made_, "swing"), [1, 1000], 1e-10, method="abel")
+        solve(Scene.from_dict(made_, "swing"), [1, 1000], 1e-10, method="abel")

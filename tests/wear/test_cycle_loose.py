@@ -15,7 +15,7 @@ from tests.wear.test_cycle_count import counted
 from wear.cycles import cycles_until, sweep, wear_after
 from wear.load import Block, Blocks, Constant
 from wear.model import bind
-from wear.scene import Scene, scene_from_tables
+from wear.scene import Scene
 
 CYCLES = np.array([1.0, 2.0, 6.0, 20.0, 1e3, 1e5, 1e8, 1e12])
 
@@ -28,7 +28,7 @@ def made(
     scene["bearing"]["roughness_mm"] = roughness
     scene["contact"].pop("closure_in_sigma", None)
     scene["contact"]["closure_mm"] = closure
-    return scene_from_tables(scene, "loose")
+    return Scene.from_dict(scene, "loose")
 
 
 def constant(value_mm: float) -> dict[str, Any]:

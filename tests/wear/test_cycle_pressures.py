@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from wear.cycle_pressures import cycle_pressures
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
 from wear.model import bind
-from wear.scene import Scene, load_scene, scene_from_tables
+from wear.scene import Scene, load_scene
 from wear.solver import solve
 
 from .reference_scenes import tables
@@ -50,8 +50,8 @@ def reference(scene: Scene, cycle: int) -> tuple[float, float]:
 SCENES = {
     "section4": load_scene("section4"),
     "section3": load_scene("section3"),
-    "springs": scene_from_tables(tables(k=1e5, K=1e-5)),
-    "fast": scene_from_tables(tables(K=1e-4)),
+    "springs": Scene.from_dict(tables(k=1e5, K=1e-5)),
+    "fast": Scene.from_dict(tables(K=1e-4)),
     "saw": replace(load_scene("section4"), load=SAW),
     "harmonics": replace(load_scene("section4"), load=TWO),
     "constant": replace(load_scene("section4"), load=Constant(5e-4, 0.06)),
@@ -81,7 +81,7 @@ def test_the_share_of_contact_is_that_of_the_margin() -> None:
     """So little wear that the closure is the fresh one: contact where U sin > h_0 - 3 sigma."""
     made = tables(K=1e-20, cutoff=True)
     made["contact"]["closure_mm"] = 1.3e-3
-    found = cycle_pressures(scene_from_tables(made), np.array([1.0, 50.0]), 1e-10)
+    found = cycle_pressures(Scene.from_dict(made), np.array([1.0, 50.0]), 1e-10)
     share = 0.5 - np.arcsin((1.3e-3 - 3.0 * 3.6e-4) / 5e-4) / np.pi
     assert_allclose(found.contact_fraction, share, rtol=1e-6)
     sigma, h = 3.6e-4, 1.3e-3 - 5e-4 * np.sin(2.0 * np.pi * GRID)

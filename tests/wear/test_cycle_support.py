@@ -17,7 +17,7 @@ from wear import direct
 from wear.load import Harmonics, Load, Sine, Table
 from wear.loss_of_contact.switching import edge_of_contact, phase_of
 from wear.model import bind
-from wear.scene import Scene, scene_from_tables
+from wear.scene import Scene
 
 STEPS = Table((0.0, 0.25, 0.5, 0.75, 1.0), (1.2e-6, 1.2e-6, 2.25e-5, 2.25e-5, 1.2e-6))
 WAVES = Harmonics(2e-5, (1e-4, -6e-5), (1.5e-4, 4e-5), 0.06)
@@ -103,7 +103,7 @@ def test_a_margin_that_is_rounding_ends_the_iteration() -> None:
     times, values = (0.0, 0.25, 0.5, 0.75, 1.0), (2.85e-4, 2.85e-4, 1e-4, 1e-4, 2.85e-4)
     made = tables(K=9.36e-5, f_c=0.13, k=1.04e8, cutoff=True)
     made["contact"]["closure_mm"] = 8.27e-4
-    scene = replace(scene_from_tables(made), load=Table(times, values))
+    scene = replace(Scene.from_dict(made), load=Table(times, values))
     agrees_with_the_judge(scene, [1, 2], 1e-9)
     found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0]), 1e-9)
     assert found.cost.rhs_evaluations < 30_000

@@ -157,7 +157,10 @@ def test_changed_scene_does_not_hide_the_built_in_one():
 def own_scene(folder: Path, load: str):
     """Section 4 under another load."""
     file = folder / "own.toml"
-    file.write_text(load_scene("section4").to_toml().split("[load]")[0] + "[load]\n" + load)
+    tables = load_scene("section4").to_toml().split("[load]")[0]
+    if "force" in load:
+        tables = tables.replace("[contact]", "[contact]\nwidth_mm = 20.0\nlength_mm = 30.0")
+    file.write_text(f"{tables}[load]\n{load}")
     return load_scene(str(file))
 
 
@@ -167,20 +170,24 @@ LOADS = {
     "harmonics": 'kind = "harmonics"\nmean_mm = 1e-4\ncosine_mm = [1e-4]\n'
     "sine_mm = [2e-4, 5e-5]\nperiod_s = 0.06\n",
     "table": 'kind = "table"\nfile = "pin.csv"\n',
+    "rows": 'kind = "table"\ntimes_s = [0.0, 0.02, 0.06]\nvalues_mm = [0.0, 4e-4, 0.0]\n',
+    "force": 'kind = "force"\ntimes_s = [0.0, 0.02, 0.06]\nforces_N = [600.0, 6000.0, 600.0]\n',
+    "constant force": 'kind = "force"\nforce_N = 600.0\nperiod_s = 0.06\n',
 }
+MOVED = [kind for kind in LOADS if "force" not in kind]
 
 
-@pytest.mark.parametrize("kind", LOADS)
+@pytest.mark.parametrize("kind", MOVED)
 def test_loads_are_those_of_python(kind, tmp_path, need_tool):
     """Displacement and its slope, and the wear that they make, in the page's own functions."""
     (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.03,1e-4\n0.06,0\n")
     scene = own_scene(tmp_path, LOADS[kind])
     data = explorer_data.scene_data(scene)
-    assert data["load"]["kind"] == kind
+    assert f'kind = "{data["load"]["kind"]}"' in LOADS[kind]
     phases = np.linspace(0.0, 1.0, 40, endpoint=False) + 0.003
     text = definitions(made(variant_of("tanh", "rigid_bearing")))
     (tmp_path / "run.js").write_text(
-        f"""{explorer._asset("explorer.solve.js")}
+        f"""{explorer.asset("explorer.solve.js")}
 const model = (() => {{ {text} }})();
 const P = {json.dumps(data["parameters"])};
 const load = makeLoad({json.dumps(data["load"])}, P.U);
@@ -209,6 +216,22 @@ console.log(JSON.stringify({{
     expected = wear.solve(scene, [1, 100, 10**6], rtol=1e-10).u_c
     assert found["wear"] == pytest.approx(expected.tolist(), rel=1e-8)
     assert found["notices"] == []
+
+
+def test_a_measured_load_has_no_more_rows_than_a_plot_needs(tmp_path):
+    """A move of the page takes as long as its load has rows; noise of 10 nm does not matter."""
+    times = np.linspace(0.0, 0.06, 2001)
+    values = 5e-4 * np.sin(2 * np.pi * times / 0.06)
+    values += 1e-5 * np.random.default_rng(1).standard_normal(2001)
+    values[-1] = values[0]
+    lines = "\n".join(f"{t!r},{U!r}" for t, U in zip(times.tolist(), values.tolist(), strict=True))
+    (tmp_path / "pin.csv").write_text(f"t_s,U_a_mm\n{lines}\n")
+    scene = own_scene(tmp_path, LOADS["table"])
+    shown = explorer_data.opened(scene)
+    assert "2000 rows of the load are merged to " in shown.description
+    assert len(explorer_data.scene_data(shown)["load"]["phase"]) < 300
+    less, more = (wear.solve(each, [1, 10**6], rtol=1e-6).u_c for each in (shown, scene))
+    assert less == pytest.approx(more.tolist(), rel=1e-3)
 
 
 def test_a_load_that_does_not_repeat_is_refused(tmp_path, capsys):
@@ -510,6 +533,7 @@ def test_the_scene_file_has_any_load(kind, window, tmp_path):
     file = tmp_path / "page.html"
     file.write_text(explorer.page(scene), encoding="utf-8")
     window.open(file, READY)
+    assert "good" in window.run("document.getElementById('check').className")
     assert parse_scene(text(window, "scene-file"), folder=tmp_path).load(0.3) == scene.load(0.3)
     put(window, "number-U", "0.2" if kind == "sine" else "2", event="change")
     doubled = text(window, "scene-file")

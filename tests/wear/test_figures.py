@@ -101,7 +101,7 @@ def test_files_are_the_same_in_every_run(written: dict[str, str]) -> None:
     first, second = (_wear() for _ in range(2))
     assert figure_style.svg(first) == figure_style.svg(second) == written["wear"]
     assert figure_style.svg(first) == written["wear"]  # writing a figure does not change it
-    assert figure_style.pdf(first) == figure_style.pdf(second)
+    assert figure_style.encoded(first, ".pdf") == figure_style.encoded(second, ".pdf")
 
 
 def test_svg_holds_no_date_and_needs_no_font(written: dict[str, str]) -> None:
@@ -111,7 +111,7 @@ def test_svg_holds_no_date_and_needs_no_font(written: dict[str, str]) -> None:
 
 
 def test_pdf_holds_no_date(drawn: dict[str, Figure]) -> None:
-    assert b"CreationDate" not in figure_style.pdf(drawn["wear"])
+    assert b"CreationDate" not in figure_style.encoded(drawn["wear"], ".pdf")
 
 
 def test_width_is_the_width_of_a_column(written: dict[str, str]) -> None:
@@ -170,7 +170,7 @@ def test_neighbouring_families_differ_in_lightness() -> None:
 
 def test_drawing_changes_no_settings() -> None:
     before = dict(mpl.rcParams)
-    figure_style.png(_wear(), 50.0)
+    figure_style.encoded(_wear(), ".png")
     assert dict(mpl.rcParams) == before
 
 
@@ -184,7 +184,7 @@ def test_the_suffix_names_the_kind_of_file(
 
 
 def test_an_unknown_suffix_is_told_with_the_known_ones(drawn: dict[str, Figure]) -> None:
-    with pytest.raises(ValueError, match=r"\.bmp.*\.svg, \.pdf or \.png"):
+    with pytest.raises(ValueError, match=r"\.bmp.*\.svg, \.pdf, \.png"):
         figure_style.encoded(drawn["wear"], ".bmp")
 
 

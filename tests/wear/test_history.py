@@ -16,7 +16,7 @@ from wear.history_files import write_inside
 from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad, Table
 from wear.model import bind
-from wear.scene import scene_from_tables
+from wear.scene import Scene
 from wear.solver import solve
 
 from .reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
@@ -103,7 +103,7 @@ def test_csv_reads_back_exactly(section3, tmp_path):
     for column in section3.columns():
         np.testing.assert_array_equal([float(row[column.name]) for row in rows], column.values)
     assert notes["method"] == "DOP853"
-    scene = scene_from_tables(json.loads(notes["scene"]))
+    scene = Scene.from_dict(json.loads(notes["scene"]))
     assert scene == reference_scene("S1")
 
 
@@ -116,7 +116,7 @@ def test_netcdf_reads_back_exactly_with_units_and_scene(compliant, tmp_path):
             assert variable.units.decode() == column.unit
             np.testing.assert_array_equal(variable[:], column.values)
         assert file.variables["cycle"][:].tolist() == [0.0, 1.0]
-        assert scene_from_tables(json.loads(file.scene)) == reference_scene("S8_2")
+        assert Scene.from_dict(json.loads(file.scene)) == reference_scene("S8_2")
         assert json.loads(file.cost) == compliant.cost
 
 
@@ -178,7 +178,7 @@ def test_a_time_limit_keeps_what_was_computed():
 def test_a_count_out_of_time_keeps_its_first_cycles():
     """No time at all: the first cycles are integrated, and no panel is refined."""
     swing = {"kind": "sine", "amplitude_mm": 5e-3, "period_s": 0.06}
-    scene = scene_from_tables(tables(load=swing))
+    scene = Scene.from_dict(tables(load=swing))
     with pytest.raises(Interrupted, match="time limit has passed; cycle 3 was") as stop:
         solve(scene, [1, 3, 10**9], 1e-12, time_limit=1e-9)
     history = stop.value.history
@@ -193,7 +193,7 @@ def test_blocks_out_of_time_keep_the_first_one(cutoff):
     small = {"kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06, "cycles": 3}
     large = {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.03, "cycles": 5}
     load = {"kind": "blocks", "blocks": [small, large], "repeat": 100}
-    scene = scene_from_tables(tables(K=1e-5, load=load, cutoff=cutoff))
+    scene = Scene.from_dict(tables(K=1e-5, load=load, cutoff=cutoff))
     with pytest.raises(Interrupted, match="time limit") as stop:
         solve(scene, [1, 3, 4, 700], 1e-15, "abel", time_limit=1e-9)
     assert stop.value.history.cycles.tolist() == [1, 3]
@@ -235,14 +235,14 @@ def test_an_interrupt_keeps_what_was_computed(monkeypatch):
 def test_a_negative_roughness_is_told_with_the_wear_at_which_it_begins():
     """Section 3 with fast wear: sigma_c changes sign at u_c = 3.6e-4/0.05 = 0.0072 mm."""
     made = tables(K=1e-3, f_c=-0.05, pin=True, load=CONSTANT | {"value_mm": 1e-2})
-    history = solve(scene_from_tables(made), [1], 1e-6, "DOP853")
+    history = solve(Scene.from_dict(made), [1], 1e-6, "DOP853")
     assert history.sigma_c[0] < 0.0
     assert any("bearing is negative beyond u_c = 0.0072 mm" in text for text in history.notices)
 
 
 def test_the_pressure_out_of_contact_is_zero_and_arrest_is_told():
     made = tables(K=1e-4, cutoff=True)
-    history = solve(scene_from_tables(made), [0, 100], 1e-8, "DOP853")
+    history = solve(Scene.from_dict(made), [0, 100], 1e-8, "DOP853")
     assert history.p.tolist() == [pytest.approx(300 / (1 + np.exp(4))), 0.0]
     assert history.h[1] == pytest.approx(1.08e-3 + 0.002)
     assert "wear stops for good in cycle 21" in history.notices
@@ -263,10 +263,10 @@ def blocks(repeat: int = 1):
 
 
 def test_blocks_wear_like_their_loads_one_after_the_other():
-    scene = scene_from_tables(blocks(2))
+    scene = Scene.from_dict(blocks(2))
     assert isinstance(scene.load, Blocks)
     history = solve(scene, [1, 2, 5, 10], 1e-9)
-    alone = solve(scene_from_tables(tables(K=1e-5, load={
+    alone = solve(Scene.from_dict(tables(K=1e-5, load={
         "kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06})), [1, 2], 1e-9)  # fmt: skip
     direct = solve(scene, [1, 2, 5, 10], 1e-9, "DOP853")
     assert history.method == "abel"
@@ -282,7 +282,7 @@ def test_a_measured_history_wears_like_the_table_it_repeats():
     values = np.array([0.0, 5e-4, 1e-4, -5e-4, 0.0])
     repeated = np.concatenate([times[:-1] + 0.06 * n for n in range(3)] + [[0.18]])
     levels = np.concatenate([*[values[:-1]] * 3, [0.0]])
-    scene = scene_from_tables(tables(K=1e-5))
+    scene = Scene.from_dict(tables(K=1e-5))
     measured = HistoryLoad(tuple(repeated), tuple(levels), 0.06)
     table = Table(tuple(times), tuple(values))
     one, other = (
@@ -310,7 +310,7 @@ def test_a_history_inside_the_cycles_is_written_chunk_by_chunk(name, tmp_path):
         written = {key: value[:] for key, value in file.variables.items()}
         assert ("bearing_displacement_mm" in written) == (scene.support is not None)
         assert "pin_wear_mm" not in written
-        assert scene_from_tables(json.loads(file.scene)) == scene
+        assert Scene.from_dict(json.loads(file.scene)) == scene
         assert file.variables["bearing_wear_mm"].units == b"mm"
     np.testing.assert_allclose(written["bearing_wear_mm"], whole.u, rtol=1e-14)
     np.testing.assert_allclose(written["pressure_at_start_MPa"], whole.fields.p, rtol=1e-11)
@@ -339,7 +339,7 @@ def test_labelled_tables_hold_the_columns(compliant):
         np.testing.assert_array_equal(frame[column.name], column.values)
         np.testing.assert_array_equal(labelled[column.name], column.values)
         assert labelled[column.name].attrs["units"] == column.unit
-    assert scene_from_tables(json.loads(labelled.attrs["scene"])) == reference_scene("S8_2")
+    assert Scene.from_dict(json.loads(labelled.attrs["scene"])) == reference_scene("S8_2")
 
 
 def test_a_history_is_shown_in_short(section3):

@@ -22,7 +22,7 @@ from wear.numerics.initial_value import Rules, integrate
 from wear.orbit.dense_output import dense_output
 from wear.orbit.iterates import Iterates
 from wear.orbit.period_map import PeriodMap, period_map
-from wear.scene import Scene, builtin_names, load_scene, scene_from_tables
+from wear.scene import Scene, builtin_names, load_scene
 from wear.solver import solve
 from wear.static import static_solution
 
@@ -148,7 +148,7 @@ def marched(scene: Scene, start: float) -> FloatArray:
 def test_very_fast_wear_inside_its_first_cycles(rtol: float, K: float, kind: str) -> None:
     """An error that the wear forgets within a cycle makes no negative estimate."""
     load = {"kind": "harmonics", kind: [1.4e-3, 0.0, 7e-4], "period_s": 0.06}
-    scene = scene_from_tables(tables(K=K, f_c=0.16, load=load), "fast")
+    scene = Scene.from_dict(tables(K=K, f_c=0.16, load=load), "fast")
     cycles = np.array([0.0, 1.0, 2.0, 4.0, 5.0, 1e3])
     parts = fields_inside(bind(scene), scene.load, cycles, PHASES, rtol)
     for part in parts:
@@ -184,7 +184,7 @@ def test_a_first_cycle_that_two_meshes_miss_alike(rtol: float) -> None:
     made["bearing"]["roughness_mm"] = 7.577e-5
     made["pin"] |= {"roughness_mm": 1.263e-5, "roughness_growth": -0.0099}
     made["contact"] = {"max_pressure_MPa": 300.0, "closure_mm": 2.273e-4}
-    scene = scene_from_tables(made, "violent")
+    scene = Scene.from_dict(made, "violent")
     cycles = np.array([0.0, 1e3, 1e9])
     found, want = (
         next(fields_inside(bind(scene), scene.load, cycles, PHASES, x)) for x in (rtol, 1e-13)
@@ -199,7 +199,7 @@ def test_no_cycle_leads_to_negative_roughness() -> None:
     made = tables(K=0.0126, f_c=-0.14, load=CONSTANT | {"value_mm": 2e-4, "period_s": 1.05})
     made["bearing"]["roughness_mm"] = 7.5e-5
     made["contact"]["closure_mm"] = 2.8e-4
-    scene = scene_from_tables(made, "violent")
+    scene = Scene.from_dict(made, "violent")
     cycles = np.array([0.0, 1.0, 20.0])
     found = history(scene, cycles)
     exact = static_solution(scene).wear((cycles[:, None] + PHASES).ravel()).reshape(found.u.shape)
@@ -212,7 +212,7 @@ def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
     """Out of contact at first, roughness grows until contact sets in: the count begins anew."""
     made = tables(K=0.03, f_c=0.55, load=CONSTANT | {"value_mm": 0.0})
     made["contact"]["closure_mm"] = 7.3 * 3.6e-4
-    scene = scene_from_tables(made, "faster")
+    scene = Scene.from_dict(made, "faster")
     cycles = np.array([0.0, 100.0, 12_823.0, 12_824.0, 12_830.0, 1e5, 1e7])
     counted = count_cycles(bind(scene), scene.periodic_load, 1e7, 1e-12)
     assert isinstance(counted, InContact)
@@ -238,7 +238,7 @@ BLOCKS = {
 
 @pytest.mark.parametrize("cutoff", [False, True])
 def test_blocks_of_loads_go_on_from_each_other(cutoff: bool) -> None:
-    scene = scene_from_tables(tables(K=1e-5, f_c=0.5, load=BLOCKS, cutoff=cutoff), "blocks")
+    scene = Scene.from_dict(tables(K=1e-5, f_c=0.5, load=BLOCKS, cutoff=cutoff), "blocks")
     cycles = np.array([0.0, 19.0, 20.0, 100.0, 319.0, 320.0, 959.0])
     found = history(scene, cycles)
     ends = solve(scene, [*cycles, *(cycles + 1)], 1e-12)
@@ -251,8 +251,8 @@ def test_blocks_of_loads_go_on_from_each_other(cutoff: bool) -> None:
 
 CUTOFF = [load_scene(name) for name in builtin_names() if load_scene(name).contact.ends_at_3_sigma]
 CUTOFF += [
-    scene_from_tables(tables(K=1e-3, cutoff=True), "slides along the edge of contact"),
-    replace(scene_from_tables(tables(K=1e-4, cutoff=True), "kinks"), load=ZIGZAG),
+    Scene.from_dict(tables(K=1e-3, cutoff=True), "slides along the edge of contact"),
+    replace(Scene.from_dict(tables(K=1e-4, cutoff=True), "kinks"), load=ZIGZAG),
 ]
 
 
@@ -279,7 +279,7 @@ def test_cycles_with_a_cutoff_go_through_open_closed_and_sliding_contact(scene: 
         u += speed * load.period / steps
 
 
-HELD = scene_from_tables(tables(k=1e4, cutoff=True), "compliant")
+HELD = Scene.from_dict(tables(k=1e4, cutoff=True), "compliant")
 
 
 @pytest.mark.parametrize("scene", [*CUTOFF, HELD], ids=lambda scene: scene.name)
@@ -303,7 +303,7 @@ def test_what_cannot_be_counted_has_no_history_inside() -> None:
 def test_no_wear_inside_cycles_without_pressure() -> None:
     made = tables()
     made["contact"]["closure_mm"] = 1.0
-    found = history(scene_from_tables(made, "far"), np.array([0.0, 1e6]))
+    found = history(Scene.from_dict(made, "far"), np.array([0.0, 1e6]))
     assert not found.u.any()
     assert not found.error.any()
 

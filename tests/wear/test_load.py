@@ -19,6 +19,7 @@ from wear.load import (
     Sine,
     Table,
 )
+from wear.load.spans import most_cycles, span
 
 EPS = np.finfo(float).eps
 SAW = Table((0.0, 0.5, 1.5, 2.0), (1e-4, 5e-4, -3e-4, 1e-4))
@@ -207,49 +208,43 @@ def test_history_between_its_rows() -> None:
     assert RECORD.mean == pytest.approx((1e-4 + 1e-4 + 1.25e-4) / 4.0)
 
 
-@pytest.mark.parametrize("load", [RECORD, SERIES])
 @pytest.mark.parametrize("share", [-0.01, 1.01, math.nan])
-def test_no_value_outside_the_duration(load: HistoryLoad | Blocks, share: float) -> None:
+def test_no_value_outside_the_duration(share: float) -> None:
     with pytest.raises(ValueError, match="outside"):
-        load.value(share * load.duration)
+        RECORD.value(share * RECORD.duration)
     with pytest.raises(ValueError, match="outside"):
-        load.time_at(share * load.cycles)
+        RECORD.time_at(share * RECORD.cycles)
 
 
-def test_blocks_follow_one_another() -> None:
-    round_length = 0.3 + 4.0 + 1.0
-    assert SERIES.duration == pytest.approx(4 * round_length)
-    assert SERIES.cycles == 24
-    assert [block.cycles for block in SERIES.stretches()] == [3, 2, 1] * 4
-    for round_number in range(4):
-        start = round_number * round_length
-        assert SERIES.value(start + 0.125) == pytest.approx(float(Sine(5e-4, 0.1)(1.25)))
-        assert SERIES.value(start + 0.3 + 2.5) == pytest.approx(float(SAW(1.25)))
-        assert SERIES.slope(start + 0.3 + 2.5) == pytest.approx(float(SAW.slope(1.25)) / 2.0)
-        assert SERIES.value(start + 5.0) == pytest.approx(1e-4)
-        assert SERIES.time_at(6 * round_number + 4) == pytest.approx(start + 0.3 + 2.0)
-    assert SERIES.time_at(24) == pytest.approx(SERIES.duration)
-    assert SERIES.value(SERIES.duration) == pytest.approx(1e-4)
+def test_blocks_are_spans_one_after_the_other() -> None:
+    spans, done = [], 0
+    while done < most_cycles(SERIES):
+        spans.append(span(SERIES, done))
+        assert span(SERIES, spans[-1].until - 1) == spans[-1]
+        done = spans[-1].until
+    assert [each.load for each in spans] == [block.load for block in SERIES.blocks] * 4
+    assert [each.until for each in spans] == [3, 5, 6, 9, 11, 12, 15, 17, 18, 21, 23, 24]
+    assert [each.place for each in spans[:4]] == [f"load.blocks[{i}]" for i in (0, 1, 2, 0)]
+    assert span(SERIES, 24) == spans[-1]
 
 
-def test_breakpoints_of_blocks_are_the_seams_and_the_kinks() -> None:
-    found = SERIES.breakpoints(0.0, 5.3 + 1e-9)
-    expected = [0.3, 0.8, 1.8, 2.3, 2.8, 3.8, 4.3, 5.3]
-    np.testing.assert_allclose(found, expected, rtol=1e-12)
-    everywhere = SERIES.breakpoints(0.0, SERIES.duration)
-    pieces = [
-        SERIES.breakpoints(a, b) for a, b in pairwise([0.0, 0.1, 4.4, 9.9, 17.0, SERIES.duration])
-    ]
-    np.testing.assert_array_equal(np.concatenate(pieces), everywhere)
+def test_time_at_which_cycles_of_blocks_are_done() -> None:
+    times = SERIES.time_at(np.array([0, 2, 3, 4, 5, 6, 6 + 4, 24]))
+    np.testing.assert_allclose(times, [0.0, 0.2, 0.3, 2.3, 4.3, 5.3, 5.3 + 2.3, 4 * 5.3])
+
+
+def test_a_cycle_of_a_history_is_a_load() -> None:
+    window = span(RECORD, 2).load
+    phases = np.array([0.0, 0.5, 1.0])
+    np.testing.assert_allclose(window(phases), RECORD.value(1.0 + 0.5 * phases), rtol=1e-15)
+    assert (window.period, window.maximum) == (0.5, 2e-4)
+    assert span(RECORD, 7).until == most_cycles(RECORD) == 8
 
 
 def test_blocks_of_one_load_are_that_load() -> None:
-    load = TWO_TONES
-    twice = Blocks((Block(load, 2), Block(load, 3)), 2)
-    time = np.linspace(0.0, 10 * 0.06, 1001)[:-1]
-    np.testing.assert_allclose(twice.value(time), load(time / 0.06), atol=1e-15)
-    assert twice.mean == pytest.approx(load.mean)
-    assert (twice.minimum, twice.maximum) == (load.minimum, load.maximum)
+    twice = Blocks((Block(TWO_TONES, 2), Block(TWO_TONES, 3)), 2)
+    assert twice.mean == pytest.approx(TWO_TONES.mean)
+    assert (twice.minimum, twice.maximum) == (TWO_TONES.minimum, TWO_TONES.maximum)
 
 
 @pytest.mark.parametrize("load", [*LOADS, RECORD, SERIES])

@@ -13,7 +13,7 @@ from tests.wear.reference_scenes import tables
 from wear.load import Harmonics
 from wear.offset import offset
 from wear.regime import Asymptote, asymptote
-from wear.scene import Scene, load_scene, scene_from_tables
+from wear.scene import Scene, load_scene
 from wear.solver import solve
 
 VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
@@ -22,7 +22,7 @@ HALF, FOUR_TENTHS = tables(f_c=0.5), tables(f_c=0.4, K=1e-4)
 
 
 def _scene(made: dict[str, object]) -> Scene:
-    return scene_from_tables(made)
+    return Scene.from_dict(made)
 
 
 def _derived(scene: Scene) -> tuple[float, float, Asymptote]:

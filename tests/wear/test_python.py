@@ -8,10 +8,12 @@ from __future__ import annotations
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import derive
 import wear
+from wear.fitting.readings import Specimen
 
 
 def test_a_script_needs_no_deep_import(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -33,3 +35,20 @@ def test_a_history_draws_wear_roughness_and_pressure() -> None:
     figure = wear.solve("section4", [1, 10, 100], rtol=1e-6).plot()
     labels = " ".join(axes.get_ylabel().lower() for axes in figure.axes)
     assert all(word in labels for word in ("wear", "roughness", "pressure"))
+
+
+def test_what_takes_long_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As if two seconds had passed at once."""
+    monkeypatch.setattr("wear.progress.SILENT", 0.0)
+    monkeypatch.setattr("wear.progress.APART", 0.0)
+    scenes = [wear.load_scene("section4"), wear.load_scene("section4-cutoff")]
+    told: list[str] = []
+    wear.sweep(scenes, np.array([1.0, 10.0]), 1e-6, told.append)
+    assert [text.partition(",")[0] for text in told] == ["scene 1 of 2", "scene 2 of 2"]
+    wear.sensitivity("section4", 10, 1e-6, told.append)
+    assert told[2:] == ["cycle 0 of 10"]
+    read = np.array([10.0, 100.0, 1000.0])
+    specimen = Specimen("", read, wear.solve("section4", read).u_c, None, {})
+    free = ["bearing.wear_coefficient"]
+    wear.fit([specimen], "section4", free, intervals=False, progress=told.append)
+    assert told[3].startswith("least sum of squares: ")

@@ -22,8 +22,9 @@ from wear.load import HistoryLoad
 from wear.model import bind
 from wear.numerics.collocation import iterate
 from wear.numerics.gauss import FloatArray
-from wear.records import Followed, follow
-from wear.scene import Scene, scene_from_tables
+from wear.outcome import Outcome
+from wear.records import follow
+from wear.scene import Scene
 from wear.solver import solve
 
 PERIOD = 1 / 16  # s: times that are sums of powers of two have no roundoff
@@ -50,17 +51,17 @@ def history(times: Any, levels: Any) -> HistoryLoad:
 
 
 def scene(load: HistoryLoad, **changes: Any) -> Scene:
-    made = scene_from_tables(tables(load=CONSTANT, **changes))
+    made = Scene.from_dict(tables(load=CONSTANT, **changes))
     return dataclasses.replace(made, load=load)
 
 
-def followed(load: HistoryLoad, cycles: list[int], rtol: float = 1e-12, **changes: Any) -> Followed:
+def followed(load: HistoryLoad, cycles: list[int], rtol: float = 1e-12, **changes: Any) -> Outcome:
     return follow(bind(scene(load, **changes)), load, cycles, rtol)
 
 
 def truth(of: Scene, load: HistoryLoad) -> float:
     """The wear at the end of a record of one second, by the independent integrator."""
-    constant = scene_from_tables(tables(load=CONSTANT)).load
+    constant = Scene.from_dict(tables(load=CONSTANT)).load
     rows = tuple(zip(load.times_s, load.values_mm, strict=True))
     data = problem(dataclasses.replace(of, load=constant))
     return independent(dataclasses.replace(data, period=1.0, mean=0.0, rows=rows), [1])[1]
@@ -85,7 +86,7 @@ def drawn_records(draw: st.DrawFn) -> Scene:
     times = np.array([0, *sorted(inner), 4096]) / 4096
     levels = swing * np.array([draw(between(-2, 2)) for _ in times])
     load = HistoryLoad(tuple(times.tolist()), tuple(levels.tolist()), 1.0)
-    return dataclasses.replace(scene_from_tables(made), load=load)
+    return dataclasses.replace(Scene.from_dict(made), load=load)
 
 
 @settings(max_examples=25, deadline=None)
@@ -153,7 +154,7 @@ def test_in_other_units() -> None:
     length, span = 2.0**-20, 2.0**9
     load = record(10)
     made = tables(load=CONSTANT)
-    model = bind(scene_from_tables(made))
+    model = bind(Scene.from_dict(made))
     made["bearing"]["roughness_mm"] *= length
     made["contact"]["closure_mm"] *= length
     made["motion"]["radius_mm"] *= length
@@ -161,7 +162,7 @@ def test_in_other_units() -> None:
     times, levels = np.array(load.times_s) * span, np.array(load.values_mm) * length
     other = HistoryLoad(tuple(times.tolist()), tuple(levels.tolist()), PERIOD * span)
     one = follow(model, load, [1, 10], 1e-10)
-    two = follow(bind(scene_from_tables(made)), other, [1, 10], 1e-10)
+    two = follow(bind(Scene.from_dict(made)), other, [1, 10], 1e-10)
     assert_allclose(two.u / length, one.u, rtol=1e-14)
     assert_allclose(two.error, one.error, rtol=0.5)
 
@@ -222,7 +223,7 @@ def test_rounding_is_counted() -> None:
     felt there, so that the rate is known."""
     made = tables(load=CONSTANT)
     made["contact"]["closure_mm"] = 0.05
-    model = bind(scene_from_tables(made))
+    model = bind(Scene.from_dict(made))
     largest = 1e-6 * (math.pi * 22.0 * 2000.0 / 30) * 300.0 / (3 * 200.0)
     worst = 0.0
     for level in np.linspace(0.0, 5e-3, 40):
@@ -285,7 +286,7 @@ def test_a_trial_state_without_a_pressure_is_no_end() -> None:
     made = tables(K=0.0019065965263269193, f_c=0.0, k=1.0634538522847895e7, load=CONSTANT)
     made["contact"] |= {"closure_mm": 0.0003160310487783073, "law": "exponential"}
     made["contact"].pop("closure_in_sigma", None)
-    of = scene_from_tables(made)
+    of = Scene.from_dict(made)
     levels = (0.00149725, 0.00012321, 0.00178868)
     load = HistoryLoad((0.0, 0.5, 1.0), levels, 1.0)
     found = follow(bind(of), load, [1], 1e-9)
@@ -310,7 +311,7 @@ def test_what_auto_takes_and_what_it_may_be_told() -> None:
     assert "auto: collocation, because the load does not repeat" in found.notices
     with_cutoff = solve(scene(load, cutoff=True), [1], 1e-6)
     assert with_cutoff.method == "DOP853"
-    for other in (scene(load, cutoff=True), scene_from_tables(tables())):
+    for other in (scene(load, cutoff=True), Scene.from_dict(tables())):
         with pytest.raises(UsageError, match="collocation is for a measured history"):
             solve(other, [1], method="collocation")
     with pytest.raises(UsageError, match="ends after 2 whole cycles"):

@@ -15,7 +15,7 @@ from tests.wear.reference_scenes import tables
 from wear import regime as wear_regime
 from wear.load import Sine
 from wear.regime import asymptote
-from wear.scene import scene_from_tables
+from wear.scene import Scene
 
 THIRD = 1 / 3
 
@@ -38,7 +38,7 @@ def _without_integration(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_scene_is_in_the_regime_of_the_map(
     slope: float, amplitude: float, closure: float, cutoff: bool
 ) -> None:
-    scene = scene_from_tables(tables(f_c=slope, cutoff=cutoff))
+    scene = Scene.from_dict(tables(f_c=slope, cutoff=cutoff))
     contact = replace(scene.contact, closure_mm=closure)
     scene = replace(scene, contact=contact, load=Sine(amplitude, 0.06))
     data = {"f_c": slope, "h_0": closure, "sigma_c0": 3.6e-4, "U_max": amplitude}
@@ -46,7 +46,7 @@ def test_a_scene_is_in_the_regime_of_the_map(
 
 
 def test_one_third_is_steady_with_the_cutoff() -> None:
-    found = asymptote(scene_from_tables(tables(f_c=THIRD, cutoff=True)))
+    found = asymptote(Scene.from_dict(tables(f_c=THIRD, cutoff=True)))
     assert found.regime == "steady"
     assert found.wear_per_cycle_mm == pytest.approx(1.243117591822268629e-6, rel=1e-12)
     assert Fraction(THIRD) != Fraction(1, 3)  # the nearest double stands for it

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import wear
-from wear.cycles import sweep
+from wear.cycles import cycles_to_depth, sweep
 from wear.model import bind
 from wear.resampling import resampled
 
@@ -93,6 +93,18 @@ def test_many_scenes_share_what_their_load_is_merged_to(tmp_path: Path) -> None:
     exact = [wear.solve(each.with_({"load.resample": False}), [1, 10**6]).u_c for each in scenes]
     assert np.all(np.abs(found.u_c / exact - 1.0) <= found.error)
     assert np.all((found.error > 1e-9) & (found.error <= 1e-4))
+
+
+def test_cycles_to_a_depth_are_counted_with_the_merged_rows(tmp_path: Path) -> None:
+    scene = measured(tmp_path)
+    merged = resampled(scene, bind(scene), 1e-4).error
+    exact = wear.cycles_until(scene.with_({"load.resample": False}), 1e-2, rtol=1e-8)
+    one = wear.cycles_until(scene, 1e-2, rtol=1e-4)
+    (many,), (error,) = cycles_to_depth([scene], np.array([1e-2]), rtol=1e-4)
+    assert many[0] == one.cycles[0]
+    assert error[0] >= merged > 0.0
+    assert one.error[0] >= merged
+    assert abs(one.cycles[0] / exact.cycles[0] - 1.0) <= one.error[0] + exact.error[0]
 
 
 def test_spiky_rows_are_resolved_between_many_breakpoints() -> None:

@@ -89,15 +89,16 @@ def test_all_faults_of_a_table_come_at_once() -> None:
         (lambda: Contact(300.0, 1e-3, 3.0), "are both given"),
         (lambda: replace(SECTION4, load=None), "is not a table"),
         (lambda: replace(SECTION4, load="sine"), "is not a table"),
-        (lambda: replace(SECTION4, bearing=None), "bearing: is not a table"),
-        (lambda: replace(SECTION4, motion=Pin(1.0, 0.0, 0.0, 0.0)), "motion: is not a table"),
+        (lambda: replace(SECTION4, bearing=None), "[bearing]: is not a table"),
+        (lambda: replace(SECTION4, motion=Pin(1.0, 0.0, 0.0, 0.0)), "[motion]: is not a table"),
         (lambda: replace(SECTION4, title="a\x07b"), "control characters"),
         (lambda: SECTION4.with_({"bearing": None}), "is not a table"),
         (lambda: SECTION4.with_({"bering.hardness_MPa": 1.0}), "did you mean bearing?"),
         (lambda: SECTION4.with_({"bearing.hardness_MPa.x": 1.0}), "unknown key"),
         (lambda: SECTION4.with_({"name": "x"}), "unknown key"),
         (lambda: Bearing(1.0, 1e-6, 1e-4), "missing"),  # type: ignore[call-arg]
-        (lambda: Bearing(1.0, 1e-6, 1e-4, 0.0, 5.0), "unknown key"),  # type: ignore[call-arg]
+        (lambda: Bearing(1.0, 1e-6, 1e-4, 0.0, 5.0), "no entry of its own"),  # type: ignore[call-arg]
+        (lambda: Sine(1.0, 1.0, amplitude_mm=2.0), "no entry of its own"),  # type: ignore[misc]
         (
             lambda: replace(SECTION4, bearing=replace(SECTION4.bearing, roughness_mm=0.0)),
             "zero on the only rough solid",

@@ -6,13 +6,13 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wear.checked import TABLES, keys_of
+from wear.checked import TABLES
 from wear.faults import SceneError
-from wear.scene import Scene, builtin_names, load_scene, parse_scene, scene_from_tables
+from wear.scene import Scene, builtin_names, load_scene, parse_scene
 
 NAMES = sorted(
     {"title", "description", "load", "kind", "cycles", "blocks"}
-    | {name for table in TABLES for name in (table.place, table.kind, *keys_of(table)) if name}
+    | {name for table in TABLES for name in (table.place, table.kind, *table.entries) if name}
 )
 TEXTS = [load_scene(name).to_toml() for name in ("section3", "section4", "soft-support")]
 
@@ -94,7 +94,7 @@ def test_changed_tables(name: str, data: st.DataObject) -> None:
         if not tables:
             break
     try:
-        answer: Scene | SceneError = scene_from_tables(tables)
+        answer: Scene | SceneError = Scene.from_dict(tables)
     except SceneError as error:
         answer = error
     check_answer(answer)

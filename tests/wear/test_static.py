@@ -17,7 +17,7 @@ from wear.faults import UsageError
 from wear.generated import static_solution as formula
 from wear.load import Constant
 from wear.model import bind
-from wear.scene import Scene, load_scene, scene_from_tables
+from wear.scene import Scene, load_scene
 from wear.solver import solve
 from wear.static import StaticSolution, static_solution
 
@@ -27,7 +27,7 @@ VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_te
 
 def _scene(slope: float = 0.25, load: float = 0.0, stiffness: float | None = None) -> Scene:
     made = tables(f_c=slope, k=stiffness, load=CONSTANT)
-    return dataclasses.replace(scene_from_tables(made), load=Constant(load, 0.06))
+    return dataclasses.replace(Scene.from_dict(made), load=Constant(load, 0.06))
 
 
 @pytest.mark.parametrize(
@@ -50,7 +50,7 @@ def test_wear_after_cycles() -> None:
     smooth = float(VALUES["u_f0(100 cycles,Ua=0)"])
     assert float(static_solution(_scene(0.0)).wear(100)) == pytest.approx(smooth, rel=8 * EPS)
     cycles = list(REFERENCE["S7"])
-    found = static_solution(scene_from_tables(tables(load=CONSTANT))).wear(cycles)
+    found = static_solution(Scene.from_dict(tables(load=CONSTANT))).wear(cycles)
     assert found == pytest.approx(list(REFERENCE["S7"].values()), rel=8 * EPS)
 
 

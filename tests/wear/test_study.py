@@ -159,20 +159,20 @@ def test_what_is_missing_is_all_that_is_solved_again(
     request: dict[str, Any] = {"design": "latin-hypercube", "samples": 40, "seed": 3}
     vary = [f"{GROWTH}=uniform(0.1,0.3)"]
     whole = study("section4", vary, [9000], tmp_path / "whole.zarr", **request)
-    solved = run.solve_rows
+    solved = run.solve_chunk
 
     def fails_at_the_third(*arguments: Any) -> Any:
         if (tmp_path / "part.zarr" / "status" / "c" / "1").exists():
             raise KeyboardInterrupt
         return solved(*arguments)
 
-    monkeypatch.setattr(run, "solve_rows", fails_at_the_third)
+    monkeypatch.setattr(run, "solve_chunk", fails_at_the_third)
     with pytest.raises(KeyboardInterrupt):
         study("section4", vary, [9000], tmp_path / "part.zarr", **request)
     kept = sorted((tmp_path / "part.zarr" / "status" / "c").iterdir())
     written = [file.stat().st_mtime_ns for file in kept]
     assert len(kept) == 2
-    monkeypatch.setattr(run, "solve_rows", solved)
+    monkeypatch.setattr(run, "solve_chunk", solved)
     part = study("section4", vary, [9000], tmp_path / "part.zarr", **request)
     assert [file.stat().st_mtime_ns for file in kept] == written
     assert same(part, whole)

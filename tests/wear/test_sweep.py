@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
 from wear.cycles import sweep, wear_after
 from wear.model import bind
-from wear.scene import Scene, load_scene, scene_from_tables
+from wear.scene import Scene, load_scene
 
 CYCLES = np.array([1.0, 10.0, 100.0, 1000.0, 9000.0])
 
@@ -40,7 +40,7 @@ def test_figure_3b_is_one_call() -> None:
 )
 def test_a_scene_does_not_feel_its_neighbours(drawn: list[tuple[int, int, int]]) -> None:
     scenes = [
-        scene_from_tables(
+        Scene.from_dict(
             tables(
                 K=10 ** (K / 10),
                 f_c=f / 100,
@@ -65,7 +65,7 @@ def test_loads_of_all_kinds_go_together() -> None:
         {"kind": "harmonics", "sine_mm": [4e-4, 0.0, 2e-4], "period_s": 0.1},
         {"kind": "sine", "amplitude_mm": -6e-4, "period_s": 0.06},
     ]
-    scenes = [scene_from_tables(tables(load=load), "drawn") for load in loads]
+    scenes = [Scene.from_dict(tables(load=load), "drawn") for load in loads]
     found = sweep(scenes, CYCLES, 1e-9)
     alone = [wear_after(bind(scene), scene.periodic_load, CYCLES, 1e-13).u_c for scene in scenes]
     assert np.all(np.abs(found.u_c / np.array(alone) - 1) <= found.error)
@@ -73,7 +73,7 @@ def test_loads_of_all_kinds_go_together() -> None:
 
 def test_panels_are_as_many_as_a_scene_needs() -> None:
     """1e12 cycles take more of them than the two that every scene begins with."""
-    scenes = [scene_from_tables(tables(f_c=f), "drawn") for f in (0.05, 0.2, 0.35)]
+    scenes = [Scene.from_dict(tables(f_c=f), "drawn") for f in (0.05, 0.2, 0.35)]
     cycles = np.array([1e3, 1e12])
     found = sweep(scenes, cycles, 1e-8)
     alone = [wear_after(bind(scene), scene.periodic_load, cycles, 1e-12).u_c for scene in scenes]
@@ -91,7 +91,7 @@ def test_wear_that_opens_the_gap_before_the_first_node_is_not_overlooked(
     K: float, f_c: float, load: dict[str, object]
 ) -> None:
     """The two maps agree there, for neither sees it."""
-    scene = scene_from_tables(tables(K=K, f_c=f_c, load=load), "fast")
+    scene = Scene.from_dict(tables(K=K, f_c=f_c, load=load), "fast")
     found = sweep([scene], CYCLES, 1e-4)
     alone = wear_after(bind(scene), scene.periodic_load, CYCLES, 1e-12)
     assert np.all(np.abs(found.u_c[0] / alone.u_c - 1) <= found.error[0] + alone.error)
@@ -102,7 +102,7 @@ def test_scenes_of_a_wide_range(k: float | None) -> None:
     """Wear coefficients over three decades, swings over one, up to a hundred million cycles."""
     drawn = np.random.default_rng(7).uniform(size=(40, 3))
     scenes = [
-        scene_from_tables(
+        Scene.from_dict(
             tables(
                 K=10 ** (-8 + 3 * K),
                 f_c=0.05 + 0.35 * f,
@@ -123,7 +123,7 @@ def test_scenes_of_a_wide_range(k: float | None) -> None:
 def test_a_hard_scene_does_not_disturb_the_others() -> None:
     """Pulses of a hundredth of a period and fast wear."""
     narrow = tables(K=1e-2, load={"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06})
-    found = sweep([reference_scene("S2"), scene_from_tables(narrow, "narrow")], CYCLES, 1e-10)
+    found = sweep([reference_scene("S2"), Scene.from_dict(narrow, "narrow")], CYCLES, 1e-10)
     assert np.all(found.error <= 1e-10)
     assert_allclose(found.u_c[0], [REFERENCE["S2"][int(n)] for n in CYCLES], rtol=1e-10)
 
@@ -139,7 +139,7 @@ def test_scenes_of_different_kinds_are_mixed_in_one_call() -> None:
         "repeat": 30,
     }
     scenes = [reference_scene(name) for name in ("S1", "S2", "S8_1", "S5", "S8_2")]
-    scenes += [load_scene("section4-cutoff"), scene_from_tables(tables(load=blocks), "blocks")]
+    scenes += [load_scene("section4-cutoff"), Scene.from_dict(tables(load=blocks), "blocks")]
     found = sweep(scenes, CYCLES, 1e-9)
     assert np.all(found.error <= 1e-9)
     for scene, wear, error in zip(scenes, found.u_c, found.error, strict=True):
@@ -156,7 +156,7 @@ def test_a_sharp_density_is_judged_by_more_nodes_than_it_was_solved_with() -> No
         made = tables(K=K, f_c=f_c, pin=True, load=CONSTANT | {"value_mm": value})
         made["contact"] |= {"closure_mm": closure}
         made["contact"].pop("closure_in_sigma", None)
-        scenes.append(scene_from_tables(made, "drawn"))
+        scenes.append(Scene.from_dict(made, "drawn"))
     cycles = np.array([1.0, 30.0, 200.0, 1e3, 1e12])
     found = sweep(scenes, cycles, 1e-8)
     alone = [wear_after(bind(scene), scene.periodic_load, cycles, 1e-13) for scene in scenes]
@@ -169,7 +169,7 @@ def smooth(r: float, f_c: float, K: float, closure: float, amplitude: float) -> 
     made = tables(K=K, f_c=f_c, load=load)
     made["bearing"] |= {"roughness_mm": r}
     made["contact"] |= {"closure_mm": closure}
-    return scene_from_tables(made, "smooth")
+    return Scene.from_dict(made, "smooth")
 
 
 # Far beyond these cycles the rate underflows to zero, where there is no density.
@@ -201,7 +201,7 @@ def test_variants_may_be_mixed_in_any_order(seed: int) -> None:
             }
             made = tables(10 ** rng.uniform(-8, -4), rng.uniform(-0.2, 0.5), pin, k, load)
             made["bearing"] |= {"roughness_mm": 3.6e-4 * 10 ** rng.uniform(-0.3, 0.3)}
-            scenes.append(scene_from_tables(made, "drawn"))
+            scenes.append(Scene.from_dict(made, "drawn"))
     order = rng.permutation(len(scenes))
     cycles = np.array([3.0, 3000.0, 1e8])
     found = sweep([scenes[i] for i in order], cycles, 1e-7)

@@ -6,7 +6,7 @@ import os
 import platform
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
@@ -31,7 +31,7 @@ def machine(peers: bool = False) -> dict[str, Any]:
     }
 
 
-def footer(facts: dict[str, Any]) -> str:
+def footer(facts: Mapping[str, Any]) -> str:
     """The same in a line."""
     versions = ", ".join(f"{name} {number}" for name, number in facts["versions"].items())
     text = f"{facts['processor']}, {facts['cores']} cores; Python {facts['python']}, {versions}"

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from importlib.resources import files
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +17,9 @@ from wear.benchmark import Measurement, StartUp, Status
 from wear.benchmark.machine import footer
 from wear.figure_data import Method
 
+COMMITTED = files("wear").joinpath("data", "speed.json")
+READER = "section4"
+"""The scene of the sentences and of the figures."""
 FEWEST_DRAWN = 4  # methods in a figure
 LEAST = float(np.finfo(float).eps) / 2  # relative error that a figure shows
 YEAR = 3.15576e7  # s
@@ -275,7 +281,7 @@ def markdown(result: Result, scene: str) -> str:
     for table in tables(result):
         parts += [f"**{table.caption}**", markdown_table(table)]
     parts += absences(result)
-    parts.append(f"*{footer(dict(result.facts))}*")
+    parts.append(f"*{footer(result.facts)}*")
     return "\n\n".join(parts) + "\n"
 
 
@@ -295,6 +301,21 @@ def csv_text(rows: Sequence[NamedTuple]) -> str:
         writer.writerow(rows[0]._fields)
     writer.writerows(rows)
     return stream.getvalue()
+
+
+@cache
+def committed() -> Result:
+    """Return the benchmark of documentation and report, which `make bench` renews."""
+    found = json.loads(COMMITTED.read_text(encoding="utf-8"))
+    runs = (
+        Measurement(**row)._replace(
+            status=Status(row["status"]), error=math.nan if row["error"] is None else row["error"]
+        )
+        for row in found["measurements"]
+    )
+    starts = (StartUp(**row) for row in found["start_up"])
+    absent = {name: tuple(packages) for name, packages in found["not_installed"].items()}
+    return Result(tuple(runs), tuple(starts), found["import_seconds"], absent, found["machine"])
 
 
 def document(result: Result, scene: str) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """Arguments that commands share, and their faults: a scene, numbers of cycles, bounded numbers.
 
-Texts are read after parsing, by methods that remember what is wrong, so that a command can report
-the faults of all its arguments and of its scene in one message.
+A text is read by the `type` of its argument; the scene and its readings by `read`, when all options
+are known. A command reports the faults of all its arguments and of its scene in one message.
 """
 
 from __future__ import annotations
@@ -9,10 +9,12 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from collections.abc import Sequence
+from argparse import ArgumentTypeError
+from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive import completion
+from derive import completion, files
 
 if TYPE_CHECKING:
     from wear.fitting.readings import Specimen
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
 
 MOST_IN_RANGE = 1_000_000  # numbers of cycles
+PICTURES = (".pdf", ".png", ".svg")
 _THOUSANDS = re.compile(r"0\d+")  # what a comma leaves of 9,000: not to be read as 9 and 0
 
 
@@ -61,125 +64,120 @@ def built_in_names() -> Sequence[str]:
 
 def _entries() -> Sequence[str]:
     """Return the beginnings of what `--set` takes, but for the load, whose keys vary."""
-    from wear.checked import keys_of
     from wear.scene import Bearing, Contact, Motion, Pin, Support
 
     tables = (Bearing, Pin, Contact, Support, Motion)
-    return [f"{table.place}.{name}=" for table in tables for name in keys_of(table)]
+    return [f"{table.place}.{name}=" for table in tables for name in table.entries]
 
 
-class Faults:
-    """The faults of a command line, gathered until `stop_if_any`."""
+def add_readings(parser: argparse.ArgumentParser, help: str) -> None:
+    """Declare a file of readings of the scene, of which `read` makes `options.readings`."""
+    parser.set_defaults(readings=())
+    parser.add_argument("--data", metavar="FILE.csv", help=help)
 
-    def __init__(self) -> None:
-        self._messages: list[str] = []
 
-    def add(self, message: str) -> None:
-        """Remember one more fault."""
-        self._messages.append(message)
+def add_choice(
+    parser: argparse.ArgumentParser,
+    name: str,
+    choices: Callable[[], Sequence[str]],
+    help: str,
+    **about: str,
+) -> None:
+    """Declare a choice among words, whatever the case of their letters; completion offers them."""
 
-    def stop_if_any(self) -> None:
-        """Raise a `UsageError` that tells them all, a line each."""
-        from wear.faults import UsageError
-
-        if self._messages:
-            raise UsageError("\n".join(self._messages))
-
-    def scene(self, options: argparse.Namespace) -> Scene | None:
-        """Return the scene that the options name, None if it has faults."""
-        return self._loaded(options.scene, options)
-
-    def scenes(self, options: argparse.Namespace) -> list[Scene]:
-        """Return the scenes that the options name, without those that have faults."""
-        found = (self._loaded(name, options) for name in options.scene)
-        return [scene for scene in found if scene is not None]
-
-    def _loaded(self, name: str, options: argparse.Namespace) -> Scene | None:
-        from wear.faults import SceneError
-        from wear.scene import load_scene
-
-        try:
-            scene = load_scene(name, options.overrides)
-        except SceneError as fault:
-            self.add(str(fault))
-            return None
-        if options.strict:
-            self.refuse_implausible(scene.notices)
-        return scene
-
-    def readings(self, file: str, scenes: Sequence[Scene]) -> tuple[Specimen, ...]:
-        """Return the readings of a CSV file, none if it has faults; entries of the scene that the
-        file names are tried in the first."""
-        from wear.faults import WearError
-        from wear.fitting.readings import read_readings
-
-        try:
-            found = read_readings(file)
-            for scene in scenes[:1]:
-                for each in found:
-                    scene.with_(each.changes)
-        except WearError as fault:
-            self.add(f"--data: {fault}")
-            return ()
-        return found
-
-    def refuse_implausible(self, notices: Sequence[str]) -> None:
-        """Make faults of the notices about magnitudes that are hardly meant."""
-        from wear.scene.plausibility import WORD
-
-        self._messages += [notice for notice in notices if notice.startswith(WORD)]
-
-    def cycles(self, name: str, text: str) -> tuple[int, ...]:
-        """Return numbers of cycles, 0 being the fresh state, from a list of numbers and ranges.
-
-        >>> Faults().cycles("--cycles", "1, 10:13,1e8")
-        (1, 10, 11, 12, 13, 100000000)
-        """
-        from wear.solver import MOST_CYCLES
-
-        parts = text.split(",")
-        ends = [tuple(map(_number, entry.split(":"))) for entry in parts]
-        wrong = [
-            entry.strip()
-            for entry, pair in zip(parts, ends, strict=True)
-            if len(pair) > 2
-            or _THOUSANDS.fullmatch(entry.strip())
-            or not all(0 <= number <= MOST_CYCLES and number.is_integer() for number in pair)
-            or not 0 <= pair[-1] - pair[0] < MOST_IN_RANGE
-        ]
-        if wrong:
-            entries = ", ".join(map(_quoted, wrong[:10])) + (", ..." if len(wrong) > 10 else "")
-            self.add(
-                f"{name}: {entries}: no number of cycles; "
-                f"give whole numbers from 0 to {MOST_CYCLES:.0e} and ranges of up to "
-                f"{MOST_IN_RANGE:.0e}, such as 1,9000,1e8 or 0:9000"
-            )
-            return ()
-        return tuple(n for pair in ends for n in range(int(pair[0]), int(pair[-1]) + 1))
-
-    def number(self, name: str, text: str, low: float, high: float) -> float:
-        """Return a number within bounds.
-
-        >>> Faults().number("--rtol", "1e-10", 1e-15, 0.1)
-        1e-10
-        """
-        number = _number(text)
-        if not low <= number <= high:
-            self.add(f"{name}: {_quoted(text)} is no number from {low:g} to {high:g}")
-        return number
-
-    def choice(self, name: str, text: str, choices: Sequence[str]) -> str:
-        """Return one of these words, whatever the case of its letters."""
+    def chosen(text: str) -> str:
         from wear.checked import did_you_mean
 
-        exact = {choice.lower(): choice for choice in choices}
-        if text.lower() not in exact:
-            meant = did_you_mean(text, choices)
-            hint = f"; did you mean {meant}?" if meant else ""
-            known = f"choose one of {', '.join(choices)}"
-            end = f"{hint} ({known})" if hint else f"; {known}"
-            self.add(f"{name}: {_quoted(text)} is unknown{end}")
-        return exact.get(text.lower(), text)
+        exact = {choice.lower(): choice for choice in choices()}
+        if text.lower() in exact:
+            return exact[text.lower()]
+        meant = did_you_mean(text, choices())
+        hint = f"; did you mean {meant}?" if meant else ""
+        known = f"choose one of {', '.join(choices())}"
+        raise ArgumentTypeError(
+            f"{_quoted(text)} is unknown{f'{hint} ({known})' if hint else f'; {known}'}"
+        )
+
+    action = parser.add_argument(name, type=chosen, help=help, **about)  # type: ignore[arg-type]
+    completion.suggest(action, choices)
+
+
+def add_rtol(
+    parser: argparse.ArgumentParser, low: float, default: str, of: str = " of the wear"
+) -> None:
+    """Declare the requested accuracy, down to the lowest that can be asked for."""
+    about = f"requested relative accuracy{of} (default: %(default)s)"
+    parser.add_argument("--rtol", type=number(low, 0.1), default=default, help=about)
+
+
+def cycles(text: str) -> tuple[int, ...]:
+    """Return numbers of cycles, 0 being the fresh state, from a list of numbers and ranges.
+
+    >>> cycles("1, 10:13,1e8")
+    (1, 10, 11, 12, 13, 100000000)
+    """
+    from wear.solver import MOST_CYCLES
+
+    parts = text.split(",")
+    ends = [tuple(map(_number, entry.split(":"))) for entry in parts]
+    wrong = [
+        entry.strip()
+        for entry, pair in zip(parts, ends, strict=True)
+        if len(pair) > 2
+        or _THOUSANDS.fullmatch(entry.strip())
+        or not all(0 <= number <= MOST_CYCLES and number.is_integer() for number in pair)
+        or not 0 <= pair[-1] - pair[0] < MOST_IN_RANGE
+    ]
+    if wrong:
+        entries = ", ".join(map(_quoted, wrong[:10])) + (", ..." if len(wrong) > 10 else "")
+        raise ArgumentTypeError(
+            f"{entries}: no number of cycles; "
+            f"give whole numbers from 0 to {MOST_CYCLES:.0e} and ranges of up to "
+            f"{MOST_IN_RANGE:.0e}, such as 1,9000,1e8 or 0:9000"
+        )
+    return tuple(n for pair in ends for n in range(int(pair[0]), int(pair[-1]) + 1))
+
+
+def number(low: float, high: float) -> Callable[[str], float]:
+    """Return what reads a number within bounds.
+
+    >>> number(1e-15, 0.1)("1e-10")
+    1e-10
+    """
+
+    def bounded(text: str) -> float:
+        found = _number(text)
+        if not low <= found <= high:
+            raise ArgumentTypeError(f"{_quoted(text)} is no number from {low:g} to {high:g}")
+        return found
+
+    return bounded
+
+
+depth = number(1e-30, 1e30)
+"""Read a wear depth in mm."""
+
+
+def file(*suffixes: str) -> Callable[[str], Path]:
+    """Return what reads the name of a file to be written, with one of these suffixes."""
+
+    def place(text: str) -> Path:
+        if suffixes and Path(text).suffix.lower() not in suffixes:
+            raise ArgumentTypeError(f"{text}: end it in {', '.join(suffixes)}")
+        return _free(text, files.obstacle(text))
+
+    return place
+
+
+def folder(text: str) -> Path:
+    """Return a folder to be written to, which is made if need be."""
+    return _free(text, files.obstacle_to_folder(text))
+
+
+def _free(text: str, problem: str | None) -> Path:
+    if problem is not None:
+        raise ArgumentTypeError(problem)
+    return Path(text)
 
 
 def _number(text: str) -> float:
@@ -193,3 +191,75 @@ def _quoted(text: str) -> str:
     from wear.checked import shown
 
     return f'"{shown(text)}"'
+
+
+class Faults:
+    """The faults of a command line, gathered until `stop_if_any`."""
+
+    def __init__(self, messages: Sequence[str]) -> None:
+        self._messages = list(messages)
+
+    def add(self, message: str) -> None:
+        """Remember one more fault."""
+        self._messages.append(message)
+
+    def refuse_implausible(self, notices: Sequence[str]) -> None:
+        """Make faults of the notices about magnitudes that are hardly meant."""
+        from wear.scene.plausibility import WORD
+
+        self._messages += [notice for notice in notices if notice.startswith(WORD)]
+
+    def stop_if_any(self) -> None:
+        """Raise a `UsageError` with all of them, a line each."""
+        from wear.faults import UsageError
+
+        if self._messages:
+            raise UsageError("\n".join(self._messages))
+
+
+def read(options: argparse.Namespace) -> Faults:
+    """Put the scene, or the scenes, and their readings in the place of their names; return what is
+    wrong with these and with all other arguments.
+
+    What has faults is None; a command stops at faults before it looks at values.
+    """
+    faults = Faults(options.faults)
+    names = getattr(options, "scene", [])
+    several = names if isinstance(names, list) else [names]
+    scenes = [_scene(name, options, faults) for name in several]
+    known = [scene for scene in scenes if scene is not None]
+    options.scene = known if several is names else scenes[0]
+    if "readings" in options and options.data is not None:
+        options.readings = _readings(options.data, known, faults)
+    return faults
+
+
+def _scene(name: str, options: argparse.Namespace, faults: Faults) -> Scene | None:
+    from wear.faults import SceneError
+    from wear.scene import load_scene
+
+    try:
+        scene = load_scene(name, options.overrides)
+    except SceneError as fault:
+        faults.add(str(fault))
+        return None
+    if options.strict:
+        faults.refuse_implausible(scene.notices)
+    return scene
+
+
+def _readings(file: str, scenes: Sequence[Scene], faults: Faults) -> tuple[Specimen, ...]:
+    """Return the readings of a CSV file; entries of the scene that it names are tried in the first
+    scene."""
+    from wear.faults import WearError
+    from wear.fitting.readings import read_readings
+
+    try:
+        found = read_readings(file)
+        for scene in scenes[:1]:
+            for each in found:
+                scene.with_(each.changes)
+    except WearError as fault:
+        faults.add(f"--data: {fault}")
+        return ()
+    return found

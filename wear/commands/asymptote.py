@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from derive import terminal
 from derive.command_line import Command
-from wear.commands.arguments import Faults, add_scene
+from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.regime import Asymptote
@@ -35,18 +35,16 @@ _LABELS: Mapping[str, tuple[str, str]] = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scene."""
-    add_scene(parser)
+    arguments.add_scene(parser)
 
 
 def execute(options: argparse.Namespace) -> int:
     """Print the regime of a scene and its constants."""
     from wear.regime import asymptote
 
-    faults = Faults()
-    scene = faults.scene(options)
-    faults.stop_if_any()
-    assert scene is not None
-    found = asymptote(scene)
+    arguments.read(options).stop_if_any()
+    with terminal.busy("seeking the asymptote"):
+        found = asymptote(options.scene)
     if options.json:
         terminal.print_json(asdict(found))
         return terminal.DONE

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from derive import files, terminal
 from derive.command_line import Command
-from wear.commands.arguments import Faults
+from wear.commands import arguments
 from wear.faults import UsageError
 
 if TYPE_CHECKING:
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from wear.benchmark.methods import Method
     from wear.benchmark.results import Result, Table
 
-READER = "section4"  # the scene of the sentences and of the figure
 PEERS = Path(__file__).parents[2] / "docs" / "bench"
 HARD_SECONDS, HARD_SECONDS_QUICK = 2.0, 0.3
 
@@ -44,19 +43,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     effort.add_argument("--full", action="store_true", help="more scenes, long runs")
     parser.add_argument("--hard", action="store_true", help="the hard cases instead of speed")
     parser.add_argument(
-        "-o", "--output", metavar="DIR", help="write tables, raw CSV, JSON and the figure there"
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=arguments.folder,
+        help="write tables, raw CSV, JSON and the figure there",
     )
 
 
 def execute(options: argparse.Namespace) -> int:
     """Measure, print, write."""
-    faults = Faults()
+    faults = arguments.read(options)
     if options.hard and options.peers:
         faults.add("--peers: the hard cases are for the package's own methods and SciPy's")
-    if options.output is not None:
-        problem = files.obstacle_to_folder(options.output)
-        if problem is not None:
-            faults.add(f"--output: {problem}")
     faults.stop_if_any()
     return _hard(options) if options.hard else _speed(options)
 
@@ -67,13 +66,13 @@ def _speed(options: argparse.Namespace) -> int:
 
     result = _measure(options)
     if options.output is not None:
-        _write_speed(result, Path(options.output))
+        _write_speed(result, options.output)
     if options.json:
-        terminal.print_json(output.document(result, READER))
+        terminal.print_json(output.document(result, output.READER))
     else:
         _print_tables(output.tables(result))
-        print("\n".join(output.sentences(result.runs, READER)))
-        print("\n".join(["", *output.absences(result), footer(dict(result.facts))]))
+        print("\n".join(output.sentences(result.runs, output.READER)))
+        print("\n".join(["", *output.absences(result), footer(result.facts)]))
     return terminal.DONE
 
 
@@ -138,8 +137,8 @@ def _write_speed(result: Result, folder: Path) -> None:
     with files.replacing_in(folder) as draft:
         _write(draft / "speed.csv", output.csv_text(result.runs))
         _write(draft / "speed-start.csv", output.csv_text(result.starts))
-        _write(draft / "speed.md", output.markdown(result, READER))
-        _write(draft / "speed.json", _json(output.document(result, READER)))
+        _write(draft / "speed.md", output.markdown(result, output.READER))
+        _write(draft / "speed.json", _json(output.document(result, output.READER)))
         for name, content in _figures(result).items():
             (draft / name).write_bytes(content)
 
@@ -147,7 +146,7 @@ def _write_speed(result: Result, folder: Path) -> None:
 def _figures(result: Result) -> dict[str, bytes]:
     """Return the figures by name of the file: time against the number of cycles, and against true
     error for the numbers of cycles worth a figure."""
-    from wear.benchmark.results import DIGITS, at, curves, curves_by_cycles, figure_cycles
+    from wear.benchmark.results import DIGITS, READER, at, curves, curves_by_cycles, figure_cycles
     from wear.figure_style import encoded
     from wear.figures import speed_against_cycles, speed_against_error
 
@@ -170,7 +169,7 @@ def _hard(options: argparse.Namespace) -> int:
     found = hard.hard_cases(chosen, limit, terminal.progress)
     terminal.progress("")
     if options.output is not None:
-        _write_hard(found, footer(facts), Path(options.output))
+        _write_hard(found, footer(facts), options.output)
     if options.json:
         terminal.print_json({"machine": facts, "cases": [entry._asdict() for entry in found]})
     else:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from derive import completion, terminal
+from derive import terminal
 from derive.command_line import Command
 from wear.cite import REFERENCES, bibtex
-from wear.commands.arguments import Faults
+from wear.commands import arguments
 
 EXAMPLE = """\
   wear cite > derive-wear.bib     all entries, each with when to cite it
@@ -16,20 +16,19 @@ EXAMPLE = """\
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    keys = parser.add_argument(
+    arguments.add_choice(
+        parser,
         "references",
+        lambda: tuple(REFERENCES),
         metavar="KEY",
         nargs="*",
         help=f"one of {', '.join(REFERENCES)} (default: all)",
     )
-    completion.suggest(keys, lambda: tuple(REFERENCES))
 
 
 def execute(options: argparse.Namespace) -> int:
-    faults = Faults()
-    keys = [faults.choice("KEY", key, tuple(REFERENCES)) for key in options.references]
-    faults.stop_if_any()
-    chosen = [REFERENCES[key] for key in keys or REFERENCES]
+    arguments.read(options).stop_if_any()
+    chosen = [REFERENCES[key] for key in options.references or REFERENCES]
     if options.json:
         terminal.print_json([entry._asdict() for entry in chosen])
     else:

@@ -21,7 +21,7 @@ _WIDTH = 96
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the ids of claims."""
-    parser.add_argument("ids", metavar="ID", nargs="*", help="a claim, C1 to C40 (default: all)")
+    parser.add_argument("ids", metavar="ID", nargs="*", help="a claim, C1 to C41 (default: all)")
 
 
 def execute(options: argparse.Namespace) -> int:
@@ -29,10 +29,8 @@ def execute(options: argparse.Namespace) -> int:
     from wear.report.claims import as_json, ledger
 
     _check(options.ids)
-    entries = ledger(
-        lambda done, total, claim: terminal.progress(f"{done}/{total} {claim}"), options.ids
-    )
-    terminal.progress("")
+    with terminal.busy("deciding the claims") as tell:
+        entries = ledger(lambda done, total, claim: tell(f"{done}/{total} {claim}"), options.ids)
     if options.json:
         terminal.print_json(as_json(entries))
         return terminal.DONE

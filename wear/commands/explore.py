@@ -7,7 +7,7 @@ from pathlib import Path
 
 from derive import files, terminal
 from derive.command_line import Command
-from wear.commands.arguments import Faults, add_scene
+from wear.commands import arguments
 
 EXAMPLE = """\
   wear explore                          section4 of the note, into explorer.html
@@ -17,10 +17,8 @@ EXAMPLE = """\
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_scene(parser, default="section4")
-    parser.add_argument(
-        "--data", metavar="FILE.csv", help="show readings: columns cycles, wear_mm or wear_um"
-    )
+    arguments.add_scene(parser, default="section4")
+    arguments.add_readings(parser, "show readings: columns cycles, wear_mm or wear_um")
     parser.add_argument(
         "-o",
         "--output",
@@ -33,19 +31,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(options: argparse.Namespace) -> int:
     from wear.report.explorer import page
 
-    faults = Faults()
-    scene = faults.scene(options)
-    scenes = [scene] if scene is not None else []
-    specimens = () if options.data is None else faults.readings(options.data, scenes)
+    faults = arguments.read(options)
+    specimens = options.readings
     if any(each.changes for each in specimens):
         faults.add(f"--data: {options.data}: the page has one scene; leave its entries out")
     if problem := files.obstacle(options.output):
         faults.add(f"--output: {problem}")
     faults.stop_if_any()
-    assert scene is not None
-    terminal.progress("solving the scenes that the page checks itself against ...")
-    text = page(scene, specimens)
-    terminal.progress("")
+    with terminal.busy("solving the scenes that the page checks itself against"):
+        text = page(options.scene, specimens)
     files.write_atomically(options.output, text)
     if options.json:
         terminal.print_json({"page": options.output, "bytes": len(text.encode())})

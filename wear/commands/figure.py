@@ -11,15 +11,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from derive import files, terminal
 from derive.command_line import Command
-from wear.commands import run_output
-from wear.commands.arguments import Faults, add_scene
+from wear.commands import arguments, run_output
 
 if TYPE_CHECKING:
     from wear.figure_data import Abscissa
     from wear.fitting.readings import Specimen
     from wear.scene import Scene
 
-SUFFIXES = (".pdf", ".png", ".svg")
 POINTS = 160
 LAST = 9000  # cycle shown, unless the load ends before or readings go on
 MOST_AT_ONCE = 7  # scenes or cycles in one figure: as many as there are colours
@@ -37,34 +35,46 @@ EXAMPLE = """\
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scenes, the file and the range of cycles."""
-    add_scene(parser, several=True)
+    arguments.add_scene(parser, several=True)
     parser.add_argument(
-        "-o", "--output", metavar="FILE", required=True, help="a .pdf, .png or .svg file"
+        "-o",
+        "--output",
+        metavar="FILE",
+        type=arguments.file(*arguments.PICTURES),
+        required=True,
+        help="a .pdf, .png or .svg file",
     )
     parser.add_argument(
         "--cycles",
         metavar="N",
+        type=arguments.cycles,
         help=f"last cycle shown (default: that of the last reading, or {LAST})",
     )
-    parser.add_argument(
-        "--axis", default="cycles", help="cycles, hours, or sliding distance (default: cycles)"
+    arguments.add_choice(
+        parser,
+        "--axis",
+        lambda: ABSCISSAE,
+        default="cycles",
+        help="cycles, hours, or sliding distance (default: cycles)",
     )
     parser.add_argument(
         "--log",
         action="store_true",
         help="logarithmic axes: of cycles, and of wear or roughness that span decades",
     )
-    parser.add_argument(
-        "--data",
-        metavar="FILE.csv",
-        help="draw readings beside the wear: columns cycles, wear_mm or wear_um, and specimen",
+    arguments.add_readings(
+        parser, "draw readings beside the wear: columns cycles, wear_mm or wear_um, and specimen"
     )
     parser.add_argument(
-        "--until-wear", metavar="MM", help="draw this limit of the wear, and when it is reached"
+        "--until-wear",
+        metavar="MM",
+        type=arguments.depth,
+        help="draw this limit of the wear, and when it is reached",
     )
     parser.add_argument(
         "--inside",
         metavar="N,...",
+        type=arguments.cycles,
         help="instead: the contact pressure within the cycles that begin after these numbers of "
         "cycles, 0 for the first",
     )
@@ -72,22 +82,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Solve the scenes and draw them."""
-    faults = Faults()
-    scenes = faults.scenes(options)
-    inside = None if options.inside is None else faults.cycles("--inside", options.inside)
-    axis = faults.choice("--axis", options.axis, ABSCISSAE)
-    limit = None
-    if options.until_wear is not None:
-        limit = faults.number("--until-wear", options.until_wear, 0.0, 1e300)
-    specimens = () if options.data is None else faults.readings(options.data, scenes)
-    last = () if options.cycles is None else faults.cycles("--cycles", options.cycles)
-    output = Path(options.output)
-    if output.suffix.lower() not in SUFFIXES:
-        faults.add(f"--output: {options.output}: end it in {', '.join(SUFFIXES)}")
-    elif problem := files.obstacle(output):
-        faults.add(f"--output: {problem}")
+    faults = arguments.read(options)
+    scenes, inside, output = options.scene, options.inside, options.output
+    specimens, last = options.readings, options.cycles or ()
     if len(last) > 1 or last == (0,):
-        faults.add(f"--cycles: {options.cycles}: give one number of cycles, from 1 on")
+        faults.add("--cycles: give one number of cycles, from 1 on")
     if len(scenes) > MOST_AT_ONCE:
         faults.add(f"{len(scenes)} scenes in one figure; name up to {MOST_AT_ONCE}")
     if len(scenes) > 1 and (inside is not None or any(each.changes for each in specimens)):
@@ -101,7 +100,7 @@ def execute(options: argparse.Namespace) -> int:
 
     asked = _Asked(
         tuple(scenes), tuple(specimens), last[0] if last else _default_last(scenes, specimens),
-        limit, Abscissa[axis.upper()], options.log,
+        options.until_wear, Abscissa[options.axis.upper()], options.log,
     )  # fmt: skip
     return _against_cycles(asked, output, as_json=options.json)
 
@@ -118,7 +117,7 @@ class _Asked(NamedTuple):
 
 
 def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int:
-    from wear.direct.sequence import most_cycles
+    from wear.load.spans import most_cycles
 
     read = [int(each.cycles[-1]) for each in specimens]
     return max(read) if read else min(LAST, *(most_cycles(scene.load) for scene in scenes))
@@ -134,7 +133,8 @@ def _against_cycles(asked: _Asked, output: Path, *, as_json: bool) -> int:
     if any(each.changes for each in asked.specimens):
         runs = {each.name: asked.scenes[0].with_(each.changes) for each in asked.specimens}
     cycles = shown_cycles(asked.last, logarithmic=asked.logarithmic)
-    found = [solve(scene, cycles, rtol=1e-6) for scene in runs.values()]
+    with terminal.busy("counting cycles") as tell:
+        found = [solve(scene, cycles, rtol=1e-6, progress=tell) for scene in runs.values()]
     wear, *others = panels_of(found, tuple(runs), asked.abscissa)
     points = points_of(asked.specimens, runs, asked.abscissa)
     summary = _summary(found[0].scene, cycles, output) | {"scenes": list(runs)}
@@ -173,7 +173,7 @@ def _write(drawn: object, output: Path) -> None:
     files.write_atomically(output, encoded(drawn, output.suffix))  # type: ignore[arg-type]
 
 
-def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: Faults) -> None:
+def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: arguments.Faults) -> None:
     from wear.load import Blocks
     from wear.solver import obstacle
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
 from derive.command_line import Command
-from wear.commands.arguments import Faults, add_scene
+from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.fitting.estimate import Fit
@@ -34,23 +34,39 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="columns cycles and wear_mm or wear_um; if need be standard_error_mm, specimen, and "
         "entries of the scene such as load.value_mm",
     )
-    add_scene(parser)
+    arguments.add_scene(parser)
     several: dict[str, Any] = {"nargs": "+", "default": [], "action": "extend"}
     parser.add_argument("--free", metavar="KEY", help="estimate one value for all", **several)
     parser.add_argument("--free-each", metavar="KEY", help="one for each specimen", **several)
     parser.add_argument("--ignore", metavar="COLUMN", help="columns to drop", **several)
-    parser.add_argument(
-        "--error", default=ERRORS[0], help="relative (default) or absolute: what scatters"
+    arguments.add_choice(
+        parser,
+        "--error",
+        lambda: ERRORS,
+        default=ERRORS[0],
+        help="relative (default) or absolute: what scatters",
     )
     parser.add_argument(
-        "--forecast", metavar="N,...", help="the wear after these cycles, with band"
+        "--forecast",
+        metavar="N,...",
+        type=arguments.cycles,
+        help="the wear after these cycles, with band",
     )
-    parser.add_argument("--until-wear", metavar="MM", help="cycles to a wear depth, with band")
     parser.add_argument(
-        "--posterior", metavar="STEPS", help="also sample the posterior, so many steps a walker"
+        "--until-wear", metavar="MM", type=arguments.depth, help="cycles to a wear depth, with band"
     )
     parser.add_argument(
-        "-o", "--output", metavar="DIR", help="write fit.json, fitted.toml and the figures there"
+        "--posterior",
+        type=arguments.number(10, 1e6),
+        metavar="STEPS",
+        help="also sample the posterior, so many steps a walker",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=arguments.folder,
+        help="write fit.json, fitted.toml and the figures there",
     )
 
 
@@ -60,36 +76,31 @@ def execute(options: argparse.Namespace) -> int:
     from wear.fitting.estimate import estimated, prepare
     from wear.fitting.posterior import posterior
     from wear.fitting.profiles import profiles
+    from wear.progress import Pace
 
-    faults = Faults()
-    scene = faults.scene(options)
-    error = faults.choice("--error", options.error, ERRORS)
-    cycles = faults.cycles("--forecast", options.forecast) if options.forecast else ()
-    if options.forecast and 0 in cycles:
+    faults = arguments.read(options)
+    cycles, wear = options.forecast or (), options.until_wear
+    if 0 in cycles:
         faults.add("--forecast: 0 is the fresh state; give cycles from 1 on")
-    wear, steps = None, 0.0
-    if options.until_wear is not None:
-        wear = faults.number("--until-wear", options.until_wear, 1e-30, 1e30)
-    if options.posterior is not None:
-        steps = faults.number("--posterior", options.posterior, 10, 1e6)
-        if not find_spec("emcee"):
-            faults.add("--posterior needs emcee: pip install 'derive-wear[fit]'")
-    if options.output is not None and (against := files.obstacle_to_folder(options.output)):
-        faults.add(f"--output: {against}")
+    if options.posterior is not None and not find_spec("emcee"):
+        faults.add("--posterior needs emcee: pip install 'derive-wear[fit]'")
     problem = None
-    if scene is not None:
-        chosen = (options.data, scene, options.free, options.free_each, error, options.ignore)
+    if options.scene is not None:
+        asked = (options.free, options.free_each, options.error, options.ignore)
         try:
-            problem = prepare(*chosen)
+            problem = prepare(options.data, options.scene, *asked)
         except UsageError as fault:
             faults.add(str(fault))
     faults.stop_if_any()
     assert problem is not None
-    found = profiles(estimated(problem))
-    samples = posterior(found, int(steps)) if steps else None
-    document = as_json(found, options.data, cycles, wear, samples)
+    with terminal.busy("fitting") as tell:
+        found = profiles(estimated(replace(problem, pace=Pace(tell))))
+        tell("sampling the posterior")
+        samples = posterior(found, int(options.posterior)) if options.posterior else None
+        tell("forecasting")
+        document = as_json(found, options.data, cycles, wear, samples)
     if options.output is not None:
-        _write(Path(options.output), found, document, samples)
+        _write(options.output, found, document, samples)
     if options.json:
         terminal.print_json(document)
     else:

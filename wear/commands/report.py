@@ -8,7 +8,7 @@ from pathlib import Path
 
 from derive import files, terminal
 from derive.command_line import Command
-from wear.commands.arguments import Faults, add_scene
+from wear.commands import arguments
 
 EXAMPLE = """\
   wear report scene.toml              into the folder scene-report
@@ -19,40 +19,31 @@ EXAMPLE = """\
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scene and the folder."""
-    add_scene(parser)
-    parser.add_argument(
-        "--data",
-        metavar="FILE.csv",
-        help="compare readings with the prediction: columns cycles, wear_mm or wear_um, specimen",
+    arguments.add_scene(parser)
+    arguments.add_readings(
+        parser, "compare readings with the prediction: columns cycles, wear_mm or wear_um, specimen"
     )
-    parser.add_argument("-o", "--output", metavar="DIR", help="folder (default: NAME-report)")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=arguments.folder, help="folder (default: NAME-report)"
+    )
 
 
 def execute(options: argparse.Namespace) -> int:
     """Solve the scene and write its report."""
-    faults = Faults()
-    scene = faults.scene(options)
-    scenes = [scene] if scene is not None else []
-    specimens = () if options.data is None else faults.readings(options.data, scenes)
-    if scene is not None and options.output is None:
-        options.output = f"{Path(scene.name).stem}-report"
-    folder = Path(options.output or ".")
-    if problem := files.obstacle_to_folder(folder):
-        faults.add(f"--output: {problem}")
-    faults.stop_if_any()
-    assert scene is not None
+    name = options.scene
+    arguments.read(options).stop_if_any()
+    folder = options.output or Path(f"{Path(options.scene.name).stem}-report")
     from wear.report.own import report
     from wear.report.publish import publish
 
-    terminal.progress("solving the scene and deriving its equations ...")
     changes = [part for entry in options.overrides for part in ("--set", entry)]
     data = [] if options.data is None else ["--data", options.data]
-    command = shlex.join(["wear", "report", options.scene, *changes, *data])
-    document = report(scene, command, specimens)
-    with files.replacing_in(folder) as draft:
-        published = publish(document, draft)
-        written = sorted(path.name for path in published.files)
-    terminal.progress("")
+    command = shlex.join(["wear", "report", name, *changes, *data])
+    with terminal.busy("solving the scene and deriving its equations"):
+        document = report(options.scene, command, options.readings)
+        with files.replacing_in(folder) as draft:
+            published = publish(document, draft)
+            written = sorted(path.name for path in published.files)
     if options.json:
         terminal.print_json({"folder": str(folder), "files": written})
     else:

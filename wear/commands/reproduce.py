@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
 from derive.command_line import Command
+from wear import processes
+from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.report.claims import Entry
@@ -27,21 +29,22 @@ Progress = Callable[[str], None]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the folder."""
     parser.add_argument(
-        "-o", "--output", metavar="DIR", default="report", help="folder (default: %(default)s)"
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=arguments.folder,
+        help="folder (default: %(default)s)",
+        default="report",
     )
 
 
 def execute(options: argparse.Namespace) -> int:
     """Derive, verify, solve, judge, and write the report."""
-    from wear.faults import UsageError
-
-    folder = Path(options.output)
-    if problem := files.obstacle_to_folder(folder):
-        raise UsageError(f"--output: {problem}")
+    arguments.read(options).stop_if_any()
+    folder = options.output
     start = time.monotonic()
-    progress = _progress(start)
-    verification, ledger, published = _reproduce(folder, progress)
-    progress("")
+    with terminal.busy("deriving the equations") as progress:
+        verification, ledger, published = _reproduce(folder, progress)
     summary = _summary(folder, verification, ledger, published, time.monotonic() - start)
     if options.json:
         terminal.print_json(summary)
@@ -59,25 +62,29 @@ def _reproduce(
     folder: Path, progress: Progress
 ) -> tuple[Verification, tuple[Entry, ...], Published]:
     """Make everything, then put it in place."""
-    progress("deriving the equations")
     from derive.catalogue import equations
-    from wear.report.claims import as_json, ledger
+    from derive.note.claim_checks import SYMBOLIC
+    from wear.report.claims import SIMULATED, as_json, decided, ledger
     from wear.report.manifest import NAME, manifest
-    from wear.report.paper import paper
+    from wear.report.paper import drawings, paper
     from wear.report.publish import publish
     from wear.report.runs import run
-    from wear.report.speed import measured
-    from wear.report.verification import verified
+    from wear.report.verification import checked_at, verified
 
-    with files.replacing_in(folder) as draft:
+    with files.replacing_in(folder) as draft, processes.assistant() as ask:
+        begun = {claim: ask(decided, claim) for claim in SYMBOLIC}
         catalogue = equations()
-        verification = verified(catalogue, lambda what: progress(f"verifying {what}"))
+        checked = [ask(checked_at, place) for place in range(len(catalogue))]
         runs = run(lambda what: progress(f"solving: {what}"))
-        judged = ledger(lambda _, __, claim: progress(f"judging claim {claim}"))
-        progress("measuring the speed")
-        speed = measured()
+        solved = ledger(lambda *claim: progress(f"judging claim {claim[-1]}"), tuple(SIMULATED))
+        progress("drawing")
+        figures = drawings(runs)
+        progress("verifying the equations")
+        verification = verified(catalogue, checked)
+        known = {entry.claim.id: entry for entry in solved}
+        judged = ledger(decide=lambda claim: known.get(claim) or begun[claim]())
         progress("writing")
-        published = publish(paper(catalogue, verification, runs, judged, speed), draft)
+        published = publish(paper(catalogue, verification, runs, judged, figures), draft)
         files.write_atomically(draft / "claims.json", _json(as_json(judged)))
         files.write_atomically(
             draft / NAME, _json(manifest(draft, runs, f"wear reproduce -o {folder.name}"))
@@ -89,15 +96,6 @@ def _json(document: object) -> str:
     import json
 
     return json.dumps(terminal.plain(document), indent=2, allow_nan=False) + "\n"
-
-
-def _progress(start: float) -> Progress:
-    """Show what is being done, and since when."""
-
-    def show(what: str) -> None:
-        terminal.progress(f"{time.monotonic() - start:4.0f} s  {what}" if what else "")
-
-    return show
 
 
 def _summary(

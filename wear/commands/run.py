@@ -5,13 +5,11 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from derive import completion, files, terminal
+from derive import terminal
 from derive.command_line import Command
-from wear.commands import run_inside, run_output
-from wear.commands.arguments import Faults, add_scene
+from wear.commands import arguments, run_inside, run_output
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -27,41 +25,50 @@ EXAMPLE = """\
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_scene(parser)
+    arguments.add_scene(parser)
     parser.add_argument(
         "--cycles",
         metavar="N,...",
+        type=arguments.cycles,
         default="1,10,100,1000,10000",
         help="numbers of cycles, 0 for the fresh state; 0:9000 for all from 0 to 9000 "
         "(default: %(default)s)",
     )
-    parser.add_argument(
-        "--rtol",
-        default="1e-10",
-        help="requested relative accuracy of the bearing wear (default: %(default)s)",
-    )
-    method = parser.add_argument(
+    arguments.add_rtol(parser, 1e-15, "1e-10", " of the bearing wear")
+    arguments.add_choice(
+        parser,
         "--method",
+        _methods,
         default="auto",
         help="auto, abel, collocation (of a measured history), or an integrator of SciPy "
         "that goes through every cycle: DOP853, RK45, RK23, Radau, BDF, LSODA (default: "
         "%(default)s)",
     )
-    completion.suggest(method, _methods)
     parser.add_argument(
-        "--until-wear", metavar="MM,...", help="also after how many cycles the bearing has worn so"
+        "--until-wear",
+        metavar="MM,...",
+        type=_depths,
+        help="also after how many cycles the bearing has worn so",
     )
     parser.add_argument(
-        "--time-limit", metavar="SECONDS", help="stop after this time and keep what was computed"
+        "--time-limit",
+        type=arguments.number(1e-3, 1e9),
+        metavar="SECONDS",
+        help="stop after this time and keep what was computed",
     )
     parser.add_argument(
         "--phases",
         metavar="M",
+        type=arguments.number(1, 1e6),
         help="write the state at M phases of the cycle that begins after each of the numbers of "
         "cycles, to a .nc or .csv file, a part at a time",
     )
     parser.add_argument(
-        "-o", "--output", metavar="FILE", help="write the states to a .csv, .nc or .tex file"
+        "-o",
+        "--output",
+        metavar="FILE",
+        type=arguments.file(*run_output.WRITERS),
+        help="write the states to a .csv, .nc or .tex file",
     )
 
 
@@ -69,38 +76,28 @@ def execute(options: argparse.Namespace) -> int:
     from wear.faults import AccuracyError, Interrupted
     from wear.solver import obstacle, solve
 
-    faults = Faults()
-    scene = faults.scene(options)
-    cycles = faults.cycles("--cycles", options.cycles)
-    rtol = faults.number("--rtol", options.rtol, 1e-15, 0.1)
-    method = faults.choice("--method", options.method, _methods())
-    limit = None
-    if options.time_limit is not None:
-        limit = faults.number("--time-limit", options.time_limit, 1e-3, 1e9)
-    wears = None if options.until_wear is None else _read_wears(options.until_wear, faults)
-    if wears is not None and scene is not None and (against := obstacle(scene)) is not None:
+    faults = arguments.read(options)
+    if options.until_wear and options.scene and (against := obstacle(options.scene)):
         faults.add(f"--until-wear: cycles cannot be counted: {against}")
-    output = None if options.output is None else _read_output(options.output, faults)
-    phases = None
     if options.phases is not None:
-        phases = run_inside.read_phases(options, scene, cycles, faults)
+        run_inside.check(options, faults)
     faults.stop_if_any()
-    assert scene is not None
-    if phases is not None:
-        assert output is not None
+    scene, cycles, rtol = options.scene, options.cycles, options.rtol
+    wears, output = options.until_wear, options.output
+    if options.phases is not None:
+        phases = int(options.phases)
         return run_inside.execute(scene, cycles, phases, rtol, output, as_json=options.json)
 
     status, fault = terminal.DONE, ""
     try:
-        history = solve(scene, cycles, rtol, method, limit, terminal.progress)
+        with terminal.busy("counting cycles") as tell:
+            history = solve(scene, cycles, rtol, options.method, options.time_limit, tell)
     except Interrupted as stop:
         history, status, fault = stop.history, terminal.INTERRUPTED, str(stop)
     except AccuracyError as miss:
         if miss.best is None:
             raise
         history, status, fault = miss.best, terminal.INACCURATE, str(miss)
-    finally:
-        terminal.progress("")
     if options.strict:
         faults.refuse_implausible(history.notices)
         faults.stop_if_any()
@@ -118,17 +115,16 @@ def execute(options: argparse.Namespace) -> int:
     return status
 
 
-def _read_wears(text: str, faults: Faults) -> tuple[float, ...]:
-    return tuple(
-        faults.number("--until-wear", entry.strip(), 0.0, 1e300) for entry in text.split(",")
-    )
+def _depths(text: str) -> tuple[float, ...]:
+    return tuple(map(arguments.number(0.0, 1e300), text.split(",")))
 
 
 def _cycles_until(scene: Scene, wears: Sequence[float], rtol: float) -> dict[str, Any]:
     """The part of the JSON with the cycles after which wears are reached, null where unknown."""
     from wear.life import cycles_until
 
-    found = cycles_until(scene, wears, rtol)
+    with terminal.busy("counting cycles to the wear"):
+        found = cycles_until(scene, wears, rtol)
     return {
         "cycles_until": {
             "bearing_wear_mm": list(wears),
@@ -137,17 +133,6 @@ def _cycles_until(scene: Scene, wears: Sequence[float], rtol: float) -> dict[str
             "reached": [way.value for way in found.reached],
         }
     }
-
-
-def _read_output(name: str, faults: Faults) -> Path:
-    path = Path(name)
-    if path.suffix not in run_output.WRITERS:
-        faults.add(f"--output: {name}: end it in {', '.join(run_output.WRITERS)}")
-    else:
-        problem = files.obstacle(path)
-        if problem is not None:
-            faults.add(f"--output: {problem}")
-    return path
 
 
 def _methods() -> Sequence[str]:

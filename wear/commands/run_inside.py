@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
-from wear.commands.arguments import Faults
+from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.inside import Inside
@@ -17,36 +17,26 @@ if TYPE_CHECKING:
 SUFFIXES = (".csv", ".nc")
 
 
-def read_phases(
-    options: argparse.Namespace, scene: Scene | None, cycles: Sequence[int], faults: Faults
-) -> int:
-    """How many phases; everything that stands against states inside the cycles."""
-    number = faults.number("--phases", options.phases, 1, 1e6)
-    if not number.is_integer():
-        faults.add(f"--phases: {options.phases} is no whole number")
-    if options.output is None or Path(options.output).suffix not in SUFFIXES:
-        faults.add("--phases: name a .nc or .csv file with --output; there are too many states")
-    if options.method.lower() not in ("auto", "abel"):
-        faults.add("--phases: only the cycle count knows the states inside; leave --method out")
-    for option, value in (
-        ("--until-wear", options.until_wear),
-        ("--time-limit", options.time_limit),
-    ):
-        if value is not None:
-            faults.add(f"--phases: does not go with {option}; leave one of them out")
-    if scene is not None:
-        _check(scene, cycles, faults)
-    return int(number) if number.is_integer() else 1
-
-
-def _check(scene: Scene, cycles: Sequence[int], faults: Faults) -> None:
-    from wear.direct.sequence import most_cycles
+def check(options: argparse.Namespace, faults: arguments.Faults) -> None:
+    """Add what stands against states inside the cycles."""
+    from wear.load.spans import most_cycles
     from wear.solver import obstacle
 
-    against, most = obstacle(scene), most_cycles(scene.load)
+    if not options.phases.is_integer():
+        faults.add(f"--phases: {options.phases:g} is no whole number")
+    if options.output is None or options.output.suffix not in SUFFIXES:
+        faults.add("--phases: name a .nc or .csv file with --output; there are too many states")
+    if options.method not in ("auto", "abel"):
+        faults.add("--phases: only the cycle count knows the states inside; leave --method out")
+    for option in ("until-wear", "time-limit"):
+        if getattr(options, option.replace("-", "_")) is not None:
+            faults.add(f"--phases: does not go with --{option}; leave one of them out")
+    if options.scene is None:
+        return
+    against, most = obstacle(options.scene), most_cycles(options.scene.load)
     if against is not None:
         faults.add(f"--phases: cycles cannot be counted: {against}; leave --phases out")
-    elif max(cycles, default=0) >= most:
+    elif max(options.cycles, default=0) >= most:
         faults.add(f"--cycles: the last cycle with phases begins after {most - 1}; the load ends")
 
 

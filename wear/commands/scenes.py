@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from derive import completion, terminal
+from derive import terminal
 from derive.command_line import Command
-from wear.commands.arguments import Faults, built_in_names
+from wear.commands import arguments
 
 EXAMPLE = """\
   wear scenes                                 names and titles
@@ -16,20 +16,22 @@ EXAMPLE = """\
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    names = parser.add_argument(
-        "names", metavar="SCENE", nargs="*", help="a built-in scene (default: all)"
+    arguments.add_choice(
+        parser,
+        "names",
+        arguments.built_in_names,
+        metavar="SCENE",
+        nargs="*",
+        help="a built-in scene (default: all)",
     )
-    completion.suggest(names, built_in_names)
     parser.add_argument("--describe", action="store_true", help="show each as a scene file")
 
 
 def execute(options: argparse.Namespace) -> int:
     from wear.scene import load_scene
 
-    faults = Faults()
-    names = [faults.choice("SCENE", name, built_in_names()) for name in options.names]
-    faults.stop_if_any()
-    scenes = [load_scene(name) for name in names or built_in_names()]
+    arguments.read(options).stop_if_any()
+    scenes = [load_scene(name) for name in options.names or arguments.built_in_names()]
     if options.json:
         terminal.print_json(
             [

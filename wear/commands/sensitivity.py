@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from derive import files, terminal
 from derive.command_line import Command
-from wear.commands.arguments import Faults, add_scene
+from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.sensitivities import Sensitivities
@@ -22,31 +21,30 @@ EXAMPLE = """\
   wear sensitivity section4 --until-wear 1e-3           of the cycles to a wear depth, too
   wear sensitivity scene.toml -o tornado.png            a tornado diagram
 """
-PICTURES = (".pdf", ".png", ".svg")
-RESULTS = (".csv", *PICTURES)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scene, the numbers of cycles and the file."""
-    add_scene(parser)
+    arguments.add_scene(parser)
     parser.add_argument(
         "--cycles",
         metavar="N,...",
+        type=arguments.cycles,
         default="1,9000,100000000",
         help="numbers of cycles (default: %(default)s)",
     )
     parser.add_argument(
-        "--until-wear", metavar="MM", help="also after as many cycles as take it to this wear depth"
+        "--until-wear",
+        metavar="MM",
+        type=arguments.depth,
+        help="also after as many cycles as take it to this wear depth",
     )
-    parser.add_argument(
-        "--rtol",
-        default="1e-10",
-        help="requested relative accuracy of the wear (default: %(default)s)",
-    )
+    arguments.add_rtol(parser, 1e-13, "1e-10")
     parser.add_argument(
         "-o",
         "--output",
         metavar="FILE",
+        type=arguments.file(".csv", *arguments.PICTURES),
         help="write a .csv file, or draw a tornado diagram: .png, .svg, .pdf",
     )
 
@@ -55,21 +53,10 @@ def execute(options: argparse.Namespace) -> int:
     """Print how the wear depends on the numbers of a scene."""
     from wear.sensitivities import sensitivity
 
-    faults = Faults()
-    scene = faults.scene(options)
-    cycles = faults.cycles("--cycles", options.cycles)
-    rtol = faults.number("--rtol", options.rtol, 1e-13, 0.1)
-    depth = None
-    if options.until_wear is not None:
-        depth = faults.number("--until-wear", options.until_wear, 1e-30, 1e30)
-    output = None if options.output is None else Path(options.output)
-    if output is not None:
-        if output.suffix not in RESULTS:
-            faults.add(f"--output: {output}: end it in {', '.join(RESULTS)}")
-        elif problem := files.obstacle(output):
-            faults.add(f"--output: {problem}")
+    faults = arguments.read(options)
     faults.stop_if_any()
-    assert scene is not None
+    scene, cycles, rtol = options.scene, options.cycles, options.rtol
+    depth, output = options.until_wear, options.output
     if depth is not None:
         from wear.life import cycles_until
 
@@ -78,7 +65,8 @@ def execute(options: argparse.Namespace) -> int:
             faults.add(f"--until-wear: {depth:g} mm: {life.reached[0].value}, no derivative")
             faults.stop_if_any()
         cycles = (*cycles, int(life.cycles[0]))
-    found = sensitivity(scene, cycles, rtol)
+    with terminal.busy("counting cycles") as tell:
+        found = sensitivity(scene, cycles, rtol, tell)
     if options.json:
         terminal.print_json(found.as_json())
     elif output is None:
@@ -119,7 +107,7 @@ def _lines_of_life(found: Sensitivities, depth: float) -> Iterator[str]:
 
 def _written(found: Sensitivities, suffix: str) -> bytes:
     """Return the file with this suffix."""
-    if suffix in PICTURES:
+    if suffix.lower() in arguments.PICTURES:
         from wear.figure_style import encoded
         from wear.figures import tornado
 

@@ -4,24 +4,20 @@ from __future__ import annotations
 
 import argparse
 import logging
-import multiprocessing
-import os
-import signal
 import time
 from collections.abc import Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive import completion, files, terminal
 from derive.command_line import Command
-from wear.commands.arguments import Faults, add_scene
+from wear import processes
+from wear.commands import arguments
 
 if TYPE_CHECKING:
-    from wear.studies.design import Design
-    from wear.studies.rows import Question
-    from wear.studies.run import Progress
+    from wear.studies.rows import Study
     from wear.studies.store import Store
 
 EXAMPLE = """\
@@ -44,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scene, what varies, what is asked, and where it runs."""
     from wear.studies.design import DESIGNS
 
-    add_scene(parser)
+    arguments.add_scene(parser)
     parser.add_argument(
         "--vary",
         metavar="KEY=VALUES",
@@ -55,82 +51,97 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "lognormal(median,factor) in samples; may be repeated",
     )
     parser.add_argument(
-        "--cycles", metavar="N,...", default="9000", help="numbers of cycles (default: %(default)s)"
+        "--cycles",
+        metavar="N,...",
+        type=arguments.cycles,
+        default="9000",
+        help="numbers of cycles (default: %(default)s)",
     )
     design = parser.add_argument(
         "--design", default="grid", help=f"{', '.join(DESIGNS)} (default: %(default)s)"
     )
     completion.suggest(design, lambda: DESIGNS)
-    parser.add_argument("--samples", default="0", metavar="N", help="number of samples")
-    parser.add_argument("--seed", default="0", help="seed of the samples (default: %(default)s)")
     parser.add_argument(
-        "--until-wear", metavar="MM", help="also the number of cycles to this wear depth"
+        "--samples",
+        type=arguments.number(0, 1e9),
+        default="0",
+        metavar="N",
+        help="number of samples",
     )
     parser.add_argument(
-        "--rtol", default="1e-7", help="requested relative accuracy (default: %(default)s)"
+        "--seed",
+        type=arguments.number(0, 2**63),
+        default="0",
+        help="seed of the samples (default: %(default)s)",
     )
+    parser.add_argument(
+        "--until-wear",
+        metavar="MM",
+        type=arguments.depth,
+        help="also the number of cycles to this wear depth",
+    )
+    arguments.add_rtol(parser, 1e-13, "1e-7", of="")
     parser.add_argument(
         "-o", "--output", metavar="OUT.zarr", required=True, help="folder of the results"
     )
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--workers", metavar="N", help="processes on this machine (default: cores)")
+    where.add_argument(
+        "--workers",
+        metavar="N",
+        type=arguments.number(1, 1024),
+        help="processes on this machine (default: cores)",
+    )
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a running Dask scheduler")
     parser.add_argument(
         "--dry-run", action="store_true", help="say how many scenes, how long, how much disk"
     )
-    parser.add_argument("--figure", metavar="FILE", help="also draw the answers: .png, .svg, .pdf")
+    parser.add_argument(
+        "--figure",
+        metavar="FILE",
+        type=arguments.file(*arguments.PICTURES),
+        help="also draw the answers: .png, .svg, .pdf",
+    )
 
 
 def execute(options: argparse.Namespace) -> int:
     """Run a study, or say what it takes."""
     from wear.studies.run import prepare, run
 
-    faults = Faults()
-    scene = faults.scene(options)
-    cycles = faults.cycles("--cycles", options.cycles)
-    rtol = faults.number("--rtol", options.rtol, 1e-13, 0.1)
-    samples = faults.number("--samples", options.samples, 0, 1e9)
-    seed = faults.number("--seed", options.seed, 0, 2**63)
-    cores = os.process_cpu_count() if hasattr(os, "process_cpu_count") else os.cpu_count()
-    workers = faults.number("--workers", options.workers or str(cores or 1), 1, 1024)
-    wear = None
-    if options.until_wear is not None:
-        wear = faults.number("--until-wear", options.until_wear, 1e-30, 1e30)
-    if options.figure is not None and (problem := files.obstacle(Path(options.figure))):
-        faults.add(f"--figure: {problem}")
-    faults.stop_if_any()
-    assert scene is not None
-    request = (options.design, int(samples), int(seed), wear, rtol)
-    plan, question = prepare(scene, options.vary, cycles, *request)
+    arguments.read(options).stop_if_any()
+    workers = int(options.workers or processes.cores())
+    request = (
+        options.design, int(options.samples), int(options.seed), options.until_wear, options.rtol,
+    )  # fmt: skip
+    asked = prepare(options.scene, options.vary, options.cycles, *request)
     if options.dry_run:
-        return _dry_run(options, plan, question, int(workers))
-    with _executor(options.scheduler, int(workers)) as executor:
-        store = run(plan, question, Path(options.output), executor, _show)
-    terminal.progress("")
+        return _dry_run(options, asked, workers)
+    with _executor(options.scheduler, workers) as executor, terminal.busy("solving") as tell:
+        store = run(asked, Path(options.output), executor, tell)
     if options.figure is not None:
         from wear.figure_style import encoded
         from wear.studies.figures import picture
 
-        path = Path(options.figure)
-        files.write_atomically(path, encoded(picture(store.dataset()), path.suffix))
+        drawn = encoded(picture(store.dataset()), options.figure.suffix)
+        files.write_atomically(options.figure, drawn)
     _print(options, store)
     return terminal.DONE
 
 
-def _dry_run(options: argparse.Namespace, plan: Design, question: Question, workers: int) -> int:
+def _dry_run(options: argparse.Namespace, asked: Study, workers: int) -> int:
     """Solve a few rows, and print what all of them would take."""
     from wear.studies.rows import solve_rows
     from wear.studies.store import disk_bytes
 
     start = time.process_time()
-    solve_rows(question, plan.some(TRIED))
-    seconds = (time.process_time() - start) / TRIED * plan.rows
-    size = disk_bytes(plan, question)
+    solve_rows(asked, asked.design.some(TRIED))
+    rows = asked.design.rows
+    seconds = (time.process_time() - start) / TRIED * rows
+    size = disk_bytes(asked)
     if options.json:
-        terminal.print_json({"scenes": plan.rows, "core_seconds": seconds, "disk_bytes": size})
+        terminal.print_json({"scenes": rows, "core_seconds": seconds, "disk_bytes": size})
         return terminal.DONE
     print(
-        f"{plan.rows} scenes, about {_duration(seconds)} of one core "
+        f"{rows} scenes, about {_duration(seconds)} of one core "
         f"({_duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
     )
     return terminal.DONE
@@ -145,21 +156,8 @@ def _executor(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
     elif workers == 1:
         yield None
     else:
-        context = multiprocessing.get_context("spawn")
-        pool = ProcessPoolExecutor(workers, mp_context=context, initializer=_ignore_interrupts)
-        try:
+        with processes.workers(workers) as pool:
             yield pool
-            pool.shutdown()
-        except BaseException:  # also Ctrl-C: what is half done is not waited for
-            pool.shutdown(wait=False, cancel_futures=True)
-            for process in multiprocessing.active_children():
-                process.terminate()
-            raise
-
-
-def _ignore_interrupts() -> None:
-    """Leave Ctrl-C to the process that the user started."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 @contextmanager
@@ -182,13 +180,6 @@ def _cluster(address: str) -> Iterator[Executor]:
         yield client.get_executor()
     finally:
         client.close(timeout=LONGEST_WAIT)
-
-
-def _show(progress: Progress) -> None:
-    """Show how far the study is on one line of a terminal."""
-    share = progress.done / progress.rows
-    left = _duration(progress.seconds_left)
-    terminal.progress(f"{progress.done} of {progress.rows} scenes ({share:.0%}), {left} left")
 
 
 def _duration(seconds: float) -> str:

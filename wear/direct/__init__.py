@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from wear.direct import cutoff
 from wear.direct.cutoff import Mode
 from wear.direct.problem import EPS, Problem, Setting, problem, widest_step
-from wear.direct.sequence import span
 from wear.direct.step import (
     FINEST_TOLERANCE,
     METHODS,
@@ -31,12 +30,16 @@ from wear.direct.step import (
     OutOfTimeError,
     leg,
 )
+from wear.load.spans import span
+from wear.orbit.segments import Cost
+from wear.outcome import Outcome
+from wear.progress import Pace
 
 if TYPE_CHECKING:
-    from wear.load import AperiodicLoad, Load
+    from wear.load import Loading
     from wear.model import Model
 
-__all__ = ["METHODS", "DirectResult", "integrate"]
+__all__ = ["METHODS", "integrate"]
 
 FloatArray = NDArray[np.float64]
 FIRST_TOLERANCE = 0.1  # of the first run, over the requested one
@@ -46,27 +49,6 @@ SAFETY = 4.0  # on what the distance of two runs tells
 ALIKE = {"BDF": 3.0, "LSODA": 3.0}  # errors of a multistep method's steps do not cancel as well
 FEWEST_STEPS = 100  # counted as if made when the errors of steps are added up
 INPUT_ROUNDOFF = 16 * EPS  # of the rate, from that of the scene's numbers in the law's exponent
-
-
-class DirectResult(NamedTuple):
-    """Wear (mm) at the requested cycles that were reached, in rising order, and how it was got.
-
-    `error` estimates the relative error of `u`, NaN where a run was stopped before there was a
-    second one to compare with. `arrested_in` is the cycle, counted from 1, in which wear stopped
-    for good; or if it `fades`, that from which on it is within rounding of its limit. `stopped`
-    says why the integration ended early (None: it did not) and `interrupted` whether that was the
-    user or the clock.
-    """
-
-    cycles: tuple[int, ...]
-    u: FloatArray
-    error: FloatArray
-    cycles_integrated: int
-    rhs_evaluations: int
-    arrested_in: int | None
-    fades: bool
-    stopped: str | None
-    interrupted: bool
 
 
 class Run(NamedTuple):
@@ -97,13 +79,13 @@ class State(NamedTuple):
 
 def integrate(
     model: Model,
-    load: Load | AperiodicLoad,
+    load: Loading,
     cycles: Sequence[int],
     rtol: float,
     method: str = "DOP853",
     deadline: float = np.inf,
     progress: Callable[[str], None] = lambda _: None,
-) -> DirectResult:
+) -> Outcome:
     """Integrate the wear from the fresh state to the ends of `cycles`.
 
     Parameters
@@ -120,7 +102,7 @@ def integrate(
         Is told in words how far the integration is, once it takes more than two seconds.
     """
     marks = _marks(cycles)
-    meter = Meter(deadline, progress)
+    meter = Meter(deadline, Pace(progress))
     blur = cutoff.roundoff(model, 0.0, load.maximum) if model.ends_at_3_sigma else 0.0
     runs: list[Run] = []
     stopped, interrupted = None, False
@@ -138,7 +120,18 @@ def integrate(
         stopped, interrupted = "interrupted", True
     except EndOfModelError as end:
         stopped = str(end)
-    return _result(runs, blur, cycles, meter, stopped, interrupted)
+    states, error = _best(runs, blur)
+    chosen = [index for index, state in enumerate(states) if state.cycle in set(cycles)]
+    return Outcome(
+        method,
+        tuple(states[index].cycle for index in chosen),
+        np.array([states[index].u for index in chosen], dtype=float),
+        error[chosen],
+        Cost(meter.cycles, meter.evaluations),
+        tuple(_notices(states)),
+        stopped,
+        interrupted,
+    )
 
 
 def _settings(method: str, rtol: float) -> Iterator[Setting]:
@@ -161,7 +154,7 @@ def _marks(cycles: Sequence[int]) -> tuple[int, ...]:
 
 def _march(
     model: Model,
-    load: Load | AperiodicLoad,
+    load: Loading,
     marks: Sequence[int],
     setting: Setting,
     meter: Meter,
@@ -253,30 +246,13 @@ def _errors(runs: Sequence[Run], blur: float) -> FloatArray:
     return np.where(wear > 0.0, relative + floor, 0.0)
 
 
-def _result(
-    runs: list[Run],
-    blur: float,
-    cycles: Sequence[int],
-    meter: Meter,
-    stopped: str | None,
-    interrupted: bool,
-) -> DirectResult:
-    """Return the finest states, and their distance to the run before as their error."""
-    states, error = _best(runs, blur)
-    wanted = set(cycles)
-    chosen = [index for index, state in enumerate(states) if state.cycle in wanted]
-    arrests = [state.arrested_in for state in states if state.arrested_in is not None]
-    return DirectResult(
-        tuple(states[index].cycle for index in chosen),
-        np.array([states[index].u for index in chosen], dtype=float),
-        error[chosen],
-        meter.cycles,
-        meter.evaluations,
-        arrests[0] if arrests else None,
-        any(state.fades for state in states),
-        stopped,
-        interrupted,
-    )
+def _notices(states: Sequence[State]) -> Iterator[str]:
+    """Yield in which cycle wear came to its end, if it did."""
+    ended = next((state for state in states if state.arrested_in is not None), None)
+    if ended is not None and ended.fades:
+        yield f"wear approaches its limit; within rounding from cycle {ended.arrested_in} on"
+    elif ended is not None:
+        yield f"wear stops for good in cycle {ended.arrested_in}"
 
 
 def _best(runs: list[Run], blur: float) -> tuple[list[State], FloatArray]:

@@ -8,18 +8,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from wear.direct.problem import EPS, Problem, Real, Setting
+from wear.progress import Pace
 
 METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
 FINEST_TOLERANCE = 110 * EPS  # SciPy accepts no relative tolerance below 100 units of roundoff
 NEAR = 1e-6  # of a cycle: by how much an interpolant may misplace the end of contact
 LOOKS_PER_STEP = 8  # where a step is searched for the end of contact
-SILENT, APART = 2.0, 0.5  # s, before the first report of progress, and between two
 
 
 class OutOfTimeError(Exception):
@@ -32,40 +32,27 @@ class EndOfModelError(Exception):
 
 @dataclass
 class Meter:
-    """What an integration has cost so far, and when it has to stop (`time.monotonic`).
-
-    After two seconds `progress` is told now and then how far the run is.
-    """
+    """What an integration has cost so far, and when it has to stop (`time.monotonic`)."""
 
     deadline: float = np.inf
-    progress: Callable[[str], None] = lambda _: None
+    pace: Pace = field(default_factory=Pace)
     evaluations: int = 0
     steps: int = 0
     cycles: int = 0
-    run: str = ""
-    last: int = 0
-
-    def __post_init__(self) -> None:
-        self._next = time.monotonic() + SILENT
-        self.begin("", 0)
+    before: int = 0  # cycles of earlier runs
 
     def begin(self, run: str, last: int) -> None:
         """Start a run up to the cycle `last`."""
-        self.run, self.last = run, last
-        self._before, self._start = self.cycles, time.monotonic()
+        self.before = self.cycles
+        self.pace.begin(f"{run}: cycle", last)
 
     def step(self, phase: float = 0.0) -> None:
         """Count a step, that ends so many cycles after the last that was counted; raise when time
         is up."""
         self.steps += 1
-        now = time.monotonic()
-        if now > self.deadline:
+        if time.monotonic() > self.deadline:
             raise OutOfTimeError
-        if now >= self._next:
-            self._next = now + APART
-            done = self.cycles - self._before + phase
-            left = (now - self._start) * (self.last - done) / max(done, 1e-9)
-            self.progress(f"{self.run}: cycle {int(done)} of {self.last}, about {left:.0f} s left")
+        self.pace.at(self.cycles - self.before + phase)
 
 
 class Leg(NamedTuple):

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -24,6 +24,7 @@ from wear.fitting import model as models
 from wear.fitting.model import RTOL, Model, Parameter
 from wear.fitting.readings import FloatArray, Specimen, read_readings
 from wear.fitting.residuals import Residuals, rms
+from wear.progress import Pace
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -55,6 +56,7 @@ class Problem:
 
     model: Model
     residuals: Residuals
+    pace: Pace = field(default_factory=Pace, compare=False)
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return residuals (m, n) and Jacobian (m, n, p) at points (m, p)."""
@@ -89,6 +91,7 @@ class Problem:
         costs = np.sum(off**2, axis=1)
         damping, todo = np.full(len(points), DAMPING), np.arange(len(points))
         for _ in range(most):
+            self.pace.say(f"least sum of squares: {costs.min():.6g}, searches left: {len(todo)}")
             J = np.where(fixed[todo, None], 0.0, slope[todo])
             normal = np.swapaxes(J, 1, 2) @ J
             diagonal = np.einsum("mii->mi", normal)  # a view
@@ -303,6 +306,7 @@ def fit(
     error: str = "relative",
     ignore: Sequence[str] = (),
     intervals: bool = True,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> Fit:
     """Estimate entries of a scene from measured wear.
 
@@ -320,6 +324,8 @@ def fit(
         Columns of the file to drop.
     intervals
         Whether to follow the profile likelihoods, which takes most of the time.
+    progress
+        Is told in words how far a fit is that takes more than two seconds.
 
     Raises
     ------
@@ -329,7 +335,8 @@ def fit(
     from wear.fitting.profiles import profiles
     from wear.scene import as_scene
 
-    found = estimated(prepare(data, as_scene(scene), free, free_each, error, ignore))
+    problem = prepare(data, as_scene(scene), free, free_each, error, ignore)
+    found = estimated(replace(problem, pace=Pace(progress)))
     return profiles(found) if intervals else found
 
 

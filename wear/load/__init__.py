@@ -1,8 +1,8 @@
 """Loads: the prescribed displacement U_a of the pin, in mm, or its reaction R_a, in N.
 
 A `Load` repeats and is a function of the phase t/T; `Sine`, `Constant`, `Harmonics` and `Table` are
-such, and of forces `Force` and `ForceTable`. An `AperiodicLoad` is a function of the time in s;
-`HistoryLoad` and `Blocks` are such.
+such, and of forces `Force` and `ForceTable`. `Blocks` are such loads one after the other, and a
+`HistoryLoad` is a function of the time in s.
 All are frozen and checked where they are made; values, slopes and extremes are exact to rounding.
 """
 
@@ -20,10 +20,10 @@ from wear.load.blocks import Block, Blocks
 from wear.load.harmonics import Harmonics
 from wear.load.lines import ForceTable, HistoryLoad, Table
 from wear.load.phase import FloatArray, centred
-from wear.load.protocols import AperiodicLoad, Load
+from wear.load.protocol import Load
+from wear.load.spans import Loading
 
 __all__ = [
-    "AperiodicLoad",
     "Block",
     "Blocks",
     "Constant",
@@ -33,6 +33,7 @@ __all__ = [
     "Harmonics",
     "HistoryLoad",
     "Load",
+    "Loading",
     "Sine",
     "Table",
     "sampled",

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Annotated, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
-from pydantic_core import InitErrorDetails
 
-from wear.checked import MOST_CYCLES, Count, SceneTable, all_wrong, below, table, wrong
-from wear.faults import UsageError
-from wear.load.phase import FloatArray, inside
-from wear.load.protocols import Load
+from wear.checked import MOST_CYCLES, Count, Problem, SceneTable, all_wrong, problems, table, wrong
+from wear.load.phase import FloatArray
+from wear.load.protocol import Load
 from wear.load.tables import PERIODIC, load_from
 
 MOST_BLOCKS = 1000
@@ -42,22 +39,22 @@ def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
     if not 1 <= len(raw) <= MOST_BLOCKS:
         raise wrong(f"has {len(raw)} blocks", f"give from 1 to {MOST_BLOCKS}; see repeat")
     made: list[Block] = []
-    faults: list[InitErrorDetails] = []
+    faults: list[Problem] = []
     for place, block in enumerate(raw):
         rest = block._asdict() if isinstance(block, Block) else dict(block)
         cycles = {key: rest.pop(key) for key in ("cycles",) if key in rest}
         try:
             checked = BlockCycles.__pydantic_validator__.validate_python(cycles)  # type: ignore[attr-defined]
         except ValidationError as error:
-            faults += below(place, error)
+            faults += problems(error, (place,))
         try:
             load = load_from(rest.get("load", rest), info, PERIODIC)
         except ValidationError as error:
-            faults += below(place, error)
+            faults += problems(error, (place,))
         if not faults:
             made.append(Block(load, checked.cycles))
     if faults:
-        raise ValidationError.from_exception_data("blocks", faults)
+        raise all_wrong(*faults)
     return tuple(made)
 
 
@@ -80,89 +77,22 @@ class Blocks(SceneTable):
             raise all_wrong(("repeat", problem, f"stay below {MOST_CYCLES:.0e}"))
         return self
 
-    def stretches(self) -> Iterator[Block]:
-        """Every block in the order in which it runs, repeats included."""
-        for _ in range(self.repeat):
-            yield from self.blocks
+    @property
+    def cycles(self) -> int:
+        """Return how many cycles there are in all."""
+        return self.repeat * self.cycles_of_round
 
     @cached_property
-    def _starts(self) -> FloatArray:
-        """Time in s at which each block starts in one round, and the end of the round."""
-        lengths = [block.cycles * block.load.period for block in self.blocks]
-        return np.asarray([math.fsum(lengths[:n]) for n in range(len(lengths) + 1)])
-
-    @property
-    def duration(self) -> float:
-        return self.repeat * float(self._starts[-1])
-
-    @property
-    def cycles(self) -> float:
-        return float(self.repeat * self._cycles_of_round)
-
-    @property
-    def _cycles_of_round(self) -> int:
+    def cycles_of_round(self) -> int:
+        """Return how many cycles the list has."""
         return sum(block.cycles for block in self.blocks)
 
-    def time_at(self, cycles: float) -> float:
-        if not 0.0 <= cycles <= self.cycles:
-            raise UsageError(f"cycle {cycles!r} outside the load, which has {self.cycles!r}")
-        rounds, rest = divmod(cycles, self._cycles_of_round)
-        time = rounds * float(self._starts[-1])
-        for block, start in zip(self.blocks, self._starts.tolist(), strict=False):
-            if rest <= block.cycles:
-                return float(time + start + rest * block.load.period)
-            rest -= block.cycles
-        raise AssertionError("a remainder is less than the cycles of a round")
-
-    def value(self, time: FloatArray | float) -> FloatArray:
-        given, block_of, phase = self._locate(time)
-        result = np.empty_like(given)
-        for place, block in enumerate(self.blocks):
-            here = block_of == place
-            result[here] = block.load(phase[here])
-        return result
-
-    def slope(self, time: FloatArray | float) -> FloatArray:
-        given, block_of, phase = self._locate(time)
-        result = np.empty_like(given)
-        for place, block in enumerate(self.blocks):
-            here = block_of == place
-            result[here] = block.load.slope(phase[here]) / block.load.period
-        return result
-
-    def _locate(self, time: FloatArray | float) -> tuple[FloatArray, NDArray[np.intp], FloatArray]:
-        """The times, the block of each, and the phase in the block's load."""
-        given = inside(time, self.duration)
-        rounds = np.minimum(np.floor(given / self._starts[-1]), self.repeat - 1)
-        rest = np.clip(given - rounds * self._starts[-1], 0.0, self._starts[-1])
-        block_of = np.clip(
-            np.searchsorted(self._starts, rest, side="right") - 1, 0, len(self.blocks) - 1
-        )
-        periods = np.asarray([block.load.period for block in self.blocks])
-        return given, block_of, (rest - self._starts[block_of]) / periods[block_of]
-
-    def breakpoints(self, start: float, end: float) -> FloatArray:
-        round_length = float(self._starts[-1])
-        first = max(0, math.floor(start / round_length) - 1)
-        last = min(self.repeat, math.ceil(end / round_length) + 1)
-        found = [
-            self._breaks_of_block(place, number * round_length, start, end)
-            for number in range(first, last)
-            for place in range(len(self.blocks))
-        ]
-        times = np.unique(np.concatenate([*found, [self.duration]]))
-        return times[(times > start) & (times < end)]
-
-    def _breaks_of_block(self, place: int, origin: float, start: float, end: float) -> FloatArray:
-        """Start of a block, and the kinks of its load in every cycle that meets (start, end)."""
-        load, cycles = self.blocks[place]
-        begin = origin + float(self._starts[place])
-        first = max(0, math.floor((start - begin) / load.period) - 1)
-        last = min(cycles, math.ceil((end - begin) / load.period) + 1)
-        if not load.kinks or last <= first:
-            return np.asarray([begin])
-        kinks = np.add.outer(np.arange(first, last), np.asarray(load.kinks)).ravel()
-        return np.append(begin, begin + kinks * load.period)
+    def time_at(self, cycles: FloatArray | float) -> FloatArray:
+        """Return the time in s at which so many cycles are done."""
+        done = np.cumsum([0, *(block.cycles for block in self.blocks)])
+        times = np.cumsum([0.0, *(block.cycles * block.load.period for block in self.blocks)])
+        rounds, rest = np.divmod(cycles, done[-1])
+        return np.asarray(rounds * times[-1] + np.interp(rest, done, times))
 
     @property
     def minimum(self) -> float:
@@ -174,5 +104,6 @@ class Blocks(SceneTable):
 
     @property
     def mean(self) -> float:
-        areas = (block.cycles * block.load.period * block.load.mean for block in self.blocks)
-        return math.fsum(areas) / float(self._starts[-1])
+        lengths = [block.cycles * block.load.period for block in self.blocks]
+        areas = (b.load.mean * length for b, length in zip(self.blocks, lengths, strict=True))
+        return math.fsum(areas) / math.fsum(lengths)

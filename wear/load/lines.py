@@ -190,8 +190,9 @@ class HistoryLoad(_Rows):
     def cycles(self) -> float:
         return self.duration / self.period_s
 
-    def time_at(self, cycles: float) -> float:
-        return float(inside(cycles * self.period_s, self.duration))
+    def time_at(self, cycles: FloatArray | float) -> FloatArray:
+        """Return the time in s at which so many cycles are done."""
+        return inside(np.asarray(cycles) * self.period_s, self.duration)
 
     @cached_property
     def mean(self) -> float:

@@ -20,6 +20,7 @@ from pydantic import AfterValidator, Field
 from wear.checked import (
     LARGEST,
     SMALLEST,
+    Finding,
     Flag,
     Line,
     OneOf,
@@ -91,7 +92,7 @@ class RowsFile(SceneTable):
     encoding: Encoding = Field(default="utf-8", description="encoding of the text")
 
     @classmethod
-    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         if given.get("decimal") == "," and given.get("delimiter", ",") == ",":
             yield "decimal", "is the delimiter too", 'give the delimiter, such as delimiter = ";"'
 

@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import ValidationInfo
 from pydantic_core import PydanticCustomError
 
-from wear.checked import TABLES, all_wrong, choice, did_you_mean, keys_of, shown
+from wear.checked import TABLES, all_wrong, choice, did_you_mean, shown
 from wear.load.lines import ForceTable, HistoryLoad, Table, load_of
 from wear.load.rows import ForceFile, RowsFile
 
@@ -56,10 +56,10 @@ def as_table(load: Any) -> dict[str, Any]:
     """
     table = getattr(load, "source", None) or load
     kind = table.kind or next(name for name, rows in ROWS.items() if isinstance(load, rows))
-    entries = {name: getattr(table, name) for name in keys_of(type(table))}
+    entries = {name: getattr(table, name) for name in table.entries}
     if kind == "blocks":
         entries["blocks"] = [as_table(load) | {"cycles": cycles} for load, cycles in load.blocks]
-    defaults = {name: entry.default for name, entry in keys_of(type(table)).items()}
+    defaults = {name: entry.default for name, entry in table.entries.items()}
     return {"kind": kind} | {
         name: list(value) if isinstance(value, tuple) else value
         for name, value in entries.items()

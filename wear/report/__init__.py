@@ -7,6 +7,6 @@ Contents
     html, tex, svg, mathml, works, templates   the writers
     typeset, publish, manifest                 the files of a report
     runs, claims, reconcile, verification      what is computed for it
-    speed, figures_of_note, drawing            its measurements and figures
+    figures_of_note, drawing                   its figures
     explorer                                   the interactive page
 """

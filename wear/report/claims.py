@@ -208,6 +208,19 @@ def data_and_condition() -> Finding:
     )
 
 
+def pressure_and_hardness() -> Finding:
+    """C41: a real area of contact, load over hardness, is no more than the nominal one."""
+    scene, cycles = _scene("section4"), (1, 100, PRINTED.cycles)
+    most, hardness = scene.contact.max_pressure_MPa, scene.bearing.hardness_MPa
+    peaks = solve(scene, cycles, rtol=1e-10).pressures.peak.tolist()
+    shown = ", ".join(f"{peak:.4g} MPa in cycle {n}" for n, peak in zip(cycles, peaks, strict=True))
+    return Finding(
+        Verdict.CONFIRMED if most <= hardness else Verdict.INCONSISTENT,
+        f"p_max is {most / hardness:.3g} H_c: under it the asperities would bear on {most:g}/"
+        f"{hardness:g} of the nominal area, more than there is; the peak of section 4 is {shown}",
+    )
+
+
 SIMULATED = MappingProxyType(
     {
         "C16": closure_of_section_3,
@@ -220,25 +233,31 @@ SIMULATED = MappingProxyType(
         "C38": quicker_for_lower_wear,
         "C39": closure_of_section_5,
         "C40": data_and_condition,
+        "C41": pressure_and_hardness,
     }
 )
 """The checks that need the note's scenes, by claim."""
 
 
+def decided(identifier: str) -> Entry:
+    """Decide one claim."""
+    return Entry(CLAIMS[identifier], {**SYMBOLIC, **SIMULATED}[identifier]())
+
+
 def ledger(
-    progress: Callable[[int, int, str], None] | None = None, ids: Sequence[str] = ()
+    progress: Callable[[int, int, str], None] = lambda *_: None,
+    ids: Sequence[str] = (),
+    decide: Callable[[str], Entry] = decided,
 ) -> tuple[Entry, ...]:
     """Decide every claim (or those of the given ids), in the order of the note.
 
     ``progress`` is told how many of how many are done, and which is next.
     """
-    chosen = [CLAIMS[identifier] for identifier in ids] or list(CLAIMS.values())
-    checks = {**SYMBOLIC, **SIMULATED}
+    chosen = ids or list(CLAIMS)
     entries = []
-    for number, claim in enumerate(chosen):
-        if progress is not None:
-            progress(number, len(chosen), claim.id)
-        entries.append(Entry(claim, checks[claim.id]()))
+    for number, identifier in enumerate(chosen):
+        progress(number, len(chosen), identifier)
+        entries.append(decide(identifier))
     return tuple(entries)
 
 

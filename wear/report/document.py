@@ -8,14 +8,18 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
 
 from markdown_it.token import Token
 
 from wear.cite import REFERENCES
 from wear.report.text import Text
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawing
 
 OWN_EQUATION = "D.{}"
 """Number of an equation that the note does not have."""
@@ -49,15 +53,21 @@ class Equation:
     also: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Figure:
-    """A drawing as SVG and PDF. `description` is for those who do not see it, `file` the stem of
-    its file names."""
+class Figure(NamedTuple):
+    """A drawing for pages and for LaTeX."""
 
-    description: str
     svg: str
-    pdf: bytes = field(repr=False)
-    file: str
+    pdf: bytes
+
+
+def drawn(drawings: Mapping[str, Drawing]) -> Mapping[str, Figure]:
+    """Return figures by label; the names are those of the files, too."""
+    from wear.figure_style import encoded  # a text without figures needs no matplotlib
+
+    return {
+        f"fig:{name}": Figure(encoded(each, ".svg").decode(), encoded(each, ".pdf"))
+        for name, each in drawings.items()
+    }
 
 
 @dataclass(frozen=True)

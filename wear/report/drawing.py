@@ -13,17 +13,9 @@ from matplotlib.patches import Arc, FancyArrowPatch
 from numpy.typing import NDArray
 
 from wear.figure_data import WEAR
-from wear.figure_style import COLUMN, GREY, INK, canvas, side_by_side, stroke, styled
+from wear.figure_style import COLUMN, GREY, INK, canvas, panels, stroke, styled
 from wear.load import Blocks, HistoryLoad
 from wear.scene import Scene
-
-#: What the drawing shows, for those who do not see it.
-DESCRIPTION = (
-    "Section through the model. Above, the rotating pin, pushed down by the displacement U_a "
-    "against the reaction R_a. Below, the bearing on a row of springs of stiffness k, deflected by "
-    "U_c. Their rough surfaces face each other; the closure h is the distance of the mean "
-    "surfaces, which wear moves by u_a and u_c. The contact pressure p acts between them."
-)
 
 _LEFT, _RIGHT = 2.2, 8.2
 _PIN, _BEARING, _SPRINGS, _GROUND = 4.9, 3.75, 2.2, 0.8  # heights of surfaces and supports
@@ -52,7 +44,7 @@ def of_scene(scene: Scene) -> Figure:
     _, others = _profile(0.3, 0.0)
     paths, label = _paths(scene)
     with styled():
-        figure, [left, right] = side_by_side(2, COLUMN, 0.72 * COLUMN)
+        figure, [left, right] = panels(1, 2, COLUMN, 0.72 * COLUMN)
         bearing, pin = stroke(0).colour, stroke(1).colour
         surface = sigma_c * waves / np.std(waves)
         above = closure - (0.0 if scene.given_load else paths[0][1][0])

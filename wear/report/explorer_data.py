@@ -1,6 +1,7 @@
 """What the explorer's page knows of scenes: their numbers, and values to check itself against.
 
 Key results
+    opened          the scene that the page opens at, with no more rows of its load than needed
     scene_data      a scene in the numbers that the sliders show
     check_data      wear and wear rates of a scene, computed in Python
 """
@@ -8,19 +9,26 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from wear import own_laws
 from wear.faults import UsageError
-from wear.load import Constant, Harmonics, Load, Sine, Table
+from wear.load import Constant, Force, ForceTable, Harmonics, Load, Sine, Table
+from wear.model import bind
+from wear.parameters import AREA
+from wear.resampling import resampled
 from wear.scene import Scene, load_scene
 
 CYCLES = (1, 10, 100, 1000, 10000)
 MICROMETRES = 1e3  # in a mm
 SMALL = ("sigma_c0", "sigma_a0", "h_0", "U")
 """Lengths that the page shows in micrometres."""
+PLOTTED = 4e-3
+"""Relative accuracy of the wear for which the rows of a measured load are merged: a quarter of it
+moves no pixel."""
 NOT_NEGATIVE = ("h_0",)
 """What a scene file takes from zero on."""
 GROUPS: Mapping[str, tuple[str, ...]] = {
@@ -32,10 +40,23 @@ GROUPS: Mapping[str, tuple[str, ...]] = {
 }
 
 
-def scene_data(scene: Scene) -> dict[str, Any]:
-    """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
+def opened(scene: Scene) -> Scene:
+    """Return a scene whose load has as few rows as a plot needs; its description says so.
+
+    Raises
+    ------
+    UsageError
+        if the contact law is the scene's own.
+    """
     if own_laws.is_own(scene.contact.law):
         raise UsageError("the explorer has the contact laws of the package alone")
+    fewer = resampled(scene, bind(scene), PLOTTED)
+    described = " ".join([scene.description, *fewer.notices])
+    return replace(fewer.scene, description=described.strip())
+
+
+def scene_data(scene: Scene) -> dict[str, Any]:
+    """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
     other = load_scene("section3").parameters() | {"k": 1e5}
     numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
     key = scene.variant
@@ -45,11 +66,12 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "description": " ".join(scene.description.split()),
         "law": key.law,
         "pin": key.pin,
-        "compliant": key.support == "compliant",
+        "compliant": scene.support is not None,
         "opening": scene.contact.pin_wear_opens_gap,
         "cutoff": key.ends_at_3_sigma,
         "parameters": {name: numbers[name] for group in GROUPS.values() for name in group},
-        "load": _load_data(scene.periodic_load),
+        "load": _load_data(scene.periodic_load)
+        | ({"area": {name: numbers[name] for name in AREA}} if scene.given_load else {}),
     }
 
 
@@ -71,13 +93,12 @@ def _load_data(load: Load) -> dict[str, Any]:
             "sine_mm": list(load.sine_mm),
             "stops": list(load.peaks),
         }
-    if not isinstance(load, Table):
-        raise UsageError("the explorer moves the pin: it has no loads that are forces")
+    assert isinstance(load, (Table, ForceTable, Force))
     phases = sorted({0.0, 1.0, *load.kinks})
     values = [float(load(phase)) for phase in phases]
     return {
-        "kind": "table",
-        "file": "" if load.source is None else load.source.file,
+        "kind": "table" if isinstance(load, Table) else "force",
+        "file": getattr(getattr(load, "source", None), "file", ""),
         "period_s": load.period,
         "phase": phases,
         "value": values,
@@ -87,7 +108,6 @@ def _load_data(load: Load) -> dict[str, Any]:
 
 def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
     """Return wear after cycles, and wear rates along the way, as Python computes them."""
-    from wear.model import bind
     from wear.solver import solve
 
     history = solve(scene, cycles, rtol=1e-10)

@@ -147,6 +147,7 @@ def derived() -> str:
 
 def models() -> str:
     """Return a script with the generated functions of every variant and the formulas."""
+    from derive.codegen import reaction
     from derive.codegen.formulas import formula_script
     from derive.codegen.sources import definitions
     from derive.program import program
@@ -159,9 +160,12 @@ def models() -> str:
         for variant in VARIANTS
     )
     closed = _without_comments(formula_script(tuple(formulas())))
+    carried = (formula for formula in reaction.formulas() if formula.name == "pressure")
+    forces = _without_comments(formula_script(tuple(carried)))
     return (
         f'"use strict";\nconst MODELS = {{\n{"".join(entries)}}};\n'
         f"const FORMULAS = (() => {{\n{closed}}})();\n"
+        f"const REACTION = (() => {{\n{forces}}})();\n"
     )
 
 

@@ -37,13 +37,17 @@ def _hash(script: str) -> str:
     return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
 
 
-_TEMPLATES = jinja2.Environment(
+TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("wear.report"),
     undefined=jinja2.StrictUndefined,
     autoescape=False,
     trim_blocks=True,
 )
-_TEMPLATES.filters |= {"words": lambda text: text.replace("-", " "), "hash": _hash}
+TEMPLATES.filters |= {
+    "words": lambda text: text.replace("-", " "),
+    "hash": _hash,
+    "formula": mathml.inline,
+}
 
 
 def page(document: Document) -> str:
@@ -56,20 +60,26 @@ def page(document: Document) -> str:
     """
     writer = _Writer(document)
     body = writer.written(document.text.tokens)
-    return _TEMPLATES.get_template("page.html").render(
+    return TEMPLATES.get_template("page.html").render(
         title=document.title,
         style=style(),
-        script=_ASSETS.joinpath("report.js").read_text(encoding="utf-8"),
+        script=asset("report.js"),
         contents=writer.contents,
         body=body + writer.end_of_sections(0),
     )
 
 
+def asset(name: str) -> str:
+    """Return the text of a style sheet or script of the pages."""
+    return _ASSETS.joinpath(name).read_text(encoding="utf-8")
+
+
 def style() -> str:
     """Return the look of a page, with the font of its formulas."""
     font = base64.b64encode(_ASSETS.joinpath("stix-two-math.woff2").read_bytes()).decode()
-    css = _ASSETS.joinpath("report.css").read_text(encoding="utf-8")
-    return css.replace("url(stix-two-math.woff2)", f"url(data:font/woff2;base64,{font})")
+    return asset("report.css").replace(
+        "url(stix-two-math.woff2)", f"url(data:font/woff2;base64,{font})"
+    )
 
 
 class _Writer(Writer):
@@ -78,7 +88,7 @@ class _Writer(Writer):
     def __init__(self, document: Document) -> None:
         super().__init__()
         self._document = document
-        self._blocks: Any = _TEMPLATES.get_template("blocks.html").module
+        self._blocks: Any = TEMPLATES.get_template("blocks.html").module
         self._open: list[int] = []  # levels of the sections that are open
         self.contents: list[tuple[Any, str, int]] = []
 
@@ -152,8 +162,8 @@ class _Writer(Writer):
     def image(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
         """A figure with its caption."""
         mark = self._document.marks[str(tokens[i].attrs["src"])]
-        figure = self._document.figures[mark.target]
-        drawing = svg.inline(figure.svg, mark.target, figure.description)
+        description = str(tokens[i].attrs["title"])
+        drawing = svg.inline(self._document.figures[mark.target].svg, mark.target, description)
         caption = self.inside(tokens[i].children)
         return str(self._blocks.figure(mark, drawing, caption))
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from importlib.resources import files
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Drawn
+from matplotlib.figure import Figure
 
 from derive import equations as derived
 from derive.catalogue import equation
@@ -18,24 +17,24 @@ from derive.symbols import QUANTITIES
 from derive.variant import Variant
 from derive.variant_equations import equations_of
 from wear import figures
-from wear.direct.sequence import most_cycles
 from wear.faults import UsageError
 from wear.figure_data import WEAR, Abscissa, Line, Panel, panels_of, points_of, pressure_inside
-from wear.figure_style import COLUMN_AND_HALF, pdf, svg
+from wear.figure_style import COLUMN_AND_HALF
 from wear.fitting.readings import Specimen
 from wear.history import History
 from wear.life import Reached, cycles_until
 from wear.load import Blocks, HistoryLoad
+from wear.load.spans import most_cycles
 from wear.own_laws import PREFIX, is_own
 from wear.regime import Asymptote, asymptote
 from wear.report import drawing
-from wear.report.document import Document, Figure
+from wear.report.document import Document, drawn
 from wear.report.equations import shown
 from wear.report.explorer_derived import holding
 from wear.report.manifest import versions
 from wear.report.markup import markup, number
 from wear.report.number import Number
-from wear.report.text import parsed
+from wear.report.text import read
 from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
 from wear.sensitivities import Sensitivities, sensitivity
@@ -105,34 +104,17 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         "scene_file": scene.to_toml().strip(),
         "versions": list(versions().items()),
     }
-    text = files("wear.report").joinpath("scene.md").read_text(encoding="utf-8")
-    drawn = {
-        "scene": (drawing.of_scene(scene), drawing.of_scene.__doc__ or ""),
-        "history": (
-            figures.history(panels_of([curve]), logarithmic=True),
-            "Wear, roughness and contact pressure against cycles on logarithmic axes.",
-        ),
+    drawings = {
+        "scene": drawing.of_scene(scene),
+        "history": figures.history(panels_of([curve]), logarithmic=True),
     }
     if pressed is not None:
-        drawn["inside"] = (
-            figures.pressure_in_cycles(pressed),
-            "Contact pressure over the phase of a few cycles, pulses that get lower.",
-        )
+        drawings["inside"] = figures.pressure_in_cycles(pressed)
     if found is not None:
-        drawn["sensitivities"] = (
-            _tornado(found),
-            "Bars for the numbers of the scene, the longest on top.",
-        )
+        drawings["sensitivities"] = _tornado(found)
     if specimens:
-        drawn["readings"] = (
-            _readings_figure(scene, specimens, predicted),
-            "Measured wear as points beside the predicted curves, against cycles.",
-        )
-    return Document(
-        parsed(text, values),
-        equations,
-        {f"fig:{name}": Figure(said, svg(f), pdf(f), name) for name, (f, said) in drawn.items()},
-    )
+        drawings["readings"] = _readings_figure(scene, specimens, predicted)
+    return Document(read("scene.md", values), equations, drawn(drawings))
 
 
 def _solved(scene: Scene) -> History:
@@ -274,7 +256,7 @@ def _sensitivities(scene: Scene, cycles: list[int]) -> Sensitivities | None:
     return found if np.isfinite(found.error).all() else None
 
 
-def _tornado(found: Sensitivities) -> Drawn:
+def _tornado(found: Sensitivities) -> Figure:
     """The elasticities that are largest."""
     most = np.argsort(-np.max(np.abs(np.nan_to_num(found.elasticity)), axis=1))[:_BARS]
     labels = [f"$N = {n}$" for n in found.cycles]
@@ -312,7 +294,7 @@ def _predicted(scene: Scene, specimen: Specimen) -> History:
 
 def _readings_figure(
     scene: Scene, specimens: Sequence[Specimen], predicted: Sequence[History]
-) -> Drawn:
+) -> Figure:
     runs = {each.name or "predicted": scene.with_(each.changes) for each in specimens}
     lines = tuple(
         Line(name, history.cycles.astype(float), history.u_c, place)

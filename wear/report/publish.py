@@ -34,7 +34,7 @@ def publish(document: Document, folder: Path) -> Published:
         "equations.tex": sources.equations,
         **sources.figures,
     }
-    drawings = {f"{f.file}.svg": f.svg for f in document.figures.values()}
+    drawings = {f"{label[4:]}.svg": figure.svg for label, figure in document.figures.items()}
     contents: dict[str, str | bytes] = {"report.html": html.page(document), **for_tex, **drawings}
     with TemporaryDirectory() as name:  # TeX leaves much behind
         draft = Path(name)

@@ -27,7 +27,7 @@ from wear.model import bind
 from wear.orbit.period_map import resolved, settings
 from wear.regime import Asymptote, asymptote
 from wear.report.reconcile import PRINTED, Reconciliation, reconciliations
-from wear.scene import Scene, builtin_scenes, load_scene
+from wear.scene import Scene, hard_names, load_scene
 from wear.solver import solve
 from wear.static import static_solution
 
@@ -263,8 +263,7 @@ def _integrated(case: Case) -> float:
 
 def _hard() -> list[HardCase]:
     found = []
-    for entry in builtin_scenes():
-        if entry.hard:
-            history = solve(load_scene(entry.name), [_HARD_CYCLES], rtol=HARD_RTOL)
-            found.append(HardCase(entry.name, entry.title, history))
+    for name in hard_names():
+        scene = load_scene(name)
+        found.append(HardCase(name, scene.title, solve(scene, [_HARD_CYCLES], rtol=HARD_RTOL)))
     return found

@@ -70,7 +70,7 @@ def report(document: Document) -> Sources:
         r"[^A-Za-z0-9À-ÖØ-öø-ÿ ,.:()\-]", "", document.title
     )  # an entry of the PDF, not typeset
     source = _TEMPLATES.get_template("report.tex").render(title=title, body=body)
-    figures = {f"{figure.file}.pdf": figure.pdf for figure in document.figures.values()}
+    figures = {f"{label[4:]}.pdf": figure.pdf for label, figure in document.figures.items()}
     return Sources(source, equations(document), figures)
 
 
@@ -165,10 +165,9 @@ class _Writer(Writer):
         several = sum(token.type == "image" for token in tokens)
         width = 1.0 if several == 1 else 0.96 / several
         caption = self.inside(tokens[i].children)
-        file = self._document.figures[label].file
         return (
             f"\\begin{{minipage}}[t]{{{width:.3g}\\linewidth}}\\centering\n"
-            f"\\includegraphics[width=\\naturalwidth]{{{file}.pdf}}\n"
+            f"\\includegraphics[width=\\naturalwidth]{{{label[4:]}.pdf}}\n"
             f"\\caption{{{caption}}}\\label{{{label}}}\n\\end{{minipage}}\\hfill"
         )
 

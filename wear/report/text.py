@@ -14,7 +14,8 @@ Marks, besides those of Markdown
     {verdict refuted}       a status or verdict
     Table: Data. {#tab:x}   the caption of the table below it; a column ``:--`` is narrow, ``---``
                             holds sentences, ``--:`` numbers
-    ![Caption.](fig:wear)   a figure; several in a paragraph stand side by side
+    ![Caption.](fig:wear "Description for those who do not see it.")
+                            a figure; several in a paragraph stand side by side
     ```equations            the equations of these ids
     ```math                 one formula in a display, without a number
     ```works                the works that the text cites

@@ -16,9 +16,10 @@ from derive.symbols import QUANTITIES
 from derive.typeset.display import inline
 from derive.typeset.nomenclature import occurring, unit
 from derive.typeset.present import presentable
+from wear.benchmark.machine import footer
 from wear.benchmark.methods import cases
+from wear.benchmark.results import DIGITS, READER, committed, sentences, speed_table
 from wear.generated import asymptotics as formula
-from wear.report import speed
 from wear.report.derivations import Derivations
 from wear.report.equations import capital
 from wear.report.manifest import versions
@@ -26,12 +27,12 @@ from wear.report.markup import markup
 from wear.report.number import Number
 from wear.report.reconcile import PRINTED
 from wear.report.runs import CUTOFF, SECTION_5, Runs, required
+from wear.report.text import escaped
 
 if TYPE_CHECKING:
     import sympy as sp
 
     from derive.equations import Equation
-    from wear.benchmark import Measurement
     from wear.report.claims import Entry
     from wear.report.document import Equation as Shown
     from wear.report.verification import Verification
@@ -72,7 +73,6 @@ class Material:
     verification: Verification
     runs: Runs
     ledger: Sequence[Entry]
-    speed: Sequence[Measurement]
 
 
 def values(material: Material) -> dict[str, Any]:
@@ -85,7 +85,7 @@ def values(material: Material) -> dict[str, Any]:
         **_note(runs),
         **_figures(runs),
         **_agreement(runs),
-        **speed.values(material.speed),
+        **_speed(),
         "elasticity": _elasticity(material),
         "conditions": list(_conditions()),
         "data": [_data_row(runs, name, of) for name, of in _DATA] + [_amplitudes(runs)],
@@ -272,6 +272,23 @@ def _elasticity(material: Material) -> Number:
     found = next(e for e in material.equations if e.id == "elasticity-slope").relation.rhs
     value = float(found.subs({symbol: data[symbol.name] for symbol in found.free_symbols}))
     return Number(value, "elasticity of u_cum in f_c, section 4", 5)
+
+
+def _speed() -> dict[str, Any]:
+    """Return the benchmark as the documentation has it."""
+    measured, digits = committed(), DIGITS[0]
+    found = speed_table(measured.runs, READER, digits)
+    signs = str.maketrans({"x": "\u00d7", "~": "\u2248"})
+    return {
+        "speed_header": [escaped(heading.capitalize()) for heading in found.header],
+        "speed_rows": [
+            [escaped(method), *(escaped(cell.translate(signs)) for cell in cells)]
+            for method, *cells in found.rows
+        ],
+        "speed_sentences": [escaped(s) for s in sentences(measured.runs, READER, digits)],
+        "speed_digits": Number(digits, "request"),
+        "machine": escaped(footer(measured.facts)),
+    }
 
 
 # Rows of tables

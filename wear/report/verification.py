@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from functools import cache, partial
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from derive.check import Check
@@ -43,35 +44,83 @@ class Verification:
         """How many of these are of one kind."""
         return sum(check.kind == kind for checks in self.outcomes.values() for check in checks)
 
-    def of(self, step: Judgement) -> tuple[Check, ...]:
-        """The checks of one step."""
-        return self.outcomes[identity(step)]
+
+class Part(NamedTuple):
+    """An equation with those of its steps on which no equation before it rests; models are asked
+    of the steps that are `claimed` by an equation."""
+
+    equation: Equation
+    steps: Mapping[Hashable, Judgement]
+    claimed: frozenset[Hashable]
+
+
+class Outcome(NamedTuple):
+    """The checks of a part: of its display form, and of each of its steps."""
+
+    shown: Check
+    steps: tuple[tuple[Check, ...], ...]
 
 
 def identity(step: Judgement) -> Hashable:
-    """What makes two steps the same."""
+    """Return what makes two steps the same."""
     parents = tuple(parent.relation for parent in step.parents)
     return (step.relation, step.rule, parents, step.hypotheses)
 
 
-def verified(
-    equations: Sequence[Equation], progress: Callable[[str], None] = lambda _: None
-) -> Verification:
-    """Check every step of these equations, and that what is typeset is what was derived; try what
-    they claim on models."""
+def parts(equations: Sequence[Equation]) -> list[Part]:
+    """Return the work of checking equations, nothing twice."""
+    claimed = frozenset(identity(claim) for each in equations for claim in each.statements)
+    seen: set[Hashable] = set()
+    found = []
+    for equation in equations:
+        steps = {identity(step): step for step in equation.steps}
+        new = {key: step for key, step in steps.items() if key not in seen}
+        seen |= new.keys()
+        found.append(Part(equation, new, claimed & new.keys()))
+    return found
+
+
+def checked(part: Part) -> Outcome:
+    """Check the steps of a part, and that what is typeset is what was derived; try what it claims
+    on models."""
     from derive.check import Check, checks, on_models
 
-    claimed = {identity(claim) for equation in equations for claim in equation.statements}
-    outcomes: dict[Hashable, tuple[Check, ...]] = {}
-    failures: list[tuple[str, Check]] = []
-    for equation in equations:
-        progress(f"({equation.id}) {equation.title}")
-        shown = Check("typeset", equation.typeset_agrees, "the display form equals the claim")
-        found = [shown]
-        for step in equation.steps:
-            key = identity(step)
-            if key not in outcomes:
-                outcomes[key] = (*checks(step), *(on_models(step) if key in claimed else ()))
-            found += outcomes[key]
-        failures += [(equation.id, outcome) for outcome in found if not outcome.passed]
+    shown = Check("typeset", part.equation.typeset_agrees, "the display form equals the claim")
+    steps = (
+        (*checks(step), *(on_models(step) if key in part.claimed else ()))
+        for key, step in part.steps.items()
+    )
+    return Outcome(shown, tuple(steps))
+
+
+def checked_at(place: int) -> Outcome:
+    """Check the part of the catalogue at this place, in whatever process."""
+    return checked(_catalogue()[place])
+
+
+@cache
+def _catalogue() -> list[Part]:
+    from derive.catalogue import equations
+
+    return parts(equations())
+
+
+def verified(
+    equations: Sequence[Equation], answers: Sequence[Callable[[], Outcome]] | None = None
+) -> Verification:
+    """Check every step of these equations, unless `answers` have what came of their parts."""
+    work = parts(equations)
+    fetched = [partial(checked, part) for part in work] if answers is None else answers
+    found = [fetch() for fetch in reversed(fetched)][::-1]  # the last ones are not begun elsewhere
+    outcomes = {
+        key: checks
+        for part, outcome in zip(work, found, strict=True)
+        for key, checks in zip(part.steps, outcome.steps, strict=True)
+    }
+    failures = [
+        (equation.id, check)
+        for equation, outcome in zip(equations, found, strict=True)
+        for check in (outcome.shown, *(c for s in equation.steps for c in outcomes[identity(s)]))
+        if not check.passed
+    ]
     return Verification(outcomes, tuple(failures), len(equations))

@@ -17,10 +17,10 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
-from pydantic_core import core_schema
 
 from wear import own_laws
 from wear.checked import (
+    Finding,
     Flag,
     NonNegative,
     OneOf,
@@ -38,7 +38,7 @@ from wear.checked import (
     wrong,
 )
 from wear.faults import Fault, SceneError, UsageError
-from wear.load import AperiodicLoad, Blocks, Force, ForceTable, HistoryLoad, Load
+from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
 from wear.load.rows import read_bytes
 from wear.load.tables import as_table, load_from
 from wear.scene.text import MOST_BYTES, Source, read_tables, set_entry
@@ -84,13 +84,6 @@ def _formula(name: str, folder: Path | None) -> str:
     return text.removeprefix("phi").strip().removeprefix("=")
 
 
-class LawOf(OneOf):
-    """The contact laws among which a scene chooses, or gives one of its own."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        return core_schema.with_info_plain_validator_function(_law)
-
-
 @table("bearing")
 class Bearing(SceneTable):
     """The bearing (index c), which wears."""
@@ -131,7 +124,7 @@ class Contact(SceneTable):
         default=None,
         description="h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
     )
-    law: Annotated[str, LawOf(contact_laws())] = Field(
+    law: Annotated[str, OneOf(contact_laws()), PlainValidator(_law)] = Field(
         default="tanh",
         description='contact law p/p_max = phi(h/sigma): a name, { phi = "..." } in r = h/sigma, '
         'or { file = "..." } with the formula in a file beside the scene',
@@ -154,7 +147,7 @@ class Contact(SceneTable):
     )
 
     @classmethod
-    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         """Yield the faults of closures and of the contact's two lengths."""
         match [key in given for key in CLOSURES]:
             case [False, False]:
@@ -236,9 +229,7 @@ class Scene(SceneTable):
     bearing: Bearing = Field(description="the bearing, which wears")
     contact: Contact = Field(description="how closure and roughness make a pressure")
     motion: Motion = Field(description="the rotation of the pin")
-    load: Annotated[Load | AperiodicLoad, PlainValidator(load_from)] = Field(
-        description="the motion U_a(t)"
-    )
+    load: Annotated[Loading, PlainValidator(load_from)] = Field(description="the motion U_a(t)")
     pin: Pin | None = Field(default=None, description="the pin")
     support: Support | None = Field(default=None, description="the springs under the bearing")
     title: Text = Field(default="", description="one line that names the scene")
@@ -247,7 +238,7 @@ class Scene(SceneTable):
     folder: Annotated[Path | None, NO_ENTRY] = dataclasses.field(default=None, compare=False)
 
     @classmethod
-    def relations(cls, given: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         """Yield the fault of a roughness that is zero on both solids."""
         solids = [given[name] for name in ("bearing", "pin") if name in given]
         rough = [
@@ -319,7 +310,7 @@ class Scene(SceneTable):
             raise UsageError(
                 f'{self.name}: a load of kind "{kind}" does not repeat; this needs one that does'
             )
-        return self.load  # type: ignore[return-value]  # what is left of the union
+        return self.load
 
     @property
     def variant(self) -> VariantKey:
@@ -514,32 +505,12 @@ def _place(name: str) -> str:
 # Built-in scenes
 
 
-class BuiltinScene(NamedTuple):
-    """A scene that comes with the package."""
-
-    name: str
-    title: str
-    description: str
-
-    @property
-    def hard(self) -> bool:
-        """Whether it belongs to the catalogue of hard cases, not to the note's own sections."""
-        return not self.name.startswith("section")
-
-
-scene_from_tables = Scene.from_dict
-
-
 def builtin_names() -> tuple[str, ...]:
     """The names of the built-in scenes: the note's sections, then the hard cases."""
     names = [file.stem for file in SCENES.glob("*.toml")]
     return tuple(sorted(names, key=lambda name: (not name.startswith("section"), name)))
 
 
-def builtin_scenes() -> tuple[BuiltinScene, ...]:
-    """Name, title and description of every built-in scene."""
-    scenes = (load_scene(name) for name in builtin_names())
-    return tuple(
-        BuiltinScene(scene.name, scene.title, " ".join(scene.description.split()))
-        for scene in scenes
-    )
+def hard_names() -> tuple[str, ...]:
+    """The names of the built-in scenes of the catalogue of hard cases."""
+    return tuple(name for name in builtin_names() if not name.startswith("section"))

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from wear import own_laws
-from wear.load import Blocks, ForceTable, HistoryLoad, Table
+from wear.load import Blocks, ForceTable, Table
+from wear.load.spans import span
 from wear.scene.plausibility import implausible_entries
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ def _closure_notices(scene: Scene) -> Iterator[str]:
     if scene.given_load:
         yield "the load is a force: wear is its integral, and the displacement of the pin follows"
         return
-    first = initial_displacement(scene)
+    first = float(span(scene.load, 0).load(0.0))
     reach = CONTACT_REACH * scene.initial_roughness
     closure = scene.closure - first
     if scene.contact.ends_at_3_sigma and scene.closure - scene.load.maximum > reach:
@@ -76,14 +77,6 @@ def _closure_notices(scene: Scene) -> Iterator[str]:
             f"U_a(0) = {first:.6g} mm is not zero: the run starts at the closure "
             f"h_0 - U_a(0) = {closure:.6g} mm, not at the h_0 of Eq. (6)"
         )
-
-
-def initial_displacement(scene: Scene) -> float:
-    """U_a(0) in mm."""
-    load = scene.load
-    if isinstance(load, Blocks | HistoryLoad):
-        return float(load.value(0.0))
-    return float(scene.periodic_load(0.0))
 
 
 def _load_notices(scene: Scene) -> Iterator[str]:

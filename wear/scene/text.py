@@ -12,7 +12,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from wear.checked import TABLES, Path, keys_of, shown
+from wear.checked import TABLES, Path, place_of, shown
 from wear.faults import Fault, SceneError
 
 MOST_BYTES = 256 * 1024
@@ -38,7 +38,7 @@ class Source:
 
     def fault(self, path: Path, problem: str, remedy: str) -> Fault:
         """Return a fault with its place in the file, or the `--set` option that caused it."""
-        table, key = _table_and_key(path)
+        table, key = place_of(path)
         prefixes = [path[:depth] for depth in range(len(path), 0, -1)]
         option = next((self.overrides[p] for p in prefixes if p in self.overrides), None)
         line = next((self.lines[p] for p in prefixes if p in self.lines), None)
@@ -48,19 +48,6 @@ class Source:
             place = f"--set {shown(option)}"
             return Fault(place, None, table, key, problem, remedy)
         return Fault(self.file, line, table, key, problem, remedy)
-
-
-def _table_and_key(path: Path) -> tuple[str, str]:
-    """
-    >>> _table_and_key(("load", "blocks", 0, "cycles"))
-    ('load.blocks, block 1', 'cycles')
-    """
-    *tables, key = path or ("",)
-    if isinstance(key, int) or path in _TABLE_PATHS:
-        tables, key = [*tables, key], ""
-    words = ".".join(shown(part) for part in tables if isinstance(part, str))
-    block = "".join(f", block {part + 1}" for part in tables if isinstance(part, int))
-    return words + block, shown(str(key))
 
 
 def read_tables(
@@ -181,7 +168,7 @@ def _read_override(option: str) -> tuple[Path, object] | Fault:
         return Fault(f"--set {shown(option)}", None, "", "", "is no TABLE.KEY=VALUE", remedy)
     value = _override_value(raw.strip())
     if path in _TABLE_PATHS and not isinstance(value, dict):
-        known = next(([*keys_of(each)] for each in TABLES if (each.place,) == path), [])
+        known = next(([*each.entries] for each in TABLES if (each.place,) == path), [])
         known = ["kind"] if path == ("load",) else known
         problem = f"{path[0]} is a table with several entries"
         remedy = f"set one of them, such as --set {path[0]}.{known[0]}=VALUE"
@@ -226,7 +213,7 @@ def _replaced(name: str, key: str, value: object) -> list[str]:
     if name == "contact" and key in ("closure_mm", "closure_in_sigma"):
         return [other for other in ("closure_mm", "closure_in_sigma") if other != key]
     if (name, key) == ("load", "kind"):
-        known = [keys_of(each) for each in TABLES if each.kind == value]
-        every = {entry for each in TABLES if each.place == "load" for entry in keys_of(each)}
+        known = [each.entries for each in TABLES if each.kind == value]
+        every = {entry for each in TABLES if each.place == "load" for entry in each.entries}
         return [other for other in every if known and other not in known[0]]
     return ["period_s", "sha256"] if (name, key) == ("load", "file") else []

@@ -10,7 +10,7 @@ import numpy as np
 
 from wear.faults import UsageError
 from wear.studies.design import ROWS
-from wear.studies.rows import Question, Status, solve_rows
+from wear.studies.rows import Status, Study, solve_rows
 from wear.studies.run import prepare
 from wear.studies.vary import Distribution, FloatArray, Vary
 
@@ -62,13 +62,13 @@ def sobol_indices(
 
     if samples < 2 or samples & (samples - 1):
         raise UsageError(f"samples: {samples} is no power of two")
-    plan, question = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
-    keys = [each.key for each in plan.vary]
+    asked = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
+    keys = [each.key for each in asked.design.vary]
 
     def wear(points: FloatArray) -> FloatArray:
-        return _wear(question, dict(zip(keys, points, strict=True)), executor)
+        return _wear(asked, dict(zip(keys, points, strict=True)), executor)
 
-    laws = [each.frozen for each in plan.vary if isinstance(each, Distribution)]
+    laws = [each.frozen for each in asked.design.vary if isinstance(each, Distribution)]
     found = stats.sobol_indices(func=wear, n=samples, dists=laws, rng=np.random.default_rng(seed))
     spread = found.bootstrap(confidence_level=CONFIDENCE, n_resamples=RESAMPLES)
     arrays = {}
@@ -77,19 +77,17 @@ def sobol_indices(
         for end, values in (("", getattr(found, name)), ("_low", interval.low),
                             ("_high", interval.high)):  # fmt: skip
             arrays[name + end] = (("key", "cycle"), np.atleast_2d(values).T)
-    return xarray.Dataset(arrays, {"key": keys, "cycle": list(question.cycles)})
+    return xarray.Dataset(arrays, {"key": keys, "cycle": list(asked.cycles)})
 
 
-def _wear(
-    question: Question, columns: dict[str, FloatArray], executor: Executor | None
-) -> FloatArray:
+def _wear(asked: Study, columns: dict[str, FloatArray], executor: Executor | None) -> FloatArray:
     """Return the wear (cycles, rows) of the rows of these columns, in chunks."""
     rows = len(next(iter(columns.values())))
     parts = [
         {key: column[at : at + ROWS] for key, column in columns.items()}
         for at in range(0, rows, ROWS)
     ]
-    solved = (map if executor is None else executor.map)(solve_rows, [question] * len(parts), parts)
+    solved = (map if executor is None else executor.map)(solve_rows, [asked] * len(parts), parts)
     wear = []
     for answers in solved:
         if np.any(answers.status != Status.DONE):

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from wear.scene import Scene
+    from wear.studies.design import Chunk, Design
 
 FloatArray = NDArray[np.float64]
 LONGEST_REASON = 200  # characters
@@ -28,10 +29,12 @@ class Status(IntEnum):
 
 
 @dataclass(frozen=True)
-class Question:
-    """What is asked of every row: the scene that is varied, numbers of cycles, a wear depth."""
+class Study:
+    """A scene, the design by which it varies, and what is asked of every row: the wear after
+    numbers of cycles, the cycles to a wear depth, the relative accuracy."""
 
     scene: Scene
+    design: Design
     cycles: tuple[int, ...]
     until_wear: float | None  # mm
     rtol: float
@@ -48,24 +51,29 @@ class Answers(NamedTuple):
     reason: list[str]
 
 
-def solve_rows(question: Question, columns: Mapping[str, FloatArray]) -> Answers:
+def solve_rows(study: Study, columns: Mapping[str, FloatArray]) -> Answers:
     """Return the answers for scenes in which each key takes the values (rows,) of its column.
 
     A scene that is invalid, misses the accuracy or fails is a row with its status and reason.
     """
     rows = len(next(iter(columns.values())))
-    answers = _empty(rows, len(question.cycles))
+    answers = _empty(rows, len(study.cycles))
     scenes: dict[int, Scene] = {}
     for row in range(rows):
         try:
-            scenes[row] = question.scene.with_(
+            scenes[row] = study.scene.with_(
                 {key: float(column[row]) for key, column in columns.items()}
             )
         except ValueError as fault:  # SceneError is one
             _fail(answers, row, Status.INVALID_SCENE, str(fault))
     if scenes:
-        _solve(question, scenes, answers)
+        _solve(study, scenes, answers)
     return answers
+
+
+def solve_chunk(study: Study, chunk: Chunk) -> Answers:
+    """Return the answers of one chunk: what a worker runs."""
+    return solve_rows(study, study.design.columns(chunk))
 
 
 def _empty(rows: int, cycles: int) -> Answers:
@@ -83,19 +91,19 @@ def _fail(answers: Answers, row: int, status: Status, reason: str) -> None:
     answers.reason[row] = " ".join(reason.split())[:LONGEST_REASON]
 
 
-def _solve(question: Question, scenes: Mapping[int, Scene], answers: Answers) -> None:
+def _solve(study: Study, scenes: Mapping[int, Scene], answers: Answers) -> None:
     """Fill in the answers of the rows whose scenes are valid."""
     from wear.cycles import cycles_to_depth, sweep
 
     places = np.array(list(scenes))
-    found = sweep(list(scenes.values()), np.array(question.cycles, dtype=float), question.rtol)
+    found = sweep(list(scenes.values()), np.array(study.cycles, dtype=float), study.rtol)
     answers.bearing_wear_mm[places] = found.u_c
     answers.error_estimate[places] = found.error
     for row, error in zip(places.tolist(), found.error.max(axis=1).tolist(), strict=True):
-        if not error <= question.rtol:
-            reason = f"the estimated error is {error:.1e}, {question.rtol:.1e} was requested"
+        if not error <= study.rtol:
+            reason = f"the estimated error is {error:.1e}, {study.rtol:.1e} was requested"
             _fail(answers, row, Status.ACCURACY_MISSED, reason)
-    if question.until_wear is not None:
-        depth = np.array([question.until_wear])
-        reached = cycles_to_depth(list(scenes.values()), depth, question.rtol)
+    if study.until_wear is not None:
+        depth = np.array([study.until_wear])
+        reached = cycles_to_depth(list(scenes.values()), depth, study.rtol)
         answers.cycles_to_wear[places] = reached.cycles[:, 0]

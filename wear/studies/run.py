@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import time
+import math
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -13,13 +13,13 @@ from concurrent.futures import (
     Future,
     wait,
 )
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from wear.faults import UsageError, WorkersLost
+from wear.progress import Pace
 from wear.studies.design import Chunk, Design
-from wear.studies.rows import Answers, Question, solve_rows
+from wear.studies.rows import Answers, Study, solve_chunk
 from wear.studies.vary import Vary, parse
 
 if TYPE_CHECKING:
@@ -34,15 +34,6 @@ LOST = (BrokenExecutor, CancelledError, asyncio.CancelledError, OSError, Runtime
 IN_FLIGHT = 64  # chunks handed over at once: enough for a cluster, few enough for memory
 
 
-@dataclass(frozen=True)
-class Progress:
-    """How far a study is: rows done, rows in all, and seconds left."""
-
-    done: int
-    rows: int
-    seconds_left: float
-
-
 def study(
     scene: Scene | str,
     vary: Sequence[str | Vary],
@@ -55,7 +46,7 @@ def study(
     until_wear: float | None = None,
     rtol: float = 1e-7,
     executor: Executor | None = None,
-    report: Callable[[Progress], None] | None = None,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> xarray.Dataset:
     """Solve a scene for many combinations of its numbers; go on where an earlier call stopped.
 
@@ -80,8 +71,8 @@ def study(
     executor
         Anything with the interface of `concurrent.futures.Executor`: a process pool, Dask's
         `client.get_executor()`, mpi4py's. None solves the chunks here, one after the other.
-    report
-        Called with the progress after every chunk.
+    progress
+        Is told in words how far a study is that takes more than two seconds.
 
     Returns
     -------
@@ -96,26 +87,27 @@ def study(
     WorkersLost
         if the executor lost its workers; the same call goes on.
     """
-    plan, question = prepare(scene, vary, cycles, design, samples, seed, until_wear, rtol)
-    return run(plan, question, Path(output), executor, report).dataset()
+    asked = prepare(scene, vary, cycles, design, samples, seed, until_wear, rtol)
+    return run(asked, Path(output), executor, progress).dataset()
 
 
 def run(
-    plan: Design,
-    question: Question,
+    asked: Study,
     output: Path,
     executor: Executor | None,
-    report: Callable[[Progress], None] | None,
+    progress: Callable[[str], None],
 ) -> Store:
     """Solve the chunks that are missing at `output` and return the store of all, see `study`."""
     from wear.studies.store import Store
 
-    store = Store(output, plan, question)
+    store = Store(output, asked)
     left = list(store.missing())
-    clock = _Clock(plan.rows, sum(map(_rows, left)), report)
-    for chunk, answers in _answers(plan, question, left, executor):
+    pace, done = Pace(progress), 0
+    pace.begin("scene", sum(map(_rows, left)))
+    for chunk, answers in _answers(asked, left, executor):
         store.write(chunk, answers)
-        clock.add(_rows(chunk))
+        done += _rows(chunk)
+        pace.at(done)
     return store
 
 
@@ -128,8 +120,8 @@ def prepare(
     seed: int,
     until_wear: float | None,
     rtol: float,
-) -> tuple[Design, Question]:
-    """Return the design and the question of a study, or raise all that is wrong with them."""
+) -> Study:
+    """Return what is to be solved, or raise all that is wrong with it."""
     from wear.scene import load_scene
 
     base = load_scene(scene) if isinstance(scene, str) else scene
@@ -156,28 +148,25 @@ def prepare(
         faults.append(f"rtol: {rtol!r} is not between 1e-13 and 0.1")
     if faults or plan is None:
         raise UsageError("\n".join(faults))
-    return plan, Question(base, tuple(int(n) for n in cycles), until_wear, rtol)
+    return Study(base, plan, tuple(int(n) for n in cycles), until_wear, rtol)
 
 
 def _rows(chunk: Chunk) -> int:
-    rows = 1
-    for part in chunk:
-        rows *= part.stop - part.start
-    return rows
+    return math.prod(part.stop - part.start for part in chunk)
 
 
 def _answers(
-    plan: Design, question: Question, left: Sequence[Chunk], executor: Executor | None
+    asked: Study, left: Sequence[Chunk], executor: Executor | None
 ) -> Iterator[tuple[Chunk, Answers]]:
     """Yield every chunk that is left with its answers, as they come."""
     if executor is None:
         for chunk in left:
-            yield chunk, solve_rows(question, plan.columns(chunk))
+            yield chunk, solve_chunk(asked, chunk)
         return
     running: dict[Future[Answers], Chunk] = {}
     try:
         for chunk in left:
-            running[executor.submit(solve_chunk, plan, question, chunk)] = chunk
+            running[executor.submit(solve_chunk, asked, chunk)] = chunk
             if len(running) >= IN_FLIGHT:
                 yield from _finished(running)
         while running:
@@ -192,30 +181,9 @@ def _answers(
             future.cancel()
 
 
-def solve_chunk(plan: Design, question: Question, chunk: Chunk) -> Answers:
-    """Return the answers of one chunk: what a worker runs."""
-    return solve_rows(question, plan.columns(chunk))
-
-
 def _finished(running: dict[Future[Answers], Chunk]) -> Iterator[tuple[Chunk, Answers]]:
     """Yield what is done of the running chunks, at least one of them."""
     done, _ = wait(running, return_when=FIRST_COMPLETED)
     for future in done:
         yield running[future], future.result()
         del running[future]
-
-
-class _Clock:
-    """Reports progress, with the time left by the pace so far."""
-
-    def __init__(self, rows: int, left: int, report: Callable[[Progress], None] | None) -> None:
-        self._rows, self._left, self._todo, self._report = rows, left, left, report
-        self._start = time.monotonic()
-
-    def add(self, rows: int) -> None:
-        """Count rows that are done."""
-        self._left -= rows
-        if self._report is not None:
-            solved = self._todo - self._left
-            seconds = (time.monotonic() - self._start) * self._left / solved
-            self._report(Progress(self._rows - self._left, self._rows, seconds))

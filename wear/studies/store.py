@@ -11,6 +11,7 @@ import math
 import shutil
 import tempfile
 from collections.abc import Iterator
+from dataclasses import asdict
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
@@ -20,8 +21,8 @@ import numpy as np
 
 from wear.checked import unit_of
 from wear.faults import UsageError
-from wear.studies.design import Chunk, Design
-from wear.studies.rows import Answers, Question, Status
+from wear.studies.design import Chunk
+from wear.studies.rows import Answers, Status, Study
 from wear.studies.vary import Levels
 
 if TYPE_CHECKING:
@@ -57,11 +58,11 @@ class Store:
         xarray are not installed.
     """
 
-    def __init__(self, path: Path, design: Design, question: Question) -> None:
+    def __init__(self, path: Path, study: Study) -> None:
         if not (find_spec("zarr") and find_spec("xarray")):
             raise UsageError("a study needs zarr and xarray: pip install 'derive-wear[study]'")
-        self.path, self.design, self.question = path, design, question
-        self._identity = identity(design, question)
+        self.path, self.study, self.design = path, study, study.design
+        self._identity = identity(study)
         if path.exists():
             self._group: Any = self._opened()
         else:
@@ -70,7 +71,7 @@ class Store:
 
     @property
     def _variables(self) -> tuple[Variable, ...]:
-        asked = self.question.until_wear is not None
+        asked = self.study.until_wear is not None
         return tuple(v for v in VARIABLES if asked or v.name != "cycles_to_wear")
 
     def missing(self) -> Iterator[Chunk]:
@@ -134,13 +135,13 @@ class Store:
             group: Any = zarr.open_group(folder, mode="w", zarr_format=3)
             for name, dimensions, kind, attributes in self._arrays():
                 self._make(group, name, dimensions, kind, attributes)
-            group["cycle"][:] = np.array(self.question.cycles)
+            group["cycle"][:] = np.array(self.study.cycles)
             if self.design.kind == "grid":
                 for vary in self.design.vary:
                     assert isinstance(vary, Levels)
                     group[vary.key][:] = np.array(vary.values)
             group.attrs["study"] = json.dumps(self._identity)
-            group.attrs["scene"] = self.question.scene.to_toml()
+            group.attrs["scene"] = self.study.scene.to_toml()
             folder.chmod(0o755)
             folder.rename(self.path)
         except BaseException:
@@ -178,7 +179,7 @@ class Store:
         chunks = dict(zip(self.design.dimensions, self.design.chunk_shape, strict=True))
         if dimensions == (name,):  # a coordinate: known beforehand, and written whole
             chunks = {}
-        lengths["cycle"] = len(self.question.cycles)
+        lengths["cycle"] = len(self.study.cycles)
         fill = {"uint8": int(Status.PENDING), "string": "", "int64": 0}.get(kind, math.nan)
         group.create_array(
             name,
@@ -194,7 +195,7 @@ class Store:
         parent = self.path.parent
         if not parent.is_dir():
             raise UsageError(f"{self.path}: there is no folder {parent}; make it first")
-        needed, free = disk_bytes(self.design, self.question), shutil.disk_usage(parent).free
+        needed, free = disk_bytes(self.study), shutil.disk_usage(parent).free
         if needed > free:
             raise UsageError(
                 f"{self.path}: the study needs up to {needed / 1e9:.3g} GB, "
@@ -202,30 +203,25 @@ class Store:
             )
 
 
-def disk_bytes(design: Design, question: Question) -> int:
+def disk_bytes(study: Study) -> int:
     """Return the bytes that all results take before they are compressed."""
-    numbers = 2 * len(question.cycles) + (question.until_wear is not None)
-    keys = len(design.vary) if design.kind != "grid" else 0
-    return design.rows * (8 * (numbers + keys) + 1)
+    numbers = 2 * len(study.cycles) + (study.until_wear is not None)
+    keys = len(study.design.vary) if study.design.kind != "grid" else 0
+    return study.design.rows * (8 * (numbers + keys) + 1)
 
 
-def identity(design: Design, question: Question) -> dict[str, Any]:
+def identity(study: Study) -> dict[str, Any]:
     """Return what makes two studies the same: their results agree in every bit."""
     made = {
-        "scene": question.scene.to_tables(),
-        "vary": [
-            {"key": v.key, "values": list(v.values)}
-            if isinstance(v, Levels)
-            else {"key": v.key, "law": v.law, "parameters": list(v.parameters)}
-            for v in design.vary
-        ],
-        "design": design.kind,
-        "samples": design.samples,
-        "seed": design.seed,
-        "cycles": list(question.cycles),
-        "until_wear_mm": question.until_wear,
-        "rtol": question.rtol,
-        "rows_of_a_chunk": list(design.chunk_shape),
+        "scene": study.scene.to_tables(),
+        "vary": [asdict(vary) for vary in study.design.vary],
+        "design": study.design.kind,
+        "samples": study.design.samples,
+        "seed": study.design.seed,
+        "cycles": list(study.cycles),
+        "until_wear_mm": study.until_wear,
+        "rtol": study.rtol,
+        "rows_of_a_chunk": list(study.design.chunk_shape),
         "version": version("derive-wear"),
     }
     return dict(json.loads(json.dumps(made)))

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from wear import figure_style, figures
+from wear import figures
 from wear.figure_data import WEAR, Line, Panel
 from wear.report import drawing
-from wear.report.document import Document, Equation, Figure
+from wear.report.document import Document, Equation, Figure, drawn
 from wear.report.number import Number
 from wear.report.text import parsed
 
@@ -45,21 +46,16 @@ EQUATIONS = (
 )  # fmt: skip
 
 
-def _figures() -> dict[str, Figure]:
+def _figures() -> Mapping[str, Figure]:
     x = np.linspace(0.0, 100.0, 51)
     lines = (Line("bearing", x, 1e-4 * np.log1p(x)), Line("pin", x, 3e-5 * np.log1p(x), 1))
-    drawn = {
-        "system": (drawing.system(), drawing.DESCRIPTION),
-        "wear": (
-            figures.history([Panel(WEAR, lines)]),
-            "Wear grows quickly, then ever more slowly.",
-        ),
-        "again": (figures.history([Panel(WEAR, lines[:1])]), "Wear grows ever more slowly."),
-    }
-    return {
-        f"fig:{name}": Figure(said, figure_style.svg(figure), figure_style.pdf(figure), name)
-        for name, (figure, said) in drawn.items()
-    }
+    return drawn(
+        {
+            "system": drawing.system(),
+            "wear": figures.history([Panel(WEAR, lines)]),
+            "again": figures.history([Panel(WEAR, lines[:1])]),
+        }
+    )
 
 
 def document(text: str, **values: object) -> Document:

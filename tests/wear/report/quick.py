@@ -11,9 +11,9 @@ from functools import cache
 from derive.catalogue import equations
 from derive.check import Check
 from derive.equations import Equation
-from wear.benchmark import Measurement, Status
 from wear.report.claims import Entry, ledger
 from wear.report.document import Document
+from wear.report.paper import drawings
 from wear.report.paper import paper as written
 from wear.report.runs import Runs, run
 from wear.report.verification import Verification, identity
@@ -35,15 +35,6 @@ def few_claims() -> tuple[Entry, ...]:
     return ledger(ids=CLAIMS)
 
 
-def measurements() -> tuple[Measurement, ...]:
-    """A benchmark of two methods that did not take place."""
-    return tuple(
-        Measurement(method, "section4", cycles, 1e-6, seconds, 1, 1e-8, None, None, Status.MET, "")
-        for method, seconds in (("abel", 1e-3), ("wear DOP853", 0.5))
-        for cycles in (1, 100)
-    )
-
-
 @cache
 def runs() -> Runs:
     """The runs of the report, made once for all tests."""
@@ -54,4 +45,4 @@ def runs() -> Runs:
 def paper() -> Document:
     """The paper on these."""
     found = equations()
-    return written(found, trusted(found), runs(), few_claims(), measurements())
+    return written(found, trusted(found), runs(), few_claims(), drawings(runs()))

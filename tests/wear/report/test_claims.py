@@ -20,6 +20,7 @@ VERDICTS = {
     "C38": Verdict.REFUTED,
     "C39": Verdict.CONDITIONAL,
     "C40": Verdict.INCONSISTENT,
+    "C41": Verdict.INCONSISTENT,
 }
 FIGURES = {
     "C16": ("0.00109746298",),
@@ -30,6 +31,7 @@ FIGURES = {
     "C37": ("4.0701",),
     "C38": ("194, 205, 217, 243",),
     "C40": ("4.38e-23",),
+    "C41": ("1.5 H_c", "243.3 MPa in cycle 1,"),
 }
 
 

@@ -29,6 +29,7 @@ function readState() {
 }
 
 function variantOf(state) {
+  if (chosen.load.area) return `${state.law}/given_load_${state.pin}`;
   return `${state.law}/${state.compliant ? "compliant" : "rigid"}_${state.pin}`
     + (state.cutoff ? "_ends_at_3_sigma" : "");
 }
@@ -72,6 +73,7 @@ function useScene(name) {
 function enableWhatActs(state) {
   const wears = state.pin.startsWith("worn");
   $("opening").disabled = !wears;
+  $("cutoff").disabled = Boolean(chosen.load.area);
   const acts = {
     K_a: wears, H_a: wears,
     sigma_a0: state.pin.endsWith("rough"), f_a: state.pin === "worn_rough",
@@ -86,8 +88,11 @@ function enableWhatActs(state) {
 // What the controls say, solved.
 
 function solveState(state) {
-  const functions = functionsOf(variantOf(state));
-  const c = functions.bind(state.parameters, state.opening ? 1 : -1);
+  const { area } = chosen.load;
+  const functions = area ? underForce(functionsOf(`${state.law}/compliant_${state.pin}`), area)
+    : functionsOf(variantOf(state));
+  const k = area && !state.compliant ? Infinity : state.parameters.k;
+  const c = functions.bind({ ...state.parameters, k }, state.opening ? 1 : -1);
   const load = makeLoad(chosen.load, state.parameters.U);
   const solver = makeSolver(functions, c, load, state.parameters.T);
   const jumps = functions.margin !== undefined && functions.residual === undefined;
@@ -101,6 +106,17 @@ function solveState(state) {
   const rough = (u) => fields(u, load.minimum).sigma > 0;
   const history = wearOverCycles(solver, Math.round(state.cycles), settled, rough);
   return { functions, c, load, solver, fields, history };
+}
+
+// Where the load is a force it gives the pressure, and the displacement, which the page does not
+// show, follows.
+function underForce(functions, area) {
+  const pressure = (R_a) => REACTION.pressure(R_a, area);
+  return {
+    bind: functions.bind,
+    right_hand_side: (u, R_a, c) => functions.rate(pressure(R_a), c),
+    fields: (u, R_a, c) => functions.fields(pressure(R_a), u, 0, c),
+  };
 }
 
 // Pressure at phases of the cycle that starts with wear u, the peak of the load among them.
@@ -216,6 +232,10 @@ const REGIMES = {
 function longRun(state, { functions, c, load }) {
   const wears = state.pin.startsWith("worn");
   const own = state.parameters;
+  if (chosen.load.area) {
+    const pressure = REACTION.pressure(load.mean, chosen.load.area);
+    return { kind: "steady", pressure, perCycle: FORMULAS.wear_per_cycle({ ...own, p_inf: pressure }), drift: 0 };
+  }
   const rough = state.pin.endsWith("rough")
     ? { sigma_a0: own.sigma_a0, f_a: wears ? own.f_a : 0 } : { sigma_a0: 0, f_a: 0 };
   const data = {
@@ -304,6 +324,7 @@ function tell(state, solved, end, found) {
   if (Object.values(fields).some((value) => !(Math.abs(value) < 1e300))) {
     notices.push("These numbers are outside the range in which the model has a value.");
   }
+  if (end.peak > state.parameters.p_max) notices.push("The contact does not carry this force: its pressure exceeds p_max.");
   if (fields.sigma_c < 0) notices.push("The roughness of the bearing is negative: beyond what the model means.");
   notify(notices);
 }

@@ -3,15 +3,16 @@
 
 function sceneFile(state) {
   const { U, T } = state.parameters;
-  const { kind, period_s } = chosen.load;
+  const { kind, file, period_s } = chosen.load;
+  const what = kind === "force" ? "forces" : "displacements";
   const tables = Object.entries({ ...keysThatAct(state), load: loadEntries(state.parameters) });
   const parts = tables.map(([name, entries]) => [
     "", `[${name}]`, ...Object.entries(entries).map(([key, value]) => `${key} = ${toml(value)}`), "",
   ].join("\n"));
-  const other = kind === "table" && (U !== 1 || T !== period_s);
+  const other = file && (U !== 1 || T !== period_s);
   return [
     `title = ${toml(chosen.title)}\n`, ...parts,
-    ...(other ? [`# to be multiplied in that file: its displacements by ${U}, its times by ${T / period_s}\n`] : []),
+    ...(other ? [`# to be multiplied in that file: its ${what} by ${U}, its times by ${T / period_s}\n`] : []),
   ];
 }
 
@@ -29,13 +30,15 @@ function keysThatAct(state) {
   if (!rough) tables.pin.roughness_mm = 0;
   if (!wears || !rough) tables.pin.roughness_growth = 0;
   if (wears) tables.contact.pin_wear_opens_gap = state.opening;
+  const { area } = chosen.load;
+  if (area) Object.assign(tables.contact, { width_mm: area.b, length_mm: area.L });
   if (state.pin === "bearing") delete tables.pin;
   if (!state.compliant) delete tables.support;
   return tables;
 }
 
 function loadEntries({ U, T }) {
-  const { kind, value_mm, mean_mm, cosine_mm, sine_mm, file, period_s } = chosen.load;
+  const { kind, value_mm, mean_mm, cosine_mm, sine_mm, file, period_s, phase, value } = chosen.load;
   const times = (list) => list.map((value) => U * value);
   return {
     sine: () => ({ kind, amplitude_mm: U, period_s: T }),
@@ -43,7 +46,10 @@ function loadEntries({ U, T }) {
     harmonics: () => ({
       kind, mean_mm: U * mean_mm, cosine_mm: times(cosine_mm), sine_mm: times(sine_mm), period_s: T,
     }),
-    table: () => ({ kind, file, period_s }),
+    table: () => (file ? { kind, file, period_s }
+      : { kind, times_s: phase.map((x) => T * x), values_mm: times(value) }),
+    force: () => (file ? { kind, file, period_s }
+      : { kind, times_s: phase.map((x) => T * x), forces_N: times(value) }),
   }[kind]();
 }
 

@@ -1,7 +1,7 @@
-"""Loads that do not repeat, as a sequence of loads that do, each from some cycle to another.
+"""Every load as a sequence of loads that repeat, each from some cycle to another.
 
 A load made of blocks is periodic inside each. A measured history is taken cycle by cycle, every
-row a kink where the integrator stops: `wear.records` is faster by far where contact is smooth.
+row a kink where an integrator stops: `wear.records` is faster by far where contact is smooth.
 """
 
 from __future__ import annotations
@@ -10,17 +10,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.direct.problem import Real
-from wear.load import AperiodicLoad, Blocks, HistoryLoad, Load
+from wear.load.blocks import Blocks
+from wear.load.lines import HistoryLoad
+from wear.load.phase import FloatArray
+from wear.load.protocol import Load
 
 FOREVER = 1 << 62
 
+Loading = Load | Blocks | HistoryLoad
+"""What may stand in a scene: a load that repeats, or one that does not."""
+
 
 class Span(NamedTuple):
-    """A load that can be taken as periodic up to cycle `until`."""
+    """A load that repeats up to cycle `until`, and its `place` in the scene file."""
 
     load: Load
     until: int
+    place: str = "load"
 
 
 class Window:
@@ -40,35 +46,34 @@ class Window:
         self.minimum, self.maximum = float(np.min(levels)), float(np.max(levels))
         self.mean = float(np.trapezoid(levels, phases))
 
-    def __call__(self, phase: Real) -> Real:
+    def __call__(self, phase: FloatArray | float) -> FloatArray:
         return self._history.value(self._time(phase))
 
-    def slope(self, phase: Real) -> Real:
+    def slope(self, phase: FloatArray | float) -> FloatArray:
         return self._history.slope(self._time(phase)) * self.period
 
-    def gradient(self, phase: Real) -> dict[str, Real]:
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         """Return nothing: the rows of a history are no parameters."""
         return {}
 
-    def _time(self, phase: Real) -> Real:
+    def _time(self, phase: FloatArray | float) -> FloatArray:
         return np.minimum(self._start + np.asarray(phase) * self.period, self._history.duration)
 
 
-def span(load: Load | AperiodicLoad, cycle: int) -> Span:
+def span(load: Loading, cycle: int) -> Span:
     """Return the load that acts from the start of a cycle (counted from 0), and how long it
-    repeats."""
+    repeats; at the end of blocks the last of them."""
     if isinstance(load, HistoryLoad):
         return Span(Window(load, cycle), cycle + 1)
     if not isinstance(load, Blocks):
-        return Span(load, FOREVER)  # type: ignore[arg-type]  # what is left of the union
-    done = cycle - cycle % sum(block.cycles for block in load.blocks)
-    for block in load.blocks:
-        done += block.cycles
-        if cycle < done:
-            return Span(block.load, done)
-    raise AssertionError("a cycle lies in some block of its round")
+        return Span(load, FOREVER)
+    rounds, rest = divmod(min(cycle, load.cycles - 1), load.cycles_of_round)
+    ends = np.cumsum([block.cycles for block in load.blocks])
+    at = int(np.searchsorted(ends, rest, side="right"))
+    until = rounds * load.cycles_of_round + int(ends[at])
+    return Span(load.blocks[at].load, until, f"load.blocks[{at}]")
 
 
-def most_cycles(load: Load | AperiodicLoad) -> int:
+def most_cycles(load: Loading) -> int:
     """Return how many whole cycles the load has."""
     return int(load.cycles * (1.0 + 1e-12)) if isinstance(load, Blocks | HistoryLoad) else FOREVER

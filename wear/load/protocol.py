@@ -1,4 +1,4 @@
-"""What a load has to offer, periodic or not."""
+"""What a load that repeats has to offer."""
 
 from __future__ import annotations
 
@@ -43,39 +43,3 @@ class Load(Protocol):
     @property
     def peaks(self) -> tuple[float, ...]:
         """Phases in [0, 1), increasing, of the local maxima; a flat top counts at its start."""
-
-
-class AperiodicLoad(Protocol):
-    """A displacement that does not repeat, on 0 <= t <= duration."""
-
-    @property
-    def duration(self) -> float:
-        """s."""
-
-    @property
-    def cycles(self) -> float:
-        """How many cycles the load counts as."""
-
-    def time_at(self, cycles: float) -> float:
-        """The time in s at which that many cycles are done."""
-
-    def value(self, time: FloatArray | float) -> FloatArray:
-        """U_a in mm at a time in s."""
-
-    def slope(self, time: FloatArray | float) -> FloatArray:
-        """dU_a/dt in mm/s; at a breakpoint the slope to its right."""
-
-    def breakpoints(self, start: float, end: float) -> FloatArray:
-        """Times in (start, end), increasing, at which U_a has a kink or a jump."""
-
-    @property
-    def minimum(self) -> float:
-        """Least U_a, mm."""
-
-    @property
-    def maximum(self) -> float:
-        """Largest U_a, mm."""
-
-    @property
-    def mean(self) -> float:
-        """Mean of U_a over the duration, mm."""

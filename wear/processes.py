@@ -1,0 +1,68 @@
+"""Processes beside this one: workers, and an assistant for what can be done meanwhile."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from typing import ParamSpec, Protocol, TypeVar
+
+Result = TypeVar("Result")
+Arguments = ParamSpec("Arguments")
+
+
+class Ask(Protocol):
+    """Has a task done elsewhere; what it returns fetches the result."""
+
+    def __call__(
+        self, task: Callable[Arguments, Result], *given: Arguments.args, **named: Arguments.kwargs
+    ) -> Callable[[], Result]: ...
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    counted = os.process_cpu_count() if hasattr(os, "process_cpu_count") else os.cpu_count()
+    return counted or 1
+
+
+@contextmanager
+def workers(number: int) -> Iterator[ProcessPoolExecutor]:
+    """Give so many processes; an exception, Ctrl-C say, ends what they are doing."""
+    context = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(number, mp_context=context, initializer=_ignore_interrupts)
+    try:
+        yield pool
+        pool.shutdown()
+    except BaseException:  # what is half done is not waited for
+        pool.shutdown(wait=False, cancel_futures=True)
+        for process in multiprocessing.active_children():
+            process.terminate()
+        raise
+
+
+@contextmanager
+def assistant() -> Iterator[Ask]:
+    """Give a way to have tasks done one after another on a second core, if there is one; a task
+    that is fetched before it was begun is done here."""
+
+    def alone(task, *given, **named):  # type: ignore[no-untyped-def]
+        return lambda: task(*given, **named)
+
+    if cores() == 1:
+        yield alone
+        return
+    with workers(1) as pool:
+
+        def ask(task, *given, **named):  # type: ignore[no-untyped-def]
+            begun = pool.submit(task, *given, **named)
+            return lambda: task(*given, **named) if begun.cancel() else begun.result()
+
+        yield ask
+
+
+def _ignore_interrupts() -> None:
+    """Leave Ctrl-C to the process that the user started."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
