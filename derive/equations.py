@@ -2,6 +2,7 @@
 
 Key results
     Equation    id, section, title, statements, printed form, display form
+    beyond      an equation beyond the note
     Status      definition, derived, derived-numerically, corrected, refuted
     verify      every check an equation rests on
 """
@@ -138,6 +139,21 @@ class Equation:
         if all(isinstance(s.rule, Assume) for s in self.statements):
             return Status.DEFINITION
         return Status.DERIVED
+
+
+def beyond(
+    section: str,
+    identifier: str,
+    title: str,
+    statements: Judgement | tuple[Judgement, ...],
+    display: sp.Basic | tuple[sp.Basic, ...] = (),
+    where: tuple[sp.Eq, ...] = (),
+    remark: str = "",
+) -> Equation:
+    """Return a result beyond the note, which has no printed form of it; one or several each."""
+    stated = (statements,) if isinstance(statements, Judgement) else statements
+    shown = display if isinstance(display, tuple) else (display,)
+    return Equation(identifier, section, title, stated, (), shown, remark=remark, where=where)
 
 
 def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:

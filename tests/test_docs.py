@@ -33,7 +33,7 @@ PAGES = [
 ]
 SCRIPTS = [DOCS / "tour.py", *sorted((DOCS / "gallery").glob("*.py"))]
 LAW_PAGE = DOCS / "how-to" / "own-contact-law.md"
-NEEDS = {"finite-elements.md": "gfortran", "latex-report.md": "pdflatex"}
+NEEDS = {"finite-elements.md": "gfortran", "latex-report.md": "pdflatex", "fe_coupling.py": "gcc"}
 NOT_RUN = {
     "",
     "text",
@@ -199,8 +199,10 @@ def test_every_example_is_used():
 
 @pytest.mark.usefixtures("workplace")
 @pytest.mark.parametrize("script", SCRIPTS, ids=name_of)
-def test_a_notebook_is_what_its_script_gives(script):
+def test_a_notebook_is_what_its_script_gives(script, need_tool):
     """Cells and outputs are those of a run now; figures agree to a hundredth of a point."""
+    if script.name in NEEDS:
+        need_tool(NEEDS[script.name])
     sys.path.insert(0, str(DOCS / "_extensions"))
     try:
         from notebook import notebook

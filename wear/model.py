@@ -288,6 +288,20 @@ def bind(scene: Scene) -> Model:
     return _bind(scene.variant, scene.parameters(), scene.pin_wear_sign)
 
 
+def stacked(models: Sequence[Model]) -> Model:
+    """Return one model of those of many scenes of one variant; its constants have shape
+    (scenes,)."""
+
+    def joined(bounds: Sequence[Bound]) -> Bound:
+        first, parts = bounds[0], zip(*(bound[1:] for bound in bounds), strict=True)
+        constants, data, signs = (map(np.array, zip(*part, strict=True)) for part in parts)
+        numbers = first.constants._make(constants), first.data._make(data), tuple(signs)
+        return Bound(first.module, *numbers)
+
+    losses = [model.loss for model in models if model.loss is not None]
+    return Model(joined([model.bound for model in models]), joined(losses) if losses else None)
+
+
 def bind_many(scenes: Sequence[Scene]) -> Model:
     """Return one model of many scenes; its constants have shape (scenes, 1).
 

@@ -324,9 +324,9 @@ def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """Return the cycle in which wear stops, from the cycle count, as far as its error lets it be
     told."""
     from wear.cycles import MOST_CYCLES
-    from wear.loss_of_contact.count import counted_stages
+    from wear.loss_of_contact.count import Wanted, counted_stages
 
-    found = counted_stages(bind(case.scene), case.load, MOST_CYCLES, 1e-12, 0.0)
+    (found,) = counted_stages([Wanted(bind(case.scene), case.load, MOST_CYCLES)], 1e-12)
     arrest = found.arrest
     if arrest is not None and arrest.fades:
         return None, (str(arrest),)

@@ -17,7 +17,7 @@ from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history import History
 from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
-from wear.orbit.segments import Cost
+from wear.orbit.problem import Cost
 from wear.outcome import Outcome
 from wear.scene.plausibility import implausible_results
 from wear.states import displacement_of, fields_at, negative_roughness, reaction_of

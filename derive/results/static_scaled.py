@@ -16,7 +16,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..codegen.formulas import Formula, formula_module
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.algebra import Insert, inserted, substitute
@@ -117,12 +117,12 @@ def equations() -> tuple[Equation, ...]:
             exponent.relation,
             sp.Eq(z, -(2 * beta / sigma)),
         )
-    return (
-        Equation(
-            "static-solution-scaled",
-            "static load",
-            "the primitive without overflow",
-            (scaled_primitive(), exponent, argument),
-            display=display,
-        ),
+    statements = scaled_primitive(), exponent, argument
+    found = beyond(
+        "static load",
+        "static-solution-scaled",
+        "the primitive without overflow",
+        statements,
+        display,
     )
+    return (found,)

@@ -17,6 +17,7 @@ import sympy as sp
 from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..note.model import SUPPORT
 from ..symbols import DATA, symbols, t
 from .proving import continuous, require_defined, smooth
 from .reading import (
@@ -32,7 +33,7 @@ from .reading import (
 
 U_c, p, k, T, tau = symbols("U_c p k T tau")
 
-SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", sp.Eq(k * U_c - p, 0), kind=Kind.MODEL)
+SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", SUPPORT, kind=Kind.MODEL)
 WEARING = symbols("u_a u_c sigma_a sigma_c")
 DIFFERENTIABLE = Hypothesis("differentiable load", kind=Kind.LOAD)
 RIGID = Hypothesis("rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING)

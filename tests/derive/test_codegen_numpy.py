@@ -362,7 +362,7 @@ def drawn(draw):
     return variant, exact.point(variant, generator, argument, vanishing=draw(st.booleans()))
 
 
-@settings(max_examples=300)
+@settings(max_examples=120)
 @given(drawn())
 def test_functions_are_accurate_to_roundoff(case):
     """At most 8 units of roundoff times the sum of the absolute terms, for every function."""

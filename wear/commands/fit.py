@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Iterator
 from dataclasses import asdict, replace
 from importlib.util import find_spec
@@ -73,7 +72,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(options: argparse.Namespace) -> int:
     """Fit, and print what came out."""
     from wear.faults import UsageError
-    from wear.fitting.estimate import estimated, prepare
+    from wear.fitting.estimate import Fit, prepare
+    from wear.fitting.least_squares import estimate
     from wear.fitting.posterior import posterior
     from wear.fitting.profiles import profiles
     from wear.progress import Pace
@@ -84,17 +84,18 @@ def execute(options: argparse.Namespace) -> int:
         faults.add("--forecast: 0 is the fresh state; give cycles from 1 on")
     if options.posterior is not None and not find_spec("emcee"):
         faults.add("--posterior needs emcee: pip install 'derive-wear[fit]'")
-    problem = None
+    model = None
     if options.scene is not None:
         asked = (options.free, options.free_each, options.error, options.ignore)
         try:
-            problem = prepare(options.data, options.scene, *asked)
+            model = prepare(options.data, options.scene, *asked)
         except UsageError as fault:
             faults.add(str(fault))
     faults.stop_if_any()
-    assert problem is not None
+    assert model is not None
     with terminal.busy("fitting") as tell:
-        found = profiles(estimated(replace(problem, pace=Pace(tell))))
+        model = replace(model, pace=Pace(tell))
+        found = profiles(Fit(model, estimate(model)))
         tell("sampling the posterior")
         samples = posterior(found, int(options.posterior)) if options.posterior else None
         tell("forecasting")
@@ -130,13 +131,13 @@ def as_json(
         for row, ends in zip(parameters, np.quantile(samples, [0.025, 0.5, 0.975], axis=0).T,
                              strict=True):  # fmt: skip
             row |= {"posterior_median": ends[1], "posterior_95": [ends[0], ends[2]]}
-    others = alternatives(found.model.specimens, found.problem.residuals.relative)
+    others = alternatives(found.model.specimens, found.model.residuals.relative)
     own_forecast = forecast.forecast_rms_from_first_half(found)
     notices = [f"the {law.law} law describes these data better (AICc)"
                for law in others if law.aicc < found.aicc]  # fmt: skip
     notices += [f"the {law.law} law foretells the last readings better, from the first half"
                 for law in others if law.forecast_rms < own_forecast]  # fmt: skip
-    if found.degrees_of_freedom == 0 and not found.problem.residuals.known:
+    if found.degrees_of_freedom == 0 and not found.model.residuals.known:
         notices.append("there are as many parameters as readings: the scatter is unknown")
     return {
         "scene": found.model.scene.title or found.model.scene.name,
@@ -219,15 +220,14 @@ def _write(folder: Path, found: Fit, document: dict[str, Any], samples: FloatArr
     if samples is not None:
         drawn["corner.svg"] = figures.corner(found, samples)
     with files.replacing_in(folder) as made:
-        text = json.dumps(terminal.plain(document), indent=2, allow_nan=False)
-        made.joinpath("fit.json").write_text(text + "\n", encoding="utf-8")
+        files.write_atomically(made / "fit.json", terminal.json_text(document))
         scenes = found.model.scenes(found.theta)
         for place, (specimen, scene) in enumerate(zip(found.model.specimens, scenes, strict=True)):
             safe = "".join(c if c.isalnum() or c in "-_" else "_" for c in specimen.name)
             name = f"fitted-{safe or place + 1}.toml" if len(scenes) > 1 else "fitted.toml"
-            made.joinpath(name).write_text(scene.to_toml(), encoding="utf-8")
+            files.write_atomically(made / name, scene.to_toml())
         for name, figure in drawn.items():
-            made.joinpath(name).write_bytes(encoded(figure, ".svg"))
+            files.write_atomically(made / name, encoded(figure, ".svg"))
 
 
 COMMAND = Command(

@@ -129,6 +129,7 @@ def execute(options: argparse.Namespace) -> int:
 
 def _dry_run(options: argparse.Namespace, asked: Study, workers: int) -> int:
     """Solve a few rows, and print what all of them would take."""
+    from wear.benchmark.results import duration
     from wear.studies.rows import solve_rows
     from wear.studies.store import disk_bytes
 
@@ -141,8 +142,8 @@ def _dry_run(options: argparse.Namespace, asked: Study, workers: int) -> int:
         terminal.print_json({"scenes": rows, "core_seconds": seconds, "disk_bytes": size})
         return terminal.DONE
     print(
-        f"{rows} scenes, about {_duration(seconds)} of one core "
-        f"({_duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
+        f"{rows} scenes, about {duration(seconds)} of one core "
+        f"({duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
     )
     return terminal.DONE
 
@@ -180,16 +181,6 @@ def _cluster(address: str) -> Iterator[Executor]:
         yield client.get_executor()
     finally:
         client.close(timeout=LONGEST_WAIT)
-
-
-def _duration(seconds: float) -> str:
-    """
-    >>> _duration(0.5), _duration(90.0), _duration(7200.0)
-    ('0.5 s', '90 s', '2 h')
-    """
-    if seconds < 120:
-        return f"{seconds:.2g} s"
-    return f"{seconds / 60:.3g} min" if seconds < 7200 else f"{seconds / 3600:.3g} h"
 
 
 def _print(options: argparse.Namespace, store: Store) -> None:

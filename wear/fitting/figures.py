@@ -30,7 +30,7 @@ def data_and_band(fit: Fit) -> Figure:
     cycles = np.unique(np.rint(np.geomspace(first, last, _POINTS)))
     curves = _curves(fit, cycles)
     ends = np.cumsum([len(specimen.cycles) for specimen in fit.model.specimens])[:-1]
-    relative = fit.problem.residuals.relative
+    relative = fit.model.residuals.relative
     with styled():
         figure, axes = canvas(COLUMN_AND_HALF, COLUMN_AND_HALF)
         axes.remove()
@@ -47,7 +47,7 @@ def data_and_band(fit: Fit) -> Figure:
             bottom.plot(specimen.cycles, residuals, **drawn)
         bottom.axhline(0.0, color=GREY, lw=0.6)
         top.set(xscale="log", yscale="log", ylabel=r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)")
-        words = "Residual / scatter" if fit.problem.residuals.known else (
+        words = "Residual / scatter" if fit.model.residuals.known else (
             r"Residual of $\ln\,u_c$" if relative else "Residual (mm)"
         )  # fmt: skip
         bottom.set(xlabel="Cycles  $N$", ylabel=words)
