@@ -67,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o",
         "--output",
         metavar="FILE",
-        type=arguments.file(*run_output.WRITERS),
+        type=arguments.file(*run_output.SUFFIXES),
         help="write the states to a .csv, .nc or .tex file",
     )
 
