@@ -2,9 +2,8 @@
 
     python docs/bench/many_scenes.py
 
-Times are of the processor, so that other work of the machine does not count. Workers are compared
-with the same chunks in one process: what they take beyond is the cost of handing chunks over. Half
-as many chunks are taken off, and with them the start of the workers, which is paid once.
+Times are of the processor, so that other work of the machine does not count. What workers cost is
+the time of all processes for handing over a chunk and its answers, without solving it.
 """
 
 from __future__ import annotations
@@ -22,11 +21,11 @@ import numpy as np
 from wear import processes
 from wear.scene import Scene, load_scene
 from wear.studies.design import ROWS
-from wear.studies.rows import solve_rows
-from wear.studies.run import prepare, run
+from wear.studies.rows import Answers, Study, solve_rows
+from wear.studies.run import prepare
 
 CYCLES = (9_000, 1_000_000)
-WORKERS, CHUNKS = 2, 8
+WORKERS, TASKS = 2, 200
 KINDS = {"smooth": 1024, "compliant support": 512, "measured load": 64, "loss of contact": 32}
 NAMES = {
     "smooth": "section4",
@@ -48,13 +47,13 @@ def main() -> None:
             seconds = time.process_time() - start
             assert not answers.status.any()
             print(f"| {kind} | {rows} | {rows / seconds:.0f} |", flush=True)
-    alone = half(none)
-    print(f"\na chunk alone: {alone / (CHUNKS // 2):.2f} s; time of all processes over that:")
+    print("\nhanding over a chunk and its answers:")
     for name, executor in (("process pool", pool), ("Dask", dask)):
-        print(f"{name}, {WORKERS} workers: {half(executor) / alone:.3f}", flush=True)
+        seconds = (taken(executor, 2 * TASKS) - taken(executor, TASKS)) / TASKS
+        print(f"{name}, {WORKERS} workers: {1e3 * seconds:.2f} ms", flush=True)
 
 
-def study(scene: Scene, rows: int):
+def study(scene: Scene, rows: int) -> Study:
     """Return the study of so many roughness growths."""
     vary = [f"bearing.roughness_growth=0.2:0.3:{rows}"]
     return prepare(scene, vary, CYCLES, "grid", 0, 0, None, 1e-7)
@@ -73,34 +72,26 @@ def measured(folder: Path) -> Scene:
     return Scene.from_dict(tables, folder=folder)
 
 
-def half(executor) -> float:
-    """Return the time of half of the chunks, once the workers are at work."""
-    return taken(executor, ROWS * CHUNKS) - taken(executor, ROWS * CHUNKS // 2)
-
-
-def taken(executor, rows: int) -> float:
-    """Return the time of all processes for a study of so many rows."""
-    before = spent()
-    with tempfile.TemporaryDirectory() as folder, executor() as workers:
-        store = run(study(load_scene("section4"), rows), Path(folder) / "out.zarr", workers, silent)
-        assert store.counts()["done"] == rows
+def taken(executor, tasks: int) -> float:
+    """Return the time of all processes for handing over so many chunks, the start included."""
+    before, asked = spent(), study(load_scene("section4"), ROWS)
+    with executor() as workers:
+        for number in range(0, tasks, WORKERS):
+            some = [workers.submit(unsolved, asked, number + k) for k in range(WORKERS)]
+            assert all(len(each.result().reason) == ROWS for each in some)
     return spent() - before
+
+
+def unsolved(asked: Study, number: int) -> Answers:
+    """Return answers of the size of a chunk, of a task that differs by its number."""
+    wear = np.full((2, ROWS, len(asked.cycles)), float(number))
+    return Answers(*wear, wear[0, :, 0], np.zeros(ROWS, dtype=np.uint8), [""] * ROWS)
 
 
 def spent() -> float:
     """Return the processor's time of this process and those that it has ended."""
     both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(each.ru_utime + each.ru_stime for each in both)
-
-
-def silent(_: str) -> None:
-    """Say nothing."""
-
-
-@contextmanager
-def none() -> Iterator[None]:
-    """Give no workers: all is solved here."""
-    yield None
 
 
 @contextmanager

@@ -64,5 +64,9 @@ def _summary(verdicts: Sequence[str]) -> str:
 
 
 COMMAND = Command(
-    "claims", "the note's claims, each decided by a computation", EXAMPLE, add_arguments, execute
+    "claims",
+    "the claims of the published note, each decided by a computation",
+    EXAMPLE,
+    add_arguments,
+    execute,
 )

@@ -48,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--until-wear",
         metavar="MM,...",
         type=_depths,
-        help="also after how many cycles the bearing has worn so",
+        help="also print the number of cycles to these depths of wear",
     )
     parser.add_argument(
         "--time-limit",

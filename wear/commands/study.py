@@ -89,9 +89,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--workers",
         metavar="N",
         type=arguments.number(1, 1024),
-        help="processes on this machine (default: cores)",
+        help="processes on this machine (default: one for each core)",
     )
-    where.add_argument("--scheduler", metavar="ADDRESS", help="of a running Dask scheduler")
+    where.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="use the workers of the Dask scheduler that runs there",
+    )
     parser.add_argument(
         "--dry-run", action="store_true", help="say how many scenes, how long, how much disk"
     )
