@@ -193,7 +193,22 @@ def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypot
     kept = (h for h in union if h not in made.discharges)
     hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
     _require_language(made.claim.relation, *(h.relation for h in hypotheses))
+    _require_names(hypotheses)
     return hypotheses, made.claim
+
+
+def _require_names(hypotheses: tuple[Hypothesis, ...]) -> None:
+    """Refuse a name that is defined twice, or by itself: no reader sees what that says."""
+    relations = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
+    values = [r.args for r in relations if isinstance(r, sp.Equality)]
+    names = {name for name, _ in values}
+    if len(names) < len(values):
+        raise RuleError("two definitions of one name")
+    while names:
+        done = {name for name, value in values if name in names and not value.has(*names)}
+        if not done:
+            raise RuleError(f"{listed(map(str, names))} is no new name: a circle of definitions")
+        names -= done
 
 
 def _require_language(*expressions: sp.Basic) -> None:

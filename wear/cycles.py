@@ -22,9 +22,12 @@ from numpy.typing import NDArray
 from wear.equation import WearEquation, equation_of
 from wear.load import Blocks, Load, Loading
 from wear.load.spans import most_cycles, span
-from wear.loss_of_contact.count import counted_stages
+from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.model import Model, bind
-from wear.orbit.segments import LEAST, NEARLY, Cost, Orbit, orbit
+from wear.orbit.iterates import Iterates
+from wear.orbit.plan import LEAST
+from wear.orbit.problem import Cost
+from wear.orbit.segments import NEARLY, Orbit, orbit
 from wear.progress import Pace
 from wear.resampling import resampled
 
@@ -78,6 +81,9 @@ class Counted(Protocol):
     """The cycles of one scene, counted from some wear under a load that repeats."""
 
     @property
+    def orbit(self) -> Orbit: ...
+
+    @property
     def cost(self) -> Cost: ...
 
     @property
@@ -102,34 +108,35 @@ class Counted(Protocol):
 class InContact(NamedTuple):
     """A count without loss of contact."""
 
-    found: Orbit
+    orbit: Orbit
 
     @property
     def cost(self) -> Cost:
-        return self.found.cost
+        return self.orbit.cost
 
     @property
     def last_wear(self) -> float:
-        return float(self.found.last(0).counted.last_state[0])
+        return float(self.orbit.last(0).counted.last_state[0])
 
     @property
     def ended(self) -> bool:
-        return bool(self.found.last(0).counted.at_rest[0])
+        return bool(self.orbit.last(0).counted.at_rest[0])
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        wear, error = self.found.after(cycles[None])
+        wear, error = self.orbit.after(cycles[None])
         return wear[0], error[0]
 
     def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
-        count, error = self.found.until(wear[None])
+        count, error = self.orbit.until(wear[None])
         return count[0], error[0]
 
     def notices(self, wear: FloatArray) -> Iterator[str]:
-        last = self.found.last(0)
+        last = self.orbit.last(0)
         limit = float(last.counted.limit[0])
         if np.any(wear >= NEARLY * limit):
             yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
         elif self.ended:
+            assert isinstance(last.counted, Iterates)
             idle = int(last.begins[0]) + last.counted.first_idle_cycle
             yield f"from cycle {idle} on a cycle adds less than double precision resolves"
 
@@ -148,7 +155,7 @@ def count_cycles(
     """Count up to `cycles` of a load that repeats, from the wear `start` (mm), known up to
     `start_error`; after the `deadline` (`time.monotonic()`) nothing is refined any more."""
     if model.ends_at_3_sigma:
-        return counted_stages(model, load, cycles, rtol, start, deadline, start_error)
+        return counted_stages([Wanted(model, load, cycles, start, start_error)], rtol, deadline)[0]
     equation = WearEquation(model, (load,))
     one = np.ones(1)
     return InContact(orbit(equation, cycles * one, rtol, start * one, start_error * one, deadline))
@@ -291,13 +298,17 @@ def sweep(
     cycles = np.asarray(cycles, dtype=float)
     last = float(np.max(cycles, initial=0.0))
 
-    def together(equation: WearEquation) -> tuple[FloatArray, FloatArray]:
-        some = equation.scenes
-        none = np.zeros(some)
-        found = orbit(equation, np.full(some, last), rtol, none, none)
-        return found.after(np.broadcast_to(cycles, (some, len(cycles))))
+    def together(some: Sequence[Scene]) -> Answer:
+        if some[0].contact.ends_at_3_sigma:
+            wanted = [Wanted(bind(scene), scene.periodic_load, last) for scene in some]
+            rows = [each.after(cycles) for each in counted_stages(wanted, rtol)]
+            u, error = np.array(rows).swapaxes(0, 1)
+            return u, error
+        none = np.zeros(len(some))
+        found = orbit(equation_of(some), np.full(len(some), last), rtol, none, none)
+        return found.after(np.broadcast_to(cycles, (len(some), len(cycles))))
 
-    def alone(scene: Scene) -> tuple[FloatArray, FloatArray]:
+    def alone(scene: Scene) -> Answer:
         return wear_after(bind(scene), scene.load, cycles, rtol)[:2]
 
     models = [bind(scene) for scene in scenes]
@@ -326,9 +337,13 @@ def cycles_to_depth(
     """
     wear = np.asarray(wear, dtype=float)
 
-    def together(equation: WearEquation) -> tuple[FloatArray, FloatArray]:
-        count, error = np.full((2, equation.scenes, len(wear)), np.inf)
-        todo, reach = np.arange(equation.scenes), LEAST
+    def together(some: Sequence[Scene]) -> Answer:
+        if some[0].contact.ends_at_3_sigma:
+            rows = np.array([alone(scene) for scene in some])
+            return rows[:, 0], rows[:, 1]
+        equation = equation_of(some)
+        count, error = np.full((2, len(some), len(wear)), np.inf)
+        todo, reach = np.arange(len(some)), LEAST
         while len(todo):
             none, reach = np.zeros(len(todo)), min(reach * FARTHER, MOST_CYCLES)
             found = orbit(equation.take(todo), np.full(len(todo), reach), rtol, none, none)
@@ -340,7 +355,7 @@ def cycles_to_depth(
             todo = todo[more] if reach < MOST_CYCLES else todo[:0]
         return count, np.where(np.isinf(count), 0.0, error)
 
-    def alone(scene: Scene) -> tuple[FloatArray, FloatArray]:
+    def alone(scene: Scene) -> Answer:
         return cycles_until(bind(scene), scene.load, wear, rtol)[:2]
 
     fewer = [resampled(scene, bind(scene), rtol) for scene in scenes]
@@ -356,19 +371,19 @@ Answer = tuple[FloatArray, FloatArray]
 def _each(
     scenes: Sequence[Scene],
     number: int,
-    together: Callable[[WearEquation], Answer],
+    together: Callable[[Sequence[Scene]], Answer],
     alone: Callable[[Scene], Answer],
     pace: Pace,
 ) -> Answer:
     """Return two numbers (scenes, number) of every scene: of those of one variant `together`, of
-    those with loss of contact or a load in blocks each `alone`."""
+    those whose load consists of blocks each `alone`."""
     first, second = np.empty((2, len(scenes), number))
     pace.begin("scene", len(scenes))
     done = 0
     for which in groups(scenes):
         some = [scenes[i] for i in which.tolist()]
-        lone = some[0].contact.ends_at_3_sigma or isinstance(some[0].load, Blocks)
-        first[which], second[which] = alone(some[0]) if lone else together(equation_of(some))
+        lone = isinstance(some[0].load, Blocks)
+        first[which], second[which] = alone(some[0]) if lone else together(some)
         done += len(which)
         pace.at(done)
     return first, second
@@ -376,11 +391,16 @@ def _each(
 
 def groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
     """Return which scenes are solved together: those of one variant whose loads repeat, no more
-    than go together; a scene with loss of contact or a load in blocks is alone."""
+    than go together; with loss of contact only those under loads of one kind, for all of them
+    wait for the one with the most pieces; a scene with a load in blocks is alone."""
     kinds: dict[object, list[int]] = {}
     for i, scene in enumerate(scenes):
-        alone = scene.contact.ends_at_3_sigma or isinstance(scene.load, Blocks)
-        kinds.setdefault(i if alone else scene.variant, []).append(i)
+        kind: object = scene.variant
+        if isinstance(scene.load, Blocks):
+            kind = i
+        elif scene.contact.ends_at_3_sigma:
+            kind = scene.variant, type(scene.load)
+        kinds.setdefault(kind, []).append(i)
     for which in kinds.values():
         most = max(len(getattr(scenes[i].load, "kinks", ())) for i in which)
         few = max(1, TOGETHER // max(1, most // KINKS))

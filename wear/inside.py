@@ -99,7 +99,7 @@ class _Stretch(NamedTuple):
             if np.any((cycles >= self.begins) & (cycles < self.ends)):
                 yield self.begins, self.ends, switched_dense_output(model, self.load, phases, rtol)
             return
-        equation, segments = WearEquation(model, (self.load,)), self.found.found.segments
+        equation, segments = WearEquation(model, (self.load,)), self.found.orbit.segments
         begins = [self.begins + float(segment.begins[0]) for segment in segments]
         observable = model.pressure if model.compliant else None
         for begin, end, segment in zip(begins, [*begins[1:], self.ends], segments, strict=True):

@@ -73,16 +73,6 @@ class Model:
         return self.bound.constants
 
     @property
-    def variant(self) -> str:
-        """Return the name of the variant."""
-        return str(self.module.VARIANT) + "_ends_at_3_sigma" * self.ends_at_3_sigma
-
-    @property
-    def law(self) -> str:
-        """Return the name of the contact law."""
-        return str(self.module.LAW)
-
-    @property
     def operations(self) -> Mapping[str, int]:
         """Return how many arithmetic operations each generated function costs."""
         return {**self.module.OPERATIONS, **(self.loss.module.OPERATIONS if self.loss else {})}
@@ -286,6 +276,20 @@ def _bind(key: VariantKey, numbers: Mapping[str, Real], pin_wear_sign: Real) -> 
 def bind(scene: Scene) -> Model:
     """Return the model of one scene."""
     return _bind(scene.variant, scene.parameters(), scene.pin_wear_sign)
+
+
+def stacked(models: Sequence[Model]) -> Model:
+    """Return one model of those of many scenes of one variant; its constants have shape
+    (scenes,)."""
+
+    def joined(bounds: Sequence[Bound]) -> Bound:
+        first, parts = bounds[0], zip(*(bound[1:] for bound in bounds), strict=True)
+        constants, data, signs = (map(np.array, zip(*part, strict=True)) for part in parts)
+        numbers = first.constants._make(constants), first.data._make(data), tuple(signs)
+        return Bound(first.module, *numbers)
+
+    losses = [model.loss for model in models if model.loss is not None]
+    return Model(joined([model.bound for model in models]), joined(losses) if losses else None)
 
 
 def bind_many(scenes: Sequence[Scene]) -> Model:

@@ -15,9 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.cycles import InContact, count_cycles
+from wear.cycles import count_cycles
 from wear.loss_of_contact.arrest import TabulatedCount
-from wear.loss_of_contact.stage import Stages
 from wear.model import bind
 from wear.orbit.abel import Panels
 from wear.orbit.infinity import SteadyState, steady_state
@@ -69,23 +68,16 @@ def _last_panel(scene: Scene, rate: float) -> _Last | None:
         return None
     cycles = min(FAR * scene.initial_roughness / rate, FARTHEST)
     counted = count_cycles(bind(scene), scene.periodic_load, cycles, RTOL)
-    if isinstance(counted, InContact):
-        segment = counted.found.last(0)
-        orbit = segment.counted
-        if not isinstance(orbit, Iterates) or orbit.cells is None or orbit.panels is None:
-            return None
-        panels, begins, missed = orbit.panels, float(segment.begins[0]), orbit.count_error[0]
-        blur, each = float(segment.blur[0]), len(orbit.cells.u) // len(panels.series)
-        start = orbit.cells.cycles[-each]
-    else:
-        assert isinstance(counted, Stages)
-        stage = counted.stages[-1]
-        table = stage.counted
-        if not isinstance(table, TabulatedCount) or not table.coordinate.shift > 0.0:
-            return None
-        panels, begins, missed = table.panels, stage.begins, table.count_error
-        blur, each = stage.uncertainty, len(table.table.u) // len(panels.series)
-        start = table.table.cycles[-each]
+    segment = counted.orbit.last(0)
+    table = segment.counted
+    if isinstance(table, TabulatedCount) and table.coordinate.shift > 0.0:
+        table = table.in_z
+    if not isinstance(table, Iterates) or table.cells is None or table.panels is None:
+        return None
+    panels, cells, missed = table.panels, table.cells, table.count_error[0]
+    begins, blur = float(segment.begins[0]), float(segment.blur[0])
+    each = len(cells.u) // len(panels.series)
+    start = cells.cycles[-each]
     last = panels.take(slice(-1, None))
     return _Last(last, begins + float(start), blur + float(missed[-each - 1]))
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.orbit.segments import Cost
+from wear.orbit.problem import Cost
 
 
 class Outcome(NamedTuple):

@@ -19,7 +19,7 @@ from wear.numerics.gauss import mesh
 from wear.numerics.initial_value import Rules, StoppedError, integrate
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import PeriodMap
-from wear.orbit.segments import Cost
+from wear.orbit.problem import Cost
 from wear.outcome import Outcome
 
 FloatArray = NDArray[np.float64]

@@ -11,7 +11,7 @@ Key results
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -23,7 +23,7 @@ from wear.cycles import groups
 from wear.faults import UsageError
 from wear.load import Constant
 from wear.load.spans import span
-from wear.loss_of_contact.count import counted_stages
+from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import edge_of_contact
 from wear.loss_of_contact.tangent import stage_tangents
@@ -36,6 +36,7 @@ from wear.scene import Scene, as_scene
 from wear.solver import checked_request, obstacle
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
 
 PERIOD = "load.period_s"
 GENTLE = 0.01  # of the roughness: wear in a cycle that needs no steps within
@@ -80,7 +81,7 @@ def gradients(
     found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
     pace, done = Pace(progress), 0
     pace.begin("scene", len(scenes))
-    for which in groups(scenes):
+    for which in _groups(scenes):
         some, parts = _in_parts([scenes[i] for i in which.tolist()])
         part = _of_one_variant(some, keys, cycles * parts, rtol, pace.say)
         done += len(which)
@@ -90,6 +91,15 @@ def gradients(
         found.derivative[which] = part.derivative * per_key
         found.error[which] = part.derivative_error * per_key
     return found
+
+
+def _groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
+    """Return which scenes are solved together: with loss of contact each is alone."""
+    for which in groups(scenes):
+        if scenes[which[0]].contact.ends_at_3_sigma:
+            yield from which[:, None]
+        else:
+            yield which
 
 
 def _in_parts(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
@@ -145,8 +155,9 @@ def _of_one_variant(
         wanted = np.tile(np.append(cycles[here], end) - done, (number, 1))
         equation = parametrised(scenes, acting, keys)
         if equation.model.ends_at_3_sigma:
-            begin = float(start[0]), np.inf, float(missed[0])
-            stages = counted_stages(equation.model, acting[0].load, wanted[0, -1], rtol, *begin)
+            begin = float(start[0]), float(missed[0])
+            one = Wanted(equation.model, acting[0].load, wanted[0, -1], *begin)
+            (stages,) = counted_stages([one], rtol)
             part = stage_tangents(stages, equation, wanted, rtol, slope, slope_error)
         else:
             counted = orbit(equation, wanted[:, -1], rtol, start, missed)
@@ -273,7 +284,7 @@ def _notices(scene: Scene) -> tuple[str, ...]:
     load = span(scene.load, 0).load
     heights = edge_of_contact(model, load).grazing
     none = np.zeros_like(heights)
-    if np.all(np.abs(model.margin(none, heights)) > margin_roundoff(model, load, none)):
+    if np.all(np.abs(model.margin(none, heights)) > margin_roundoff(model, load.maximum, none)):
         return ()
     side = "before any wear contact just grazes: the derivatives are those from one side"
     return (f"{side}, on which the wear goes on",)

@@ -30,16 +30,13 @@ from ..laws import TANH, ContactLaw
 from ..rules.algebra import Insert, Solve, restrict, substitute
 from ..rules.assumption import assume, defined
 from ..rules.calculus import SPRINGS, integrate
-from ..symbols import initial, rate, symbols
+from ..symbols import symbols
 from ..typeset.display import as_written
-from . import printed
+from . import model, printed
 
 h, h_0, U_a, U_c, u_a, u_c = symbols("h h_0 U_a U_c u_a u_c")
-sigma, sigma_a, sigma_c, sigma_a0, sigma_c0 = symbols("sigma sigma_a sigma_c sigma_a0 sigma_c0")
-p, p_max, R_a, b, L, k = symbols("p p_max R_a b L k")
-V, R, omega, n, kappa = symbols("V R omega n kappa")
+sigma, sigma_a, sigma_c, p, p_max, R_a, b, L, k = symbols("sigma sigma_a sigma_c p p_max R_a b L k")
 f_a, f_c, f_aa, f_ac, f_cc, f_ca = symbols("f_a f_c f_aa f_ac f_cc f_ca")
-K_a, K_c, H_a, H_c = symbols("K_a K_c H_a H_c")
 
 ROUGH_BEARING = Hypothesis("the bearing is rough", sp.Gt(sigma_c, 0), kind=Kind.STATE)
 SMOOTH_PIN = Hypothesis("smooth pin", sp.Eq(sigma_a, 0), r"\text{smooth pin}", Kind.SETTING)
@@ -87,15 +84,13 @@ class Model:
     @cached_property
     def closure(self) -> Judgement:
         """Eq. (1), or its physical sign, with which wear of either solid opens the gap."""
-        wear = u_c + u_a if self.opening else u_c - u_a
         remark = "wear of either solid opens the gap" if self.opening else "sign of u_a as printed"
-        claim = sp.Eq(h, h_0 + wear + U_c - U_a)
-        return equation(claim, "kinematics, Eq. (1)", remark, "closure")
+        return equation(model.CLOSURE[self.opening], "kinematics, Eq. (1)", remark, "closure")
 
     @cached_property
     def reaction(self) -> Judgement:
         """Eq. (2), equilibrium of the pin."""
-        return equation(sp.Eq(p * b * L - R_a, 0), "equilibrium of the pin, Eq. (2)")
+        return equation(model.REACTION, "equilibrium of the pin, Eq. (2)")
 
     @cached_property
     def reaction_force(self) -> Judgement:
@@ -110,8 +105,7 @@ class Model:
     @cached_property
     def roughness(self) -> Judgement:
         """Eq. (3), equivalent roughness."""
-        claim = sp.Eq(sigma, sp.sqrt(sigma_a**2 + sigma_c**2))
-        return equation(claim, "equivalent roughness, Eq. (3)")
+        return equation(model.ROUGHNESS, "equivalent roughness, Eq. (3)")
 
     @cached_property
     def pressure(self) -> Judgement:
@@ -125,9 +119,7 @@ class Model:
     @cached_property
     def pressure_with_cutoff(self) -> Judgement:
         """Eq. (4) with the text under it: no contact for h > 3 sigma."""
-        law = p_max * self.law.ratio(h / sigma)
-        claim = sp.Eq(p, sp.Piecewise((law, self.in_contact.relation), (0, True)))
-        return equation(claim, f"contact law with its cutoff, {self.law.source}")
+        return equation(model.contact(self.law), f"contact law with its cutoff, {self.law.source}")
 
     @property
     def in_contact(self) -> Hypothesis:
@@ -145,15 +137,8 @@ class Model:
         """Eq. (5): wear of both solids by Archard's law, and what it does to the roughness."""
         archard = "Archard's law, Eq. (5)"
         texture = "roughness changes with wear, Eq. (5)"
-        pairs = (
-            (rate("u_a"), K_a * p * V / (3 * H_a), archard),
-            (rate("sigma_a"), f_aa * rate("u_a") + f_ac * rate("u_c"), texture),
-            (rate("u_c"), K_c * p * V / (3 * H_c), archard),
-            (rate("sigma_c"), f_cc * rate("u_c") + f_ca * rate("u_a"), texture),
-        )
-        u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = (
-            equation(sp.Eq(left, right), source) for left, right, source in pairs
-        )
+        sources = (archard, texture, archard, texture)
+        u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = map(equation, model.ARCHARD, sources)
         return u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate
 
     @cached_property
@@ -171,15 +156,8 @@ class Model:
     @cached_property
     def start(self) -> tuple[Judgement, ...]:
         """Eq. (6): initial values of h, u_c, u_a, sigma_a, sigma_c."""
-        values = (("h", h_0), ("u_c", 0), ("u_a", 0), ("sigma_a", sigma_a0), ("sigma_c", sigma_c0))
-        return tuple(
-            assume(
-                Hypothesis(
-                    "initial condition, Eq. (6)", sp.Eq(initial(name), value), kind=Kind.INITIAL
-                )
-            )
-            for name, value in values
-        )
+        said = (Hypothesis("initial condition, Eq. (6)", r, kind=Kind.INITIAL) for r in model.START)
+        return tuple(map(assume, said))
 
     @cached_property
     def wear_of_pin(self) -> Judgement:
@@ -216,8 +194,8 @@ class Model:
     @cached_property
     def slip(self) -> Judgement:
         """The slip rate, from the radius of the pin and its speed in revolutions per minute."""
-        slip = equation(sp.Eq(V, R * omega), "slip rate of the pin, section 2.4")
-        speed = equation(sp.Eq(omega, sp.pi * n / 30), "revolutions per minute")
+        sources = "slip rate of the pin, section 2.4", "revolutions per minute"
+        slip, speed = map(equation, model.SLIP, sources)
         return substitute(slip, speed)
 
 

@@ -13,11 +13,11 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..rules.assumption import assume
@@ -57,13 +57,11 @@ class Comparison:
 def equations() -> tuple[Equation, ...]:
     """Return what rigorous bounds rest on."""
     comparison = Comparison()
-    section = "bounds"
+    result = partial(beyond, "bounds")
     with as_written():
         low, high = sp.Add(U_a, minus(p_max / k)), sp.Add(U_a, minus(p / k))
-        between = (sp.And(sp.Lt(low, high), sp.Lt(high, U_a)),)
+        between = sp.And(sp.Lt(low, high), sp.Lt(high, U_a))
     return (
-        Equation(
-            "compliant-load", section, "load on a support", (comparison.compliant,), (), between
-        ),
-        Equation("strip", section, "strip of analyticity", (comparison.strip,)),
+        result("compliant-load", "load on a support", comparison.compliant, between),
+        result("strip", "strip of analyticity", comparison.strip),
     )

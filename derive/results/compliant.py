@@ -13,12 +13,12 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import ClassVar
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..kernel import Judgement, RuleError
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import bearing_only
@@ -117,30 +117,16 @@ def drift_coefficient(law: ContactLaw) -> Judgement:
 def equations() -> tuple[Equation, ...]:
     """Return the results for a compliant support."""
     general, tanh = CompliantSteadyState(GENERAL), CompliantSteadyState(TANH)
-    section = "compliant support"
+    result = partial(beyond, "compliant support")
+    any_law, of_the_note = map(drift_coefficient, (GENERAL, TANH))
     slope = sp.diff(GENERAL.phi, r).subs(r, 1 / f_c)
     with as_written():
-        steepness = 2 * (1 - sp.tanh(4 - 2 / f_c)) / f_c
         shifted = sp.Add(sigma_c0 / f_c, -h_0, U_mean, -(p_inf / k))
-        display = (sp.Eq(A, steepness * shifted),)
-        any_law = (sp.Eq(A, -(slope / (f_c * GENERAL.ratio(1 / f_c))) * shifted),)
+        in_general = sp.Eq(A, -(slope / (f_c * GENERAL.ratio(1 / f_c))) * shifted)
+        in_tanh = sp.Eq(A, 2 * (1 - sp.tanh(4 - 2 / f_c)) / f_c * shifted)
     return (
-        Equation("compliant-pressure", section, "asymptotic pressure", (general.pressure,)),
-        Equation(
-            "compliant-wear-per-cycle", section, "asymptotic wear per cycle", (tanh.wear_per_cycle,)
-        ),
-        Equation(
-            "log-drift-any-law",
-            section,
-            "coefficient of ln t, any law",
-            (drift_coefficient(GENERAL),),
-            display=any_law,
-        ),
-        Equation(
-            "log-drift-compliant",
-            section,
-            "coefficient of ln t",
-            (drift_coefficient(TANH),),
-            display=display,
-        ),
+        result("compliant-pressure", "asymptotic pressure", general.pressure),
+        result("compliant-wear-per-cycle", "asymptotic wear per cycle", tanh.wear_per_cycle),
+        result("log-drift-any-law", "coefficient of ln t, any law", any_law, in_general),
+        result("log-drift-compliant", "coefficient of ln t", of_the_note, in_tanh),
     )

@@ -29,11 +29,11 @@ Remarks
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
@@ -184,80 +184,31 @@ def _defined(text: str, relation: sp.Basic) -> Judgement:
 
 def equations() -> tuple[Equation, ...]:
     """Return what the cutoff brings, for one worn solid."""
-    cut = Cutoff()
-    section = "cutoff"
+    cut, result = Cutoff(), partial(beyond, "cutoff")
     with as_written():
-        room = sp.Add(3 * sigma_c0, minus(h_0), U_max)
-        depth = (sp.Eq(u_stop, room / sp.Add(1, minus(3 * f_c))),)
-        beyond = sp.Add(h_0, minus(3 * sigma_c0), minus(U_min))
-        permanent = (sp.Eq(u_perm, beyond / sp.Add(3 * f_c, -1)),)
+        opens, outgrows = sp.Add(1, minus(3 * f_c)), sp.Add(3 * f_c, -1)
         now = sp.Add(3 * sp.Add(sigma_c0, f_c * u_c), minus(sp.Add(h_0, u_c, minus(U_a))))
-        room = sp.Add(3 * sigma_c0, minus(h_0), U_a, sp.Add(3 * f_c, -1) * u_c)
-        linear = (sp.Eq(now, room),)
-        gone = sp.Add(sp.Add(1, minus(3 * f_c)) * sp.Add(u_stop, -u_c), -sp.Add(U_max, -U_a))
-        kept = sp.Add(sp.Add(3 * f_c, -1) * sp.Add(u_c, -u_perm), U_a, -U_min)
-        least = K_c * V * p_max / (6 * H_c) * sp.Add(1, -sp.tanh(2))
-        opens = sp.Add(1, minus(3 * f_c))
-        follows = (sp.Eq(rate("u_c"), over(opens) * rate("U_a")),)
+        room = sp.Add(3 * sigma_c0, minus(h_0), U_a)
+        linear = sp.Eq(now, sp.Add(room, outgrows * u_c))
+        gone = sp.Eq(now, sp.Add(opens * sp.Add(u_stop, -u_c), -sp.Add(U_max, -U_a)))
+        kept = sp.Eq(now, sp.Add(outgrows * sp.Add(u_c, -u_perm), U_a, -U_min))
+        follows = sp.Eq(rate("u_c"), over(opens) * rate("U_a"))
         before = sp.Add(3 * f_c * rate("u_c"), -sp.Add(rate("u_c"), -rate("U_a")))
-        changes = (sp.Eq(before, sp.Add(rate("U_a"), minus(opens * rate("u_c")))),)
-        touching = sp.Equivalent(
-            sp.Le(opens * u_c, sp.Add(3 * sigma_c0, minus(h_0), U_a)),
-            sp.Le(sp.Add(h_0, u_c, -U_a), 3 * sp.Add(sigma_c0, f_c * u_c)),
-        )
-        edge = sp.Equivalent(
-            sp.Le(p, k * sp.Add(3 * sigma, -sp.Add(h, -(p / k)))), sp.Le(k * h, 3 * k * sigma)
-        )
-        third = (sp.Eq(u_cum, d * (K_c * V * T * p_max / (6 * H_c)) * sp.Add(1, -sp.tanh(2))),)
+        changes = sp.Eq(before, sp.Add(rate("U_a"), minus(opens * rate("u_c"))))
+        active = sp.Le(sp.Add(h_0, u_c, -U_a), 3 * sp.Add(sigma_c0, f_c * u_c))
+        touching = sp.Equivalent(sp.Le(opens * u_c, room), active)
+        spring = k * sp.Add(3 * sigma, -sp.Add(h, -(p / k)))
+        edge = sp.Equivalent(sp.Le(p, spring), sp.Le(k * h, 3 * k * sigma))
     return (
-        Equation(
-            "contact-condition", section, "condition of contact", (cut.contact,), (), (touching,)
-        ),
-        Equation("arrest-depth", section, "arrest depth", (cut.arrest_depth,), (), depth),
-        Equation(
-            "no-contact",
-            section,
-            "margin and arrest depth",
-            (cut.no_contact,),
-            (),
-            (sp.Eq(now, gone),),
-        ),
-        Equation(
-            "rate-in-contact",
-            section,
-            "least rate in contact",
-            (cut.lowest_rate,),
-            (),
-            (sp.Ge(rate("u_c"), least),),
-        ),
-        Equation(
-            "sliding-rate", section, "wear that follows the load", (cut.sliding,), (), follows
-        ),
-        Equation("margin-rate", section, "rate of the margin", (cut.margin_rate,), (), changes),
-        Equation("margin", section, "margin 3 sigma - h", (cut.in_wear,), (), linear),
-        Equation("one-third", section, "wear per cycle, f_c = 1/3", (cut.per_cycle,), (), third),
-        Equation(
-            "permanent-contact",
-            section,
-            "wear from which contact is permanent",
-            (cut.permanent,),
-            (),
-            permanent,
-        ),
-        Equation(
-            "always-contact",
-            section,
-            "margin and permanent contact",
-            (cut.always_contact,),
-            (),
-            (sp.Eq(now, kept),),
-        ),
-        Equation(
-            "edge-of-contact",
-            section,
-            "edge of contact, compliant support",
-            (cut.at_edge,),
-            (),
-            (edge,),
-        ),
+        result("contact-condition", "condition of contact", cut.contact, touching),
+        result("arrest-depth", "arrest depth", cut.arrest_depth),
+        result("no-contact", "margin and arrest depth", cut.no_contact, gone),
+        result("rate-in-contact", "least rate in contact", cut.lowest_rate),
+        result("sliding-rate", "wear that follows the load", cut.sliding, follows),
+        result("margin-rate", "rate of the margin", cut.margin_rate, changes),
+        result("margin", "margin 3 sigma - h", cut.in_wear, linear),
+        result("one-third", "wear per cycle, f_c = 1/3", cut.per_cycle),
+        result("permanent-contact", "wear from which contact is permanent", cut.permanent),
+        result("always-contact", "margin and permanent contact", cut.always_contact, kept),
+        result("edge-of-contact", "edge of contact, compliant support", cut.at_edge, edge),
     )

@@ -16,12 +16,12 @@ Remarks
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
 from ..claims import FirstZero
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..rules.algebra import Identity, Insert
@@ -78,40 +78,27 @@ class CutoffTwoSolids:
 def equations() -> tuple[Equation, ...]:
     """Return what the cutoff brings, for two solids."""
     cut = CutoffTwoSolids()
-    section = "cutoff"
+    result = partial(beyond, "cutoff")
     a_0, a_1, a_2 = sp.symbols("a_0 a_1 a_2", real=True)
     with as_written():
         squares = sp.Add(sigma_a0**2, sigma_c0**2)
         stopped = sp.Add(squares, 2 * p_1 * u_stop, q**2 * u_stop**2)
         slope = sp.Add(p_1, q**2 * u_stop) ** 2 / sigma**2
         second = sp.Add(q**2, minus(slope)) * (3 / sigma)
-        curved = (sp.Eq(second, 3 * sp.Add(q**2 * squares, minus(p_1**2)) / sigma**3),)
+        curved = sp.Eq(second, 3 * sp.Add(q**2 * squares, minus(p_1**2)) / sigma**3)
         gap = sp.Add(h_0, minus(U_max))
         root = sp.sqrt(sp.Add(a_1**2, minus(a_2 * a_0)))
-        depth = (sp.Eq(u_stop, a_0 / sp.Add(root, minus(a_1))),)
+        depth = sp.Eq(u_stop, a_0 / sp.Add(root, minus(a_1)))
         names = (
             sp.Eq(a_0, sp.Add(9 * squares, minus(gap**2))),
             sp.Eq(a_1, sp.Add(9 * p_1, minus(g * gap))),
             sp.Eq(a_2, sp.Add(9 * q**2, minus(g**2))),
         )
         where = (sp.Eq(sigma, sp.sqrt(stopped)),)
+    curvature = "second derivative of the margin with respect to wear"
     return (
-        Equation(
-            "margin-curvature",
-            section,
-            "second derivative of the margin with respect to wear",
-            (cut.convex,),
-            (),
-            curved,
-            where=where,
-        ),
-        Equation(
-            "arrest-depth-two-solids",
-            section,
-            "arrest depth, two solids",
-            (cut.arrest_depth,),
-            (),
-            depth,
-            where=names,
+        result("margin-curvature", curvature, cut.convex, curved, where),
+        result(
+            "arrest-depth-two-solids", "arrest depth, two solids", cut.arrest_depth, depth, names
         ),
     )

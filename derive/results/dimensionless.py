@@ -15,10 +15,12 @@ Key results
 
 from __future__ import annotations
 
+from functools import partial
+
 import sympy as sp
 
 from ..dimensions import dimension
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note import condensed
@@ -138,11 +140,11 @@ def compliant() -> Judgement:
 
 def equations() -> tuple[Equation, ...]:
     """Return the dimensionless problems."""
-    section = "dimensionless groups"
+    result = partial(beyond, "dimensionless groups")
     with as_written():
         one, two, soft = _one(), _two(), _compliant()
     return tuple(
-        Equation(name, section, title, (found, *more), display=(law, *(s.relation for s in more)))
+        result(name, title, (found, *more), (law, *(s.relation for s in more)))
         for name, title, found, law, more in (
             ("groups-one-solid", "four groups", one_solid(), one, _defined(mu, eta, nu)),
             ("groups-two-solids", "seven groups", two_solids(), two, _defined(kappa, zeta)),

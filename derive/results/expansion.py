@@ -16,12 +16,12 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
 from ..claims import Drift, Oscillation, Term, landau_o
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..kernel import Judgement
 from ..note.stabilised import Stabilised, drift_and_wear
 from ..rules.assumption import assume, defined
@@ -116,7 +116,7 @@ class Expansion:
 def equations() -> tuple[Equation, ...]:
     """Return the expansion and the coefficient of the drift."""
     expansion = Expansion()
-    section = "long times"
+    result = partial(beyond, "long times")
     terms = (*(expansion.drift(n) for n in (1, 2, 3, 4)), offset, saturation, growth)
     waves = tuple(expansion.oscillation(n) for n in (1, 2))
     with as_written():
@@ -124,30 +124,13 @@ def equations() -> tuple[Equation, ...]:
         shifted = sp.Eq(b_0, sp.Add(sigma_c0 / f_c, -h_0))
         drifts = (*steps, shifted, saturation.relation, growth.relation)
         swings = tuple(sp.Eq(symbol(f"w_{n}"), value) for n, value in _oscillations().items())
-        slow = (sp.Eq(rho * tau + s_0, sp.Add(_slow_time(), landau_o(m**-3))),)
+        slow = sp.Eq(rho * tau + s_0, sp.Add(_slow_time(), landau_o(m**-3)))
         line = u_cum * t / T
-        logarithm = (sp.Eq(forever(sp.Add(u_c, -line) / sp.log(t / T)), A),)
-    drift = Stabilised().asymptote
+        logarithm = sp.Eq(forever(sp.Add(u_c, -line) / sp.log(t / T)), A)
+    drift, where = Stabilised().asymptote, drift_and_wear()
     return (
-        Equation(
-            "log-drift",
-            section,
-            "logarithmic drift of the wear",
-            (drift,),
-            display=logarithm,
-            where=drift_and_wear(),
-        ),
-        Equation(
-            "expansion-drift", section, "drift of the averaged roughness", terms, display=drifts
-        ),
-        Equation(
-            "expansion-oscillation", section, "oscillation within a cycle", waves, display=swings
-        ),
-        Equation(
-            "expansion",
-            section,
-            "cycles and averaged roughness",
-            (expansion.slow_time,),
-            display=slow,
-        ),
+        result("log-drift", "logarithmic drift of the wear", drift, logarithm, where),
+        result("expansion-drift", "drift of the averaged roughness", terms, drifts),
+        result("expansion-oscillation", "oscillation within a cycle", waves, swings),
+        result("expansion", "cycles and averaged roughness", expansion.slow_time, slow),
     )

@@ -16,11 +16,11 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
@@ -32,7 +32,7 @@ from ..rules.calculus import RIGID
 from ..symbols import symbols
 from ..typeset.display import as_written
 
-h, h_0, U_a, U_c, u_c, sigma = symbols("h h_0 U_a U_c u_c sigma")
+h, h_0, U_a, U_c, sigma = symbols("h h_0 U_a U_c sigma")
 p, p_max, k, f_c, sigma_c0 = symbols("p p_max k f_c sigma_c0")
 
 SLOPED = Hypothesis("the roughness changes with wear", sp.Ne(f_c, 0))
@@ -91,19 +91,12 @@ def equations() -> tuple[Equation, ...]:
     with as_written():
         bracket = sp.log(p / (p_max - p)) - (8 - 4 / f_c)
         value = 4 * (sigma_c0 / f_c - h_0)
-        rigid = (sp.Eq(sp.Add(sigma * bracket, -(4 * U_a)), value),)
-        compliant = (sp.Eq(sp.Add(sigma * bracket, 4 * p / k, -(4 * U_a)), value),)
-        line = (sp.Eq(sp.Add(h, U_a, -U_c, -(sigma / f_c)), h_0 - sigma_c0 / f_c),)
-    section = "first integral"
+        rigid = sp.Eq(sp.Add(sigma * bracket, -(4 * U_a)), value)
+        compliant = sp.Eq(sp.Add(sigma * bracket, 4 * p / k, -(4 * U_a)), value)
+        line = sp.Eq(sp.Add(h, U_a, -U_c, -(sigma / f_c)), h_0 - sigma_c0 / f_c)
+    result, soft = partial(beyond, "first integral"), "first integral, compliant support"
     return (
-        Equation("closure-line", section, "first integral, any law", (general.line,), (), line),
-        Equation("first-integral", section, "first integral", (tanh.rigid,), (), rigid),
-        Equation(
-            "first-integral-compliant",
-            section,
-            "first integral, compliant support",
-            (tanh.compliant,),
-            (),
-            compliant,
-        ),
+        result("closure-line", "first integral, any law", general.line, line),
+        result("first-integral", "first integral", tanh.rigid, rigid),
+        result("first-integral-compliant", soft, tanh.compliant, compliant),
     )

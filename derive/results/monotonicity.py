@@ -15,9 +15,11 @@ References
 
 from __future__ import annotations
 
+from functools import partial
+
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
@@ -56,23 +58,14 @@ def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgem
 
 def equations() -> tuple[Equation, ...]:
     """Return the directions in which the data move the wear."""
-    section = "monotonicity"
+    result = partial(beyond, "monotonicity")
     always = tuple(effect(TANH, a) for a in INCREASING if a not in WHILE_APART)
     apart = tuple(effect(TANH, a) for a in WHILE_APART)
     falling = tuple(effect(TANH, a) for a in DECREASING)
+    follows = "that the wear follows the rate at every time is the comparison theorem"
+    title = "the rate increases with"
     return (
-        Equation(
-            "wear-increases",
-            section,
-            "the rate increases with K_c, V, p_max and U_a",
-            always,
-            remark="that the wear follows the rate at every time is the comparison theorem",
-        ),
-        Equation(
-            "wear-increases-apart",
-            section,
-            "the rate increases with sigma_c0 and f_c while h > 0",
-            apart,
-        ),
-        Equation("wear-decreases", section, "the rate decreases with H_c and h_0", falling),
+        result("wear-increases", f"{title} K_c, V, p_max and U_a", always, remark=follows),
+        result("wear-increases-apart", f"{title} sigma_c0 and f_c while h > 0", apart),
+        result("wear-decreases", "the rate decreases with H_c and h_0", falling),
     )

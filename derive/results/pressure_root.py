@@ -21,11 +21,11 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..kernel import Judgement, infer
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import two_solids
@@ -37,7 +37,7 @@ from ..typeset.display import as_written, minus
 from ..typeset.present import presentable
 from .first_integral import UNSATURATED
 
-p, p_max, k, sigma, U_a, U_c, u_a, u_c = symbols("p p_max k sigma U_a U_c u_a u_c")
+p, p_max, k, sigma, U_a, u_a, u_c = symbols("p p_max k sigma U_a u_a u_c")
 h_0, h_rigid = symbols("h_0 h_rigid")
 
 undeflected = h_0 + u_c - u_a - U_a
@@ -122,37 +122,17 @@ def curvature() -> tuple[Judgement, Judgement]:
 
 def equations() -> tuple[Equation, ...]:
     """Return the results on the pressure of a compliant support."""
-    root, shown = PressureRoot(), _displays()
-    section = "compliant support"
+    root, result = PressureRoot(), partial(beyond, "compliant support")
+    iteration, softening = (*newton(GENERAL), *curvature()), (root.softening, root.error_bound)
+    (unique, softer), where = _displays()
     steps, names = _newton()
+    shown = (*steps, *(presentable(statement.relation) for statement in curvature()))
     return (
-        Equation(
-            "pressure-root",
-            section,
-            "exactly one pressure",
-            root.unique,
-            (),
-            shown["root"],
-            where=shown["where"],
+        result("pressure-root", "exactly one pressure", root.unique, unique, where),
+        result(
+            "pressure-iteration", "Newton's iteration for the pressure", iteration, shown, names
         ),
-        Equation(
-            "pressure-iteration",
-            section,
-            "Newton's iteration for the pressure",
-            (*newton(GENERAL), *curvature()),
-            (),
-            (*steps, *(presentable(statement.relation) for statement in curvature())),
-            where=names,
-        ),
-        Equation(
-            "rigid-limit-error",
-            section,
-            "distance from a rigid support",
-            (root.softening, root.error_bound),
-            (),
-            shown["softening"],
-            where=shown["where"],
-        ),
+        result("rigid-limit-error", "distance from a rigid support", softening, softer, where),
     )
 
 
@@ -172,7 +152,7 @@ def _newton() -> tuple[tuple[sp.Eq, sp.Eq], tuple[sp.Eq, sp.Eq, sp.Eq]]:
     return (sp.Eq(step, end), sp.Eq(distance, bent)), names
 
 
-def _displays() -> dict[str, tuple[sp.Basic, ...]]:
+def _displays() -> tuple[tuple[tuple[sp.Basic, ...], ...], tuple[sp.Eq, sp.Eq]]:
     """Return the forms to be read, for the law of the note, and their abbreviations."""
     phi = sp.Function("phi")
     with as_written():
@@ -191,4 +171,4 @@ def _displays() -> dict[str, tuple[sp.Basic, ...]]:
             sp.And(sp.Ge(change, 0), sp.Le(change, bound)),
             sp.Le(bound, p_max**2 / (k * sigma)),
         )
-    return {"root": root, "softening": softening, "where": (gap, law)}
+    return (root, softening), (gap, law)

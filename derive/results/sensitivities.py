@@ -16,9 +16,11 @@ Key results
 
 from __future__ import annotations
 
+from functools import partial
+
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.stabilised import Stabilised, named_limit
@@ -107,66 +109,26 @@ def slope_from_rate() -> Judgement:
 
 def equations() -> tuple[Equation, ...]:
     """Return sensitivities, elasticities and identification."""
-    section = "sensitivities"
-    by_slope = M * (4 / f_c**2) * share * (1 - share)
+    result = partial(beyond, "sensitivities")
+    by_share = 4 / f_c**2 * share * (1 - share)
     powers = tuple(elasticity(wear_per_cycle, a, sp.Integer(n)) for a, n in POWERS.items())
     nothing = tuple(sensitivity(compliant_wear, a, sp.S.Zero) for a in WITHOUT_EFFECT)
+    slope = sensitivity(wear_per_cycle, f_c, M * by_share)
+    relative = elasticity(wear_per_cycle, f_c, 4 / f_c * (1 - share))
     pressures = (
-        sensitivity(pressure, f_c, p_max * (4 / f_c**2) * share * (1 - share)),
+        sensitivity(pressure, f_c, p_max * by_share),
         sensitivity(pressure, p_max, share),
     )
     with as_written():
-        relative = tuple(sp.Eq(a / u_cum * _slope(wear_per_cycle, a), n) for a, n in POWERS.items())
-        by_share = 4 / f_c**2 * share * (1 - share)
-        slope = (sp.Eq(_slope(wear_per_cycle, f_c), M * by_share),)
-        relative_slope = (sp.Eq(f_c / u_cum * _slope(wear_per_cycle, f_c), 4 / f_c * (1 - share)),)
-        of_pressure = (
-            sp.Eq(_slope(pressure, f_c), p_max * by_share),
-            sp.Eq(_slope(pressure, p_max), share),
-        )
-        inverse = (sp.Eq(f_c, 4 / sp.Add(8, sp.log(sp.Add(M / u_cum, -1)))),)
-        gain = (sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * sp.Add(1, sp.exp(4 / f_c - 8))),)
         instant = 4 * sp.Add(h_0, u_c, -U_a) / sp.Add(8, -sp.log(p / (p_max - p)))
-        at_once = (sp.Eq(f_c, over(u_c) * sp.Add(instant, -sigma_c0)),)
+        at_once = sp.Eq(f_c, over(u_c) * sp.Add(instant, -sigma_c0))
     return (
-        Equation("elasticities", section, "elasticities of u_cum", powers, display=relative),
-        Equation(
-            "sensitivity-slope",
-            section,
-            "sensitivity of u_cum to f_c",
-            (sensitivity(wear_per_cycle, f_c, by_slope),),
-            display=slope,
-        ),
-        Equation(
-            "elasticity-slope",
-            section,
-            "elasticity of u_cum in f_c",
-            (elasticity(wear_per_cycle, f_c, 4 / f_c * (1 - share)),),
-            display=relative_slope,
-        ),
-        Equation("without-effect", section, "what u_cum does not depend on", nothing),
-        Equation(
-            "sensitivity-pressure",
-            section,
-            "sensitivities of p_inf",
-            pressures,
-            display=of_pressure,
-        ),
-        Equation(
-            "slope-from-wear", section, "f_c from u_cum", (slope_from_wear(),), display=inverse
-        ),
-        Equation(
-            "coefficient-from-wear",
-            section,
-            "K_c from u_cum",
-            (coefficient_from_wear(),),
-            display=gain,
-        ),
-        Equation(
-            "slope-from-pressure",
-            section,
-            "f_c from one measured pressure",
-            (slope_from_rate(),),
-            display=at_once,
-        ),
+        result("elasticities", "elasticities of u_cum", powers),
+        result("sensitivity-slope", "sensitivity of u_cum to f_c", slope),
+        result("elasticity-slope", "elasticity of u_cum in f_c", relative),
+        result("without-effect", "what u_cum does not depend on", nothing),
+        result("sensitivity-pressure", "sensitivities of p_inf", pressures),
+        result("slope-from-wear", "f_c from u_cum", slope_from_wear()),
+        result("coefficient-from-wear", "K_c from u_cum", coefficient_from_wear()),
+        result("slope-from-pressure", "f_c from one measured pressure", slope_from_rate(), at_once),
     )

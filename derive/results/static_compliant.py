@@ -15,11 +15,11 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
@@ -128,7 +128,7 @@ def _elementary() -> sp.Expr:
 def equations() -> tuple[Equation, ...]:
     """Return the static solutions on a compliant support."""
     static = StaticCompliant()
-    section = "static load"
+    result = partial(beyond, "static load")
     size, primitive = sp.Function("S"), sp.Function("Q")
     with as_written():
         odds = sp.Add(sp.log(p_s / (p_max - p_s)), -8, 4 / f_c)
@@ -144,21 +144,16 @@ def equations() -> tuple[Equation, ...]:
         elementary = sp.Eq(primitive(p_s), sp.Add(depth, -(p_max / k * sp.log(p_s / p_max))))
         change = sp.Add(primitive(p), -primitive(p_start))
         smooth = (sp.Eq(u_c, _worn_smooth()), sp.Eq(t, over(2 * C) * change))
+    title, of_slope = "wear and time at a pressure", (load_offset, half_rate)
+    sloped, flat = (static.wear, static.time, *of_slope), (static.wear_smooth, static.time_smooth)
+    shown = (*rough, written_offset, half_rate.relation)
     return (
-        Equation(
-            "static-solution-compliant",
-            section,
-            "wear and time at a pressure",
-            (static.wear, static.time, load_offset, half_rate),
-            display=(*rough, written_offset, half_rate.relation),
-            where=(roughness,),
-        ),
-        Equation(
+        result("static-solution-compliant", title, sloped, shown, (roughness,)),
+        result(
             "static-solution-compliant-smooth",
-            section,
-            "wear and time at a pressure, f_c = 0",
-            (static.wear_smooth, static.time_smooth, half_rate),
-            display=(*smooth, half_rate.relation),
-            where=(elementary,),
+            f"{title}, f_c = 0",
+            (*flat, half_rate),
+            (*smooth, half_rate.relation),
+            (elementary,),
         ),
     )

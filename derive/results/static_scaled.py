@@ -16,7 +16,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..codegen.formulas import Formula, formula_module
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.algebra import Insert, inserted, substitute
@@ -27,8 +27,8 @@ from .first_integral import FirstIntegral
 from .regimes import largest_wear
 from .static_solution import MOVING, excess, load_offset
 
-h, h_0, U_a, u_c, sigma, sigma_c0, f_c, beta, x_inf, M = symbols(
-    "h h_0 U_a u_c sigma sigma_c0 f_c beta x_inf M"
+h, U_a, u_c, sigma, sigma_c0, f_c, beta, x_inf, M = symbols(
+    "h U_a u_c sigma sigma_c0 f_c beta x_inf M"
 )
 z, E = sp.symbols("z E", real=True)
 """The argument of Ei, and the logarithm of p_max/p - 1."""
@@ -117,12 +117,12 @@ def equations() -> tuple[Equation, ...]:
             exponent.relation,
             sp.Eq(z, -(2 * beta / sigma)),
         )
-    return (
-        Equation(
-            "static-solution-scaled",
-            "static load",
-            "the primitive without overflow",
-            (scaled_primitive(), exponent, argument),
-            display=display,
-        ),
+    statements = scaled_primitive(), exponent, argument
+    found = beyond(
+        "static load",
+        "static-solution-scaled",
+        "the primitive without overflow",
+        statements,
+        display,
     )
+    return (found,)

@@ -17,11 +17,11 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
@@ -94,8 +94,7 @@ def _inverse() -> sp.Expr:
 
 def equations() -> tuple[Equation, ...]:
     """Return the static solutions."""
-    static = StaticSolution()
-    section = "static load"
+    static, result = StaticSolution(), partial(beyond, "static load")
     s, gap = sp.Symbol("s", positive=True), sp.Symbol("ell", positive=True)
     primitive = sp.Function("P")
     with as_written():
@@ -110,30 +109,13 @@ def equations() -> tuple[Equation, ...]:
         smooth = sp.Eq(t, over(C) * sp.Add(u_c / 2, gap * worn))
         travel = sp.Add(C * t, gap)
         lambert = sp.LambertW(8 * gap / sigma_c0 * sp.exp(8 * travel / sigma_c0))
-        inverse = (sp.Eq(u_c, sp.Add(2 * travel, -(sigma_c0 / 4 * lambert))),)
+        inverse = sp.Eq(u_c, sp.Add(2 * travel, -(sigma_c0 / 4 * lambert)))
+        shown = (time, written_offset, limit_argument.relation, half_rate.relation)
+    statements, where = (static.time, load_offset, limit_argument, half_rate), (smooth_gap,)
+    flat, shown_flat = (static.time_smooth, half_rate), (smooth, half_rate.relation)
+    of_time, of_wear = (f"{what} under a constant load" for what in ("time", "wear"))
     return (
-        Equation(
-            "static-solution",
-            section,
-            "time under a constant load",
-            (static.time, load_offset, limit_argument, half_rate),
-            display=(time, written_offset, limit_argument.relation, half_rate.relation),
-            where=(excess_of,),
-        ),
-        Equation(
-            "static-solution-smooth",
-            section,
-            "time under a constant load, f_c = 0",
-            (static.time_smooth, half_rate),
-            display=(smooth, half_rate.relation),
-            where=(smooth_gap,),
-        ),
-        Equation(
-            "static-wear-smooth",
-            section,
-            "wear under a constant load, f_c = 0",
-            (static.wear_smooth,),
-            display=inverse,
-            where=(smooth_gap,),
-        ),
+        result("static-solution", of_time, statements, shown, (excess_of,)),
+        result("static-solution-smooth", f"{of_time}, f_c = 0", flat, shown_flat, where),
+        result("static-wear-smooth", f"{of_wear}, f_c = 0", static.wear_smooth, inverse, where),
     )

@@ -21,12 +21,12 @@ Remarks
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from typing import ClassVar
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, infer
 from ..laws import GENERAL, TANH, ContactLaw, r
@@ -205,34 +205,27 @@ def equations() -> tuple[Equation, ...]:
     """Return the results for any contact law."""
     general, tanh = steady_state(GENERAL), steady_state(TANH)
     any_law = condensed.bearing_only(GENERAL)
-    section = "steady state"
+    result = partial(beyond, "steady state")
     with as_written():
         offset = sp.Eq(beta, 2 * sp.Add(sigma_c0 / f_c, -h_0, U_a))
         ratio = sp.Add(h_0, u_c, -U_a) / roughness
-        deviation = (sp.Eq(ratio, sp.Add(1 / f_c, -(beta / (2 * roughness)))),)
+        deviation = sp.Eq(ratio, sp.Add(1 / f_c, -(beta / (2 * roughness))))
         relative = rate("u_c") / (u_cum / T)
         far = sp.Le(sp.Abs(sp.log(relative)), 2 * sp.Abs(beta / roughness))
         slowest = sp.Add(4, -(4 / f_c), -(2 * sp.Add(h_0, U) / sigma_c0))
-        growth = (sp.Ge(u_c, K_c * V * p_max * t / (6 * H_c) * (1 + sp.tanh(slowest))),)
+        growth = sp.Ge(u_c, K_c * V * p_max * t / (6 * H_c) * (1 + sp.tanh(slowest)))
+    where = (offset, per_cycle)
     return (
-        Equation(
+        result(
             "deviation",
-            section,
             "exact deviation of h/sigma from 1/f_c",
-            (general.deviation,),
-            display=deviation,
-            where=(offset,),
+            general.deviation,
+            deviation,
+            (offset,),
         ),
-        Equation("growth", section, "wear grows without bound", (tanh.growth,), display=growth),
-        Equation("general-rate", section, "wear rate, any law", (any_law.rigid,)),
-        Equation("closure-ratio", section, "limit of h/sigma, any law", (general.ratio,)),
-        Equation("general-law", section, "asymptotic pressure, any law", (general.pressure,)),
-        Equation(
-            "approach",
-            section,
-            "distance from the steady rate",
-            (tanh.approach,),
-            display=(far,),
-            where=(offset, per_cycle),
-        ),
+        result("growth", "wear grows without bound", tanh.growth, growth),
+        result("general-rate", "wear rate, any law", any_law.rigid),
+        result("closure-ratio", "limit of h/sigma, any law", general.ratio),
+        result("general-law", "asymptotic pressure, any law", general.pressure),
+        result("approach", "distance from the steady rate", tanh.approach, far, where),
     )

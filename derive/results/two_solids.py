@@ -20,11 +20,11 @@ Remarks
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
@@ -133,58 +133,32 @@ class TwoSolids:
 
 def equations() -> tuple[Equation, ...]:
     """Return the results for two solids, sign of Eq. (1) as printed."""
-    two, physical = TwoSolids(), TwoSolids(opening=True)
-    section = "two solids"
+    two, result = TwoSolids(), partial(beyond, "two solids")
+    opening = TwoSolids(opening=True).definitions
     with as_written():
         tanh = sp.tanh(sp.Add(4, minus(2 * g / q)))
-        speed = K_c * V / (6 * H_c) * p_max * (1 + tanh)
         wear = sp.Add(u_c, minus(u_cum * t / T)) / sp.log(t / T)
         offset = sp.Add(2 * g * p_1 / q**3, minus(2 * sp.Add(h_0, minus(U_mean)) / q))
-        shown_rate = (sp.Eq(forever(rate("u_c")), speed),)
-        shown_drift = (sp.Eq(forever(wear), A),)
         coefficient = sp.Eq(A, sp.Add(1, minus(tanh)) * offset)
         per_cycle = sp.Eq(u_cum, K_c * V * T / (6 * H_c) * p_max * (1 + tanh))
         cross = sp.Add(f_a * kappa * sigma_c0, minus(f_c * sigma_a0))
         squares = sp.Add(sigma_a0**2, sigma_c0**2, 2 * p_1 * u_c, q**2 * u_c**2)
-        separated = (sp.Eq(q**2 * squares, sp.Add(cross**2, sp.Add(p_1, q**2 * u_c) ** 2)),)
-        names = (
-            sp.Eq(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2)),
-            sp.Eq(p_1, f_a * kappa * sigma_a0 + f_c * sigma_c0),
-        )
-        ratio = sp.Add(h_0, g * u_c, -U_a) / sp.sqrt(squares)
+        separated = sp.Eq(q**2 * squares, sp.Add(cross**2, sp.Add(p_1, q**2 * u_c) ** 2))
+        ratio = sp.Eq(forever(sp.Add(h_0, g * u_c, -U_a) / sp.sqrt(squares)), g / q)
+        drifting = sp.Eq(forever(wear), A)
+    growth, _, crossed = (statement.relation for statement in two.definitions)
+    names, where = (growth, crossed), (coefficient, per_cycle)
     return (
-        Equation("two-solids", section, "growth of roughness and gap", two.definitions),
-        Equation(
-            "two-solids-opening",
-            section,
-            "growth of roughness and gap, physical sign",
-            physical.definitions,
-        ),
-        Equation(
+        result("two-solids", "growth of roughness and gap", two.definitions),
+        result("two-solids-opening", "growth of roughness and gap, physical sign", opening),
+        result(
             "two-solids-roughness",
-            section,
             "the roughness does not vanish",
-            (two.separation,),
-            (),
+            two.separation,
             separated,
-            where=names,
+            names,
         ),
-        Equation(
-            "two-solids-closure-ratio",
-            section,
-            "limit of h/sigma",
-            (two.ratio,),
-            (),
-            (sp.Eq(forever(ratio), g / q),),
-        ),
-        Equation("two-solids-rate", section, "steady wear rate", (two.rate,), (), shown_rate),
-        Equation(
-            "two-solids-log-drift",
-            section,
-            "logarithmic drift",
-            (two.drift,),
-            (),
-            shown_drift,
-            where=(coefficient, per_cycle),
-        ),
+        result("two-solids-closure-ratio", "limit of h/sigma", two.ratio, ratio),
+        result("two-solids-rate", "steady wear rate", two.rate),
+        result("two-solids-log-drift", "logarithmic drift", two.drift, drifting, where),
     )

@@ -17,18 +17,18 @@ Key results
 
 from __future__ import annotations
 
+from functools import partial
 from types import MappingProxyType
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Equation, beyond
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..rules.algebra import Identity, discharge, forget, substitute
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic, Monotone, Threshold
 from ..symbols import symbols
-from ..typeset.display import as_written, minus
 from .first_integral import SLOPED
 from .steady_state import ROUGHENING
 
@@ -101,15 +101,11 @@ def threshold_bound() -> sp.Expr:
 
 def equations() -> tuple[Equation, ...]:
     """Return what f_c > 1/8 means."""
-    section = "validity"
-    with as_written():
-        value = 1 / (1 + sp.exp(sp.Add(4 / f_c, -8)))
-        half = sp.Rational(1, 2)
-        shown_share = (sp.Eq(half * (1 + sp.tanh(sp.Add(4, minus(2 / f_c)))), value),)
+    result = partial(beyond, "validity")
     return (
-        Equation("share", section, "asymptotic share of p_max", (share(),), (), shown_share),
-        Equation("criterion", section, "the printed criterion always holds", (always(),)),
-        Equation("share-slope", section, "the share grows with f_c", (growing(),)),
-        Equation("threshold", section, "resolution and f_c", (threshold(),)),
-        Equation("one-eighth", section, "what f_c > 1/8 means", (eighth(),)),
+        result("share", "asymptotic share of p_max", share()),
+        result("criterion", "the printed criterion always holds", always()),
+        result("share-slope", "the share grows with f_c", growing()),
+        result("threshold", "resolution and f_c", threshold()),
+        result("one-eighth", "what f_c > 1/8 means", eighth()),
     )

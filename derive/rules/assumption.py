@@ -11,9 +11,11 @@ from sympy.core.function import AppliedUndef
 from ..claims import Equality, Limit, Property, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, plain
+from ..note.model import FIELDS, belongs
 from ..symbols import DATA, t
 from ..zero import is_zero
 from .algebra import inserted
+from .proving import LAW
 from .reading import at_an_instant, clocks, fields
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -38,27 +40,32 @@ class Assume(Rule):
             or (not named and (instant or premises))
         ):
             raise RuleError(f"{said.text}: cannot be assumed")
-        claim = Property(said.text) if relation is sp.true else claim_of(relation, named)
+        if not belongs(kind, relation):
+            raise RuleError(f"{said.text}: no equation of the model")
+        claim = Property(said.text) if relation is sp.true else claim_of(relation)
         if not isinstance(claim, Limit) and any(side in (sp.oo, -sp.oo) for side in relation.args):
             raise RuleError(f"{said.text}: infinity is the value of limits alone")
         if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
             raise RuleError(f"{said.text}: no equation")
-        if named and isinstance(claim, Equality) and claim.lhs.is_Symbol:
-            _require_name(claim, premises)
+        if named and isinstance(claim, (Equality, Limit)):
+            _require_name(claim.relation, premises)
         return Conclusion(claim, adds=(said,))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         return f"Hypothesis: {self.hypothesis.text}."
 
 
-def _require_name(claim: Equality, premises: tuple[Judgement, ...]) -> None:
+def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:
     """Refuse to define what is given, or a constant by what varies."""
-    name, value = claim.lhs, at_an_instant(claim.rhs)
-    if name.name in DATA or value.has(name):
+    name, value = relation.lhs, at_an_instant(relation.rhs)
+    moving = {field.func for field in relation.atoms(AppliedUndef)} - {LAW}
+    if not name.is_Symbol and not (moving and moving <= FIELDS):
+        return  # an equation for a constant, or for a field of one's own
+    if not name.is_Symbol or name.name in DATA or value.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
-    moving = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
-    rate = inserted(sp.Add(*moving), premises).doit()
-    if not clocks(name) and (clocks(value) or not is_zero(rate)):
+    rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
+    change = inserted(sp.Add(*rates), premises).doit()
+    if not clocks(name) and (clocks(value) or not is_zero(change)):
         raise RuleError(f"missing premise: {value} is constant")
 
 

@@ -17,6 +17,7 @@ import sympy as sp
 from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..note.model import SUPPORT
 from ..symbols import DATA, symbols, t
 from .proving import continuous, require_defined, smooth
 from .reading import (
@@ -28,11 +29,12 @@ from .reading import (
     fields,
     inequality,
     initial_value,
+    require_hypothesis,
 )
 
 U_c, p, k, T, tau = symbols("U_c p k T tau")
 
-SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", sp.Eq(k * U_c - p, 0), kind=Kind.MODEL)
+SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", SUPPORT, kind=Kind.MODEL)
 WEARING = symbols("u_a u_c sigma_a sigma_c")
 DIFFERENTIABLE = Hypothesis("differentiable load", kind=Kind.LOAD)
 RIGID = Hypothesis("rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING)
@@ -125,8 +127,7 @@ class RigidLimit(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
         given, small = equality(first), sp.Dummy("1/k", positive=True)
-        if SPRINGS not in first.hypotheses:
-            raise RuleError(f"missing premise: {SPRINGS.text}")
+        require_hypothesis(SPRINGS, first)
         others = [h for h in first.hypotheses if h != SPRINGS]
         apart = [h.relation.subs(LOAD, LOAD + U_c) for h in others]
         loads = [r for r in apart if r.has(U_c.func) or r.atoms(LOAD.func) - {LOAD} or r == sp.true]

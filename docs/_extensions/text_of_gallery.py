@@ -11,10 +11,14 @@ PAGES = Path(__file__).parents[1] / "gallery"
 ORDER = (
     "own_scene",
     "measured_load",
+    "fit",
     "loss_of_contact",
     "compliant_support",
+    "own_law",
     "map_of_wear",
     "life_distribution",
+    "fe_coupling",
+    "latex_appendix",
 )
 
 

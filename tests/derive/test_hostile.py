@@ -10,15 +10,17 @@ from collections.abc import Callable
 import pytest
 import sympy as sp
 
-from derive.claims import Equality, landau_o
+from derive.claims import Equality, Oscillation, landau_o
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Conclusion, Judgement, RuleError, infer, replayed
-from derive.laws import GENERAL, r
+from derive.laws import GENERAL, TANH, r
 from derive.rules.algebra import (
     Alike,
+    Consequence,
     Identity,
     Insert,
     Logarithm,
+    Multiply,
     Solve,
     discharge,
     forget,
@@ -26,6 +28,7 @@ from derive.rules.algebra import (
     substitute,
 )
 from derive.rules.assumption import Assume, assume, defined
+from derive.rules.averages import Averaging
 from derive.rules.calculus import (
     DIFFERENTIABLE,
     SPRINGS,
@@ -41,11 +44,22 @@ from derive.rules.limits import AtInfinity, forever
 from derive.rules.reading import CONSTANT, SINE, replaced
 from derive.rules.solutions import Inverted, Solution
 from derive.symbols import initial, rate, symbol, symbols, t
-from tests.derive.test_rules import BOUNDED, DEEP, ROUGHENS, START, drift_premises, given, tends
+from tests.derive.test_rules import (
+    BOUNDED,
+    DEEP,
+    ROUGHENS,
+    START,
+    drift_premises,
+    expansion_premises,
+    given,
+    tends,
+)
 
-u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
+u_c, u_a, U_a, U_c, h, p, G, sigma, p_max = symbols("u_c u_a U_a U_c h p G sigma p_max")
 h_0, sigma_c0, f_c, C, T, N, q, k, b_0 = symbols("h_0 sigma_c0 f_c C T N q k b_0")
-U, u_cum, theta, x_inf, tau, M = symbols("U u_cum theta x_inf tau M")
+U, u_cum, theta, x_inf, tau, M, kappa, R, L, rho, w_1 = symbols(
+    "U u_cum theta x_inf tau M kappa R L rho w_1"
+)
 y = sp.Symbol("y", real=True)
 RATE = given(sp.Eq(rate("u_c"), C))
 SLOPE = sp.Derivative(u_cum, f_c, evaluate=False)
@@ -82,6 +96,9 @@ def from_a_look_alike() -> Judgement:
     return substitute(given(sp.Eq(h, u_a)), Forged())  # type: ignore[arg-type]
 
 
+AT_ONE, EXACTLY_ONE = given(sp.Eq(f_c, 1)), given(sp.Eq(2 * f_c, 2))
+UNDER_LOAD = given(sp.Eq(rate("u_c"), C * U_a / h_0))
+FIRST_WAVE = -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi
 CONSTANTLY, SMOOTH = assume(CONSTANT), assume(DIFFERENTIABLE)
 
 
@@ -115,6 +132,18 @@ def rigidly(*facts: Judgement) -> Judgement:
 
 def sloped(*facts: Judgement) -> Judgement:
     return Differentiated(sp.Eq(SLOPE, h_0, evaluate=False), f_c)(GROWING, *facts)
+
+
+def touching(factor: sp.Expr) -> sp.Basic:
+    """Return the contact law with its cutoff, times a factor."""
+    law = factor * p_max * TANH.ratio(h / sigma)
+    return sp.Eq(p, sp.Piecewise((law, sp.Le(h, 3 * sigma)), (0, True)))
+
+
+def divided(*facts: Judgement) -> Judgement:
+    """Return u_a = h_0, from a product with f_c = 1, which meets f_c != 0."""
+    product = Solve(u_a)(given(sp.Eq(f_c * u_a, f_c * h_0)), facts[0])
+    return discharge(product, facts[0].hypotheses[0], *facts[1:])
 
 
 def two_orders(order: sp.Expr) -> Judgement:
@@ -332,11 +361,82 @@ CASES: dict[str, Case] = {
         lambda: differentiate(CONSTANTLY, SMOOTH),
         "missing premise",
     ),
+    "a special case for every f_c": (  # f_c = 1/2, u_a = 1, h = 1/2
+        lambda: discharge(
+            substitute(given(sp.Eq(h, f_c * u_a)), AT_ONE), AT_ONE.hypotheses[0], ROUGHENS
+        ),
+        lambda: discharge(
+            substitute(given(sp.Eq(h, f_c * u_a)), AT_ONE), AT_ONE.hypotheses[0], EXACTLY_ONE
+        ),
+        r"Eq\(f_c, 1\)",
+    ),
+    "what was divided by f_c = 1, as a step for f_c = 0": (  # 0 = 0, 2 != 1
+        lambda: forget(divided(given(sp.Ne(f_c, 0)), AT_ONE), AT_ONE.hypotheses[0]),
+        lambda: divided(given(sp.Ne(f_c, 0)), AT_ONE),
+        "f_c occurs nowhere else",
+    ),
+    "the arcsine of the sine of any real": (  # f_c = 3.5
+        lambda: Insert(sp.Eq(f_c, sp.asin(kappa - 1)))(given(sp.Eq(kappa, 1 + sp.sin(f_c)))),
+        lambda: Insert(sp.Eq(f_c, kappa - 1))(given(sp.Eq(kappa, 1 + f_c))),
+        "missing premise",
+    ),
+    "zero is not one": (
+        lambda: Identity(sp.Eq(sp.log(f_c**2) - sp.log(f_c**2), 1, evaluate=False))(),
+        lambda: Identity(sp.Eq(sp.log(2 * q) - sp.log(q), sp.log(2), evaluate=False))(),
+        "no identity",
+    ),
+    "an area that is an oscillation": (  # R L is whatever it is
+        lambda: Averaging(sp.Eq(R * L, FIRST_WAVE))(*expansion_premises("w_1", Oscillation)),
+        lambda: Averaging(sp.Eq(w_1, FIRST_WAVE))(*expansion_premises("w_1", Oscillation)),
+        "by definition",
+    ),
+    "an angle that is the scaled rate": (  # theta = 0
+        lambda: Consequence(sp.Eq(theta, C * T / q))(Multiply(T / q)(RATE)),
+        lambda: Consequence(sp.Eq(rate("u_c") * T / q, C * T / q))(Multiply(T / q)(RATE)),
+        "does not become",
+    ),
+    "the load of another time": (  # U_a = t: u_c = t^2/2
+        lambda: Solution(sp.Eq(t, u_c * h_0 / (C * U_a)))(UNDER_LOAD, START, given(U_a > 0)),
+        lambda: Solution(sp.Eq(t, u_c * h_0 / (C * U_a)))(
+            UNDER_LOAD, START, CONSTANTLY, given(U_a > 0)
+        ),
+        r"U_a\(t\), U_a\(0\)",
+    ),
     # ---- what is said of the world
     "a bounded load, called an equation of the model": (  # U_a + p/k <= U for no k
         lambda: rigidly(assume(supposed(sp.Le(sp.Abs(U_a), U), Kind.MODEL))),
         lambda: rigidly(),
         "no equation",
+    ),
+    "a value, called an equation of the model": (  # f_c = 1
+        lambda: assume(supposed(sp.Eq(f_c, 5), Kind.MODEL)),
+        lambda: assume(supposed(sp.Eq(k * U_c - p, 0), Kind.MODEL)),
+        "no equation of the model",
+    ),
+    "a pressure of more than h/sigma, called the contact law": (  # f_c = 1
+        lambda: assume(supposed(touching(1 + f_c), Kind.MODEL)),
+        lambda: assume(supposed(touching(sp.S.One), Kind.MODEL)),
+        "no equation of the model",
+    ),
+    "a start, called that of the model": (  # u_c(0) = 0
+        lambda: assume(supposed(sp.Eq(initial("u_c"), h_0), Kind.INITIAL)),
+        lambda: assume(supposed(sp.Eq(initial("u_c"), 0), Kind.INITIAL)),
+        "no equation of the model",
+    ),
+    "a field of one's own value, called a definition": (  # u_c = 1
+        lambda: assume(supposed(sp.Eq(u_c, h_0), Kind.DEFINITION)),
+        lambda: given(sp.Eq(u_c, h_0)),
+        "is a new name",
+    ),
+    "two definitions of one name": (  # h_0 = 1
+        lambda: Arithmetic(sp.Eq(h_0, 0))(defined(b_0, h_0), defined(b_0, 2 * h_0)),
+        lambda: Arithmetic(sp.Eq(h_0, 0))(defined(b_0, h_0), given(sp.Eq(b_0, 2 * h_0))),
+        "two definitions",
+    ),
+    "two definitions that make a circle": (  # h_0 = 1
+        lambda: Arithmetic(sp.Eq(h_0, 0))(defined(b_0, theta + h_0), defined(theta, b_0 + 0)),
+        lambda: Arithmetic(sp.Eq(h_0, 0))(defined(b_0, theta + h_0), given(sp.Eq(theta, b_0))),
+        "circle of definitions",
     ),
     "words about the load": (
         lambda: rigidly(assume(supposed(sp.true, Kind.LOAD))),
@@ -348,8 +448,13 @@ CASES: dict[str, Case] = {
         lambda: given(sp.Eq(f_c, 5)),
         "is a new name",
     ),
-    "a number that is infinite": (  # 0 times oo
+    "growth, called a definition": (  # u_c = h_0
         lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo), Kind.DEFINITION)),
+        lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo))),
+        "is a new name",
+    ),
+    "a number that is infinite": (  # 0 times oo
+        lambda: given(sp.Eq(u_c, sp.oo, evaluate=False)),
         lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo))),
         "limits alone",
     ),

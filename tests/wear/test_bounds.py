@@ -77,7 +77,7 @@ def to_a_picometre(length: float) -> float:
     return round(length, 9)
 
 
-@settings(max_examples=300)
+@settings(max_examples=60)
 @given(
     slope=SLOPES,
     wear_coefficient=st.floats(1e-8, 2e-6),

@@ -19,40 +19,26 @@ ROOT = Path(__file__).parents[2]
 COMMANDS = [command.name for command in cli.COMMANDS]
 
 
-@pytest.fixture
-def wear(capsys):
-    """Run `wear` in this process; give status, output and messages."""
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        try:
-            status = cli.main(arguments)
-        except SystemExit as stop:  # argparse's way of ending
-            status = stop.code
-        return status, *capsys.readouterr()
-
-    return call
-
-
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_command_teaches_by_an_example(wear, name):
-    status, shown, messages = wear(name, "--help")
+def test_every_command_teaches_by_an_example(call, name):
+    status, shown, messages = call(name, "--help")
     assert (status, messages) == (0, "")
     assert re.search(rf"examples:\n +wear {name}", shown)
 
 
-def test_the_help_lists_every_command(wear):
-    status, shown, _ = wear("--help")
+def test_the_help_lists_every_command(call):
+    status, shown, _ = call("--help")
     assert status == 0
     assert all(re.search(rf"^ +{name} +\w", shown, re.MULTILINE) for name in COMMANDS)
 
 
-def test_the_version_is_shown(wear):
-    assert re.fullmatch(r"wear \d+\.\d+\.\d+\n", wear("--version")[1])
+def test_the_version_is_shown(call):
+    assert re.fullmatch(r"wear \d+\.\d+\.\d+\n", call("--version")[1])
 
 
 @pytest.mark.parametrize("arguments", [[], ["fly"], ["cite", "--fly"]])
-def test_bad_usage_is_told_on_standard_error(wear, arguments):
-    status, shown, messages = wear(*arguments)
+def test_bad_usage_is_told_on_standard_error(call, arguments):
+    status, shown, messages = call(*arguments)
     assert (status, shown) == (2, "")
     assert "usage:" in messages
 
@@ -72,8 +58,8 @@ def test_bad_usage_is_told_on_standard_error(wear, arguments):
         (["reproduce", "-o", f"{__file__}/report"], "test_cli.py: is not a folder"),
     ],
 )
-def test_a_slip_is_met_with_what_was_meant(wear, arguments, told):
-    status, shown, messages = wear(*arguments)
+def test_a_slip_is_met_with_what_was_meant(call, arguments, told):
+    status, shown, messages = call(*arguments)
     assert (status, shown) == (2, "")
     assert told in messages
 
@@ -102,7 +88,7 @@ def test_a_full_disk_is_told_whatever_is_printed(arguments):
         "figure section4 -o wear.svg",
     ],
 )
-def test_a_disk_that_fills_up_is_told_and_nothing_is_left(wear, line, tmp_path, monkeypatch):
+def test_a_disk_that_fills_up_is_told_and_nothing_is_left(call, line, tmp_path, monkeypatch):
     """A limit on the size of files stands for the disk; what was there before stays."""
     resource = pytest.importorskip("resource", reason="limits on files are those of Unix")
     monkeypatch.chdir(tmp_path)
@@ -112,7 +98,7 @@ def test_a_disk_that_fills_up_is_told_and_nothing_is_left(wear, line, tmp_path, 
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limits[1]))
     try:
-        status, _, messages = wear(*line.split())
+        status, _, messages = call(*line.split())
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert (status, messages) == (2, f"wear {command}: {name}: File too large\n")
@@ -125,18 +111,18 @@ def interrupted(*_, **__):
     raise Interrupted("DOP853: interrupted; no requested cycle was reached", None)
 
 
-def test_ctrl_c_ends_any_command_that_solves(wear, monkeypatch, tmp_path):
+def test_ctrl_c_ends_any_command_that_solves(call, monkeypatch, tmp_path):
     monkeypatch.setattr("wear.solver.solve", interrupted)
-    status, shown, messages = wear("figure", "section4", "-o", str(tmp_path / "wear.svg"))
+    status, shown, messages = call("figure", "section4", "-o", str(tmp_path / "wear.svg"))
     assert (status, shown) == (130, "")
     assert messages.startswith("wear figure: DOP853: interrupted")
     assert list(tmp_path.iterdir()) == []
 
 
-def test_ctrl_c_ends_a_benchmark_and_not_one_run_of_it(wear, monkeypatch, tmp_path):
+def test_ctrl_c_ends_a_benchmark_and_not_one_run_of_it(call, monkeypatch, tmp_path):
     monkeypatch.setattr("wear.solver.solve", interrupted)
     folder = tmp_path / "hard"
-    status, shown, messages = wear("bench", "--hard", "--quick", "-o", str(folder))
+    status, shown, messages = call("bench", "--hard", "--quick", "-o", str(folder))
     assert (status, shown, messages) == (130, "", "wear bench: interrupted\n")
     assert not folder.exists()
 
@@ -149,39 +135,39 @@ def test_the_installed_command_is_this_one():
     assert "@misc{note," in run.stdout
 
 
-def test_scenes_lists_all_with_titles(wear):
-    status, shown, _ = wear("scenes")
+def test_scenes_lists_all_with_titles(call):
+    status, shown, _ = call("scenes")
     assert status == 0
     listed = dict(line.split(maxsplit=1) for line in shown.splitlines())
     assert listed == {name: load_scene(name).title for name in builtin_names()}
 
 
-def test_scenes_json_has_the_same(wear):
-    documents = json.loads(wear("scenes", "--json")[1])
+def test_scenes_json_has_the_same(call):
+    documents = json.loads(call("scenes", "--json")[1])
     assert [document["name"] for document in documents] == list(builtin_names())
     assert set(documents[0]) == {"name", "title", "description"}
 
 
 @pytest.mark.parametrize("name", ["section3", "section4"])
-def test_a_described_scene_is_a_scene_file(wear, name):
-    described = wear("scenes", "--describe", name)[1]
+def test_a_described_scene_is_a_scene_file(call, name):
+    described = call("scenes", "--describe", name)[1]
     assert parse_scene(described, name) == load_scene(name)
-    [document] = json.loads(wear("scenes", "--describe", name, "--json")[1])
+    [document] = json.loads(call("scenes", "--describe", name, "--json")[1])
     tables = tomllib.loads(described)
     assert document["tables"]["bearing"] == tables["bearing"]
 
 
-def test_a_scene_that_is_not_there_is_told_with_a_guess(wear):
-    status, shown, messages = wear("scenes", "secton4", "fly")
+def test_a_scene_that_is_not_there_is_told_with_a_guess(call):
+    status, shown, messages = call("scenes", "secton4", "fly")
     assert (status, shown) == (2, "")
     assert "did you mean section4?" in messages
     assert '"fly"' in messages
 
 
-def test_cite_gives_every_entry_once(wear):
-    entries = re.findall(r"^@\w+\{(.+),$", wear("cite")[1], re.MULTILINE)
+def test_cite_gives_every_entry_once(call):
+    entries = re.findall(r"^@\w+\{(.+),$", call("cite")[1], re.MULTILINE)
     assert entries == list(REFERENCES)
-    assert [entry["key"] for entry in json.loads(wear("cite", "--json")[1])] == entries
+    assert [entry["key"] for entry in json.loads(call("cite", "--json")[1])] == entries
 
 
 def test_cite_has_this_version_and_every_method():
@@ -193,9 +179,9 @@ def test_cite_has_this_version_and_every_method():
     assert all(method in purposes for method in METHODS if method != "auto")
 
 
-def test_cite_is_bibtex_that_latex_takes(wear, need_tool, tmp_path):
+def test_cite_is_bibtex_that_latex_takes(call, need_tool, tmp_path):
     need_tool("bibtex")
-    (tmp_path / "all.bib").write_text(wear("cite")[1])
+    (tmp_path / "all.bib").write_text(call("cite")[1])
     (tmp_path / "all.aux").write_text("\\citation{*}\n\\bibdata{all}\n\\bibstyle{plain}\n")
     run = subprocess.run(
         ["bibtex", "all"], cwd=tmp_path, capture_output=True, text=True, check=False
@@ -205,9 +191,9 @@ def test_cite_is_bibtex_that_latex_takes(wear, need_tool, tmp_path):
     assert all(f"\\bibitem{{{key}}}" in written for key in REFERENCES)
 
 
-def test_the_completion_knows_commands_scenes_and_options(wear, need_tool):
+def test_the_completion_knows_commands_scenes_and_options(call, need_tool):
     need_tool("bash")
-    script = wear("--print-completion")[1]
+    script = call("--print-completion")[1]
     ask = "COMP_WORDS=(wear scenes section4); COMP_CWORD=2; _wear_complete; echo ${COMPREPLY[@]}"
     environment = {"PATH": os.environ["PATH"]}
     run = subprocess.run(
@@ -220,11 +206,11 @@ def test_the_completion_knows_commands_scenes_and_options(wear, need_tool):
     assert run.stdout.split() == [name for name in builtin_names() if name.startswith("section4")]
 
 
-def test_claims_end_with_a_count_of_verdicts(wear):
-    *_, last = wear("claims", "C1", "C2")[1].splitlines()
+def test_claims_end_with_a_count_of_verdicts(call):
+    *_, last = call("claims", "C1", "C2")[1].splitlines()
     assert re.fullmatch(r"2 claims: 1 \w+, 1 \w+", last)
 
 
-def test_a_choice_is_told_in_one_sentence(wear):
-    messages = wear("run", "section4", "--method", "foo")[2]
+def test_a_choice_is_told_in_one_sentence(call):
+    messages = call("run", "section4", "--method", "foo")[2]
     assert '"foo" is unknown; choose one of auto, ' in messages

@@ -5,34 +5,22 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
 
 from derive.check import Check
+from tests.wear.conftest import Call
 from tests.wear.report import quick
-from wear import cli, processes, regime
+from wear import processes, regime
 from wear.report import claims, paper, runs, typeset, verification
 from wear.scene import load_scene
-
-Call = Callable[..., tuple[int, str, str]]
 
 ALWAYS = {
     "report.html", "report.tex", "equations.tex", "claims.json", "manifest.json",
     *(f"figure-{n}.{kind}" for n in ("2a", "2b", "3a", "3b") for kind in ("svg", "pdf")),
 }  # fmt: skip
-
-
-@pytest.fixture
-def call(capsys: pytest.CaptureFixture[str]) -> Call:
-    """Run `wear` in this process; give status, output and messages."""
-
-    def run(*arguments: str) -> tuple[int, str, str]:
-        return cli.main(arguments), *capsys.readouterr()
-
-    return run
 
 
 @pytest.fixture

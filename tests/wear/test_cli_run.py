@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -31,13 +32,9 @@ CONTRACT = {
 
 
 @pytest.fixture
-def run(capsys):
-    """Run `wear run` in this process; give status, output and messages."""
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        return cli.main(["run", *arguments]), *capsys.readouterr()
-
-    return call
+def run(call):
+    """Run `wear run`; give status, output and messages."""
+    return partial(call, "run")
 
 
 @pytest.fixture

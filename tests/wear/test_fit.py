@@ -16,6 +16,7 @@ from wear.faults import UsageError
 from wear.fitting.estimate import Fit
 from wear.fitting.forecast import forecast, life, next_reading, undetermined
 from wear.fitting.laws import alternatives
+from wear.fitting.least_squares import follow
 from wear.fitting.posterior import posterior
 from wear.fitting.readings import FloatArray, Specimen, read_readings
 from wear.fitting.residuals import Residuals
@@ -122,9 +123,9 @@ def test_what_late_readings_leave_open_is_named(far_off: Scene) -> None:
 
 def test_the_estimate_is_that_of_scipys_least_squares(found: Fit) -> None:
     other = least_squares(
-        lambda theta: found.problem(theta[None])[0][0],
+        lambda theta: found.model(theta[None])[0][0],
         found.theta + 0.05,
-        jac=lambda theta: found.problem(theta[None])[1][0],
+        jac=lambda theta: found.model(theta[None])[1][0],
         x_scale="jac",
     )
     np.testing.assert_allclose(found.theta, other.x, rtol=1e-5)
@@ -135,16 +136,16 @@ def test_the_estimate_is_that_of_scipys_least_squares(found: Fit) -> None:
 
 
 def test_the_jacobian_is_that_of_differences(found: Fit) -> None:
-    slope = found.problem(found.theta[None])[1][0]
+    slope = found.model(found.theta[None])[1][0]
     for place, step in enumerate(1e-3 * np.eye(2)):
-        off, _ = found.problem(found.theta + np.array([step, -step]))
+        off, _ = found.model(found.theta + np.array([step, -step]))
         np.testing.assert_allclose(slope[:, place], (off[0] - off[1]) / 2e-3, rtol=1e-3, atol=1e-5)
 
 
 def test_an_interval_ends_where_the_deviance_reaches_its_quantile(far_off: Scene) -> None:
     found = wear.fit([synthetic(6)], far_off.with_({GROWTH: 0.25}), [K])
     ends = np.log(np.array(found.profiles[0].interval))[:, None]
-    deviance = (found.problem.cost(ends) - found.chi_square) / found.scatter**2
+    deviance = (found.model.cost(ends) - found.chi_square) / found.scatter**2
     np.testing.assert_allclose(np.sqrt(deviance), found.quantile, rtol=0.02)
     assert found.quantile == pytest.approx(stats.t.ppf(0.975, len(CYCLES) - 1))
 
@@ -158,7 +159,7 @@ def test_an_interval_ends_where_the_others_have_followed() -> None:
     ends = np.tile(found.theta, (2, 1))
     ends[:, 0] = found.profiles[0].interval
     fixed, box = np.tile([True, False, False], (2, 1)), (found.theta, 7.0 * found.scale)
-    _, cost = found.problem.follow(ends, fixed, box, 1e-6, 30)
+    _, cost = follow(found.model, ends, fixed, box, 1e-6, 30)
     roots = np.sqrt(cost - found.chi_square) / found.scatter
     np.testing.assert_allclose(roots, found.quantile, rtol=0.01)
 
@@ -189,7 +190,7 @@ def test_a_forecast_covers_the_truth_and_a_life_is_its_inverse(found: Fit) -> No
 
 def test_the_next_reading_narrows_the_band_as_if_it_had_been_read(found: Fit) -> None:
     advice = next_reading(found, 1e6)
-    slope = found.problem(found.theta[None])[1][0]
+    slope = found.model(found.theta[None])[1][0]
     _, ahead = found.model.log_wear(found.theta[None], [np.array([advice.cycles, 1e6])])
     reading, target = ahead[0]
     more = np.vstack([slope, reading])

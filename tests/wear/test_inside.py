@@ -216,7 +216,7 @@ def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
     cycles = np.array([0.0, 100.0, 12_823.0, 12_824.0, 12_830.0, 1e5, 1e7])
     counted = count_cycles(bind(scene), scene.periodic_load, 1e7, 1e-12)
     assert isinstance(counted, InContact)
-    assert len(counted.found.segments) > 1
+    assert len(counted.orbit.segments) > 1
     phases = np.array([0.0, 0.4, 1.0])
     found = history(scene, cycles, phases)
     exact = static_solution(scene).wear((cycles[:, None] + phases).ravel()).reshape(found.u.shape)
@@ -314,7 +314,7 @@ def test_panels_from_the_first_cycle_on_are_not_cut_for_it(name: str) -> None:
     scene = scene_of(name)
     counted = count_cycles(bind(scene), scene.periodic_load, 9000.0, 1e-12)
     assert isinstance(counted, InContact)
-    (segment,) = counted.found.segments
+    (segment,) = counted.orbit.segments
     assert isinstance(segment.counted, Iterates)
     prepared = dense_output(equation_of([scene]), segment.counted, PHASES, 1e-12)
     assert prepared.panels is not None

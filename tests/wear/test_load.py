@@ -78,7 +78,7 @@ def test_extremes_of_harmonics_are_those_of_a_fine_grid(load: Harmonics) -> None
 def test_slope_vanishes_at_the_peaks_of_harmonics(load: Harmonics) -> None:
     steepest = sum(
         2.0 * math.pi * order * (abs(cosine) + abs(sine))
-        for order, cosine, sine in load._terms().T.tolist()
+        for order, cosine, sine in load.terms().T.tolist()
     )
     peaks = np.asarray(load.peaks)
     assert np.all(np.abs(load.slope(peaks)) <= 1e-7 * steepest)  # double zeros: root of roundoff

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from wear.generated import asymptotics as formula
 from wear.loss_of_contact import count as counting
-from wear.loss_of_contact.stage import Stages
+from wear.loss_of_contact.stage import CountToArrest
 from wear.regime import Asymptote, asymptote
 from wear.scene import load_scene
 from wear.solver import solve
@@ -81,10 +81,11 @@ def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch: pytest.Monkey
     """A count whose error is infinite says neither when wear stops nor that it goes on."""
     count = counting.counted_stages
 
-    def missed(*arguments: Any) -> Stages:
-        found = count(*arguments)
-        last = found.stages[-1]._replace(inherited=np.inf)
-        return found._replace(stages=(*found.stages[:-1], last))
+    def missed(*arguments: Any) -> list[CountToArrest]:
+        (found,) = count(*arguments)
+        last = found.segments[-1]._replace(inherited=np.array([np.inf]))
+        segments = (*found.segments[:-1], last)
+        return [found._replace(orbit=found.orbit._replace(segments=segments))]
 
     monkeypatch.setattr(counting, "counted_stages", missed)
     found = _asymptote("section4-cutoff")

@@ -77,7 +77,7 @@ def test_damaged_texts(text: str, data: st.DataObject) -> None:
     check_answer(read(bytes(raw)))
 
 
-@settings(max_examples=300)
+@settings(max_examples=120)
 @given(st.sampled_from(builtin_names()), st.data())
 def test_changed_tables(name: str, data: st.DataObject) -> None:
     tables: dict[str, Any] = load_scene(name).to_tables()

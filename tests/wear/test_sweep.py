@@ -1,13 +1,16 @@
 """Sweeps: every scene as if it were alone."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
+from tests.wear.reference_scenes import CONSTANT, REFERENCE, SINE, reference_scene, tables
 from wear.cycles import sweep, wear_after
+from wear.load import Table
 from wear.model import bind
 from wear.scene import Scene, load_scene
 
@@ -209,6 +212,37 @@ def test_variants_may_be_mixed_in_any_order(seed: int) -> None:
     for i, wear, error in zip(order, found.u_c, found.error, strict=True):
         alone = wear_after(bind(scenes[i]), scenes[i].load, cycles, 1e-11)
         assert np.all(np.abs(wear / alone.u_c - 1) <= error + alone.error)
+
+
+def test_scenes_that_lose_contact_are_as_if_alone_in_any_order() -> None:
+    """Loads of one kind go together, rising and falling at different phases; some come twice."""
+    rng = np.random.default_rng(3)
+
+    def load(kind: str) -> dict[str, object]:
+        swing = 4e-4 * rng.uniform(0.7, 1.2)
+        if kind == "sine":
+            return SINE | {"amplitude_mm": swing * rng.choice([-1.0, 1.0])}
+        waves = (swing * rng.uniform(0.2, 0.6, rng.integers(1, 4))).tolist()
+        return {"kind": "harmonics", "sine_mm": waves, "cosine_mm": waves[:1], "period_s": 0.03}
+
+    scenes = []
+    for kind, k in (("sine", None), ("harmonics", None), ("sine", 1e5)):
+        for _ in range(3):
+            made = tables(
+                10 ** rng.uniform(-8, -5), rng.uniform(-0.2, 0.5), False, k, load(kind), True
+            )
+            made["contact"]["closure_mm"] = 1.08e-3 * rng.uniform(0.6, 1.0)
+            scenes.append(Scene.from_dict(made, "drawn"))
+    for rows in rng.uniform(-4e-4, 5e-4, (2, 4)):
+        table = Table((0.0, 0.01, 0.02, 0.03, 0.06), (*rows, rows[0]))
+        scenes.append(replace(Scene.from_dict(tables(cutoff=True), "table"), load=table))
+    cycles = np.array([3.0, 3000.0, 1e8])
+    alone = [wear_after(bind(scene), scene.load, cycles, 1e-11) for scene in scenes]
+    order = rng.permutation(np.append(np.arange(len(scenes)), [0, 4]))
+    found = sweep([scenes[i] for i in order], cycles, 1e-7)
+    assert np.all(found.error <= 1e-7)
+    for i, wear, error in zip(order, found.u_c, found.error, strict=True):
+        assert np.all(np.abs(wear / alone[i].u_c - 1) <= error + alone[i].error)
 
 
 def test_no_scenes_have_no_wear() -> None:

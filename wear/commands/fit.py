@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Iterator
 from dataclasses import asdict, replace
 from importlib.util import find_spec
@@ -36,15 +35,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     arguments.add_scene(parser)
     several: dict[str, Any] = {"nargs": "+", "default": [], "action": "extend"}
-    parser.add_argument("--free", metavar="KEY", help="estimate one value for all", **several)
-    parser.add_argument("--free-each", metavar="KEY", help="one for each specimen", **several)
-    parser.add_argument("--ignore", metavar="COLUMN", help="columns to drop", **several)
+    parser.add_argument(
+        "--free", metavar="KEY", help="estimate one value for all specimens", **several
+    )
+    parser.add_argument(
+        "--free-each", metavar="KEY", help="estimate one value for each specimen", **several
+    )
+    parser.add_argument("--ignore", metavar="COLUMN", help="columns of the data to drop", **several)
     arguments.add_choice(
         parser,
         "--error",
         lambda: ERRORS,
         default=ERRORS[0],
-        help="relative (default) or absolute: what scatters",
+        help="which error of a reading scatters: relative (default) or absolute",
     )
     parser.add_argument(
         "--forecast",
@@ -59,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--posterior",
         type=arguments.number(10, 1e6),
         metavar="STEPS",
-        help="also sample the posterior, so many steps a walker",
+        help="also sample the posterior by emcee, so many steps for each walker",
     )
     parser.add_argument(
         "-o",
@@ -73,7 +76,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(options: argparse.Namespace) -> int:
     """Fit, and print what came out."""
     from wear.faults import UsageError
-    from wear.fitting.estimate import estimated, prepare
+    from wear.fitting.estimate import Fit, prepare
+    from wear.fitting.least_squares import estimate
     from wear.fitting.posterior import posterior
     from wear.fitting.profiles import profiles
     from wear.progress import Pace
@@ -84,17 +88,18 @@ def execute(options: argparse.Namespace) -> int:
         faults.add("--forecast: 0 is the fresh state; give cycles from 1 on")
     if options.posterior is not None and not find_spec("emcee"):
         faults.add("--posterior needs emcee: pip install 'derive-wear[fit]'")
-    problem = None
+    model = None
     if options.scene is not None:
         asked = (options.free, options.free_each, options.error, options.ignore)
         try:
-            problem = prepare(options.data, options.scene, *asked)
+            model = prepare(options.data, options.scene, *asked)
         except UsageError as fault:
             faults.add(str(fault))
     faults.stop_if_any()
-    assert problem is not None
+    assert model is not None
     with terminal.busy("fitting") as tell:
-        found = profiles(estimated(replace(problem, pace=Pace(tell))))
+        model = replace(model, pace=Pace(tell))
+        found = profiles(Fit(model, estimate(model)))
         tell("sampling the posterior")
         samples = posterior(found, int(options.posterior)) if options.posterior else None
         tell("forecasting")
@@ -130,13 +135,13 @@ def as_json(
         for row, ends in zip(parameters, np.quantile(samples, [0.025, 0.5, 0.975], axis=0).T,
                              strict=True):  # fmt: skip
             row |= {"posterior_median": ends[1], "posterior_95": [ends[0], ends[2]]}
-    others = alternatives(found.model.specimens, found.problem.residuals.relative)
+    others = alternatives(found.model.specimens, found.model.residuals.relative)
     own_forecast = forecast.forecast_rms_from_first_half(found)
     notices = [f"the {law.law} law describes these data better (AICc)"
                for law in others if law.aicc < found.aicc]  # fmt: skip
     notices += [f"the {law.law} law foretells the last readings better, from the first half"
                 for law in others if law.forecast_rms < own_forecast]  # fmt: skip
-    if found.degrees_of_freedom == 0 and not found.problem.residuals.known:
+    if found.degrees_of_freedom == 0 and not found.model.residuals.known:
         notices.append("there are as many parameters as readings: the scatter is unknown")
     return {
         "scene": found.model.scene.title or found.model.scene.name,
@@ -197,7 +202,7 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
     )  # fmt: skip
     after = document["next_reading"]
     which = f"of specimen {after['specimen']} " * bool(after["specimen"])
-    yield (f"\nOne more reading {which}after {after['cycles']:.6g} cycles narrows the forecast "
+    yield (f"\nOne more reading {which}after cycle {after['cycles']:.6g} narrows the forecast "
            f"most, to {after['band_of_forecast_times']:.0%} of its band.")  # fmt: skip
 
 
@@ -219,15 +224,14 @@ def _write(folder: Path, found: Fit, document: dict[str, Any], samples: FloatArr
     if samples is not None:
         drawn["corner.svg"] = figures.corner(found, samples)
     with files.replacing_in(folder) as made:
-        text = json.dumps(terminal.plain(document), indent=2, allow_nan=False)
-        made.joinpath("fit.json").write_text(text + "\n", encoding="utf-8")
+        files.write_atomically(made / "fit.json", terminal.json_text(document))
         scenes = found.model.scenes(found.theta)
         for place, (specimen, scene) in enumerate(zip(found.model.specimens, scenes, strict=True)):
             safe = "".join(c if c.isalnum() or c in "-_" else "_" for c in specimen.name)
             name = f"fitted-{safe or place + 1}.toml" if len(scenes) > 1 else "fitted.toml"
-            made.joinpath(name).write_text(scene.to_toml(), encoding="utf-8")
+            files.write_atomically(made / name, scene.to_toml())
         for name, figure in drawn.items():
-            made.joinpath(name).write_bytes(encoded(figure, ".svg"))
+            files.write_atomically(made / name, encoded(figure, ".svg"))
 
 
 COMMAND = Command(

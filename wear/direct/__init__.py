@@ -31,7 +31,7 @@ from wear.direct.step import (
     leg,
 )
 from wear.load.spans import span
-from wear.orbit.segments import Cost
+from wear.orbit.problem import Cost
 from wear.outcome import Outcome
 from wear.progress import Pace
 

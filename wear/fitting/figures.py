@@ -8,6 +8,7 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
+from wear.checked import label_of
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, PAGE, canvas, stroke, styled
 from wear.fitting.estimate import Fit
 from wear.fitting.forecast import forecast
@@ -30,7 +31,7 @@ def data_and_band(fit: Fit) -> Figure:
     cycles = np.unique(np.rint(np.geomspace(first, last, _POINTS)))
     curves = _curves(fit, cycles)
     ends = np.cumsum([len(specimen.cycles) for specimen in fit.model.specimens])[:-1]
-    relative = fit.problem.residuals.relative
+    relative = fit.model.residuals.relative
     with styled():
         figure, axes = canvas(COLUMN_AND_HALF, COLUMN_AND_HALF)
         axes.remove()
@@ -47,7 +48,7 @@ def data_and_band(fit: Fit) -> Figure:
             bottom.plot(specimen.cycles, residuals, **drawn)
         bottom.axhline(0.0, color=GREY, lw=0.6)
         top.set(xscale="log", yscale="log", ylabel=r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)")
-        words = "Residual / scatter" if fit.problem.residuals.known else (
+        words = "Residual / scatter" if fit.model.residuals.known else (
             r"Residual of $\ln\,u_c$" if relative else "Residual (mm)"
         )  # fmt: skip
         bottom.set(xlabel="Cycles  $N$", ylabel=words)
@@ -119,9 +120,6 @@ def _shown(parameter: Parameter, values: FloatArray) -> FloatArray:
 
 def _label(parameter: Parameter, log: bool = False) -> str:
     """Return the key of a parameter in words, with its unit."""
-    from wear.checked import unit_of
-
-    name, unit = parameter.key.split(".")[-1], unit_of(parameter.key)
-    words = name.removesuffix("_" + unit.replace("/", "_per_")).replace("_", " ")
-    words += f" {parameter.specimen}" * bool(parameter.specimen) + f" ({unit})" * bool(unit)
+    _, _, name = label_of(parameter.key).partition(": ")
+    words = f"{name} {parameter.specimen}".rstrip()
     return f"log10 of {words}" if log and parameter.positive else words

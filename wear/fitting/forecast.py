@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.estimate import FARTHEST, Fit, Problem
+from wear.fitting.estimate import FARTHEST, Fit
 from wear.fitting.laws import first_half, forecast_rms
+from wear.fitting.least_squares import settle
 from wear.fitting.model import Parameter
 from wear.fitting.readings import FloatArray
-from wear.fitting.residuals import Residuals
 
 UNKNOWN = 1.0  # standard error of a logarithm, or share of a value, from which it is open
 ALIKE = 0.1  # relative spread of powers that are shown as one
@@ -136,10 +136,9 @@ def forecast_rms_from_first_half(found: Fit) -> float:
     specimen foretells the last; no number where they are fewer than the parameters."""
     model = found.model
     early = replace(model, specimens=tuple(first_half(model.specimens)))
-    problem = Problem(early, Residuals.of(early.specimens, found.problem.residuals.relative))
-    if len(problem.residuals.observed) < len(found.theta):
+    if len(early.residuals.observed) < len(found.theta):
         return float(np.nan)
-    theta = problem.settle(found.theta, (found.theta, FARTHEST * found.scale))
+    theta = settle(early, found.theta, (found.theta, FARTHEST * found.scale))
     level, _ = model.log_wear(theta[None], [s.cycles[-1:] for s in model.specimens])
     return forecast_rms(model.specimens, level[0])
 
@@ -173,8 +172,8 @@ def next_reading(found: Fit, cycles: float | None = None) -> NextReading:
     tried = np.unique(np.rint(np.geomspace(1.0, last, CANDIDATES)))
     slots = [np.append(tried, cycles or min(AHEAD * last, 1e12))] * len(specimens)
     level, slope = found.model.log_wear(found.theta[None], slots)
-    weight = np.median(found.problem.residuals.weight) * (
-        np.ones_like(level) if found.problem.residuals.relative else np.exp(level)
+    weight = np.median(found.model.residuals.weight) * (
+        np.ones_like(level) if found.model.residuals.relative else np.exp(level)
     )
     shape = (len(specimens), len(tried) + 1, -1)
     target = slope.reshape(shape)[:, -1]

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wear.faults import SceneError, UsageError
 from wear.fitting.readings import FloatArray, Specimen
+from wear.fitting.residuals import Residuals
+from wear.progress import Pace
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
 RTOL = 1e-7  # of the wear: far below any scatter
+LOST = 1e3  # residual where a point has no scene or no wear
 
 
 @dataclass(frozen=True)
@@ -40,14 +44,17 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Model:
-    """Specimens, the scene they share, and what is free in it.
+    """Specimens, the scene they share, what is free in it, and how far it is from the readings.
 
-    A point `theta` (p,) holds what is estimated of each parameter.
+    A point `theta` (p,) holds what is estimated of each parameter. Errors are `relative` to the
+    wear or absolute; `pace` is told how far a search is.
     """
 
     scene: Scene
     specimens: tuple[Specimen, ...]
     parameters: tuple[Parameter, ...]
+    relative: bool
+    pace: Pace = field(default_factory=Pace, compare=False)
 
     @classmethod
     def of(
@@ -56,12 +63,30 @@ class Model:
         specimens: tuple[Specimen, ...],
         free: Sequence[str],
         free_each: Sequence[str],
+        relative: bool,
     ) -> Model:
         """Return the model in which some keys are free for all specimens, some for each."""
         wanted = [(key, "") for key in free]
         wanted += [(key, specimen.name) for key in free_each for specimen in specimens]
         parameters = (Parameter(key, name, is_positive(scene, key)) for key, name in wanted)
-        return cls(scene, specimens, tuple(parameters))
+        return cls(scene, specimens, tuple(parameters), relative)
+
+    def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return residuals (m, n) and their exact Jacobian (m, n, p) at points (m, p)."""
+        level, slope = self.log_wear(points, self.cycles)
+        off = self.residuals(level)
+        slope = self.residuals.slope(level)[..., None] * slope
+        fine = np.isfinite(off) & np.all(np.isfinite(slope), axis=-1)
+        return np.where(fine, off, LOST), np.where(fine[..., None], slope, 0.0)
+
+    def cost(self, points: FloatArray) -> FloatArray:
+        """Return the sums of the squared residuals (m,)."""
+        return np.asarray(np.sum(self(points)[0] ** 2, axis=1))
+
+    @cached_property
+    def residuals(self) -> Residuals:
+        """Return how residuals follow from the logarithm of the wear."""
+        return Residuals.of(self.specimens, self.relative)
 
     @property
     def keys(self) -> list[str]:

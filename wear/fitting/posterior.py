@@ -50,9 +50,9 @@ def posterior(found: Fit, steps: int, seed: int = 0) -> FloatArray:
         inside = np.all(np.abs(points - found.theta) < FARTHEST * found.scale, axis=1)
         density = np.full(len(points), -np.inf)
         if inside.any():
-            square = found.problem.cost(points[inside])
+            square = found.model.cost(points[inside])
             n = len(found.residuals)
-            known = found.problem.residuals.known
+            known = found.model.residuals.known
             density[inside] = -square / 2.0 if known else -n / 2.0 * np.log(square)
         return density
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from wear.fitting.estimate import FARTHEST, ROUGHLY, Fit, Profile
+from wear.fitting.estimate import FARTHEST, Fit, Profile
+from wear.fitting.least_squares import ROUGHLY, follow, settle
 from wear.fitting.readings import FloatArray
 
 FLAT = 0.02  # of the slope that the root of the deviance has at the estimate: it rises no more
@@ -81,7 +82,7 @@ def profiles(found: Fit) -> Fit:
         ends, best, cost = _followed(found)
         if not cost < found.chi_square * (1.0 - BETTER):
             break
-        found = replace(found, theta=found.problem.settle(best, _box(found)))
+        found = replace(found, theta=settle(found.model, best, _box(found)))
     made = {end.index: _profile(found, end, high)
             for end, high in zip(ends[::2], ends[1::2], strict=True)}  # fmt: skip
     indices = range(len(found.theta))
@@ -113,7 +114,7 @@ def _followed(found: Fit) -> tuple[list[_End], FloatArray, float]:
             break
         starts = np.array([found.theta + end.side * end.step * end.path for end in active])
         fixed = np.arange(len(found.theta)) == np.array([[end.index] for end in active])
-        points, costs = found.problem.follow(starts, fixed, _box(found), ROUGHLY, MOST_STEPS)
+        points, costs = follow(found.model, starts, fixed, _box(found), ROUGHLY, MOST_STEPS)
         for end, point, cost in zip(active, points, costs.tolist(), strict=True):
             if cost < least:
                 best, least = point, cost

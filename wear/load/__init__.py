@@ -15,9 +15,9 @@ from typing import ClassVar
 import numpy as np
 from pydantic import Field
 
-from wear.checked import Positive, Real, SceneTable, table
+from wear.checked import Positive, Real, table
 from wear.load.blocks import Block, Blocks
-from wear.load.harmonics import Harmonics
+from wear.load.harmonics import Harmonics, Smooth, Waves
 from wear.load.lines import ForceTable, HistoryLoad, Table
 from wear.load.phase import FloatArray, centred
 from wear.load.protocol import Load
@@ -36,12 +36,14 @@ __all__ = [
     "Loading",
     "Sine",
     "Table",
+    "Waves",
     "sampled",
+    "waves",
 ]
 
 
 @table("load", kind="sine")
-class Sine(SceneTable):
+class Sine(Smooth):
     """U_a = U sin(2 pi t/T).
 
     >>> load = Sine(5e-4, 0.06)
@@ -51,7 +53,6 @@ class Sine(SceneTable):
 
     amplitude_mm: Real = Field(description="amplitude U")
     period_s: Positive = Field(description="period T of a cycle")
-    kinks: ClassVar[tuple[float, ...]] = ()
     mean: ClassVar[float] = 0.0
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
@@ -64,9 +65,9 @@ class Sine(SceneTable):
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         return {"amplitude_mm": np.sin(2.0 * math.pi * centred(phase))}
 
-    @property
-    def period(self) -> float:
-        return self.period_s
+    def terms(self) -> FloatArray:
+        """Return the rows j, cosine_j, sine_j of the harmonics."""
+        return np.array([[1.0], [0.0], [self.amplitude_mm]])
 
     @property
     def minimum(self) -> float:
@@ -83,21 +84,25 @@ class Sine(SceneTable):
         return (0.25,) if self.amplitude_mm > 0.0 else (0.75,)
 
 
-class _Level:
-    """A load that stays as it is."""
+@table("")
+class _Level(Smooth):
+    """A load that stays as it is; `of_level` names the field that says where."""
 
-    kinks: ClassVar[tuple[float, ...]] = ()
+    of_level: ClassVar[str] = "value_mm"
     peaks: ClassVar[tuple[float, ...]] = (0.0,)
 
     @property
     def mean(self) -> float:
-        raise NotImplementedError
+        return float(getattr(self, self.of_level))
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
         return np.full(np.shape(phase), self.mean)
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
         return np.zeros(np.shape(phase))
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        return {self.of_level: np.ones(phase.shape)}
 
     @property
     def minimum(self) -> float:
@@ -109,44 +114,23 @@ class _Level:
 
 
 @table("load", kind="constant")
-class Constant(_Level, SceneTable):
+class Constant(_Level):
     """U_a constant; the period only counts cycles."""
 
     value_mm: Real = Field(description="displacement U_a")
     period_s: Positive = Field(description="period T, only to count cycles")
 
-    @property
-    def period(self) -> float:
-        return self.period_s
-
-    @property
-    def mean(self) -> float:
-        return self.value_mm
-
-    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
-        return {"value_mm": np.ones(phase.shape)}
-
 
 @table("load", kind="force")
-class Force(_Level, SceneTable):
+class Force(_Level):
     """R_a constant: wear is its integral, problem (i) of the note, and the displacement follows.
 
     The contact needs `width_mm` and `length_mm`; its pressure is R_a/(b L).
     """
 
+    of_level: ClassVar[str] = "force_N"
     force_N: Positive = Field(description="reaction R_a of the pin")
     period_s: Positive = Field(description="period T, only to count cycles")
-
-    @property
-    def period(self) -> float:
-        return self.period_s
-
-    @property
-    def mean(self) -> float:
-        return self.force_N
-
-    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
-        return {"force_N": np.ones(phase.shape)}
 
 
 def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:
@@ -158,3 +142,12 @@ def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:
     if all(load is loads[0] for load in loads):
         return loads[0](phases)
     return np.stack([load(x) for load, x in zip(loads, phases, strict=True)])
+
+
+def waves(loads: Sequence[Load]) -> Waves:
+    """Return the displacements of many loads, sines or harmonics."""
+    each = [load.terms() for load in loads if isinstance(load, (Sine, Harmonics))]
+    terms = np.zeros((3, max(own.shape[1] for own in each), len(loads)))
+    for k, own in enumerate(each):
+        terms[:, : own.shape[1], k] = own
+    return Waves(np.array([load.mean for load in loads]), terms)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,22 +17,34 @@ from wear.load.phase import FloatArray, centred, within_cycle
 MOST_HARMONICS = 100
 
 
+@table("")
+class Smooth(SceneTable):
+    """A load without kinks, whose table has a `period_s`."""
+
+    kinks: ClassVar[tuple[float, ...]] = ()
+    if TYPE_CHECKING:
+        period_s: float
+
+    @property
+    def period(self) -> float:
+        return self.period_s
+
+
 @table("load", kind="harmonics")
-class Harmonics(SceneTable):
+class Harmonics(Smooth):
     """U_a = mean + sum over j = 1, 2, ... of cosine_j cos(2 pi j t/T) + sine_j sin(2 pi j t/T)."""
 
     mean_mm: Real = Field(description="mean of U_a")
     cosine_mm: Reals = Field(max_length=MOST_HARMONICS, description="cosine_1, cosine_2, ...")
     sine_mm: Reals = Field(max_length=MOST_HARMONICS, description="sine_1, sine_2, ...")
     period_s: Positive = Field(description="period T of a cycle")
-    kinks: ClassVar[tuple[float, ...]] = ()
     left_out: ClassVar[Mapping[str, Any]] = {"mean_mm": 0.0, "cosine_mm": (), "sine_mm": ()}
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
-        return self.mean_mm + _trigonometric_sum(self._terms(), phase)
+        return self.mean_mm + _trigonometric_sum(self.terms(), phase)
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
-        return _trigonometric_sum(_derivative(self._terms()), phase)
+        return _trigonometric_sum(_derivative(self.terms()), phase)
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         turn = 2.0 * math.pi * centred(phase)
@@ -42,17 +54,13 @@ class Harmonics(SceneTable):
                 found[f"{name}[{j}]"] = wave((j + 1) * turn)
         return found
 
-    def _terms(self) -> FloatArray:
+    def terms(self) -> FloatArray:
         """Rows j, cosine_j, sine_j of the harmonics."""
         terms = np.zeros((3, max(len(self.cosine_mm), len(self.sine_mm))))
         terms[0] = np.arange(1, terms.shape[1] + 1)
         terms[1, : len(self.cosine_mm)] = self.cosine_mm
         terms[2, : len(self.sine_mm)] = self.sine_mm
         return terms
-
-    @property
-    def period(self) -> float:
-        return self.period_s
 
     @property
     def mean(self) -> float:
@@ -76,14 +84,37 @@ class Harmonics(SceneTable):
     @cached_property
     def _turning_points(self) -> FloatArray:
         """Phases of zero slope (and perhaps a few more), in [0, 1), increasing, never empty."""
-        return _zeros(_derivative(self._terms()))
+        return _zeros(_derivative(self.terms()))
+
+
+class Waves(NamedTuple):
+    """The `mean` (k,) and `terms` (3, n, k), rows j, cosine_j, sine_j, of the displacements in many
+    cycles."""
+
+    mean: FloatArray
+    terms: FloatArray
+
+    def take(self, which: NDArray[Any]) -> Waves:
+        """Return the displacements in some of the cycles."""
+        return Waves(self.mean[which], self.terms[..., which])
+
+    def __call__(self, phase: FloatArray) -> FloatArray:
+        """Return the displacement (mm) at phases (..., k)."""
+        return self.mean + _trigonometric_sum(self.terms, phase)
+
+    def slope(self, phase: FloatArray) -> FloatArray:
+        """Return its derivative with respect to the phase, mm."""
+        return _trigonometric_sum(_derivative(self.terms), phase)
 
 
 def _trigonometric_sum(terms: FloatArray, phase: FloatArray | float) -> FloatArray:
     turn = 2.0 * math.pi * centred(phase)
     total = np.zeros_like(turn)
-    for order, cosine, sine in terms.T:
-        total += cosine * np.cos(order * turn) + sine * np.sin(order * turn)
+    for order, cosine, sine in np.moveaxis(terms, 1, 0):
+        if np.any(cosine):
+            total += cosine * np.cos(order * turn)
+        if np.any(sine):
+            total += sine * np.sin(order * turn)
     return total
 
 

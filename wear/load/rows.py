@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, ValidationError
 
 from wear.checked import (
     LARGEST,
@@ -180,12 +180,7 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
             ("file", f"{shown(name)} is not {known} text",
              f'save it as {known}, or give encoding = "latin-1"'),
         ) from None  # fmt: skip
-    times, values, faults = _parse(text, form, from_first)
-    if faults:
-        raise all_wrong(
-            *(("file", f"{shown(name)} line {line}: {problem}", remedy)
-              for line, problem, remedy in faults)
-        )  # fmt: skip
+    times, values = _parse(text, form, from_first)
     digest = hashlib.sha256(data).hexdigest()
     if form.sha256 not in (None, digest):
         problem = f"{shown(name)} has changed: its sha256 is {digest}"
@@ -193,7 +188,7 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
     return Rows(times * SECONDS[form.time_unit], values * form.units[form.unit], digest)
 
 
-def order_faults(times: FloatArray) -> list[tuple[int, str, str]]:
+def order_faults(times: FloatArray) -> list[LineFault]:
     """Return (row, problem, remedy) for times that do not rise from 0."""
     faults = []
     if times[0] != 0.0:
@@ -233,31 +228,34 @@ def _is_device(file: Path) -> bool:
     return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
-Faults = list[tuple[int, str, str]]
-_NOTHING = np.empty(0)
+LineFault = tuple[int, str, str]
+"""Number of a line, what is wrong with it, and the remedy."""
 
 
-def _parse(text: str, form: RowsFile, from_first: bool) -> tuple[FloatArray, FloatArray, Faults]:
-    """The two columns, and the line, problem and remedy of the first few wrong lines."""
+def _wrong_lines(form: RowsFile, *faults: LineFault) -> ValidationError:
+    """Return the error for lines of a file."""
+    name = shown(form.file)
+    return all_wrong(*(("file", f"{name} line {n}: {what}", cure) for n, what, cure in faults))
+
+
+def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
+    """Return the two columns, or raise what is wrong with the first few wrong lines."""
     lines = [(n, line) for n, line in enumerate(text.split("\n"), start=1) if line.strip()]
     heads = (_cells(line, form) for _, line in lines[:MOST_HEAD_LINES])
     head = next((n for n, cells in enumerate(heads) if set(form.columns) <= set(cells)), None)
     if head is None:
-        return _NOTHING, _NOTHING, [_header_fault(lines[0] if lines else (1, ""), form)]
+        raise _wrong_lines(form, _header_fault(lines[0] if lines else (1, ""), form))
     cells = _cells(lines[head][1], form)
     places = [cells.index(name) for name in form.columns]
     rows = lines[head + 1 :]
     if not 2 <= len(rows) <= MOST_ROWS:
-        return (
-            _NOTHING,
-            _NOTHING,
-            [(1, f"there are {len(rows)} rows", f"give from 2 to {MOST_ROWS}")],
-        )
+        problem = f"there are {len(rows)} rows"
+        raise _wrong_lines(form, (1, problem, f"give from 2 to {MOST_ROWS}"))
     columns = _all_at_once([line for _, line in rows], form, places, len(cells))
     if columns is not None and from_first:
         columns[0] -= columns[0, 0]
     if columns is not None and not order_faults(columns[0]):
-        return columns[0], columns[1], []
+        return columns
     return _one_by_one(rows, form, places, len(cells), from_first)
 
 
@@ -285,10 +283,11 @@ def _all_at_once(
 
 def _one_by_one(
     rows: list[tuple[int, str]], form: RowsFile, places: list[int], width: int, from_first: bool
-) -> tuple[FloatArray, FloatArray, Faults]:
+) -> FloatArray:
+    """Return both columns, or raise what is wrong with the first few wrong rows."""
     numbers: list[int] = []
     found: list[list[float | None]] = []
-    faults: Faults = []
+    faults: list[LineFault] = []
     for number, line in rows:
         cells = _cells(line, form)
         row = [_number(cells[at], form) for at in places if len(cells) == width]
@@ -300,15 +299,16 @@ def _one_by_one(
             found.append(row)
         if len(faults) == MOST_WRONG_ROWS:
             break
-    times, displacements = np.array(found or [[0.0, 0.0]], dtype=float).T
-    if from_first:
-        times = times - times[0]
+    columns = np.array(found, dtype=float).reshape(-1, 2).T
     if found:
-        faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(times)]
-    return times, displacements, sorted(faults)[:MOST_WRONG_ROWS]
+        columns[0] -= columns[0, 0] if from_first else 0.0
+        faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(columns[0])]
+    if faults:
+        raise _wrong_lines(form, *sorted(faults)[:MOST_WRONG_ROWS])
+    return columns
 
 
-def _header_fault(first: tuple[int, str], form: RowsFile) -> tuple[int, str, str]:
+def _header_fault(first: tuple[int, str], form: RowsFile) -> LineFault:
     line, header = first[0], first[1].strip()
     wanted = form.delimiter.join(form.columns)
     if len(_cells(header, form)) > 1 and all(

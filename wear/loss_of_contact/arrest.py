@@ -1,11 +1,13 @@
 """The count of cycles between two grazing wears, or towards the wear at which contact is lost."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
 
 from wear.loss_of_contact.increments import Coordinate
-from wear.numerics.gauss import FloatArray
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.abel import Panels
 from wear.orbit.iterates import Cells, Iterates
@@ -38,7 +40,7 @@ class TabulatedCount(NamedTuple):
     panels: Panels
     count_error: FloatArray
     limit_wear: LimitWear | None
-    limit: float
+    limit: FloatArray
 
     @property
     def in_z(self) -> Iterates:
@@ -47,23 +49,21 @@ class TabulatedCount(NamedTuple):
         limit = np.array([np.inf])
         return Iterates(begin, none, self.table, self.panels, self.count_error[None], limit, edges)
 
-    @property
-    def rests(self) -> bool:
-        """Return whether its last cycle adds nothing that double precision resolves."""
-        return self.limit_wear is not None
+    def take(self, rows: IntArray) -> TabulatedCount:
+        """Return the same: it is of one scene."""
+        return self
 
     @property
-    def first_increment(self) -> float:
+    def first_increment(self) -> FloatArray:
         """Return the wear (mm) that its first cycle adds."""
-        z, rate = self.table.u[:1], self.table.first_rate[:1]
-        return float(self.coordinate.rate(z, rate)[0])
+        return self.coordinate.rate(self.table.u[:1], self.table.first_rate[:1])
 
     @property
-    def last_wear(self) -> float:
+    def last_state(self) -> FloatArray:
         """Return the wear (mm) up to which it counts."""
         if self.limit_wear:
-            return self.limit_wear.wear
-        return float(self.coordinate.wear(self.table.ends[-1]))
+            return np.array([self.limit_wear.wear])
+        return self.coordinate.wear(self.table.ends[-1:])
 
     @property
     def reach(self) -> float:
@@ -71,19 +71,19 @@ class TabulatedCount(NamedTuple):
         return self.table.last_cycles
 
     @property
-    def ran(self) -> float:
-        """Return how many whole cycles it counts; to the limit wear, up to rounding."""
-        return float(np.ceil(self.reach) if self.limit_wear else np.floor(self.reach))
+    def at_rest(self) -> BoolArray:
+        """Return whether its last cycle adds nothing that double precision resolves."""
+        return np.array([self.limit_wear is not None])
 
     @property
-    def uncertainty(self) -> float:
-        """Return the estimated error of the last count, in cycles."""
-        return float(self.count_error[-1])
+    def whole_cycles(self) -> FloatArray:
+        """Return how many whole cycles it counts; to the limit wear, up to rounding."""
+        return np.array([np.ceil(self.reach) if self.limit_wear else np.floor(self.reach)])
 
-    def wear_after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the wear (mm) after `cycles`, and its estimated relative error."""
-        z, rate = self.table.state_after(cycles)
-        missed = rate * self._error_at(cycles)  # of z
+    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after `cycles` (1, c), and its estimated relative error."""
+        (z, rate), shape = self.table.state_after(cycles.ravel()), cycles.shape
+        z, missed = z.reshape(shape), rate.reshape(shape) * self._error_at(cycles)  # of z
         if self.limit_wear:
             distance = np.where(cycles < self.reach, 1.0 / z, 0.0)
             wear = self.limit_wear.wear - distance
@@ -93,13 +93,13 @@ class TabulatedCount(NamedTuple):
         error = self.coordinate.rate(z, missed) / np.where(wear > 0.0, wear, 1.0)
         return wear, np.where((error < NO_DIGIT) & (cycles <= self.reach), error, np.inf)
 
-    def cycles_until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the whole cycles after which each wear (mm) is reached, infinite beyond the end,
-        and the error of the count in cycles."""
+    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the whole cycles after which each wear (mm, (1, c)) is reached, infinite beyond
+        the end, and the error of the count in cycles."""
         if self.limit_wear:
             within = self.limit_wear.wear - wear > TO_ROUNDOFF * self.limit_wear.wear
         else:
-            within = wear <= self.last_wear
+            within = wear <= self.last_state
         count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
         z = np.clip(self.coordinate.at(wear[within]), self.table.u[0], self.table.ends[-1])
         found = self.table.cycles_until(z)

@@ -5,30 +5,20 @@ follows the load within a small part of the cycle. Newton's method on all nodes 
 mind, and Radau nodes damp what was before. Where contact ends, or changes its kind, the margin of
 contact has come to a known level; the phase at which it does so is found along with the wear, so
 that no node lies beyond and the collocation stays spectral.
+
+Arrays are (nodes, cycles): the cycles go together, whichever scenes and parts they belong to.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.load import Load
-from wear.model import Model
-from wear.numerics.collocation import (
-    NOISE,
-)
-from wear.numerics.gauss import (
-    BoolArray,
-    FloatArray,
-    Gauss,
-    IntArray,
-)
-from wear.numerics.tolerances import (
-    ROUNDOFF,
-    TINY,
-)
+from wear.loss_of_contact.switching import Cycles, roughness
+from wear.numerics.collocation import NOISE
+from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray
+from wear.numerics.tolerances import ROUNDOFF, TINY
 
 MOST_ITERATIONS = 12  # of Newton
 PATIENCE = 4  # iterations that may diverge at first
@@ -41,11 +31,12 @@ LAYER = 0.25  # of the roughness: wear that changes the pressure by a factor of 
 BY_PHASE = 0.02  # share of the phase's rounding in that of a series of the rate
 STIFF = 3.0  # decay over a part, as an exponent: then a system of equations is solved
 FLAT = 1e-30  # mm per cycle: a margin that does not change
+DIVERGED = 1e30  # relative change from one iteration to the next
 
 
 class Interval(NamedTuple):
-    """Stretches of phase of a cycle, (k,): where each begins, `whole` lengths, and where contact is
-    `expected` to end, as lengths."""
+    """Stretches of phase (k,): where each begins, `whole` lengths, and where contact is `expected`
+    to end, as lengths."""
 
     begin: FloatArray
     whole: FloatArray
@@ -53,63 +44,75 @@ class Interval(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """Contact of one kind under a load: its wear `rate` (mm/s) at any wear and displacement (mm),
-    with its derivative with respect to the wear (1/s), and the `level` (mm) of the margin at which
-    it ends, which comes from above if it `falls`; no level if it lasts. The rate may be
-    `proportional` to the margin, and so as inexact."""
+    """Contact of one kind in some `cycles` (k,): by the law, or held at its edge by a compliant
+    support. It ends where the margin comes to a `level` (k,), mm, by falling where `direction`
+    (k,) is 1 and by rising where it is -1; where that is 0 it lasts."""
 
-    model: Model
-    load: Load
-    rate: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
-    level: float | None = None
-    falls: bool = True
-    proportional: bool = False
+    cycles: Cycles
+    by_law: bool
+    level: FloatArray
+    direction: FloatArray
+
+    def take(self, which: BoolArray | IntArray) -> Contact:
+        """Return the contact in some of the cycles."""
+        return Contact(
+            self.cycles.take(which), self.by_law, self.level[which], self.direction[which]
+        )
 
     def rate_per_cycle(self, u: FloatArray, U_a: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the wear rate in mm per cycle, and its derivative with respect to the wear."""
-        rate, slope = self.rate(u, U_a)
-        return self.load.period * rate, self.load.period * slope
+        model, period = self.cycles.model, self.cycles.period
+        rate, slope = (model.law_rate_and_slope if self.by_law else model.edge_rate_and_slope)(
+            u, U_a
+        )
+        return period * rate, period * slope
+
+    def steepness(self, u: FloatArray, phase: FloatArray) -> FloatArray:
+        """Return what rounding of the phase makes of contact that begins at wears and phases (k,):
+        by the law, in roundoffs of the rate; held, in mm of the margin per roundoff."""
+        steepest = np.abs(self.cycles.load.slope(phase))
+        if not self.by_law:
+            return np.asarray(steepest + self.cycles.swing)
+        # A phase is rounded, too, and under a steep load the pressure with it.
+        sigma = roughness(self.cycles.model, u)
+        return np.maximum(1.0, BY_PHASE * steepest / (LAYER * sigma))
 
     def noise(
-        self, u: FloatArray, U_a: FloatArray, rate: FloatArray, steepest: FloatArray
+        self, u: FloatArray, U_a: FloatArray, rate: FloatArray, steepness: FloatArray
     ) -> FloatArray:
-        """Return what rounding makes of the `rate` (k, m), mm per cycle, at wears and displacements
-        (k, m) under a load that changes by `steepest` (k,) mm per cycle; at most, (k,)."""
-        largest = ROUNDOFF * np.max(np.abs(rate), axis=1)
-        if not self.proportional:
-            # A phase is rounded, too, and under a steep load the pressure with it.
-            follows = np.abs(steepest) / (LAYER * _roughness(self.model, u[:, 0]))
-            return np.asarray(largest * np.maximum(1.0, BY_PHASE * follows))
-        none = np.array(0.0)
-        per_margin, _ = self.rate_per_cycle(none, 1.0 - self.model.margin(none, none))
-        terms = np.max(self.model.margin_terms(u, U_a), axis=1) + np.abs(steepest)
-        terms += max(abs(self.load.minimum), abs(self.load.maximum))
-        return np.asarray(largest + ROUNDOFF * per_margin * terms)
+        """Return the rounding error (k,) of the rate at the nodes (m, k), mm per cycle."""
+        largest = np.max(np.abs(rate), axis=0)
+        if self.by_law:
+            return np.asarray(ROUNDOFF * steepness * largest)
+        # Proportional to the margin, and so as inexact.
+        model, none = self.cycles.model, np.zeros_like(steepness)
+        per_margin, _ = self.rate_per_cycle(none, 1.0 - model.margin(none, none))
+        terms = np.max(model.margin_terms(u, U_a), axis=0) + steepness
+        return np.asarray(ROUNDOFF * (largest + per_margin * terms))
 
     def to_its_end(
-        self, u: FloatArray, phase: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        self, u: FloatArray, U_a: FloatArray, phase: FloatArray, rate: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """Return how far it is to the end of contact (cycles) from wears and phases (k,), by a
-        tangent; what of that is rounding; and the rate there (mm per cycle)."""
-        assert self.level is not None
-        sign = 1.0 if self.falls else -1.0
-        U_a = self.load(phase)
-        left = sign * (self.model.margin(u, U_a) - self.level)
-        rate, _ = self.rate_per_cycle(u, U_a)
-        widens = self.model.margin_slope(u, U_a) * rate
-        falls = np.minimum(sign * (self.load.slope(phase) + widens), -FLAT)
-        uncertain = BLUR * (self.model.margin_terms(u, U_a) - falls)
+        tangent, zero where it lasts; and what of that is rounding. The `rate` is in mm per
+        cycle."""
+        model, direction = self.cycles.model, self.direction
+        left = direction * (model.margin(u, U_a) - self.level)
+        closing = self.cycles.load.slope(phase) + model.margin_slope(u, U_a) * rate
+        falls = np.minimum(direction * closing, -FLAT)
+        uncertain = BLUR * (model.margin_terms(u, U_a) - falls)
         # Only a margin that is rounding makes the end uncertain: trial states may be far off.
         uncertainty = np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
-        return -left / falls, uncertainty, rate
+        return np.where(direction == 0.0, 0.0, -left / falls), uncertainty
 
 
 class ContactPart(NamedTuple):
-    """A part of contact that the wears in `rows` (k,) of those asked for have come through: from
-    the phases `begin` (k,) over a `length` (k,), from a wear `start` (k,), mm, with what has been
-    added since, `inside` (k, m), at the nodes; and whether contact has `ended` (k,) there."""
+    """A part of contact, by the law or not, that the cycles in `rows` (k,) of those asked for have
+    come through: from the phases `begin` (k,) over a `length` (k,), from a wear `start` (k,), mm,
+    with what has been added since, `inside` (m, k), at the nodes; and whether contact has `ended`
+    (k,) there."""
 
-    contact: Contact
+    by_law: bool
     rows: IntArray
     begin: FloatArray
     length: FloatArray
@@ -119,20 +122,26 @@ class ContactPart(NamedTuple):
 
 
 class ContactResult(NamedTuple):
-    """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is sound; the
-    number of right-hand sides evaluated; its `parts` in order; and which wears, in `slid`, have
-    ended by sliding along the edge."""
+    """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is `sound`
+    (k,); the number of right-hand sides evaluated; its `parts` in order; and which wears, in
+    `slid`, have ended by sliding along the edge."""
 
     added: FloatArray
     length: FloatArray
-    sound: bool
+    sound: BoolArray
     evaluations: int
     parts: tuple[ContactPart, ...] = ()
-    slid: IntArray | None = None
+    slid: IntArray = np.empty(0, dtype=np.intp)
 
-    def of(self, rows: IntArray) -> tuple[ContactPart, ...]:
-        """Return the parts, where the wears were those in `rows` of others."""
-        return tuple(part._replace(rows=rows[part.rows]) for part in self.parts)
+    def among(self, rows: IntArray, number: int) -> ContactResult:
+        """Return the result where the wears were those in `rows` of so many others, which add
+        nothing."""
+        added, length = np.zeros((2, number))
+        added[rows], length[rows] = self.added, self.length
+        sound = np.full(number, True)
+        sound[rows] = self.sound
+        parts = tuple(part._replace(rows=rows[part.rows]) for part in self.parts)
+        return ContactResult(added, length, sound, self.evaluations, parts, rows[self.slid])
 
 
 def wear_in_contact(
@@ -148,11 +157,11 @@ def wear_in_contact(
 
     Each stretch is cut in two until the rate is resolved to `tolerance` of what the cycle adds.
     """
-    added, length = np.zeros(len(u)), np.zeros(len(u))
+    added, length = np.zeros((2, len(u)))
     todo: list[tuple[IntArray, float, float]] = [(np.arange(len(u)), 0.0, 1.0)]
-    evaluations, parts, sound = 0, 0, True
+    evaluations = 0
     passed: list[ContactPart] = []
-    ended = np.zeros(len(u), dtype=bool)
+    sound, ended = np.full(len(u), True), np.full(len(u), False)
     while todo:
         rows, begin, end = todo.pop()
         rows = rows[~ended[rows]]
@@ -163,27 +172,27 @@ def wear_in_contact(
         start, earlier = (u + added)[rows], (before + added)[rows]
         expected = np.minimum(np.where(left > 0.0, left, LEAST * whole), whole)
         stretch = Interval(over.begin[rows] + begin * over.whole[rows], whole, expected)
-        part = _part(contact, rule, start, stretch)
-        evaluations, parts = evaluations + part.evaluations, parts + 1
+        part = _part(contact.take(rows), rule, start, stretch)
+        evaluations += part.evaluations
         fine = part.sound & _is_fine(rule, part, tolerance, earlier)
-        if end - begin <= SHORTEST or parts >= MOST_PARTS:
-            sound &= bool(fine.all())
+        if end - begin <= SHORTEST or len(passed) >= MOST_PARTS:
+            sound[rows] &= fine
             fine[:] = True
-        some = rows[fine]
+        some, over_before = rows[fine], part.length[fine] < whole[fine]
         passed.append(
             ContactPart(
-                contact,
+                contact.by_law,
                 some,
                 stretch.begin[fine],
                 part.length[fine],
                 start[fine],
-                part.inside[fine],
-                part.length[fine] < whole[fine],
+                part.inside[:, fine],
+                over_before,
             )
         )
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
         length[some] += part.length[fine]
-        ended[some] = part.length[fine] < whole[fine]
+        ended[some] = over_before
         if not fine.all():
             middle, again = (begin + end) / 2, rows[~fine]
             todo += [(again, middle, end), (again, begin, middle)]
@@ -191,7 +200,7 @@ def wear_in_contact(
 
 
 class _Part(NamedTuple):
-    """As `ContactResult`, with what is added `inside` (k, m) and the rate (k, m) in mm per cycle at
+    """As `ContactResult`, with what is added `inside` (m, k) and the rate (m, k) in mm per cycle at
     the nodes, what is `noise` of it (k,), and how often wear alone would turn over in the part: its
     `stiffness` (k,)."""
 
@@ -213,76 +222,74 @@ def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> 
     foretells. Where the wear follows the load within less than the distance of two nodes, it leaves
     those from m on, over that time.
     """
-    series = np.abs(part.rate @ rule.coefficients.T)
-    half = series.shape[1] // 2
-    middle, tail = (np.max(series[:, k - 3 : k], axis=1) for k in (half, 2 * half))
+    series = np.abs(rule.coefficients @ part.rate)
+    half = len(series) // 2
+    middle, tail = (np.max(series[k - 3 : k], axis=0) for k in (half, 2 * half))
     gain = np.minimum(tail / (middle + TINY), 1.0) ** 2
     follows = part.stiffness > half
     gain[follows] = np.maximum(gain, 1.0 / part.stiffness)[follows]
     left = tail * gain * part.length
-    allowed = part.noise / np.maximum(1.0, part.stiffness / series.shape[1] ** 2)
+    allowed = part.noise / np.maximum(1.0, part.stiffness / len(series) ** 2)
     left[tail < 100 * allowed] = 0.0
     resolved: BoolArray = left <= tolerance * np.maximum(before + part.added, 0.0)
     return resolved
 
 
-def _roughness(model: Model, u: FloatArray) -> FloatArray:
-    """Return the equivalent roughness (mm) at each wear (k,); it does not depend on the
-    pressure."""
-    none = np.zeros_like(u)
-    fields = model.fields_under(none, u, none) if model.compliant else model.fields(u, none)
-    return np.asarray(fields.sigma)
-
-
 def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Interval) -> _Part:
     """Newton's method on contact; where it has a level, the end of contact is found by tangents
-    along with the wear."""
-    length = over.expected if contact.level is not None else over.whole
-    inside = np.zeros((len(u), len(rule.nodes)))
-    last, done, evaluations = np.ones(len(u)), np.full(len(u), False), 0
+    along with the wear, of which Radau's last node is the last."""
+    length = np.where(contact.direction == 0.0, over.whole, over.expected)
+    ends, nodes = np.any(contact.direction != 0.0), rule.nodes[:, None]
+    inside = np.zeros((len(nodes), len(u)))
+    last, evaluations = np.ones(len(u)), 0
+    done, lost = np.full((2, len(u)), False)
+    steepness = contact.steepness(u, over.begin)
+    U_a = contact.cycles.load(over.begin + length * nodes)
     for iteration in range(MOST_ITERATIONS):
-        phases = over.begin[:, None] + length[:, None] * rule.nodes
-        U_a = contact.load(phases)
-        rate, slope = contact.rate_per_cycle(u[:, None] + inside, U_a)
+        rate, slope = contact.rate_per_cycle(u + inside, U_a)
         evaluations += rate.size
-        missing = length[:, None] * (rate @ rule.integrate.T) - inside
-        step = _newton(rule, length, slope, missing)
+        missing = length * (rule.integrate @ rate) - inside
+        step = np.where(done, 0.0, _newton(rule, length * slope, missing))
         rate, inside = rate + slope * step, inside + step
-        added = length * (rate @ rule.weights)
-        apart = np.max(np.abs(step), axis=1) / (np.abs(added) + TINY)
-        noise = contact.noise(u[:, None] + inside, U_a, rate, contact.load.slope(over.begin))
-        stiffness = length * np.max(np.abs(slope), axis=1)
+        added = length * (rule.weights @ rate)
+        apart = np.max(np.abs(step), axis=0) / (np.abs(added) + TINY)
+        noise = contact.noise(u + inside, U_a, rate, steepness)
+        stiffness = length * np.max(np.abs(slope), axis=0)
         allowed = NOISE / ROUNDOFF * noise * length / np.maximum(1.0, stiffness)
         allowed /= np.abs(added) + TINY
-        if contact.level is not None:
-            change, uncertainty, at_end = contact.to_its_end(u + added, over.begin + length)
+        if ends:
+            change, uncertainty = contact.to_its_end(
+                u + added, U_a[-1], over.begin + length, rate[-1]
+            )
             change = np.clip(length + change, LEAST * length, over.whole) - length
+            change = np.where(done, 0.0, change)
             apart = np.maximum(apart, np.abs(change) / length)
-            inside = inside + rate * rule.nodes * change[:, None]
-            added, length = added + at_end * change, length + change
+            inside = inside + rate * nodes * change
+            added, length = added + rate[-1] * change, length + change
             allowed += np.where(length < over.whole, uncertainty / length, 0.0)
+        lost |= ~(apart < DIVERGED) | ((apart > last) & ~done & (iteration > PATIENCE))
         done |= _has_settled(apart, last, allowed)
-        grows = bool(np.any((apart > last) & ~done)) and iteration > PATIENCE
-        if done.all() or grows or not np.max(apart) < 1e30:
+        if np.all(done | lost):
             break
         last = apart
+        if ends:
+            U_a = contact.cycles.load(over.begin + length * nodes)
     return _Part(added, length, inside, rate, noise, stiffness, done, evaluations)
 
 
-def _newton(rule: Gauss, length: FloatArray, slope: FloatArray, missing: FloatArray) -> FloatArray:
-    """Return the solution x (k, m) of x = missing + length times the integral of slope x.
+def _newton(rule: Gauss, slope: FloatArray, missing: FloatArray) -> FloatArray:
+    """Return the solution x (m, k) of x = missing + the integral of slope x.
 
     Where nothing decays much it is missing + E times the integral of slope missing/E, with
     E = exp(integral of slope): but for a truncation error, of which the next iteration takes care.
     """
-    scaled = length[:, None] * slope
-    decay = scaled @ rule.integrate.T
-    stiff = ~(np.max(np.abs(decay), axis=1) < STIFF)
-    factor = np.exp(np.where(stiff[:, None], 0.0, decay))
-    x = missing + factor * ((scaled * missing / factor) @ rule.integrate.T)
+    decay = rule.integrate @ slope
+    stiff = ~(np.max(np.abs(decay), axis=0) < STIFF)
+    factor = np.exp(np.where(stiff, 0.0, decay))
+    x = missing + factor * (rule.integrate @ (slope * missing / factor))
     if stiff.any():
-        matrix = np.eye(len(rule.nodes)) - rule.integrate * scaled[stiff][:, None, :]
-        x[stiff] = np.linalg.solve(matrix, missing[stiff][..., None])[..., 0]
+        matrix = np.eye(len(rule.nodes)) - rule.integrate * slope.T[stiff][:, None, :]
+        x[:, stiff] = np.linalg.solve(matrix, missing.T[stiff][..., None])[..., 0].T
     return np.asarray(x)
 
 

@@ -9,6 +9,7 @@ pass it. Only the cycle that passes is integrated by itself, and the last ones b
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -19,8 +20,17 @@ from wear.loss_of_contact.grazing import limit_wear_of
 from wear.loss_of_contact.increments import Increments, Span, fitted, frame_of, middle
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
+from wear.loss_of_contact.requests import (
+    COARSE,
+    FINE,
+    Asking,
+    Request,
+    answered,
+    without_feedback,
+)
 from wear.loss_of_contact.roundoff import roundoff, roundoff_of_cycles
-from wear.loss_of_contact.stage import Integrated, Stage, Stages, UnresolvedStage
+from wear.loss_of_contact.stage import CountToArrest, Unresolved
+from wear.loss_of_contact.switching import Edge, edge_of_contact
 from wear.model import Model
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray
@@ -28,8 +38,9 @@ from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
 from wear.orbit.panels import CHECKS
-from wear.orbit.period_map import Settings
-from wear.orbit.segments import Cost
+from wear.orbit.period_map import Settings, settings
+from wear.orbit.problem import Cost
+from wear.orbit.segments import Counted, Orbit, Segment
 from wear.orbit.transient import SAFETY
 
 FEW = 4.0  # cycles to the next grazing wear: they are integrated
@@ -44,30 +55,44 @@ APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: increments that have no series
 MOST_POOR = 8  # times that panels may hold too few cycles
+_FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
+
+
+class Wanted(NamedTuple):
+    """A scene's model under a load that repeats, of which `cycles` are to be counted from the wear
+    `start` (mm), known up to `start_error`."""
+
+    model: Model
+    load: Load
+    cycles: float
+    start: float = 0.0
+    start_error: float = 0.0
 
 
 @np.errstate(all="ignore")
 def counted_stages(
-    model: Model,
-    load: Load,
-    cycles: float,
-    rtol: float,
-    start: float,
-    deadline: float = np.inf,
-    begun_with: float = 0.0,
-) -> Stages:
-    """Count from the wear `start` (mm), known up to `begun_with`, up to `cycles`, or until wear
-    ends.
+    wanted: Sequence[Wanted], rtol: float, deadline: float = np.inf
+) -> list[CountToArrest]:
+    """Count the cycles of scenes of one variant, or until wear ends.
 
     After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
     """
-    cycle = switched_period_map(model, load)
-    problem = problem_of(cycle, rtol, deadline)
-    runs = _Count(problem, start)
-    while not runs.over and (runs.done < cycles or not runs.parts):
-        runs.go(max(cycles - runs.done, 1.0))
-    return _judged(problem, runs, begun_with, cycles)
+    models, loads = [each.model for each in wanted], [each.load for each in wanted]
+    edges = [edge_of_contact(*pair) for pair in zip(models, loads, strict=True)]
+    size = settings(rtol)
+    coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
+    fine = switched_period_map(models, loads, edges, size.finer_nodes)
+    counts = [_count(*each, rtol, deadline) for each in zip(wanted, edges, strict=True)]
+    return answered(counts, [coarse, fine])
+
+
+def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[CountToArrest]:
+    problem = yield from problem_of(wanted.model, wanted.load, edge, rtol, deadline)
+    runs = _Count(problem, wanted.start)
+    while not runs.over and (runs.done < wanted.cycles or not runs.parts):
+        yield from runs.go(max(wanted.cycles - runs.done, 1.0))
+    return (yield from _judged(problem, runs, wanted.start_error, wanted.cycles))
 
 
 class Single(NamedTuple):
@@ -92,7 +117,7 @@ class Single(NamedTuple):
         return misfit * added, np.abs(1 + slope)
 
 
-class Counted(NamedTuple):
+class OnPanels(NamedTuple):
     """A count by Abel's equation on `panels` of z, with its `residual` on each and the `series` of
     the increments; to the `limit_wear`, if it goes so far."""
 
@@ -129,7 +154,8 @@ class Counted(NamedTuple):
         of_density = ROUNDOFF * np.repeat(terms, parts)
         missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
         error = np.concatenate([[0.0], np.cumsum(missed)])
-        return TabulatedCount(coordinate, table, panels, error, self.limit_wear, problem.end)
+        limit = np.array([problem.end])
+        return TabulatedCount(coordinate, table, panels, error, self.limit_wear, limit)
 
 
 class _Count:
@@ -137,61 +163,60 @@ class _Count:
 
     def __init__(self, problem: Problem, start: float) -> None:
         self.problem, self.wear, self.done, self.over = problem, start, 0.0, False
-        self.parts: list[Single | Counted | UnresolvedStage] = []
+        self.parts: list[Single | OnPanels | Unresolved] = []
         self.known: list[tuple[Span, Increments]] = []
         self.problem_of = start
         self.singles = self.poor = 0
         self.arrested = self.fades = False
         self.cost = Cost(0, 0)
 
-    def go(self, cycles: float) -> None:
+    def go(self, cycles: float) -> Asking[None]:
         """Go on for so many `cycles`, or less."""
         in_time = time.monotonic() <= self.problem.deadline
         if self.wear >= self.problem_of and cycles > FEW and in_time:
-            self._prepare(cycles)
+            yield from self._prepare(cycles)
             return
         for span, series in self.known:
             if span.start <= self.wear < span.end:
-                self._along(span, series, cycles)
+                yield from self._along(span, series, cycles)
                 return
         ahead = min(self._ahead(), default=np.inf)
         if ahead - self.wear <= 2 * GRAIN * ROUNDOFF * ahead:
             # Contact shrinks like the root of what is left: twice the cycles at the present pace.
-            rate = self.problem.plain.increment_without_feedback(np.array([self.wear]))[0] + TINY
+            rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
             left = 2 * (ahead - self.wear) / rate
             if FEW < left < np.inf:
-                self._append(UnresolvedStage(self.wear, ahead, float(np.floor(left))), ahead)
+                way = np.array([[self.wear], [ahead], [np.floor(left)]])
+                self._append(Unresolved(*way), ahead)
                 return
-        self._single()
+        yield from self._single()
 
     def _ahead(self) -> list[float]:
-        return [
-            k.wear for k in self.problem.grazing_wears if k.wear > self.wear * (1 + 8 * ROUNDOFF)
-        ]
+        return [stop.at for stop in self.problem.stops if stop.at > self.wear * (1 + 8 * ROUNDOFF)]
 
-    def _prepare(self, cycles: float) -> None:
-        if self.problem.plain.increment_without_feedback(np.array([self.wear]))[0] > VIOLENT * (
-            SHIFT * self.problem.scale + self.wear
-        ):
-            self._single()
+    def _prepare(self, cycles: float) -> Asking[None]:
+        added = yield from without_feedback(np.array([self.wear]))
+        if added[0] > VIOLENT * (SHIFT * self.problem.scale + self.wear):
+            yield from self._single()
             return
-        spans, self.problem_of = planned(self.problem, self.wear, cycles)
+        spans, self.problem_of = yield from planned(self.problem, self.wear, cycles)
         number = COEFFICIENTS if self.problem.rtol < 1e-8 else FEWER_COEFFICIENTS
         tolerance = self.problem.size.residual_tolerance / 2
-        self.known, cost = fitted(self.problem.both, spans, number, tolerance)
+        self.known, cost = yield from fitted(spans, number, tolerance)
         self.cost = self.cost.plus(*cost)
         if self.known and self.known[-1][0].tends:
             (span, series), limit = self.known[-1], spans[-1].coordinate.origin
             width = -np.log(TO_ROUNDOFF * limit * series.end)
             self.known[-1] = span._replace(end=limit), series.on_a_line(float(width))
 
-    def _append(self, part: Single | Counted | UnresolvedStage, wear: float) -> None:
+    def _append(self, part: Single | OnPanels | Unresolved, wear: float) -> None:
         self.parts.append(part)
-        self.wear, self.done = wear, self.done + part.ran
+        ran = float(part.whole_cycles[0]) if isinstance(part, Unresolved) else part.ran
+        self.wear, self.done = wear, self.done + ran
 
-    def _single(self) -> None:
+    def _single(self) -> Asking[None]:
         """Integrate one cycle."""
-        run = self.problem.both.coarse.advance(np.array([self.wear]))
+        run = yield Request(COARSE, np.array([self.wear]))
         self.cost = self.cost.plus(1, run.evaluations)
         self.singles += 1
         added = float(run.increment[0])
@@ -215,7 +240,7 @@ class _Count:
         failed = not run.converged.all() or not self.wear < self.problem.end
         self.over = self.arrested or failed or late or self.singles >= MOST_SINGLE
 
-    def _along(self, span: Span, series: Increments, cycles: float) -> None:
+    def _along(self, span: Span, series: Increments, cycles: float) -> Asking[None]:
         """Count along a span on which the increments are known."""
         coordinate = span.coordinate
         begin = float(coordinate.at(np.array(self.wear)))
@@ -228,15 +253,17 @@ class _Count:
         calm = np.flatnonzero(lasts >= CALM)
         number = float(np.sum(gains[calm[0] : calm[-1]])) if len(calm) else 0.0
         if np.sum(gains) < MOST_WALKED or number < 2 * ENOUGH * self.problem.size.panel_nodes:
-            self._walk(span, series, end, cycles)
+            yield from self._walk(span, series, end, cycles)
         elif calm[0] > 0:
-            self._walk(span, series, float(looks[calm[0]]), cycles)
+            yield from self._walk(span, series, float(looks[calm[0]]), cycles)
         else:
             before = float(np.sum(gains[looks[1:] <= series.frame.starts[-1]]))
             line = before > ENOUGH * self.problem.size.panel_nodes
-            self._count(span, series, begin, float(looks[calm[-1]]), line)
+            yield from self._count(span, series, begin, float(looks[calm[-1]]), line)
 
-    def _count(self, span: Span, series: Increments, begin: float, end: float, line: bool) -> None:
+    def _count(
+        self, span: Span, series: Increments, begin: float, end: float, line: bool
+    ) -> Asking[None]:
         """Count by Abel's equation from one z to another, on a line at last if that is to be."""
         limit_wear = (
             self.problem.limit_wear if span.tends and end >= series.end * (1 - 1e-9) else None
@@ -246,25 +273,25 @@ class _Count:
         panels, residual, poor = solved(series, begin, end, self.problem.size)
         if poor and self.poor < MOST_POOR:  # panels of too few cycles: some more one by one
             self.poor += 1
-            self._walk(span, series, end, MOST_WALKED)
+            yield from self._walk(span, series, end, MOST_WALKED)
             return
         if line:
             panels, residual = on_a_line(panels, residual, series)
-        part = Counted(cells(panels), panels, residual, series, limit_wear, line)
+        part = OnPanels(cells(panels), panels, residual, series, limit_wear, line)
         if limit_wear is not None:
             self._append(part, limit_wear.wear)
             self.over = self.arrested = self.fades = True
         elif part.ran < 1.0:
-            self._single()
+            yield from self._single()
         else:
             z, _ = part.table.state_after(np.array([part.ran]))
             self._append(part, float(span.coordinate.wear(z)[0]))
 
-    def _walk(self, span: Span, series: Increments, end: float, cycles: float) -> None:
+    def _walk(self, span: Span, series: Increments, end: float, cycles: float) -> Asking[None]:
         """Go on cycle by cycle until z passes `end`."""
         walked = series.walk(self.wear, end, min(cycles, MOST_AT_ONCE))
         if len(walked) == 1:
-            self._single()
+            yield from self._single()
             return
         if span.tends and end == series.end and len(walked) <= min(cycles, MOST_AT_ONCE):
             walked += [span.end, span.end]
@@ -332,55 +359,57 @@ def on_a_line(
     return more, np.append(residual, abs(found - slope))
 
 
-def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) -> Stages:
+def _judged(
+    problem: Problem, runs: _Count, begun_with: float, cycles: float
+) -> Asking[CountToArrest]:
     """Return the parts of the way as stages, each with its estimate of error."""
     single = [part for part in runs.parts if isinstance(part, Single) and part.series is None]
     at = np.array([wear for part in single for wear in part.wear[:-1]])
     added = np.array([x for part in single for x in part.added])
     cost = runs.cost
     if len(at):
-        fine = problem.both.fine.advance(at)
+        fine = yield Request(FINE, at)
         missed = np.abs(fine.increment - added)
         if not fine.converged.all():
             missed[:] = np.inf
-        roughness = 4 * problem.scale
-        beside = problem.both.coarse.advance(at + APART * (roughness + at))
-        growth = np.abs(1 + (beside.increment - added) / (APART * (roughness + at)))
+        apart = APART * (4 * problem.scale + at)
+        beside = yield Request(COARSE, at + apart)
+        growth = np.abs(1 + (beside.increment - added) / apart)
         cost = cost.plus(2 * len(at), fine.evaluations + beside.evaluations)
-    stages: list[Stage] = []
-    begins, inherited, adrift, used = 0.0, begun_with, 0.0, 0
+    segments: list[Segment] = []
+    begins, drift, one, used = 0.0, 0.0, np.zeros(1), 0
+    inherited = one + begun_with
     for part in runs.parts:
-        counted: Integrated | TabulatedCount | UnresolvedStage
-        if isinstance(part, Single):
-            if part.series is None:
-                some = slice(used, used + len(part.added))
-                used += len(part.added)
-                counted = _one_by_one(problem, part, missed[some], growth[some])
-            else:
-                counted = _one_by_one(problem, part, *part.missed())
-        elif isinstance(part, Counted):
-            counted = part.judged(problem)
+        counted: Counted
+        if isinstance(part, Single) and part.series is None:
+            some = slice(used, used + len(part.added))
+            used += len(part.added)
+            counted = _one_by_one(problem, part, missed[some], growth[some])
+        elif isinstance(part, Single):
+            counted = _one_by_one(problem, part, *part.missed())
         else:
-            counted = part
-        stage = Stage(begins, counted, inherited, adrift)
-        stages.append(stage)
-        begins += stage.ran
-        after, relative = stage.wear_after(np.array([begins]))
-        inherited, adrift = float(relative[0] * after[0]), stage.drift
-    last = stages[-1].counted.last_wear
+            counted = part.judged(problem) if isinstance(part, OnPanels) else part
+        segments.append(Segment(_FIRST, counted, one + begins, inherited, one + drift))
+        ran = counted.whole_cycles
+        after, relative = counted.after(ran[None])
+        inherited = after[0] * (relative[0] + inherited / (after[0] + TINY))
+        begins += float(ran[0])
+        drift += float(part.reach[0]) if isinstance(part, Unresolved) else 0.0
+    last = float(segments[-1].counted.last_state[0])
     limit_wear = limit_wear_of(problem.model, problem.load, last) if runs.arrested else None
     at_rest = limit_wear.uncertainty / last if limit_wear else np.inf
-    arrested = runs.arrested and begins <= cycles
-    return Stages(tuple(stages), arrested, at_rest, cost, runs.fades, problem.model.compliant)
+    arrested, compliant = runs.arrested and begins <= cycles, problem.model.compliant
+    orbit = Orbit(1, tuple(segments), cost)
+    return CountToArrest(orbit, arrested, at_rest, runs.fades, compliant)
 
 
-def _one_by_one(
-    problem: Problem, part: Single, missed: FloatArray, growth: FloatArray
-) -> Integrated:
+def _one_by_one(problem: Problem, part: Single, missed: FloatArray, growth: FloatArray) -> Iterates:
     """Return the cycles with what each may have missed (mm) and the factor by which it changes an
     error."""
     wear, added = np.array(part.wear), np.array(part.added)
-    response = problem.plain.response(added, growth)
+    # The response to a relative error of the rate: what is made early grows, but once the wear
+    # exceeds the roughness the rate hardly grows any more.
+    response = added + np.minimum(added, 4 * problem.scale) * growth
     lost = roundoff_of_cycles(problem.model, problem.load, wear) * response
     error = [0.0]
     for more, factor in zip(SAFETY * missed + lost, growth, strict=True):
@@ -388,4 +417,4 @@ def _one_by_one(
     estimate = np.array(error) + ROUNDOFF * wear
     one = np.zeros((1, 1))
     limit = np.array([problem.end])
-    return Integrated(Iterates(wear[None], estimate[None], None, None, one, limit, one))
+    return Iterates(wear[None], estimate[None], None, None, one, limit, one)

@@ -5,20 +5,15 @@ wear. It is not interpolated: the wanted cycles are integrated, all at once, fro
 count gives for their starts. The pieces of the cycle are cut at the phases.
 """
 
-from collections.abc import Iterator
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from wear.load import Load
 from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
-from wear.loss_of_contact.switching import PIECE_SAMPLES, Piece
+from wear.loss_of_contact.switching import PIECE_SAMPLES, Piece, edge_of_contact
 from wear.model import Model
-from wear.numerics.gauss import (
-    FloatArray,
-    mesh,
-)
+from wear.numerics.gauss import FloatArray
 from wear.orbit.dense_output import Added
 from wear.orbit.period_map import settings
 
@@ -27,11 +22,11 @@ NEARLY = 1e-12  # of a cycle: phases that are one
 
 
 class SwitchedDenseOutput(NamedTuple):
-    """A cycle in `parts`: as many as `upto` (m,) lie before each phase. The one-cycle maps are for
-    the result and to judge it."""
+    """A cycle in `parts` (k,): as many as `upto` (m,) lie before each phase. The one-cycle maps are
+    for the result and to judge it."""
 
     upto: tuple[int, ...]
-    parts: tuple[Piece, ...]
+    parts: Piece
     both: tuple[SwitchedPeriodMap, SwitchedPeriodMap]
 
     @np.errstate(all="ignore")  # of trial states; what is no number fails the estimate of error
@@ -43,11 +38,11 @@ class SwitchedDenseOutput(NamedTuple):
 
     def _wear(self, cycle: SwitchedPeriodMap, starts: FloatArray) -> FloatArray:
         """Return the wear added (n, m) up to each phase, mm; no number where it was not found."""
-        added = [np.zeros(len(starts))]
-        for part in self.parts:
-            alone = cycle._replace(edge=cycle.edge._replace(pieces=(part,)))
-            run = alone.advance(starts + added[-1])
-            added.append(added[-1] + np.where(run.converged.all(), run.increment, np.nan))
+        added, nothing = [np.zeros(len(starts))], np.zeros(len(starts))
+        for i in range(len(self.parts.closes)):
+            part = self.parts.take(np.full(len(starts), i))
+            run = cycle.through(cycle.cycles, part, starts + added[-1], nothing)
+            added.append(added[-1] + np.where(run.sound.all(), run.added, np.nan))
         return np.stack([added[i] for i in self.upto], axis=1)
 
 
@@ -55,19 +50,21 @@ def switched_dense_output(
     model: Model, load: Load, phases: FloatArray, rtol: float
 ) -> SwitchedDenseOutput:
     """Prepare for any cycles and for `phases` (m,) in [0, 1]."""
-    cycle = switched_period_map(model, load)
-    parts = tuple(part for piece in cycle.edge.pieces for part in _cut(piece, load, phases))
-    ends = np.array([part.end for part in parts])
-    upto = tuple(np.sum(ends <= phases[:, None] + NEARLY, axis=1).tolist())
-    coarse = cycle.resolved(settings(rtol)._replace(phase_nodes=NODES))
-    fine = coarse.on(mesh(coarse.over.edges, NODES + 4))
+    edge = edge_of_contact(model, load)
+    parts = _cut(edge.pieces, load, phases)
+    upto = tuple(np.sum(parts.end <= phases[:, None] + NEARLY, axis=1).tolist())
+    size = settings(rtol)
+    coarse = switched_period_map([model], [load], [edge], NODES, size.endpoint_tolerance)
+    fine = switched_period_map([model], [load], [edge], NODES + 4)
     return SwitchedDenseOutput(upto, parts, (coarse, fine))
 
 
-def _cut(piece: Piece, load: Load, phases: FloatArray) -> Iterator[Piece]:
-    """Yield the piece, cut at those of the phases that lie within."""
-    within = (phases > piece.begin + NEARLY) & (phases < piece.end - NEARLY)
-    for begin, end in pairwise([piece.begin, *np.unique(phases[within]).tolist(), piece.end]):
-        inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
-        at = begin + (end - begin) * inside
-        yield piece._replace(phases=at, heights=load(at))
+def _cut(pieces: Piece, load: Load, phases: FloatArray) -> Piece:
+    """Return the pieces, cut at those of the phases that lie within."""
+    cuts = np.append(pieces.begin, pieces.end[-1])
+    within = np.min(np.abs(phases[:, None] - cuts), axis=1) > NEARLY
+    cuts = np.union1d(cuts, phases[within])
+    of_piece = np.searchsorted(pieces.begin, cuts[:-1], side="right") - 1
+    inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
+    at = cuts[:-1] + np.diff(cuts) * inside[:, None]
+    return Piece(at, load(at), pieces.closes[of_piece])

@@ -16,13 +16,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.period_map import Maps
+from wear.loss_of_contact.requests import COARSE, FINE, Asking, Request
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.abel import Frame
 from wear.orbit.iterates import cell_of
 from wear.orbit.panels import CHECKS, SPLIT
-from wear.orbit.segments import Cost
+from wear.orbit.problem import Cost
 
 MOST_ROUNDS = 6  # of cutting panels: those that are not resolved then are not used
 GRAIN = 16.0  # times the uncertainty of a distance: what rounding may make of the increment
@@ -180,8 +180,8 @@ class _Panel(NamedTuple):
 
 
 def fitted(
-    both: Maps, spans: list[Span], number: int, tolerance: float
-) -> tuple[list[tuple[Span, Increments]], Cost]:
+    spans: list[Span], number: int, tolerance: float
+) -> Asking[tuple[list[tuple[Span, Increments]], Cost]]:
     """Fit the increments on every span, with `number` coefficients on each panel, to a relative
     `tolerance`: the panels of all spans at once, those that miss it cut in pieces. Return the parts
     of the spans on which they are known."""
@@ -200,13 +200,15 @@ def fitted(
         )
         shift = np.array([task.span.coordinate.shift for task in todo])
         widths = np.log((ends + shift) / (starts + shift))
-        run = both.coarse.advance(_wear(todo, widths, nodes))
+        run = yield Request(COARSE, _wear(todo, widths, nodes).ravel())
         checks = _wear(todo, widths, CHECKS)
-        judged = both.fine.advance(checks)
-        cost = cost.plus(run.increment.size + checks.size, run.evaluations + judged.evaluations)
-        level = run.increment[:, number // 2]
-        series = np.log(run.increment / level[:, None]) @ analysis
-        misfit = np.abs(level[:, None] * np.exp(series @ basis) / judged.increment - 1.0)
+        judged = yield Request(FINE, checks.ravel())
+        increment = run.increment.reshape(len(todo), number)
+        cost = cost.plus(increment.size + checks.size, run.evaluations + judged.evaluations)
+        level = increment[:, number // 2]
+        series = np.log(increment / level[:, None]) @ analysis
+        finer = judged.increment.reshape(checks.shape)
+        misfit = np.abs(level[:, None] * np.exp(series @ basis) / finer - 1.0)
         again: list[_Task] = []
         for i, task in enumerate(todo):
             off = float(np.max(misfit[i] / _allowed(task.span, checks[i], tolerance)))

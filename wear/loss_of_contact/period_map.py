@@ -1,216 +1,314 @@
-"""The one-cycle map with the cutoff. On a compliant support see `wear.loss_of_contact.compliant`; a
-rigid one:
+"""The one-cycle map where contact is lost at h = 3 sigma, from any wears of any scenes at once.
 
-Where the load rises, contact starts at a root of U_a = B(u) that is known beforehand; if it is
-lost, the solids slide along the edge (Filippov) to the end of the piece, where the wear is
-B^-1(U_a). Where the load falls, contact that is lost stays so; its end is found along with the
-wear. See `wear.loss_of_contact.switching` for the pieces of the cycle.
+Overview
+    A cycle consists of pieces (`wear.loss_of_contact.switching`), one after the other. On a rigid
+    support contact begins, where the load rises, at a root of U_a = B(u) that is known beforehand;
+    if it is lost, the solids slide along the edge (Filippov) to the end of the piece, where the
+    wear is B^-1(U_a). Where the load falls, contact that is lost stays so; its end is found along
+    with the wear.
+
+    On a compliant support the pressure vanishes along with the margin of contact: up to a margin
+    that is known the support holds the contact at its edge, and the pressure is proportional to the
+    margin; beyond, it is that of the contact law. On a piece the margin passes each of the two
+    levels in one direction at most.
+Key results
+    SwitchedPeriodMap    what a cycle adds, piece by piece, and as if the rate did not feel the wear
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from wear.load import Load
-from wear.loss_of_contact.compliant import Support, on_support
-from wear.loss_of_contact.contact import Contact, ContactResult, Interval, wear_in_contact
+from wear.loss_of_contact.contact import (
+    Contact,
+    ContactPart,
+    ContactResult,
+    Interval,
+    wear_in_contact,
+)
 from wear.loss_of_contact.switching import (
+    Cycles,
     Edge,
     Piece,
+    cycles_of,
     displacement_at,
-    edge_of_contact,
     phase_of,
     wear_at,
 )
 from wear.model import Model
-from wear.numerics.collocation import (
-    CycleSolution,
-    InitialGuess,
-)
-from wear.numerics.gauss import (
-    BoolArray,
-    FloatArray,
-    Gauss,
-    Mesh,
-    mesh,
-    radau,
-)
+from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray, gauss, radau
 from wear.numerics.tolerances import ROUNDOFF
-from wear.orbit.period_map import Settings
 
 TOUCH = 16.0  # roundoffs of the margin by which contact is told
-APART = 1e-9  # of roughness and wear: a small difference
+SOON = 1e-6  # of a piece: after that the load goes where it goes
+FROZEN_NODES = 10  # on a piece, where the rate does not feel the wear
+AT_ONCE = 12_000  # numbers of an array that stays in the processor's cache, with some others
+
+
+class Advanced(NamedTuple):
+    """The `increment` (k,) of a cycle from each wear, mm; whether it is sound, `converged` (k,);
+    and the number of right-hand sides evaluated."""
+
+    increment: FloatArray
+    converged: BoolArray
+    evaluations: int
 
 
 class SwitchedPeriodMap(NamedTuple):
-    """A model with cutoff under a load, with the edge of its contact. `over` has the nodes for each
-    stretch of contact, which is cut until the rate is resolved to `tolerance`."""
+    """The map of a cycle of some scenes, of each of which `cycles` has one. Their `pieces` come one
+    after the other, from the numbers `first` (scenes + 1,) on. On a stretch of contact there are
+    the nodes of the `rule`: it is cut until the rate is resolved to `tolerance`."""
 
-    model: Model
-    load: Load
-    edge: Edge
-    over: Mesh
+    cycles: Cycles
+    pieces: Piece
+    first: IntArray
+    rule: Gauss
     tolerance: float
 
-    @property
-    def rule(self) -> Gauss:
-        """Return the nodes on a stretch of contact: a stiff support makes wear follow the load."""
-        return radau(len(self.over.rule.nodes))
+    def advance(self, wear: FloatArray, scene: IntArray) -> Advanced:
+        """Return what a cycle adds to each wear (k,), mm, of the scenes (k,)."""
+        increment, sound = np.empty(len(wear)), np.empty(len(wear), dtype=bool)
+        evaluations = 0
+        few = AT_ONCE // len(self.rule.nodes)
+        for at in range(0, len(wear), few):
+            some = slice(at, at + few)
+            increment[some] = 0.0
+            sound[some] = True
+            for _, run in self.pieces_from(wear[some], scene[some]):
+                increment[some] += run.added
+                sound[some] &= run.sound
+                evaluations += run.evaluations
+        return Advanced(increment, sound, evaluations)
 
-    @property
-    def most_intervals(self) -> int:
-        """Stretches are cut as needed: nothing is left to refine."""
-        return 1
-
-    def on(self, over: Mesh) -> SwitchedPeriodMap:
-        """Return the same on another mesh; one of more nodes is to judge the other, and cuts
-        stretches until nothing but rounding is left."""
-        judges = len(over.rule.nodes) > len(self.over.rule.nodes)
-        return self._replace(over=over, tolerance=ROUNDOFF if judges else self.tolerance)
-
-    def resolved(self, size: Settings) -> SwitchedPeriodMap:
-        """With so many nodes an interval, resolved to its strict tolerance."""
-        over = mesh(np.array([0.0, 1.0]), size.phase_nodes)
-        return self._replace(over=over, tolerance=size.endpoint_tolerance)
-
-    def advance(self, starts: FloatArray, near: InitialGuess | None = None) -> CycleSolution:
-        """Return the wear added by one cycle from each start, shape (...); guesses are of no
-        use."""
-        flat = starts.ravel()
-        added = np.zeros(len(flat))
-        sound, evaluations = True, 0
-        for _, run in self.pieces_from(flat):
-            added = added + run.added
-            sound &= run.sound
-            evaluations += run.evaluations
-        nothing = np.zeros((*starts.shape, *self.over.phases.shape))
-        converged = np.full(len(self.over.lengths), sound)
-        left = np.zeros(starts.shape)
-        return CycleSolution(
-            added.reshape(starts.shape), nothing, nothing, evaluations, converged, left
-        )
-
-    def pieces_from(self, starts: FloatArray) -> Iterator[tuple[Piece, ContactResult]]:
-        """Return the pieces of a cycle from each start (k,), and what each adds."""
-        added = np.zeros(len(starts))
-        run_piece = _on_support if self.model.compliant else _run
-        for piece in self.edge.pieces:
-            run = run_piece(self, piece, starts + added, added)
+    def pieces_from(
+        self, wear: FloatArray, scene: IntArray
+    ) -> Iterator[tuple[Piece, ContactResult]]:
+        """Return what each piece of a cycle adds to each wear (k,); for one scene with the piece of
+        all of them."""
+        added, cycles = np.zeros(len(wear)), self.cycles.take(scene)
+        first, number = self.first[scene], np.diff(self.first)[scene]
+        for j in range(int(np.max(number, initial=0))):
+            rows = np.flatnonzero(j < number)
+            piece = self.pieces.take(first[rows] + j)
+            run = self.through(cycles.take(rows), piece, (wear + added)[rows], added[rows])
+            run = run.among(rows, len(wear))
             added = added + run.added
             yield piece, run
 
-    def increment_without_feedback(self, wear: FloatArray) -> FloatArray:
-        """Return the wear added by one cycle if the rate did not feel it, any shape."""
-        return np.asarray(self.increments_without_feedback(wear.ravel())[-1].reshape(wear.shape))
+    def through(
+        self, cycles: Cycles, piece: Piece, wear: FloatArray, before: FloatArray
+    ) -> ContactResult:
+        """Return what a piece adds to each wear (k,), `before` (k,) of it added by this cycle
+        already."""
+        needed = displacement_at(cycles.model, wear)
+        uncertainty = margin_roundoff(cycles.model, cycles.peak, wear)
+        rows = np.flatnonzero(piece.top - needed > uncertainty)
+        if len(rows) == 0:
+            none = np.zeros(len(wear))
+            return ContactResult(none, none, np.full(len(wear), True), 0)
+        piece = piece.take(rows)
+        some = _Progress(
+            cycles.take(rows).on(piece), piece, wear[rows], before[rows], self.rule, self.tolerance
+        )
+        follow = some.on_springs if cycles.model.compliant else some.rigid
+        return follow(needed[rows], uncertainty[rows]).among(rows, len(wear))
 
-    def increments_without_feedback(self, wear: FloatArray) -> FloatArray:
-        """Return the same of each wear (k,) up to every piece and to the end, (pieces + 1, k)."""
-        x = self.over.phases.ravel()
-        weights = (self.over.lengths[:, None] * self.over.rule.weights).ravel()
-        added = np.zeros((len(self.edge.pieces) + 1, len(wear)))
-        for i, piece in enumerate(self.edge.pieces):
-            added[i + 1] = added[i]
-            for begin, end in _frozen_contact(self, piece, wear):
-                length = end - begin
-                U_a = self.load(begin[:, None] + length[:, None] * x)
-                added[i + 1] += length * (self.rate(wear[:, None], U_a) @ weights)
+    def each_without_feedback(self, wear: FloatArray, scene: IntArray) -> FloatArray:
+        """Return what every piece of each cycle, one after the other, would add to the wear (k,),
+        mm, that the cycle begins with, if the rate did not feel it."""
+        number = np.diff(self.first)[scene]
+        row = np.repeat(np.arange(len(wear)), number)
+        begins = np.cumsum(number) - number
+        which = self.first[scene[row]] + np.arange(len(row)) - begins[row]
+        added = np.zeros(len(row))
+        x, few = gauss(FROZEN_NODES), AT_ONCE // FROZEN_NODES
+        for at in range(0, len(row), few):
+            part = slice(at, at + few)
+            added[part] = self._frozen(wear[row[part]], scene[row[part]], which[part], x)
         return added
 
-    def rate(self, u: FloatArray, U_a: FloatArray) -> FloatArray:
-        """Return the wear rate in contact, mm per cycle."""
-        rate: FloatArray = self.load.period * self.model.rate(u, U_a)
-        return rate
-
-    def response(self, added: FloatArray, growth: FloatArray) -> FloatArray:
-        """Return the response (mm), at most, of cycles that have `added` so much (k,) to a relative
-        error of the rate: what is made early grows by the factor `growth`, but once the wear
-        exceeds the roughness the rate hardly grows any more."""
-        roughness = float(self.model.fields(np.array(0.0), np.array(0.0)).sigma)
-        response: FloatArray = added + np.minimum(added, roughness) * growth
-        return response
-
-
-class Maps(NamedTuple):
-    """The one-cycle map twice: `coarse` gives the result, `fine` judges it."""
-
-    coarse: SwitchedPeriodMap
-    fine: SwitchedPeriodMap
-
-
-def switched_period_map(model: Model, load: Load) -> SwitchedPeriodMap:
-    """Return the map of one cycle with a cutoff."""
-    whole = mesh(np.array([0.0, 1.0]), 8)
-    return SwitchedPeriodMap(model, load, edge_of_contact(model, load), whole, 1.0)
+    def _frozen(
+        self, wear: FloatArray, scene: IntArray, which: IntArray, rule: Gauss
+    ) -> FloatArray:
+        """Return what pieces (k,) add to wear that stays as it is."""
+        added, piece = np.zeros(len(wear)), self.pieces.take(which)
+        needed = displacement_at(self.cycles.take(scene).model, wear)
+        rows = np.flatnonzero(piece.top > needed)
+        cycles, piece, u, needed = (
+            self.cycles.take(scene[rows]), piece.take(rows), wear[rows], needed[rows],
+        )  # fmt: skip
+        cycles = cycles.on(piece)
+        edges = [phase_of(cycles.load, piece, needed)]
+        if cycles.model.compliant:  # there are two kinds of contact
+            edges.append(phase_of(cycles.load, piece, needed + cycles.held))
+        edges.append(np.where(piece.rising, piece.end, piece.begin))
+        for edge, other in pairwise(edges):
+            begin, length = np.minimum(edge, other), np.abs(other - edge)
+            U_a = cycles.load(begin + length * rule.nodes[:, None])
+            added[rows] += length * (rule.weights @ cycles.rate(u, U_a))
+        return added
 
 
-def margin_roundoff(model: Model, load: Load, wear: FloatArray) -> FloatArray:
-    """Return the margin (mm) that rounding cannot tell from none, at each wear (mm)."""
-    peak = np.full_like(wear, load.maximum)
-    uncertainty: FloatArray = TOUCH * ROUNDOFF * model.margin_terms(wear, peak)
+def switched_period_map(
+    models: Sequence[Model],
+    loads: Sequence[Load],
+    edges: Sequence[Edge],
+    nodes: int,
+    tolerance: float = ROUNDOFF,
+) -> SwitchedPeriodMap:
+    """Return the map of a cycle of scenes of one variant, with so many nodes on a stretch of
+    contact: a stiff support makes wear follow the load, which Radau's rule damps."""
+    pieces = Piece(
+        *(
+            np.concatenate(part, axis=-1)
+            for part in zip(*(edge.pieces for edge in edges), strict=True)
+        )
+    )
+    first = np.cumsum([0, *(len(edge.pieces.closes) for edge in edges)])
+    return SwitchedPeriodMap(
+        cycles_of(models, loads, edges), pieces, first, radau(nodes), tolerance
+    )
+
+
+def margin_roundoff(model: Model, peak: FloatArray | float, wear: FloatArray) -> FloatArray:
+    """Return the margin (mm) that rounding cannot tell from none, at each wear (mm) under loads
+    with such a `peak` (mm)."""
+    uncertainty: FloatArray = TOUCH * ROUNDOFF * model.margin_terms(wear, peak + 0.0 * wear)
     return uncertainty
 
 
-def _run(
-    cycle: SwitchedPeriodMap, piece: Piece, wear: FloatArray, before: FloatArray
-) -> ContactResult:
-    """Return a piece from each wear (k,), `before` (k,) of it added by this cycle already."""
-    added = np.zeros(len(wear))
-    active, begin, end = _contact(cycle, piece, wear)
-    if not active.any():
-        return ContactResult(added, added, True, 0)
-    u, edge = wear[active], cycle.edge
-    level = None if piece.rising else 0.0
-    contact = Contact(cycle.model, cycle.load, cycle.model.law_rate_and_slope, level)
-    over = Interval(begin, piece.end - begin, end - begin)
-    run = wear_in_contact(contact, cycle.rule, cycle.tolerance, u, over, before[active])
-    added[active] = run.added
-    last = u + run.added
-    rows = np.flatnonzero(active)
-    run = run._replace(parts=run.of(rows))
-    if piece.rising:
-        top = np.full(len(u), piece.heights[-1])
-        lost = (cycle.model.margin(last, top) < 0.0) | edge.is_over(u, last, top)
-        if lost.any():
-            slid = wear_at(cycle.model, top[lost], u[lost], 0.0, edge.turning_wear)
-            added[rows[lost]] = slid - u[lost]
-        return run._replace(added=added, slid=rows[lost])
-    over_crest = edge.is_over(u, last, cycle.load(begin + run.length))
-    return run._replace(added=added, sound=run.sound and not over_crest.any())
+@dataclass
+class _Progress:
+    """How far pieces have been walked from each wear `u` (k,), of which this cycle added `before`:
+    to the phases `at`, where `added` mm have come on top; and whether contact is `over`, as it
+    closes anew beyond the turning wear."""
 
+    cycles: Cycles
+    piece: Piece
+    u: FloatArray
+    before: FloatArray
+    rule: Gauss
+    tolerance: float
+    at: FloatArray = field(init=False)
+    added: FloatArray = field(init=False)
+    sound: BoolArray = field(init=False)
+    over: BoolArray = field(init=False)
+    evaluations: int = 0
+    parts: tuple[ContactPart, ...] = ()
 
-def _contact(
-    cycle: SwitchedPeriodMap, piece: Piece, wear: FloatArray
-) -> tuple[BoolArray, FloatArray, FloatArray]:
-    """Return which wears (k,) make contact on a piece, and the phases of its begin and end for
-    those if the wear stays as it is."""
-    needed = displacement_at(cycle.model, wear)
-    deepest = max(piece.heights[0], piece.heights[-1])
-    active = deepest - needed > margin_roundoff(cycle.model, cycle.load, wear)
-    edge = phase_of(cycle.load, piece, needed[active])
-    if piece.rising:
-        return active, edge, np.full_like(edge, piece.end)
-    return active, np.full_like(edge, piece.begin), edge
+    def __post_init__(self) -> None:
+        self.at, self.added = self.piece.begin.copy(), np.zeros(len(self.u))
+        self.sound, self.over = np.full(len(self.u), True), np.full(len(self.u), False)
 
+    def rigid(self, needed: FloatArray, uncertainty: FloatArray) -> ContactResult:
+        """Return the piece on a rigid support; contact is made under displacements (mm) that are
+        `needed` (k,)."""
+        piece, cycles = self.piece, self.cycles
+        rising, every = piece.rising, np.full(len(self.u), True)
+        edge = phase_of(cycles.load, piece, needed)
+        self.at = np.where(rising, edge, piece.begin)
+        expected, falls = np.where(rising, piece.end, edge), np.where(rising, 0.0, 1.0)
+        self.go(every, True, 0.0 * falls, falls, expected)
+        top, last = piece.heights[-1], self.u + self.added
+        lost = rising & ((cycles.model.margin(last, top) < 0.0) | self.over)
+        slid = np.flatnonzero(lost)
+        if len(slid):
+            own, u = cycles.take(slid), self.u[slid]
+            self.added[slid] = wear_at(own.model, top[slid], u, 0.0, own.turning_wear) - u
+        self.sound &= rising | ~self.over
+        return self.result()._replace(slid=slid)
 
-def _frozen_contact(
-    cycle: SwitchedPeriodMap, piece: Piece, wear: FloatArray
-) -> list[tuple[FloatArray, FloatArray]]:
-    """Return the phases between which each wear (k,), if it stays as it is, makes contact of one
-    kind on a piece: on a compliant support there are two kinds."""
-    begin, end = (np.full_like(wear, phase) for phase in (piece.begin, piece.end))
-    needed = displacement_at(cycle.model, wear)
-    opens, bends = (phase_of(cycle.load, piece, needed + at) for at in (0.0, cycle.edge.held))
-    if piece.rising:
-        return [(opens, bends), (bends, end)]
-    return [(begin, bends), (bends, opens)]
+    def on_springs(self, needed: FloatArray, uncertainty: FloatArray) -> ContactResult:
+        """Return the piece on a compliant support; contact is made under displacements (mm) that
+        are `needed` (k,), and margins that differ by less than `uncertainty` (k,), mm, are the
+        same."""
+        piece, cycles = self.piece, self.cycles
+        rising, held = piece.rising, cycles.held + np.zeros_like(self.u)
+        opens, bends = (phase_of(cycles.load, piece, needed + level) for level in (0.0, held))
+        lawful, at_edge = self._kinds(held, uncertainty)
+        fresh = rising & ~lawful & ~at_edge & (piece.heights[-1] - needed > uncertainty)
+        self.at[fresh], at_edge = opens[fresh], at_edge | fresh
+        expected = np.where(rising, piece.end, bends)
+        down = self.go(lawful, True, held, np.ones_like(held), expected)
+        up = at_edge & (rising | self._closes_at_last(at_edge & ~rising, held))
+        level, falls = np.where(up, held, 0.0), np.where(up, -1.0, np.where(rising, 0.0, 1.0))
+        expected = np.where(up, bends, np.where(rising, piece.end, opens))
+        up &= self.go(at_edge | down, False, level, falls, expected)
+        self.go(up, True, 0.0 * held, 0.0 * held, piece.end)
+        self.sound &= ~self.over
+        return self.result()
 
+    def result(self) -> ContactResult:
+        """Return what there is at the end of the pieces."""
+        length = self.piece.end - self.piece.begin
+        return ContactResult(self.added, length, self.sound, self.evaluations, self.parts)
 
-def _on_support(
-    cycle: SwitchedPeriodMap, piece: Piece, wear: FloatArray, before: FloatArray
-) -> ContactResult:
-    """Return a piece on a compliant support, from each wear (k,)."""
-    support = Support(cycle.model, cycle.load, cycle.edge, cycle.rule, cycle.tolerance)
-    return on_support(support, piece, wear, before, margin_roundoff(cycle.model, cycle.load, wear))
+    def go(
+        self,
+        who: BoolArray,
+        by_law: bool,
+        level: FloatArray,
+        direction: FloatArray,
+        expected: FloatArray,
+    ) -> BoolArray:
+        """Walk on with those of `who` (k,) in contact of one kind, whose end is expected at the
+        phases `expected` (k,); return which of them have come to it."""
+        came, rows = np.full(len(who), False), np.flatnonzero(who)
+        if len(rows):
+            run = self._run(rows, by_law, level, direction, expected).among(rows, len(who))
+            self.evaluations += run.evaluations
+            self.parts += run.parts
+            came = who & (run.length < self.piece.end - self.at)
+            start = self.u + self.added
+            self.at = self.at + run.length
+            self.added = self.added + run.added
+            self.sound &= run.sound
+            U_a = self.cycles.load(self.at) - self.cycles.held
+            self.over |= who & self.cycles.is_over(start, start + run.added, U_a)
+        return came
+
+    def _run(
+        self,
+        rows: IntArray,
+        by_law: bool,
+        level: FloatArray,
+        direction: FloatArray,
+        expected: FloatArray,
+    ) -> ContactResult:
+        contact = Contact(self.cycles, by_law, level, direction).take(rows)
+        at = self.at[rows]
+        over = Interval(at, self.piece.end[rows] - at, expected[rows] - at)
+        start, before = ((x + self.added)[rows] for x in (self.u, self.before))
+        return wear_in_contact(contact, self.rule, self.tolerance, start, over, before)
+
+    def _closes_at_last(self, held: BoolArray, level: FloatArray) -> BoolArray:
+        """Return which of those that are `held` under a falling load come to contact by the law:
+        past the turning wear wear may close contact faster than the load opens."""
+        up = held & (self.u >= self.cycles.turning_wear) & self.piece.closes
+        rows = np.flatnonzero(up)
+        if len(rows):
+            lasts = np.zeros_like(level)
+            run = self._run(rows, False, lasts, lasts, self.piece.end)
+            self.evaluations += run.evaluations
+            last, U_a = (self.u + self.added)[rows] + run.added, self.piece.heights[-1, rows]
+            up[rows] = self.cycles.take(rows).model.margin(last, U_a) > level[rows]
+        return np.asarray(up)
+
+    def _kinds(self, level: FloatArray, uncertainty: FloatArray) -> tuple[BoolArray, BoolArray]:
+        """At which wears (k,) a piece begins with contact by the law, and at which with contact
+        that the support holds at its edge; at a `level` (k,), mm, by where it goes from there."""
+        piece, cycles = self.piece, self.cycles
+        soon = piece.begin + (piece.end - piece.begin) * SOON
+        U_a = piece.heights[0]
+        margin = cycles.model.margin(self.u, U_a)
+        rate = cycles.period * cycles.model.law_rate(self.u, U_a)
+        closes = cycles.load.slope(soon) + cycles.model.margin_slope(self.u, U_a) * rate > 0.0
+        lawful = margin > level + np.where(closes, -uncertainty, uncertainty)
+        held = ~lawful & (margin > np.where(piece.rising, -uncertainty, uncertainty))
+        return lawful, held

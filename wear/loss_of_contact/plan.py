@@ -13,18 +13,18 @@ import numpy as np
 
 from wear.load import Load
 from wear.loss_of_contact.arrest import LimitWear
-from wear.loss_of_contact.grazing import GrazingWear, fades, grazing_wears, limit_wear_of
+from wear.loss_of_contact.grazing import fades, grazing_wears, limit_wear_of
 from wear.loss_of_contact.increments import Coordinate, Span
-from wear.loss_of_contact.period_map import Maps, SwitchedPeriodMap
+from wear.loss_of_contact.requests import FROZEN, Asking, Request, without_feedback
+from wear.loss_of_contact.switching import Edge
 from wear.model import Model
-from wear.numerics.gauss import FloatArray, mesh
+from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit.period_map import Settings, settings
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
 STEP, STEPS_AHEAD = 0.2, 180  # in ln(u + scale)
 SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
-ROUGH = settings(1e-3)._replace(phase_nodes=10)
 NEARLY = 0.99  # of the wear at which the roughness vanishes
 FEWEST = 8.0  # cycles between two grazing wears for which a series pays
 BEGINS = 0.03  # of the increment at a grazing wear: how far beyond it a series begins
@@ -35,53 +35,6 @@ GRAIN = 4096.0  # roundoffs of the wear: the smallest distance at which cycles a
 FACTOR, STEPS = 0.25, 21  # of distances at which one looks ahead
 FARTHEST = 1e12  # roughnesses
 AHEAD = 1.3  # of the cycles asked for: how far one looks ahead
-
-
-class Problem(NamedTuple):
-    """What is ahead: the `grazing_wears`, rising; the `limit_wear` if wear tends to the last of
-    them for ever; the wear `end` (mm) beyond which nothing has a meaning. The maps of a cycle:
-    `plain`, for frozen wear, and `both`, resolved."""
-
-    plain: SwitchedPeriodMap
-    both: Maps
-    grazing_wears: list[GrazingWear]
-    limit_wear: LimitWear | None
-    end: float
-    scale: float
-    rtol: float
-    size: Settings
-    deadline: float
-
-    @property
-    def model(self) -> Model:
-        """Return the model."""
-        return self.plain.model
-
-    @property
-    def limit(self) -> float:
-        """Return the grazing wear (mm) to which wear tends for ever, if any."""
-        return self.limit_wear.wear if self.limit_wear else np.inf
-
-    @property
-    def load(self) -> Load:
-        """Return the load."""
-        return self.plain.load
-
-
-def problem_of(cycle: SwitchedPeriodMap, rtol: float, deadline: float) -> Problem:
-    """Return what is ahead of a count to the relative accuracy `rtol`."""
-    model, load, size = cycle.model, cycle.load, settings(rtol)
-    scale = roughness_scale(model)
-    end = roughness_limit(model, FARTHEST * scale)
-    grazing = [each for each in grazing_wears(cycle, scale) if each.wear < end]
-    limit_wear = limit_wear_of(model, load, grazing[-1].wear) if grazing else None
-    if limit_wear is not None and not fades(cycle, limit_wear.wear):
-        limit_wear = None
-    coarse = cycle.resolved(size)
-    finer = coarse.on(mesh(coarse.over.edges, size.finer_nodes))
-    return Problem(
-        cycle, Maps(coarse, finer), grazing, limit_wear, end, scale, rtol, size, deadline
-    )
 
 
 class Grazing(NamedTuple):
@@ -96,34 +49,55 @@ class Grazing(NamedTuple):
     uncertainty: float
 
 
-def _grazings(problem: Problem) -> list[Grazing]:
-    """Return all grazing wears. Contact grazes when the pieces before have added their part: the
-    map has its branch point where a cycle starts that much earlier."""
-    if not problem.grazing_wears:
-        return []
-    wear = np.array([grazing.wear for grazing in problem.grazing_wears])
-    upto = problem.plain.increments_without_feedback(wear)
-    peak = np.array([problem.load.maximum])
-    slope = np.abs(problem.model.margin_slope(wear, peak)) + TINY
-    uncertainty = ROUNDOFF * problem.model.margin_terms(wear, peak) / slope
-    found = []
-    for i, grazing in enumerate(problem.grazing_wears):
-        part, whole = upto[grazing.before, i], grazing.before == len(upto) - 1
-        before = grazing.wear - (0.0 if grazing.wear == problem.limit else part)
-        behind = grazing.wear - (0.0 if whole else part)
-        found.append(
-            Grazing(grazing.wear, before, behind, float(upto[-1, i]), float(uncertainty[i]))
-        )
-    return found
+class Problem(NamedTuple):
+    """What is ahead of a count: the `stops` at grazing wears, rising; the `limit_wear` if wear
+    tends to the last of them for ever; the wear `end` (mm) beyond which nothing has a meaning."""
+
+    model: Model
+    load: Load
+    stops: list[Grazing]
+    limit_wear: LimitWear | None
+    end: float
+    scale: float
+    rtol: float
+    size: Settings
+    deadline: float
 
 
-def planned(problem: Problem, wear: float, cycles: float) -> tuple[list[Span], float]:
+def problem_of(
+    model: Model, load: Load, edge: Edge, rtol: float, deadline: float
+) -> Asking[Problem]:
+    """Return what is ahead of a count to the relative accuracy `rtol`."""
+    scale = roughness_scale(model)
+    end = roughness_limit(model, FARTHEST * scale)
+    grazing = [each for each in grazing_wears(model, load, edge, scale) if each.wear < end]
+    limit_wear = limit_wear_of(model, load, grazing[-1].wear) if grazing else None
+    if limit_wear is not None and not fades(model, load, edge, limit_wear.wear):
+        limit_wear = None
+    # Contact grazes when the pieces before have added their part: the map has its branch point
+    # where a cycle starts that much earlier.
+    wear = np.array([each.wear for each in grazing])
+    run = yield Request(FROZEN, wear)
+    slope = np.abs(model.margin_slope(wear, load.maximum)) + TINY
+    uncertainty = ROUNDOFF * model.margin_terms(wear, load.maximum + 0.0 * wear) / slope
+    stops = []
+    for each, added, blur in zip(grazing, run.increment, uncertainty.tolist(), strict=True):
+        part, whole = float(np.sum(added[: each.before])), each.before == len(added)
+        tends = limit_wear is not None and each.wear == limit_wear.wear
+        before = each.wear - (0.0 if tends else part)
+        behind = each.wear - (0.0 if whole else part)
+        stops.append(Grazing(each.wear, before, behind, float(np.sum(added)), blur))
+    size = settings(rtol)
+    return Problem(model, load, stops, limit_wear, end, scale, rtol, size, deadline)
+
+
+def planned(problem: Problem, wear: float, cycles: float) -> Asking[tuple[list[Span], float]]:
     """Plan where increments are wanted from a `wear` (mm) on, for so many `cycles` about; return
     also the wear up to which that is a plan."""
-    stops = _grazings(problem)
+    stops = problem.stops
     ahead = [stop for stop in stops if stop.at > wear * (1 + 8 * ROUNDOFF)]
     last = next((stop for stop in reversed(stops) if stop not in ahead), None)
-    looks = _looks(problem, [wear, *(stop.at for stop in ahead)], [stop.before for stop in ahead])
+    looks = yield from _looks([wear, *(stop.at for stop in ahead)], [stop.before for stop in ahead])
     spans: list[Span] = []
     counted, wanted, begin = 0.0, AHEAD * max(cycles, LEAST), wear
     for i, stop in enumerate(ahead):
@@ -143,21 +117,18 @@ def planned(problem: Problem, wear: float, cycles: float) -> tuple[list[Span], f
         counted, begin, last = counted + number, stop.at, stop
     if counted > wanted or (problem.limit_wear is not None and ahead):
         return spans, begin if counted > wanted else np.inf
-    if not problem.plain.increment_without_feedback(np.array([begin * (1 + 1e-9)]))[0] > 0.0:
+    added = yield from without_feedback(np.array([begin * (1 + 1e-9)]))
+    if not added[0] > 0.0:
         return spans, np.inf
-    reach = float(
-        look_ahead(problem.plain, problem.scale, begin, max(cycles - counted, LEAST), problem.end)[
-            -1
-        ]
-    )
+    reach = yield from look_ahead(problem, begin, max(cycles - counted, LEAST))
     half = begin if last is None else min(begin + problem.scale, (begin + reach) / 2)
     spans += [*_outwards(problem, last, begin, half), *_outwards(problem, None, half, reach)]
     return spans, reach  # wear that is not frozen may take more cycles to there, and fewer
 
 
 def _looks(
-    problem: Problem, ends: list[float], branches: list[float]
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    ends: list[float], branches: list[float]
+) -> Asking[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
     """Distances (stretches, k) out from the wear at the one end of every stretch, and before the
     branch point at the other, both from its middle on and shrinking; and what cycles add there."""
     begin, end = np.array(ends[:-1]), np.array(ends[1:])
@@ -166,7 +137,7 @@ def _looks(
     lefts = (half - begin)[:, None] * shrinking
     rights = np.maximum(branch - half, TINY)[:, None] * shrinking
     wear = np.stack([begin[:, None] + lefts, branch[:, None] - rights])
-    outwards, onwards = problem.plain.increment_without_feedback(wear) + TINY
+    outwards, onwards = (yield from without_feedback(wear)) + TINY
     return lefts, rights, outwards, onwards
 
 
@@ -218,17 +189,15 @@ def roughness_limit(model: Model, upto: float) -> float:
     return NEARLY * upto * start / (start - end) if end <= 0 else math.inf
 
 
-def look_ahead(
-    cycle: SwitchedPeriodMap, scale: float, start: float, cycles: float, limit: float
-) -> FloatArray:
-    """Return the wear (k,) in mm, rising from `start` to where the frozen rate puts `cycles`,
-    roughly, and no higher than `limit`; the rate changes over wear of the `scale` (mm)."""
-    y = STEP * np.arange(STEPS_AHEAD)
-    if np.isfinite(limit):
-        y = np.linspace(0.0, np.log1p((limit - start) / (start + scale)), STEPS_AHEAD)
-    wear: FloatArray = start + (start + scale) * np.expm1(y)
-    cycle = cycle.resolved(ROUGH)
-    density = np.minimum(-np.log(cycle.increment_without_feedback(wear) + TINY), 650.0)
+def look_ahead(problem: Problem, start: float, cycles: float) -> Asking[float]:
+    """Return the wear (mm) where the frozen rate puts `cycles` from `start` on, roughly, and no
+    more than makes sense."""
+    y, end = STEP * np.arange(STEPS_AHEAD), problem.end
+    if np.isfinite(end):
+        y = np.linspace(0.0, np.log1p((end - start) / (start + problem.scale)), STEPS_AHEAD)
+    wear: FloatArray = start + (start + problem.scale) * np.expm1(y)
+    added = yield from without_feedback(wear)
+    density = np.minimum(-np.log(added + TINY), 650.0)
     rise = np.diff(density)
     rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)
     # Between two points the density is taken as exponential in the wear.
@@ -237,8 +206,6 @@ def look_ahead(
     wanted = 1.3 * max(cycles, LEAST)
     last = int(np.searchsorted(counts, wanted)) - 1
     if last >= len(parts):
-        return wear
+        return float(wear[-1])
     share = np.log1p((wanted - counts[last]) / parts[last] * np.expm1(rise[last])) / rise[last]
-    end = wear[last] + share * (wear[last + 1] - wear[last])
-    ahead: FloatArray = np.append(wear[: last + 1], end)
-    return ahead
+    return float(wear[last] + share * (wear[last + 1] - wear[last]))

@@ -10,13 +10,13 @@ any part of it, tells for certain whether contact has been lost on it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.load import Load
-from wear.model import Model
+from wear.load import Constant, Load, Table, Waves, waves
+from wear.model import Model, stacked
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.tolerances import (
     ROUNDOFF,
@@ -25,38 +25,50 @@ from wear.numerics.tolerances import (
 SAMPLES = 2048  # of a cycle, to look for where q rises through zero
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
 NEARLY = 1e-13  # of a stretch: how near to its ends one looks
-BISECTIONS = 60  # to roundoff
-FEW_BISECTIONS = 30  # where a small error has no effect of first order
+SECTIONS = 32  # of an interval at once
+BISECTIONS = 12  # into so many sections, to roundoff
+FEW_BISECTIONS = 6  # where a small error has no effect of first order
 MOST_NEWTON = 60  # for the wear at the edge, which may be far off
-PHASE_NEWTON = 60  # from a secant of the samples of a piece: near a peak each halves the distance
-PHASE_PATIENCE = 6  # of them; then one that is no smaller than the last is rounding
+PHASE_NEWTON = 60  # for a phase: a few, but for a load that is far from a parabola at its turns
+PHASE_PATIENCE = 3  # of them; then one that is no smaller than the last is rounding
+MAY_VANISH = 0.5  # of the least sample: a parabola whose least value is larger does not vanish
 FAR = 1e6  # times the roughness: wear at which the margin is as good as linear
 Function = Callable[[FloatArray], FloatArray]
+Numbers = Any  # a float, or an array of floats
 
 
 class Piece(NamedTuple):
-    """A part of the cycle on which the load is smooth and does not turn: `phases` from its begin to
-    its end, the load's `heights` (mm) there, and whether load and wear together close contact that
-    is at its edge in the middle of the piece."""
+    """Parts of cycles (k,) on which the load is smooth and does not turn: `phases` (samples, k)
+    from their begin to their end, the load's `heights` (mm) there, and whether load and wear
+    together close contact that is at its edge in the middle of the piece."""
 
     phases: FloatArray
     heights: FloatArray
-    closes: bool
+    closes: BoolArray
+
+    def take(self, which: BoolArray | IntArray) -> Piece:
+        """Return some of the pieces, each perhaps several times."""
+        return Piece(self.phases[:, which], self.heights[:, which], self.closes[which])
 
     @property
-    def begin(self) -> float:
-        """Its first phase."""
-        return float(self.phases[0])
+    def begin(self) -> FloatArray:
+        """Their first phases."""
+        return np.asarray(self.phases[0])
 
     @property
-    def end(self) -> float:
-        """Its last phase."""
-        return float(self.phases[-1])
+    def end(self) -> FloatArray:
+        """Their last phases."""
+        return np.asarray(self.phases[-1])
 
     @property
-    def rising(self) -> bool:
+    def rising(self) -> BoolArray:
         """Or level."""
-        return bool(self.heights[-1] >= self.heights[0])
+        return np.asarray(self.heights[-1] >= self.heights[0])
+
+    @property
+    def top(self) -> FloatArray:
+        """The higher ends (mm)."""
+        return np.asarray(np.maximum(self.heights[0], self.heights[-1]))
 
 
 class Edge(NamedTuple):
@@ -69,20 +81,97 @@ class Edge(NamedTuple):
     kink.
     """
 
-    pieces: tuple[Piece, ...]
+    pieces: Piece
     turning_wear: float
     highest: float
     held: float
     grazing: FloatArray
     before: IntArray
 
+
+class Cycles(NamedTuple):
+    """Cycles (k,) of scenes: the model and the load of each, and its edge of contact; for one scene
+    numbers, which hold for all of its cycles. `swing` is the largest displacement, either way."""
+
+    model: Model
+    load: Load | Waves | Lines
+    period: Numbers
+    peak: Numbers
+    swing: Numbers
+    turning_wear: Numbers
+    highest: Numbers
+    held: Numbers
+
+    def take(self, which: BoolArray | IntArray) -> Cycles:
+        """Return some of the cycles, each perhaps several times."""
+        load = self.load
+        if isinstance(load, (Waves, Lines)):
+            load = load.take(which)
+        if isinstance(self.period, float):
+            return self._replace(load=load)
+        return Cycles(self.model.select(which), load, *(array[which] for array in self[2:]))
+
+    def on(self, piece: Piece) -> Cycles:
+        """Return the cycles on a piece of each: there a table is a straight line."""
+        if not isinstance(self.load, (Table, Constant, Lines)):
+            return self
+        rise = (piece.heights[-1] - piece.heights[0]) / (piece.end - piece.begin)
+        return self._replace(load=Lines(piece.begin, piece.heights[0], rise))
+
     def is_over(self, start: FloatArray, wear: FloatArray, U_a: FloatArray) -> BoolArray:
         """Return whether contact from the wear `start` has come to wear at which it closes anew, on
-        the other side of the turning_wear."""
+        the other side of the turning wear."""
         over: BoolArray = (
             (start < self.turning_wear) & (wear >= self.turning_wear) & (U_a < self.highest)
         )
         return over
+
+    def rate(self, u: FloatArray, U_a: FloatArray) -> FloatArray:
+        """Return the wear rate in contact, mm per cycle."""
+        rate: FloatArray = self.period * self.model.rate(u, U_a)
+        return rate
+
+
+class Lines(NamedTuple):
+    """Displacements in cycles (k,) on pieces on which they are straight: the height (mm) where each
+    begins, and the slope."""
+
+    begin: FloatArray
+    height: FloatArray
+    rise: FloatArray
+
+    def take(self, which: BoolArray | IntArray) -> Lines:
+        """Return those of some of the cycles."""
+        return Lines(self.begin[which], self.height[which], self.rise[which])
+
+    def __call__(self, phase: FloatArray) -> FloatArray:
+        """Return the displacement (mm) at phases (..., k)."""
+        return np.asarray(self.height + self.rise * (phase - self.begin))
+
+    def slope(self, phase: FloatArray) -> FloatArray:
+        """Return its derivative with respect to the phase, mm."""
+        return np.asarray(self.rise + 0.0 * phase)
+
+
+def cycles_of(models: Sequence[Model], loads: Sequence[Load], edges: Sequence[Edge]) -> Cycles:
+    """Return a cycle of each of some scenes of one variant."""
+    numbers = [
+        (
+            load.period,
+            load.maximum,
+            max(abs(load.minimum), abs(load.maximum)),
+            edge.turning_wear,
+            edge.highest,
+            edge.held,
+        )
+        for load, edge in zip(loads, edges, strict=True)
+    ]
+    if len(models) == 1:
+        return Cycles(models[0], loads[0], *map(float, numbers[0]))
+    every = np.array(numbers).T
+    straight = Lines(*np.zeros((3, len(loads))))
+    all_straight = isinstance(loads[0], (Table, Constant))
+    return Cycles(stacked(models), straight if all_straight else waves(loads), *every)
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
@@ -97,14 +186,14 @@ def edge_of_contact(model: Model, load: Load) -> Edge:
     low, high = turns[:-1], turns[1:]
     top = highest + held
     over = (load(low) < top) != (load(high) < top)
-    appears = _bisected(lambda phase: load(phase) - top, low[over], high[over])
+    appears = bracketed(lambda phase: load(phase) - top, low[over], high[over])[1]
     closing_speed = _pull(model, load, turning_wear, held)
     closings = _closings(closing_speed, turns, model.compliant)
     cuts = np.unique(np.concatenate([turns, appears, closings]))
     inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
     phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
     closes = closing_speed(phases[:, PIECE_SAMPLES // 2]) >= 0.0
-    pieces = tuple(map(Piece, phases, load(phases), closes.tolist()))
+    pieces = Piece(phases.T, load(phases).T, closes)
     # Wear goes on at the bend: there contact turns not with the load but where its closing_speed
     # does.
     sharp = turns[np.isin(turns, [0.0, *load.kinks, 1.0])]
@@ -122,7 +211,7 @@ def turning_points(load: Load) -> FloatArray:
     # Between two peaks or kinks there is a trough at most.
     low, high = cuts[:-1] + NEARLY * np.diff(cuts), cuts[1:] - NEARLY * np.diff(cuts)
     turns = (load.slope(low) < 0.0) & (load.slope(high) > 0.0)
-    return np.unique(np.concatenate([cuts, _bisected(load.slope, low[turns], high[turns])]))
+    return np.unique(np.concatenate([cuts, bracketed(load.slope, low[turns], high[turns])[1]]))
 
 
 def _pull(model: Model, load: Load, turning_wear: float, held: float) -> Function:
@@ -156,34 +245,45 @@ def _closings(closing_speed: Function, turns: FloatArray, both: bool) -> FloatAr
     if both:
         turned |= (value[:-1] >= 0.0) & (value[1:] < 0.0)
     turned &= same
-    return _bisected(closing_speed, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)
+    return bracketed(closing_speed, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)[1]
 
 
 def _extremes(function: Function, x: FloatArray) -> FloatArray:
-    """Return where a function comes nearest to zero between samples at `x` of one sign."""
+    """Return where a function comes nearest to zero between samples at `x` of one sign, if it may
+    come there."""
     value = function(x)
-    sign, size = np.sign(value[1:-1]), np.abs(value)
+    sign, size = np.sign(value), np.abs(value)
     nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:])
-    at = 1 + np.flatnonzero(nearest & (sign == np.sign(value[:-2])) & (sign == np.sign(value[2:])))
-    low, high, sign = x[at - 1], x[at + 1], np.sign(value[at])
+    nearest &= (sign[1:-1] == sign[:-2]) & (sign[1:-1] == sign[2:])
+    at = 1 + np.flatnonzero(nearest)
+    before, middle, after = size[at - 1], size[at], size[at + 1]
+    least = middle - (after - before) ** 2 / (8 * (after - 2 * middle + before))  # a parabola's
+    at = at[least < MAY_VANISH * middle]
+    low, high, sign = x[at - 1], x[at + 1], sign[at]
+    inner = np.arange(SECTIONS + 1)[:, None] / SECTIONS
     for _ in range(FEW_BISECTIONS if len(at) else 0):
-        third = (high - low) / 3
-        falls = sign * function(low + third) > sign * function(high - third)
-        low, high = np.where(falls, low + third, low), np.where(falls, high, high - third)
-    return (low + high) / 2
+        points = low + (high - low) * inner
+        lowest, row = np.argmin(sign * function(points), axis=0), np.arange(len(at))
+        low, high = (
+            points[np.maximum(lowest - 1, 0), row],
+            points[np.minimum(lowest + 1, SECTIONS), row],
+        )
+    return np.asarray((low + high) / 2)
 
 
-def _bisected(
+def bracketed(
     function: Function, low: FloatArray, high: FloatArray, steps: int = BISECTIONS
-) -> FloatArray:
-    """Return where a function changes its sign, in each of many intervals at whose ends it
-    differs."""
-    sign = np.sign(function(low))
-    for _ in range(steps):
-        middle = (low + high) / 2
-        before = np.sign(function(middle)) == sign
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return high
+) -> tuple[FloatArray, FloatArray]:
+    """Return between which points a function changes its sign, in each of many intervals (k,) at
+    whose ends it differs; it takes points (n, k)."""
+    sign, row = np.sign(function(low)), np.arange(len(low))
+    inner = np.arange(1, SECTIONS)[:, None] / SECTIONS
+    for _ in range(steps if len(low) else 0):
+        points = np.concatenate([low[None], low + (high - low) * inner, high[None]])
+        other = np.append(np.sign(function(points[1:-1])) != sign, [row >= 0], axis=0)
+        at = np.argmax(other, axis=0)
+        low, high = points[at, row], points[at + 1, row]
+    return low, high
 
 
 def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
@@ -209,7 +309,7 @@ def _crest(model: Model) -> float:
         return 0.0
     if last <= 0.0:
         return np.inf
-    return float(scale * np.expm1(_bisected(slope, ends[:1], ends[1:])[0]))
+    return float(scale * np.expm1(bracketed(slope, ends[:1], ends[1:])[1][0]))
 
 
 def wear_at(
@@ -231,33 +331,37 @@ def wear_at(
     return wear
 
 
-def phase_of(load: Load, piece: Piece, height: FloatArray) -> FloatArray:
-    """Return where the load reaches each height (k,) on a piece; the nearest end if it does not."""
-    direction = 1.0 if piece.rising else -1.0
-    rising = direction * piece.heights
-    phase = np.where(direction * height <= rising[0], piece.begin, piece.end)
-    inside = (direction * height > rising[0]) & (direction * height < rising[-1])
-    if inside.any():
-        at = np.searchsorted(rising, direction * height[inside])
-        low, high = piece.phases[at - 1], piece.phases[at]
-        rise = piece.heights[at] - piece.heights[at - 1]
-        share = (height[inside] - piece.heights[at - 1]) / rise
-        phase[inside] = _sought(load, height[inside], low, high, low + (high - low) * share)
-    return phase
+def phase_of(load: Load | Waves | Lines, piece: Piece, height: FloatArray) -> FloatArray:
+    """Return where the load reaches a height (k,) on each piece; the nearest end if it does not.
 
-
-def _sought(
-    load: Load, height: FloatArray, low: FloatArray, high: FloatArray, phase: FloatArray
-) -> FloatArray:
-    """Return where the load reaches each height (k,) between the phases `low` and `high`, by
-    Newton's method from a `phase` between."""
-    last = np.inf
+    By Newton's method from a secant between samples, next to the ends of a piece from a parabola.
+    """
+    direction = np.where(piece.rising, 1.0, -1.0)
+    rising, wanted = direction * piece.heights, direction * height
+    at, row = np.clip(np.sum(rising < wanted, axis=0), 1, PIECE_SAMPLES), np.arange(len(height))
+    low, high = piece.phases[at - 1, row], piece.phases[at, row]
+    before, after = rising[at - 1, row], rising[at, row]
+    share = np.clip((wanted - before) / np.where(after == before, 1.0, after - before), 0.0, 1.0)
+    share = np.where(at == 1, np.sqrt(share), share)
+    share = np.where(at == PIECE_SAMPLES, 1.0 - np.sqrt(1.0 - share), share)
+    phase = low + (high - low) * share
+    outside = (wanted <= rising[0]) | (wanted >= rising[-1])
+    phase[outside] = np.where(wanted <= rising[0], piece.begin, piece.end)[outside]
+    low, high = np.where(outside, phase, low), np.where(outside, phase, high)
+    last = np.full(len(phase), np.inf)
     for iteration in range(PHASE_NEWTON):
         slope = load.slope(phase)
         step = (height - load(phase)) / np.where(slope == 0.0, np.inf, slope)
         fresh = np.clip(phase + step, low, high)
-        change, phase = np.max(np.abs(fresh - phase)), fresh
-        if change <= ROUNDOFF or (iteration > PHASE_PATIENCE and change >= last):
+        change, phase = np.abs(fresh - phase), fresh
+        if np.all((change <= ROUNDOFF) | ((iteration > PHASE_PATIENCE) & (change >= last))):
             break
         last = change
-    return phase
+    return np.asarray(phase)
+
+
+def roughness(model: Model, u: FloatArray) -> FloatArray:
+    """Return the equivalent roughness (mm) at each wear; it does not depend on the pressure."""
+    none = np.zeros_like(u)
+    fields = model.fields_under(none, u, none) if model.compliant else model.fields(u, none)
+    return np.asarray(fields.sigma)

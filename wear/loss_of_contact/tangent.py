@@ -19,13 +19,14 @@ import numpy as np
 
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.loss_of_contact.contact import ContactPart
-from wear.loss_of_contact.period_map import Maps, SwitchedPeriodMap, switched_period_map
-from wear.loss_of_contact.stage import Integrated, Stages
-from wear.loss_of_contact.switching import Piece
+from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
+from wear.loss_of_contact.stage import CountToArrest
+from wear.loss_of_contact.switching import Piece, edge_of_contact
 from wear.numerics.chebyshev import chebyshev_nodes
-from wear.numerics.gauss import FloatArray, mesh
+from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
+from wear.orbit.iterates import Iterates
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import settings
 from wear.orbit.tangent import Added, Tangents, after_on_cells, sums_on_cells
@@ -37,7 +38,7 @@ LEFT = 1e12  # digits of the derivative of a limit, which follows from the margi
 
 @np.errstate(all="ignore")
 def stage_tangents(
-    found: Stages,
+    found: CountToArrest,
     equation: ParametrisedEquation,
     cycles: FloatArray,
     rtol: float,
@@ -48,17 +49,21 @@ def stage_tangents(
     has it to `rtol`, if the first wear has the derivative `start` (1, parameters), known up to
     `start_error`."""
     size = settings(rtol)
-    coarse = switched_period_map(equation.model, equation.loads[0]).resolved(size)
-    both = Maps(coarse, coarse.on(mesh(coarse.over.edges, size.finer_nodes)))
+    scene = [equation.model], equation.loads, [edge_of_contact(equation.model, equation.loads[0])]
+    both = _Maps(
+        switched_period_map(*scene, size.phase_nodes, size.endpoint_tolerance),
+        switched_period_map(*scene, size.finer_nodes),
+    )
     u, error = (values[None] for values in found.after(cycles[0]))
     derivative, missed = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
     increment = np.zeros(cycles.shape)
     now, now_error = start[0], start_error[0]
-    for stage in found.stages:
-        here = cycles[0] >= stage.begins
-        wanted = np.append(np.minimum(cycles[0, here] - stage.begins, stage.ran), stage.ran)
-        counted = stage.counted
-        if isinstance(counted, Integrated):
+    for segment in found.segments:
+        begins, counted = segment.begins, segment.counted
+        here = cycles[0] >= begins
+        last = counted.whole_cycles
+        wanted = np.append(np.minimum(cycles[0, here] - begins, last), last)
+        if isinstance(counted, Iterates):
             part = _one_by_one(both, equation, counted, wanted, now, now_error)
         elif isinstance(counted, TabulatedCount):
             part = _tabulated(both, equation, counted, wanted, now, now_error)
@@ -78,6 +83,13 @@ def stage_tangents(
     return Tangents(u, error, derivative, missed, increment)
 
 
+class _Maps(NamedTuple):
+    """The one-cycle map twice: `coarse` gives the result, `fine` judges it."""
+
+    coarse: SwitchedPeriodMap
+    fine: SwitchedPeriodMap
+
+
 class _Part(NamedTuple):
     """The `derivative` (n, parameters) after some cycles of a stage, its `error`, and what the last
     cycle has added, `increment` (n,)."""
@@ -88,15 +100,15 @@ class _Part(NamedTuple):
 
 
 def _one_by_one(
-    both: Maps,
+    both: _Maps,
     equation: ParametrisedEquation,
-    counted: Integrated,
+    counted: Iterates,
     cycles: FloatArray,
     start: FloatArray,
     start_error: FloatArray,
 ) -> _Part:
     """Return the derivatives after `cycles` (n,) that were taken one by one."""
-    wear, uncertain = counted.found.transient[0], counted.found.transient_error[0]
+    wear, uncertain = counted.transient[0], counted.transient_error[0]
     fine = linearised(both.fine, equation, wear[:-1]).tangent
     # Beside the start by its error: near a grazing wear that may be the larger part.
     judge = linearised(both.coarse, equation, wear[:-1] + uncertain[:-1]).tangent
@@ -113,7 +125,7 @@ def _one_by_one(
 
 
 def _tabulated(
-    both: Maps,
+    both: _Maps,
     equation: ParametrisedEquation,
     counted: TabulatedCount,
     cycles: FloatArray,
@@ -198,12 +210,11 @@ def linearised(
     tangent = np.zeros((len(starts), 1 + equation.parameters))
     tangent[:, 0] = 1.0
     added = np.zeros(len(starts))
-    for piece, run in cycle.pieces_from(starts):
+    for piece, run in cycle.pieces_from(starts, np.zeros(len(starts), dtype=int)):
         _through(cycle, equation, piece, run.parts, tangent)
         added = added + run.added
-        if run.slid is not None and len(run.slid):
-            end = np.full(len(run.slid), piece.end)
-            slope, change = _margin(equation, (starts + added)[run.slid], end)
+        if len(run.slid):
+            slope, change = _margin(equation, (starts + added)[run.slid], piece.end[run.slid])
             tangent[run.slid] = -change / slope[:, None]
     return Linearised(added, tangent)
 
@@ -220,15 +231,15 @@ def _through(
     for part in parts:
         rows, first = part.rows, fresh[part.rows]
         fresh[rows] = False
-        if not cycle.model.compliant:
-            opens = first & (part.begin > piece.begin)
+        if not equation.model.compliant:
+            opens = first & (part.begin > piece.begin[rows])
             tangent[rows[opens]] += _jump(
                 equation, part.start[opens], part.begin[opens], tangent[rows[opens]], closed=False
             )
         tangent[rows] = _smooth(cycle, equation, part, tangent[rows])
-        if not cycle.model.compliant:
+        if not equation.model.compliant:
             ended, end = part.ended, part.begin + part.length
-            last = part.start + part.inside[:, -1]
+            last = part.start + part.inside[-1]
             tangent[rows[ended]] -= _jump(
                 equation, last[ended], end[ended], tangent[rows[ended]], closed=True
             )
@@ -238,11 +249,12 @@ def _smooth(
     cycle: SwitchedPeriodMap, equation: ParametrisedEquation, part: ContactPart, tangent: FloatArray
 ) -> FloatArray:
     """Return the tangent (k, 1 + parameters) at the end of a part: the collocation, linearised."""
-    model, load, rule = cycle.model, cycle.load, cycle.rule
+    (load,), model, rule = equation.loads, equation.model, cycle.rule
     phases = part.begin[:, None] + part.length[:, None] * rule.nodes
-    u, U_a = part.start[:, None] + part.inside, load(phases)
-    _, slope = part.contact.rate_per_cycle(u, U_a)
-    gradient = model.edge_rate_gradient if part.contact.proportional else model.rate_gradient
+    u, U_a = part.start[:, None] + part.inside.T, load(phases)
+    rates = model.law_rate_and_slope if part.by_law else model.edge_rate_and_slope
+    slope = load.period * rates(u, U_a)[1]
+    gradient = model.rate_gradient if part.by_law else model.edge_rate_gradient
     changes = load.period * equation.along(gradient(u, U_a), phases)
     integrate = part.length[:, None, None] * rule.integrate
     matrix = np.eye(len(rule.nodes)) - integrate * slope[:, None, :]

@@ -20,7 +20,7 @@ from wear.orbit import abel
 from wear.orbit.iterates import Iterates, cell_of
 from wear.orbit.panels import CHECKS, SPLIT
 from wear.orbit.period_map import PeriodMap, Settings, period_map, settings
-from wear.orbit.segments import Problem
+from wear.orbit.problem import Problem
 
 MOST_ROUNDS = 6  # of cutting panels
 

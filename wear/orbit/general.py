@@ -24,7 +24,8 @@ import numpy as np
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import Rows
-from wear.orbit.segments import Cost, orbit
+from wear.orbit.problem import Cost
+from wear.orbit.segments import orbit
 
 Rate = Callable[[FloatArray, FloatArray], FloatArray]
 CONDITION = 8.0  # roundoffs of a rate, if nothing is known

@@ -15,7 +15,6 @@ import numpy as np
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution, InitialGuess
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.numerics.tolerances import TINY
 from wear.orbit import abel
 from wear.orbit.period_map import TAIL_SHARE, PeriodMap, Settings
 
@@ -24,9 +23,6 @@ FAR_OUT = 10.0  # times the residual elsewhere: then the fault lies at the end o
 SPLIT = 0.4  # of a panel, in its coordinate: the density is sharper at low states
 FASTER = 2.0  # than on average may the state change at the end of a panel
 MOST_ROUNDS = 12  # of refinement
-SHARP = 0.3  # change of the logarithm of the density within a cycle
-MOST_LOG = 650.0  # of a density: its exponential is a number
-MOST_PLANNED = 150  # panels of a scene
 MOST_PANELS = 200  # of a scene
 
 
@@ -169,51 +165,6 @@ def _judged(
         marked[worst] |= at_fault & ~marked[worst].any(axis=1)[:, None]
     panels = SolvedPanels(scene, density, residual, short)
     return Judged(panels, share, marked, evaluations, increments)
-
-
-class Planned(NamedTuple):
-    """Panels, each of a `scene` (panels,), scene by scene and rising, and how many `cycles`
-    (panels,) each holds, roughly; none where a cycle changes its own rate much."""
-
-    scene: IntArray
-    frame: abel.Frame
-    cycles: FloatArray
-
-    def take(self, which: BoolArray | IntArray) -> Planned:
-        """Return some of the panels."""
-        return Planned(self.scene[which], self.frame.take(which), self.cycles[which])
-
-
-def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> Planned:
-    """Cut panels until their coefficients resolve the density without feedback, and none ends at a
-    rate at which it would hold few cycles: the last node looks a cycle ahead."""
-    m = size.panel_nodes
-    nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
-    done: list[Planned] = []
-    number = 0
-    while len(scene):
-        frozen = maps.take(scene).increment_without_feedback(frame.states(nodes))
-        density = np.minimum(-np.log(frozen + TINY), MOST_LOG)
-        # Less a constant, whose rounding would look like a tail.
-        tail = np.max(np.abs((density - density[:, :1]) @ analysis), axis=1)
-        step = frame.step(nodes, np.exp(-density))[..., 0]
-        taken = 2 / step
-        cycles, at_end = np.mean(taken, axis=1), FASTER * taken[:, -1]
-        sharp = abel.change_in_a_cycle(density, step) > SHARP
-        cut = (tail > size.tail_tolerance) | ((cycles > 2 * m) & ((at_end < m) | sharp))
-        number += len(scene)
-        cut &= number < MOST_PLANNED * maps.scenes
-        cycles = np.where(sharp, 0.0, np.minimum(cycles, at_end))
-        done.append(Planned(scene[~cut], frame.take(~cut), cycles[~cut]))
-        first, second = frame.take(cut).cut(SPLIT)
-        frame = abel.Frame(*(np.concatenate(pair) for pair in zip(first, second, strict=True)))
-        scene = np.tile(scene[cut], 2)
-    scene = np.concatenate([part.scene for part in done])
-    frames = zip(*(part.frame for part in done), strict=True)
-    frame = abel.Frame(*(np.concatenate(arrays) for arrays in frames))
-    order = np.lexsort((frame.starts, scene))
-    cycles = np.concatenate([part.cycles for part in done])
-    return Planned(scene[order], frame.take(order), cycles[order])
 
 
 def at_checks(ahead: CycleSolution, m: int) -> InitialGuess:

@@ -28,7 +28,8 @@ from wear.orbit import abel
 from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
 from wear.orbit.panels import CHECKS, at_checks
 from wear.orbit.period_map import PeriodMap, Rows, Settings, period_map, settings
-from wear.orbit.segments import Orbit, Problem
+from wear.orbit.problem import Problem
+from wear.orbit.segments import Orbit
 from wear.orbit.transient import SAFETY
 
 ITERATION_TOLERANCE = 1e-13  # of the period map: its derivatives have no more digits

@@ -52,6 +52,27 @@ class Number:
             return f"{self.value:.{max(self.digits - 1 - exponent, 0)}f}", None
         return mantissa, exponent
 
+    @property
+    def latex(self) -> str:
+        r"""The number in math mode.
+
+        >>> print(Number(4.63554742752e-8, "equation 21", 4).latex, Number(123456, "scene").latex)
+        4.636\times10^{-8} 123\,456
+        """
+        digits, exponent = self.decimal
+        power = "" if exponent is None else rf"\times10^{{{exponent}}}"
+        return grouped(digits, r"\,") + power
+
+
+def significant(value: float, most: int) -> int:
+    """Return as many digits as a datum has, `most` at most.
+
+    >>> significant(-0.05, 12), significant(1.08e-3, 12), significant(2000.0, 6)
+    (1, 3, 1)
+    """
+    mantissa = f"{abs(value):.{most - 1}e}".partition("e")[0]
+    return len(mantissa.replace(".", "").rstrip("0")) or 1
+
 
 def grouped(digits: str, separator: str) -> str:
     """Return integers of more than four digits in groups of three.

@@ -1,0 +1,86 @@
+"""Section 2: the model, equations (1) to (6), as relations.
+
+Overview
+    Beside a result, nobody is told of these: that it rests on the model is understood.  So
+    nothing else may be called an equation of the model, or an initial condition.
+Key results
+    CLOSURE             (1), as printed (False) and with the sign that wear of the pin has (True)
+    REACTION, SUPPORT   (2)
+    ROUGHNESS           (3)
+    contact             (4) and the text under it, for a contact law
+    ARCHARD             (5)
+    START               (6)
+    SLIP                section 2.4
+    belongs             whether a relation is one of them
+    FIELDS              the functions of time in (1) to (5)
+"""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+
+import sympy as sp
+
+from ..hypotheses import Kind
+from ..laws import ContactLaw, r
+from ..symbols import initial, rate, symbols
+
+h, h_0, U_a, U_c, u_a, u_c = symbols("h h_0 U_a U_c u_a u_c")
+sigma, sigma_a, sigma_c, sigma_a0, sigma_c0 = symbols("sigma sigma_a sigma_c sigma_a0 sigma_c0")
+p, p_max, R_a, b, L, k = symbols("p p_max R_a b L k")
+V, R, omega, n = symbols("V R omega n")
+f_aa, f_ac, f_cc, f_ca = symbols("f_aa f_ac f_cc f_ca")
+K_a, K_c, H_a, H_c = symbols("K_a K_c H_a H_c")
+
+CLOSURE = MappingProxyType(
+    {
+        opening: sp.Eq(h, h_0 + (u_c + u_a if opening else u_c - u_a) + U_c - U_a)
+        for opening in (False, True)
+    }
+)
+REACTION = sp.Eq(p * b * L - R_a, 0)
+SUPPORT = sp.Eq(k * U_c - p, 0)
+ROUGHNESS = sp.Eq(sigma, sp.sqrt(sigma_a**2 + sigma_c**2))
+ARCHARD = (
+    sp.Eq(rate("u_a"), K_a * p * V / (3 * H_a)),
+    sp.Eq(rate("sigma_a"), f_aa * rate("u_a") + f_ac * rate("u_c")),
+    sp.Eq(rate("u_c"), K_c * p * V / (3 * H_c)),
+    sp.Eq(rate("sigma_c"), f_cc * rate("u_c") + f_ca * rate("u_a")),
+)
+START = (
+    sp.Eq(initial("h"), h_0),
+    sp.Eq(initial("u_c"), 0),
+    sp.Eq(initial("u_a"), 0),
+    sp.Eq(initial("sigma_a"), sigma_a0),
+    sp.Eq(initial("sigma_c"), sigma_c0),
+)
+FIELDS = frozenset(f.func for f in (h, U_a, U_c, u_a, u_c, sigma, sigma_a, sigma_c, p, R_a))
+SLIP = (sp.Eq(V, R * omega), sp.Eq(omega, sp.pi * n / 30))
+
+
+def contact(law: ContactLaw) -> sp.Equality:
+    """Return (4) with the text under it: no contact where h exceeds the cutoff, 3 sigma."""
+    pressure = p_max * law.ratio(h / sigma)
+    return sp.Eq(p, sp.Piecewise((pressure, h <= law.cutoff * sigma), (0, True)))
+
+
+def belongs(kind: Kind, relation: sp.Basic) -> bool:
+    """Return whether a relation is what a hypothesis of this kind may say.
+
+    >>> belongs(Kind.MODEL, SUPPORT), belongs(Kind.MODEL, sp.Eq(n, 5)), belongs(Kind.STATE, SUPPORT)
+    (True, False, True)
+    """
+    if kind is Kind.INITIAL:
+        return relation in START
+    of_the_model = (*CLOSURE.values(), REACTION, SUPPORT, ROUGHNESS, *ARCHARD, *SLIP)
+    return kind is not Kind.MODEL or relation in of_the_model or _is_contact(relation)
+
+
+def _is_contact(relation: sp.Basic) -> bool:
+    """Return whether a relation is (4) for some law of h/sigma alone."""
+    for part in relation.atoms(sp.Piecewise):
+        (pressure, touching), *_ = part.args
+        share, cutoff = pressure.subs(h, r * sigma) / p_max, touching.rhs / sigma
+        law = ContactLaw("", share, sp.S.Zero, "", cutoff)
+        return bool(share.free_symbols <= {r} and cutoff.is_number and relation == contact(law))
+    return False

@@ -1,0 +1,23 @@
+"""What tests of commands share: `wear` run in the process of the test."""
+
+from collections.abc import Callable
+
+import pytest
+
+from wear import cli
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def call(capsys: pytest.CaptureFixture[str]) -> Call:
+    """`call("run", "section4")` runs a command; returns its status, output and messages."""
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        try:
+            status = cli.main(arguments)
+        except SystemExit as stop:  # argparse's way of ending
+            status = stop.code
+        return status, *capsys.readouterr()
+
+    return run

@@ -1,0 +1,117 @@
+"""The plan of panels, by a rate that is frozen over each cycle: good enough, and cheap.
+
+It says how far panels must reach, and cuts them until they resolve the density. What it misses, the
+residual of Abel's equation finds.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.tolerances import TINY
+from wear.orbit import abel
+from wear.orbit.panels import FASTER, SPLIT
+from wear.orbit.period_map import PeriodMap, Settings, by_size, period_map
+from wear.orbit.problem import Problem, Request
+
+LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
+MARGIN = 4.0  # of the look ahead, in cycles
+LONGEST, STEPS = 36.0, 60  # of the look ahead, in ln(1 + u/scale)
+AHEAD_NODES = 10  # on each interval of phase, to look ahead
+SHARP = 0.3  # change of the logarithm of the density within a cycle
+MOST_LOG = 650.0  # of a density: its exponential is a number
+MOST_PLANNED = 150  # panels of a scene
+
+
+def look_ahead(problem: Problem, request: Request) -> FloatArray:
+    """Return the states (s,) that panels must reach: to where the rate, frozen over each cycle,
+    puts the cycles, roughly."""
+    start, scale, limit = request.start, problem.scale, problem.limit
+    begin = (start + scale)[:, None]
+    longest = np.minimum(LONGEST, np.log1p((limit - start) / begin[:, 0]))[:, None]
+    ahead = longest / STEPS * np.arange(STEPS + 1)
+    u = start[:, None] + begin * np.expm1(ahead)
+    added = np.empty_like(u)
+    for which, edges in by_size(problem.breakpoints):
+        maps = period_map(problem.take(which), edges, AHEAD_NODES)
+        added[which] = maps.increment_without_feedback(u[which])
+    density = -np.log(np.log1p(added / (u + scale[:, None])) + TINY)
+    # Between two points the density is taken as exponential in y = ln(u + scale).
+    rise = np.diff(density, axis=1)
+    rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)
+    first = np.exp(density[:, :-1]) * (longest / STEPS) / rise
+    counts = np.cumsum(first * np.expm1(rise), axis=1)
+    wanted = MARGIN * np.maximum(request.cycles, LEAST)
+    part = np.minimum(np.sum(counts < wanted[:, None], axis=1), STEPS - 1)
+    at = (np.arange(len(start)), part)
+    missing = wanted - np.where(part > 0, counts[at[0], part - 1], 0.0)
+    share = np.log1p(missing / first[at]) / rise[at]
+    # Where the states end before the cycles do, the share is no number.
+    y = np.fmin(ahead[at] + share * longest[:, 0] / STEPS, longest[:, 0])
+    end: FloatArray = start + begin[:, 0] * np.expm1(y)
+    return end
+
+
+class Planned(NamedTuple):
+    """Panels, each of a `scene` (panels,), scene by scene and rising, and how many `cycles`
+    (panels,) each holds, roughly; none where a cycle changes its own rate much."""
+
+    scene: IntArray
+    frame: abel.Frame
+    cycles: FloatArray
+
+    def take(self, which: BoolArray | IntArray) -> Planned:
+        """Return some of the panels."""
+        return Planned(self.scene[which], self.frame.take(which), self.cycles[which])
+
+
+def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> Planned:
+    """Cut panels until their coefficients resolve the density without feedback, and none ends at a
+    rate at which it would hold few cycles: the last node looks a cycle ahead."""
+    m = size.panel_nodes
+    nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
+    done: list[Planned] = []
+    number = 0
+    while len(scene):
+        frozen = maps.take(scene).increment_without_feedback(frame.states(nodes))
+        density = np.minimum(-np.log(frozen + TINY), MOST_LOG)
+        # Less a constant, whose rounding would look like a tail.
+        tail = np.max(np.abs((density - density[:, :1]) @ analysis), axis=1)
+        step = frame.step(nodes, np.exp(-density))[..., 0]
+        taken = 2 / step
+        cycles, at_end = np.mean(taken, axis=1), FASTER * taken[:, -1]
+        sharp = abel.change_in_a_cycle(density, step) > SHARP
+        cut = (tail > size.tail_tolerance) | ((cycles > 2 * m) & ((at_end < m) | sharp))
+        number += len(scene)
+        cut &= number < MOST_PLANNED * maps.scenes
+        cycles = np.where(sharp, 0.0, np.minimum(cycles, at_end))
+        done.append(Planned(scene[~cut], frame.take(~cut), cycles[~cut]))
+        first, second = frame.take(cut).cut(SPLIT)
+        frame = abel.Frame(*(np.concatenate(pair) for pair in zip(first, second, strict=True)))
+        scene = np.tile(scene[cut], 2)
+    scene = np.concatenate([part.scene for part in done])
+    frames = zip(*(part.frame for part in done), strict=True)
+    frame = abel.Frame(*(np.concatenate(arrays) for arrays in frames))
+    order = np.lexsort((frame.starts, scene))
+    cycles = np.concatenate([part.cycles for part in done])
+    return Planned(scene[order], frame.take(order), cycles[order])
+
+
+def enough_before(share: FloatArray, scene: IntArray) -> BoolArray:
+    """Return before which panels, in order, those of the same scene make up one whole already, of
+    which each holds a `share` (panels,)."""
+    before = np.concatenate([[0.0], np.cumsum(np.minimum(share, 1.0))[:-1]])
+    first = np.searchsorted(scene, scene)  # the first panel of the scene of each
+    return np.asarray(before - before[first] >= 1.0)
+
+
+def before_the_first(bad: BoolArray, scene: IntArray) -> BoolArray:
+    """Return which panels, in order, come before the first `bad` one of their scene."""
+    so_far: IntArray = np.cumsum(bad)
+    first = np.searchsorted(scene, scene)  # the first panel of the scene of each
+    before = so_far[first] - bad[first].astype(int)
+    return np.asarray(so_far == before)

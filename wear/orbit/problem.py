@@ -1,0 +1,64 @@
+"""What is asked of an orbit: the equation with the scales of its states, cycles, and their cost."""
+
+from __future__ import annotations
+
+import time
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from wear.numerics.gauss import FloatArray, IntArray
+from wear.orbit.period_map import Equation, Rows
+
+
+class Cost(NamedTuple):
+    """What a result took: starts times cycles integrated, right-hand sides evaluated."""
+
+    cycles_integrated: int
+    rhs_evaluations: int
+
+    def plus(self, cycles: int, evaluations: int) -> Cost:
+        """Return the cost after so much more work."""
+        return Cost(self.cycles_integrated + cycles, self.rhs_evaluations + evaluations)
+
+
+class Problem(Equation, Protocol):
+    """The equation of some scenes (s,) with the scales of its states."""
+
+    @property
+    def scale(self) -> FloatArray:
+        """Return the change of the state (s,) that changes the rate by a factor of order one."""
+
+    @property
+    def limit(self) -> FloatArray:
+        """Return the states (s,) from which on the rate has no meaning; infinite if none has."""
+
+    @property
+    def breakpoints(self) -> list[FloatArray]:
+        """Return the phases, from 0 to 1, between which the rate of each scene is smooth."""
+
+    def take(self, rows: Rows) -> Problem: ...
+
+    def roundoff(self, u: FloatArray) -> FloatArray:
+        """Return the relative error of the rate by rounding at states u (s, k), at most."""
+
+
+class Request(NamedTuple):
+    """For some scenes (s,): count `cycles` from the states `start`, known up to `start_error`; and
+    refine nothing after the `deadline` (`time.monotonic()`)."""
+
+    cycles: FloatArray
+    start: FloatArray
+    start_error: FloatArray
+    deadline: float = np.inf
+
+    @property
+    def late(self) -> bool:
+        """Return whether the deadline has passed."""
+        return time.monotonic() > self.deadline
+
+    def take(self, which: IntArray) -> Request:
+        """Return some of the scenes."""
+        return Request(
+            self.cycles[which], self.start[which], self.start_error[which], self.deadline
+        )
