@@ -145,7 +145,7 @@ def applied(rule: Rule, *premises: Judgement) -> Judgement | None:
         return None
 
 
-@settings(max_examples=120, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
 @given(drawn_chains)
 def test_no_model_breaks_what_rules_conclude(chain: Chain) -> None:
     for judgement in concluded(chain):
