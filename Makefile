@@ -15,15 +15,16 @@ reproduce: $(VENV)/installed ## derive, verify and solve everything; write the r
 	@$(BIN)/wear reproduce -o $(REPORT)
 	@echo "The report lies in $(REPORT)/report.html"
 
-# Every check runs, whatever the ones before it found; pytest closes the output.
+# Every check runs, whatever the others found. Types are checked while the tests run; pytest, which
+# takes longer, closes the output.
 test: $(VENV)/installed-test ## run all checks: style, types, import walls, tests, doctests
 	@status=0; \
 	$(BIN)/ruff check || status=1; \
 	$(BIN)/ruff format --check || status=1; \
-	$(BIN)/mypy || status=1; \
-	$(BIN)/mypy tests/wear/typed_script.py || status=1; \
 	$(BIN)/lint-imports --no-logo || status=1; \
+	$(BIN)/mypy & types=$$!; \
 	$(BIN)/python -m pytest -n 2 --dist worksteal || status=1; \
+	wait $$types || status=1; \
 	exit $$status
 
 proof: $(VENV)/installed ## prove the steps of the derivation anew with Coq

@@ -127,7 +127,12 @@ def print_json(document: object) -> None:
       "arrest_cycle": null
     }
     """
-    print(json.dumps(plain(document), indent=2, allow_nan=False))
+    print(json_text(document), end="")
+
+
+def json_text(document: object) -> str:
+    """Return one JSON document, as `print_json` prints it."""
+    return json.dumps(plain(document), indent=2, allow_nan=False) + "\n"
 
 
 def plain(value: object) -> Any:

@@ -82,6 +82,16 @@ def words_of(key: str) -> str:
     return f"{place}: {name.removesuffix(f'_{unit}').replace('_', ' ')}{bracket}{rest}"
 
 
+def label_of(key: str) -> str:
+    """Return a key of the scene file in words, with its unit, for an axis.
+
+    >>> label_of("motion.radius_mm"), label_of("bearing.roughness_growth")
+    ('motion: radius (mm)', 'bearing: roughness growth')
+    """
+    unit = unit_of(key)
+    return f"{words_of(key)} ({unit})" if unit else words_of(key)
+
+
 def shown(text: str, most: int = 60) -> str:
     """Return `text` fit for a terminal: one line, no control characters, at most so long.
 

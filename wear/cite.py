@@ -14,6 +14,7 @@ _ENTRY = re.compile(
     r"^% (?P<purpose>[^\n]+)\n@(?P<kind>\w+)\{(?P<key>[^,]+),\n(?P<fields>.*?)^\}", re.M | re.S
 )
 _FIELD = re.compile(r"^  (\w+) = \{(.*)\},$", re.MULTILINE)
+_PARTS = ("title", "journal", "publisher", "volume", "pages", "year")
 _LETTERS = {r"{\o}": "ø", r"{\'e}": "é", r"{\`e}": "è", r"\"o": "ö", "--": "–"}
 
 
@@ -31,6 +32,17 @@ class Reference(NamedTuple):
         for mark, letter in _LETTERS.items():
             text = text.replace(mark, letter)
         return text.replace("{", "").replace("}", "")
+
+
+def listed(reference: Reference) -> str:
+    """Return author, title, where and when, and what the work stands for here.
+
+    >>> listed(REFERENCES["greenwood1966"])[:44]
+    'Greenwood, J. A., Williamson, J. B. P.: Cont'
+    """
+    authors = reference.readable("author").replace(" and others", " et al.").replace(" and ", ", ")
+    parts = ", ".join(text for name in _PARTS if (text := reference.readable(name)))
+    return f"{authors}{': ' if authors else ''}{parts} ({reference.purpose})."
 
 
 def bibtex(reference: Reference) -> str:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -95,14 +96,7 @@ def wear_with_asymptote(
     with styled():
         figure, axes = canvas(width, 0.66 * width)
         for line in asymptotes:
-            axes.plot(
-                line.x,
-                line.y * WEAR.scale,
-                color=_look(line).colour,
-                linestyle=_look(line).dash,
-                linewidth=0.9,
-                zorder=1,
-            )
+            _plot(axes, line, WEAR.scale, linewidth=0.9, zorder=1)
         _draw(axes, wear, WEAR.scale)
         axes.set(xlabel=Abscissa.CYCLES.value, ylabel=BEARING_WEAR.label)
         _frame(axes, wear, WEAR.scale)
@@ -125,11 +119,8 @@ def wear_by_decades(
         axes.set_yscale("log")
         top = 10.0 * WEAR.scale * max(float(line.y.max()) for line in wear)
         for line in (*lines, *wear):
-            look = _look(line)
-            axes.plot(
-                line.x, line.y * WEAR.scale, color=look.colour, linestyle=look.dash,
-                linewidth=0.9 if line in lines else 1.4, label=line.name,
-            )  # fmt: skip
+            width = 0.9 if line in lines else 1.4
+            _plot(axes, line, WEAR.scale, linewidth=width, label=line.name)
         axes.axvline(mark[0], color=GREY, linewidth=0.6, linestyle=(0, (4.0, 2.0)))
         axes.text(
             mark[0], 0.98, f"{mark[1]} ", transform=axes.get_xaxis_transform(), va="top", ha="right"
@@ -266,24 +257,12 @@ def _example_points(axes: Axes, examples: Sequence[Example]) -> None:
 
 
 def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
+    style = {"color": look.colour, "marker": look.marker}
     axes.loglog(
-        method.x,
-        method.seconds,
-        color=look.colour,
-        linestyle=look.dash,
-        linewidth=0.9,
-        marker=look.marker,
-        label=method.name,
+        method.x, method.seconds, linestyle=look.dash, linewidth=0.9, label=method.name, **style
     )
-    axes.loglog(
-        method.x[method.failed],
-        method.seconds[method.failed],
-        color=look.colour,
-        linestyle="",
-        marker=look.marker,
-        markersize=5.5,
-        markerfacecolor=PAPER,
-    )
+    x, seconds = method.x[method.failed], method.seconds[method.failed]
+    axes.loglog(x, seconds, linestyle="", markersize=5.5, markerfacecolor=PAPER, **style)
 
 
 def _panel(axes: Axes, panel: Panel, logarithmic: bool) -> None:
@@ -296,10 +275,9 @@ def _panel(axes: Axes, panel: Panel, logarithmic: bool) -> None:
     limits = [panel.limit] if panel.limit is not None else []
     _frame(axes, (*lines, *panel.points), scale, limits)
     for points in panel.points:
-        look = _look(points)
-        axes.plot(
-            points.x, points.y * scale, linestyle="", color=look.colour, marker=look.marker,
-            markerfacecolor=PAPER, markersize=5.0, zorder=4, clip_on=False,
+        _plot(
+            axes, points, scale, linestyle="", marker=_look(points).marker, markerfacecolor=PAPER,
+            markersize=5.0, zorder=4, clip_on=False,
         )  # fmt: skip
     for limit in limits:
         axes.axhline(limit * scale, color=INK, linewidth=0.7, linestyle=(0, (5.0, 2.0)))
@@ -311,19 +289,20 @@ def _look(line: Line) -> Stroke:
     return stroke(line.family, line.variant)
 
 
+def _plot(axes: Axes, line: Line, scale: float, **style: Any) -> None:
+    look = _look(line)
+    style = {"linestyle": look.dash, **style}
+    axes.plot(line.x, line.y * scale, color=look.colour, **style)
+
+
 def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:
     """Lines with a few markers each, shifted from line to line so that they do not coincide."""
     for position, line in enumerate(lines):
-        axes.plot(
-            line.x,
-            line.y * scale,
-            color=_look(line).colour,
-            linestyle=_look(line).dash,
-            marker=_look(line).marker,
-            markerfacecolor=_look(line).face,
-            markevery=(_MARK_EVERY * (position + 0.5) / len(lines), _MARK_EVERY),
-            clip_on=False,
-        )
+        start = _MARK_EVERY * (position + 0.5) / len(lines)
+        _plot(
+            axes, line, scale, marker=_look(line).marker, markerfacecolor=_look(line).face,
+            markevery=(start, _MARK_EVERY), clip_on=False,
+        )  # fmt: skip
 
 
 def _frame(axes: Axes, lines: Sequence[Line], scale: float, limits: Sequence[float] = ()) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear import direct, records
+from wear.checked import MOST_CYCLES
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history import History
 from wear.load import HistoryLoad
@@ -30,7 +31,6 @@ __all__ = ["METHODS", "MOST_CYCLES", "solve"]
 
 FloatArray = NDArray[np.float64]
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)
-MOST_CYCLES = 10**12
 LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
@@ -258,7 +258,7 @@ def _history(
         U_a=displacement_of(model, scene, u),
         scene=scene.title or scene.name,
         definition=scene,
-        variant=model.variant,
+        variant=scene.variant.name,
         operations=model.operations,
         method=wear.method,
         rtol=rtol,

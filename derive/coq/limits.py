@@ -47,8 +47,10 @@ def _named(step: Step) -> Iterator[str]:
             defined = isinstance(premise.relation, sp.Equality) and premise.relation.lhs == name
             if defined and premise.relation.has(sp.Limit):
                 inside = premise.relation.rhs.args[0]
-                cited = f"{premise.label} ({step.cited(limit)})"
-                yield f"exact (tends_unique (fun t => {term(inside)}) _ _ {cited})."
+                yield f"apply (tends_unique (fun t => {term(inside)}) _ _ {premise.label})."
+                yield f"apply (tends_value _ ({term(limit.relation.rhs)})); [identity |]."
+                yield f"generalize ({step.cited(limit)}); apply tends_ext; intros t Ht."
+                yield "first [reflexivity | unfold Rdiv; f_equal; field; positive]."
                 return
 
 

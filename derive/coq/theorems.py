@@ -73,7 +73,7 @@ def _same_rate(step: Step) -> Iterator[str]:
         rates = [f"(fun t => {term(side)})" for side in given.relation.args]
         slopes = [term(sp.diff(side, t)) for side in given.relation.args]
         for label, rate, slope in zip("AB", rates, slopes, strict=True):
-            yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; auto_derive; [repeat split; auto | ring])."
+            yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; derived)."
         yield f"intros t Ht; pose proof (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) as P0."
         yield "from_equation P0 1."
 
@@ -199,7 +199,7 @@ def _first_order(step: Step) -> Iterator[str]:
     slope = sp.diff(function, y).subs(y, end).doit()
     speed, made, at = limit.relation.rhs, f"(fun ratio => {term(function)})", term(quantity)
     known = list(divisors(step))
-    yield f"assert (D : is_derive {made} ({term(end)}) ({term(slope)})) by (auto_derive; [repeat split; first [positive | auto] | identity])."
+    yield f"assert (D : is_derive {made} ({term(end)}) ({term(slope)})) by derived."
     yield f"assert (W : forall t, 0 <= t -> Derive u_c t = {made} ({at}))."
     yield from (
         "{ intros t Ht.",
@@ -260,7 +260,7 @@ def _derivative(step: Step) -> Iterator[str]:
         if isinstance(s.relation, sp.Equality) and not s.timed and not s.relation.has(sp.Limit)
     ]
     variable = binder(slope.variables[0])
-    yield f"assert (D : Derive (fun {variable} => {term(slope.expr)}) {variable} = {value}) by (apply is_derive_unique; auto_derive; [repeat split; positive | identity])."
+    yield f"assert (D : Derive (fun {variable} => {term(slope.expr)}) {variable} = {value}) by (apply is_derive_unique; derived)."
     yield "rewrite D; clear D."
     used = {
         s.relation.lhs: s

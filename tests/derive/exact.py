@@ -70,12 +70,27 @@ def variant_of(law: str, name: str) -> Variant:
     return next(v for v in VARIANTS if v.law.name == law and v.name == name)
 
 
-def judge(function: Function, values: Mapping[str, float], index: int = 0) -> Judged:
-    """Evaluate a result of a function where its arguments and constants have these values."""
+def judge(function: Function, values: Mapping[str, float]) -> list[Judged]:
+    """Evaluate the results of a function where its arguments and constants have these values.
+
+    Absolute terms are those of sum |x df/dx|: derivatives go back from a result, line by line.
+    """
     with mpmath.workdps(DIGITS):
-        numbers = {name: mpmath.mpf(value) for name, value in values.items()}
-        value = _evaluate(composed(function)[index], numbers).value
-        return Judged(value, _unit(value, _absolute_terms(function, numbers, index)))
+        known = {name: mpmath.mpf(value) for name, value in values.items()}
+        lines = []
+        for name, expr in function.assignments:
+            line = _evaluate(released(expr), known)
+            known[name.name] = line.value
+            lines.append((name.name, line.slopes))
+        found = []
+        for result in function.results:
+            value, total = _evaluate(result, known)
+            for name, slopes in reversed(lines):
+                if name in total:
+                    for inner, slope in slopes.items():
+                        total[inner] = total.get(inner, mpmath.mpf(0)) + total[name] * slope
+            found.append(Judged(value, _unit(value, _terms(total, known))))
+        return found
 
 
 def judge_expression(expr: sp.Expr, values: Mapping[str, float]) -> Judged:
@@ -88,21 +103,6 @@ def judge_expression(expr: sp.Expr, values: Mapping[str, float]) -> Judged:
 
 def _unit(value: mpmath.mpf, terms: mpmath.mpf) -> mpmath.mpf:
     return (abs(value) + terms) * ROUNDOFF + mpmath.mpf(FLOOR)
-
-
-def _absolute_terms(function: Function, values: Mapping[str, mpmath.mpf], index: int) -> mpmath.mpf:
-    """Return sum |x df/dx|: derivatives go back from the result, line by line."""
-    known = dict(values)
-    lines = []
-    for name, expr in function.assignments:
-        line = _evaluate(released(expr), known)
-        known[name.name] = line.value
-        lines.append((name.name, line.slopes))
-    total = dict(_evaluate(function.results[index], known).slopes)
-    for name, slopes in reversed(lines):
-        for inner, slope in slopes.items():
-            total[inner] = total.get(inner, mpmath.mpf(0)) + total.get(name, 0) * slope
-    return _terms(total, known)
 
 
 def _evaluate(expr: sp.Expr, values: Mapping[str, mpmath.mpf]) -> Dual:
@@ -180,7 +180,7 @@ def judge_root(residual: Function, values: Mapping[str, float]) -> Judged:
             step = found.value / steepness
             numbers["p"] -= step
         assert abs(step) <= abs(numbers["p"]) * mpmath.mpf(10) ** -40
-        return Judged(numbers["p"], judge(residual, numbers).unit / steepness)
+        return Judged(numbers["p"], judge(residual, numbers)[0].unit / steepness)
 
 
 # Points

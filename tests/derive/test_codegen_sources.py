@@ -370,19 +370,21 @@ def judged(variant, at):
     made = exact.made(variant)
     by_name = {f.name: f for f in made.functions}
     values = {**at.state, **constants._asdict()}
-    plain, fields, _ = outputs(variant)
-    found = [exact.judge(f, exact.inputs(f, at, constants._asdict())) for f in plain]
-    found += [exact.judge(by_name["fields"], values, index) for index in range(len(fields))]
+    plain, _, _ = outputs(variant)
+    known = {
+        f.name: exact.judge(f, exact.inputs(f, at, constants._asdict())) for f in made.functions
+    }
+    found = [*(known[f.name][0] for f in plain), *known["fields"]]
     if not variant.compliant:
-        rate = exact.judge(by_name["rate"], values)
-        cut = variant.ends_at_3_sigma and exact.judge(by_name["margin"], values).value < 0
+        (rate,) = known["rate"]
+        cut = variant.ends_at_3_sigma and known["margin"][0].value < 0
         return [*found, exact.Judged(0 * rate.value, rate.unit) if cut else rate]
     near = float(wear.pressure_root.pressure(module, at.u, at.U_a, constants).p)
     root = exact.judge_root(by_name["residual"], {**values, "p": near})
     if variant.ends_at_3_sigma:
-        margin = exact.judge(by_name["margin"], values)
-        known = {**values, "p": root.value, "margin": margin.value}
-        limited = exact.judge(by_name["limited_pressure"], known)
+        (margin,) = known["margin"]
+        at_margin = {**values, "p": root.value, "margin": margin.value}
+        (limited,) = exact.judge(by_name["limited_pressure"], at_margin)
         unit = root.unit + limited.unit + margin.unit / constants.compliance
         root = exact.Judged(limited.value, unit)
     speed = constants.wear_per_pressure

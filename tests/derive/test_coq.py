@@ -6,7 +6,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 
 import pytest
 import sympy as sp
@@ -85,18 +84,6 @@ def test_the_record_is_of_these_statements():
     made = export.Export(catalogue.equations())
     assert made.unrecorded == ""
     assert len(record()) == len(made.steps)
-
-
-def test_the_export_does_not_depend_on_the_order_of_sets(tmp_path):
-    """It once did for these equations under the seeds 0 and 2; this run has one of its own."""
-    identifiers = ["general-law", "closure-ratio"]
-    made = export.Export(tuple(map(catalogue.equation, identifiers)))
-    made.write(tmp_path / "here")
-    command = [sys.executable, "-m", "derive", "export", *identifiers, "-o", tmp_path / "there"]
-    seed = str(2 * (hash("step") % 2))
-    subprocess.run(command, env=os.environ | {"PYTHONHASHSEED": seed}, check=True)
-    for path in (tmp_path / "here").iterdir():
-        assert (tmp_path / "there" / path.name).read_text("utf-8") == path.read_text("utf-8")
 
 
 def test_nothing_is_admitted():

@@ -259,7 +259,8 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("is bounded", lambda: AtInfinity(sp.Eq(forever(u_c), 0), 1 / u_c)(DEEP)),
     ("-> 0 as", lambda: faded(sp.S.Zero, FADING, 1 / u_c**2)),
     ("f_c/q > 0", lambda: faded(sp.S.Zero, FADING, sp.exp(-f_c * u_c / q))),
-    ("is a power of", lambda: faded(sp.S.Zero, sp.sqrt(FADING), FADING)),
+    ("smooth function at", lambda: faded(sp.S.Zero, sp.sqrt(FADING), FADING)),
+    ("encloses", lambda: vanishes(given(sp.And(sp.Le(G, h_0 / u_c), sp.Ge(h, 0))), DEEP)),
     (
         "is a constant over",
         lambda: vanishes(given(sp.And(sp.Le(G, U_a / u_c), sp.Ge(G, -U_a / u_c))), DEEP),
@@ -389,7 +390,7 @@ def test_every_refusal_of_the_rules_is_brought_about() -> None:
 
 def asked(path: Path) -> Iterator[int]:
     """Yield the lines of a module on which a rule refuses or asks for a condition."""
-    helpers = {"require", "require_defined", "has_hypothesis"}
+    helpers = {"require", "require_defined", "require_hypothesis"}
     for node in ast.walk(ast.parse(path.read_text())):
         called = node.func if isinstance(node, ast.Call) else None
         if isinstance(called, ast.Name) and called.id in helpers:

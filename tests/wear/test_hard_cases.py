@@ -6,9 +6,9 @@ import pytest
 
 from tests import independent, independent_cutoff
 from tests.wear.test_cycle_count import problem
-from wear.benchmark import Status
+from wear.benchmark import Measurement, Status
 from wear.benchmark import hard as hard_cases
-from wear.benchmark.hard import Hard, attempt, catalogue, methods_of, worst
+from wear.benchmark.hard import attempt, catalogue, methods_of, worst
 from wear.benchmark.methods import cases, names
 from wear.scene import hard_names, load_scene
 
@@ -74,8 +74,8 @@ def test_the_judge_of_the_cutoff_without_an_edge_is_the_other_judge():
     assert independent_cutoff.wear_after(data, [1]) == independent.wear_after(data, [1])
 
 
-def entry(method="auto", status=Status.MET, error=1e-12, cycles=1, **changes) -> Hard:
-    made = Hard("made", cycles, method, 1e-10, error, 1e-11, 0.1, status, "because")
+def entry(method="auto", status=Status.MET, error=1e-12, cycles=1, **changes) -> Measurement:
+    made = Measurement(method, "made", cycles, 1e-10, 0.1, 1, error, 1e-11, None, status, "because")
     return made._replace(**changes)
 
 

@@ -72,6 +72,12 @@ class Measurement(NamedTuple):
     status: Status
     remark: str
 
+    @property
+    def honest(self) -> bool:
+        """Whether the method's own estimate, if it has one, covers its true error."""
+        silent = self.estimate is None or not math.isfinite(self.error)
+        return silent or abs(self.error) <= max(self.estimate or 0.0, ROUNDING)
+
 
 class StartUp(NamedTuple):
     """Seconds that a method takes once a scene to get ready: bind, compile, run one cycle."""

@@ -9,14 +9,13 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple
+from functools import partial
 
-from wear.benchmark import ROUNDING, Status, judge
+from wear.benchmark import NO_ANSWER, Measurement, Status, judge
 from wear.benchmark.methods import (
     DEFAULT_TOLERANCE,
     SCIPY,
     WITH_DEFAULTS,
-    Answer,
     Case,
     UnsuitableError,
     cases,
@@ -37,29 +36,6 @@ STEPPED_TOLERANCE = 1e-6
 COUNTED_TOLERANCE = 1e-10
 
 
-class Hard(NamedTuple):
-    """A method on a hard case: `error` is its true signed relative error, `estimate` its own.
-
-    `remark` says how it failed; `seconds` is one run.
-    """
-
-    scene: str
-    cycles: int
-    method: str
-    tolerance: float
-    error: float
-    estimate: float | None
-    seconds: float
-    status: Status
-    remark: str
-
-    @property
-    def honest(self) -> bool:
-        """Whether the method's own estimate, if it has one, covers its true error."""
-        silent = self.estimate is None or not math.isfinite(self.error)
-        return silent or abs(self.error) <= max(self.estimate or 0.0, ROUNDING)
-
-
 def catalogue() -> tuple[Case, ...]:
     """All hard cases."""
     return cases("hard", names("hard"))
@@ -73,40 +49,29 @@ def methods_of(case: Case) -> Iterator[tuple[str, float]]:
         yield from ((f"solve_ivp {name}", DEFAULT_TOLERANCE) for name in WITH_DEFAULTS)
 
 
-def attempt(case: Case, method: str, tolerance: float, time_limit: float) -> Hard:
-    """Run one method on one case."""
+def attempt(case: Case, method: str, tolerance: float, time_limit: float) -> Measurement:
+    """Run one method on one case, once."""
     plain = method.removeprefix("solve_ivp ")
-    start = time.perf_counter()
+    made = with_defaults if plain != method else partial(solver, time_limit=time_limit)
+    start = time.process_time()
     try:
-        if plain != method:
-            run = with_defaults(case.scene, plain)
-        else:
-            run = solver(case.scene, method, time_limit)
-        answer = run(case.cycles, tolerance)
+        answer = made(case.scene, plain)(case.cycles, tolerance)
         error = answer.wear / case.wear - 1.0
         status, remark = judge(error, tolerance, answer)
     except (UnsuitableError, ArithmeticError, ValueError) as fault:
-        answer, error = Answer(math.nan), math.nan
-        status, remark = Status.REPORTED, str(fault)
-    seconds = time.perf_counter() - start
-    return Hard(
-        case.name,
-        case.cycles,
-        method,
-        tolerance,
-        error,
-        answer.estimate,
-        seconds,
-        status,
-        remark,
-    )
+        answer, error, status, remark = NO_ANSWER, math.nan, Status.REPORTED, str(fault)
+    seconds = time.process_time() - start
+    return Measurement(
+        method, case.name, case.cycles, tolerance, seconds, 1, error, answer.estimate,
+        answer.evaluations, status, remark,
+    )  # fmt: skip
 
 
 def hard_cases(
     chosen: Sequence[Case],
     time_limit: float = 2.0,
     progress: Callable[[str], None] = lambda _: None,
-) -> tuple[Hard, ...]:
+) -> tuple[Measurement, ...]:
     """Try every method on every case.
 
     Parameters
@@ -114,7 +79,7 @@ def hard_cases(
     time_limit
         Seconds after which a run of a method that can be stopped is.
     """
-    found: list[Hard] = []
+    found: list[Measurement] = []
     for case in chosen:
         progress(f"{case.name}, {case.cycles} cycles")
         too_slow = {entry.method for entry in found if _ran_out(entry, case, time_limit)}
@@ -126,13 +91,13 @@ def hard_cases(
     return tuple(found)
 
 
-def _ran_out(entry: Hard, case: Case, time_limit: float) -> bool:
+def _ran_out(entry: Measurement, case: Case, time_limit: float) -> bool:
     """Whether the method was too slow for fewer cycles of the same scene."""
     fewer = entry.scene == case.name and entry.cycles < case.cycles
     return fewer and entry.seconds > time_limit
 
 
-def worst(found: Sequence[Hard], scene: str, method: str) -> Hard | None:
+def worst(found: Sequence[Measurement], scene: str, method: str) -> Measurement | None:
     """The case of a scene that shows a method from its worst side."""
     entries = [entry for entry in found if (entry.scene, entry.method) == (scene, method)]
     order = (Status.WRONG, Status.REPORTED, Status.MISSED, Status.STOPPED, Status.MET)
@@ -143,7 +108,7 @@ def worst(found: Sequence[Hard], scene: str, method: str) -> Hard | None:
     )
 
 
-def overview(found: Sequence[Hard]) -> Table:
+def overview(found: Sequence[Measurement]) -> Table:
     """Scenes against methods."""
     methods = unique(entry.method for entry in found)
     rows = []
@@ -154,7 +119,7 @@ def overview(found: Sequence[Hard]) -> Table:
     return Table("Hard cases", ("scene", *(tolerances[name] for name in methods)), tuple(rows))
 
 
-def _cell(entry: Hard | None) -> str:
+def _cell(entry: Measurement | None) -> str:
     if entry is None:
         return "-"
     if not math.isfinite(entry.error):
@@ -165,7 +130,7 @@ def _cell(entry: Hard | None) -> str:
     return size if entry.status is Status.MET else f"{size} {entry.status}"
 
 
-def failures(found: Sequence[Hard]) -> Table:
+def failures(found: Sequence[Measurement]) -> Table:
     """How methods failed: once a scene and method, at its worst."""
     rows = []
     for scene in unique(entry.scene for entry in found):
@@ -176,13 +141,13 @@ def failures(found: Sequence[Hard]) -> Table:
     return Table("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
 
 
-def _how(entry: Hard) -> str:
+def _how(entry: Measurement) -> str:
     if entry.honest:
         return entry.remark
     return f"claims an error of {entry.estimate:.1e}, has one of {abs(entry.error):.1e}"
 
 
-def markdown(found: Sequence[Hard], footer: str) -> str:
+def markdown(found: Sequence[Measurement], footer: str) -> str:
     """The part of the hard-case page that is computed."""
     table = overview(found)
     flat = table._replace(header=tuple(head.replace("\n", " ") for head in table.header))

@@ -15,7 +15,6 @@ from wear.commands import arguments
 from wear.faults import UsageError
 
 if TYPE_CHECKING:
-    from wear.benchmark.hard import Hard
     from wear.benchmark.methods import Method
     from wear.benchmark.results import Result, Table
 
@@ -135,10 +134,12 @@ def _write_speed(result: Result, folder: Path) -> None:
     from wear.benchmark import results as output
 
     with files.replacing_in(folder) as draft:
-        _write(draft / "speed.csv", output.csv_text(result.runs))
-        _write(draft / "speed-start.csv", output.csv_text(result.starts))
-        _write(draft / "speed.md", output.markdown(result, output.READER))
-        _write(draft / "speed.json", _json(output.document(result, output.READER)))
+        files.write_atomically(draft / "speed.csv", output.csv_text(result.runs))
+        files.write_atomically(draft / "speed-start.csv", output.csv_text(result.starts))
+        files.write_atomically(draft / "speed.md", output.markdown(result, output.READER))
+        files.write_atomically(
+            draft / "speed.json", terminal.json_text(output.document(result, output.READER))
+        )
         for name, content in _figures(result).items():
             (draft / name).write_bytes(content)
 
@@ -162,6 +163,7 @@ def _figures(result: Result) -> dict[str, bytes]:
 def _hard(options: argparse.Namespace) -> int:
     from wear.benchmark import hard
     from wear.benchmark.machine import footer, machine
+    from wear.benchmark.results import csv_text
 
     chosen = [case for case in hard.catalogue() if not options.quick or case.cycles <= 10]
     limit = HARD_SECONDS_QUICK if options.quick else HARD_SECONDS
@@ -169,7 +171,9 @@ def _hard(options: argparse.Namespace) -> int:
     found = hard.hard_cases(chosen, limit, terminal.progress)
     terminal.progress("")
     if options.output is not None:
-        _write_hard(found, footer(facts), options.output)
+        with files.replacing_in(options.output) as draft:
+            files.write_atomically(draft / "hard-cases.csv", csv_text(found))
+            files.write_atomically(draft / "hard-cases.md", hard.markdown(found, footer(facts)))
     if options.json:
         terminal.print_json({"machine": facts, "cases": [entry._asdict() for entry in found]})
     else:
@@ -179,30 +183,11 @@ def _hard(options: argparse.Namespace) -> int:
     return terminal.DONE
 
 
-def _write_hard(found: Sequence[Hard], footer: str, folder: Path) -> None:
-    from wear.benchmark import hard
-    from wear.benchmark.results import csv_text
-
-    with files.replacing_in(folder) as draft:
-        _write(draft / "hard-cases.csv", csv_text(found))
-        _write(draft / "hard-cases.md", hard.markdown(found, footer))
-
-
 def _print_tables(tables: Sequence[Table]) -> None:
     for table in tables:
         width = max(len(row[0]) for row in table.rows) if table.rows else 0
         rows = [(row[0].ljust(width), *row[1:]) for row in table.rows]
         print(f"{table.caption}\n\n{terminal.table(table.header, rows)}\n")
-
-
-def _write(path: Path, text: str) -> None:
-    path.write_text(text, encoding="utf-8")
-
-
-def _json(document: object) -> str:
-    import json
-
-    return json.dumps(terminal.plain(document), indent=1, allow_nan=False) + "\n"
 
 
 COMMAND = Command(

@@ -7,14 +7,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from derive import files, terminal
 from derive.command_line import Command
 from wear.commands import arguments, run_output
 
 if TYPE_CHECKING:
-    from wear.figure_data import Abscissa
     from wear.fitting.readings import Specimen
     from wear.scene import Scene
 
@@ -96,24 +95,7 @@ def execute(options: argparse.Namespace) -> int:
     faults.stop_if_any()
     if inside is not None:
         return _pressure_inside(scenes[0], inside, output, as_json=options.json)
-    from wear.figure_data import Abscissa
-
-    asked = _Asked(
-        tuple(scenes), tuple(specimens), last[0] if last else _default_last(scenes, specimens),
-        options.until_wear, Abscissa[options.axis.upper()], options.log,
-    )  # fmt: skip
-    return _against_cycles(asked, output, as_json=options.json)
-
-
-class _Asked(NamedTuple):
-    """What a figure shows: scenes with readings up to a cycle, and a limit of the wear in mm."""
-
-    scenes: tuple[Scene, ...]
-    specimens: tuple[Specimen, ...]
-    last: int
-    limit: float | None
-    abscissa: Abscissa
-    logarithmic: bool
+    return _against_cycles(options, last[0] if last else _default_last(scenes, specimens))
 
 
 def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int:
@@ -123,34 +105,34 @@ def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int
     return max(read) if read else min(LAST, *(most_cycles(scene.load) for scene in scenes))
 
 
-def _against_cycles(asked: _Asked, output: Path, *, as_json: bool) -> int:
-    from wear.figure_data import panels_of, points_of
+def _against_cycles(options: argparse.Namespace, last: int) -> int:
+    from wear.figure_data import Abscissa, panels_of, points_of
     from wear.figures import history
     from wear.life import cycles_until
     from wear.solver import solve
 
-    runs = {Path(scene.name).stem: scene for scene in asked.scenes}
-    if any(each.changes for each in asked.specimens):
-        runs = {each.name: asked.scenes[0].with_(each.changes) for each in asked.specimens}
-    cycles = shown_cycles(asked.last, logarithmic=asked.logarithmic)
+    abscissa, limit = Abscissa[options.axis.upper()], options.until_wear
+    runs = {Path(scene.name).stem: scene for scene in options.scene}
+    if any(each.changes for each in options.readings):
+        runs = {each.name: options.scene[0].with_(each.changes) for each in options.readings}
+    cycles = shown_cycles(last, logarithmic=options.log)
     with terminal.busy("counting cycles") as tell:
         found = [solve(scene, cycles, rtol=1e-6, progress=tell) for scene in runs.values()]
-    wear, *others = panels_of(found, tuple(runs), asked.abscissa)
-    points = points_of(asked.specimens, runs, asked.abscissa)
-    summary = _summary(found[0].scene, cycles, output) | {"scenes": list(runs)}
-    if asked.limit is not None:
-        lives = [cycles_until(scene, asked.limit, rtol=1e-6) for scene in runs.values()]
+    wear, *others = panels_of(found, tuple(runs), abscissa)
+    summary = _summary(found[0].scene, cycles, options.output) | {"scenes": list(runs)}
+    if limit is not None:
+        lives = [cycles_until(scene, limit, rtol=1e-6) for scene in runs.values()]
         ends = [float(life.cycles[0]) for life in lives]
         reached = [life.reached[0].value for life in lives]
         summary |= {"cycles_until": ends, "reached": reached}
         for name, end, way in zip(runs, ends, reached, strict=True):
             said = f"{end:.0f} cycles" if math.isfinite(end) else way
-            if not as_json:
-                print(f"{name}: {asked.limit:g} mm: {said}")
-    shown = replace(wear, points=points, limit=asked.limit)
-    drawn = history([shown, *others], abscissa=asked.abscissa, logarithmic=asked.logarithmic)
-    _write(drawn, output)
-    if as_json:
+            if not options.json:
+                print(f"{name}: {limit:g} mm: {said}")
+    shown = replace(wear, points=points_of(options.readings, runs, abscissa), limit=limit)
+    drawn = history([shown, *others], abscissa=abscissa, logarithmic=options.log)
+    _write(drawn, options.output)
+    if options.json:
         terminal.print_json(summary)
     for notice in dict.fromkeys(n for each in found for n in run_output.worth_telling(each)):
         terminal.complain("wear figure", notice)

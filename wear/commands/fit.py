@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Iterator
 from dataclasses import asdict, replace
 from importlib.util import find_spec
@@ -36,15 +35,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     arguments.add_scene(parser)
     several: dict[str, Any] = {"nargs": "+", "default": [], "action": "extend"}
-    parser.add_argument("--free", metavar="KEY", help="estimate one value for all", **several)
-    parser.add_argument("--free-each", metavar="KEY", help="one for each specimen", **several)
-    parser.add_argument("--ignore", metavar="COLUMN", help="columns to drop", **several)
+    parser.add_argument(
+        "--free", metavar="KEY", help="estimate one value for all specimens", **several
+    )
+    parser.add_argument(
+        "--free-each", metavar="KEY", help="estimate one value for each specimen", **several
+    )
+    parser.add_argument("--ignore", metavar="COLUMN", help="columns of the data to drop", **several)
     arguments.add_choice(
         parser,
         "--error",
         lambda: ERRORS,
         default=ERRORS[0],
-        help="relative (default) or absolute: what scatters",
+        help="which error of a reading scatters: relative (default) or absolute",
     )
     parser.add_argument(
         "--forecast",
@@ -59,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--posterior",
         type=arguments.number(10, 1e6),
         metavar="STEPS",
-        help="also sample the posterior, so many steps a walker",
+        help="also sample the posterior by emcee, so many steps for each walker",
     )
     parser.add_argument(
         "-o",
@@ -221,15 +224,14 @@ def _write(folder: Path, found: Fit, document: dict[str, Any], samples: FloatArr
     if samples is not None:
         drawn["corner.svg"] = figures.corner(found, samples)
     with files.replacing_in(folder) as made:
-        text = json.dumps(terminal.plain(document), indent=2, allow_nan=False)
-        made.joinpath("fit.json").write_text(text + "\n", encoding="utf-8")
+        files.write_atomically(made / "fit.json", terminal.json_text(document))
         scenes = found.model.scenes(found.theta)
         for place, (specimen, scene) in enumerate(zip(found.model.specimens, scenes, strict=True)):
             safe = "".join(c if c.isalnum() or c in "-_" else "_" for c in specimen.name)
             name = f"fitted-{safe or place + 1}.toml" if len(scenes) > 1 else "fitted.toml"
-            made.joinpath(name).write_text(scene.to_toml(), encoding="utf-8")
+            files.write_atomically(made / name, scene.to_toml())
         for name, figure in drawn.items():
-            made.joinpath(name).write_bytes(encoded(figure, ".svg"))
+            files.write_atomically(made / name, encoded(figure, ".svg"))
 
 
 COMMAND = Command(

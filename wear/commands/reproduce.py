@@ -85,17 +85,10 @@ def _reproduce(
         judged = ledger(decide=lambda claim: known.get(claim) or begun[claim]())
         progress("writing")
         published = publish(paper(catalogue, verification, runs, judged, figures), draft)
-        files.write_atomically(draft / "claims.json", _json(as_json(judged)))
-        files.write_atomically(
-            draft / NAME, _json(manifest(draft, runs, f"wear reproduce -o {folder.name}"))
-        )
+        files.write_atomically(draft / "claims.json", terminal.json_text(as_json(judged)))
+        command = f"wear reproduce -o {folder.name}"
+        files.write_atomically(draft / NAME, terminal.json_text(manifest(draft, runs, command)))
     return verification, judged, published
-
-
-def _json(document: object) -> str:
-    import json
-
-    return json.dumps(terminal.plain(document), indent=2, allow_nan=False) + "\n"
 
 
 def _summary(

@@ -8,6 +8,7 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
+from wear.checked import label_of
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, PAGE, canvas, stroke, styled
 from wear.fitting.estimate import Fit
 from wear.fitting.forecast import forecast
@@ -119,9 +120,6 @@ def _shown(parameter: Parameter, values: FloatArray) -> FloatArray:
 
 def _label(parameter: Parameter, log: bool = False) -> str:
     """Return the key of a parameter in words, with its unit."""
-    from wear.checked import unit_of
-
-    name, unit = parameter.key.split(".")[-1], unit_of(parameter.key)
-    words = name.removesuffix("_" + unit.replace("/", "_per_")).replace("_", " ")
-    words += f" {parameter.specimen}" * bool(parameter.specimen) + f" ({unit})" * bool(unit)
+    _, _, name = label_of(parameter.key).partition(": ")
+    words = f"{name} {parameter.specimen}".rstrip()
     return f"log10 of {words}" if log and parameter.positive else words

@@ -6,7 +6,9 @@ row a kink where an integrator stops: `wear.records` is faster by far where cont
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -29,35 +31,54 @@ class Span(NamedTuple):
     place: str = "load"
 
 
+@dataclass(frozen=True)
 class Window:
     """One cycle of a measured history, from cycle `first`, as a function of its phase."""
 
-    peaks: tuple[float, ...] = ()  # all of them are kinks
+    history: HistoryLoad
+    first: int
+    peaks: ClassVar[tuple[float, ...]] = ()  # all of them are kinks
 
-    def __init__(self, history: HistoryLoad, first: int) -> None:
-        self._history = history
-        self._start = first * history.period_s
-        self.period = history.period_s
-        end = min(self._start + self.period, history.duration)
-        rows = history.breakpoints(self._start, end)
-        self.kinks = tuple(((rows - self._start) / self.period).tolist())
-        phases = np.array([0.0, *self.kinks, 1.0])
-        levels = self(phases)
-        self.minimum, self.maximum = float(np.min(levels)), float(np.max(levels))
-        self.mean = float(np.trapezoid(levels, phases))
+    @property
+    def period(self) -> float:
+        return self.history.period_s
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
-        return self._history.value(self._time(phase))
+        return self.history.value(self._time(phase))
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
-        return self._history.slope(self._time(phase)) * self.period
+        return self.history.slope(self._time(phase)) * self.period
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         """Return nothing: the rows of a history are no parameters."""
         return {}
 
     def _time(self, phase: FloatArray | float) -> FloatArray:
-        return np.minimum(self._start + np.asarray(phase) * self.period, self._history.duration)
+        time = (self.first + np.asarray(phase)) * self.period
+        return np.minimum(time, self.history.duration)
+
+    @cached_property
+    def kinks(self) -> tuple[float, ...]:
+        start, end = self._time(np.array([0.0, 1.0])).tolist()
+        return tuple(((self.history.breakpoints(start, end) - start) / self.period).tolist())
+
+    @cached_property
+    def _rows(self) -> FloatArray:
+        """The phases at the ends and between them (n,), and U_a there, mm."""
+        phases = np.array([0.0, *self.kinks, 1.0])
+        return np.stack([phases, self(phases)])
+
+    @property
+    def minimum(self) -> float:
+        return float(np.min(self._rows[1]))
+
+    @property
+    def maximum(self) -> float:
+        return float(np.max(self._rows[1]))
+
+    @property
+    def mean(self) -> float:
+        return float(np.trapezoid(self._rows[1], self._rows[0]))
 
 
 def span(load: Loading, cycle: int) -> Span:

@@ -12,7 +12,6 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cache
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -20,14 +19,13 @@ import numpy as np
 
 from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Claim, Finding, Verdict
-from wear.regime import Asymptote, asymptote
-from wear.report.reconcile import PRINTED, reconciliations, slope_for_simulation
-from wear.scene import Scene, load_scene
+from wear.report import note
+from wear.report.note import PRINTED
+from wear.report.reconcile import reconciliations, slope_for_simulation
 from wear.solver import solve
 
 LEAST_SLOPE = 1.0 / 8.0
 """The note's condition on f_c, printed after (22)."""
-FIGURE_3B = ("section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4")
 
 
 class Entry(NamedTuple):
@@ -37,35 +35,14 @@ class Entry(NamedTuple):
     finding: Finding
 
 
-@cache
-def _scene(name: str) -> Scene:
-    return load_scene(name)
-
-
-@cache
-def _asymptote(name: str) -> Asymptote:
-    return asymptote(_scene(name))
-
-
-@cache
-def _increments(name: str, cycles: tuple[int, ...]) -> tuple[float, ...]:
-    """Return the wear of the cycle that follows each number of cycles."""
-    pairs = sorted({n + offset for n in cycles for offset in (0, 1)})
-    wear = dict(zip(pairs, solve(_scene(name), pairs, rtol=1e-12).u_c, strict=True))
-    return tuple(float(wear[n + 1] - wear[n]) for n in cycles)
-
-
 def _limit(name: str) -> float:
     """Return the wear per cycle in the limit: (21), or its form for two worn solids."""
-    value = _asymptote(name).wear_per_cycle_mm
-    if value is None:
-        raise ValueError(f"{name} has no steady wear")
-    return value
+    return note.required(note.limit(name).wear_per_cycle_mm)
 
 
 def _initial_closure(name: str, printed: float, digits: int) -> Finding:
     """Compare a printed h_0 with three times the initial roughness."""
-    exact = 3.0 * _scene(name).initial_roughness
+    exact = 3.0 * note.scene(name).initial_roughness
     evidence = f"3 sigma(0) = {exact:.9g} mm; printed {printed} mm"
     if abs(exact - printed) <= 1e-12 * exact:
         return Finding(Verdict.CONFIRMED, evidence)
@@ -93,9 +70,9 @@ def closure_of_section_5() -> Finding:
 def two_stages() -> Finding:
     """C17: whether the rate of Fig. 2 levels off."""
     cycles = (100, 1000, 4500, 9000)
-    steps = _increments("section3", cycles)
+    steps = note.increments_after(note.scene("section3"), *cycles)
     still = steps[3] / steps[2]
-    stop = _asymptote("section3-cutoff")
+    stop = note.limit("section3" + note.CUTOFF)
     shown = ", ".join(f"{step:.3e}" for step in steps)
     evidence = (
         f"wear of one cycle after {', '.join(map(str, cycles))} cycles: {shown} mm; a doubling "
@@ -110,9 +87,9 @@ def two_stages() -> Finding:
 
 def stabilised_after() -> Finding:
     """C34: the note's criterion at its number of cycles."""
-    (step,) = _increments("section4", (PRINTED.cycles,))
+    (step,) = note.increments_after(note.scene("section4"), PRINTED.cycles)
     distance = step / _limit("section4") - 1.0
-    needed = _asymptote("section4").cycles_to_stabilise
+    needed = note.limit("section4").cycles_to_stabilise
     mean, everywhere = (
         needed[key] or float("nan") for key in ("mean_rate_within_1e-6", "rate_within_1e-6")
     )
@@ -132,7 +109,7 @@ def _as_printed(found: float, printed: float) -> bool:
 
 def simulated_wear() -> Finding:
     """C35."""
-    (found,) = _increments("section4", (PRINTED.cycles,))
+    (found,) = note.increments_after(note.scene("section4"), PRINTED.cycles)
     met = _as_printed(found, PRINTED.simulated_mm)
     evidence = f"the solution gives {found:.6e} mm, printed {PRINTED.simulated_mm:.2e} mm"
     if met:
@@ -161,8 +138,8 @@ def formula_wear() -> Finding:
 def efficiency() -> Finding:
     """C37: simulation and formula at the same cycle, and how they converge."""
     cycles = (PRINTED.cycles, 10**6, 10**8)
-    limit, drift = _limit("section4"), _asymptote("section4").log_coefficient_mm or 0.0
-    steps = _increments("section4", cycles)
+    limit, drift = _limit("section4"), note.limit("section4").log_coefficient_mm or 0.0
+    steps = note.increments_after(note.scene("section4"), *cycles)
     law = [(step - limit) * n / drift for step, n in zip(steps, cycles, strict=True)]
     ratio = steps[0] / limit
     met = abs(ratio - 1.0) < 0.01
@@ -178,13 +155,15 @@ def quicker_for_lower_wear() -> Finding:
     """C38: the order of the scenes of Fig. 3b, by the note's criterion and by an absolute one."""
     cycles = np.arange(1, 401)
     relative, absolute = [], []
-    for name in FIGURE_3B:
-        (step,) = _increments(name, (PRINTED.cycles,))
+    for name in note.SECTION_5:
+        (step,) = note.increments_after(note.scene(name), PRINTED.cycles)
         relative.append(step / _limit(name) - 1.0)
-        wear = solve(_scene(name), [int(n) for n in cycles], rtol=1e-10).u_c
+        wear = solve(note.scene(name), [int(n) for n in cycles], rtol=1e-10).u_c
         absolute.append(int(cycles[1:][np.diff(wear) < PRINTED.criterion][0]) - 1)
     growing = all(np.diff(relative) > 0)
-    coefficients = ", ".join(f"{_scene(name).bearing.wear_coefficient:g}" for name in FIGURE_3B)
+    coefficients = ", ".join(
+        f"{note.scene(name).bearing.wear_coefficient:g}" for name in note.SECTION_5
+    )
     distances = ", ".join(f"{value:.3g}" for value in relative)
     counts = ", ".join(map(str, absolute))
     return Finding(
@@ -197,7 +176,7 @@ def quicker_for_lower_wear() -> Finding:
 
 def data_and_condition() -> Finding:
     """C40."""
-    slopes = {name: _scene(name).bearing.roughness_growth for name in ("section3", "section5")}
+    slopes = {name: note.scene(name).bearing.roughness_growth for name in ("section3", "section5")}
     met = all(slope > LEAST_SLOPE for slope in slopes.values())
     shown = ", ".join(f"f_c = {slope} in {name}" for name, slope in slopes.items())
     return Finding(
@@ -210,7 +189,7 @@ def data_and_condition() -> Finding:
 
 def pressure_and_hardness() -> Finding:
     """C41: a real area of contact, load over hardness, is no more than the nominal one."""
-    scene, cycles = _scene("section4"), (1, 100, PRINTED.cycles)
+    scene, cycles = note.scene("section4"), (1, 100, PRINTED.cycles)
     most, hardness = scene.contact.max_pressure_MPa, scene.bearing.hardness_MPa
     peaks = solve(scene, cycles, rtol=1e-10).pressures.peak.tolist()
     shown = ", ".join(f"{peak:.4g} MPa in cycle {n}" for n, peak in zip(cycles, peaks, strict=True))

@@ -24,8 +24,8 @@ from wear import figures
 from wear.figure_data import BEARING_WEAR, ROUGHNESS, WEAR, Example, Line, Panel
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, INK, canvas, stroke, styled
 from wear.history import FloatArray
-from wear.report.reconcile import PRINTED
-from wear.report.runs import CUTOFF, SECTION_5, Approach, Runs, required
+from wear.report import note
+from wear.report.runs import Approach, Runs
 
 
 def wear_of_both(runs: Runs) -> Figure:
@@ -41,7 +41,7 @@ def roughness_of_both(runs: Runs) -> Figure:
 def _both(runs: Runs, bearing: str, pin: str) -> tuple[Line, ...]:
     """A field of both solids of section 3; loss of contact is dashed."""
     lines = []
-    for variant, name in enumerate(("section3", "section3" + CUTOFF)):
+    for variant, name in enumerate(("section3", "section3" + note.CUTOFF)):
         history = runs.history(name)
         cycles = history.cycles.astype(float)
         said = ", loss of contact" * variant
@@ -54,10 +54,10 @@ def wear_and_asymptote(runs: Runs) -> Figure:
     """Fig. 3a: the solution, with and without loss of contact, and a line of the slope (21)."""
     wear = [
         _wear(runs, "section4", "solution", 0, 0),
-        _wear(runs, "section4" + CUTOFF, "loss of contact", 0, 1),
+        _wear(runs, "section4" + note.CUTOFF, "loss of contact", 0, 1),
     ]
     last = wear[0]
-    per_cycle = required(runs.asymptote("section4").wear_per_cycle_mm)
+    per_cycle = note.required(runs.asymptote("section4").wear_per_cycle_mm)
     line = last.y[-1] + per_cycle * (last.x - last.x[-1])
     return figures.wear_with_asymptote(wear, [Line("slope (21)", last.x, line, 1, 2)], width=COLUMN)
 
@@ -65,10 +65,10 @@ def wear_and_asymptote(runs: Runs) -> Figure:
 def wear_coefficients(runs: Runs) -> Figure:
     """Fig. 3b: four wear coefficients, on an axis of ln N, one with loss of contact."""
     lines = []
-    for family, name in enumerate(SECTION_5):
+    for family, name in enumerate(note.SECTION_5):
         power = round(np.log10(runs.cases[name].scene.bearing.wear_coefficient))
         lines.append(_wear(runs, name, rf"$K = 10^{{{power}}}$", family, 0))
-    lines.append(_wear(runs, SECTION_5[1] + CUTOFF, r"$10^{-6}$, loss of contact", 1, 1))
+    lines.append(_wear(runs, note.SECTION_5[1] + note.CUTOFF, r"$10^{-6}$, loss of contact", 1, 1))
     return figures.history([Panel(BEARING_WEAR, tuple(lines))], logarithmic=True)
 
 
@@ -81,38 +81,27 @@ def approach(found: Approach) -> Figure:
     """Relative excess of wear per cycle and of pressure over (21) and (22) against cycles."""
     with styled():
         figure, axes = canvas(COLUMN_AND_HALF, 0.55 * COLUMN_AND_HALF)
-        axes.loglog(
-            found.cycles,
-            found.predicted,
-            color=GREY,
-            linewidth=0.9,
-            label=r"$A/(N u_{\mathrm{cum}})$",
-        )
+        law = r"$A/(N u_{\mathrm{cum}})$"
+        axes.loglog(found.cycles, found.predicted, color=GREY, linewidth=0.9, label=law)
         for family, (excess, name) in enumerate(
             ((found.excess, "wear per cycle"), (found.pressure_excess, "pressure"))
         ):
             look = stroke(family, family)
             axes.loglog(
-                found.cycles,
-                excess,
-                color=look.colour,
-                linestyle="",
-                marker=look.marker,
-                markerfacecolor=look.face,
-                markersize=5.5 - family,
-                label=name,
-            )
-        axes.axvline(PRINTED.cycles, color=INK, linewidth=0.7, linestyle=(0, (4.0, 2.0)))
-        axes.axhline(PRINTED.criterion, color=INK, linewidth=0.7, linestyle=(0, (1.0, 1.5)))
+                found.cycles, excess, color=look.colour, linestyle="", marker=look.marker,
+                markerfacecolor=look.face, markersize=5.5 - family, label=name,
+            )  # fmt: skip
+        axes.axvline(note.PRINTED.cycles, color=INK, linewidth=0.7, linestyle=(0, (4.0, 2.0)))
+        axes.axhline(note.PRINTED.criterion, color=INK, linewidth=0.7, linestyle=(0, (1.0, 1.5)))
         axes.text(
-            PRINTED.cycles,
+            note.PRINTED.cycles,
             0.97,
             " the note's cycle",
             transform=axes.get_xaxis_transform(),
             va="top",
         )
         axes.text(
-            0.02, PRINTED.criterion, "the note's criterion",
+            0.02, note.PRINTED.criterion, "the note's criterion",
             transform=axes.get_yaxis_transform(), va="bottom",
         )  # fmt: skip
         axes.set(xlabel=r"Cycles  $N$", ylabel="Relative excess over the limit")
@@ -123,7 +112,7 @@ def approach(found: Approach) -> Figure:
 def wear_curve(runs: Runs) -> Figure:
     """Wear over all decades with what the note has for it: the curve of the first page."""
     found, limit = runs.approach, runs.asymptote("section4")
-    stopped = runs.history("section4" + CUTOFF)
+    stopped = runs.history("section4" + note.CUTOFF)
     cycles = np.geomspace(1.0, found.cycles[-1], 200)
     held = np.interp(np.log(cycles), np.log(stopped.cycles[1:]), stopped.u_c[1:])
     wear = [
@@ -131,10 +120,10 @@ def wear_curve(runs: Runs) -> Figure:
         Line("loss of contact", cycles, held, 0, 1),
     ]
     lines = [
-        Line("slope (21)", cycles, required(limit.wear_per_cycle_mm) * cycles, 1, 1),
-        Line("as printed", cycles, PRINTED.formula_mm * cycles, 4, 2),
+        Line("slope (21)", cycles, note.required(limit.wear_per_cycle_mm) * cycles, 1, 1),
+        Line("as printed", cycles, note.PRINTED.formula_mm * cycles, 4, 2),
     ]
-    return figures.wear_by_decades(wear, lines, mark=(PRINTED.cycles, "the note's cycle"))
+    return figures.wear_by_decades(wear, lines, mark=(note.PRINTED.cycles, "the note's cycle"))
 
 
 def regimes(runs: Runs) -> Figure:

@@ -13,21 +13,20 @@ from __future__ import annotations
 
 import base64
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from importlib.resources import files
 from numbers import Integral
-from typing import Any
+from typing import Any, ClassVar
 
 import jinja2
 from markdown_it.token import Token
 
-from wear.cite import REFERENCES
+from wear.cite import REFERENCES, listed
 from wear.report import mathml, svg
 from wear.report.document import Document
 from wear.report.number import grouped
 from wear.report.text import Writer
-from wear.report.works import entry
 
 _CLOSING = tuple(".,;:)?")
 _ASSETS = files("wear.report").joinpath("assets")
@@ -83,7 +82,14 @@ def style() -> str:
 
 
 class _Writer(Writer):
-    """Writes tokens; the methods named like a kind of token are found by markdown-it."""
+    """Writes tokens as HTML."""
+
+    plain: ClassVar[Mapping[str, str]] = {
+        "figures_open": '<div class="figures">\n', "figures_close": "</div>\n",
+        "caption_close": "</div></caption>\n", "softbreak": "\n",
+        "table_open": "",  # the caption has opened it, and the box in which it scrolls
+        "table_close": "</table></div>\n",
+    }  # fmt: skip
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -129,7 +135,7 @@ class _Writer(Writer):
         if token.info == "works":
             marks = self._document.marks
             works = [
-                (marks[f"ref:{key}"], entry(REFERENCES[key]), REFERENCES[key].fields.get("doi"))
+                (marks[f"ref:{key}"], listed(REFERENCES[key]), REFERENCES[key].fields.get("doi"))
                 for key in self._document.works
             ]
             return str(self._blocks.works(works))
@@ -151,14 +157,6 @@ class _Writer(Writer):
             )
         )
 
-    def figures_open(self, *_: Any) -> str:
-        """Figures that stand side by side."""
-        return '<div class="figures">\n'
-
-    def figures_close(self, *_: Any) -> str:
-        """The end of a row of figures."""
-        return "</div>\n"
-
     def image(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
         """A figure with its caption."""
         mark = self._document.marks[str(tokens[i].attrs["src"])]
@@ -174,18 +172,6 @@ class _Writer(Writer):
             f'<div class="scroll" id="{mark.target}" role="region" aria-label="{mark.name}" '
             f'tabindex="0"><table><caption><div><b>{mark.name}.</b> '
         )
-
-    def caption_close(self, *_: Any) -> str:
-        """The caption ends."""
-        return "</div></caption>\n"
-
-    def table_open(self, *_: Any) -> str:
-        """Nothing: the caption has opened the table."""
-        return ""
-
-    def table_close(self, *_: Any) -> str:
-        """The end of the table and of the box in which it scrolls."""
-        return "</table></div>\n"
 
     def th_open(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
         """The heading of a column."""
@@ -250,7 +236,3 @@ class _Writer(Writer):
         value = int(node.value) if isinstance(node.value, Integral | int) else float(node.value)
         shown = shown.replace("-", "\u2212")
         return f'<data value="{value!r}" title="{escape(node.source)}">{shown}{unit}</data>'
-
-    def softbreak(self, *_: Any) -> str:
-        """The end of a line of the source."""
-        return "\n"

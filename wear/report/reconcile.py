@@ -5,7 +5,6 @@ Overview
     that (21) depends on there is one value that does; the simulation with it then tells how
     well the printed simulated value, which no fit has seen, comes out.
 Key results
-    PRINTED            the numbers in question
     reconciliations    the changes, the best first
     slope_for_simulation   the f_c that the printed simulated value needs
 """
@@ -14,24 +13,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import NamedTuple
 
 from wear.generated import asymptotics as formula
-from wear.regime import asymptote
-from wear.scene import Scene, load_scene
-from wear.solver import solve
-
-
-class Printed(NamedTuple):
-    """Numbers that the note prints for section 4."""
-
-    simulated_mm: float = 2.34e-5
-    formula_mm: float = 2.35e-5
-    cycles: int = 9000
-    criterion: float = 1e-6
-
-
-PRINTED = Printed()
+from wear.report import note
+from wear.report.note import PRINTED
+from wear.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -62,8 +48,7 @@ class Reconciliation:
 
 def _simulated(scene: Scene) -> float:
     """Return the wear of the cycle after the printed number of cycles."""
-    first, second = solve(scene, [PRINTED.cycles, PRINTED.cycles + 1], rtol=1e-12).u_c
-    return float(second - first)
+    return float(note.increments_after(scene, PRINTED.cycles)[0])
 
 
 def _slope(scene: Scene) -> float:
@@ -81,16 +66,16 @@ def reconciliations() -> tuple[Reconciliation, ...]:
     (21) depends on K_c, p_max, 1/H_c, R and T by one factor only, and so does the simulation;
     n drops out, since the period is 120/n.
     """
-    scene = load_scene("section4")
-    factor = PRINTED.formula_mm / (asymptote(scene).wear_per_cycle_mm or float("nan"))
+    given = note.scene("section4")
+    factor = PRINTED.formula_mm / note.required(note.limit("section4").wear_per_cycle_mm)
     changes = (
-        ("f_c", "bearing", "roughness_growth", _slope(scene) / scene.bearing.roughness_growth),
+        ("f_c", "bearing", "roughness_growth", _slope(given) / given.bearing.roughness_growth),
         ("K_c", "bearing", "wear_coefficient", factor),
         ("p_max", "contact", "max_pressure_MPa", factor),
         ("H_c", "bearing", "hardness_MPa", 1.0 / factor),
         ("R", "motion", "radius_mm", factor),
     )
-    found = (_changed(scene, *change) for change in changes)
+    found = (_changed(given, *change) for change in changes)
     return tuple(sorted(found, key=lambda change: abs(change.misfit)))
 
 
@@ -99,13 +84,13 @@ def slope_for_simulation() -> float:
     """Return the f_c with which the simulation gives the printed simulated value."""
     from scipy.optimize import brentq
 
-    scene = load_scene("section4")
+    given = note.scene("section4")
 
     def distance(slope: float) -> float:
-        bearing = replace(scene.bearing, roughness_growth=slope)
-        return _simulated(replace(scene, bearing=bearing)) - PRINTED.simulated_mm
+        bearing = replace(given.bearing, roughness_growth=slope)
+        return _simulated(replace(given, bearing=bearing)) - PRINTED.simulated_mm
 
-    return float(brentq(distance, scene.bearing.roughness_growth, 0.5, rtol=1e-10))
+    return float(brentq(distance, given.bearing.roughness_growth, 0.5, rtol=1e-10))
 
 
 def _changed(scene: Scene, datum: str, table: str, key: str, factor: float) -> Reconciliation:

@@ -14,38 +14,29 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.bounds import Enclosure, static_bounds, wear_bounds
-from wear.equation import equation_of
 from wear.history import History
 from wear.load import Constant
 from wear.model import bind
-from wear.orbit.period_map import resolved, settings
-from wear.regime import Asymptote, asymptote
-from wear.report.reconcile import PRINTED, Reconciliation, reconciliations
+from wear.regime import Asymptote
+from wear.report import note
+from wear.report.reconcile import Reconciliation, reconciliations
 from wear.scene import Scene, hard_names, load_scene
 from wear.solver import solve
 from wear.static import static_solution
 
-FloatArray = NDArray[np.float64]
-Some = TypeVar("Some")
+SCENES = ("section3", "section4", *note.SECTION_5)
 
-#: The scenes of the note; those of Fig. 3b by rising wear coefficient.
-SECTION_5 = ("section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4")
-SCENES = ("section3", "section4", *SECTION_5)
-CUTOFF = ".cutoff"
-
-#: Requested relative errors: of the analysis, with loss of contact, and of stress tests.
-RTOL = 1e-12
+#: Requested relative errors with loss of contact, and of stress tests.
 CUTOFF_RTOL = 1e-9
 HARD_RTOL = 1e-8
 
 #: Cases in which every cycle is integrated too, and how many cycles.
-INTEGRATED = ("section4", "section3" + CUTOFF)
+INTEGRATED = ("section4", "section3" + note.CUTOFF)
 INTEGRATED_CYCLES = 600
 
 _DECADES = tuple(10**n for n in range(1, 12))
@@ -68,27 +59,27 @@ class Approach(NamedTuple):
     relative to (21) and (22), ``predicted`` is A/(N u_cum).
     """
 
-    cycles: FloatArray
-    wear: FloatArray
-    increment: FloatArray
-    excess: FloatArray
-    pressure_excess: FloatArray
-    predicted: FloatArray
+    cycles: note.FloatArray
+    wear: note.FloatArray
+    increment: note.FloatArray
+    excess: note.FloatArray
+    pressure_excess: note.FloatArray
+    predicted: note.FloatArray
 
 
 class Decay(NamedTuple):
     """Wear (mm) of the cycle that follows each number of cycles, of two worn solids."""
 
-    cycles: FloatArray
-    increment: FloatArray
+    cycles: note.FloatArray
+    increment: note.FloatArray
 
 
 class Static(NamedTuple):
     """The closed solution under a constant load against the solver."""
 
-    cycles: FloatArray
-    closed: FloatArray
-    solved: FloatArray
+    cycles: note.FloatArray
+    closed: note.FloatArray
+    solved: note.FloatArray
 
     @property
     def distance(self) -> float:
@@ -99,7 +90,7 @@ class Static(NamedTuple):
 class Phases(NamedTuple):
     """Phases at which the rate is at its limit in every cycle, and how near it is there."""
 
-    phases: FloatArray
+    phases: note.FloatArray
     distance: float
 
 
@@ -128,7 +119,6 @@ class Runs:
     printed_increment: float
     reconciliation: Reconciliation
     threshold_excess: float
-    offset: float
     phases: Phases
     static: Static
     integrated: Mapping[str, float]
@@ -150,25 +140,24 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     cases = {}
     for name in SCENES:
         progress(name)
-        cases[name] = _case(name, cutoff=False)
-        cases[name + CUTOFF] = _case(name, cutoff=True)
-    scene = cases["section4"].scene
+        cases[name] = _case(name, note.RTOL)
+        cases[name + note.CUTOFF] = _case(name + note.CUTOFF, CUTOFF_RTOL)
+    application = note.scene("section4")
     progress("approach to the asymptote")
-    foretold = cases["section4"].asymptote.cycles_to_stabilise["mean_rate_within_1e-6"]
+    foretold = note.limit("section4").cycles_to_stabilise["mean_rate_within_1e-6"]
     progress("closed solutions and bounds")
-    (loose,) = static_bounds(scene, [PRINTED.cycles])
-    (tight,) = wear_bounds(scene, [PRINTED.cycles])
+    (loose,) = static_bounds(application, [note.PRINTED.cycles])
+    (tight,) = wear_bounds(application, [note.PRINTED.cycles])
     progress("hard scenes")
     return Runs(
         cases=MappingProxyType(cases),
-        approach=_approach(scene, _DECADES),
-        decay=_decay(cases["section3"].scene),
-        printed_increment=_increment(scene, PRINTED.cycles),
+        approach=_approach("section4", _DECADES),
+        decay=_decay(note.scene("section3")),
+        printed_increment=float(note.increments_after(application, note.PRINTED.cycles)[0]),
         reconciliation=reconciliations()[0],
-        threshold_excess=float(_approach(scene, [round(required(foretold))]).excess[0]),
-        offset=required(cases["section4"].asymptote.offset_mm),
+        threshold_excess=float(_approach("section4", [round(note.required(foretold))]).excess[0]),
         phases=_steady_phases(cases["section4"]),
-        static=_static(scene),
+        static=_static(application),
         integrated={name: _integrated(cases[name]) for name in INTEGRATED},
         static_bounds=loose,
         wear_bounds=tight,
@@ -176,63 +165,38 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     )
 
 
-def required(value: Some | None) -> Some:
-    """A constant that the regime of the scene has.
-
-    Raises
-    ------
-    ValueError
-        if it has not: the report would speak of another regime than it found.
-    """
-    if value is None:
-        raise ValueError("the report speaks of a constant that this regime does not have")
-    return value
-
-
 def figure_cycles() -> tuple[int, ...]:
     """Numbers of cycles up to the note's last, dense where the wear changes quickly."""
-    last = PRINTED.cycles
+    last = note.PRINTED.cycles
     chosen = np.concatenate([[0], np.geomspace(1, last, 80), np.linspace(0, last, 91)])
     return tuple(sorted({int(cycle) for cycle in np.rint(chosen)}))
 
 
-def _case(name: str, *, cutoff: bool) -> Case:
-    scene = load_scene(name, ["contact.ends_at_3_sigma=true"] if cutoff else [])
-    history = solve(scene, figure_cycles(), rtol=CUTOFF_RTOL if cutoff else RTOL)
-    return Case(scene, history, asymptote(scene))
+def _case(name: str, rtol: float) -> Case:
+    return Case(
+        note.scene(name), solve(note.scene(name), figure_cycles(), rtol=rtol), note.limit(name)
+    )
 
 
-def _approach(scene: Scene, decades: tuple[int, ...] | list[int]) -> Approach:
-    fate = asymptote(scene)
-    per_cycle, drift = required(fate.wear_per_cycle_mm), required(fate.log_coefficient_mm)
-    history = solve(scene, decades, rtol=RTOL)
+def _approach(name: str, decades: tuple[int, ...] | list[int]) -> Approach:
+    end = note.limit(name)
+    per_cycle, drift = note.required(end.wear_per_cycle_mm), note.required(end.log_coefficient_mm)
+    history = solve(note.scene(name), decades, rtol=note.RTOL)
     cycles = history.cycles.astype(float)
-    increment = increments(scene, history.u_c)
+    increment = note.increments(note.scene(name), history.u_c)
     return Approach(
         cycles=cycles,
         wear=history.u_c,
         increment=increment,
         excess=increment / per_cycle - 1.0,
-        pressure_excess=history.p / required(fate.pressure_MPa) - 1.0,
+        pressure_excess=history.p / note.required(end.pressure_MPa) - 1.0,
         predicted=drift / (cycles * per_cycle),
     )
 
 
 def _decay(scene: Scene) -> Decay:
     cycles = _DECADES[1::2]
-    wear = solve(scene, cycles, rtol=RTOL).u_c
-    return Decay(np.array(cycles, dtype=float), increments(scene, wear))
-
-
-def increments(scene: Scene, wear: FloatArray) -> FloatArray:
-    """Wear (mm) that one more cycle adds to each wear (mm): integrated, not subtracted."""
-    equation, size = equation_of([scene]), settings(RTOL)
-    ((_, maps),) = resolved(equation, equation.breakpoints, wear[None], size)
-    return np.asarray(maps.finer(size).advance(wear[None]).increment[0])
-
-
-def _increment(scene: Scene, cycle: int) -> float:
-    return float(increments(scene, solve(scene, [cycle], rtol=RTOL).u_c)[0])
+    return Decay(np.array(cycles, dtype=float), note.increments_after(scene, *cycles))
 
 
 def _steady_phases(case: Case) -> Phases:
@@ -242,7 +206,7 @@ def _steady_phases(case: Case) -> Phases:
     rising = float(np.arcsin(level / load.maximum) / (2.0 * np.pi))
     phases = np.sort(np.mod([rising, 0.5 - rising], 1.0))
     rate = bind(scene).rate(case.history.u_c[:, None], load(phases)) * load.period
-    distance = np.max(np.abs(rate / required(case.asymptote.wear_per_cycle_mm) - 1.0))
+    distance = np.max(np.abs(rate / note.required(case.asymptote.wear_per_cycle_mm) - 1.0))
     return Phases(phases, float(distance))
 
 
@@ -250,7 +214,7 @@ def _static(scene: Scene) -> Static:
     still = replace(scene, load=Constant(0.0, scene.periodic_load.period))
     cycles = np.array(_STATIC_CYCLES, dtype=float)
     closed = static_solution(still).wear(cycles)
-    return Static(cycles, closed, solve(still, _STATIC_CYCLES, rtol=RTOL).u_c)
+    return Static(cycles, closed, solve(still, _STATIC_CYCLES, rtol=note.RTOL).u_c)
 
 
 def _integrated(case: Case) -> float:

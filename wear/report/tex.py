@@ -18,12 +18,10 @@ import jinja2
 from markdown_it.token import Token
 
 from derive.typeset.breaking import broken
-from wear.cite import REFERENCES
+from wear.cite import REFERENCES, listed
 from wear.report.document import Document
-from wear.report.number import grouped
 from wear.report.tex_text import escape, verbatim
 from wear.report.text import Writer
-from wear.report.works import entry
 
 #: Characters of ``\footnotesize\ttfamily`` in a line of text.
 _LISTING_WIDTH = 96
@@ -38,6 +36,7 @@ _PLAIN = {
     "list_item_open": r"\item ", "list_item_close": "\n", "thead_open": "",
     "thead_close": "\\midrule\n", "tbody_open": "", "tbody_close": "", "tr_open": "",
     "tr_close": " \\\\\n", "th_close": "", "td_close": "", "link_close": "}",
+    "caption_open": "\n\\begin{table}[htbp]\\centering\\footnotesize\n\\caption{",
     "figures_open": "\n\\begin{figure}[htbp]\\centering\n", "figures_close": "\\end{figure}\n",
 }  # fmt: skip
 _TEMPLATES = jinja2.Environment(
@@ -87,17 +86,14 @@ def equations(document: Document) -> str:
 
 
 class _Writer(Writer):
-    """Writes tokens as LaTeX: a table for those that are but text, a method for each other."""
+    """Writes tokens as LaTeX."""
+
+    plain = _PLAIN
 
     def __init__(self, document: Document) -> None:
         super().__init__()
         self._document = document
         self._in_appendix = False
-        for kind in _PLAIN:
-            self.rules[kind] = self._plain  # type: ignore[assignment]
-
-    def _plain(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
-        return _PLAIN[tokens[i].type]
 
     # blocks
 
@@ -157,7 +153,7 @@ class _Writer(Writer):
         doi = reference.fields.get("doi", "")
         link = f" doi:\\href{{https://doi.org/{doi}}}{{{escape(doi)}}}" if doi else ""
         name = f"\\hypertarget{{{mark.target}}}{{{mark.name}}}"
-        return f"\\item[{{{name}}}] {escape(entry(reference))}{link}"
+        return f"\\item[{{{name}}}] {escape(listed(reference))}{link}"
 
     def image(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
         """A figure with its caption; several in a paragraph stand side by side."""
@@ -170,10 +166,6 @@ class _Writer(Writer):
             f"\\includegraphics[width=\\naturalwidth]{{{label[4:]}.pdf}}\n"
             f"\\caption{{{caption}}}\\label{{{label}}}\n\\end{{minipage}}\\hfill"
         )
-
-    def caption_open(self, *_: Any) -> str:
-        """A table begins with its caption."""
-        return "\n\\begin{table}[htbp]\\centering\\footnotesize\n\\caption{"
 
     def caption_close(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
         """The end of a caption."""
@@ -246,7 +238,5 @@ class _Writer(Writer):
     def number(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
         """A number that was computed."""
         node = self._document.text.numbers[int(tokens[i].content)]
-        digits, exponent = node.decimal
-        power = "" if exponent is None else f"\\times10^{{{exponent}}}"
         unit = f"~{escape(node.unit)}" if node.unit else ""
-        return f"${grouped(digits, chr(92) + ',')}{power}${unit}"
+        return f"${node.latex}${unit}"

@@ -18,32 +18,19 @@ _SPECIAL = {
     "|": r"\textbar{}",
     '"': r"\textquotedbl{}",
 }
+_TYPED = "\u00a0\u2013\u2014\u2018\u2019\u201c\u201d\u2026·×±°µ²³"
+"""Signs that LaTeX sets as they are typed."""
 _SIGN = {
-    "\u00a0": "~",
     "\u2009": r"\,",
     "\u202f": r"\,",
     "\u2010": "-",
     "\u2011": r"\mbox{-}",
-    "\u2013": "--",
-    "\u2014": "---",
-    "\u2018": "`",
-    "\u2019": "'",
-    "\u201c": "``",
-    "\u201d": "''",
-    "\u2026": r"\dots{}",
     "\u2212": r"\ensuremath{-}",
-    "·": r"\ensuremath{\cdot}",
-    "×": r"\ensuremath{\times}",
-    "±": r"\ensuremath{\pm}",
-    "°": r"\textdegree{}",
-    "µ": r"\textmu{}",
     "→": r"\ensuremath{\to}",
     "≤": r"\ensuremath{\le}",
     "≥": r"\ensuremath{\ge}",
     "≈": r"\ensuremath{\approx}",
     "∞": r"\ensuremath{\infty}",
-    "²": r"\textsuperscript{2}",
-    "³": r"\textsuperscript{3}",
 }
 _LATIN = range(0x00C0, 0x0180)
 
@@ -52,7 +39,7 @@ def escape(text: str) -> str:
     r"""The text for LaTeX with utf8 input and T1 fonts.
 
     >>> print(escape("5 % of p_max – Éric & Söhne"))
-    5 \% of p\_max -- Éric \& Söhne
+    5 \% of p\_max – Éric \& Söhne
 
     Raises `ValueError` for a character without a form; formulas belong into `Math` nodes.
     """
@@ -75,7 +62,7 @@ def verbatim(code: str, width: int) -> str:
 def _character(character: str, text: str) -> str:
     if character in _SPECIAL:
         return _SPECIAL[character]
-    if character.isascii() or ord(character) in _LATIN:
+    if character.isascii() or character in _TYPED or ord(character) in _LATIN:
         return character
     if character in _SIGN:
         return _SIGN[character]

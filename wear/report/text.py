@@ -27,7 +27,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any
+from typing import Any, ClassVar
 
 import jinja2
 from markdown_it import MarkdownIt
@@ -110,7 +110,15 @@ def line(text: str) -> Sequence[Token]:
 
 
 class Writer(RendererHTML):
-    """What both writers do: a method for each kind of token is found by markdown-it."""
+    """What both writers do: a method for each kind of token is found by markdown-it; kinds that are
+    always written the same stand in `plain`."""
+
+    plain: ClassVar[Mapping[str, str]] = {}
+
+    def __init__(self) -> None:
+        super().__init__()
+        for kind, text in self.plain.items():
+            self.rules[kind] = lambda *_, text=text: text  # type: ignore[assignment]
 
     def written(self, tokens: Sequence[Token]) -> str:
         """Return a whole text."""

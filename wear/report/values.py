@@ -20,13 +20,13 @@ from wear.benchmark.machine import footer
 from wear.benchmark.methods import cases
 from wear.benchmark.results import DIGITS, READER, committed, sentences, speed_table
 from wear.generated import asymptotics as formula
+from wear.report import note
 from wear.report.derivations import Derivations
 from wear.report.equations import capital
 from wear.report.manifest import versions
 from wear.report.markup import markup
 from wear.report.number import Number
-from wear.report.reconcile import PRINTED
-from wear.report.runs import CUTOFF, SECTION_5, Runs, required
+from wear.report.runs import Runs
 from wear.report.text import escaped
 
 if TYPE_CHECKING:
@@ -153,22 +153,26 @@ def _conditions() -> Iterator[dict[str, str]]:
 
 def _limits(runs: Runs) -> dict[str, Any]:
     """Return the constants of the application of the note."""
-    limit, stop = runs.asymptote("section4"), runs.asymptote("section4" + CUTOFF)
-    per_cycle = required(limit.wear_per_cycle_mm)
-    drift = required(limit.log_coefficient_mm)
+    limit, stop = runs.asymptote("section4"), runs.asymptote("section4" + note.CUTOFF)
+    per_cycle = note.required(limit.wear_per_cycle_mm)
+    drift = note.required(limit.log_coefficient_mm)
     scene = runs.cases["section4"].scene
     bracket = 2.0 * (scene.bearing.roughness_growth * scene.closure - scene.bearing.roughness_mm)
     needed = limit.cycles_to_stabilise
     return {
         "per_cycle": _mm(per_cycle, 5, "Eq. (21) with the data of section 4"),
-        "pressure": Number(required(limit.pressure_MPa), "Eq. (22), data of section 4", 6, "MPa"),
+        "pressure": Number(
+            note.required(limit.pressure_MPa), "Eq. (22), data of section 4", 6, "MPa"
+        ),
         "drift": _mm(drift, 5, "logarithmic coefficient, data of section 4"),
         "drift_ratio": Number(drift / per_cycle, "A/u_cum, data of section 4", 4),
-        "offset": _mm(runs.offset, 9, "offset, section 4"),
-        "needed": Number(required(needed["mean_rate_within_1e-6"]), "A/u_cum", 2),
-        "needed_instant": Number(required(needed["rate_within_1e-6"]), "extremes of the load", 2),
-        "stop": _count(required(stop.arrest_cycle), "section 4 with loss of contact"),
-        "depth": _mm(required(stop.arrest_wear_mm), 4, "section 4 with loss of contact"),
+        "offset": _mm(note.required(limit.offset_mm), 9, "offset, section 4"),
+        "needed": Number(note.required(needed["mean_rate_within_1e-6"]), "A/u_cum", 2),
+        "needed_instant": Number(
+            note.required(needed["rate_within_1e-6"]), "extremes of the load", 2
+        ),
+        "stop": _count(note.required(stop.arrest_cycle), "section 4 with loss of contact"),
+        "depth": _mm(note.required(stop.arrest_wear_mm), 4, "section 4 with loss of contact"),
         "jump": Number(100.0 * float(formula.share_tanh(3.0)), "Eq. (4) at h = 3 sigma", 3, "%"),
         "bracket": _mm(bracket, 3, "bracket of Eq. (16) with the data of section 4"),
         "eighth": Number(float(formula.share_tanh(8.0)), "1/(1 + e^24)", 4),
@@ -184,38 +188,38 @@ def _slope(runs: Runs, name: str) -> float:
 
 def _note(runs: Runs) -> dict[str, Any]:
     """Return the printed numbers of the note, and what the solution has in their place."""
-    per_cycle = required(runs.asymptote("section4").wear_per_cycle_mm)
+    per_cycle = note.required(runs.asymptote("section4").wear_per_cycle_mm)
     increment = runs.printed_increment
     return {
-        "printed": _mm(PRINTED.formula_mm, 3, "printed in the note after (21)"),
-        "simulated": _mm(PRINTED.simulated_mm, 3, "printed in the note before (21)"),
-        "note_cycle": _count(PRINTED.cycles, "the note"),
-        "criterion": Number(PRINTED.criterion, "the note's criterion", 1),
+        "printed": _mm(note.PRINTED.formula_mm, 3, "printed in the note after (21)"),
+        "simulated": _mm(note.PRINTED.simulated_mm, 3, "printed in the note before (21)"),
+        "note_cycle": _count(note.PRINTED.cycles, "the note"),
+        "criterion": Number(note.PRINTED.criterion, "the note's criterion", 1),
         "increment": _mm(increment, 5, "section 4, increment at the note's cycle"),
         "ratio": Number(increment / per_cycle, "section 4, increment over limit", 3),
         "early": Number(increment / per_cycle - 1.0, "section 4 at the note's cycle", 3),
         "excess": Number(runs.threshold_excess, "section 4 at the foretold cycle", 6),
-        "factor": Number(PRINTED.formula_mm / per_cycle, "printed value over Eq. (21)", 3),
+        "factor": Number(note.PRINTED.formula_mm / per_cycle, "printed value over Eq. (21)", 3),
         "changed_slope": Number(runs.reconciliation.value, "inverse of (21)", 7),
         "altered": _mm(runs.reconciliation.simulated_mm, 4, "section 4 with that slope"),
         "two_solids_limit": _mm(
-            required(runs.asymptote("section3").wear_per_cycle_mm), 2, "section 3, limit"
+            note.required(runs.asymptote("section3").wear_per_cycle_mm), 2, "section 3, limit"
         ),
     }
 
 
 def _figures(runs: Runs) -> dict[str, Any]:
     """Return what the sentences on the figures of the note quote."""
-    plain, cut = runs.history("section3"), runs.asymptote("section3" + CUTOFF)
-    lowest, highest = (runs.history(name) for name in (SECTION_5[0], SECTION_5[-1]))
-    coefficients = [runs.cases[name].scene.bearing.wear_coefficient for name in SECTION_5]
-    end = required(runs.asymptote("section5" + CUTOFF).arrest_wear_mm)
+    plain, cut = runs.history("section3"), runs.asymptote("section3" + note.CUTOFF)
+    lowest, highest = (runs.history(name) for name in (note.SECTION_5[0], note.SECTION_5[-1]))
+    coefficients = [runs.cases[name].scene.bearing.wear_coefficient for name in note.SECTION_5]
+    end = note.required(runs.asymptote("section5" + note.CUTOFF).arrest_wear_mm)
     loose, tight = runs.static_bounds, runs.wear_bounds
     return {
         "wear_3": _mm(plain.u_c[-1], 5, "section 3, last cycle of the figure"),
         "cycles_3": _count(plain.cycles[-1], "section 3"),
-        "stop_3": _count(required(cut.arrest_cycle), "section 3 with loss of contact"),
-        "depth_3": _mm(required(cut.arrest_wear_mm), 5, "section 3 with loss of contact"),
+        "stop_3": _count(note.required(cut.arrest_cycle), "section 3 with loss of contact"),
+        "depth_3": _mm(note.required(cut.arrest_wear_mm), 5, "section 3 with loss of contact"),
         "before_3": _mm(plain.sigma_c[0], 3, "section 3, start"),
         "after_3": _mm(plain.sigma_c[-1], 4, "section 3, last cycle of the figure"),
         "more_5": _count(round(coefficients[-1] / coefficients[0]), "scenes of section 5"),
@@ -235,8 +239,8 @@ def _agreement(runs: Runs) -> dict[str, Any]:
     wear = float(runs.history("section4").u_c[-1])
     arrests = {}
     for name in _EXAMPLES:
-        case = runs.cases[name + CUTOFF]
-        off = abs(float(case.history.u_c[-1]) / required(case.asymptote.arrest_wear_mm) - 1.0)
+        case = runs.cases[name + note.CUTOFF]
+        off = abs(float(case.history.u_c[-1]) / note.required(case.asymptote.arrest_wear_mm) - 1.0)
         arrests[name] = Number(max(off, ROUNDOFF), f"{name} with loss of contact", 2)
     return {
         "static_distance": Number(runs.static.distance, "section 4, constant load", 2),
@@ -256,8 +260,8 @@ def _drift_distance(runs: Runs) -> float:
     """Relative difference of the wear from its asymptotic law at the last cycle solved."""
     limit = runs.asymptote("section4")
     cycle, wear = float(runs.approach.cycles[-1]), float(runs.approach.wear[-1])
-    law = required(limit.wear_per_cycle_mm) * cycle + runs.offset
-    law += required(limit.log_coefficient_mm) * float(np.log(cycle))
+    law = note.required(limit.wear_per_cycle_mm) * cycle + note.required(limit.offset_mm)
+    law += note.required(limit.log_coefficient_mm) * float(np.log(cycle))
     return abs(law / wear - 1.0)
 
 
@@ -266,7 +270,7 @@ def _elasticity(material: Material) -> Number:
     limit, scene = material.runs.asymptote("section4"), material.runs.cases["section4"].scene
     data = {
         "f_c": scene.bearing.roughness_growth,
-        "p_inf": required(limit.pressure_MPa),
+        "p_inf": note.required(limit.pressure_MPa),
         "p_max": scene.contact.max_pressure_MPa,
     }
     found = next(e for e in material.equations if e.id == "elasticity-slope").relation.rhs

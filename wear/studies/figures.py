@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
-from wear.checked import words_of
+from wear.checked import label_of
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, canvas, stroke, styled
 from wear.studies.vary import FloatArray
 
@@ -51,7 +51,7 @@ def lines(results: xarray.Dataset, key: str) -> Figure:
             )
         _scale(axes, "x", results[key].values)
         _scale(axes, "y", results["bearing_wear_mm"].values)
-        axes.set_xlabel(_label(results, key))
+        axes.set_xlabel(label_of(key))
         axes.set_ylabel(_WEAR)
         axes.legend()
     return figure
@@ -73,8 +73,8 @@ def heat_map(results: xarray.Dataset, across: str, up: str) -> Figure:
         figure.colorbar(image, ax=axes, label=f"{_WEAR} after {_number(cycles)} cycles")
         _scale(axes, "x", results[across].values)
         _scale(axes, "y", results[up].values)
-        axes.set_xlabel(_label(results, across))
-        axes.set_ylabel(_label(results, up))
+        axes.set_xlabel(label_of(across))
+        axes.set_ylabel(label_of(up))
     return figure
 
 
@@ -168,9 +168,3 @@ def _spans_decades(values: FloatArray) -> bool:
 def _scale(axes: Axes, axis: str, values: FloatArray) -> None:
     if _spans_decades(np.asarray(values, dtype=float)):
         axes.set(**{f"{axis}scale": "log"})
-
-
-def _label(results: xarray.Dataset, key: str) -> str:
-    """Return a key with its unit, in words."""
-    unit = str(results[key].attrs.get("units", "1"))
-    return words_of(key) if unit == "1" else f"{words_of(key)} ({unit})"

@@ -46,6 +46,14 @@ Proof.
   lra.
 Qed.
 
+(** A quadratic polynomial of negative discriminant. *)
+Lemma quadratic_positive (a b x m n : R) : 0 < a -> b ^ 2 < a * (m + n) ->
+  0 < 2 * b * x + a * x ^ 2 + m + n.
+Proof.
+  intros Ha H; apply (Rmult_lt_reg_l a); [assumption |].
+  pose proof (pow2_ge_0 (b + a * x)); nra.
+Qed.
+
 (** ** Signs *)
 
 (** A goal [0 < e], [0 <= e] or [e <> 0] by the signs of the parts of e. *)
@@ -53,12 +61,15 @@ Ltac positive :=
   match goal with
   | |- _ /\ _ => split; positive
   | |- True => exact I
-  | |- ?a <> ?b => first [assumption | apply Rgt_not_eq, Rlt_gt; positive | apply Rlt_not_eq; lra | lra]
+  | |- ?a <> ?b => first [assumption | apply Rgt_not_eq, Rlt_gt; positive | apply Rlt_not_eq; lra | lra | not_zero]
   | |- ?a > ?b => apply Rlt_gt; positive
   | |- 0 < _ => first [assumption | lra | positive_part]
   | |- 0 <= _ => first [assumption | lra | positive_part]
   | |- _ => lra
   end
+with not_zero :=
+  match goal with D : _ <> 0 |- _ <> 0 =>
+    let E := fresh in intro E; apply D; field_simplify_eq; [lra | repeat split; assumption] end
 with positive_part :=
   match goal with
   | |- 0 < ?a * ?b => apply Rmult_lt_0_compat; positive
@@ -69,9 +80,9 @@ with positive_part :=
   | |- 0 < tanh ?x => apply tanh_pos; positive
   | |- 0 < 1 + tanh _ => apply one_plus_tanh_pos
   | |- 0 < 1 - tanh _ ^ 2 => apply one_minus_tanh_square_pos
-  | |- 0 < tanh ?x / 2 + 1 / 2 => pose proof (tanh_above x); lra
-  | |- 0 < 1 / 2 - tanh ?x / 2 => pose proof (tanh_below x); lra
+  | |- context [tanh ?x] => pose proof (tanh_above x); pose proof (tanh_below x); lra
   | |- 0 < sqrt _ => apply sqrt_lt_R0; positive
+  | |- 0 < 2 * _ * _ + _ * _ ^ 2 + _ + _ => apply quadratic_positive; [positive | assumption]
   | |- 0 < ?a + ?b => first [apply Rplus_lt_0_compat; positive | apply Rplus_lt_le_0_compat; positive
                              | apply Rplus_le_lt_0_compat; positive]
   | |- 0 <= ?a * ?b => apply Rmult_le_pos; positive
@@ -103,7 +114,10 @@ Ltac bounds :=
       | _ => pose proof (exp_pos a) end
   end.
 
-Ltac arithmetic := first [lra | bounds; solve [lra | positive | nra]].
+Ltac below_logarithm :=
+  match goal with |- ?a < ln _ => apply exp_lt_inv; pose proof (exp_pos a); rewrite exp_ln; lra end.
+
+Ltac arithmetic := first [lra | below_logarithm | bounds; solve [lra | positive | nra]].
 
 (** ** Equal arguments of functions *)
 
@@ -148,6 +162,15 @@ Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_
 Ltac in_contact :=
   repeat match goal with |- context [Rle_dec ?a ?b] => destruct (Rle_dec a b); [| lra] end.
 
+(** The slope of a contact law is not positive. *)
+Ltac slopes :=
+  repeat match goal with
+  | F : forall r r', r < r' -> @phi ?c r' < @phi ?c r, D : forall r, ex_derive (@phi ?c) r
+    |- context [Derive (@phi ?c) ?a] =>
+      lazymatch goal with H : Derive (@phi c) a <= 0 |- _ => fail
+      | _ => pose proof (slope_of_decreasing (@phi c) F D a) end
+  end.
+
 (** A root of a square, and a modulus of what has a sign. *)
 Ltac roots :=
   repeat first
@@ -157,9 +180,23 @@ Ltac roots :=
         by (symmetry; apply sqrt_lem_1; [nra | lra | ring]) end end
   | match goal with |- sqrt _ = Rabs _ => rewrite <- sqrt_Rsqr_abs; f_equal; unfold Rsqr; ring end ].
 
-Ltac identity := in_contact; same_functions; first
-  [ reflexivity | ring | field; positive | same_exponentials; field; positive
+(** The square of a root. *)
+Ltac square_of_root :=
+  match goal with |- context [sqrt ?x] =>
+    try (assert (0 < x) by positive); assert (0 <= x) by positive; let E := fresh in
+    assert (E : sqrt x * sqrt x = x) by (apply sqrt_sqrt; assumption);
+    first [ring [E] | field [E]; positive] end.
+
+Ltac identity := in_contact; slopes; same_functions; first
+  [ reflexivity | ring | field; positive | same_exponentials; field; positive | square_of_root
   | progress roots; first [reflexivity | ring | field; positive] ].
+
+(** The derivative of an expression, by Coquelicot. *)
+Ltac derived :=
+  auto_derive;
+  [ repeat split; first [positive | auto]
+  | repeat match goal with |- context [Derive (fun x => @phi ?c x) ?a] =>
+      progress change (Derive (fun x => @phi c x) a) with (Derive (@phi c) a) end; identity ].
 
 (** [ln x = y] from [x = exp y]. *)
 Ltac logarithm := match goal with |- ln ?x = ?y => replace x with (exp y); [apply ln_exp | identity] end.

@@ -6,7 +6,7 @@ import pytest
 
 from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Verdict
-from wear.report import claims, reconcile
+from wear.report import claims, note, reconcile
 from wear.report.claims import SIMULATED, as_json, ledger
 
 VERDICTS = {
@@ -57,7 +57,7 @@ def test_the_ledger_as_json() -> None:
 
 
 def test_true_numbers_would_be_confirmed(monkeypatch: pytest.MonkeyPatch) -> None:
-    true = reconcile.Printed(simulated_mm=1.89e-7, formula_mm=4.64e-8, criterion=4.0)
+    true = note.Printed(simulated_mm=1.89e-7, formula_mm=4.64e-8, criterion=4.0)
     monkeypatch.setattr(claims, "PRINTED", true)
     assert claims.simulated_wear().verdict is Verdict.CONFIRMED
     assert claims.formula_wear().verdict is Verdict.CONFIRMED

@@ -26,8 +26,9 @@ from tests.wear.report.test_html import Outline
 from wear.report import claims, reconcile
 from wear.report.document import Document
 from wear.report.html import page
+from wear.report.note import CUTOFF, required
 from wear.report.paper import paper as written
-from wear.report.runs import CUTOFF, Runs, required
+from wear.report.runs import Runs
 from wear.report.tex import report
 from wear.report.typeset import typeset
 from wear.report.verification import Verification, verified
