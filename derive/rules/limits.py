@@ -6,7 +6,6 @@ Key results
     Diverges         u >= c t + d with c > 0, and f > 0, give a + f u -> oo
     unbounded        du/dt = F(u, load) with F > 0 and a bounded load gives u -> oo
     AtInfinity       what a function of u and bounded fields tends to as u -> oo
-    reciprocal       s -> oo gives 1/s -> 0
     vanishes         |e| <= B/s and s -> oo give e -> 0
     Passes           limits pass through continuous functions and through t -> t + T
     accumulates      du/dt -> R gives u(t + T) - u(t) -> R T
@@ -249,20 +248,6 @@ def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
 
 
 @dataclass(frozen=True)
-class Reciprocal(Rule):
-    """``s -> oo`` gives ``1/s -> 0``."""
-
-    words = "The reciprocal of what grows beyond all bounds, {0}, tends to zero."
-    asks = ("the growth",)
-
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        return Conclusion(in_time(1 / growing(premises[0]), sp.S.Zero))
-
-
-reciprocal = Reciprocal()
-
-
-@dataclass(frozen=True)
 class Vanishes(Rule):
     """``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
 
@@ -286,8 +271,8 @@ vanishes = Vanishes()
 class Passes(Rule):
     """Limits pass through a function that is continuous where they end, and through one period.
 
-    The premises give the finite limits of some expressions, and equalities; the claim is the limit
-    of a combination of those expressions, now or one period later.
+    The premises give the limits of some expressions, and equalities; the claim is the limit of a
+    combination of those expressions, now or one period later.  Of ``s -> oo`` it uses 1/s -> 0.
     """
 
     claim: sp.Equality
@@ -309,12 +294,15 @@ class Passes(Rule):
             if not isinstance(premise.claim, Limit):
                 continue
             given = limit_in_time(premise)
-            if given.value.is_finite is False:
+            part, end = given.expr, given.value
+            if given.value == sp.oo:
+                part, end = 1 / part, sp.S.Zero
+            elif given.value.is_finite is False:
                 raise RuleError(f"missing premise: the limit of {given.expr} is finite")
-            for quantity in (given.expr, later(given.expr)):
+            for quantity in (part, later(part)):
                 stand_in = sp.Dummy(real=True)
                 expr = in_terms_of(expr, quantity, stand_in)
-                ends[stand_in], meaning[stand_in] = given.value, quantity
+                ends[stand_in], meaning[stand_in] = end, quantity
         back = expr
         for stand_in, quantity in reversed(meaning.items()):
             back = back.subs(stand_in, quantity)

@@ -44,7 +44,6 @@ from derive.rules.limits import (
     forever,
     intermittent,
     one_period_later,
-    reciprocal,
     unbounded,
     vanishes,
 )
@@ -178,7 +177,7 @@ def opened() -> Judgement:
 
 FADING = sp.exp(-u_c / sigma_c0)
 SIMPLE = {
-    "the reciprocal of what grows": lambda: reciprocal(DEEP),
+    "the reciprocal of what grows": lambda: Passes(sp.Eq(forever(1 / u_c), 0))(DEEP),
     "one period later": lambda: one_period_later(given(sp.Ge(u_c, h_0))),
     "a double root": lambda: root(h_star - x),
     "a mean over contact": some_of_the_time,
@@ -267,7 +266,8 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ),
     ("the limit of", lambda: Passes(sp.Eq(forever(2 * G), theta))(tends(G, theta))),
     ("is finite", lambda: accumulates(tends(rate("u_c"), sp.oo))),
-    ("-> oo", lambda: reciprocal(tends(u_c, h_0))),
+    ("-> oo", lambda: AtInfinity(sp.Eq(forever(1 / u_c), 0), 1 / u_c)(tends(u_c, h_0))),
+    ("is finite", lambda: Passes(sp.Eq(forever(2 * G), -sp.oo))(tends(G, -sp.oo))),
     ("solved for the rate", lambda: unbounded(given(sp.Eq(rate("u_c"), C + rate("u_a"))))),
     ("above a constant", lambda: some_of_the_time(least=G)),
     ("0 out of contact", lambda: some_of_the_time(off=C / 2)),
