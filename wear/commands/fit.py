@@ -202,7 +202,7 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
     )  # fmt: skip
     after = document["next_reading"]
     which = f"of specimen {after['specimen']} " * bool(after["specimen"])
-    yield (f"\nOne more reading {which}after {after['cycles']:.6g} cycles narrows the forecast "
+    yield (f"\nOne more reading {which}after cycle {after['cycles']:.6g} narrows the forecast "
            f"most, to {after['band_of_forecast_times']:.0%} of its band.")  # fmt: skip
 
 
