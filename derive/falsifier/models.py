@@ -308,9 +308,9 @@ class Present:
 
     def field(self, field: sp.Expr, at: Any, order: int = 0) -> Any:
         """Return a field, or its derivative, at the times of the step."""
-        if isinstance(at, fmpq) and at == 0 and order == 0:
-            return float(ball(self.of.field(field, at)).mid())
         if at is not self.time:
+            if isinstance(at, fmpq) and at == 0 and order == 0:
+                return float(ball(self.of.field(field, at)).mid())
             raise Undecided("a rate that needs another time")
         if (field, order) not in self._known:
             self._known[field, order] = (
