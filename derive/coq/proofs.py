@@ -243,7 +243,7 @@ def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
             )
             yield f"{text}{insert}split; [{parts}]"
         elif isinstance(goal, sp.Equivalent):
-            yield f"{text}{insert}split; intro; arithmetic"
+            yield f"{text}{insert}split; intro H; first [arithmetic | from_inequality H 1]"
         else:
             order = list(_ordered(goal))
             alone = [w for w in _parts(goal, []) if w not in order]
