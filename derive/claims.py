@@ -1,9 +1,9 @@
 """Claims: what a judgement says, typed.
 
 Overview
-    A claim is an equality (or the definition of a name), an inequality, a double inequality, an
-    inequation, an equivalence, a limit or an asymptotic relation; what only words say is a
-    property.  ``relation`` is the SymPy form, for printing and for comparison.
+    A claim is an equality, an inequality, two of them, an inequation, an equivalence, a limit or
+    an asymptotic relation; what only words say is a property.  ``relation`` is the SymPy form,
+    for printing and for comparison.
 Key results
     claim_of(relation)                  the typed claim of a SymPy relation
     part of a claim by its name         ``lhs``, ``lesser``, ``value``; a claim has no others
@@ -118,11 +118,6 @@ class Equality(Claim):
 
 
 @dataclass(frozen=True)
-class Definition(Equality):
-    """A name for an expression."""
-
-
-@dataclass(frozen=True)
 class Inequality(Claim):
     """``a <= b``, or strictly ``a < b``, in the orientation in which it was written."""
 
@@ -146,33 +141,6 @@ class Inequality(Claim):
     def strict(self) -> bool:
         """Return whether the sides differ."""
         return isinstance(self.written, (sp.StrictGreaterThan, sp.StrictLessThan))
-
-
-@dataclass(frozen=True)
-class Between(Claim):
-    """Two inequalities that enclose one expression: ``low <= middle <= high``."""
-
-    below: Inequality
-    above: Inequality
-
-    @property
-    def relation(self) -> sp.Basic:
-        return sp.And(self.below.written, self.above.written, evaluate=False)
-
-    @property
-    def low(self) -> sp.Expr:
-        """Return the lower bound."""
-        return self.below.lesser
-
-    @property
-    def middle(self) -> sp.Expr:
-        """Return what is bounded."""
-        return self.below.greater
-
-    @property
-    def high(self) -> sp.Expr:
-        """Return the upper bound."""
-        return self.above.greater
 
 
 @dataclass(frozen=True)
@@ -238,7 +206,7 @@ class Asymptotic(Claim):
 
 @dataclass(frozen=True)
 class Conjunction(Claim):
-    """Two inequalities about different things."""
+    """Two inequalities that both hold: ``low <= middle <= high``, or of different things."""
 
     first: Inequality
     second: Inequality
@@ -259,7 +227,7 @@ class Property(Claim):
         return sp.true
 
 
-def claim_of(relation: sp.Basic, definition: bool = False) -> Claim:
+def claim_of(relation: sp.Basic) -> Claim:
     """Return the typed claim of a SymPy relation.
 
     >>> x, y = sp.symbols("x y")
@@ -272,8 +240,6 @@ def claim_of(relation: sp.Basic, definition: bool = False) -> Claim:
     """
     if isinstance(relation, sp.Equality):
         left, right = relation.args
-        if definition:
-            return Definition(left, right)
         if isinstance(left, sp.Limit) and not right.has(sp.Limit):
             expr, variable, point = left.args[:3]
             return Limit(expr, variable, point, right)
@@ -285,10 +251,6 @@ def claim_of(relation: sp.Basic, definition: bool = False) -> Claim:
     if isinstance(relation, (sp.And, sp.Equivalent)) and len(relation.args) == 2:
         first, second = map(claim_of, relation.args)
         if isinstance(first, Inequality) and isinstance(second, Inequality):
-            if isinstance(relation, sp.Equivalent):
-                return Equivalence(first, second)
-            for below, above in ((first, second), (second, first)):
-                if below.greater == above.lesser:
-                    return Between(below, above)
-            return Conjunction(first, second)
+            both = Equivalence if isinstance(relation, sp.Equivalent) else Conjunction
+            return both(first, second)
     raise ClaimError(f"{relation} is no claim")

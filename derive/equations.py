@@ -4,7 +4,6 @@ Key results
     Equation    id, section, title, statements, printed form, display form
     beyond      an equation beyond the note
     Status      definition, derived, derived-numerically, corrected, refuted
-    verify      every check an equation rests on
 """
 
 from __future__ import annotations
@@ -16,7 +15,6 @@ from functools import cached_property
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .check import Check, checks
 from .hypotheses import Hypothesis
 from .kernel import Judgement, chain
 from .rules.assumption import Assume
@@ -174,11 +172,3 @@ def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
 def system(claims: tuple[sp.Basic, ...]) -> sp.Basic:
     """Return one relation, or the conjunction of several as they stand."""
     return claims[0] if len(claims) == 1 else sp.And(*claims, evaluate=False)
-
-
-def verify(equation: Equation) -> tuple[Check, ...]:
-    """The outcome of every check on which an equation rests, each run once in a process, and of
-    comparing what is typeset with what is claimed."""
-    outcomes = [outcome for step in equation.steps for outcome in checks(step)]
-    typeset = Check("typeset", equation.typeset_agrees, "the display form equals the claim")
-    return (*outcomes, typeset)

@@ -32,10 +32,6 @@ class GivenLoad(Model):
     area: Area = field(kw_only=True)
 
     @property
-    def variant(self) -> str:
-        return f"given_load_{self.module.VARIANT.removeprefix('compliant_')}"
-
-    @property
     def operations(self) -> Mapping[str, int]:
         return {name: self.module.OPERATIONS[name] for name in ("rate", "fields")}
 

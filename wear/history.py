@@ -194,7 +194,7 @@ class History:
             "rtol": self.rtol,
             "cycles": self.cycles.tolist(),
         }
-        lists = dict.fromkeys(history_files.OF_THE_PIN, [None] * len(self.cycles)) | {
+        lists = dict.fromkeys(history_files.WEAR_AND_ROUGHNESS, [None] * len(self.cycles)) | {
             column.name: _finite(column.values) for column in self.columns()
         }
         tail = {"cost": dict(self.cost), "seconds": self.seconds, "notices": list(self.notices)}

@@ -37,8 +37,10 @@ _FIELDS = (  # symbol, name in files, unit, meaning
     ("U_c", "bearing_displacement_mm", "mm", "displacement of the bearing"),
     ("U_a", "pin_displacement_mm", "mm", "displacement of the pin"),
 )
-OF_THE_PIN = ("pin_wear_mm", "pin_roughness_mm")
-"""Keys that JSON has also of a pin that does not wear, or is smooth."""
+WEAR_AND_ROUGHNESS = (
+    "bearing_wear_mm", "pin_wear_mm", "bearing_roughness_mm", "pin_roughness_mm",
+)  # fmt: skip
+"""Keys that JSON has in this order also of a pin that does not wear, or is smooth."""
 
 
 def columns_of(wear: NDArray[Any], fields: object) -> tuple[Column, ...]:

@@ -73,16 +73,6 @@ class Model:
         return self.bound.constants
 
     @property
-    def variant(self) -> str:
-        """Return the name of the variant."""
-        return str(self.module.VARIANT) + "_ends_at_3_sigma" * self.ends_at_3_sigma
-
-    @property
-    def law(self) -> str:
-        """Return the name of the contact law."""
-        return str(self.module.LAW)
-
-    @property
     def operations(self) -> Mapping[str, int]:
         """Return how many arithmetic operations each generated function costs."""
         return {**self.module.OPERATIONS, **(self.loss.module.OPERATIONS if self.loss else {})}

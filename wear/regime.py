@@ -29,7 +29,7 @@ from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.model import bind
 from wear.offset import offset
-from wear.solver import obstacle
+from wear.solver import solve
 
 if TYPE_CHECKING:
     from wear.load import Load
@@ -197,7 +197,7 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
     tanh = case.scene.contact.law == "tanh"
     found = offset(case.scene, per_cycle, float(mean))
     if found is None:
-        notices = (*notices, f"offset unknown: {_no_offset(case.scene)}")
+        notices = (*notices, "offset unknown: 1e12 cycles do not reach steady wear")
     return _result(
         case,
         "steady",
@@ -212,11 +212,6 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
         },
         notices=notices,
     )
-
-
-def _no_offset(scene: Scene) -> str:
-    against = obstacle(scene)
-    return "1e12 cycles do not reach steady wear" if against is None else against
 
 
 def _cycles(drift: Decimal, per_cycle: float) -> float | None:
@@ -253,7 +248,8 @@ def _constant_roughness(case: _Case) -> Asymptote:
             case, "steady", wear_per_cycle_mm=per_cycle, pressure_MPa=pressure, notices=(said,)
         )
     said = "wear changes neither closure nor roughness: every cycle is like the first"
-    return _result(case, "steady", wear_per_cycle_mm=_first_cycle(case), notices=(said,))
+    first = float(solve(case.scene, [1], rtol=1e-12).u_c[0])
+    return _result(case, "steady", wear_per_cycle_mm=first, notices=(said,))
 
 
 def _log_load_factor(load: Load, sigma: float) -> float:
@@ -261,12 +257,6 @@ def _log_load_factor(load: Load, sigma: float) -> float:
     phases = (np.arange(_PHASES) + 0.5) / _PHASES
     exponents = 4.0 * (load(phases) - load.maximum) / sigma
     return 4.0 * load.maximum / sigma + math.log(float(np.mean(np.exp(exponents))))
-
-
-def _first_cycle(case: _Case) -> float:
-    from wear.solver import solve
-
-    return float(solve(case.scene, [1], rtol=1e-12).u_c[0])
 
 
 def _with_cutoff(case: _Case) -> Asymptote:

@@ -258,7 +258,7 @@ def _history(
         U_a=displacement_of(model, scene, u),
         scene=scene.title or scene.name,
         definition=scene,
-        variant=model.variant,
+        variant=scene.variant.name,
         operations=model.operations,
         method=wear.method,
         rtol=rtol,

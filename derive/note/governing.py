@@ -35,11 +35,8 @@ from ..typeset.display import as_written
 from . import model, printed
 
 h, h_0, U_a, U_c, u_a, u_c = symbols("h h_0 U_a U_c u_a u_c")
-sigma, sigma_a, sigma_c, sigma_a0, sigma_c0 = symbols("sigma sigma_a sigma_c sigma_a0 sigma_c0")
-p, p_max, R_a, b, L, k = symbols("p p_max R_a b L k")
-V, R, omega, n, kappa = symbols("V R omega n kappa")
+sigma, sigma_a, sigma_c, p, p_max, R_a, b, L, k = symbols("sigma sigma_a sigma_c p p_max R_a b L k")
 f_a, f_c, f_aa, f_ac, f_cc, f_ca = symbols("f_a f_c f_aa f_ac f_cc f_ca")
-K_a, K_c, H_a, H_c = symbols("K_a K_c H_a H_c")
 
 ROUGH_BEARING = Hypothesis("the bearing is rough", sp.Gt(sigma_c, 0), kind=Kind.STATE)
 SMOOTH_PIN = Hypothesis("smooth pin", sp.Eq(sigma_a, 0), r"\text{smooth pin}", Kind.SETTING)

@@ -43,7 +43,6 @@ from ..rules.limits import (
     forever,
     later,
     one_period_later,
-    reciprocal,
 )
 from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols, t
@@ -143,9 +142,7 @@ class Stabilised:
     def bracket_over_roughness(self) -> Judgement:
         """(16), second line, with its denominators."""
         product = forever(bracket / (roughness * later(roughness)))
-        vanishing = Passes(sp.Eq(product, 0))(
-            self.steady.vanishing, reciprocal(self.steady.divergence)
-        )
+        vanishing = Passes(sp.Eq(product, 0))(self.steady.vanishing, self.steady.divergence)
         claim = sp.Eq(u_cum * product, 0)
         return Insert(claim)(vanishing, name="(16) with its denominators")
 

@@ -32,7 +32,7 @@ from ..rules.calculus import RIGID
 from ..symbols import symbols
 from ..typeset.display import as_written
 
-h, h_0, U_a, U_c, u_c, sigma = symbols("h h_0 U_a U_c u_c sigma")
+h, h_0, U_a, U_c, sigma = symbols("h h_0 U_a U_c sigma")
 p, p_max, k, f_c, sigma_c0 = symbols("p p_max k f_c sigma_c0")
 
 SLOPED = Hypothesis("the roughness changes with wear", sp.Ne(f_c, 0))

@@ -37,7 +37,7 @@ from ..typeset.display import as_written, minus
 from ..typeset.present import presentable
 from .first_integral import UNSATURATED
 
-p, p_max, k, sigma, U_a, U_c, u_a, u_c = symbols("p p_max k sigma U_a U_c u_a u_c")
+p, p_max, k, sigma, U_a, u_a, u_c = symbols("p p_max k sigma U_a u_a u_c")
 h_0, h_rigid = symbols("h_0 h_rigid")
 
 undeflected = h_0 + u_c - u_a - U_a

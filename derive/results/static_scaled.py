@@ -27,8 +27,8 @@ from .first_integral import FirstIntegral
 from .regimes import largest_wear
 from .static_solution import MOVING, excess, load_offset
 
-h, h_0, U_a, u_c, sigma, sigma_c0, f_c, beta, x_inf, M = symbols(
-    "h h_0 U_a u_c sigma sigma_c0 f_c beta x_inf M"
+h, U_a, u_c, sigma, sigma_c0, f_c, beta, x_inf, M = symbols(
+    "h U_a u_c sigma sigma_c0 f_c beta x_inf M"
 )
 z, E = sp.symbols("z E", real=True)
 """The argument of Ei, and the logarithm of p_max/p - 1."""

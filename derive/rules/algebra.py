@@ -197,35 +197,24 @@ class Consequence(Rule):
         first, *others = premises
         claim = claim_of(self.claim)
         require_defined(self.claim, *premises)
-        if type(claim) is not type(first.claim) or not _agree(
-            *(_parts(c, tuple(others)) for c in (claim, first.claim))
-        ):
+        places, sides = _inside(self.claim), _inside(first.relation)
+        same = type(claim) is type(first.claim) and [p for p, _ in places] == [p for p, _ in sides]
+        pairs = zip(places, sides, strict=False)
+        if not same or not all(is_zero(inserted(a - b, tuple(others))) for (_, a), (_, b) in pairs):
             raise RuleError(f"missing premise: {first.relation} does not become {self.claim}")
         return Conclusion(claim)
 
 
-def _parts(claim: Claim, known: tuple[Judgement, ...]) -> tuple[tuple[object, sp.Expr], ...]:
-    """Return the sides of all relations in a claim, each with what makes its place."""
-    relation = claim.relation
-    parts = relation.args if isinstance(relation, (sp.And, sp.Equivalent)) else (relation,)
-    pairs = [claim_of(part) for part in parts]
-    sides: list[tuple[object, sp.Expr]] = []
-    for part in pairs:
-        if isinstance(part, Limit):
-            sides += [((part.variable, part.point), part.expr), ("value", part.value)]
-        elif isinstance(part, Inequality):
-            sides += [(("less", part.strict), part.lesser), (("more", part.strict), part.greater)]
-        else:
-            sides += [(type(part), side) for side in part.relation.args]
-    return tuple((place, inserted(side, known)) for place, side in sides)
-
-
-def _agree(
-    left: tuple[tuple[object, sp.Expr], ...], right: tuple[tuple[object, sp.Expr], ...]
-) -> bool:
-    return len(left) == len(right) and all(
-        a[0] == b[0] and is_zero(a[1] - b[1]) for a, b in zip(left, right, strict=True)
-    )
+def _inside(relation: sp.Basic) -> list[tuple[object, sp.Expr]]:
+    """Return the expressions in a relation, each after what makes its place."""
+    if isinstance(relation, (sp.And, sp.Equivalent)):
+        return [found for part in relation.args for found in _inside(part)]
+    claim = claim_of(relation)
+    if isinstance(claim, Limit):
+        return [((claim.variable, claim.point), claim.expr), ("value", claim.value)]
+    if isinstance(claim, Inequality):
+        return [(("less", claim.strict), claim.lesser), (("more", claim.strict), claim.greater)]
+    return [(type(claim), side) for side in relation.args]
 
 
 @dataclass(frozen=True)

@@ -42,23 +42,23 @@ class Assume(Rule):
             raise RuleError(f"{said.text}: cannot be assumed")
         if not belongs(kind, relation):
             raise RuleError(f"{said.text}: no equation of the model")
-        claim = Property(said.text) if relation is sp.true else claim_of(relation, named)
+        claim = Property(said.text) if relation is sp.true else claim_of(relation)
         if not isinstance(claim, Limit) and any(side in (sp.oo, -sp.oo) for side in relation.args):
             raise RuleError(f"{said.text}: infinity is the value of limits alone")
         if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
             raise RuleError(f"{said.text}: no equation")
-        if named and isinstance(claim, Equality):
-            _require_name(claim, premises)
+        if named and isinstance(claim, (Equality, Limit)):
+            _require_name(claim.relation, premises)
         return Conclusion(claim, adds=(said,))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         return f"Hypothesis: {self.hypothesis.text}."
 
 
-def _require_name(claim: Equality, premises: tuple[Judgement, ...]) -> None:
+def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:
     """Refuse to define what is given, or a constant by what varies."""
-    name, value = claim.lhs, at_an_instant(claim.rhs)
-    moving = {field.func for field in claim.relation.atoms(AppliedUndef)} - {LAW}
+    name, value = relation.lhs, at_an_instant(relation.rhs)
+    moving = {field.func for field in relation.atoms(AppliedUndef)} - {LAW}
     if not name.is_Symbol and not (moving and moving <= FIELDS):
         return  # an equation for a constant, or for a field of one's own
     if not name.is_Symbol or name.name in DATA or value.has(name):

@@ -20,14 +20,13 @@ from functools import cache
 
 import sympy as sp
 
-from ..averaging import Averaged, average
+from ..averaging import Averaged, at, average, sine
 from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
-from ..harmonics import Harmonics, constant, sine, total
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
-from .reading import LOAD, SINE, T, equality, fields, has_hypothesis
+from .reading import LOAD, SINE, T, equality, fields, require_hypothesis
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
@@ -88,19 +87,8 @@ def averaged(pressure: sp.Expr) -> Averaged:
         term.subs(sp.tanh(4 - 2 / f_c), theta).subs(sp.tanh(2 / f_c - 4), -theta)
         for term in powers(pressure, ORDER)
     )
-    terms = [constant(sp.S.One)]
-    terms += [_under_sine(sp.cancel(term / steady)) for term in corrections]
-    return average(terms, rho)
-
-
-def _under_sine(polynomial: sp.Expr) -> Harmonics:
-    """Insert the load into a polynomial in U_a."""
-    load = sp.Dummy()
-    power, terms = constant(sp.S.One), []
-    for coefficient in reversed(sp.Poly(polynomial.subs(LOAD, load), load).all_coeffs()):
-        terms.append(power.scaled(coefficient))
-        power = power * sine(U)
-    return total(terms)
+    under_sine = (sp.cancel(term / steady).subs(LOAD, U * sine) for term in corrections)
+    return average([sp.S.One, *under_sine], rho)
 
 
 @dataclass(frozen=True)
@@ -118,18 +106,26 @@ class Averaging(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, name = equality(premises[0]), self.claim.lhs
         for relation in (SINE.relation, OFFSET, SATURATION, sp.Gt(f_c, 0)):
-            has_hypothesis(relation, *premises)
+            require_hypothesis(relation, *premises)
         if given.lhs != p or fields(given.rhs) - {u_c, LOAD}:
             raise RuleError("missing premise: the pressure at given wear and load")
         meaning, solved = _meaning(name, premises[1:]), averaged(given.rhs)
         known = {term_of(Drift, n, given.rhs): solved.drift[n] for n in range(1, ORDER + 1)}
         for n in (1, 2):
-            known[term_of(Oscillation, n, given.rhs)] = solved.oscillation[n].at(tau)
+            known[term_of(Oscillation, n, given.rhs)] = at(solved.oscillation[n], tau)
         if meaning not in known:
             raise RuleError(f"missing premise: {name} is c_1 to c_4, w_1 or w_2 of this pressure")
         if not is_zero(sp.expand_trig(self.claim.rhs) - sp.expand_trig(known[meaning])):
             raise RuleError(f"missing premise: {name} = {known[meaning]}")
         return Conclusion(Equality(name, self.claim.rhs))
+
+
+def _definitions(law: sp.Expr) -> set[sp.Equality]:
+    """Return that c_1 to c_4 are the drifts of the expansion for a law."""
+    return {
+        sp.Eq(symbol(f"c_{n}"), Drift(sp.Integer(n), law, ROUGHNESS, tau, rho), evaluate=False)
+        for n in range(1, ORDER + 1)
+    }
 
 
 @dataclass(frozen=True)
@@ -145,26 +141,13 @@ class SlowTime(Rule):
     source = "termwise integration of an asymptotic series"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        hypotheses = {h for premise in premises for h in premise.hypotheses}
-        defined = [h.relation for h in hypotheses if h.relation.has(Drift)]
-        laws = {
-            relation.rhs.args[1]
-            for relation in defined
-            if isinstance(relation, sp.Equality) and isinstance(relation.rhs, Drift)
-        }
+        said = {h.relation for premise in premises for h in premise.hypotheses}
         drifts = [symbol(f"c_{n}") for n in range(1, ORDER + 1)]
-        if not any(
-            all(
-                sp.Eq(c, Drift(sp.Integer(n), law, ROUGHNESS, tau, rho), evaluate=False) in defined
-                for n, c in enumerate(drifts, 1)
-            )
-            for law in laws
-        ):
-            raise RuleError(
-                f"missing premise: {listed(map(str, drifts))} are the drifts of the expansion"
-            )
-        if EXPANSION not in hypotheses:
-            raise RuleError(f"missing premise: {EXPANSION.text}")
+        laws = {term.args[1] for relation in said for term in relation.atoms(Drift)}
+        if not any(_definitions(law) <= said for law in laws):
+            names = listed(map(str, drifts))
+            raise RuleError(f"missing premise: {names} are the drifts of the expansion")
+        require_hypothesis(EXPANSION, *premises)
         small = sp.Dummy("1/m", positive=True)
         speed = 1 + sum((c * small**n for n, c in enumerate(drifts, 1)), sp.S.Zero)
         slope = sp.diff(self.claim.rhs, m).subs(m, 1 / small)

@@ -29,6 +29,7 @@ from .reading import (
     fields,
     inequality,
     initial_value,
+    require_hypothesis,
 )
 
 U_c, p, k, T, tau = symbols("U_c p k T tau")
@@ -126,8 +127,7 @@ class RigidLimit(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
         given, small = equality(first), sp.Dummy("1/k", positive=True)
-        if SPRINGS not in first.hypotheses:
-            raise RuleError(f"missing premise: {SPRINGS.text}")
+        require_hypothesis(SPRINGS, first)
         others = [h for h in first.hypotheses if h != SPRINGS]
         apart = [h.relation.subs(LOAD, LOAD + U_c) for h in others]
         loads = [r for r in apart if r.has(U_c.func) or r.atoms(LOAD.func) - {LOAD} or r == sp.true]

@@ -31,9 +31,9 @@ from .reading import (
     equality,
     field_of_rate,
     fields,
-    has_hypothesis,
     limit_in_time,
     rate_law,
+    require_hypothesis,
 )
 
 N, U, U_mean = symbols("N U U_mean")
@@ -92,10 +92,8 @@ class LogarithmicDrift(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         approach = limit_in_time(premises[0])
-        has_hypothesis(PERIODIC.relation, *premises)
-        has_hypothesis(MEAN, *premises)
-        if CONTINUOUS not in {h for p in premises for h in p.hypotheses}:
-            raise RuleError(f"missing premise: {CONTINUOUS.text}")
+        for said in (PERIODIC.relation, MEAN, CONTINUOUS):
+            require_hypothesis(said, *premises)
         (rate,) = approach.expr.atoms(sp.Derivative) - _laws(approach.expr)
         u, now, load = field_of_rate(rate), sp.Dummy(), sp.Dummy()
         flat = approach.expr.xreplace({rate: now}).xreplace({LOAD: load})
@@ -133,7 +131,7 @@ class LogarithmicGrowth(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         growth = limit_in_time(premises[0])
-        has_hypothesis(SINE.relation, *premises)
+        require_hypothesis(SINE.relation, *premises)
         (rate,) = growth.expr.atoms(sp.Derivative)
         u, a, s = field_of_rate(rate), growth.value, self.scale
         if not is_zero(growth.expr - rate * sp.exp((u - LOAD) / s)) or fields(s) or not constant(s):
@@ -164,7 +162,7 @@ class LastCycles(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, size, clock, gap, *names = premises
         (u, rate), rough, spent = rate_law(law), equality(size), equality(clock)
-        has_hypothesis(CONSTANT.relation, *premises)
+        require_hypothesis(CONSTANT.relation, *premises)
         left, s = self.claim.lhs, rough.lhs
         slope = sp.diff(rough.rhs, u)
         if left != sp.log(spent.lhs) or spent.rhs != t / T:

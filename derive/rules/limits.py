@@ -6,7 +6,6 @@ Key results
     Diverges         u >= c t + d with c > 0, and f > 0, give a + f u -> oo
     unbounded        du/dt = F(u, load) with F > 0 and a bounded load gives u -> oo
     AtInfinity       what a function of u and bounded fields tends to as u -> oo
-    reciprocal       s -> oo gives 1/s -> 0
     vanishes         |e| <= B/s and s -> oo give e -> 0
     Passes           limits pass through continuous functions and through t -> t + T
     accumulates      du/dt -> R gives u(t + T) - u(t) -> R T
@@ -17,6 +16,7 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import sympy as sp
@@ -39,10 +39,10 @@ from .reading import (
     field_of_rate,
     fields,
     growing,
-    has_hypothesis,
     inequality,
     limit_in_time,
     rate_law,
+    require_hypothesis,
 )
 
 
@@ -103,27 +103,36 @@ class Diverges(Rule):
 
 def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
     """Return relations that keep a field between two constants; RuleError where there are none."""
+    parts = (p for f in facts_of(premises) for p in (f.args if isinstance(f, sp.And) else (f,)))
     found = []
-    for fact in facts_of(premises):
-        for part in fact.args if isinstance(fact, sp.And) else (fact,):
-            if isinstance(part, (sp.LessThan, sp.StrictLessThan)):
-                pair = (part.lhs, part.rhs)
-            elif isinstance(part, (sp.GreaterThan, sp.StrictGreaterThan)):
-                pair = (part.rhs, part.lhs)
-            else:
-                continue
-            small, large = pair
-            if small == sp.Abs(field) != field and _fixed(large):
-                return (sp.Le(small, large, evaluate=False),)
-            if small == field and _fixed(large):
-                found.append((1, sp.Le(field, large, evaluate=False)))
-            if large == field and _fixed(small):
-                found.append((0, sp.Ge(field, small, evaluate=False)))
+    for small, large in (
+        (p.lts, p.gts) for p in parts if isinstance(p, (sp.Ge, sp.Gt, sp.Le, sp.Lt))
+    ):
+        if small == sp.Abs(field) != field and _fixed(large):
+            return (sp.Le(small, large, evaluate=False),)
+        if small == field and _fixed(large):
+            found.append((1, sp.Le(field, large, evaluate=False)))
+        if large == field and _fixed(small):
+            found.append((0, sp.Ge(field, small, evaluate=False)))
     if field.is_nonnegative:
         found.append((0, sp.Ge(field, 0, evaluate=False)))
     if {side for side, _ in found} != {0, 1}:
         raise RuleError(f"missing premise: {field.func} is bounded")
     return tuple(relation for _, relation in found)
+
+
+def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judgement) -> None:
+    """Refuse a rate that is not positive and continuous wherever its fields may be.
+
+    They are taken for variables of which relations are known, and what is said of constants.
+    """
+    plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(rate)}
+    fixed = [h.relation for p in premises for h in p.hypotheses if _fixed(h.relation)]
+    given = frozenset(r.xreplace(plain) for r in (*known, *fixed))
+    flat = rate.xreplace(plain)
+    goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
+    if flat.has(t) or not all(holds(goal, given) for goal in goals):
+        raise RuleError(f"missing premise: {rate} is positive and continuous")
 
 
 def _fixed(expr: sp.Expr) -> bool:
@@ -148,16 +157,9 @@ class Unbounded(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, *facts = premises
         u, function = rate_law(law)
-        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(function)}
-        closed = [r for f in plain if f != u for r in bounds(f, *premises)]
+        closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
         anywhere = [f.relation for f in facts if all(_fixed(h.relation) for h in f.hypotheses)]
-        fixed = [h.relation for p in premises for h in p.hypotheses if _fixed(h.relation)]
-        given = frozenset(r.xreplace(plain) for r in (*closed, *anywhere, *fixed))
-        flat = function.xreplace(plain)
-        if flat.has(t) or not holds(sp.Gt(flat, 0), given):
-            raise RuleError(f"missing premise: {function} > 0 wherever the fields may be")
-        if not all(holds(goal, given) for goal in continuity(flat, set(plain.values()))):
-            raise RuleError(f"missing premise: {function} is continuous")
+        _require_positive(function, (*closed, *anywhere), *premises)
         return Conclusion(in_time(u, sp.oo))
 
 
@@ -210,77 +212,39 @@ class AtInfinity(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         u, inside = growing(premises[0]), self.claim.lhs.args[0]
-        z, w = sp.Dummy("z", positive=True), sp.Dummy("w", positive=True)
-        self._tends_to_zero(u, w, premises)
+        z = sp.Dummy("z", positive=True)
+        deep = self._deep(u, z, premises)
         if not constant(inside.subs(dict.fromkeys(fields(inside), z))):
             raise RuleError(f"missing premise: {inside} depends on {u} and bounded fields alone")
         plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(inside) if f != u}
         for field in plain:
             bounds(field, *premises)
-        value = self._coefficient(inside.xreplace({u: w}).xreplace(plain), w, z, premises)
+        flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
+        order, smooth = expanded(flat.subs(u, deep), z)
+        if smooth.has(sp.Piecewise) or not continuous(smooth, {z: sp.S.Zero}, *premises):
+            raise RuleError(f"missing premise: {inside} is smooth at infinity")
+        for n in range(max(order, 0)):
+            if not is_zero(_taylor(smooth, z, n)):
+                raise RuleError(f"missing premise: {inside} is bounded")
+        value = sp.powsimp(_taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
         if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
             raise RuleError(f"missing premise: the limit is {value}")
         return Conclusion(in_time(inside, self.claim.rhs))
 
-    def _tends_to_zero(self, u: sp.Expr, w: sp.Symbol, premises: tuple[Judgement, ...]) -> None:
+    def _deep(self, u: sp.Expr, z: sp.Symbol, premises: tuple[Judgement, ...]) -> sp.Expr:
+        """Return u in terms of what is small, for ``z = 1/u`` and for ``z = exp(-c u)``."""
         if self.small == 1 / u:
-            return
-        exponent = (
-            sp.log(self.small.subs(u, w)).expand(force=False) if self.small.func == sp.exp else w
-        )
-        fall = -sp.diff(exponent, w)
-        if not isinstance(self.small, sp.exp) or not _fixed(fall) or fall.has(w):
+            return 1 / z
+        inside = self.small.args[0] if isinstance(self.small, sp.exp) else u**2
+        fall = -sp.cancel(inside / u)
+        if not _fixed(fall):
             raise RuleError(f"missing premise: {self.small} -> 0 as {u} -> oo")
         require(sp.Gt(fall, 0), *premises)
-
-    def _coefficient(
-        self, flat: sp.Expr, w: sp.Symbol, z: sp.Symbol, premises: tuple[Judgement, ...]
-    ) -> sp.Expr:
-        if self.small.func == sp.exp:
-            in_z = sp.powsimp(sp.expand(flat)).replace(
-                lambda e: isinstance(e, sp.exp) and e.has(w), lambda e: _power(e, self.small, w, z)
-            )
-        else:
-            in_z = flat.subs(w, 1 / z)
-        order, smooth = expanded(in_z, z)
-        if (
-            in_z.has(w)
-            or smooth.has(sp.Piecewise)
-            or not continuous(smooth, {z: sp.S.Zero}, *premises)
-        ):
-            raise RuleError(f"missing premise: {self.claim.lhs.args[0]} is smooth at infinity")
-        for n in range(max(order, 0)):
-            if not is_zero(_taylor(smooth, z, n)):
-                raise RuleError(f"missing premise: {self.claim.lhs.args[0]} is bounded")
-        return _taylor(smooth, z, order) if order >= 0 else sp.S.Zero
-
-
-def _power(expr: sp.exp, small: sp.exp, w: sp.Symbol, z: sp.Symbol) -> sp.Expr:
-    """Return ``exp(a - n c w)`` as ``exp(a) z**n``, where z stands for ``exp(-c w)``."""
-    argument = sp.expand(expr.args[0])
-    (u,) = fields(small)
-    power = sp.cancel(sp.diff(argument, w) / sp.diff(small.args[0], u))
-    if not power.is_Integer:
-        raise RuleError(f"missing premise: {expr} is a power of {small}")
-    return sp.exp(argument.subs(w, 0)) * z**power
+        return -sp.log(z) / fall
 
 
 def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
     return (sp.diff(expr, z, n) / sp.factorial(n)).subs(z, 0).doit()
-
-
-@dataclass(frozen=True)
-class Reciprocal(Rule):
-    """``s -> oo`` gives ``1/s -> 0``."""
-
-    words = "The reciprocal of what grows beyond all bounds, {0}, tends to zero."
-    asks = ("the growth",)
-
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        return Conclusion(in_time(1 / growing(premises[0]), sp.S.Zero))
-
-
-reciprocal = Reciprocal()
 
 
 @dataclass(frozen=True)
@@ -293,11 +257,11 @@ class Vanishes(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         squeeze, divergence = premises
-        found, size = between(squeeze), growing(divergence)
-        for side in (found.low, found.high):
+        (low, middle, high), size = between(squeeze), growing(divergence)
+        for side in (low, high):
             if not _fixed(sp.cancel(side * size)):
                 raise RuleError(f"missing premise: {side} is a constant over {size}")
-        return Conclusion(in_time(found.middle, sp.S.Zero))
+        return Conclusion(in_time(middle, sp.S.Zero))
 
 
 vanishes = Vanishes()
@@ -307,8 +271,8 @@ vanishes = Vanishes()
 class Passes(Rule):
     """Limits pass through a function that is continuous where they end, and through one period.
 
-    The premises give the finite limits of some expressions, and equalities; the claim is the limit
-    of a combination of those expressions, now or one period later.
+    The premises give the limits of some expressions, and equalities; the claim is the limit of a
+    combination of those expressions, now or one period later.  Of ``s -> oo`` it uses 1/s -> 0.
     """
 
     claim: sp.Equality
@@ -330,12 +294,15 @@ class Passes(Rule):
             if not isinstance(premise.claim, Limit):
                 continue
             given = limit_in_time(premise)
-            if given.value.is_finite is False:
+            part, end = given.expr, given.value
+            if given.value == sp.oo:
+                part, end = 1 / part, sp.S.Zero
+            elif given.value.is_finite is False:
                 raise RuleError(f"missing premise: the limit of {given.expr} is finite")
-            for quantity in (given.expr, later(given.expr)):
+            for quantity in (part, later(part)):
                 stand_in = sp.Dummy(real=True)
                 expr = in_terms_of(expr, quantity, stand_in)
-                ends[stand_in], meaning[stand_in] = given.value, quantity
+                ends[stand_in], meaning[stand_in] = end, quantity
         back = expr
         for stand_in, quantity in reversed(meaning.items()):
             back = back.subs(stand_in, quantity)
@@ -403,9 +370,8 @@ class Intermittent(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, part, start, *_ = premises
         (u, function), meaning, least = rate_law(law), equality(part), inequality(start)
-        has_hypothesis(PERIODIC.relation, *premises)
-        if CONTINUOUS not in {h for p in premises for h in p.hypotheses}:
-            raise RuleError(f"missing premise: {CONTINUOUS.text}")
+        for said in (PERIODIC.relation, CONTINUOUS):
+            require_hypothesis(said, *premises)
         if least.greater != u or not _fixed(least.lesser):
             raise RuleError(f"missing premise: {u} stays above a constant")
         (on, contact), *rest = sp.piecewise_fold(function).args
@@ -414,39 +380,20 @@ class Intermittent(Rule):
         room = sp.expand(contact.gts - contact.lts)
         if fields(room) != {LOAD} or not isinstance(contact, (sp.Le, sp.Ge)):
             raise RuleError("missing premise: contact depends on the load alone")
-        contacts = [c for e, c in _indicators(meaning.rhs) if e == 1]
-        share = [_same_side(c, room) for c in contacts]
-        if share != [True] or not meaning.lhs.is_positive:
+        shares = (
+            sp.Integral(sp.Piecewise((1, c), (0, True)), (t, 0, T)) / T
+            for c in meaning.rhs.atoms(sp.Le, sp.Ge)
+            if sp.cancel((c.gts - c.lts) / room).is_positive
+        )
+        if meaning.rhs not in shares or not meaning.lhs.is_positive:
             raise RuleError("missing premise: the fraction of the period in contact")
-        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(on)}
-        inside = (*bounds(LOAD, *premises), sp.Ge(u, least.lesser))
-        fixed = [h.relation for p in premises for h in p.hypotheses if _fixed(h.relation)]
-        given = frozenset(r.xreplace(plain) for r in (*inside, *fixed))
-        flat, z = on.xreplace(plain), sp.Dummy("z", positive=True)
-        goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
-        if flat.has(t) or not all(holds(goal, given) for goal in goals):
-            raise RuleError(f"missing premise: {on} is positive and continuous")
+        _require_positive(on, (*bounds(LOAD, *premises), sp.Ge(u, least.lesser)), *premises)
+        z = sp.Dummy("z", positive=True)
         order, smooth = expanded(on.subs(u, 1 / z), z)
         value = smooth.subs(z, 0)
         if order != 0 or not continuous(smooth, {z: sp.S.Zero}, law) or fields(value):
             raise RuleError("missing premise: the limit of the rate in contact")
         return Conclusion(in_time(u.subs(t, t + T) - u, meaning.lhs * T * value))
-
-
-def _same_side(relation: sp.Basic, room: sp.Expr) -> bool:
-    """Return whether a relation says that room is not negative."""
-    if not isinstance(relation, (sp.Le, sp.Ge)):
-        return False
-    return bool(sp.cancel((relation.gts - relation.lts) / room).is_positive)
-
-
-def _indicators(expr: sp.Expr) -> tuple[tuple[sp.Expr, sp.Basic], ...]:
-    """Return the branches of a function whose mean over a period an expression is."""
-    whole = sp.expand(expr * T)
-    if not isinstance(whole, sp.Integral) or whole.limits != ((t, 0, T),):
-        return ()
-    branches = whole.function.args if isinstance(whole.function, sp.Piecewise) else ()
-    return tuple(branches) if [e for e, _ in branches] == [1, 0] else ()
 
 
 intermittent = Intermittent()

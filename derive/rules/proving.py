@@ -5,7 +5,7 @@ Overview
     What is no polynomial is opaque: a square root is known by its square, an exponential, a
     hyperbolic tangent, the contact law and its slope by their range, a constant by a ball.  A
     quotient whose denominator vanishes is any number, so that no answer rests on it.
-    ``undefined`` looks for what has no value: denominators, roots, logarithms.
+    ``require_defined`` asks that denominators, roots, logarithms have a value.
 Key results
     holds(goal, facts)       whether the relation follows; False proves nothing
     sign(expr, facts)        1, -1 or None

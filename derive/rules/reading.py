@@ -13,7 +13,7 @@ from typing import TypeVar
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Between, Claim, Drift, Equality, Inequality, Limit
+from ..claims import Claim, Conjunction, Drift, Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, RuleError
 from ..language import bound
@@ -32,7 +32,7 @@ def _read(judgement: Judgement, kind: type[C]) -> C:
 
 
 def equality(judgement: Judgement) -> Equality:
-    """Return the parts of an equality or a definition."""
+    """Return the parts of an equality."""
     return _read(judgement, Equality)
 
 
@@ -41,9 +41,13 @@ def inequality(judgement: Judgement) -> Inequality:
     return _read(judgement, Inequality)
 
 
-def between(judgement: Judgement) -> Between:
-    """Return the parts of a double inequality."""
-    return _read(judgement, Between)
+def between(judgement: Judgement) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """Return low, middle and high of ``low <= middle <= high``."""
+    both = _read(judgement, Conjunction)
+    for below, above in ((both.first, both.second), (both.second, both.first)):
+        if below.greater == above.lesser:
+            return below.lesser, below.greater, above.greater
+    raise RuleError(f"missing premise: {judgement.relation} encloses an expression")
 
 
 def limit_in_time(judgement: Judgement) -> Limit:
@@ -127,12 +131,11 @@ def _slopes(expr: sp.Expr) -> set[sp.Basic]:
     return {d for d in expr.atoms(sp.Derivative) if isinstance(d.expr, LAW)}
 
 
-def has_hypothesis(relation: sp.Basic, *premises: Judgement) -> Hypothesis:
-    """Return the hypothesis of a relation, which must be among those of the premises."""
-    for hypothesis in (h for premise in premises for h in premise.hypotheses):
-        if hypothesis.relation == relation:
-            return hypothesis
-    raise RuleError(f"missing premise: {relation}")
+def require_hypothesis(said: sp.Basic | Hypothesis, *premises: Judgement) -> None:
+    """Raise RuleError unless premises suppose a relation, or what only words say."""
+    known = {h for premise in premises for h in premise.hypotheses}
+    if said not in known | {h.relation for h in known}:
+        raise RuleError(f"missing premise: {getattr(said, 'text', said)}")
 
 
 PERIODIC = Hypothesis(

@@ -25,9 +25,9 @@ from .reading import (
     constant,
     equality,
     fields,
-    has_hypothesis,
     initial_value,
     rate_law,
+    require_hypothesis,
 )
 
 
@@ -48,7 +48,7 @@ class Solution(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, start, *names = premises
         (u, rate), time = rate_law(law), self.claim.rhs
-        has_hypothesis(CONSTANT.relation, *premises)
+        require_hypothesis(CONSTANT.relation, *premises)
         if self.claim.lhs != t or fields(rate) - {u, LOAD}:
             raise RuleError(f"missing premise: {self.claim} gives the time")
         require_defined(time, *premises)
@@ -126,7 +126,7 @@ class Parametric(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, wear, start, *names = premises
         (u, rate), worn = rate_law(law), equality(wear)
-        has_hypothesis(CONSTANT.relation, *premises)
+        require_hypothesis(CONSTANT.relation, *premises)
         if worn.lhs != u or self.claim.lhs != t or initial_value(start, u) != 0:
             raise RuleError("missing premise: rate and wear are of the same quantity, from 0 on")
         require_defined(self.claim.rhs, *premises)

@@ -398,7 +398,7 @@ CASES: dict[str, Case] = {
     "the load of another time": (  # U_a = t: u_c = t^2/2
         lambda: Solution(sp.Eq(t, u_c * h_0 / (C * U_a)))(UNDER_LOAD, START, given(U_a > 0)),
         lambda: Solution(sp.Eq(t, u_c * h_0 / (C * U_a)))(
-            UNDER_LOAD, START, given(U_a > 0), CONSTANTLY
+            UNDER_LOAD, START, CONSTANTLY, given(U_a > 0)
         ),
         r"U_a\(t\), U_a\(0\)",
     ),
@@ -448,8 +448,13 @@ CASES: dict[str, Case] = {
         lambda: given(sp.Eq(f_c, 5)),
         "is a new name",
     ),
-    "a number that is infinite": (  # 0 times oo
+    "growth, called a definition": (  # u_c = h_0
         lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo), Kind.DEFINITION)),
+        lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo))),
+        "is a new name",
+    ),
+    "a number that is infinite": (  # 0 times oo
+        lambda: given(sp.Eq(u_c, sp.oo, evaluate=False)),
         lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo))),
         "limits alone",
     ),

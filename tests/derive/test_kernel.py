@@ -65,7 +65,7 @@ def test_what_was_changed_inside_a_claim_is_found() -> None:
     relation = sp.And(sp.Ge(h_0, -h_0, evaluate=False), sp.Le(h_0, 2 * h_0, evaluate=False))
     made = Arithmetic(relation)()
     assert replayed(made) is None
-    object.__setattr__(made.claim.below, "written", sp.Ge(h_0, h_0 + 1, evaluate=False))
+    object.__setattr__(made.claim.first, "written", sp.Ge(h_0, h_0 + 1, evaluate=False))
     assert replayed(made)
     assert Arithmetic(relation)().relation == relation
 

@@ -44,7 +44,6 @@ from derive.rules.limits import (
     forever,
     intermittent,
     one_period_later,
-    reciprocal,
     unbounded,
     vanishes,
 )
@@ -178,7 +177,7 @@ def opened() -> Judgement:
 
 FADING = sp.exp(-u_c / sigma_c0)
 SIMPLE = {
-    "the reciprocal of what grows": lambda: reciprocal(DEEP),
+    "the reciprocal of what grows": lambda: Passes(sp.Eq(forever(1 / u_c), 0))(DEEP),
     "one period later": lambda: one_period_later(given(sp.Ge(u_c, h_0))),
     "a double root": lambda: root(h_star - x),
     "a mean over contact": some_of_the_time,
@@ -259,14 +258,16 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("is bounded", lambda: AtInfinity(sp.Eq(forever(u_c), 0), 1 / u_c)(DEEP)),
     ("-> 0 as", lambda: faded(sp.S.Zero, FADING, 1 / u_c**2)),
     ("f_c/q > 0", lambda: faded(sp.S.Zero, FADING, sp.exp(-f_c * u_c / q))),
-    ("is a power of", lambda: faded(sp.S.Zero, sp.sqrt(FADING), FADING)),
+    ("smooth function at", lambda: faded(sp.S.Zero, sp.sqrt(FADING), FADING)),
+    ("encloses", lambda: vanishes(given(sp.And(sp.Le(G, h_0 / u_c), sp.Ge(h, 0))), DEEP)),
     (
         "is a constant over",
         lambda: vanishes(given(sp.And(sp.Le(G, U_a / u_c), sp.Ge(G, -U_a / u_c))), DEEP),
     ),
     ("the limit of", lambda: Passes(sp.Eq(forever(2 * G), theta))(tends(G, theta))),
     ("is finite", lambda: accumulates(tends(rate("u_c"), sp.oo))),
-    ("-> oo", lambda: reciprocal(tends(u_c, h_0))),
+    ("-> oo", lambda: AtInfinity(sp.Eq(forever(1 / u_c), 0), 1 / u_c)(tends(u_c, h_0))),
+    ("is finite", lambda: Passes(sp.Eq(forever(2 * G), -sp.oo))(tends(G, -sp.oo))),
     ("solved for the rate", lambda: unbounded(given(sp.Eq(rate("u_c"), C + rate("u_a"))))),
     ("above a constant", lambda: some_of_the_time(least=G)),
     ("0 out of contact", lambda: some_of_the_time(off=C / 2)),
@@ -389,7 +390,7 @@ def test_every_refusal_of_the_rules_is_brought_about() -> None:
 
 def asked(path: Path) -> Iterator[int]:
     """Yield the lines of a module on which a rule refuses or asks for a condition."""
-    helpers = {"require", "require_defined", "has_hypothesis"}
+    helpers = {"require", "require_defined", "require_hypothesis"}
     for node in ast.walk(ast.parse(path.read_text())):
         called = node.func if isinstance(node, ast.Call) else None
         if isinstance(called, ast.Name) and called.id in helpers:

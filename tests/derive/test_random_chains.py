@@ -90,7 +90,6 @@ FREE: tuple[Callable[[], Rule], ...] = (
     calculus.Differentiate,
     limits.OnePeriodLater,
     limits.Unbounded,
-    limits.Reciprocal,
     limits.Vanishes,
     limits.Accumulates,
     drift.FirstOrder,

@@ -65,7 +65,6 @@ from derive.rules.limits import (
     forever,
     later,
     one_period_later,
-    reciprocal,
     unbounded,
     vanishes,
 )
@@ -280,9 +279,7 @@ CASES: dict[str, Case] = {
     ),
     "T u_c'/u_c": (  # u_c = L e^(t/T)
         lambda: AtInfinity(sp.Eq(forever(T * rate("u_c") / u_c), 0), 1 / u_c)(DEEP),
-        lambda: Passes(sp.Eq(forever(rate("u_c") / u_c), 0))(
-            tends(rate("u_c"), C), reciprocal(DEEP)
-        ),
+        lambda: Passes(sp.Eq(forever(rate("u_c") / u_c), 0))(tends(rate("u_c"), C), DEEP),
     ),
     "U_a has no limit": (  # U sin t
         lambda: AtInfinity(sp.Eq(forever(U_a + h_0**2 / u_c), U_a), 1 / u_c)(DEEP, BOUNDED),
@@ -295,9 +292,9 @@ CASES: dict[str, Case] = {
         lambda: vanishes(given(sp.And(sp.Le(G, h_0 / u_c), sp.Ge(G, -h_0 / u_c))), DEEP),
     ),
     "u_c G/(h_0 + u_c G)": (  # G = h_0/u_c
-        lambda: Passes(sp.Eq(forever(G / (h_0 / u_c + G)), 1))(tends(G, 0), reciprocal(DEEP)),
+        lambda: Passes(sp.Eq(forever(G / (h_0 / u_c + G)), 1))(tends(G, 0), DEEP),
         lambda: Passes(sp.Eq(forever(G / (h_0 / u_c + G)), 1))(
-            tends(G, theta), reciprocal(DEEP), given(sp.Ne(theta, 0))
+            tends(G, theta), DEEP, given(sp.Ne(theta, 0))
         ),
     ),
     "e^(-u_c G/h_0)": (  # G = h_0/u_c

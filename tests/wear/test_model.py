@@ -32,7 +32,7 @@ def _scenes() -> list[Scene]:
     return made
 
 
-@pytest.mark.parametrize("scene", _scenes(), ids=lambda s: bind(s).law + " " + bind(s).variant)
+@pytest.mark.parametrize("scene", _scenes(), ids=lambda s: f"{s.variant.law} {s.variant.name}")
 @given(wear=st.floats(0.0, 2e-3), load=st.floats(-5e-4, 5e-4))
 def test_the_slope_is_the_derivative_of_the_rate(scene: Scene, wear: float, load: float) -> None:
     model = bind(scene)
@@ -49,7 +49,7 @@ def test_the_slope_is_the_derivative_of_the_rate(scene: Scene, wear: float, load
     assert float(model.slope(wear, load)) == pytest.approx(quotient, rel=1e-4, abs=1e-5 * scale)
 
 
-@pytest.mark.parametrize("scene", _scenes(), ids=lambda s: bind(s).law + " " + bind(s).variant)
+@pytest.mark.parametrize("scene", _scenes(), ids=lambda s: f"{s.variant.law} {s.variant.name}")
 def test_the_fields_satisfy_the_governing_equations(scene: Scene) -> None:
     """(1), (2), (3), (5) hold among the fields, whatever code made them."""
     numbers = scene.parameters()
@@ -122,7 +122,7 @@ def test_an_exponential_law_runs() -> None:
     assert solve(scene, [1], rtol=1e-10).u_c[0] == pytest.approx(u, rel=1e-8)
 
 
-@pytest.mark.parametrize("scene", _scenes(), ids=lambda s: bind(s).law + " " + bind(s).variant)
+@pytest.mark.parametrize("scene", _scenes(), ids=lambda s: f"{s.variant.law} {s.variant.name}")
 def test_gradients_are_difference_quotients(scene: Scene) -> None:
     """With respect to the load and to every number of the variant, for many states at once."""
     numbers, sign = scene.parameters(), scene.pin_wear_sign

@@ -159,10 +159,12 @@ depth = number(1e-30, 1e30)
 
 
 def file(*suffixes: str) -> Callable[[str], Path]:
-    """Return what reads the name of a file to be written, with one of these suffixes."""
+    """Return what reads the name of a file to be written, with one of these suffixes; those of
+    pictures may be in capitals."""
 
     def place(text: str) -> Path:
-        if suffixes and Path(text).suffix.lower() not in suffixes:
+        suffix = Path(text).suffix
+        if suffix not in suffixes and suffix.lower() not in {*suffixes} & {*PICTURES}:
             raise ArgumentTypeError(f"{text}: end it in {', '.join(suffixes)}")
         return _free(text, files.obstacle(text))
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from wear.regime import Asymptote
 
 EXAMPLE = """\
-  wear asymptote section4           regime, wear per cycle, pressure, drift
+  wear asymptote section4           regime, wear per cycle, pressure, logarithm
   wear asymptote section4-cutoff    where and in which cycle the wear stops
   wear asymptote section4 --set bearing.roughness_growth=0.3 --json
 """

@@ -69,5 +69,9 @@ def _check(ids: list[str]) -> None:
 
 
 COMMAND = Command(
-    "claims", "the note's claims, each decided by a computation", EXAMPLE, add_arguments, execute
+    "claims",
+    "the claims of the published note, each decided by a computation",
+    EXAMPLE,
+    add_arguments,
+    execute,
 )

@@ -35,15 +35,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     arguments.add_scene(parser)
     several: dict[str, Any] = {"nargs": "+", "default": [], "action": "extend"}
-    parser.add_argument("--free", metavar="KEY", help="estimate one value for all", **several)
-    parser.add_argument("--free-each", metavar="KEY", help="one for each specimen", **several)
-    parser.add_argument("--ignore", metavar="COLUMN", help="columns to drop", **several)
+    parser.add_argument(
+        "--free", metavar="KEY", help="estimate one value for all specimens", **several
+    )
+    parser.add_argument(
+        "--free-each", metavar="KEY", help="estimate one value for each specimen", **several
+    )
+    parser.add_argument("--ignore", metavar="COLUMN", help="columns of the data to drop", **several)
     arguments.add_choice(
         parser,
         "--error",
         lambda: ERRORS,
         default=ERRORS[0],
-        help="relative (default) or absolute: what scatters",
+        help="which error of a reading scatters: relative (default) or absolute",
     )
     parser.add_argument(
         "--forecast",
@@ -58,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--posterior",
         type=arguments.number(10, 1e6),
         metavar="STEPS",
-        help="also sample the posterior, so many steps a walker",
+        help="also sample the posterior by emcee, so many steps for each walker",
     )
     parser.add_argument(
         "-o",
@@ -198,7 +202,7 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
     )  # fmt: skip
     after = document["next_reading"]
     which = f"of specimen {after['specimen']} " * bool(after["specimen"])
-    yield (f"\nOne more reading {which}after {after['cycles']:.6g} cycles narrows the forecast "
+    yield (f"\nOne more reading {which}after cycle {after['cycles']:.6g} narrows the forecast "
            f"most, to {after['band_of_forecast_times']:.0%} of its band.")  # fmt: skip
 
 

@@ -48,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--until-wear",
         metavar="MM,...",
         type=_depths,
-        help="also after how many cycles the bearing has worn so",
+        help="also print the number of cycles to these depths of wear",
     )
     parser.add_argument(
         "--time-limit",
@@ -67,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o",
         "--output",
         metavar="FILE",
-        type=arguments.file(*run_output.WRITERS),
+        type=arguments.file(*run_output.SUFFIXES),
         help="write the states to a .csv, .nc or .tex file",
     )
 

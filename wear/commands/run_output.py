@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from wear.history import History
     from wear.history_files import Column
 
+SUFFIXES = (".csv", ".nc", ".tex")
 SYMBOLS = {  # of the columns for which a page is wide enough
     "bearing_wear_mm": "u_c",
     "pin_wear_mm": "u_a",
@@ -115,25 +116,13 @@ def latex_number(number: float, digits: int) -> str:
     return power if mantissa == "1" else rf"{mantissa}\times {power}"
 
 
-def _write_latex(history: History, path: Path) -> None:
-    path.write_text(latex(history), encoding="utf-8")
-
-
-def _write_table(history: History, path: Path) -> None:
-    history.write(path)
-
-
-WRITERS: Mapping[str, Callable[[History, Path], None]] = {
-    ".csv": _write_table,
-    ".nc": _write_table,
-    ".tex": _write_latex,
-}
-
-
 def write(history: History, path: Path) -> None:
-    """Write the file whose suffix is in `WRITERS`, whole or not at all."""
+    """Write a file with one of the `SUFFIXES`, whole or not at all."""
     with files.replacing(path) as draft:
-        WRITERS[path.suffix](history, draft)
+        if path.suffix == ".tex":
+            draft.write_text(latex(history), encoding="utf-8")
+        else:
+            history.write(draft)
 
 
 def _modelled(history: History) -> Sequence[Column]:

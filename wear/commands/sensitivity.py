@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--until-wear",
         metavar="MM",
         type=arguments.depth,
-        help="also after as many cycles as take it to this wear depth",
+        help="also for the number of cycles to this depth of wear",
     )
     arguments.add_rtol(parser, 1e-13, "1e-10")
     parser.add_argument(

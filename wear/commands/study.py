@@ -33,7 +33,7 @@ EXAMPLE = """\
 The same command again goes on where it stopped.
 """
 LONGEST_WAIT = 10  # seconds for a scheduler to answer
-TRIED = 64  # rows that a dry run solves
+TRIED, LONG_ENOUGH = 64, 0.5  # rows that a dry run solves; s, else it solves more at once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -89,9 +89,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--workers",
         metavar="N",
         type=arguments.number(1, 1024),
-        help="processes on this machine (default: cores)",
+        help="processes on this machine (default: one for each core)",
     )
-    where.add_argument("--scheduler", metavar="ADDRESS", help="of a running Dask scheduler")
+    where.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="use the workers of the Dask scheduler that runs there",
+    )
     parser.add_argument(
         "--dry-run", action="store_true", help="say how many scenes, how long, how much disk"
     )
@@ -130,13 +134,18 @@ def execute(options: argparse.Namespace) -> int:
 def _dry_run(options: argparse.Namespace, asked: Study, workers: int) -> int:
     """Solve a few rows, and print what all of them would take."""
     from wear.benchmark.results import duration
+    from wear.studies.design import ROWS
     from wear.studies.rows import solve_rows
     from wear.studies.store import disk_bytes
 
-    start = time.process_time()
-    solve_rows(asked, asked.design.some(TRIED))
-    rows = asked.design.rows
-    seconds = (time.process_time() - start) / TRIED * rows
+    rows, tried, spent = asked.design.rows, TRIED // 4, 0.0
+    solve_rows(asked, asked.design.some(2))  # imports
+    while spent < LONG_ENOUGH and tried < ROWS:
+        tried *= 4
+        start = time.process_time()
+        solve_rows(asked, asked.design.some(tried))
+        spent = time.process_time() - start
+    seconds = spent / tried * rows
     size = disk_bytes(asked)
     if options.json:
         terminal.print_json({"scenes": rows, "core_seconds": seconds, "disk_bytes": size})

@@ -45,6 +45,26 @@ class _Rows(SceneTable):
     def _values(self) -> FloatArray:
         return np.asarray(self.rows)
 
+    @cached_property
+    def _places(self) -> FloatArray:
+        """Where the rows lie: at their times."""
+        return np.asarray(self.times_s)
+
+    def _between(self, at: FloatArray) -> FloatArray:
+        """The straight lines between the rows."""
+        return np.asarray(np.interp(at, self._places, self._values))
+
+    def _steepness(self, at: FloatArray) -> FloatArray:
+        """The slope of the straight line that starts at or before each place."""
+        slopes = np.diff(self._values) / np.diff(self._places)
+        line = np.searchsorted(self._places, at, side="right") - 1
+        return np.asarray(slopes[np.clip(line, 0, len(slopes) - 1)])
+
+    @cached_property
+    def mean(self) -> float:
+        areas = 0.5 * np.diff(self._places) * (self._values[1:] + self._values[:-1])
+        return math.fsum(areas.tolist()) / float(self._places[-1] - self._places[0])
+
     def __repr__(self) -> str:
         values, duration, unit = self.rows, self.times_s[-1], unit_of(self.of_rows)
         within = f"{min(values):g} to {max(values):g} {unit} in {duration:g} s"
@@ -61,18 +81,6 @@ class _Rows(SceneTable):
         return self
 
 
-def _segment_slopes(times: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
-    """The slope of the straight line that starts at or before each `at`."""
-    slopes = np.diff(values) / np.diff(times)
-    place = np.searchsorted(times, at, side="right") - 1
-    return np.asarray(slopes[np.clip(place, 0, len(slopes) - 1)])
-
-
-def _mean_of_lines(times: FloatArray, values: FloatArray) -> float:
-    areas = 0.5 * np.diff(times) * (values[1:] + values[:-1])
-    return math.fsum(areas.tolist()) / float(times[-1] - times[0])
-
-
 @table("")
 class _Period(_Rows):
     """Straight lines between rows over one period; the first row, at t = 0, is also the last."""
@@ -86,19 +94,20 @@ class _Period(_Rows):
         return self
 
     @cached_property
-    def _phases(self) -> FloatArray:
+    def _places(self) -> FloatArray:
+        """Where the rows lie: at their phases."""
         return np.asarray(self.times_s) / self.period
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
-        return np.asarray(np.interp(within_cycle(phase), self._phases, self._values))
+        return self._between(within_cycle(phase))
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
-        return _segment_slopes(self._phases, self._values, within_cycle(phase) % 1.0)
+        return self._steepness(within_cycle(phase) % 1.0)
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         at, rows = within_cycle(phase), np.eye(len(self.rows))
         rows[0, -1] = 1.0  # the seam
-        found = (np.interp(at, self._phases, row) for row in rows[:-1])
+        found = (np.interp(at, self._places, row) for row in rows[:-1])
         return {f"{self.of_rows}[{j}]": row for j, row in enumerate(found)}
 
     @property
@@ -107,11 +116,7 @@ class _Period(_Rows):
 
     @cached_property
     def kinks(self) -> tuple[float, ...]:
-        return tuple(self._phases[:-1].tolist())
-
-    @cached_property
-    def mean(self) -> float:
-        return _mean_of_lines(self._phases, self._values)
+        return tuple(self._places[:-1].tolist())
 
     @cached_property
     def peaks(self) -> tuple[float, ...]:
@@ -120,7 +125,7 @@ class _Period(_Rows):
         if len(moving) == 0:
             return (0.0,)
         falls_next = (rises[moving] > 0.0) & (rises[np.roll(moving, -1)] < 0.0)
-        return tuple(np.sort(self._phases[moving[falls_next] + 1] % 1.0).tolist())
+        return tuple(np.sort(self._places[moving[falls_next] + 1] % 1.0).tolist())
 
 
 @table("")
@@ -168,19 +173,15 @@ class HistoryLoad(_Rows):
     source: HistoryFile | None = None
     __repr__ = _Rows.__repr__
 
-    @cached_property
-    def _times(self) -> FloatArray:
-        return np.asarray(self.times_s)
-
     def value(self, time: FloatArray | float) -> FloatArray:
-        return np.asarray(np.interp(inside(time, self.duration), self._times, self._values))
+        return self._between(inside(time, self.duration))
 
     def slope(self, time: FloatArray | float) -> FloatArray:
-        return _segment_slopes(self._times, self._values, inside(time, self.duration))
+        return self._steepness(inside(time, self.duration))
 
     def breakpoints(self, start: float, end: float) -> FloatArray:
-        first = np.searchsorted(self._times, start, side="right")
-        return self._times[first : np.searchsorted(self._times, end, side="left")]
+        first = np.searchsorted(self._places, start, side="right")
+        return self._places[first : np.searchsorted(self._places, end, side="left")]
 
     @property
     def duration(self) -> float:
@@ -193,10 +194,6 @@ class HistoryLoad(_Rows):
     def time_at(self, cycles: FloatArray | float) -> FloatArray:
         """Return the time in s at which so many cycles are done."""
         return inside(np.asarray(cycles) * self.period_s, self.duration)
-
-    @cached_property
-    def mean(self) -> float:
-        return _mean_of_lines(self._times, self._values)
 
 
 def load_of(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:

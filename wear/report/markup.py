@@ -77,6 +77,4 @@ def number(digits: str) -> str:
         return f"${grouped(digits, chr(92) + ',')}$"
     mantissa = digits.lower().partition("e")[0].lstrip("+-")
     significant = len(mantissa.replace(".", "").lstrip("0")) or 1
-    shown, exponent = Number(float(digits), "as written", significant).decimal
-    power = "" if exponent is None else rf"\times10^{{{exponent}}}"
-    return f"${shown}{power}$"
+    return f"${Number(float(digits), 'as written', significant).latex}$"

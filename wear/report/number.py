@@ -52,6 +52,17 @@ class Number:
             return f"{self.value:.{max(self.digits - 1 - exponent, 0)}f}", None
         return mantissa, exponent
 
+    @property
+    def latex(self) -> str:
+        r"""The number in math mode.
+
+        >>> print(Number(4.63554742752e-8, "equation 21", 4).latex, Number(123456, "scene").latex)
+        4.636\times10^{-8} 123\,456
+        """
+        digits, exponent = self.decimal
+        power = "" if exponent is None else rf"\times10^{{{exponent}}}"
+        return grouped(digits, r"\,") + power
+
 
 def grouped(digits: str, separator: str) -> str:
     """Return integers of more than four digits in groups of three.

@@ -60,13 +60,6 @@ _CONSTANTS = {
     "arrest_wear_mm": ("Depth at which wear stops", "mm"),
     "arrest_cycle": ("Cycle in which wear stops", ""),
 }
-_MEANINGS = {
-    "steady": "every cycle wears as much as the one before, up to a logarithm of their number",
-    "logarithmic": "it goes on ever more slowly, like the logarithm of the number of cycles",
-    "saturating": "it ends at the depth at which the roughness would vanish",
-    "finite-time": "the roughness vanishes at a finite time, and the model ends there",
-    "arrest": "the gap outgrows the roughness, contact ends, and wear stops",
-}
 
 
 def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Document:
@@ -79,12 +72,14 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     found = _sensitivities(
         scene, [n for n in (_EARLY, int(curve.cycles[-1])) if n <= curve.cycles[-1]]
     )
+    load = scene.load
     values = {
         "title": scene.title or scene.name,
         "description": scene.description,
         "regime": limit.regime if limit else "",
-        "meaning": _MEANINGS[limit.regime] if limit else "",
-        "assumptions": list(_assumptions(scene)),
+        "scene": scene,
+        "kind": scene.to_tables()["load"]["kind"],
+        "load": [number(f"{x:.5g}") for x in (load.minimum, load.maximum, load.mean)],
         "notices": _notices(scene, limit, curve),
         "data": list(_data(scene)),
         "identifiers": list(equations),
@@ -165,30 +160,6 @@ def _equations(scene: Scene, limit: Asymptote | None) -> list[derived.Equation]:
 def _notices(scene: Scene, limit: Asymptote | None, curve: History) -> list[str]:
     found = (*scene.notices, *(limit.notices if limit else ()), *curve.notices)
     return [markup(said) for said in dict.fromkeys(found) if not said.startswith("auto: ")]
-
-
-def _assumptions(scene: Scene) -> Iterator[str]:
-    """Yield what is assumed, a sentence each."""
-    contact, load = scene.contact, scene.load
-    yield f"The contact law is `{scene.variant.law}`."
-    yield (
-        "Contact ends where the closure (the gap between the mean surfaces) exceeds three times "
-        "the roughness."
-        if contact.ends_at_3_sigma
-        else "Contact does not end, however wide the gap."
-    )
-    yield "The support is rigid." if scene.support is None else "The bearing stands on springs."
-    if scene.pin is None:
-        yield "The pin is smooth and does not wear."
-    else:
-        opens = "opens" if contact.pin_wear_opens_gap else "closes"
-        yield f"The pin is modelled; its wear {opens} the gap."
-    low, high, mean = (number(f"{x:.5g}") for x in (load.minimum, load.maximum, load.mean))
-    given = "reaction, in N" if scene.given_load else "displacement of the pin, in mm"
-    yield (
-        f"The load is of kind `{scene.to_tables()['load']['kind']}`, the {given}: "
-        f"from {low} to {high}, on average {mean}."
-    )
 
 
 def _data(scene: Scene) -> Iterator[tuple[str, str, Number]]:

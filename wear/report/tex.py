@@ -20,7 +20,6 @@ from markdown_it.token import Token
 from derive.typeset.breaking import broken
 from wear.cite import REFERENCES, listed
 from wear.report.document import Document
-from wear.report.number import grouped
 from wear.report.tex_text import escape, verbatim
 from wear.report.text import Writer
 
@@ -239,7 +238,5 @@ class _Writer(Writer):
     def number(self, tokens: Sequence[Token], i: int, *_: Any) -> str:
         """A number that was computed."""
         node = self._document.text.numbers[int(tokens[i].content)]
-        digits, exponent = node.decimal
-        power = "" if exponent is None else f"\\times10^{{{exponent}}}"
         unit = f"~{escape(node.unit)}" if node.unit else ""
-        return f"${grouped(digits, chr(92) + ',')}{power}${unit}"
+        return f"${node.latex}${unit}"

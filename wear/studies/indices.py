@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING
@@ -24,7 +25,7 @@ RESAMPLES = 200
 
 
 def sobol_indices(
-    scene: Scene | str,
+    scene: Scene | str | os.PathLike[str],
     vary: Sequence[str | Vary],
     cycles: Sequence[int],
     *,

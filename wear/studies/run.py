@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
+import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -35,7 +36,7 @@ IN_FLIGHT = 64  # chunks handed over at once: enough for a cluster, few enough f
 
 
 def study(
-    scene: Scene | str,
+    scene: Scene | str | os.PathLike[str],
     vary: Sequence[str | Vary],
     cycles: Sequence[int],
     output: str | Path,
@@ -112,7 +113,7 @@ def run(
 
 
 def prepare(
-    scene: Scene | str,
+    scene: Scene | str | os.PathLike[str],
     vary: Sequence[str | Vary],
     cycles: Sequence[int],
     design: str,
@@ -122,9 +123,9 @@ def prepare(
     rtol: float,
 ) -> Study:
     """Return what is to be solved, or raise all that is wrong with it."""
-    from wear.scene import load_scene
+    from wear.scene import as_scene
 
-    base = load_scene(scene) if isinstance(scene, str) else scene
+    base = as_scene(scene)
     faults: list[str] = []
     parsed: list[Vary] = []
     for entry in vary:
