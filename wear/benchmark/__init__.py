@@ -110,18 +110,10 @@ class Job:
         error = self.answer.wear / self.case.wear - 1.0
         status, remark = judge(error, self.tolerance, self.answer)
         return Measurement(
-            self.method.name,
-            self.case.name,
-            self.case.cycles,
-            self.tolerance,
-            statistics.median(counted),
-            len(counted),
-            error,
-            self.answer.estimate,
-            self.answer.evaluations,
-            status,
-            remark,
-        )
+            self.method.name, self.case.name, self.case.cycles, self.tolerance,
+            statistics.median(counted), len(counted), error, self.answer.estimate,
+            self.answer.evaluations, status, remark,
+        )  # fmt: skip
 
 
 Outcome = Job | Measurement | StartUp
@@ -229,6 +221,7 @@ def _not_run(
     remark: str,
     seconds: float = math.nan,
 ) -> Measurement:
+    said = remark or f"would take some {seconds:.2g} s"
     return Measurement(
         method.name,
         case.name,
@@ -240,5 +233,5 @@ def _not_run(
         None,
         None,
         status,
-        remark or f"would take some {seconds:.2g} s",
+        said,
     )

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import textwrap
 from collections import Counter
 from collections.abc import Sequence
 
 from derive import terminal
 from derive.command_line import Command
+from wear.commands import arguments
 
 EXAMPLE = """\
   wear claims               every claim of the note, with verdict and evidence
@@ -21,14 +21,16 @@ _WIDTH = 96
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the ids of claims."""
-    parser.add_argument("ids", metavar="ID", nargs="*", help="a claim, C1 to C41 (default: all)")
+    arguments.add_choice(
+        parser, "ids", _known, metavar="ID", nargs="*", help="a claim, C1 to C41 (default: all)"
+    )
 
 
 def execute(options: argparse.Namespace) -> int:
     """Decide the claims and print what was found."""
     from wear.report.claims import as_json, ledger
 
-    _check(options.ids)
+    arguments.read(options).stop_if_any()
     with terminal.busy("deciding the claims") as tell:
         entries = ledger(lambda done, total, claim: tell(f"{done}/{total} {claim}"), options.ids)
     if options.json:
@@ -45,6 +47,12 @@ def execute(options: argparse.Namespace) -> int:
     return terminal.DONE
 
 
+def _known() -> Sequence[str]:
+    from derive.note.claims import CLAIMS
+
+    return tuple(CLAIMS)
+
+
 def _summary(verdicts: Sequence[str]) -> str:
     """
     >>> _summary(["confirmed", "refuted", "confirmed"])
@@ -53,19 +61,6 @@ def _summary(verdicts: Sequence[str]) -> str:
     found = Counter(verdicts).most_common()
     parts = ", ".join(f"{number} {verdict}" for verdict, number in found)
     return f"{terminal.count(len(verdicts), 'claim')}: {parts}"
-
-
-def _check(ids: list[str]) -> None:
-    from derive.note.claims import CLAIMS
-    from wear.faults import UsageError
-
-    faults = []
-    for identifier in ids:
-        if identifier not in CLAIMS:
-            near = difflib.get_close_matches(identifier, CLAIMS, n=1, cutoff=0.0)
-            faults.append(f"{identifier}: no such claim; did you mean {near[0]}?")
-    if faults:
-        raise UsageError("\n".join(faults))
 
 
 COMMAND = Command(

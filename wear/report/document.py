@@ -222,8 +222,7 @@ def _heading(token: Token, counts: Counter[str]) -> Mark:
     if token.tag == "h2":
         counts[kind] += 1
         counts["part"] = 0
-        numeral = str(counts[kind]) if kind == "section" else chr(ord("A") + counts[kind] - 1)
-        return Mark(kind, numeral, label)
-    counts["part"] += 1
+    else:
+        counts["part"] += 1
     numeral = str(counts[kind]) if kind == "section" else chr(ord("A") + counts[kind] - 1)
-    return Mark(kind, f"{numeral}.{counts['part']}", label)
+    return Mark(kind, numeral + f".{counts['part']}" * (token.tag != "h2"), label)

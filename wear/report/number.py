@@ -64,6 +64,16 @@ class Number:
         return grouped(digits, r"\,") + power
 
 
+def significant(value: float, most: int) -> int:
+    """Return as many digits as a datum has, `most` at most.
+
+    >>> significant(-0.05, 12), significant(1.08e-3, 12), significant(2000.0, 6)
+    (1, 3, 1)
+    """
+    mantissa = f"{abs(value):.{most - 1}e}".partition("e")[0]
+    return len(mantissa.replace(".", "").rstrip("0")) or 1
+
+
 def grouped(digits: str, separator: str) -> str:
     """Return integers of more than four digits in groups of three.
 

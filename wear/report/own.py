@@ -33,7 +33,7 @@ from wear.report.equations import shown
 from wear.report.explorer_derived import holding
 from wear.report.manifest import versions
 from wear.report.markup import markup, number
-from wear.report.number import Number
+from wear.report.number import Number, significant
 from wear.report.text import read
 from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
@@ -167,8 +167,7 @@ def _data(scene: Scene) -> Iterator[tuple[str, str, Number]]:
         if name in QUANTITIES:
             quantity = QUANTITIES[name]
             unit = "" if quantity.unit == "1" else quantity.unit
-            digits = len(f"{value:.12g}".partition("e")[0].replace(".", "").strip("0")) or 1
-            shown = Number(value, f"scene {scene.name}", digits, unit)
+            shown = Number(value, f"scene {scene.name}", significant(value, 12), unit)
             yield f"${quantity.latex}$", markup(quantity.meaning), shown
 
 

@@ -25,7 +25,7 @@ from wear.report.derivations import Derivations
 from wear.report.equations import capital
 from wear.report.manifest import versions
 from wear.report.markup import markup
-from wear.report.number import Number
+from wear.report.number import Number, significant
 from wear.report.runs import Runs
 from wear.report.text import escaped
 
@@ -306,12 +306,7 @@ def _data_row(runs: Runs, name: str, of: str) -> tuple[str, list[Number | str]]:
 
 def _entry(scene: Scene, name: str) -> Number | str:
     value = scene.parameters().get(name)
-    return "–" if value is None else Number(value, f"scene {scene.name}", _own_digits(value))
-
-
-def _own_digits(value: float) -> int:
-    """Return as many digits as a datum has, six at most."""
-    return len(f"{value:.5e}".partition("e")[0].replace(".", "").rstrip("0").lstrip("-")) or 1
+    return "–" if value is None else Number(value, f"scene {scene.name}", significant(value, 6))
 
 
 def _amplitudes(runs: Runs) -> tuple[str, list[Number | str]]:
