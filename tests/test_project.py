@@ -35,6 +35,8 @@ def tracked(pattern: str) -> list[Path]:
         text=True,
         check=False,
     )
+    if listing.returncode:
+        pytest.skip("an unpacked archive does not know which files are the project's own")
     names = filter(None, listing.stdout.split("\0"))
     return [path for path in (ROOT / name for name in names) if path.is_file()]
 

@@ -12,7 +12,7 @@ from ..claims import Equality, Limit, Property, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, plain
 from ..note.model import FIELDS, belongs
-from ..symbols import DATA, t
+from ..symbols import CLOCKS, DATA, t
 from ..zero import is_zero
 from .algebra import inserted
 from .proving import LAW
@@ -58,9 +58,10 @@ class Assume(Rule):
 def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:
     """Refuse to define what is given, or a constant by what varies."""
     name, value = relation.lhs, at_an_instant(relation.rhs)
-    moving = {field.func for field in relation.atoms(AppliedUndef)} - {LAW}
-    if not name.is_Symbol and not (moving and moving <= FIELDS):
-        return  # an equation for a constant, or for a field of one's own
+    functions = {field.func for field in relation.atoms(AppliedUndef)} - {LAW}
+    constants = {s for s in relation.free_symbols if s.name not in DATA | CLOCKS}
+    if not name.is_Symbol and (functions - FIELDS or (constants and not functions)):
+        return  # an equation for a field of one's own, or for a name
     if not name.is_Symbol or name.name in DATA or value.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
     rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]

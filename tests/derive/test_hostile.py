@@ -428,6 +428,11 @@ CASES: dict[str, Case] = {
         lambda: given(sp.Eq(u_c, h_0)),
         "is a new name",
     ),
+    "a relation between data, called a definition": (  # f_c = 1
+        lambda: assume(supposed(sp.Eq(f_c * h_0, 3), Kind.DEFINITION)),
+        lambda: assume(supposed(sp.Eq(f_c * b_0, 3), Kind.DEFINITION)),
+        "is a new name",
+    ),
     "two definitions of one name": (  # h_0 = 1
         lambda: Arithmetic(sp.Eq(h_0, 0))(defined(b_0, h_0), defined(b_0, 2 * h_0)),
         lambda: Arithmetic(sp.Eq(h_0, 0))(defined(b_0, h_0), given(sp.Eq(b_0, 2 * h_0))),
