@@ -6,11 +6,11 @@ misfit of the series and the residual of Abel's equation report.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
+from wear.equation import WearEquation
 from wear.load import Load
 from wear.loss_of_contact.arrest import LimitWear
 from wear.loss_of_contact.grazing import fades, grazing_wears, limit_wear_of
@@ -25,7 +25,6 @@ from wear.orbit.period_map import Settings, settings
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
 STEP, STEPS_AHEAD = 0.2, 180  # in ln(u + scale)
 SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
-NEARLY = 0.99  # of the wear at which the roughness vanishes
 FEWEST = 8.0  # cycles between two grazing wears for which a series pays
 BEGINS = 0.03  # of the increment at a grazing wear: how far beyond it a series begins
 ENDS = 0.7  # of the distance that is left: the largest increment for which a series is wanted
@@ -33,7 +32,6 @@ BEFORE = 0.95  # of the way to a grazing wear: the longest last cycle on a serie
 NEXT = 0.05  # of an increment: how near to a branch point a series ends
 GRAIN = 4096.0  # roundoffs of the wear: the smallest distance at which cycles are counted
 FACTOR, STEPS = 0.25, 21  # of distances at which one looks ahead
-FARTHEST = 1e12  # roughnesses
 AHEAD = 1.3  # of the cycles asked for: how far one looks ahead
 
 
@@ -68,8 +66,8 @@ def problem_of(
     model: Model, load: Load, edge: Edge, rtol: float, deadline: float
 ) -> Asking[Problem]:
     """Return what is ahead of a count to the relative accuracy `rtol`."""
-    scale = roughness_scale(model)
-    end = roughness_limit(model, FARTHEST * scale)
+    equation = WearEquation(model, (load,))
+    scale, end = float(equation.scale[0]), float(equation.limit[0])
     grazing = [each for each in grazing_wears(model, load, edge, scale) if each.wear < end]
     limit_wear = limit_wear_of(model, load, grazing[-1].wear) if grazing else None
     if limit_wear is not None and not fades(model, load, edge, limit_wear.wear):
@@ -170,23 +168,6 @@ def _towards(
     nearest = len(left) - 1 if enough.all() else int(np.argmin(enough)) - 1
     end = stop.before - float(min(left[nearest], least[nearest]))
     return [Span(coordinate, half, end, stop.uncertainty)] if half < end else []
-
-
-def roughness_scale(model: Model) -> float:
-    """Return a wear (mm) that changes the pressure by a factor of order 1: a quarter of the
-    roughness."""
-    return float(model.fields(np.array(0.0), np.array(0.0)).sigma) / 4
-
-
-def roughness_limit(model: Model, upto: float) -> float:
-    """Return nearly the wear (mm) at which the equivalent roughness vanishes; infinite if it does
-    not.
-
-    The roughness of one solid is linear in the wear; that of two never vanishes.
-    """
-    ends = np.array([0.0, upto])
-    start, end = model.fields(ends, np.zeros_like(ends)).sigma.tolist()
-    return NEARLY * upto * start / (start - end) if end <= 0 else math.inf
 
 
 def look_ahead(problem: Problem, start: float, cycles: float) -> Asking[float]:

@@ -348,13 +348,14 @@ def phase_of(load: Load | Waves | Lines, piece: Piece, height: FloatArray) -> Fl
     outside = (wanted <= rising[0]) | (wanted >= rising[-1])
     phase[outside] = np.where(wanted <= rising[0], piece.begin, piece.end)[outside]
     low, high = np.where(outside, phase, low), np.where(outside, phase, high)
-    last = np.full(len(phase), np.inf)
+    last, done = np.full(len(phase), np.inf), outside
     for iteration in range(PHASE_NEWTON):
         slope = load.slope(phase)
         step = (height - load(phase)) / np.where(slope == 0.0, np.inf, slope)
         fresh = np.clip(phase + step, low, high)
-        change, phase = np.abs(fresh - phase), fresh
-        if np.all((change <= ROUNDOFF) | ((iteration > PHASE_PATIENCE) & (change >= last))):
+        change, phase = np.abs(fresh - phase), np.where(done, phase, fresh)
+        done |= (change <= ROUNDOFF) | ((iteration > PHASE_PATIENCE) & (change >= last))
+        if done.all():
             break
         last = change
     return np.asarray(phase)

@@ -178,8 +178,9 @@ class Jobs:
         worst = np.zeros(len(which))
         np.maximum.at(worst, scene, np.nan_to_num(residual, nan=np.inf))
         marked, good = filled.marked.any(axis=1), worst <= tolerance
-        if number == 0:
-            good &= self._meets_the_request(job, filled.panels)
+        counts = list(self._counted(job, filled.panels)) if number == 0 else []
+        for rows, counted in counts:
+            good[rows] &= counted.largest_error <= self.rtol
         # What rounding leaves no refinement cures.
         accepted = (job.worst <= NEARLY_THERE * tolerance) & ~(worst < job.worst / 2)
         accepted &= number > 0
@@ -196,7 +197,10 @@ class Jobs:
         rest = np.flatnonzero(~accepted & ~marked)
         more = job.take(rest, max(BLOCK, 2 * number))
         self._add(more._replace(worst=worst[rest], spent=spent[rest]))
-        yield from self._counted(job, filled.panels.take(accepted[scene]))
+        for rows, counted in counts or self._counted(job, filled.panels.take(accepted[scene])):
+            kept = np.flatnonzero(accepted[rows])
+            if len(kept):
+                yield which[rows[kept]], counted if len(kept) == len(rows) else counted.take(kept)
 
     def _frame(self, job: Job) -> abel.Frame:
         """Return one panel of each scene, as far as it must reach."""
@@ -229,15 +233,6 @@ class Jobs:
         layout = Layout(plan.scene[usable], plan.frame.take(usable)).take(rows)
         self._add(job.take(rows, number)._replace(layout=layout))
 
-    def _meets_the_request(self, job: Job, panels: SolvedPanels) -> BoolArray:
-        """Return whether the estimated error of each scene (s,), where panels meet included, is as
-        small as requested."""
-        met, order = np.full(len(job.which), True), np.argsort(job.which)
-        for rows, counted in self._counted(job, panels):
-            place = order[np.searchsorted(job.which, rows, sorter=order)]
-            met[place] = counted.largest_error <= self.rtol
-        return met
-
     def _is_gentle(self, job: Job) -> BoolArray:
         """Return where (s,) a cycle is a small step that changes its own rate little."""
         last, scale = job.transient.last, self.scale[job.which]
@@ -263,7 +258,8 @@ class Jobs:
         return transient.error(start_error, np.maximum(rounding[:, 1:], rounding[:, :-1]))
 
     def _counted(self, job: Job, panels: SolvedPanels) -> Iterator[tuple[IntArray, Iterates]]:
-        """Return the counts on panels, scenes with as many panels together."""
+        """Return the counts on panels, those of scenes `rows` of the job with as many panels
+        together."""
         scenes, inverse, counts = np.unique(panels.scene, return_inverse=True, return_counts=True)
         for number in np.unique(counts).tolist():
             rows = scenes[counts == number]
@@ -283,7 +279,7 @@ class Jobs:
                 self.limit[which],
                 _edges(job.maps, rows),
             )
-            yield which, counted
+            yield rows, counted
 
 
 def count_error(
