@@ -21,6 +21,7 @@ import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterable
 from dataclasses import InitVar, dataclass, fields
+from functools import cache
 from typing import ClassVar
 
 import sympy as sp
@@ -124,8 +125,8 @@ class Judgement:
     def domains(self) -> tuple[Hypothesis, ...]:
         """Return what the vocabulary says of the domains of the symbols that occur."""
         relations = (self.relation, *(h.relation for h in self.hypotheses))
-        found = {a for r in relations for a in r.atoms(sp.Symbol, sp.Function)}
-        return tuple(domain for a in sorted(found, key=str) if (domain := _domain(a)))
+        found = {domain.text: domain for r in relations for domain in _domains(r)}
+        return tuple(found[text] for text in sorted(found))
 
     def named(self, name: str, remark: str = "") -> Judgement:
         """Return the same judgement under another name."""
@@ -133,6 +134,13 @@ class Judgement:
             self.hypotheses, self.claim, self.rule, self.parents, name, remark or self.remark,
             _TOKEN,
         )  # fmt: skip
+
+
+@cache
+def _domains(relation: sp.Basic) -> tuple[Hypothesis, ...]:
+    """Return the domains of the quantities that a relation speaks of."""
+    found = map(_domain, relation.atoms(sp.Symbol, sp.Function))
+    return tuple(domain for domain in found if domain is not None)
 
 
 def _domain(atom: sp.Expr) -> Hypothesis | None:

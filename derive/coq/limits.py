@@ -195,15 +195,6 @@ def _exists(step: Step, left: sp.Expr, right: sp.Expr) -> list[str]:
     """Limits that are claimed equal, or a product with one that is claimed 0."""
     inner = [e for side in (left, right) for e in sorted(side.atoms(sp.Limit), key=str)]
     _, value = _composed(step, inner[0].args[0])
-    lines = [*_known(step), f"exists ({term(value)})."]
-    if len(inner) == 2:
-        lines += [
-            "split.",
-            "{",
-            *_passes(step, inner[0].args[0]),
-            "}",
-            *_passes(step, inner[1].args[0]),
-        ]
-    else:
-        lines += ["split.", "{", *_passes(step, inner[0].args[0]), "}", "ring."]
-    return lines
+    passes = [_passes(step, limit.args[0]) for limit in inner]
+    first = [*_known(step), f"exists ({term(value)}).", "split.", "{", *passes[0], "}"]
+    return [*first, *(passes[1] if len(passes) == 2 else ["ring."])]

@@ -243,16 +243,15 @@ def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
             )
             yield f"{text}{insert}split; [{parts}]"
         elif isinstance(goal, sp.Equivalent):
-            yield f"{text}{insert}apply same_difference; identity"
-            yield f"{text}{insert}split; intro; arithmetic"
-            for label in known:
-                yield f"{text}{insert}split; intro; [apply {label} | apply {label}]; arithmetic"
+            yield f"{text}{insert}split; intro H; first [arithmetic | from_inequality H 1]"
         else:
             order = list(_ordered(goal))
             alone = [w for w in _parts(goal, []) if w not in order]
             more = (*_multiples(goal, facts), *_rests(goal, facts))
             for way in (*order, *more, *into, *alone):
                 yield f"{text}{insert}{way}"
+    for text, _ in _sources(step):
+        yield f"{text}solve [arithmetic]"
 
 
 def _multiples(goal: sp.Basic, facts: list[Named]) -> Iterator[str]:

@@ -94,6 +94,7 @@ def key(judgement: Judgement) -> str:
     return hashlib.sha256(said.encode()).hexdigest()[:12]
 
 
+@cache
 def claim(judgement: Judgement) -> sp.Basic:
     """Return the claim; the derivative of a result is that of the function its premise gives."""
     relation = judgement.relation
@@ -107,6 +108,7 @@ def claim(judgement: Judgement) -> sp.Basic:
     return relation
 
 
+@cache
 def _premise(hypothesis: Hypothesis) -> Premise:
     if hypothesis.relation is not sp.true:
         return Premise(
@@ -118,6 +120,7 @@ def _premise(hypothesis: Hypothesis) -> Premise:
     raise printer.UntranslatableError(f"only words say that {hypothesis.text}")
 
 
+@cache
 def _domain(relation: sp.Basic) -> Premise:
     atom = relation.args[0]
     label = f"domain_{printer.name(atom.func.__name__ if atom.args else str(atom))}"

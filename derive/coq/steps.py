@@ -26,14 +26,9 @@ class Step:
     judgement: Judgement
     statement: Statement
     parents: tuple[Step, ...]
-    claim: sp.Basic
+    relation: sp.Basic
     closed: bool = True
     """Whether it has a proof, and can be cited."""
-
-    @property
-    def relation(self) -> sp.Basic:
-        """Return the claim."""
-        return self.claim
 
     @property
     def name(self) -> str:
@@ -65,10 +60,6 @@ class Step:
     def labels(self) -> dict[str, str]:
         """Return the label of each premise."""
         return {p.said: p.label for p in self.statement.premises}
-
-    def premise(self, relation: sp.Basic) -> Premise | None:
-        """Return the premise that says a relation."""
-        return next((p for p in self.statement.premises if p.relation == relation), None)
 
     def usable(self, other: Step) -> bool:
         """Return whether another step's premises are all among those of this one."""

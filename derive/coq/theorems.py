@@ -19,6 +19,7 @@ from .steps import Step
 
 _LOAD = symbol("U_a")
 _WEAR = symbol("u_c")
+_RATIO = sp.Symbol("ratio", real=True)
 
 
 def proof(step: Step) -> list[str]:
@@ -33,6 +34,7 @@ def proof(step: Step) -> list[str]:
         _first_order,
         _drift,
         _derivative,
+        _lipschitz,
     ):
         if lines := list(way(step)):
             return lines
@@ -191,12 +193,11 @@ def _first_order(step: Step) -> Iterator[str]:
         return
     law, deviation, ratio, limit = step.parents[:4]
     quantity, end = ratio.relation.lhs.args[0], ratio.relation.rhs
-    y = sp.Symbol("ratio", real=True)
-    function = in_terms_of(law.relation.rhs, quantity, y)
+    function = in_terms_of(law.relation.rhs, quantity, _RATIO)
     affine = _affine(sp.expand(_WEAR * (quantity - end) - deviation.relation.lhs.args[0]))
     if affine is None or function.has(t):
         return
-    slope = sp.diff(function, y).subs(y, end).doit()
+    slope = sp.diff(function, _RATIO).subs(_RATIO, end).doit()
     speed, made, at = limit.relation.rhs, f"(fun ratio => {term(function)})", term(quantity)
     known = list(divisors(step))
     yield f"assert (D : is_derive {made} ({term(end)}) ({term(slope)})) by derived."
@@ -269,3 +270,21 @@ def _derivative(step: Step) -> Iterator[str]:
     }
     yield from (f"rewrite ?({step.cited(s)})." for s in used.values())
     yield "bounds; same_exponentials; field; repeat split; positive."
+
+
+def _lipschitz(step: Step) -> Iterator[str]:
+    """An increase of tanh, which is at most that of its argument."""
+    if step.rule != "Lipschitz":
+        return
+    low, high = sorted(step.relation.atoms(sp.tanh), key=sp.count_ops)
+    yield "intros t Ht."
+    for p in step.statement.premises:
+        yield f"pose proof ({p.label}{' t Ht' if p.timed else ''})."
+    ordered = f"{term(low.args[0])} <= {term(high.args[0])}"
+    yield f"assert (D : {ordered}) by (apply Rminus_le_0; ring_simplify; positive)."
+    yield "pose proof (tanh_order _ _ D); pose proof (tanh_slope _ _ D)."
+    middle = next(part.gts for part in step.relation.args if part.lts == 0)
+    factor = sp.diff(middle.xreplace({high: _RATIO}), _RATIO)
+    left = sp.expand(high.args[0] - low.args[0]) - high + low
+    forms = (factor * (high - low if part.lts == 0 else left) for part in step.relation.args)
+    yield f"split; [{' | '.join(f'manifest ({term(form)})' for form in forms)}]."

@@ -260,7 +260,7 @@ def solutions(equation: sp.Eq) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
         return ()
     moving = {d.expr for d in rates}
     fields = sorted(plain.atoms(AppliedUndef), key=str)
-    found = [d for d in rates if d.variables == (t,) and isinstance(d.expr, AppliedUndef)]
+    found = [d for d in rates if d.variables == (t,) and d.expr.args == (t,)]
     found += [f for f in fields if f.args[0] == 0 or (f.args[0] == t and f not in moving)]
     if not plain.has(t, AppliedUndef):
         found += sorted(plain.free_symbols - plain.atoms(sp.Dummy), key=str)

@@ -55,11 +55,7 @@ def rigid(relations: Relations) -> tuple[Function, ...]:
     rate, change = largest_rate * value, largest_rate * slope * slopes[ratio]
     return (
         Function.made(
-            "rate",
-            (u, load),
-            assignments,
-            (rate,),
-            "wear rate of the bearing, du_c/dt, in mm/s",
+            "rate", (u, load), assignments, (rate,), "wear rate of the bearing, du_c/dt, in mm/s"
         ),
         Function.made(
             "slope",

@@ -49,27 +49,23 @@ class Derivations:
 
     def steps(self, identifier: str) -> tuple[Step, ...]:
         """Return the steps to an equation that have not been told yet."""
-        steps: list[Step] = []
-        for statement in self._equations[identifier].steps:
-            name = self._named.get(statement.relation, identifier)
-            if statement.relation in self._told or name != identifier or is_hypothesis(statement):
-                continue
-            step = self._step(statement, identifier)
-            if step not in steps:
-                steps.append(step)
-            self._told[statement.relation] = (identifier, steps.index(step) + 1)
-        return tuple(steps)
+        own = (
+            statement
+            for statement in self._equations[identifier].steps
+            if statement.relation not in self._told
+            and self._named.get(statement.relation, identifier) == identifier
+            and not is_hypothesis(statement)
+        )
+        return self._tell(identifier, own)
 
     def chain(self, identifier: str) -> tuple[Step, ...]:
         """Return all steps to an equation, hypotheses and other equations on the way included."""
+        return self._tell(identifier, self._equations[identifier].steps)
+
+    def _tell(self, identifier: str, statements: Iterable[Judgement]) -> tuple[Step, ...]:
         steps: list[Step] = []
-        for statement in self._equations[identifier].steps:
-            name = self._named.get(statement.relation, "")
-            if is_hypothesis(statement):
-                formula = "" if name else latex(presentable(statement.relation))
-                step = Step("", "", formula, name)
-            else:
-                step = self._step(statement, identifier)
+        for statement in statements:
+            step = self._step(statement, identifier)
             if step not in steps:
                 steps.append(step)
             self._told.setdefault(statement.relation, (identifier, steps.index(step) + 1))
@@ -92,12 +88,13 @@ class Derivations:
             yield from self._nearest(parent, of)
 
     def _step(self, statement: Judgement, of: str) -> Step:
-        parents = [self._name(parent, of) for parent in statement.parents]
         name = self._named.get(statement.relation, "")
         formula = "" if name else latex(presentable(statement.relation))
-        return Step(
-            statement.rule.sentence(*parents, write=_written), statement.remark, formula, name
-        )
+        if is_hypothesis(statement):
+            return Step("", "", formula, name)
+        parents = [self._name(parent, of) for parent in statement.parents]
+        said = statement.rule.sentence(*parents, write=_written)
+        return Step(said, statement.remark, formula, name)
 
     def _name(self, parent: Judgement, of: str) -> str:
         """How a step refers to another relation."""

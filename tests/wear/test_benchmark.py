@@ -171,6 +171,11 @@ def test_the_raw_csv_reads_back(result):
         assert row["estimate"] == ("" if run.estimate is None else repr(run.estimate))
 
 
+def test_report_and_documentation_have_the_same_figures():
+    written = (bench.PEERS / "speed.md").read_text(encoding="utf-8")
+    assert results.markdown(results.committed(), results.READER) == written
+
+
 def test_markdown_tables_have_no_loose_ends(result):
     text = results.markdown(result, "made")
     widths = {line.count("|") for line in results.markdown_table(results.tables(result)[0]).split()}

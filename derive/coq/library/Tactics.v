@@ -28,10 +28,6 @@ Qed.
 Lemma below_inverse (a b : R) : 0 < b -> a < / b -> a * b < 1.
 Proof. intros Hb H; apply (Rmult_lt_compat_r b) in H; rewrite ?Rinv_l in H; lra. Qed.
 
-(** Inequalities whose differences are equal hold together. *)
-Lemma same_difference (a b c d : R) : b - a = d - c -> (a <= b <-> c <= d).
-Proof. intro; split; intro; lra. Qed.
-
 Lemma slope_of_decreasing (f : R -> R) : (forall r r', r < r' -> f r' < f r) ->
   (forall r, ex_derive f r) -> forall r, Derive f r <= 0.
 Proof.
@@ -54,6 +50,12 @@ Proof.
   pose proof (pow2_ge_0 (b + a * x)); nra.
 Qed.
 
+Lemma positive_cofactor (a x y z : R) : 0 < a -> z <> 0 -> a * x = y ^ 2 + z ^ 2 -> 0 < x.
+Proof.
+  intros Ha Hz E; apply (Rmult_lt_reg_l a); [assumption |].
+  pose proof (pow2_ge_0 y); pose proof (pow2_gt_0 z Hz); lra.
+Qed.
+
 (** ** Signs *)
 
 (** A goal [0 < e], [0 <= e] or [e <> 0] by the signs of the parts of e. *)
@@ -72,6 +74,7 @@ with not_zero :=
     let E := fresh in intro E; apply D; field_simplify_eq; [lra | repeat split; assumption] end
 with positive_part :=
   match goal with
+  | Z : ?z <> 0, E : ?a * ?x = ?y ^ 2 + ?z ^ 2 |- 0 < ?x => apply (positive_cofactor a x y z); positive
   | |- 0 < ?a * ?b => apply Rmult_lt_0_compat; positive
   | |- 0 < ?a / ?b => apply Rdiv_lt_0_compat; positive
   | |- 0 < / ?a => apply Rinv_0_lt_compat; positive
@@ -94,6 +97,7 @@ with positive_part :=
   | |- 0 <= Rabs _ => apply Rabs_pos
   | |- 0 <= sqrt _ => apply sqrt_pos
   | |- 0 <= ?a + ?b => apply Rplus_le_le_0_compat; positive
+  | |- 0 <= - (?a * ?b / ?c) => replace (- (a * b / c)) with (a * - b / c) by (unfold Rdiv; ring); positive
   | |- 0 <= ?a => left; positive_part
   | |- 0 < _ => solve [auto | nra]
   | |- _ => nra
@@ -122,7 +126,8 @@ Ltac arithmetic := first [lra | below_logarithm | bounds; solve [lra | positive 
 (** ** Equal arguments of functions *)
 
 Ltac same_argument :=
-  solve [reflexivity | ring | unfold Rdiv; rewrite ?Rinv_mult; ring | field; positive].
+  solve [reflexivity | ring | unfold Rdiv; rewrite ?Rinv_mult; ring | field; positive
+    | do 2 f_equal; field; positive].
 
 Ltac same_under f :=
   match goal with

@@ -9,6 +9,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping
+from functools import partial
 from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
@@ -31,7 +32,7 @@ from wear.report.paper import paper as written
 from wear.report.runs import Runs
 from wear.report.tex import report
 from wear.report.typeset import typeset
-from wear.report.verification import Verification, verified
+from wear.report.verification import Verification, checked, parts, verified
 from wear.scene import Scene
 
 _TEXT = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
@@ -223,6 +224,12 @@ def test_the_verification_finds_a_wrong_step() -> None:
 def test_steps_that_are_the_same_are_checked_once() -> None:
     (closure, again) = (e for e in equations() if e.id in ("1", "7a"))
     assert verified([closure, again]).steps == 1
+
+
+def test_parts_that_were_checked_elsewhere_are_put_together() -> None:
+    chosen = [e for e in equations() if e.id in ("1", "7a", "7c")]
+    answers = [partial(checked, part) for part in parts(chosen)]
+    assert verified(chosen, answers) == verified(chosen)
 
 
 # Analysis and numerics: what the tables of the paper say
