@@ -6,6 +6,8 @@ import pytest
 
 from wear import cli
 
+collect_ignore = ["typed_script.py"]  # a user's script, run in a folder of its own
+
 Call = Callable[..., tuple[int, str, str]]
 
 
