@@ -107,7 +107,7 @@ def dask() -> Iterator[Executor]:
     """Give the workers of a local cluster."""
     from distributed import Client, LocalCluster
 
-    settings = {"n_workers": WORKERS, "threads_per_worker": 1, "dashboard_address": None}
+    settings = {"n_workers": WORKERS, "threads_per_worker": 1, "dashboard_address": ":0"}
     with LocalCluster(**settings) as cluster, Client(cluster) as client:
         yield client.get_executor()
 

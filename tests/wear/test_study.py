@@ -274,7 +274,7 @@ def test_a_worker_of_a_cluster_is_killed_and_nothing_is_lost(tmp_path: Path) -> 
         _command(*words, "--workers", "1", "-o", str(tmp_path / "whole.zarr")), check=True
     )
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL"
+        n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
     ) as cluster:
         process = subprocess.Popen(
             _command(
@@ -317,7 +317,7 @@ def test_a_scheduler_that_goes_away_is_a_clear_error(tmp_path: Path) -> None:
 
     words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:4000", "--cycles", "9000"]
     cluster = LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=None, silence_logs="CRITICAL"
+        n_workers=1, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
     )
     out = tmp_path / "c.zarr"
     process = subprocess.Popen(
@@ -329,7 +329,7 @@ def test_a_scheduler_that_goes_away_is_a_clear_error(tmp_path: Path) -> None:
         time.sleep(0.01)
     cluster.close()
     _, complaint = process.communicate(timeout=120)
-    assert process.returncode == 130
+    assert process.returncode == 130, complaint
     assert "the same command goes on" in complaint
     assert "Traceback" not in complaint
 

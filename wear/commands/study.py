@@ -7,7 +7,7 @@ import logging
 import time
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -189,7 +189,8 @@ def _cluster(address: str) -> Iterator[Executor]:
     try:
         yield client.get_executor()
     finally:
-        client.close(timeout=LONGEST_WAIT)
+        with suppress(OSError, RuntimeError):  # a scheduler that went away cannot be told
+            client.close(timeout=LONGEST_WAIT)
 
 
 def _print(options: argparse.Namespace, store: Store) -> None:

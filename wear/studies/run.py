@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from wear.studies.store import Store
 
 # What executors raise when their workers, or the way to them, are gone; Dask's client is a
-# RuntimeError once it is closed.
+# RuntimeError once it is closed, and Dask has exceptions of its own.
 LOST = (BrokenExecutor, CancelledError, asyncio.CancelledError, OSError, RuntimeError)
+DASK = "distributed"
 IN_FLIGHT = 64  # chunks handed over at once: enough for a cluster, few enough for memory
 
 
@@ -172,7 +173,9 @@ def _answers(
                 yield from _finished(running)
         while running:
             yield from _finished(running)
-    except LOST as fault:
+    except (Exception, asyncio.CancelledError) as fault:
+        if not (isinstance(fault, LOST) or type(fault).__module__.startswith(DASK)):
+            raise
         raise WorkersLost(
             f"the workers went away ({type(fault).__name__} {fault}); finished chunks are kept: "
             "the same command goes on where this one stopped"
@@ -186,5 +189,8 @@ def _finished(running: dict[Future[Answers], Chunk]) -> Iterator[tuple[Chunk, An
     """Yield what is done of the running chunks, at least one of them."""
     done, _ = wait(running, return_when=FIRST_COMPLETED)
     for future in done:
-        yield running[future], future.result()
+        answers = future.result()
+        if answers is None:  # of Dask, where the worker went with what it had worked out
+            raise CancelledError
+        yield running[future], answers
         del running[future]
