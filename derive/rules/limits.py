@@ -277,8 +277,8 @@ class Passes(Rule):
 
     claim: sp.Equality
     words = (
-        "Let time tend to infinity in {0}: the limit {others} passes through a function that is "
-        "continuous where it ends."
+        "Let time tend to infinity in {0}: the limit in {others} passes through a function that "
+        "is continuous where it ends."
     )
 
     def conclude(self, *premises: Judgement) -> Conclusion:
