@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -166,11 +165,6 @@ def test_help_of_every_command_shows_an_example(capsys: pytest.CaptureFixture[st
             main([command, "--help"])
         assert stop.value.code == 0
         assert "examples:" in capsys.readouterr().out
-
-
-def test_starting_the_command_does_not_import_sympy() -> None:
-    code = "import sys, derive, derive.cli; sys.exit('sympy' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 def test_steps_show_formulas_as_on_paper(capsys: pytest.CaptureFixture[str]) -> None:
