@@ -54,6 +54,7 @@ ENOUGH = 1.5  # cycles per coefficient of a panel
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: increments that have no series
+JUDGED = 1e-2  # of the tolerance of a cycle: that of the cycle that judges it
 MOST_POOR = 8  # times that panels may hold too few cycles
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
@@ -82,7 +83,8 @@ def counted_stages(
     edges = [edge_of_contact(*pair) for pair in zip(models, loads, strict=True)]
     size = settings(rtol)
     coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
-    fine = switched_period_map(models, loads, edges, size.finer_nodes)
+    finer = max(ROUNDOFF, JUDGED * size.endpoint_tolerance)
+    fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(*each, rtol, deadline) for each in zip(wanted, edges, strict=True)]
     return answered(counts, [coarse, fine])
 
