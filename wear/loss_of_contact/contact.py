@@ -57,6 +57,8 @@ class Contact(NamedTuple):
 
     def take(self, which: BoolArray | IntArray) -> Contact:
         """Return the contact in some of the cycles."""
+        if which.dtype == bool and which.all():
+            return self
         return Contact(
             self.cycles.take(which), self.by_law, self.level[which], self.direction[which]
         )
@@ -138,6 +140,8 @@ class ContactResult(NamedTuple):
     def among(self, rows: IntArray, number: int) -> ContactResult:
         """Return the result where the wears were those in `rows` of so many others, which add
         nothing."""
+        if len(rows) == number:
+            return self
         added, length = np.zeros((2, number))
         added[rows], length[rows] = self.added, self.length
         sound = np.full(number, True)
@@ -172,7 +176,7 @@ def wear_in_contact(
         expected = np.minimum(np.where(expected > 0.0, expected, LEAST * whole), whole)
         stretch = Interval((over.begin + length)[rows], whole, expected)
         start, earlier = (u + added)[rows], (before + added)[rows]
-        part = _part(contact.take(rows), rule, tolerance, start, stretch)
+        part = _part(contact.take(going), rule, tolerance, start, stretch)
         evaluations += part.evaluations
         missed = _missed(rule, part, earlier) / tolerance
         given_up = (whole <= SHORTEST * over.whole[rows]) | (len(parts) >= MOST_PARTS)
@@ -235,9 +239,7 @@ def _missed(rule: Gauss, part: _Part, before: FloatArray) -> FloatArray:
     return np.where(part.sound & ~np.isnan(missed), missed, np.inf)
 
 
-def _part(
-    contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: Interval
-) -> _Part:
+def _part(contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: Interval) -> _Part:
     """Newton's method on contact, until an iteration more would change the wear by a small part of
     the `tolerance`; where contact has a level, its end is found by tangents along with the wear, of
     which Radau's last node is the last."""
@@ -297,9 +299,7 @@ def _newton(rule: Gauss, slope: FloatArray, missing: FloatArray) -> FloatArray:
     return np.asarray(x)
 
 
-def _has_settled(
-    apart: FloatArray, last: FloatArray, least: float, noise: FloatArray
-) -> BoolArray:
+def _has_settled(apart: FloatArray, last: FloatArray, least: float, noise: FloatArray) -> BoolArray:
     """Return whether an iteration that has changed by `apart`, after `last`, has come to its end:
     the next change would be the `least` that counts, or this one is `noise`."""
     # A change that was large foretells nothing; one that is small and grows is rounding.

@@ -106,6 +106,8 @@ class Cycles(NamedTuple):
 
     def take(self, which: BoolArray | IntArray) -> Cycles:
         """Return some of the cycles, each perhaps several times."""
+        if which.dtype == bool and which.all():
+            return self
         load = self.load
         if isinstance(load, (Waves, Lines)):
             load = load.take(which)
