@@ -26,6 +26,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from matplotlib.typing import ColorType, LineStyleType
 
 from wear.figure_data import FloatArray
@@ -38,6 +39,8 @@ PAGE = 190.0
 INK = "#000000"
 PAPER = "#ffffff"
 GREY = "#6b7480"
+HALO = withStroke(linewidth=2.0, foreground=PAPER)
+"""Keeps names legible on top of lines and colours."""
 
 _MILLIMETRES_PER_INCH = 25.4
 _SETTINGS = mpl.rc_params_from_file(

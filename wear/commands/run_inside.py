@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive import files, terminal
+from derive import terminal
 from wear.commands import arguments
 
 if TYPE_CHECKING:
@@ -66,8 +66,7 @@ def execute(
         "rtol": repr(rtol),
     }
     try:
-        with files.replacing(output) as draft:
-            write_inside(parts(), draft, attributes)
+        write_inside(parts(), output, attributes)
     except KeyboardInterrupt:
         told = f"interrupted after {done} of {len(cycles)} cycles; {output} was not written"
         terminal.complain("wear run", told)

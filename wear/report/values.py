@@ -52,7 +52,6 @@ _DATA = (
     ("sigma_c0", "mm"), ("sigma_a0", "mm"), ("h_0", "mm"), ("p_max", "MPa"), ("R", "mm"),
     ("T", "s"),
 )  # fmt: skip
-_EXAMPLES = ("section3", "section4", "section5")
 _LEDGER = (
     (1, 9, "the model"),
     (9, 18, "the condensed problem"),
@@ -238,7 +237,7 @@ def _agreement(runs: Runs) -> dict[str, Any]:
     bounds = runs.wear_bounds
     wear = float(runs.history("section4").u_c[-1])
     arrests = {}
-    for name in _EXAMPLES:
+    for name in note.EXAMPLES:
         case = runs.cases[name + note.CUTOFF]
         off = abs(float(case.history.u_c[-1]) / note.required(case.asymptote.arrest_wear_mm) - 1.0)
         arrests[name] = Number(max(off, ROUNDOFF), f"{name} with loss of contact", 2)
@@ -299,7 +298,7 @@ def _speed() -> dict[str, Any]:
 
 
 def _data_row(runs: Runs, name: str, of: str) -> tuple[str, list[Number | str]]:
-    scenes = [runs.cases[example].scene for example in _EXAMPLES]
+    scenes = [runs.cases[example].scene for example in note.EXAMPLES]
     label = f"${QUANTITIES[name].latex}$" + (f" ({of})" if of else "")
     return label, [_entry(scene, name) for scene in scenes]
 
@@ -310,7 +309,7 @@ def _entry(scene: Scene, name: str) -> Number | str:
 
 
 def _amplitudes(runs: Runs) -> tuple[str, list[Number | str]]:
-    scenes = [runs.cases[example].scene for example in _EXAMPLES]
+    scenes = [runs.cases[example].scene for example in note.EXAMPLES]
     return "$U$ (mm)", [
         Number(scene.periodic_load.maximum, f"scene {scene.name}", 1) for scene in scenes
     ]
