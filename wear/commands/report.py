@@ -43,7 +43,7 @@ def execute(options: argparse.Namespace) -> int:
         document = report(options.scene, command, options.readings)
         with files.replacing_in(folder) as draft:
             published = publish(document, draft)
-            written = sorted(path.name for path in published.files)
+            written = sorted(path.name for path in draft.iterdir())
     if options.json:
         terminal.print_json({"folder": str(folder), "files": written})
     else:

@@ -15,7 +15,7 @@ from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.report.claims import Entry
-    from wear.report.publish import Published
+    from wear.report.typeset import Typeset
     from wear.report.verification import Verification
 
 EXAMPLE = """\
@@ -58,9 +58,7 @@ def execute(options: argparse.Namespace) -> int:
     return terminal.DONE if verification.passed else terminal.FAILED
 
 
-def _reproduce(
-    folder: Path, progress: Progress
-) -> tuple[Verification, tuple[Entry, ...], Published]:
+def _reproduce(folder: Path, progress: Progress) -> tuple[Verification, tuple[Entry, ...], Typeset]:
     """Make everything, then put it in place."""
     from derive.catalogue import equations
     from derive.note.claim_checks import SYMBOLIC
@@ -95,7 +93,7 @@ def _summary(
     folder: Path,
     verification: Verification,
     ledger: tuple[Entry, ...],
-    published: Published,
+    published: Typeset,
     seconds: float,
 ) -> dict[str, Any]:
     from collections import Counter
