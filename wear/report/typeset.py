@@ -26,6 +26,11 @@ class Typeset:
     warnings: tuple[str, ...]
     notice: str
 
+    @property
+    def said(self) -> tuple[str, ...]:
+        """Return the line, if any, and the warnings."""
+        return (self.notice, *self.warnings) if self.notice else self.warnings
+
 
 def typeset(source: Path, timeout: float = 120.0) -> Typeset:
     """Run pdfTeX beside the source until its references settle.
