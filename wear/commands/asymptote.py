@@ -46,7 +46,8 @@ def execute(options: argparse.Namespace) -> Answer:
     arguments.read(options).stop_if_any()
     with terminal.busy("seeking the asymptote"):
         found = asymptote(options.scene)
-    return Answer(asdict(found), lambda: "\n".join(_lines(found)), found.notices)
+    notices = () if options.json else found.notices  # the document has them
+    return Answer(asdict(found), lambda: "\n".join(_lines(found)), notices)
 
 
 def _lines(found: Asymptote) -> Iterator[str]:
