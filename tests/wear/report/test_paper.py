@@ -246,7 +246,7 @@ def test_the_approach_follows_the_predicted_law(runs: Runs) -> None:
 
 
 def test_the_closed_solution_is_the_solver_s(runs: Runs) -> None:
-    assert runs.static.distance < 1e-12
+    assert runs.static_distance < 1e-12
 
 
 def test_two_solvers_agree(runs: Runs) -> None:
