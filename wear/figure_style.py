@@ -137,6 +137,14 @@ def label_ends(
         axes.text(1.16, float(height), name, transform=axes.transAxes, va="center")
 
 
+def label_above(axes: Axes, name: str, at: tuple[float, float], gap: float) -> None:
+    """Write a name above a point, so many points of type away, on a halo of paper."""
+    axes.annotate(
+        name, at, xytext=(0.0, gap), textcoords="offset points", ha="center", va="bottom",
+        path_effects=[HALO],
+    )  # fmt: skip
+
+
 def spread(heights: FloatArray, gap: float) -> FloatArray:
     """The nearest positions (least squares) at least `gap` apart, moved into [0, 1] if they fit.
 

@@ -35,12 +35,12 @@ from wear.figure_style import (
     COLUMN,
     COLUMN_AND_HALF,
     GREY,
-    HALO,
     INK,
     PAGE,
     PAPER,
     Stroke,
     canvas,
+    label_above,
     label_ends,
     panels,
     stroke,
@@ -69,7 +69,9 @@ def history(
         figure, rows = panels(len(shown), 1, width, height * width)
         for axes, panel in zip(rows, shown, strict=True):
             if panel.quantity is PRESSURE:
-                pressed = tuple(line.pressed() for line in panel.lines if line.y.any())
+                pressed = tuple(
+                    line.pressed() for line in panel.lines if line.y[line.x > 0.0].any()
+                )
                 if pressed and spans_decades(pressed):
                     panel = replace(panel, lines=pressed)
                     axes.set_yscale("log")
@@ -214,12 +216,4 @@ def _name_peaks(axes: Axes, lines: Sequence[Line]) -> None:
     """Names above the highest points, on a halo of paper."""
     for line in lines:
         peak = int(np.argmax(line.y))
-        axes.annotate(
-            line.name,
-            (float(line.x[peak]), float(line.y[peak])),
-            xytext=(0.0, 3.0),
-            textcoords="offset points",
-            ha="center",
-            va="bottom",
-            path_effects=[HALO],
-        )
+        label_above(axes, line.name, (float(line.x[peak]), float(line.y[peak])), 3.0)

@@ -249,6 +249,14 @@ def test_what_grows_by_decades_has_a_logarithmic_axis() -> None:
         assert [axes.get_yscale() for axes in drawn.axes] == [scale, "linear", "log"]
 
 
+def test_a_pressure_that_only_the_fresh_state_has_is_left_out_of_decades() -> None:
+    cycles = np.array([0.0, 1.0, 1e2, 1e4])
+    falling = Line("peak", cycles, np.array([300.0, 300.0, 1.0, 0.0]))
+    first = Line("start", cycles, np.array([5.0, 0.0, 0.0, 0.0]))
+    (axes,) = figures.history([Panel(PRESSURE, (falling, first))]).axes
+    assert (axes.get_yscale(), [text.get_text() for text in axes.texts]) == ("log", ["peak"])
+
+
 def test_readings_and_the_limit_stand_beside_the_wear() -> None:
     read = Line("measured", np.array([10.0, 120.0]), np.array([1e-4, 7e-4]), 6)
     axes = figures.history([Panel(WEAR, _lines(), (read,), limit=9e-4)]).axes[0]

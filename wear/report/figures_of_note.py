@@ -31,6 +31,7 @@ from wear.figure_style import (
     INK,
     PAPER,
     canvas,
+    label_above,
     panels,
     stroke,
     styled,
@@ -195,10 +196,7 @@ def _dot(axes: Axes, name: str, scene: Scene) -> None:
     gap = (scene.closure - scene.periodic_load.maximum) / scene.initial_roughness
     at = scene.bearing.roughness_growth, gap
     axes.plot(*at, "o", color=INK, markerfacecolor=INK if scene.pin is None else PAPER)
-    axes.annotate(
-        name, at, xytext=(0.0, 5.0), textcoords="offset points", ha="center", va="bottom",
-        path_effects=[HALO],
-    )  # fmt: skip
+    label_above(axes, name, at, 5.0)
 
 
 def _regime(slope: FloatArray, gap: FloatArray, cutoff: bool) -> NDArray[np.str_]:

@@ -25,7 +25,7 @@ from wear.cite import listed
 from wear.report import mathml, svg
 from wear.report.document import Document
 from wear.report.number import Number, grouped
-from wear.report.text import Writer
+from wear.report.writer import Writer
 
 _ASSETS = files("wear.report").joinpath("assets")
 

@@ -19,7 +19,7 @@ from derive.typeset.breaking import broken
 from wear.cite import listed
 from wear.report.document import Document
 from wear.report.tex_text import escape, verbatim
-from wear.report.text import Writer
+from wear.report.writer import Writer
 
 #: Characters of ``\footnotesize\ttfamily`` in a line of text.
 _LISTING_WIDTH = 96

@@ -2,8 +2,8 @@ r"""The text of a report: Markdown with values, read into tokens.
 
 Overview
     A report is written in Markdown (``paper.md``) and filled in by Jinja2. `read` returns the
-    tokens of markdown-it; the writers `wear.report.html` and `wear.report.tex` turn the same tokens
-    into a page and into LaTeX.
+    tokens of markdown-it, with what a writer needs to know of their neighbours; `wear.report.html`
+    and `wear.report.tex` make a page and LaTeX of them.
 Marks, besides those of Markdown
     {{ wear.to(5) }}        a `Number`, shown to five digits
     $u_c$                   a formula
@@ -28,18 +28,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from itertools import pairwise
-from types import MappingProxyType
 from typing import Any
 
 import jinja2
-from jinja2.runtime import Macro
 from markdown_it import MarkdownIt
-from markdown_it.renderer import RendererHTML
 from markdown_it.rules_core import StateCore
 from markdown_it.rules_inline import StateInline
 from markdown_it.token import Token
 
-from wear.cite import REFERENCES
 from wear.report.number import Number
 
 _LABEL = r"(?:eq|sec|app|fig|tab|claim|der|ref):[A-Za-z0-9.\-]+"
@@ -96,7 +92,7 @@ def parsed(template: str, values: Mapping[str, Any]) -> Text:
     )  # fmt: skip
     environment.filters["plain"] = escaped
     source = environment.from_string(template).render(values)
-    return Text(tuple(_MARKDOWN.parse(source)), tuple(numbers))
+    return Text(tuple(MARKDOWN.parse(source)), tuple(numbers))
 
 
 def escaped(text: str) -> str:
@@ -110,45 +106,8 @@ def escaped(text: str) -> str:
 
 def line(text: str) -> Sequence[Token]:
     """Return the tokens of one line of Markdown, a title say."""
-    (inline,) = _MARKDOWN.parseInline(text)
+    (inline,) = MARKDOWN.parseInline(text)
     return inline.children or ()
-
-
-class Writer(RendererHTML):
-    """Writes tokens by the macros of a template, one for each type; what has none as HTML.
-
-    A macro takes the token. It sees the `document`, the works to cite, `inside`, which writes what
-    stands in a line, and `of_line`, which writes a line of Markdown, a title say. Types of token
-    that are always written the same stand in `plain`.
-    """
-
-    def __init__(
-        self,
-        document: Any,
-        template: jinja2.Template,
-        plain: Mapping[str, str] = MappingProxyType({}),
-    ) -> None:
-        super().__init__()
-        seen = {"document": document, "references": REFERENCES, "inside": self.inside}
-        blocks = template.make_module({**seen, "of_line": self.of_line})
-        rules: dict[str, Any] = self.rules
-        for kind, text in plain.items():
-            rules[kind] = lambda *_, text=text: text
-        for kind, macro in vars(blocks).items():
-            if isinstance(macro, Macro):
-                rules[kind] = lambda tokens, i, *_, macro=macro: str(macro(tokens[i]))
-
-    def written(self, tokens: Sequence[Token]) -> str:
-        """Return a whole text."""
-        return str(self.render(tokens, _MARKDOWN.options, {}))
-
-    def inside(self, tokens: Sequence[Token] | None) -> str:
-        """Return what stands in a line."""
-        return str(self.renderInline(tokens or (), _MARKDOWN.options, {}))
-
-    def of_line(self, text: str) -> str:
-        """Return a line of Markdown, a title say."""
-        return self.inside(line(text))
 
 
 def _mark(state: StateInline, silent: bool) -> bool:
@@ -247,4 +206,4 @@ def _markdown() -> MarkdownIt:
     return markdown
 
 
-_MARKDOWN = _markdown()
+MARKDOWN = _markdown()
