@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from wear.equation import WearEquation, equation_of
 from wear.load import Blocks, Load, Loading
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
+from wear.loss_of_contact.stage import CountToArrest
 from wear.model import Model, bind
 from wear.orbit.iterates import Iterates
 from wear.orbit.plan import LEAST
@@ -77,60 +78,39 @@ class CyclesToDepth(NamedTuple):
     error: FloatArray
 
 
-class Counted(Protocol):
-    """The cycles of one scene, counted from some wear under a load that repeats."""
-
-    @property
-    def orbit(self) -> Orbit: ...
-
-    @property
-    def cost(self) -> Cost: ...
-
-    @property
-    def last_wear(self) -> float:
-        """Return the wear (mm) up to which it counts."""
-
-    @property
-    def ended(self) -> bool:
-        """Return whether wear has stopped for good."""
-
-    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the wear (mm) after `cycles` (n,) and its relative error."""
-
-    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the whole cycles to each wear (mm, (n,)), infinite where it is not reached, and
-        their error in cycles."""
-
-    def notices(self, wear: FloatArray) -> Iterator[str]:
-        """Return what is worth knowing beside the wear (mm)."""
-
-
 class InContact(NamedTuple):
-    """A count without loss of contact."""
+    """A count without loss of contact: what `CountToArrest` is of one with it."""
 
     orbit: Orbit
 
     @property
     def cost(self) -> Cost:
+        """Return what it took."""
         return self.orbit.cost
 
     @property
     def last_wear(self) -> float:
+        """Return the wear (mm) up to which it counts."""
         return float(self.orbit.last(0).counted.last_state[0])
 
     @property
     def ended(self) -> bool:
+        """Return whether wear has stopped for good."""
         return bool(self.orbit.last(0).counted.at_rest[0])
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after `cycles` (n,) and its relative error."""
         wear, error = self.orbit.after(cycles[None])
         return wear[0], error[0]
 
     def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the whole cycles to each wear (mm, (n,)), infinite where it is not reached, and
+        their error in cycles."""
         count, error = self.orbit.until(wear[None])
         return count[0], error[0]
 
     def notices(self, wear: FloatArray) -> Iterator[str]:
+        """Return what is worth knowing beside the wear (mm)."""
         last = self.orbit.last(0)
         limit = float(last.counted.limit[0])
         if np.any(wear >= NEARLY * limit):
@@ -139,6 +119,10 @@ class InContact(NamedTuple):
             assert isinstance(last.counted, Iterates)
             idle = int(last.begins[0]) + last.counted.first_idle_cycle
             yield f"from cycle {idle} on a cycle adds less than double precision resolves"
+
+
+Counted = InContact | CountToArrest
+"""The cycles of one scene, counted from some wear under a load that repeats."""
 
 
 # Trial states far off the solution may overflow; what is no number fails the estimate of error.
