@@ -15,9 +15,11 @@ from functools import cached_property
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .hypotheses import Hypothesis
-from .kernel import Judgement, chain
+from .hypotheses import Hypothesis, Kind
+from .kernel import Judgement, chain, domain
 from .rules.assumption import Assume
+from .rules.proving import holds
+from .symbols import CLOCKS, t
 from .typeset.display import evaluated, latex
 from .typeset.present import presentable
 from .zero import same
@@ -96,10 +98,23 @@ class Equation:
         extra = () if self.refutation is None else (self.refutation,)
         return chain(*self.statements, *extra)
 
-    @property
+    @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:
-        """Return what a reader needs to know beside the equation of when it holds."""
-        return tuple(h for h in self.hypotheses if h.shown)
+        """Return what a reader needs to know beside the equation of when it holds.
+
+        A name may be positive by the vocabulary: what it is defined as then has to be.
+        """
+        shown = tuple(h for h in self.hypotheses if h.shown)
+        names = [h for h in self.hypotheses if h.kind is Kind.DEFINITION and h.relation.args]
+        signs = dict.fromkeys(d for h in names if (d := _sign_of_name(h.relation)))
+        return (*shown, *(sign for sign in signs if not self._follows(sign)))
+
+    def _follows(self, sign: Hypothesis) -> bool:
+        """Return whether the sign of a name follows from what it and the equation say."""
+        name = sign.relation.args[0]
+        said = (*self.claims, *(h.relation for h in self.hypotheses if not h.relation.has(t)))
+        known = frozenset(r.xreplace({name: _ANY}) for r in said if r is not sp.true)
+        return holds(sign.relation.func(_ANY, 0), known)
 
     @property
     def hypotheses(self) -> tuple[Hypothesis, ...]:
@@ -137,6 +152,15 @@ class Equation:
         if all(isinstance(s.rule, Assume) for s in self.statements):
             return Status.DEFINITION
         return Status.DERIVED
+
+
+_ANY = sp.Symbol("value", real=True)
+
+
+def _sign_of_name(definition: sp.Basic) -> Hypothesis | None:
+    """Return the sign that the vocabulary gives to a name which does not vary."""
+    name = definition.args[0]
+    return domain(name) if name.is_Symbol and name.name not in CLOCKS else None
 
 
 def beyond(
