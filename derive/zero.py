@@ -24,18 +24,34 @@ _NOT_PLAIN = (sp.Integral, sp.Limit, sp.Subs, sp.Sum)
 
 def is_zero(expr: sp.Expr) -> bool:
     """Return True when exact rewriting reduces ``expr`` to 0; False proves nothing."""
-    if expr.is_zero:
+    if expr == 0:
         return True
-    if _differs_from_zero(expr):
-        return False
-    expr = _exponentials(_normal_arguments(expr))
-    if sp.expand(expr) == 0:
-        return True
+    if not expr.has(*_NOT_PLAIN):
+        expr = _fields_as_symbols(expr)
+        if _differs_from_zero(expr):
+            return False
+    expr = _exponentials(_normal_arguments(expr, {}))
     numerator, _ = sp.fraction(sp.together(expr))
-    numerator = sp.expand(sp.powsimp(sp.expand(numerator), deep=True))
+    numerator = _expand(sp.powsimp(_expand(numerator), deep=True))
     if numerator == 0:
         return True
-    return sp.cancel(_atoms_as_symbols(_merged(numerator))) == 0
+    return sp.cancel(_merged(numerator)) == 0
+
+
+def _fields_as_symbols(expr: sp.Expr) -> sp.Expr:
+    """Replace fields and derivatives by symbols of the same sign, which SymPy handles faster."""
+    found = expr.atoms(sp.Derivative, AppliedUndef)
+    outermost_first = sorted(found, key=lambda a: (not isinstance(a, sp.Derivative), str(a)))
+    return expr.xreplace({atom: sp.Dummy(**_signs(atom)) for atom in outermost_first})
+
+
+def _signs(atom: sp.Expr) -> dict[str, bool]:
+    signs = ("real", "nonnegative", "nonpositive", "nonzero")
+    return {sign: True for sign in signs if getattr(atom, f"is_{sign}")}
+
+
+def _expand(expr: sp.Expr) -> sp.Expr:
+    return sp.expand(expr, log=False, power_base=False)
 
 
 def _differs_from_zero(expr: sp.Expr) -> bool:
@@ -43,23 +59,12 @@ def _differs_from_zero(expr: sp.Expr) -> bool:
 
     One point suffices, and is much quicker than rewriting in vain.
     """
-    if expr.has(*_NOT_PLAIN):
-        return False
     generator = random.Random(1)
-
-    def value(atom: sp.Expr) -> sp.Expr:
-        number = sp.Float(generator.uniform(0.3, 1.7), 40)
-        return -number if atom.is_negative else number
-
-    derivatives = sorted(expr.atoms(sp.Derivative), key=str)
-    point = {atom: value(atom) for atom in derivatives}
-    bare = expr.xreplace(point)
-    unknown = sorted(bare.atoms(AppliedUndef) | bare.free_symbols, key=str)
-    number = bare.xreplace({a: value(a) for a in unknown if isinstance(a, AppliedUndef)})
-    number = number.xreplace({a: value(a) for a in unknown if isinstance(a, sp.Symbol)})
-    if not isinstance(number, sp.Expr) or number.free_symbols:
-        return False
-    number = sp.N(number, 30)
+    point = {}
+    for symbol in sorted(expr.free_symbols, key=sp.default_sort_key):
+        size = sp.Float(generator.uniform(0.3, 1.7), 40)
+        point[symbol] = -size if symbol.is_negative else size
+    number = sp.N(expr.xreplace(point), 30)
     return bool(number.is_Float and number.is_finite and abs(number) > _NOISE)
 
 
@@ -79,25 +84,23 @@ def same(left: sp.Basic, right: sp.Basic) -> bool:
     return False
 
 
-def _normal_arguments(expr: sp.Expr) -> sp.Expr:
+def _normal_arguments(expr: sp.Expr, known: dict[sp.Expr, sp.Expr]) -> sp.Expr:
     """Bring the arguments of functions, and what stands under roots, to one expanded form."""
-    if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):
+    if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative, sp.Piecewise)):
         return expr
-    args = [_normal_arguments(a) if isinstance(a, sp.Expr) else a for a in expr.args]
-    if isinstance(expr, Function):
-        args = [sp.expand(sp.cancel(_roots(a))) if isinstance(a, sp.Expr) else a for a in args]
-    elif isinstance(expr, sp.Pow) and not expr.exp.is_Integer:
-        args = [sp.factor_terms(sp.expand(args[0])), args[1]]
-    return expr.func(*args)
-
-
-def _roots(expr: sp.Expr) -> sp.Expr:
-    return sp.powdenest(expr)
+    if expr not in known:
+        args = [_normal_arguments(a, known) for a in expr.args]
+        if isinstance(expr, Function):
+            args = [sp.expand(sp.cancel(sp.powdenest(a))) for a in args]
+        elif isinstance(expr, sp.Pow) and not expr.exp.is_Integer:
+            args = [sp.factor_terms(sp.expand(args[0])), args[1]]
+        known[expr] = expr.func(*args)
+    return known[expr]
 
 
 def _exponentials(expr: sp.Expr) -> sp.Expr:
     expr = expr.rewrite([sp.tanh, sp.sinh, sp.cosh, sp.coth], sp.exp)
-    return sp.expand_power_exp(sp.expand_log(expr))
+    return sp.expand_power_exp(sp.expand_log(expr) if expr.has(sp.log) else expr)
 
 
 def _merged(expr: sp.Expr) -> sp.Expr:
@@ -110,12 +113,3 @@ def _merged(expr: sp.Expr) -> sp.Expr:
         powers, rest = sp.sift(sp.Mul.make_args(term), lambda e: isinstance(e, sp.exp), binary=True)
         merged.append(sp.Mul(*rest, sp.exp(sp.cancel(sp.Add(*(e.exp for e in powers))))))
     return sp.expand_power_exp(sp.Add(*merged))
-
-
-def _atoms_as_symbols(expr: sp.Expr) -> sp.Expr:
-    """Replace functions and derivatives by plain symbols, so that cancel sees a polynomial."""
-    atoms = expr.atoms(sp.Derivative) | expr.atoms(AppliedUndef)
-    ordered = sorted(
-        atoms, key=lambda a: (not isinstance(a, sp.Derivative), sp.default_sort_key(a))
-    )
-    return expr.xreplace({atom: sp.Dummy() for atom in ordered})

@@ -107,14 +107,14 @@ def in_process(line: str) -> tuple[str, int]:
     return printed.getvalue() + (told.getvalue() if status else ""), status
 
 
-def by_shell(line: str, **environment: str) -> tuple[str, int]:
+def by_shell(line: str) -> tuple[str, int]:
     """Run a command line by the shell, with the programs of this environment first."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     run = subprocess.run(
         ["sh", "-c", line],
         capture_output=True,
         text=True,
-        env={**os.environ, "PATH": path, **environment},
+        env={**os.environ, "PATH": path},
         check=False,
     )
     return run.stdout + (run.stderr if run.returncode else ""), run.returncode

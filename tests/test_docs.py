@@ -5,13 +5,14 @@ from __future__ import annotations
 import importlib.util
 import io
 import json
+import os
 import re
 import shutil
+import subprocess
 import sys
 import warnings
 from collections import Counter
 from contextlib import redirect_stderr
-from functools import partial
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -79,20 +80,27 @@ def test_what_a_page_says_is_what_happens(page, need_tool):
 
 
 def test_another_contact_law_is_one_entry(workplace):
-    """The page on contact laws, followed in a copy of the packages."""
+    """The page on contact laws, followed in a copy of the packages by a process of its own."""
     for package in ("derive", "wear"):
         shutil.copytree(ROOT / package, workplace / package)
     with (workplace / "derive" / "laws.py").open("a", encoding="utf-8") as laws:
         laws.write((workplace / "gentle_law.txt").read_text(encoding="utf-8"))
     text = LAW_PAGE.read_text(encoding="utf-8")
     consoles = [block.body for block in pages.blocks(text) if block.language == "console"]
-    run = partial(pages.by_shell, PYTHONPATH=str(workplace))
-    failures = []
-    for command in (command for body in consoles for command in pages.commands(body)):
-        program, _, arguments = command.line.partition(" ")
-        module = command._replace(line=f"{sys.executable} -m {program} {arguments}")
-        failures.append(pages.difference(module, run))
-    report("\n".join([*failures, pages.session(text, LAW_PAGE.name)]))
+    commands = [command for body in consoles for command in pages.commands(body)]
+    code = f"""
+from tests.pages import Command, difference, in_process
+for command in {[tuple(command) for command in commands]!r}:
+    print(difference(Command(*command), in_process))
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (workplace, ROOT)))},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    report("\n".join([run.stdout.strip(), run.stderr, pages.session(text, LAW_PAGE.name)]))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)

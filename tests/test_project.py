@@ -53,9 +53,8 @@ def sources(need_tool) -> dict[Path, str]:
     return {path: path.read_text(encoding="utf-8") for path in tracked("*.py")}
 
 
-@pytest.mark.parametrize("package", ["wear", "derive", "derive.terminal", "wear.cli"])
-def test_importing_is_light(package):
-    assert not imported_by(f"import {package}") & HEAVY
+def test_importing_is_light():
+    assert not imported_by("import wear, wear.cli, derive, derive.cli") & HEAVY
 
 
 @pytest.mark.parametrize("script", PROJECT["scripts"].values())
@@ -90,47 +89,48 @@ sys.exit(start.main())
     assert "Traceback" not in run.stderr
 
 
-@pytest.mark.parametrize("arguments", [["report", "section4"], ["reproduce"]])
-def test_without_the_report_s_packages_the_core_runs_and_the_rest_names_them(arguments, tmp_path):
-    code = f"""
+def test_without_the_report_s_packages_the_core_runs_and_the_rest_names_them(tmp_path):
+    code = """
 import sys
 sys.modules.update(dict.fromkeys(("matplotlib", "math_core", "markdown_it")))
 from wear.cli import main
 assert main(["run", "section4", "--cycles", "1"]) == 0
-sys.exit(main({arguments!r}))
+for arguments in (["report", "section4"], ["reproduce"]):
+    try:
+        main(arguments)
+    except SystemExit as stop:
+        assert stop.code == 2
 """
     run = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path
     )
-    assert run.returncode == 2, run.stderr
-    assert "needs the package matplotlib: pip install 'derive-wear[report]'" in run.stderr
+    assert run.returncode == 0, run.stderr
+    needed = "needs the package matplotlib: pip install 'derive-wear[report]'"
+    assert run.stderr.count(needed) == 2
     assert "Traceback" not in run.stderr
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["scenes"], ["cite"]])
-def test_commands_without_mathematics_import_none(arguments):
-    code = f"""
+def test_commands_without_mathematics_import_none():
+    code = """
+import contextlib
 from wear.cli import main
-try:
-    main({arguments!r})
-except SystemExit:
-    pass
+for arguments in (["--help"], ["run", "--help"], ["scenes"], ["cite"]):
+    with contextlib.suppress(SystemExit):
+        main(arguments)
 """
     assert not imported_by(code) & HEAVY
 
 
-@pytest.mark.parametrize("package", ["derive", "wear"])
-def test_what_a_package_offers_is_not_hidden_by_a_module_of_the_same_name(package):
+def test_what_a_package_offers_is_not_hidden_by_a_module_of_the_same_name():
     """Importing a module `wear.solve` turns a function `wear.solve` into it, if given lazily."""
-    code = f"""
-import importlib, types, {package} as package
-offered = getattr(package, "__all__", ())
-for name in offered:
-    try:
-        importlib.import_module("{package}." + name)
-    except ModuleNotFoundError:
-        pass
-assert not [n for n in offered if isinstance(getattr(package, n), types.ModuleType)]
+    code = """
+import contextlib, importlib, types, derive, wear
+for package in (derive, wear):
+    offered = getattr(package, "__all__", ())
+    for name in offered:
+        with contextlib.suppress(ModuleNotFoundError):
+            importlib.import_module(package.__name__ + "." + name)
+    assert not [n for n in offered if isinstance(getattr(package, n), types.ModuleType)]
 """
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr

@@ -9,13 +9,14 @@ Key results
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.checked import did_you_mean
 from wear.equation import WearEquation
 from wear.load import Blocks, Load
 from wear.load.spans import Span
@@ -44,6 +45,13 @@ def parameters_of(scene: Scene) -> dict[str, float]:
         found |= {f"{name}.{key}": _entry(load, key) for key in numbers_of(load)}
         found[f"{name}.period_s"] = load.period
     return found
+
+
+def no_such_number(key: str, numbers: Iterable[str]) -> str:
+    """Return the complaint about a key that is not among the `numbers` of a scene."""
+    meant = did_you_mean(key, numbers)
+    remedy = f"did you mean {meant}?" if meant else f"it has {', '.join(numbers)}"
+    return f"{key}: the wear of this scene does not depend on it; {remedy}"
 
 
 class Link(NamedTuple):

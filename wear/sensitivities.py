@@ -18,7 +18,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.checked import did_you_mean
 from wear.cycles import groups
 from wear.faults import UsageError
 from wear.load import Constant
@@ -30,7 +29,7 @@ from wear.loss_of_contact.tangent import stage_tangents
 from wear.model import bind
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
-from wear.parameters import parameters_of, parametrised
+from wear.parameters import no_such_number, parameters_of, parametrised
 from wear.progress import Pace
 from wear.scene import Scene, as_scene
 from wear.solver import checked_request, obstacle
@@ -124,9 +123,7 @@ def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:
     for key in keys:
         owner = next((own for own in known if key not in own), None)
         if owner is not None:
-            meant = did_you_mean(key, owner)
-            remedy = f"did you mean {meant}?" if meant else f"it has {', '.join(owner)}"
-            faults.append(f"{key}: the wear of this scene does not depend on it; {remedy}")
+            faults.append(no_such_number(key, owner))
     if faults:
         raise UsageError("\n".join(faults))
 

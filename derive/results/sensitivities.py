@@ -16,7 +16,7 @@ Key results
 
 from __future__ import annotations
 
-from functools import partial
+from functools import cache, partial
 
 import sympy as sp
 
@@ -39,11 +39,12 @@ u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
 f_c, h, h_0, U_a, U, u_c = symbols("f_c h h_0 U_a U u_c")
 p, sigma_c0, M, k = symbols("p sigma_c0 M k")
 
-wear_per_cycle = Stabilised().wear_per_cycle
-pressure = Stabilised().pressure
 
-compliant_wear = named_limit(u_cum, CompliantSteadyState().wear_per_cycle, "wear per cycle")
-"""The same on a support of any stiffness."""
+@cache
+def stabilised() -> Stabilised:
+    """Return section 4's asymptotic state, which all here is about."""
+    return Stabilised()
+
 
 WORN = Hypothesis("there is wear", sp.Gt(u_c, 0), kind=Kind.STATE)
 OPEN_GAP = Hypothesis("the mean surfaces do not coincide", sp.Ne(h, 0), kind=Kind.STATE)
@@ -77,14 +78,15 @@ def _differentiated(
     result: Judgement, parameter: sp.Symbol, left: sp.Expr, right: sp.Expr
 ) -> Judgement:
     claim = sp.Eq(left, right, evaluate=False)
-    names = [name for s, name in ((p_inf, pressure), (M, largest_wear)) if right.has(s)]
+    names = [stabilised().pressure] if right.has(p_inf) else []
+    names += [largest_wear] if right.has(M) else []
     return Differentiated(claim, parameter)(result, *names, name="sensitivity")
 
 
 def slope_from_wear() -> Judgement:
     """f_c from the asymptotic wear per cycle."""
     odds = sp.log(M / u_cum - 1)
-    known = Logarithm(sp.Eq(odds, 4 / f_c - 8))(wear_per_cycle, largest_wear)
+    known = Logarithm(sp.Eq(odds, 4 / f_c - 8))(stabilised().wear_per_cycle, largest_wear)
     claim = sp.Eq(f_c, 4 / (8 + odds))
     return Insert(claim)(known, assume(ROUGHENING), name="f_c from wear per cycle")
 
@@ -92,7 +94,7 @@ def slope_from_wear() -> Judgement:
 def coefficient_from_wear() -> Judgement:
     """K_c from the asymptotic wear per cycle."""
     claim = sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * (1 + sp.exp(4 / f_c - 8)))
-    return Insert(claim)(wear_per_cycle, name="K_c from wear per cycle")
+    return Insert(claim)(stabilised().wear_per_cycle, name="K_c from wear per cycle")
 
 
 def slope_from_rate() -> Judgement:
@@ -110,6 +112,8 @@ def slope_from_rate() -> Judgement:
 def equations() -> tuple[Equation, ...]:
     """Return sensitivities, elasticities and identification."""
     result = partial(beyond, "sensitivities")
+    wear_per_cycle, pressure = stabilised().wear_per_cycle, stabilised().pressure
+    compliant_wear = named_limit(u_cum, CompliantSteadyState().wear_per_cycle, "wear per cycle")
     by_share = 4 / f_c**2 * share * (1 - share)
     powers = tuple(elasticity(wear_per_cycle, a, sp.Integer(n)) for a, n in POWERS.items())
     nothing = tuple(sensitivity(compliant_wear, a, sp.S.Zero) for a in WITHOUT_EFFECT)

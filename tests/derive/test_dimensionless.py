@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 import sympy as sp
 
@@ -25,17 +27,18 @@ k, U_a, u_c, T, sigma_c0 = symbols("k U_a u_c T sigma_c0")
 
 
 @pytest.mark.parametrize(
-    ("scaled", "groups", "number"),
+    ("made", "groups", "number"),
     [
-        (one_solid(), GROUPS_OF_ONE, 4),
-        (two_solids(), GROUPS_OF_TWO, 7),
-        (compliant(), GROUPS_COMPLIANT, 4),
+        (one_solid, GROUPS_OF_ONE, 4),
+        (two_solids, GROUPS_OF_TWO, 7),
+        (compliant, GROUPS_COMPLIANT, 4),
     ],
 )
 def test_the_number_of_groups(
-    scaled: Judgement, groups: tuple[sp.Symbol, ...], number: int
+    made: Callable[[], Judgement], groups: tuple[sp.Symbol, ...], number: int
 ) -> None:
     """No datum is left but the groups."""
+    scaled = made()
     assert replayed(scaled) is None
     names = {s.name for s in scaled.relation.free_symbols} - {"tau"}
     assert names == {group.name for group in groups}

@@ -34,6 +34,13 @@ def test_a_little_more_is_not_zero(expr: sp.Expr, extra: sp.Expr) -> None:
     assert not is_zero(expr + extra)
 
 
+def test_a_field_is_no_constant() -> None:
+    f = sp.Function("f", positive=True)(x)
+    assert not is_zero(sp.Integral(f, (x, 0, 1)) - f)
+    assert not is_zero(sp.diff(f, x))
+    assert is_zero(sp.log(f * a) - sp.log(f) - sp.log(a))
+
+
 def _expressions() -> st.SearchStrategy[sp.Expr]:
     leaves = st.sampled_from([x, y, a, b, sp.Integer(2), sp.Rational(1, 3)])
     return st.recursive(

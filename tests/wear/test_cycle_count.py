@@ -119,21 +119,23 @@ def scenes(draw: st.DrawFn) -> Scene:
     return Scene.from_dict(made, "drawn")
 
 
-@settings(max_examples=25)
+@settings(max_examples=16)
 @given(scene=scenes(), rtol=st.sampled_from([1e-6, 1e-9, 1e-12]))
 def test_drawn_scenes_against_an_independent_integrator(scene: Scene, rtol: float) -> None:
-    cycles = [1, 4, 8]
+    cycles = [1, 5]
     want = np.array(list(independent(problem(scene), cycles).values()))
     found = counted(scene, np.array(cycles, dtype=float), rtol)
     true = np.abs(found.u_c / want - 1)
     assert np.all((true <= found.error) | (true < ROUNDING))
 
 
-@pytest.mark.parametrize("name", ["S2", "S8_1"])
-def test_the_independent_integrator_agrees_with_the_references(name: str) -> None:
-    found = independent(problem(reference_scene(name)), [1, 10])
-    for cycles, wear in found.items():
-        assert_allclose(wear, REFERENCE[name][cycles], rtol=1e-15)
+@pytest.mark.parametrize(("name", "cycles"), [("S2", [1, 10]), ("S8_1", [1])])
+def test_the_independent_integrator_agrees_with_the_references(
+    name: str, cycles: list[int]
+) -> None:
+    found = independent(problem(reference_scene(name)), cycles)
+    for cycle, wear in found.items():
+        assert_allclose(wear, REFERENCE[name][cycle], rtol=1e-15)
 
 
 @pytest.mark.parametrize("first", [3.0, 40.0, 5000.0])

@@ -178,7 +178,7 @@ def test_the_last_cycles_before_arrest_are_known_as_well_as_rounding_permits() -
 
 @pytest.mark.parametrize(
     ("K", "f_c", "cycles"),
-    [(1e-5, -0.1, [5, 12, 60]), (1e-6, 0.1, [3, 40]), (3e-5, 0.1, [4, 12, 40])],
+    [(1e-5, -0.1, [5, 20]), (1e-6, 0.1, [3, 20]), (3e-5, 0.1, [4, 12])],
 )
 def test_at_a_sharp_peak_wear_fades(K: float, f_c: float, cycles: list[int]) -> None:
     """Each cycle takes the same part of the distance that is left: no cycle is the last."""
@@ -262,7 +262,7 @@ def agrees_with_direct_integration(scene: Scene, cycles: list[int], rtol: float)
 def test_on_a_compliant_support_counted_cycles_are_integrated_ones(
     K: float, f_c: float, pin: bool, k: float
 ) -> None:
-    agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 7, 20], 1e-11)
+    agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 9], 1e-11)
 
 
 @settings(max_examples=5)
@@ -297,14 +297,14 @@ def test_on_a_compliant_support_wear_fades(load: Load | None) -> None:
 
 
 def test_a_count_on_a_compliant_support_goes_on_from_any_cycle() -> None:
-    """Two hundred cycles, counted and one by one."""
+    """Sixty cycles, counted and one by one."""
     scene = supported(1e-5, 0.25, True, 1e5)
     model, load = bind(scene), scene.periodic_load
-    found = count.wear_after(model, load, np.array([40.0, 240.0]), 1e-12)
+    found = count.wear_after(model, load, np.array([40.0, 100.0]), 1e-12)
     fine = switched_period_map([model], [load], [edge_of_contact(model, load)], 24)
     wear = found.u_c[0]
     with np.errstate(all="ignore"):  # of a load that does not rise on a stretch
-        for _ in range(200):
+        for _ in range(60):
             wear += float(fine.advance(np.array([wear]), np.zeros(1, dtype=int)).increment[0])
     assert abs(found.u_c[1] / wear - 1) <= found.error[1] + found.error[0] + 1e-14
 

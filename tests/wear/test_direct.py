@@ -31,8 +31,13 @@ def true_errors(name, result):
     return np.abs(result.u / np.array(reference) - 1.0)
 
 
-@pytest.mark.parametrize(("rtol", "cycles"), [(1e-6, [1, 10, 100]), (1e-10, [1, 10])])
-@pytest.mark.parametrize("name", REFERENCE)
+@pytest.mark.parametrize(
+    ("name", "rtol", "cycles"),
+    [
+        *((name, rtol, [1, 10]) for name in REFERENCE for rtol in (1e-6, 1e-10)),
+        *((name, 1e-6, [100]) for name in ("S2", "S4", "S6")),
+    ],
+)
 def test_wear_is_within_the_request_and_the_estimate_not_below_the_true_error(name, rtol, cycles):
     result = integrate(reference_scene(name), cycles, rtol)
     true = true_errors(name, result)

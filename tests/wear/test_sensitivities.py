@@ -181,6 +181,23 @@ def test_wear_that_has_stopped_depends_on_the_margin_alone(stiffness: float | No
     assert np.all(found.error[:, 0] <= 1e-11 * np.abs(found.derivative[:, 0]))
 
 
+def test_derivatives_keep_their_digits_near_a_limit_wear() -> None:
+    """There a cycle changes the wear so little that dP/du differs from 1 by rounding alone."""
+    changes = {
+        "bearing.wear_coefficient": 1.6e-8,
+        "bearing.roughness_growth": 0.07,
+        "contact.closure_in_sigma": 2.95,
+        "contact.max_pressure_MPa": 104.0,
+        "load.amplitude_mm": 3.5e-4,
+        "support.stiffness_MPa_per_mm": 3e5,
+    }
+    scene = load_scene("section4-cutoff").with_(changes)
+    keys = ["bearing.wear_coefficient", "contact.closure_in_sigma"]
+    values = np.array([[changes[key]] for key in keys])
+    found = gradients([scene], keys, np.array([1e6, 1e9]))
+    assert np.all(found.error[0] * values <= 1e-10 * found.wear[0])
+
+
 def test_where_contact_grazes_at_first_it_is_said() -> None:
     assert "from one side" in sensitivity("section4-cutoff", 1).notices[0]
     scene = load_scene("section4-cutoff", ["contact.closure_mm=1e-3"])

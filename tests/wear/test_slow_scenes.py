@@ -99,7 +99,7 @@ def test_analysis_and_numerics_agree_on_random_scenes(
 def test_two_rough_solids_on_a_nearly_rigid_support(K: float, f_c: float, swing: float) -> None:
     scene = supported(10**K, f_c, True, 5e10, Sine(10**swing, 0.06))
     assume(float(bind(scene).margin(0.0, scene.periodic_load.maximum)) > 1e-6)
-    found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0, 3.0]), 1e-12)
-    true = independent_support.wear_after(problem(scene), [1, 3])
-    want = np.array([true[1], true[3]])
+    found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0, 2.0]), 1e-12)
+    true = independent_support.wear_after(problem(scene), [1, 2])
+    want = np.array([true[1], true[2]])
     assert np.all(np.abs(found.u_c - want) <= (found.error + 3e-15) * want)

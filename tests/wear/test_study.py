@@ -248,12 +248,14 @@ def _command(*words: str, rows: int = 8) -> list[str]:
     return [sys.executable, "-c", code, str(rows), "study", *words]
 
 
+@pytest.mark.usefixtures("small_chunks")
 def test_a_study_killed_at_random_moments_ends_with_the_same_bits(tmp_path: Path) -> None:
-    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:160", "--cycles", "9000", "--workers", "1"]
-    subprocess.run(_command(*words, "-o", str(tmp_path / "whole.zarr")), check=True)
+    vary = f"{GROWTH}=0.1:0.3:160"
+    whole = study("section4", [vary], [9000], tmp_path / "whole.zarr")
+    words = ["section4", "--vary", vary, "--cycles", "9000", "--workers", "1"]
     random = np.random.default_rng(5)
     part = tmp_path / "part.zarr"
-    for _ in range(10):
+    for _ in range(5):
         process = subprocess.Popen(_command(*words, "-o", str(part)))
         begun = time.monotonic()
         while not part.exists() and process.poll() is None and time.monotonic() < begun + 60:
@@ -262,17 +264,16 @@ def test_a_study_killed_at_random_moments_ends_with_the_same_bits(tmp_path: Path
         process.kill()
         process.wait()
     subprocess.run(_command(*words, "-o", str(part)), check=True)
-    assert same(xarray.open_zarr(part, consolidated=False),
-                xarray.open_zarr(tmp_path / "whole.zarr", consolidated=False))  # fmt: skip
+    assert same(xarray.open_zarr(part, consolidated=False), whole)
 
 
+@pytest.mark.usefixtures("small_chunks")
 def test_a_worker_of_a_cluster_is_killed_and_nothing_is_lost(tmp_path: Path) -> None:
     from distributed import LocalCluster
 
-    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:400", "--cycles", "9000"]
-    subprocess.run(
-        _command(*words, "--workers", "1", "-o", str(tmp_path / "whole.zarr")), check=True
-    )
+    vary = f"{GROWTH}=0.1:0.3:400"
+    whole = study("section4", [vary], [9000], tmp_path / "whole.zarr")
+    words = ["section4", "--vary", vary, "--cycles", "9000"]
     with LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
     ) as cluster:
@@ -287,15 +288,16 @@ def test_a_worker_of_a_cluster_is_killed_and_nothing_is_lost(tmp_path: Path) -> 
         victim = next(iter(cluster.workers.values()))
         os.kill(victim.pid, signal.SIGKILL)
         assert process.wait(timeout=120) == 0
-    assert same(xarray.open_zarr(tmp_path / "c.zarr", consolidated=False),
-                xarray.open_zarr(tmp_path / "whole.zarr", consolidated=False))  # fmt: skip
+    assert same(xarray.open_zarr(tmp_path / "c.zarr", consolidated=False), whole)
 
 
-def test_a_full_disk_keeps_what_is_finished(tmp_path: Path) -> None:
+def test_a_full_disk_keeps_what_is_finished(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     import resource
 
-    out = str(tmp_path / "a.zarr")
-    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:1024", "--cycles", "9000", "--workers", "1"]
+    out, vary = str(tmp_path / "a.zarr"), f"{GROWTH}=0.1:0.3:1024"
+    words = ["section4", "--vary", vary, "--cycles", "9000", "--workers", "1"]
     limit = (4096, resource.getrlimit(resource.RLIMIT_FSIZE)[1])
     full = subprocess.run(
         _command(*words, "-o", out, rows=1024),
@@ -307,8 +309,8 @@ def test_a_full_disk_keeps_what_is_finished(tmp_path: Path) -> None:
     assert full.returncode == 2
     assert "File too large" in full.stderr
     assert "Traceback" not in full.stderr
-    subprocess.run(_command(*words, "-o", out, rows=1024), check=True)
-    found = xarray.open_zarr(out, consolidated=False)
+    monkeypatch.setattr(designs, "ROWS", 1024)
+    found = study("section4", [vary], [9000], out)
     assert bool((found["status"] == Status.DONE).all())
 
 

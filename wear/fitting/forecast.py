@@ -34,21 +34,12 @@ class Open(NamedTuple):
 
 
 class Forecast(NamedTuple):
-    """Wear (mm) of a specimen after a number of cycles, with its 95 % band."""
+    """Wear (mm) of a specimen and number of cycles to it, with the 95 % band of whichever was not
+    given."""
 
     specimen: str
     cycles: float
     bearing_wear_mm: float
-    interval_95: tuple[float, float]
-
-
-class Life(NamedTuple):
-    """Number of cycles to a wear depth (mm) of a specimen, infinite where that is not reached
-    within 1e12 cycles, with its 95 % band."""
-
-    specimen: str
-    bearing_wear_mm: float
-    cycles: float
     interval_95: tuple[float, float]
 
 
@@ -121,14 +112,14 @@ def forecast(found: Fit, cycles: Sequence[float]) -> Iterator[Forecast]:
     rows = zip(level[0].tolist(), width.tolist(), strict=True)
     for specimen in specimens:
         for number in wanted.tolist():
-            yield Forecast(specimen.name, number, *_band(*next(rows)))
+            wear, width = next(rows)
+            yield Forecast(specimen.name, number, float(np.exp(wear)), _band(wear, width))
 
 
-def _band(level: float, width: float) -> tuple[float, tuple[float, float]]:
-    """Return a number and its band from its logarithm and the half width of that of the band."""
+def _band(level: float, width: float) -> tuple[float, float]:
+    """Return the ends of a band of this half width around `level`, all three of logarithms."""
     with np.errstate(over="ignore"):
-        middle, low, high = np.exp(np.array([level, level - width, level + width])).tolist()
-    return middle, (low, high)
+        return float(np.exp(level - width)), float(np.exp(level + width))
 
 
 def forecast_rms_from_first_half(found: Fit) -> float:
@@ -143,8 +134,9 @@ def forecast_rms_from_first_half(found: Fit) -> float:
     return forecast_rms(model.specimens, level[0])
 
 
-def life(found: Fit, wear_mm: float) -> Iterator[Life]:
-    """Yield the number of cycles to a wear depth of every specimen, with its 95 % band.
+def life(found: Fit, wear_mm: float) -> Iterator[Forecast]:
+    """Yield the number of cycles to a wear depth of every specimen, with its 95 % band; infinite
+    where the depth is not reached within 1e12 cycles.
 
     The logarithm of the number has the standard error of that of the wear, over the slope of the
     one against the other.
@@ -161,7 +153,7 @@ def life(found: Fit, wear_mm: float) -> Iterator[Life]:
     with np.errstate(all="ignore"):
         width = found.quantile * found.spread(slope) / steepness
     for specimen, number, own in zip(specimens, numbers.tolist(), width.tolist(), strict=True):
-        yield Life(specimen.name, wear_mm, *_band(float(np.log(number)), own))
+        yield Forecast(specimen.name, number, wear_mm, _band(float(np.log(number)), own))
 
 
 def next_reading(found: Fit, cycles: float | None = None) -> NextReading:

@@ -208,9 +208,11 @@ def faults(
     scene: Scene, specimens: Sequence[Specimen], free: Sequence[str], free_each: Sequence[str]
 ) -> Iterator[str]:
     """Yield what is wrong with the choice of what is free."""
+    from wear.parameters import no_such_number, parameters_of
+
     keys = [*free, *free_each]
     if not keys:
-        yield "free: name at least one key"
+        yield f"free: name at least one of {', '.join(parameters_of(scene))}"
     for key in dict.fromkeys(keys):
         value = given(scene, key)
         if keys.count(key) > 1:
@@ -218,7 +220,7 @@ def faults(
         if any(key in specimen.changes for specimen in specimens):
             yield f"free: {key} is given by the data"
         if value is None:
-            yield f"free: {key}: the wear of this scene depends on no such number"
+            yield f"free: {no_such_number(key, parameters_of(scene))}"
         elif not _may_change(scene, key, value):
             yield f"free: {key}: an entry of a list cannot be free"
         elif value == 0.0 and is_positive(scene, key):

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import csv
-import io
-import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +17,18 @@ from wear.load.rows import read_bytes
 FloatArray = NDArray[np.float64]
 MOST_BYTES = 16 * 1024 * 1024
 WEAR = {"wear_mm": 1.0, "wear_um": 1e-3}  # column: mm a unit
-_OWN = ("cycles", *WEAR, "standard_error_mm", "specimen")
+DELIMITERS = (",", ";", "\t")  # the decimal sign may be a comma where the first is not
+MOST_HEAD_LINES = 100  # before the names of the columns, as instruments write them
+
+# What the numbers of a column must be, and how to say so.
+_CHECKS: dict[str, tuple[Callable[[FloatArray], NDArray[np.bool_]], str]] = {
+    "cycles": (
+        lambda n: (n >= 1) & (n <= MOST_CYCLES) & (n % 1 == 0),
+        "must be a whole number from 1 to 1e12",
+    ),
+    **{name: (lambda u: (u >= 0.0) & np.isfinite(u), "must be a number >= 0") for name in WEAR},
+    "standard_error_mm": (lambda e: (e > 0.0) & np.isfinite(e), "must be a number > 0"),
+}
 
 
 @dataclass(frozen=True)
@@ -45,17 +54,21 @@ class Specimen:
     def first(self, readings: int) -> Specimen:
         """Return the specimen with its first few readings."""
         error = self.standard_error_mm
-        return Specimen(
-            self.name, self.cycles[:readings], self.wear_mm[:readings],
-            None if error is None else error[:readings], self.changes,
-        )  # fmt: skip
+        return replace(
+            self,
+            cycles=self.cycles[:readings],
+            wear_mm=self.wear_mm[:readings],
+            standard_error_mm=None if error is None else error[:readings],
+        )
 
 
 def read_readings(path: str | Path, ignore: Sequence[str] = ()) -> tuple[Specimen, ...]:
-    """Return the specimens of a CSV file with a header.
+    """Return the specimens of a CSV file.
 
-    Columns are `cycles`, `wear_mm` or `wear_um`, and if need be `standard_error_mm` and `specimen`;
-    any other names an entry of the scene, or is dropped by `ignore`.
+    A line names the columns: `cycles`, `wear_mm` or `wear_um`, and if need be `standard_error_mm`
+    and `specimen`; any other names an entry of the scene, or is dropped by `ignore`. Above it there
+    may be lines as instruments write them. Columns are separated by commas, or by semicolons or
+    tabs, and then the decimal sign may be a comma.
 
     Raises
     ------
@@ -66,24 +79,39 @@ def read_readings(path: str | Path, ignore: Sequence[str] = ()) -> tuple[Specime
     if isinstance(data, tuple):
         raise UsageError(f"{path}: {'; '.join(data)}")
     try:
-        lines = csv.reader(io.StringIO(data.decode("utf-8-sig"), newline=""))
-        rows = [(lines.line_num, [entry.strip() for entry in row]) for row in lines if any(row)]
-    except (UnicodeDecodeError, csv.Error) as fault:
-        raise UsageError(f"{path}: is no CSV file in UTF-8 ({fault})") from fault
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    delimiter, lines = _from_header(text.splitlines())
+    rows = [(number, cells) for number, line in lines if any(cells := _cells(line, delimiter))]
     names = rows[0][1] if rows else []
     faults = [*_faults_of_header(names, ignore)] + [
-        f"line {line}: {len(row)} entries, but the header has {len(names)}"
-        for line, row in rows[1:]
+        f"line {number}: {len(row)} entries, but the header has {len(names)}"
+        for number, row in rows[1:]
         if len(row) != len(names)
     ]
-    places = [f"line {line}" for line, _ in rows[1:]]
     if not faults:
         columns = {name: [row[i] for _, row in rows[1:]] for i, name in enumerate(names)}
         kept = {name: column for name, column in columns.items() if name not in ignore}
-        found, faults = _specimens(kept, places)
+        found, faults = _specimens(kept, [number for number, _ in rows[1:]], delimiter)
     if faults:
         raise UsageError("\n".join(f"{path}: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]))
     return found
+
+
+def _from_header(lines: Sequence[str]) -> tuple[str, list[tuple[int, str]]]:
+    """Return the delimiter, and the lines with their numbers from that which names the columns on;
+    where none has a column `cycles`, all of them."""
+    numbered = list(enumerate(lines, start=1))
+    for place, line in enumerate(lines[:MOST_HEAD_LINES]):
+        for delimiter in DELIMITERS:
+            if "cycles" in _cells(line, delimiter):
+                return delimiter, numbered[place:]
+    return DELIMITERS[0], numbered
+
+
+def _cells(line: str, delimiter: str) -> list[str]:
+    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
 
 
 def _faults_of_header(names: Sequence[str], ignore: Sequence[str]) -> Iterator[str]:
@@ -95,7 +123,7 @@ def _faults_of_header(names: Sequence[str], ignore: Sequence[str]) -> Iterator[s
     if len(set(names)) < len(names):
         yield "a column is named twice"
     for name in names:
-        if name not in _OWN and name not in ignore and "." not in name:
+        if name not in (*_CHECKS, "specimen", *ignore) and "." not in name:
             yield (f"column {shown(name)}: unknown; name an entry of the scene, as in "
                    f"load.value_mm, or drop it by --ignore {shown(name)}")  # fmt: skip
     for name in ignore:
@@ -104,30 +132,25 @@ def _faults_of_header(names: Sequence[str], ignore: Sequence[str]) -> Iterator[s
 
 
 def _specimens(
-    columns: Mapping[str, Sequence[str]], places: Sequence[str]
+    columns: Mapping[str, Sequence[str]], lines: Sequence[int], delimiter: str
 ) -> tuple[tuple[Specimen, ...], list[str]]:
     """Return the specimens of columns of equal length, and what is wrong with their entries."""
+    comma = "," if delimiter != "," else "."
     numbers = {
-        name: np.array([_number(entry) for entry in column], dtype=float)
+        name: np.array([_number(entry.replace(comma, ".")) for entry in column], dtype=float)
         for name, column in columns.items()
         if name != "specimen"
     }
+    faults = [
+        f"line {lines[i]}: {name} {rule}"
+        for name, (meets, rule) in _CHECKS.items()
+        if name in numbers
+        for i in np.flatnonzero(~meets(numbers[name])).tolist()
+    ]
     unit = next(name for name in WEAR if name in columns)
     wear, cycles = numbers.pop(unit) * WEAR[unit], numbers.pop("cycles")
     scatter = numbers.pop("standard_error_mm", None)
     names = columns.get("specimen", [""] * len(cycles))
-    tests = [
-        (np.isfinite(wear) & (wear >= 0.0), f"{unit} must be a number >= 0"),
-        ((cycles >= 1) & (cycles <= MOST_CYCLES) & (cycles % 1 == 0),
-         "cycles must be a whole number from 1 to 1e12"),
-    ]  # fmt: skip
-    if scatter is not None:
-        tests.append(
-            ((scatter > 0.0) & np.isfinite(scatter), "standard_error_mm must be a number > 0")
-        )
-    faults = [
-        f"{places[i]}: {fault}" for fine, fault in tests for i in np.flatnonzero(~fine).tolist()
-    ]
     if len(cycles) < 2:
         faults.append("one reading determines nothing; give two or more")
     made = []
@@ -152,4 +175,4 @@ def _number(entry: str) -> float:
     try:
         return float(entry)
     except ValueError:
-        return math.nan
+        return np.nan

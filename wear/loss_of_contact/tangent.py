@@ -114,8 +114,10 @@ def _one_by_one(
     judge = linearised(both.coarse, equation, wear[:-1] + uncertain[:-1]).tangent
     values, errors = [start], [start_error]
     for own, other in zip(fine, judge, strict=True):
-        by_start, apart = own[0] * values[-1], np.abs(own - other)
-        error = np.abs(own[0]) * errors[-1] + SAFETY * (apart[0] * np.abs(values[-1]) + apart[1:])
+        multiplier = 1.0 + own[0]
+        by_start, apart = multiplier * values[-1], np.abs(own - other)
+        by_parameters = apart[0] * np.abs(values[-1]) + apart[1:]
+        error = np.abs(multiplier) * errors[-1] + SAFETY * by_parameters
         rounding = ROUNDOFF * (np.abs(by_start) + np.abs(own[1:]))
         values.append(by_start + own[1:])
         errors.append(error + SAFETY * rounding)
@@ -178,7 +180,7 @@ def _added(
     run = linearised(cycle, equation, coordinate.wear(at).ravel())
     increment = coordinate.step(at, run.increment.reshape(z.shape))
     tangent = run.tangent.reshape(*z.shape, -1)
-    change = tangent[..., 1:] - limit * (1.0 - tangent[..., :1])
+    change = tangent[..., 1:] + limit * tangent[..., :1]
     increment = np.where(near < 1.0, increment / near, increment)
     density = abel.density_after(panels, t, increment)
     into_z = near / coordinate.rate(z + increment, np.ones(1))
@@ -197,7 +199,11 @@ def _limit(equation: ParametrisedEquation, wear: float) -> FloatArray:
 
 class Linearised(NamedTuple):
     """Cycles from some starts (k,): the `increment` (k,), mm, and `tangent` (k, 1 + parameters),
-    the derivatives of the wear after the cycle with respect to that before, and to parameters."""
+    its derivatives with respect to the wear before the cycle, and to parameters.
+
+    Near a limit wear that of the increment is small: from the derivative of the wear, one more, it
+    would be lost to cancellation.
+    """
 
     increment: FloatArray
     tangent: FloatArray
@@ -208,7 +214,6 @@ def linearised(
 ) -> Linearised:
     """Return the derivatives of one cycle from each start (k,), mm."""
     tangent = np.zeros((len(starts), 1 + equation.parameters))
-    tangent[:, 0] = 1.0
     added = np.zeros(len(starts))
     for piece, run in cycle.pieces_from(starts, np.zeros(len(starts), dtype=int)):
         _through(cycle, equation, piece, run.parts, tangent)
@@ -226,7 +231,8 @@ def _through(
     parts: tuple[ContactPart, ...],
     tangent: FloatArray,
 ) -> None:
-    """Carry the `tangent` (k, 1 + parameters) through the parts of contact on a piece."""
+    """Carry the `tangent` (k, 1 + parameters) of the increment through the parts of contact on a
+    piece."""
     fresh = np.full(len(tangent), True)
     for part in parts:
         rows, first = part.rows, fresh[part.rows]
@@ -255,11 +261,11 @@ def _smooth(
     rates = model.law_rate_and_slope if part.by_law else model.edge_rate_and_slope
     slope = load.period * rates(u, U_a)[1]
     gradient = model.rate_gradient if part.by_law else model.edge_rate_gradient
-    changes = load.period * equation.along(gradient(u, U_a), phases)
+    by_parameters = load.period * equation.along(gradient(u, U_a), phases)
+    changes = np.concatenate([slope[..., None], by_parameters], axis=-1)
     integrate = part.length[:, None, None] * rule.integrate
     matrix = np.eye(len(rule.nodes)) - integrate * slope[:, None, :]
-    right = np.repeat(tangent[:, None], len(rule.nodes), axis=1)
-    right[..., 1:] += integrate @ changes
+    right = tangent[:, None] + integrate @ changes
     return np.asarray(np.linalg.solve(matrix, right)[:, -1])  # Radau's last node is the end
 
 
@@ -283,10 +289,9 @@ def _margin(
     equation: ParametrisedEquation, u: FloatArray, phase: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return the derivative (k,) of the margin of contact with respect to the wear, and those
-    (k, 1 + parameters) with respect to parameters at the same wear and phase."""
+    (k, 1 + parameters) with respect to the wear and to parameters, at the same phase."""
     (load,), model = equation.loads, equation.model
     U_a = load(phase)
     gradient = {symbol: each[:, None] for symbol, each in model.margin_gradient(u, U_a).items()}
-    change = np.zeros((len(u), 1 + equation.parameters))
-    change[:, 1:] = equation.along(gradient, phase[:, None])[:, 0]
-    return model.margin_slope(u, U_a), change
+    slope, by_parameters = model.margin_slope(u, U_a), equation.along(gradient, phase[:, None])
+    return slope, np.column_stack([slope, by_parameters[:, 0]])

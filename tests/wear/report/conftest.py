@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -46,6 +47,7 @@ EQUATIONS = (
 )  # fmt: skip
 
 
+@cache
 def _figures() -> Mapping[str, Figure]:
     x = np.linspace(0.0, 100.0, 51)
     lines = (Line("bearing", x, 1e-4 * np.log1p(x)), Line("pin", x, 3e-5 * np.log1p(x), 1))
@@ -60,10 +62,7 @@ def _figures() -> Mapping[str, Figure]:
 
 def document(text: str, **values: object) -> Document:
     """A document with the equations and figures of the sample and another text."""
-    return Document(parsed(text, values), {e.id: e for e in EQUATIONS}, _FIGURES)
-
-
-_FIGURES = _figures()
+    return Document(parsed(text, values), {e.id: e for e in EQUATIONS}, _figures())
 
 
 @pytest.fixture(scope="session")

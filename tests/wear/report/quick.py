@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from unittest.mock import patch
 
 from derive.catalogue import equations
 from derive.check import Check
@@ -38,7 +39,8 @@ def few_claims() -> tuple[Entry, ...]:
 @cache
 def runs() -> Runs:
     """The runs of the report, made once for all tests."""
-    return run()
+    with patch("wear.report.runs.INTEGRATED_CYCLES", 50):  # of 600
+        return run()
 
 
 @cache
