@@ -365,36 +365,39 @@ class _System:
         return found
 
     def root(self, times: Array, states: Array) -> Any:
-        """Return the root of ``y - G(y)``, which increases: by Newton's method, else by halves."""
+        """Go to times at which the states are known; return the loop there."""
         self._values[0] = times
         for at, state in zip(self._given, states, strict=True):
             self._values[at] = state
-        if self._loop is None:
-            return None
-        y = self._near + 0.0 * times
+        loop = self._loop
+        return None if loop is None else self._solved(loop, self._near + 0.0 * times)
+
+    def _solved(self, loop: int, y: Array) -> Array:
+        """Return the root of ``y - G(y)``, which increases: by Newton's method, else by halves."""
+
+        def rest(y: Array) -> Array:
+            self._values[loop] = y
+            self._run(self._root)
+            return np.asarray(y - self._values[self._next])
+
         with np.errstate(all="ignore"):
             for _ in range(12):
                 small = 1e-7 * (1 + np.abs(y))
-                now = self._residual(y)
-                step = now * small / (self._residual(y + small) - now)
+                now = rest(y)
+                step = now * small / (rest(y + small) - now)
                 y = y - step
                 if np.all(np.abs(step) <= 1e-14 * (1 + np.abs(y))):
                     break
             else:
-                low, high = -(2.0**40) + 0 * times, 2.0**40 + 0 * times
+                low, high = np.full_like(y, -(2.0**40)), np.full_like(y, 2.0**40)
                 for _ in range(100):
                     y = (low + high) / 2
-                    below = self._residual(y) < 0
+                    below = rest(y) < 0
                     low, high = np.where(below, y, low), np.where(below, high, y)
-                y = np.where(np.abs(self._residual(y)) < 1e-6 * (1 + np.abs(y)), y, np.nan)
-            self._residual(y)
+                y = np.where(np.abs(rest(y)) < 1e-6 * (1 + np.abs(y)), y, np.nan)
+            rest(y)
         self._near = y
         return y
-
-    def _residual(self, y: Any) -> Any:
-        self._values[self._loop] = y
-        self._run(self._root)
-        return y - self._values[self._next]
 
 
 @cache
