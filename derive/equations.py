@@ -8,7 +8,7 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 
@@ -105,15 +105,17 @@ class Equation:
         A name may be positive by the vocabulary: what it is defined as then has to be.
         """
         shown = tuple(h for h in self.hypotheses if h.shown)
-        names = [h for h in self.hypotheses if h.kind is Kind.DEFINITION and h.relation.args]
-        signs = dict.fromkeys(d for h in names if (d := _sign_of_name(h.relation)))
+        names = (h.relation for h in self.hypotheses if h.kind is Kind.DEFINITION)
+        signs = dict.fromkeys(s for n in names if n not in self.claims and (s := _sign(n)))
         return (*shown, *(sign for sign in signs if not self._follows(sign)))
 
     def _follows(self, sign: Hypothesis) -> bool:
-        """Return whether the sign of a name follows from what it and the equation say."""
-        name = sign.relation.args[0]
-        said = (*self.claims, *(h.relation for h in self.hypotheses if not h.relation.has(t)))
-        known = frozenset(r.xreplace({name: _ANY}) for r in said if r is not sp.true)
+        """Return whether the sign of a name follows from what is derived of it, and else holds."""
+        name, given = sign.relation.args[0], set(self.hypotheses)
+        derived = (s.relation for s in self.steps if given.issuperset(s.hypotheses))
+        values = (r for r in derived if isinstance(r, sp.Equality) and r.lhs == name)
+        said = (r for r in (*values, *(h.relation for h in given)) if not r.has(t))
+        known = frozenset(r.xreplace({name: _ANY}) for r in said)
         return holds(sign.relation.func(_ANY, 0), known)
 
     @property
@@ -157,10 +159,11 @@ class Equation:
 _ANY = sp.Symbol("value", real=True)
 
 
-def _sign_of_name(definition: sp.Basic) -> Hypothesis | None:
+def _sign(definition: sp.Basic) -> Hypothesis | None:
     """Return the sign that the vocabulary gives to a name which does not vary."""
-    name = definition.args[0]
-    return domain(name) if name.is_Symbol and name.name not in CLOCKS else None
+    name = definition.args[0] if definition.args else t
+    sign = domain(name) if name.is_Symbol and name.name not in CLOCKS else None
+    return sign and replace(sign, kind=Kind.PARAMETER)
 
 
 def beyond(

@@ -419,7 +419,10 @@ def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]], loop: sp.Expr | None
     with ctx.workprec(BITS):
         first = np.array([float(ball(model.field(f, ZERO)).mid()) for f in model.states])
         spacing = min(_spacings(model), default=0.0)
-    model.system.rates(np.zeros(1), first[:, None])  # they can be computed
+        rates = [float(ball(model.field(f, ZERO, 1)).mid()) for f in model.states]
+    in_floats = model.system.rates(np.zeros(1), first[:, None])[:, 0]
+    if not np.allclose(in_floats, rates, rtol=1e-9, atol=0):
+        raise Undecided("rates that are lost in rounding")
     return Motion(model.system.rates, first, spacing, float(arb(model.period)) / 4)
 
 
