@@ -10,14 +10,14 @@ from derive.commands import code, export, generate, latex, list_, show, steps, v
 from derive.faults import UsageError
 
 COMMANDS = (
-    list_.COMMAND,
-    show.COMMAND,
-    steps.COMMAND,
-    verify.COMMAND,
-    latex.COMMAND,
-    code.COMMAND,
-    generate.COMMAND,
-    export.COMMAND,
+    list_,
+    show,
+    steps,
+    verify,
+    latex,
+    code,
+    generate,
+    export,
 )
 
 EXAMPLES = """\

@@ -1,7 +1,8 @@
 """Command lines of several commands: what one is, and the parser of all of them.
 
 Key results
-    Command    one command, declared
+    Command    a module with one command
+    Answer     what a command has to say
     Parser     gathers the faults of arguments
     parser     the parser of a program with commands
     main       parse and execute
@@ -14,7 +15,7 @@ import difflib
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from derive import completion, terminal
 
@@ -23,26 +24,52 @@ OF_THE_REPORT = ("matplotlib", "math_core", "markdown_it")
 
 
 @dataclass(frozen=True)
-class Command:
-    """One command of a program.
+class Answer:
+    """What a command has to say.
 
     Attributes
     ----------
-    name, summary
-        What it is called and what it does, in a line.
-    example
-        Command lines with what they show, printed below its help.
-    add_arguments
-        Declares its arguments, but for `--json`, which all have.
-    execute
-        Does the work, prints the result and returns the exit status.
+    document
+        What `--json` prints.
+    text
+        Returns the same for a reader, empty if there is nothing to print.
+    notices
+        What else is worth knowing, or went wrong; printed to standard error.
+    status
+        The exit status.
     """
 
-    name: str
-    summary: str
-    example: str
-    add_arguments: Callable[[argparse.ArgumentParser], None]
-    execute: Callable[[argparse.Namespace], int]
+    document: object
+    text: Callable[[], str] = str
+    notices: Sequence[str] = ()
+    status: int = terminal.DONE
+
+
+class Command(Protocol):
+    """A module with one command, which has the name of the module.
+
+    Attributes
+    ----------
+    SUMMARY
+        What it does, in a line.
+    EXAMPLE
+        Command lines with what they show, printed below its help.
+    """
+
+    __name__: str
+    SUMMARY: str
+    EXAMPLE: str
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Declare its arguments, but for `--json`, which all have."""
+
+    def execute(self, options: argparse.Namespace) -> Answer:
+        """Do the work."""
+
+
+def name_of(command: Command) -> str:
+    """Return what a command is called."""
+    return command.__name__.rpartition(".")[2].rstrip("_")
 
 
 class Parser(argparse.ArgumentParser):
@@ -78,10 +105,10 @@ def parser(
     branches = whole.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in commands:
         branch = branches.add_parser(
-            command.name,
-            help=command.summary,
-            description=f"{command.summary[0].upper()}{command.summary[1:]}.",
-            epilog=f"examples:\n{command.example}",
+            name_of(command),
+            help=command.SUMMARY,
+            description=f"{command.SUMMARY[0].upper()}{command.SUMMARY[1:]}.",
+            epilog=f"examples:\n{command.EXAMPLE}",
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )
@@ -103,13 +130,20 @@ def main(
         options = _parsed(whole, words)
         command: Command = options.command
         try:
-            return command.execute(options)
+            answer = command.execute(options)
         except ModuleNotFoundError as missing:
             package = (missing.name or "").partition(".")[0]
             if package not in OF_THE_REPORT:
                 raise
             extra = "pip install 'derive-wear[report]'"
-            whole.error(f"{command.name}: needs the package {package}: {extra}")
+            whole.error(f"{name_of(command)}: needs the package {package}: {extra}")
+        if options.json:
+            terminal.print_json(answer.document)
+        elif text := answer.text():
+            print(text, end="" if text.endswith("\n") else "\n")
+        for notice in answer.notices:
+            terminal.complain(f"{whole.prog} {name_of(command)}", notice)
+        return answer.status
 
     return terminal.run(" ".join([whole.prog, *words[:1]]), execute, expected)
 
@@ -126,7 +160,7 @@ def _parsed(whole: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Na
         whole.error(f"{words[0]}: there is no such command{hint}")
     options, left = whole.parse_known_args(words)
     if left:
-        branch = branches[options.command.name]
+        branch = branches[name_of(options.command)]
         wrong = [word for word in left if word.startswith("-")] or left
         hints = (f"{word}: not understood{_meant(word, _options(branch))}" for word in wrong)
         branch.error("\n".join(hints))

@@ -222,15 +222,11 @@ def _change(rates: Balls, slopes: Sequence[Ball]) -> Ball:
 def _terms(load: Any) -> tuple[float, list[tuple[int, float, float]]]:
     """Return the mean of a load and its harmonics: order, cosine, sine."""
     if isinstance(load, Constant):
-        return load.value_mm, []
-    if isinstance(load, Sine):
-        return 0.0, [(1, 0.0, load.amplitude_mm)]
-    if isinstance(load, Harmonics):
-        length = max(len(load.cosine_mm), len(load.sine_mm))
-        cosine = (*load.cosine_mm, *[0.0] * length)
-        sine = (*load.sine_mm, *[0.0] * length)
-        terms = [(j + 1, cosine[j], sine[j]) for j in range(length)]
-        return load.mean_mm, [term for term in terms if term[1] or term[2]]
+        return load.mean, []
+    if isinstance(load, Sine | Harmonics):
+        orders, *waves = load.terms().tolist()
+        terms = zip(map(int, orders), *waves, strict=True)
+        return load.mean, [term for term in terms if any(term[1:])]
     raise UsageError("bounds cycle by cycle need a smooth periodic load; try static_bounds")
 
 

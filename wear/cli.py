@@ -25,19 +25,19 @@ from wear.faults import AccuracyError, Interrupted, SceneError, UsageError, Work
 
 # In the order in which a newcomer needs them.
 COMMANDS = (
-    scenes.COMMAND,
-    run.COMMAND,
-    asymptote.COMMAND,
-    figure.COMMAND,
-    sensitivity.COMMAND,
-    fit.COMMAND,
-    study.COMMAND,
-    explore.COMMAND,
-    report.COMMAND,
-    reproduce.COMMAND,
-    claims.COMMAND,
-    bench.COMMAND,
-    cite.COMMAND,
+    scenes,
+    run,
+    asymptote,
+    figure,
+    sensitivity,
+    fit,
+    study,
+    explore,
+    report,
+    reproduce,
+    claims,
+    bench,
+    cite,
 )
 
 EXAMPLES = """\

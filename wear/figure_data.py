@@ -97,12 +97,13 @@ _PLAIN = ("bearing", "in contact")  # go without saying where a run is named
 
 @dataclass(frozen=True)
 class Panel:
-    """One pair of axes: lines of a quantity, beside them `points` that were measured, and a value
-    that is not to be exceeded, the `limit`."""
+    """One pair of axes: lines of a quantity, beside them `points` that were measured, thin lines
+    `behind` them that they tend to, and a value that is not to be exceeded, the `limit`."""
 
     quantity: Quantity
     lines: tuple[Line, ...]
     points: tuple[Line, ...] = ()
+    behind: tuple[Line, ...] = ()
     limit: float | None = None
 
 
@@ -229,14 +230,3 @@ class Method:
     x: FloatArray
     seconds: FloatArray
     failed: NDArray[np.bool_]
-
-
-@dataclass(frozen=True)
-class Example:
-    """A scene on the map of regimes: its f_c, and its gap at the peak of the load over the initial
-    roughness; `one_solid` where only the bearing is rough and wears."""
-
-    name: str
-    slope: float
-    gap: float
-    one_solid: bool

@@ -26,6 +26,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from matplotlib.typing import ColorType, LineStyleType
 
 from wear.figure_data import FloatArray
@@ -38,6 +39,8 @@ PAGE = 190.0
 INK = "#000000"
 PAPER = "#ffffff"
 GREY = "#6b7480"
+HALO = withStroke(linewidth=2.0, foreground=PAPER)
+"""Keeps names legible on top of lines and colours."""
 
 _MILLIMETRES_PER_INCH = 25.4
 _SETTINGS = mpl.rc_params_from_file(
@@ -132,6 +135,14 @@ def label_ends(
             scaley=False,
         )
         axes.text(1.16, float(height), name, transform=axes.transAxes, va="center")
+
+
+def label_above(axes: Axes, name: str, at: tuple[float, float], gap: float) -> None:
+    """Write a name above a point, so many points of type away, on a halo of paper."""
+    axes.annotate(
+        name, at, xytext=(0.0, gap), textcoords="offset points", ha="center", va="bottom",
+        path_effects=[HALO],
+    )  # fmt: skip
 
 
 def spread(heights: FloatArray, gap: float) -> FloatArray:

@@ -2,12 +2,9 @@
 
 Overview
     history                 wear, roughness, pressure, contact against cycles or time
-    wear_with_asymptote     wear with the straight lines or curves it tends to
     pressure_in_cycles      contact pressure over the phase of chosen cycles
     speed_against_error     time against true error, one line a method
     speed_against_cycles    time against the number of cycles, one line a method
-    wear_by_decades         wear over all decades with straight lines behind it
-    regime_map              the regimes over f_c and the gap at the peak
     tornado                 elasticities as bars, the largest on top
     Each returns a matplotlib `Figure`; `wear.figure_style` makes files of it.
 Units
@@ -16,23 +13,18 @@ Units
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
-from numpy.typing import NDArray
 
 from wear.checked import words_of
 from wear.figure_data import (
-    BEARING_WEAR,
     PRESSURE,
-    WEAR,
     Abscissa,
-    Example,
     FloatArray,
     Line,
     Method,
@@ -48,6 +40,7 @@ from wear.figure_style import (
     PAPER,
     Stroke,
     canvas,
+    label_above,
     label_ends,
     panels,
     stroke,
@@ -76,7 +69,9 @@ def history(
         figure, rows = panels(len(shown), 1, width, height * width)
         for axes, panel in zip(rows, shown, strict=True):
             if panel.quantity is PRESSURE:
-                pressed = tuple(line.pressed() for line in panel.lines if line.y.any())
+                pressed = tuple(
+                    line.pressed() for line in panel.lines if line.y[line.x > 0.0].any()
+                )
                 if pressed and spans_decades(pressed):
                     panel = replace(panel, lines=pressed)
                     axes.set_yscale("log")
@@ -85,50 +80,6 @@ def history(
             _panel(axes, panel, logarithmic)
         rows[-1].set_xlabel(abscissa.value)
         figure.align_ylabels()
-    return figure
-
-
-def wear_with_asymptote(
-    wear: Sequence[Line], asymptotes: Sequence[Line], *, width: float = COLUMN
-) -> Figure:
-    """Bearing wear in mm against cycles with what it tends to (Fig. 3a): the asymptotes are drawn
-    thin and behind."""
-    with styled():
-        figure, axes = canvas(width, 0.66 * width)
-        for line in asymptotes:
-            _plot(axes, line, WEAR.scale, linewidth=0.9, zorder=1)
-        _draw(axes, wear, WEAR.scale)
-        axes.set(xlabel=Abscissa.CYCLES.value, ylabel=BEARING_WEAR.label)
-        _frame(axes, wear, WEAR.scale)
-        _name(axes, wear, WEAR.scale, bare=asymptotes)
-    return figure
-
-
-def wear_by_decades(
-    wear: Sequence[Line],
-    lines: Sequence[Line],
-    mark: tuple[float, str],
-    *,
-    width: float = COLUMN,
-) -> Figure:
-    """Bearing wear in mm against cycles, both logarithmic, with straight lines behind and a number
-    of cycles marked."""
-    with styled():
-        figure, axes = canvas(width, 0.72 * width)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        top = 10.0 * WEAR.scale * max(float(line.y.max()) for line in wear)
-        for line in (*lines, *wear):
-            width = 0.9 if line in lines else 1.4
-            _plot(axes, line, WEAR.scale, linewidth=width, label=line.name)
-        axes.axvline(mark[0], color=GREY, linewidth=0.6, linestyle=(0, (4.0, 2.0)))
-        axes.text(
-            mark[0], 0.98, f"{mark[1]} ", transform=axes.get_xaxis_transform(), va="top", ha="right"
-        )
-        low = 1e-3 * WEAR.scale * float(wear[0].y[0])  # room for the legend
-        axes.set(xlabel=r"Cycles  $N$", ylabel=BEARING_WEAR.label, ylim=(low, top))
-        axes.set_xlim(float(wear[0].x[0]), float(wear[0].x[-1]))
-        axes.legend(loc="lower right", borderpad=0.0, handlelength=2.5)
     return figure
 
 
@@ -170,14 +121,6 @@ def _speed(methods: Sequence[Method], quantity: str, failed: str, width: float) 
     return figure
 
 
-_REGIMES = {
-    "steady": "#0072B2",
-    "saturating": "#009E73",
-    "finite-time": "#D55E00",
-    "arrest": "#CC79A7",
-}
-
-
 def tornado(
     keys: Sequence[str],
     elasticity: FloatArray,
@@ -203,59 +146,6 @@ def tornado(
     return figure
 
 
-def regime_map(
-    regime: Callable[[FloatArray, FloatArray, bool], NDArray[np.str_]],
-    titles: tuple[str, str],
-    examples: Sequence[Example],
-    *,
-    width: float = COLUMN_AND_HALF,
-) -> Figure:
-    """Regions of f_c against the gap at the peak over the roughness, without and with loss of
-    contact.
-
-    `regime` returns the names of the regimes for arrays of f_c and of the gap.
-    """
-    slopes, gaps = np.meshgrid(np.linspace(-0.6, 0.6, 480), np.linspace(-3.0, 4.0, 560))
-    with styled():
-        figure, [left, right] = panels(1, 2, width, 0.5 * width)
-        for axes, title, ends in ((left, titles[0], False), (right, titles[1], True)):
-            named = regime(slopes, gaps, ends)
-            for name, colour in _REGIMES.items():
-                _region(axes, slopes, gaps, named == name, colour, name)
-            _example_points(axes, examples)
-            axes.set(title=title, xlabel=r"Change of roughness with wear  $f_c$")
-            axes.set(xlim=(-0.6, 0.6), ylim=(-3.0, 4.0))
-        left.set_ylabel(r"Gap at the peak over roughness  $(h_0-\max U_a)/\bar\sigma(0)$")
-    return figure
-
-
-def _region(
-    axes: Axes, x: FloatArray, y: FloatArray, inside: NDArray[np.bool_], colour: str, name: str
-) -> None:
-    """A region in its colour, its name in the middle of it."""
-    if not inside.any():
-        return
-    axes.contourf(x, y, inside.astype(float), levels=[0.5, 1.5], colors=[colour], alpha=0.3)
-    level = np.argmax(inside.sum(axis=1))  # the row where the region is widest
-    across = x[level][inside[level]]
-    if np.ptp(across) > 0.05:
-        axes.text(
-            float(across.mean()), float(y[inside].mean()), name, ha="center", va="center",
-            path_effects=[withStroke(linewidth=2.0, foreground=PAPER)],
-        )  # fmt: skip
-
-
-def _example_points(axes: Axes, examples: Sequence[Example]) -> None:
-    for example in examples:
-        face = INK if example.one_solid else PAPER
-        axes.plot(example.slope, example.gap, "o", color=INK, markerfacecolor=face)
-        axes.annotate(
-            example.name, (example.slope, example.gap), xytext=(0.0, 5.0),
-            textcoords="offset points", ha="center", va="bottom",
-            path_effects=[withStroke(linewidth=2.0, foreground=PAPER)],
-        )  # fmt: skip
-
-
 def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
     style = {"color": look.colour, "marker": look.marker}
     axes.loglog(
@@ -270,6 +160,8 @@ def _panel(axes: Axes, panel: Panel, logarithmic: bool) -> None:
     if logarithmic:
         axes.set_xscale("log")
         lines = tuple(line.positive() for line in lines)
+    for line in panel.behind:
+        _plot(axes, line, scale, linewidth=0.9, zorder=1)
     _draw(axes, lines, scale)
     axes.set_ylabel(panel.quantity.label)
     limits = [panel.limit] if panel.limit is not None else []
@@ -282,7 +174,10 @@ def _panel(axes: Axes, panel: Panel, logarithmic: bool) -> None:
     for limit in limits:
         axes.axhline(limit * scale, color=INK, linewidth=0.7, linestyle=(0, (5.0, 2.0)))
         axes.text(0.01, limit * scale, "limit", transform=axes.get_yaxis_transform(), va="bottom")
-    _name(axes, lines, scale, points=panel.points)
+    looks = [(line, _look(line)) for line in lines]
+    looks += [(line, replace(_look(line), marker="")) for line in panel.behind]
+    looks += [(line, replace(_look(line), dash="", face=PAPER)) for line in panel.points]
+    label_ends(axes, [(float(line.y[-1]) * scale, line.name, look) for line, look in looks])
 
 
 def _look(line: Line) -> Stroke:
@@ -317,32 +212,8 @@ def _frame(axes: Axes, lines: Sequence[Line], scale: float, limits: Sequence[flo
     axes.set_ylim(low - margin if low < 0.0 else 0.0, high + margin)
 
 
-def _name(
-    axes: Axes,
-    lines: Sequence[Line],
-    scale: float,
-    *,
-    bare: Sequence[Line] = (),
-    points: Sequence[Line] = (),
-) -> None:
-    """Names at the right ends; `bare` lines have no markers, `points` no line."""
-    looks = [(line, _look(line)) for line in lines]
-    looks += [(line, replace(_look(line), marker="")) for line in bare]
-    looks += [(line, replace(_look(line), dash="", face=PAPER)) for line in points]
-    ends = [(float(line.y[-1]) * scale, line.name, look) for line, look in looks]
-    label_ends(axes, ends)
-
-
 def _name_peaks(axes: Axes, lines: Sequence[Line]) -> None:
     """Names above the highest points, on a halo of paper."""
     for line in lines:
         peak = int(np.argmax(line.y))
-        axes.annotate(
-            line.name,
-            (float(line.x[peak]), float(line.y[peak])),
-            xytext=(0.0, 3.0),
-            textcoords="offset points",
-            ha="center",
-            va="bottom",
-            path_effects=[withStroke(linewidth=2.0, foreground=PAPER)],
-        )
+        label_above(axes, line.name, (float(line.x[peak]), float(line.y[peak])), 3.0)

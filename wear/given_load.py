@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.generated import reaction
-from wear.model import Bound, Fields, Model, Real, Summed, as_it_is
+from wear.model import Fields, Model, Real, Summed, as_it_is
 
 
 class Area(NamedTuple):
@@ -102,8 +102,3 @@ def _increasing_root(function: Callable[..., Real], arguments: tuple[Real, ...])
     with np.errstate(all="ignore"):
         found = bracket_root(function, 0.0, 4.0, args=arguments)
         return find_root(function, found.bracket, args=arguments).x
-
-
-def given_load(bound: Bound, numbers: Mapping[str, Real]) -> GivenLoad:
-    """Return the model of a bound variant with a compliant support under a given reaction."""
-    return GivenLoad(bound, area=Area(numbers["b"], numbers["L"]))

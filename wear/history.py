@@ -8,15 +8,13 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wear import history_files
-from wear.faults import UsageError
-from wear.history_files import Column, columns_of
+from wear.history_files import Column, States, columns_of, error_column
 
 if TYPE_CHECKING:
     import pandas
@@ -113,9 +111,7 @@ class History:
             Column("mean_pressure_MPa", "MPa", "mean pressure over the cycle", mean),
             Column("contact_fraction", "1", "share of the cycle in contact", fraction),
         ]
-        columns += self._forces(peak, mean)
-        meaning = "estimated relative error of the bearing wear"
-        return (*columns, Column("error_estimate", "1", meaning, self.error))
+        return (*columns, *self._forces(peak, mean), error_column(self.error))
 
     def _forces(self, peak: FloatArray, mean: FloatArray) -> list[Column]:
         from wear.states import friction_work, reaction_of, sliding_distance
@@ -201,7 +197,8 @@ class History:
         return head | lists | tail
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write a `.csv` or `.nc` (NetCDF-3) file, whole or not at all.
+        """Write a `.csv` (floats to round-trip) or `.nc` (NetCDF-3) file, whole or not at all, with
+        the scene and the method.
 
         Raises
         ------
@@ -210,21 +207,7 @@ class History:
         OSError
             if the file cannot be written.
         """
-        suffix = Path(path).suffix
-        if suffix == ".csv":
-            self.write_csv(path)
-        elif suffix == ".nc":
-            self.write_netcdf(path)
-        else:
-            raise UsageError(f"{path}: the name of a result ends in .csv or .nc")
-
-    def write_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write a line a cycle, floats to round-trip, below comments with scene and method."""
-        history_files.write_csv(self.cycles, self.columns(), self._attributes(), Path(path))
-
-    def write_netcdf(self, path: str | os.PathLike[str]) -> None:
-        """Write NetCDF-3 with the coordinate `cycle`; units and the scene are attributes."""
-        history_files.write_netcdf(self.cycles, self.columns(), self._attributes(), Path(path))
+        history_files.write([States(self.cycles, self.columns())], path, self._attributes())
 
     def _attributes(self) -> history_files.Attributes:
         return {

@@ -1,16 +1,18 @@
-"""Histories as files: CSV and NetCDF-3, whole or not at all."""
+"""Results as files: CSV and NetCDF-3, whole or not at all."""
 
 from __future__ import annotations
 
 import csv
-import secrets
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+import os
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from derive import files
+from wear.faults import UsageError
 
 if TYPE_CHECKING:
     from wear.inside import Inside
@@ -18,14 +20,37 @@ if TYPE_CHECKING:
 Attributes = Mapping[str, str]
 """What describes a result, each in one line and none empty."""
 
+_NUMBER_OF_RECORDS = 4  # where it stands in a NetCDF-3 file, behind "CDF" and the version
+
 
 class Column(NamedTuple):
-    """One quantity of a history: its name in files (with the unit), unit, meaning, values."""
+    """One quantity of a result: its name in files (with the unit), unit, meaning, and values: one
+    a cycle (n,), or at phases of each (n, m)."""
 
     name: str
     unit: str
     meaning: str
     values: NDArray[Any]
+
+
+class States(NamedTuple):
+    """A part of a result: columns along whole `cycles` (n,) and, if any, `phases` (m,) of each."""
+
+    cycles: NDArray[Any]
+    columns: Sequence[Column]
+    phases: NDArray[np.float64] | None = None
+
+    def by_name(self) -> dict[str, list[Any]]:
+        """Return cycle, phase and columns, a value a state."""
+        found: dict[str, NDArray[Any]] = {"cycle": self.cycles.astype(np.int64)[:, None]}
+        if self.phases is not None:
+            found["phase"] = self.phases[None]
+        found |= {
+            each.name: each.values if each.values.ndim == 2 else each.values[:, None]
+            for each in self.columns
+        }
+        whole = np.broadcast_arrays(*found.values())
+        return {name: values.ravel().tolist() for name, values in zip(found, whole, strict=True)}
 
 
 _FIELDS = (  # symbol, name in files, unit, meaning
@@ -55,127 +80,90 @@ def columns_of(wear: NDArray[Any], fields: object) -> tuple[Column, ...]:
     )
 
 
-def write_csv(
-    cycles: NDArray[np.int64], columns: Sequence[Column], attributes: Attributes, path: Path
+def error_column(error: NDArray[Any]) -> Column:
+    """Return the estimated relative error (n,) of the wear."""
+    return Column("error_estimate", "1", "estimated relative error of the bearing wear", error)
+
+
+def write_inside(
+    parts: Iterable[Inside], path: str | os.PathLike[str], attributes: Attributes
 ) -> None:
-    """Write comments (`# key: value`), a header and a line a cycle."""
-    values = (column.values.tolist() for column in columns)
-    with _replacing(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
-        file.writelines(f"# {key}: {value}\n" for key, value in attributes.items())
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["cycle", *(column.name for column in columns)])
-        writer.writerows(zip(cycles.tolist(), *values, strict=True))
-
-
-def write_netcdf(
-    cycles: NDArray[np.int64], columns: Sequence[Column], attributes: Attributes, path: Path
-) -> None:
-    """Write variables along the dimension `cycle`, with `units` and `long_name`.
-
-    NetCDF-3 has no 64-bit integers: cycles are doubles, exact up to 2**53.
-    """
-    from scipy.io import netcdf_file
-
-    with _replacing(path) as draft, netcdf_file(draft, "w") as file:
-        for key, value in attributes.items():
-            setattr(file, key, value)
-        file.createDimension("cycle", len(cycles))
-        number = file.createVariable("cycle", "d", ("cycle",))
-        number[:] = cycles
-        number.units, number.long_name = "1", "number of load cycles"
-        for column in columns:
-            variable = file.createVariable(column.name, "d", ("cycle",))
-            variable[:] = column.values
-            variable.units, variable.long_name = column.unit, column.meaning
-
-
-def write_inside(parts: Iterable[Inside], path: Path, attributes: Attributes) -> None:
     """Write the chunks of a history inside the cycles as they come, so that memory holds one at a
-    time: to NetCDF-3, or to CSV if the name ends so."""
-    with _replacing(path) as draft:
-        if path.suffix == ".csv":
-            _write_lines(parts, draft, attributes)
-        else:
-            _write_records(parts, draft, attributes)
+    time, as `write` does."""
+
+    def states(part: Inside) -> States:
+        columns = *columns_of(part.u, part.fields), error_column(part.error)
+        return States(part.cycles, columns, part.phases)
+
+    write(map(states, parts), path, attributes)
 
 
-def _write_lines(parts: Iterable[Inside], path: Path, attributes: Attributes) -> None:
-    """Comments (`# key: value`), a header and a line a state."""
+def write(parts: Iterable[States], path: str | os.PathLike[str], attributes: Attributes) -> None:
+    """Write a `.csv` or `.nc` (NetCDF-3) file, a part at a time, whole or not at all.
+
+    Raises
+    ------
+    UsageError
+        for any other suffix.
+    OSError
+        if the file cannot be written.
+    """
+    writers = {".csv": _write_lines, ".nc": _write_records}
+    suffix = Path(path).suffix
+    if suffix not in writers:
+        raise UsageError(f"{path}: the name of a result ends in {' or '.join(writers)}")
+    with files.replacing(path) as draft:
+        writers[suffix](parts, draft, attributes)
+
+
+def _write_lines(parts: Iterable[States], path: Path, attributes: Attributes) -> None:
+    """Write comments (`# key: value`), a header and a line a state."""
     with path.open("w", encoding="utf-8", newline="") as file:
         file.writelines(f"# {key}: {value}\n" for key, value in attributes.items())
         writer = csv.writer(file, lineterminator="\n")
-        begun = False
-        for part in parts:
-            columns = columns_of(part.u, part.fields)
-            if not begun:
-                names = (column.name for column in columns)
-                writer.writerow(["cycle", "phase", *names, "error_estimate"])
-            begun, m = True, len(part.phases)
-            cycles = np.repeat(part.cycles.astype(np.int64), m).tolist()
-            phases = np.tile(part.phases, len(part.cycles)).tolist()
-            errors = np.repeat(part.error, m).tolist()
-            values = (column.values.ravel().tolist() for column in columns)
-            writer.writerows(zip(cycles, phases, *values, errors, strict=True))
+        for number, part in enumerate(parts):
+            columns = part.by_name()
+            if number == 0:
+                writer.writerow(columns)
+            writer.writerows(zip(*columns.values(), strict=True))
 
 
-def _write_records(parts: Iterable[Inside], path: Path, attributes: Attributes) -> None:
-    """Variables with the dimensions `cycle` and `phase`; `cycle` is the record dimension.
+def _write_records(parts: Iterable[States], path: Path, attributes: Attributes) -> None:
+    """Write variables with the record dimension `cycle` and, if there is one, `phase`.
 
-    SciPy writes the header and the first cycle; the records of the others follow in the same
-    layout, and their number is put in its place in the end.
+    SciPy writes the header with one blank record, which those of all parts take the place of; how
+    many they are is put in its place in the end. NetCDF-3 has no 64-bit integers: cycles are
+    doubles, exact up to 2**53.
     """
     rows = 0
-    for part in parts:
-        columns = columns_of(part.u, part.fields)
-        if rows == 0:
-            _write_first_cycle(part, columns, attributes, path)
-        records = np.column_stack([part.cycles, part.error, *(c.values for c in columns)])
+    for number, part in enumerate(parts):
+        records = np.column_stack([part.cycles, *(each.values for each in part.columns)])
+        if number == 0:
+            _write_header(part, path, attributes)
+            os.truncate(path, path.stat().st_size - 8 * records.shape[1])
         with path.open("ab") as file:
-            file.write(records[1 if rows == 0 else 0 :].astype(">f8").tobytes())
+            file.write(records.astype(">f8").tobytes())
         rows += len(records)
     with path.open("r+b") as file:
         file.seek(_NUMBER_OF_RECORDS)
         file.write(rows.to_bytes(4, "big"))
 
 
-_NUMBER_OF_RECORDS = 4  # where it stands in a NetCDF-3 file, behind "CDF" and the version
-
-
-def _write_first_cycle(
-    part: Inside, columns: Sequence[Column], attributes: Attributes, path: Path
-) -> None:
+def _write_header(part: States, path: Path, attributes: Attributes) -> None:
+    """Write what describes a result, and one record of zeros."""
     from scipy.io import netcdf_file
 
+    cycles = Column("cycle", "1", "number of load cycles that lie behind", part.cycles)
     with netcdf_file(path, "w", version=2) as file:  # offsets of 64 bits: files of any size
         for key, value in attributes.items():
             setattr(file, key, value)
         file.createDimension("cycle", None)
-        file.createDimension("phase", len(part.phases))
-        phase = file.createVariable("phase", "d", ("phase",))
-        phase[:] = part.phases
-        phase.units, phase.long_name = "1", "time since the end of the cycle, in periods"
-        cycle = file.createVariable("cycle", "d", ("cycle",))
-        cycle.units, cycle.long_name = "1", "number of load cycles that lie behind"
-        error = file.createVariable("error_estimate", "d", ("cycle",))
-        error.units, error.long_name = "1", "estimated relative error of the bearing wear"
-        cycle[0], error[0] = part.cycles[0], part.error[0]
-        for column in columns:
-            variable = file.createVariable(column.name, "d", ("cycle", "phase"))
-            variable[0] = column.values[0]
-            variable.units, variable.long_name = column.unit, column.meaning
-
-
-@contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
-    """Give a name beside `path` to write to; it takes its place if nothing goes wrong.
-
-    An `OSError` names `path`, whatever name was written to.
-    """
-    draft = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
-    try:
-        yield draft
-        draft.replace(path)
-    except OSError as fault:
-        raise OSError(fault.errno, fault.strerror, str(path)) from fault
-    finally:
-        draft.unlink(missing_ok=True)
+        if part.phases is not None:
+            file.createDimension("phase", len(part.phases))
+            phase = file.createVariable("phase", "d", ("phase",))
+            phase[:] = part.phases
+            phase.units, phase.long_name = "1", "time since the end of the cycle, in periods"
+        for name, unit, meaning, values in (cycles, *part.columns):
+            variable = file.createVariable(name, "d", ("cycle", "phase")[: values.ndim])
+            variable[0] = 0.0
+            variable.units, variable.long_name = unit, meaning

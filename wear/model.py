@@ -263,10 +263,11 @@ def bound(module: ModuleType, numbers: Mapping[str, Real], pin_wear_sign: Real) 
 def _bind(key: VariantKey, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Model:
     loss = None
     if key.given_load:
-        from wear.given_load import given_load
+        from wear.given_load import Area, GivenLoad
 
         numbers = {"k": np.full_like(numbers["R"], np.inf), **numbers}  # rigid without springs
-        return given_load(bound(generated(key), numbers, pin_wear_sign), numbers)
+        area = Area(numbers["b"], numbers["L"])
+        return GivenLoad(bound(generated(key), numbers, pin_wear_sign), area=area)
     if key.ends_at_3_sigma:
         margin = import_module(f"wear.generated.margin_{key.pin}")
         loss = bound(margin, numbers, pin_wear_sign)

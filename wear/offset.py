@@ -18,7 +18,6 @@ import numpy as np
 from wear.cycles import count_cycles
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.model import bind
-from wear.orbit.abel import Panels
 from wear.orbit.infinity import SteadyState, steady_state
 from wear.orbit.iterates import Iterates
 from wear.scene import Scene
@@ -38,48 +37,32 @@ class Offset(NamedTuple):
     found: SteadyState
 
 
-class _Last(NamedTuple):
-    """The last panel of a count, n at its start, and the error of that in cycles."""
-
-    panel: Panels
-    cycles: float
-    missed: float
-
-
 def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
     """Return B of a scene in mm from the derived `rate` R (mm per cycle) and `drift` A (mm); None
     if its wear does not become steady within 1e12 cycles.
 
     Where contact may be lost, it has to last throughout the cycle in the end.
     """
-    last = _last_panel(scene, rate)
-    if last is None or not _contact_lasts(scene, float(last.panel.frame.starts[0])):
-        return None
-    with np.errstate(all="ignore"):  # a panel that ends before the steady state does
-        found = steady_state(last.panel, last.cycles)
-    error = rate * last.missed + PER_DRIFT * abs(found.drift - drift)
-    known = np.isfinite(found.offset) and error <= RESOLVED * abs(found.offset)
-    return Offset(found.offset, error, found) if known else None
-
-
-def _last_panel(scene: Scene, rate: float) -> _Last | None:
-    """Return the panel that all but reaches infinity, if the count has one."""
     if rate * FARTHEST < scene.initial_roughness:
         return None
     cycles = min(FAR * scene.initial_roughness / rate, FARTHEST)
-    counted = count_cycles(bind(scene), scene.periodic_load, cycles, RTOL)
-    segment = counted.orbit.last(0)
+    segment = count_cycles(bind(scene), scene.periodic_load, cycles, RTOL).orbit.last(0)
     table = segment.counted
     if isinstance(table, TabulatedCount) and table.coordinate.shift > 0.0:
         table = table.in_z
     if not isinstance(table, Iterates) or table.cells is None or table.panels is None:
         return None
-    panels, cells, missed = table.panels, table.cells, table.count_error[0]
-    begins, blur = float(segment.begins[0]), float(segment.blur[0])
-    each = len(cells.u) // len(panels.series)
-    start = cells.cycles[-each]
-    last = panels.take(slice(-1, None))
-    return _Last(last, begins + float(start), blur + float(missed[-each - 1]))
+    panel = table.panels.take(slice(-1, None))
+    if not _contact_lasts(scene, float(panel.frame.starts[0])):
+        return None
+    size = len(table.cells.u) // len(table.panels.series)  # cells of a panel
+    before = float(segment.begins[0]) + float(table.cells.cycles[-size])
+    missed = float(segment.blur[0]) + float(table.count_error[0][-size - 1])
+    with np.errstate(all="ignore"):  # a panel that ends before the steady state does
+        found = steady_state(panel, before)
+    error = rate * missed + PER_DRIFT * abs(found.drift - drift)
+    known = np.isfinite(found.offset) and error <= RESOLVED * abs(found.offset)
+    return Offset(found.offset, error, found) if known else None
 
 
 def _contact_lasts(scene: Scene, u: float) -> bool:

@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +21,7 @@ from wear.faults import UsageError
 from wear.generated import static_solution as formula
 from wear.load import Constant
 from wear.model import Model, bind
+from wear.numerics.gauss import gauss, mesh
 from wear.scene import Scene
 from wear.special import ei_remainder
 
@@ -131,9 +131,9 @@ class StaticSolution:
         closed = self._primitive(u, end) - self._primitive(np.zeros_like(u), start)
         growth = np.log(self._roughness(u) / self._roughness(0.0))
         near = np.abs(end - start) + np.abs(growth) < NEAR
-        nodes, weights = _gauss_legendre()
-        inside = np.exp(self._exponent(u[..., np.newaxis] * nodes))
-        return np.asarray(np.where(near, u * (inside @ weights), closed))
+        rule = gauss(NODES)
+        inside = np.exp(self._exponent(u[..., np.newaxis] * rule.nodes))
+        return np.asarray(np.where(near, u * (inside @ rule.weights), closed))
 
     def _roughness(self, u: ArrayLike) -> FloatArray:
         return np.asarray(formula.roughness(np.asarray(u), **self._named("sigma_c0", "f_c")))
@@ -161,10 +161,8 @@ class StaticSolution:
         edges = self._edges(model, end)
         if edges is None:
             return math.inf
-        nodes, weights = _gauss_legendre()
-        widths = np.diff(edges)[:, np.newaxis]
-        u = edges[:-1, np.newaxis] + widths * nodes
-        return float(np.sum(widths * weights * (self._slowness(model, u) - 1.0)))
+        over = mesh(edges, NODES)
+        return float(over.lengths @ (self._slowness(model, over.phases) - 1.0) @ over.rule.weights)
 
     def _edges(self, model: Model, end: float) -> FloatArray | None:
         """Cut [0, end] into panels over which ln p changes by at most 1; None if p vanishes."""
@@ -190,13 +188,6 @@ class StaticSolution:
     def _slowness(self, model: Model, u: FloatArray) -> FloatArray:
         """Return the ratio p_max/p on a compliant support."""
         return np.asarray(self.data["p_max"] / model.pressure(u, self.load))
-
-
-@cache
-def _gauss_legendre() -> tuple[FloatArray, FloatArray]:
-    """Nodes and weights on [0, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
-    return 0.5 * (1.0 + nodes), 0.5 * weights
 
 
 def static_solution(scene: Scene) -> StaticSolution:

@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from derive import files
+from derive.command_line import Answer
 from derive.faults import UsageError
 
 if TYPE_CHECKING:
@@ -32,11 +33,11 @@ def equations(ids: list[str]) -> tuple[Equation, ...]:
     return tuple(found) if ids else catalogue.equations()
 
 
-def print_or_write(text: str, output: str | None) -> None:
-    """Print a text, or write it whole to a file."""
-    if output is None:
-        print(text, end="" if text.endswith("\n") else "\n")
-    elif problem := files.obstacle(output):
+def answer(options: argparse.Namespace, document: object, text: str) -> Answer:
+    """Return an answer whose text is printed, or written whole to the file of `--output`."""
+    if options.json or options.output is None:
+        return Answer(document, lambda: text)
+    if problem := files.obstacle(options.output):
         raise UsageError(f"--output: {problem}")
-    else:
-        files.write_atomically(output, text)
+    files.write_atomically(options.output, text)
+    return Answer(document)

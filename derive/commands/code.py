@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import difflib
 
-from derive import completion, terminal
-from derive.command_line import Command
+from derive import completion
+from derive.command_line import Answer
 from derive.commands import arguments
 from derive.faults import UsageError
 
 TARGETS = ("numpy", "c", "header", "fortran", "javascript")  # known before SymPy is imported
 
+SUMMARY = "source code of a variant of the model, for a solver of your own"
 EXAMPLE = """\
   derive code rigid_bearing                          section 4 of the note, in NumPy
   derive code rigid_worn_rough --target c            section 3, in C
@@ -51,7 +52,7 @@ def _short_names() -> tuple[str, ...]:
     return tuple(name.removeprefix("tanh/") for name in variant_names())
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Print or write the source."""
     from derive.codegen.sources import source
     from derive.program import program
@@ -59,11 +60,7 @@ def execute(options: argparse.Namespace) -> int:
 
     names = variant_names()
     if options.list:
-        if options.json:
-            terminal.print_json(list(names))
-        else:
-            print("\n".join(names))
-        return terminal.DONE
+        return Answer(list(names), lambda: "\n".join(names))
     if options.variant is None:
         raise UsageError("name a variant; `derive code --list` shows them")
     wanted = options.variant if "/" in options.variant else f"tanh/{options.variant}"
@@ -73,25 +70,11 @@ def execute(options: argparse.Namespace) -> int:
     variant = VARIANTS[names.index(wanted)]
     made = program(variant)
     text = source(made, options.target)
-    if options.json:
-        terminal.print_json(
-            {
-                "variant": wanted,
-                "target": options.target,
-                "equations": list(variant.equations),
-                "operations": made.operations,
-                "source": text,
-            }
-        )
-    else:
-        arguments.print_or_write(text, options.output)
-    return terminal.DONE
-
-
-COMMAND = Command(
-    "code",
-    "source code of a variant of the model, for a solver of your own",
-    EXAMPLE,
-    add_arguments,
-    execute,
-)
+    document = {
+        "variant": wanted,
+        "target": options.target,
+        "equations": list(variant.equations),
+        "operations": made.operations,
+        "source": text,
+    }
+    return arguments.answer(options, document, text)

@@ -6,12 +6,13 @@ import argparse
 from pathlib import Path
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from derive.commands import arguments
 from derive.faults import UsageError
 
 TARGETS = ("coq",)
 
+SUMMARY = "the steps as lemmas for a proof assistant"
 EXAMPLE = """\
   derive export -o proof            every step as a lemma, and the theorems they cite
   derive export -o proof --check    compile them too; status 1 where Coq differs from the record
@@ -30,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Write the files, and have them compiled."""
     from derive.coq import export
 
@@ -47,15 +48,10 @@ def execute(options: argparse.Namespace) -> int:
         except export.MissingError as fault:
             raise UsageError(str(fault)) from fault
     counts = made.counts
-    if options.json:
-        terminal.print_json({**counts, "folder": str(folder), "faults": faults.splitlines()})
-    else:
-        said = "compiled" if options.check and not faults else "written"
-        print(f"{counts['closed']} of {counts['steps']} steps {said} as lemmas in {folder}")
-        print(faults, end="")
-    return terminal.FAILED if faults else terminal.DONE
-
-
-COMMAND = Command(
-    "export", "the steps as lemmas for a proof assistant", EXAMPLE, add_arguments, execute
-)
+    did = "compiled" if options.check and not faults else "written"
+    said = f"{counts['closed']} of {counts['steps']} steps {did} as lemmas in {folder}\n{faults}"
+    return Answer(
+        {**counts, "folder": str(folder), "faults": faults.splitlines()},
+        lambda: said,
+        status=terminal.FAILED if faults else terminal.DONE,
+    )

@@ -6,8 +6,9 @@ import argparse
 from pathlib import Path
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 
+SUMMARY = "write the generated modules of wear"
 EXAMPLE = """\
   derive generate            bring wear/generated up to date
   derive generate --check    write nothing; status 1 if it is out of date
@@ -26,21 +27,16 @@ def folder() -> Path:
     return Path(__file__).resolve().parents[2] / "wear" / "generated"
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Write, or tell what would be written."""
     from derive import generate
 
     changed = generate.outdated(folder()) if options.check else generate.write(folder())
-    if options.json:
-        terminal.print_json({"changed": list(changed), "written": not options.check})
-    else:
-        wanted = generate.sources()
-        done = {name: "written" if name in wanted else "removed" for name in changed}
-        lines = [f"{'out of date' if options.check else done[name]}: {name}" for name in changed]
-        print("\n".join(lines) or "up to date")
-    return terminal.FAILED if options.check and changed else terminal.DONE
-
-
-COMMAND = Command(
-    "generate", "write the generated modules of wear", EXAMPLE, add_arguments, execute
-)
+    wanted = generate.sources()
+    done = {name: "written" if name in wanted else "removed" for name in changed}
+    lines = [f"{'out of date' if options.check else done[name]}: {name}" for name in changed]
+    return Answer(
+        {"changed": list(changed), "written": not options.check},
+        lambda: "\n".join(lines) or "up to date",
+        status=terminal.FAILED if options.check and changed else terminal.DONE,
+    )

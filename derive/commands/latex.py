@@ -6,14 +6,14 @@ import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from derive.commands import arguments
 from derive.faults import UsageError
 
 if TYPE_CHECKING:
     from derive.equations import Equation
 
+SUMMARY = "equations as LaTeX macros"
 EXAMPLE = r"""
   derive latex -o equations.tex      all equations; then \input{equations} and \EqWearPerCycle
   derive latex 21 22                 two of them, to the terminal
@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Print or write the macros."""
     from derive.typeset.macros import WIDTH, macro_name, macros, room
 
@@ -55,13 +55,8 @@ def execute(options: argparse.Namespace) -> int:
     if options.law is not None and options.ids:
         raise UsageError("--law: its equations have no ids; leave these out")
     found = arguments.equations(options.ids) if options.law is None else _of_law(options.law)
-    if options.json:
-        terminal.print_json(
-            [{"id": e.id, "macro": "\\" + macro_name(e), "latex": e.latex} for e in found]
-        )
-        return terminal.DONE
-    arguments.print_or_write(macros(found, width), options.output)
-    return terminal.DONE
+    document = [{"id": e.id, "macro": "\\" + macro_name(e), "latex": e.latex} for e in found]
+    return arguments.answer(options, document, macros(found, width))
 
 
 def _of_law(formula: str) -> Sequence[Equation]:
@@ -74,7 +69,7 @@ def _of_law(formula: str) -> Sequence[Equation]:
     return equations_of(Variant(law, False, Pin.ABSENT), opening=False)
 
 
-def _derivation(options: argparse.Namespace, width: float) -> int:
+def _derivation(options: argparse.Namespace, width: float) -> Answer:
     """Print or write the derivation of one equation, told with those before it in the catalogue."""
     from derive.catalogue import equations_up_to
     from derive.typeset.derivation import prose
@@ -82,8 +77,5 @@ def _derivation(options: argparse.Namespace, width: float) -> int:
     if len(options.ids) != 1 or options.json or options.law is not None:
         raise UsageError("--derivation: name one equation, without --json or --law")
     arguments.equations(options.ids)
-    arguments.print_or_write(prose(equations_up_to(options.ids[0]), width), options.output)
-    return terminal.DONE
-
-
-COMMAND = Command("latex", "equations as LaTeX macros", EXAMPLE, add_arguments, execute)
+    told = prose(equations_up_to(options.ids[0]), width)
+    return arguments.answer(options, None, told)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 
+SUMMARY = "every equation: id, status, section, title"
 EXAMPLE = """\
   derive list            ids, sections, titles and what the machine says of each
   derive list --json     the same for another program
@@ -18,8 +21,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare nothing: the list takes no arguments."""
 
 
-def execute(options: argparse.Namespace) -> int:
-    """Print the catalogue."""
+def execute(options: argparse.Namespace) -> Answer:  # noqa: ARG001  # it has none
+    """Return the catalogue."""
     from derive import catalogue
 
     rows = [
@@ -32,20 +35,16 @@ def execute(options: argparse.Namespace) -> int:
         }
         for e in catalogue.equations()
     ]
-    if options.json:
-        terminal.print_json(rows)
-        return terminal.DONE
+    return Answer(rows, lambda: "\n".join(_lines(rows)))
+
+
+def _lines(rows: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """Yield an equation a line, and how many have which status."""
     widths = [max(len(str(row[key])) for row in rows) for key in ("id", "status", "section")]
     for row in rows:
         cells = (str(row[key]) for key in ("id", "status", "section"))
         padded = "  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True))
-        print(f"{padded}  {row['title']}")
+        yield f"{padded}  {row['title']}"
     found = Counter(row["status"] for row in rows)
     parts = ", ".join(f"{number} {status}" for status, number in found.most_common())
-    print(f"\n{terminal.count(len(rows), 'equation')}: {parts}")
-    return terminal.DONE
-
-
-COMMAND = Command(
-    "list", "every equation: id, status, section, title", EXAMPLE, add_arguments, execute
-)
+    yield f"\n{terminal.count(len(rows), 'equation')}: {parts}"

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from derive.commands import arguments
 
 if TYPE_CHECKING:
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 FORMS = ("text", "latex", "srepr", "mathml", "json")
 
+SUMMARY = "one equation, with its conditions"
 EXAMPLE = """\
   derive show 21                 for the terminal
   derive show 21 --as latex      for a report
@@ -85,17 +86,11 @@ _WRITERS: dict[str, Callable[[Equation], str]] = {
     "latex": lambda found: found.latex,
     "srepr": _srepr,
     "mathml": _mathml,
+    "json": lambda found: terminal.json_text(document(found)),
 }
 
 
-def execute(options: argparse.Namespace) -> int:
-    """Print the equation."""
+def execute(options: argparse.Namespace) -> Answer:
+    """Return the equation."""
     (found,) = arguments.equations([options.id])
-    if options.json or options.form == "json":
-        terminal.print_json(document(found))
-    else:
-        print(_WRITERS[options.form](found))
-    return terminal.DONE
-
-
-COMMAND = Command("show", "one equation, with its conditions", EXAMPLE, add_arguments, execute)
+    return Answer(document(found), lambda: _WRITERS[options.form](found))

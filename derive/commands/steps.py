@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from derive.commands import arguments
 
 if TYPE_CHECKING:
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 _INDENT = " " * 5
 
+SUMMARY = "the steps from the governing equations to one"
 EXAMPLE = """\
   derive steps 10           every step from the hypotheses to (10)
   derive steps 21 --json    with rule, parents, assumptions and status of each
@@ -27,16 +28,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("id", metavar="ID", help="an equation, as `derive list` names it")
 
 
-def execute(options: argparse.Namespace) -> int:
-    """Check and print the chain of steps."""
+def execute(options: argparse.Namespace) -> Answer:
+    """Check the chain of steps."""
     (found,) = arguments.equations([options.id])
     numbers = {id(step): number for number, step in enumerate(found.steps, start=1)}
     rows = [_row(step, numbers) for step in found.steps]
-    if options.json:
-        terminal.print_json({"id": found.id, "status": found.status.value, "steps": rows})
-    else:
-        print("\n\n".join(_text(row, step) for row, step in zip(rows, found.steps, strict=True)))
-    return terminal.FAILED if any(row["status"] == "fails" for row in rows) else terminal.DONE
+    fails = any(row["status"] == "fails" for row in rows)
+    return Answer(
+        {"id": found.id, "status": found.status.value, "steps": rows},
+        lambda: "\n\n".join(map(_text, rows, found.steps)),
+        status=terminal.FAILED if fails else terminal.DONE,
+    )
 
 
 def _row(step: Judgement, numbers: Mapping[int, int]) -> dict[str, Any]:
@@ -88,8 +90,3 @@ def _text(row: Mapping[str, Any], step: Judgement) -> str:
         lines.append(row["remark"])
     shown = textwrap.indent("\n".join(lines).rstrip(), _INDENT)
     return f"{row['step']:3}. {row['rule']}{status}\n{shown}"
-
-
-COMMAND = Command(
-    "steps", "the steps from the governing equations to one", EXAMPLE, add_arguments, execute
-)

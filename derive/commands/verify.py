@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from derive.commands import arguments
 
+if TYPE_CHECKING:
+    from derive.catalogue import Verdict
+
+SUMMARY = "check every step of equations again"
 EXAMPLE = """\
   derive verify             every check of every equation; status 1 if one does not hold
   derive verify 8 10 21     those on which these equations rest
@@ -23,8 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
-    """Run the checks and say what came of them."""
+def execute(options: argparse.Namespace) -> Answer:
+    """Run the checks."""
     from derive import catalogue
 
     arguments.equations(options.ids)
@@ -34,34 +40,29 @@ def execute(options: argparse.Namespace) -> int:
         options.deep,
     )
     terminal.progress("")
-    failed = [verdict for verdict in verdicts if not verdict.passed]
-    if options.json:
-        terminal.print_json(
-            [
-                {
-                    "id": verdict.id,
-                    "status": verdict.status.value,
-                    "checks": [
-                        {"kind": c.kind, "passed": c.passed, "detail": c.detail}
-                        for c in verdict.checks
-                    ],
-                }
-                for verdict in verdicts
-            ]
-        )
-    else:
-        width = max(len(verdict.id) for verdict in verdicts)
-        for verdict in verdicts:
-            bad = [c for c in verdict.checks if not c.passed]
-            said = "; ".join(f"{c.kind} fails: {c.detail}" for c in bad)
-            held = terminal.count(len(verdict.checks), "check")
-            good = f"{held} {'holds' if len(verdict.checks) == 1 else 'hold'}"
-            print(f"{verdict.id.ljust(width)}  {verdict.status.value.ljust(18)}  {said or good}")
-        total = sum(len(verdict.checks) for verdict in verdicts)
-        counted = terminal.count(len(verdicts), "equation"), terminal.count(total, "check")
-        outcome = f"{len(failed)} of the equations fail" if failed else "all hold"
-        print(f"{', '.join(counted)}: {outcome}")
-    return terminal.FAILED if failed else terminal.DONE
+    document = [
+        {
+            "id": verdict.id,
+            "status": verdict.status.value,
+            "checks": [check._asdict() for check in verdict.checks],
+        }
+        for verdict in verdicts
+    ]
+    status = terminal.DONE if all(verdict.passed for verdict in verdicts) else terminal.FAILED
+    return Answer(document, lambda: "\n".join(_lines(verdicts)), status=status)
 
 
-COMMAND = Command("verify", "check every step of equations again", EXAMPLE, add_arguments, execute)
+def _lines(verdicts: Sequence[Verdict]) -> Iterator[str]:
+    """Yield an equation a line, and what came of all."""
+    width = max(len(verdict.id) for verdict in verdicts)
+    for verdict in verdicts:
+        bad = [c for c in verdict.checks if not c.passed]
+        said = "; ".join(f"{c.kind} fails: {c.detail}" for c in bad)
+        held = terminal.count(len(verdict.checks), "check")
+        good = f"{held} {'holds' if len(verdict.checks) == 1 else 'hold'}"
+        yield f"{verdict.id.ljust(width)}  {verdict.status.value.ljust(18)}  {said or good}"
+    total = sum(len(verdict.checks) for verdict in verdicts)
+    counted = terminal.count(len(verdicts), "equation"), terminal.count(total, "check")
+    failed = sum(not verdict.passed for verdict in verdicts)
+    outcome = f"{failed} of the equations fail" if failed else "all hold"
+    yield f"{', '.join(counted)}: {outcome}"

@@ -22,7 +22,6 @@ from wear.figure_data import (
     ROUGHNESS,
     WEAR,
     Abscissa,
-    Example,
     Line,
     Method,
     Panel,
@@ -30,7 +29,7 @@ from wear.figure_data import (
     pressure_inside,
 )
 from wear.load import Block, Blocks, Constant
-from wear.report import drawing
+from wear.report import drawing, figures_of_note
 from wear.scene import load_scene
 from wear.solver import solve
 
@@ -59,10 +58,6 @@ def _methods() -> list[Method]:
     ]
 
 
-def _two_regimes(slope: np.ndarray, gap: np.ndarray, ends: bool) -> np.ndarray:
-    return np.where(slope + 0.0 * gap > 0.3 * ends, "steady", "arrest")
-
-
 def _all() -> dict[str, Figure]:
     return {
         "history": figures.history(
@@ -71,17 +66,12 @@ def _all() -> dict[str, Figure]:
         ),
         "wear": _wear(),
         "logarithmic": _wear(logarithmic=True),
-        "asymptote": figures.wear_with_asymptote(_lines()[:1], _lines()[2:]),
+        "asymptote": figures.history([Panel(WEAR, _lines()[:1], behind=_lines()[2:])]),
         "pressure": figures.pressure_in_cycles([Line("first", CYCLES / 100.0, DEPTH)]),
         "speed": figures.speed_against_error(_methods()),
         "cycles": figures.speed_against_cycles(_methods()),
-        "map": figures.regime_map(
-            _two_regimes,
-            ("without", "with"),
-            [Example("one", 0.25, 1.6, True), Example("two", 0.05, 2.0, False)],
-        ),
-        "decades": figures.wear_by_decades(
-            [line.positive() for line in _lines()[:2]], _lines()[2:], (50.0, "here")
+        "map": figures_of_note.regimes(
+            {name: load_scene(name) for name in ("section3", "section4")}
         ),
         "system": drawing.system(),
     }
@@ -136,10 +126,16 @@ def test_a_logarithmic_axis_leaves_out_the_start(drawn: dict[str, Figure]) -> No
 
 def test_the_map_names_the_regimes_and_the_examples(drawn: dict[str, Figure]) -> None:
     """Dots lie at their scenes; those with two worn solids are hollow."""
-    for axes in drawn["map"].axes:
-        assert {text.get_text() for text in axes.texts} == {"steady", "arrest", "one", "two"}
-        dots = {tuple(line.get_xydata()[0]): line.get_markerfacecolor() for line in axes.lines}
-        assert dots == {(0.25, 1.6): figure_style.INK, (0.05, 2.0): figure_style.PAPER}
+    for axes, regimes in zip(
+        drawn["map"].axes, ({"saturating", "finite-time"}, {"arrest", "finite-time"}), strict=True
+    ):
+        names = {"section3", "section4", "steady"} | regimes
+        assert {text.get_text() for text in axes.texts} == names
+        (hollow, first), (full, second) = (
+            (line.get_markerfacecolor(), line.get_xydata()[0]) for line in axes.lines
+        )
+        assert (hollow, full) == (figure_style.PAPER, figure_style.INK)
+        np.testing.assert_allclose([first, second], [(-0.05, 1.633), (0.25, 1.611)], atol=1e-3)
 
 
 def test_failures_and_exact_results_are_shown(drawn: dict[str, Figure]) -> None:
@@ -251,6 +247,14 @@ def test_what_grows_by_decades_has_a_logarithmic_axis() -> None:
     for logarithmic, scale in ((True, "log"), (False, "linear")):
         drawn = figures.history(panels, logarithmic=logarithmic)
         assert [axes.get_yscale() for axes in drawn.axes] == [scale, "linear", "log"]
+
+
+def test_a_pressure_that_only_the_fresh_state_has_is_left_out_of_decades() -> None:
+    cycles = np.array([0.0, 1.0, 1e2, 1e4])
+    falling = Line("peak", cycles, np.array([300.0, 300.0, 1.0, 0.0]))
+    first = Line("start", cycles, np.array([5.0, 0.0, 0.0, 0.0]))
+    (axes,) = figures.history([Panel(PRESSURE, (falling, first))]).axes
+    assert (axes.get_yscale(), [text.get_text() for text in axes.texts]) == ("log", ["peak"])
 
 
 def test_readings_and_the_limit_stand_beside_the_wear() -> None:

@@ -6,7 +6,8 @@ import os
 import platform
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
@@ -24,7 +25,7 @@ def machine(peers: bool = False) -> dict[str, Any]:
     names = (*DISTRIBUTIONS, *(PEER_DISTRIBUTIONS if peers else ()))
     return {
         "python": platform.python_version(),
-        "versions": {name: found for name in names if (found := _version(name))},
+        "versions": installed(names),
         "processor": _processor(),
         "cores": os.cpu_count(),
         "load_average": os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
@@ -41,11 +42,13 @@ def footer(facts: Mapping[str, Any]) -> str:
     return text
 
 
-def _version(name: str) -> str | None:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return None
+def installed(packages: Iterable[str]) -> dict[str, str]:
+    """Return the versions of these packages; those not installed are left out."""
+    found = {}
+    for package in packages:
+        with suppress(PackageNotFoundError):
+            found[package] = version(package)
+    return found
 
 
 def _processor() -> str:

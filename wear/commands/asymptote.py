@@ -8,12 +8,13 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.regime import Asymptote
 
+SUMMARY = "what becomes of the wear in the long run"
 EXAMPLE = """\
   wear asymptote section4           regime, wear per cycle, pressure, logarithm
   wear asymptote section4-cutoff    where and in which cycle the wear stops
@@ -38,20 +39,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_scene(parser)
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Print the regime of a scene and its constants."""
     from wear.regime import asymptote
 
     arguments.read(options).stop_if_any()
     with terminal.busy("seeking the asymptote"):
         found = asymptote(options.scene)
-    if options.json:
-        terminal.print_json(asdict(found))
-        return terminal.DONE
-    print("\n".join(_lines(found)))
-    for notice in found.notices:
-        terminal.complain("wear asymptote", notice)
-    return terminal.DONE
+    notices = () if options.json else found.notices  # the document has them
+    return Answer(asdict(found), lambda: "\n".join(_lines(found)), notices)
 
 
 def _lines(found: Asymptote) -> Iterator[str]:
@@ -70,8 +66,3 @@ def _lines(found: Asymptote) -> Iterator[str]:
     for label, value, unit in rows:
         shown = f"{value:.10g}" if isinstance(value, float) else str(value)
         yield f"{label:{width}}  {shown} {unit}".rstrip()
-
-
-COMMAND = Command(
-    "asymptote", "what becomes of the wear in the long run", EXAMPLE, add_arguments, execute
-)

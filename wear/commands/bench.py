@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments
 from wear.faults import UsageError
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 PEERS = Path(__file__).parents[2] / "docs" / "bench"
 HARD_SECONDS, HARD_SECONDS_QUICK = 2.0, 0.3
 
+SUMMARY = "speed against true error, and the hard cases"
 EXAMPLE = """\
   wear bench                         own methods and SciPy's, about a minute
   wear bench --peers -o speed        with heyoka, diffrax, ... as installed; files into speed/
@@ -50,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Measure, print, write."""
     faults = arguments.read(options)
     if options.hard and options.peers:
@@ -59,20 +60,16 @@ def execute(options: argparse.Namespace) -> int:
     return _hard(options) if options.hard else _speed(options)
 
 
-def _speed(options: argparse.Namespace) -> int:
+def _speed(options: argparse.Namespace) -> Answer:
     from wear.benchmark import results as output
     from wear.benchmark.machine import footer
 
     result = _measure(options)
     if options.output is not None:
         _write_speed(result, options.output)
-    if options.json:
-        terminal.print_json(output.document(result, output.READER))
-    else:
-        _print_tables(output.tables(result))
-        print("\n".join(output.sentences(result.runs, output.READER)))
-        print("\n".join(["", *output.absences(result), footer(result.facts)]))
-    return terminal.DONE
+    said = (*output.sentences(result.runs, output.READER), "", *output.absences(result))
+    lines = (*_tables(output.tables(result)), *said, footer(result.facts))
+    return Answer(output.document(result, output.READER), lambda: "\n".join(lines))
 
 
 def _measure(options: argparse.Namespace) -> Result:
@@ -160,7 +157,7 @@ def _figures(result: Result) -> dict[str, bytes]:
     return {f"{name}.svg": encoded(figure, ".svg") for name, figure in drawn.items()}
 
 
-def _hard(options: argparse.Namespace) -> int:
+def _hard(options: argparse.Namespace) -> Answer:
     from wear.benchmark import hard
     from wear.benchmark.machine import footer, machine
     from wear.benchmark.results import csv_text
@@ -174,22 +171,13 @@ def _hard(options: argparse.Namespace) -> int:
         with files.replacing_in(options.output) as draft:
             files.write_atomically(draft / "hard-cases.csv", csv_text(found))
             files.write_atomically(draft / "hard-cases.md", hard.markdown(found, footer(facts)))
-    if options.json:
-        terminal.print_json({"machine": facts, "cases": [entry._asdict() for entry in found]})
-    else:
-        _print_tables([hard.overview(found), hard.failures(found)])
-        print(hard.LEGEND)
-        print(footer(facts))
-    return terminal.DONE
+    lines = (*_tables([hard.overview(found), hard.failures(found)]), hard.LEGEND, footer(facts))
+    document = {"machine": facts, "cases": [entry._asdict() for entry in found]}
+    return Answer(document, lambda: "\n".join(lines))
 
 
-def _print_tables(tables: Sequence[Table]) -> None:
+def _tables(tables: Sequence[Table]) -> Iterator[str]:
     for table in tables:
         width = max(len(row[0]) for row in table.rows) if table.rows else 0
         rows = [(row[0].ljust(width), *row[1:]) for row in table.rows]
-        print(f"{table.caption}\n\n{terminal.table(table.header, rows)}\n")
-
-
-COMMAND = Command(
-    "bench", "speed against true error, and the hard cases", EXAMPLE, add_arguments, execute
-)
+        yield f"{table.caption}\n\n{terminal.table(table.header, rows)}\n"

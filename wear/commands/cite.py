@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.cite import REFERENCES, bibtex
 from wear.commands import arguments
 
+SUMMARY = "what to cite, as BibTeX"
 EXAMPLE = """\
   wear cite > derive-wear.bib     all entries, each with when to cite it
   wear cite note derive-wear      the note and this software
@@ -26,14 +26,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     arguments.read(options).stop_if_any()
     chosen = [REFERENCES[key] for key in options.references or REFERENCES]
-    if options.json:
-        terminal.print_json([entry._asdict() for entry in chosen])
-    else:
-        print("\n\n".join(map(bibtex, chosen)))
-    return terminal.DONE
-
-
-COMMAND = Command("cite", "what to cite, as BibTeX", EXAMPLE, add_arguments, execute)
+    document = [entry._asdict() for entry in chosen]
+    return Answer(document, lambda: "\n\n".join(map(bibtex, chosen)))

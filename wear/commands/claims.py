@@ -5,18 +5,23 @@ from __future__ import annotations
 import argparse
 import textwrap
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments
 
+if TYPE_CHECKING:
+    from wear.report.claims import Entry
+
+SUMMARY = "the claims of the published note, each decided by a computation"
 EXAMPLE = """\
   wear claims               every claim of the note, with verdict and evidence
   wear claims C24 C36       two of them
   wear claims --json        the same for another program
 """
-_WIDTH = 96
+_WIDTH, _INDENT = 96, " " * 5
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,25 +31,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
-    """Decide the claims and print what was found."""
+def execute(options: argparse.Namespace) -> Answer:
+    """Decide the claims."""
     from wear.report.claims import as_json, ledger
 
     arguments.read(options).stop_if_any()
     with terminal.busy("deciding the claims") as tell:
         entries = ledger(lambda done, total, claim: tell(f"{done}/{total} {claim}"), options.ids)
-    if options.json:
-        terminal.print_json(as_json(entries))
-        return terminal.DONE
+    return Answer(as_json(entries), lambda: "\n".join(_lines(entries)))
+
+
+def _lines(entries: Sequence[Entry]) -> Iterator[str]:
+    """Yield every claim with its verdict and the evidence."""
     for claim, finding in entries:
-        print(f"{claim.id}  {claim.where}: {claim.statement}")
-        print(f"     {finding.verdict}")
-        indent = " " * 5
-        print(
-            textwrap.fill(finding.evidence, _WIDTH, initial_indent=indent, subsequent_indent=indent)
+        yield f"{claim.id}  {claim.where}: {claim.statement}"
+        yield f"{_INDENT}{finding.verdict}"
+        yield textwrap.fill(
+            finding.evidence, _WIDTH, initial_indent=_INDENT, subsequent_indent=_INDENT
         )
-    print(f"\n{_summary([finding.verdict for _, finding in entries])}")
-    return terminal.DONE
+    yield f"\n{_summary([finding.verdict for _, finding in entries])}"
 
 
 def _known() -> Sequence[str]:
@@ -61,12 +66,3 @@ def _summary(verdicts: Sequence[str]) -> str:
     found = Counter(verdicts).most_common()
     parts = ", ".join(f"{number} {verdict}" for verdict, number in found)
     return f"{terminal.count(len(verdicts), 'claim')}: {parts}"
-
-
-COMMAND = Command(
-    "claims",
-    "the claims of the published note, each decided by a computation",
-    EXAMPLE,
-    add_arguments,
-    execute,
-)

@@ -6,9 +6,10 @@ import argparse
 from pathlib import Path
 
 from derive import files, terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments
 
+SUMMARY = "an interactive page: the wear follows the parameters"
 EXAMPLE = """\
   wear explore                          section4 of the note, into explorer.html
   wear explore scene.toml -o mine.html  a scene of your own, beside the built-in ones
@@ -28,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     from wear.report.explorer import page
 
     faults = arguments.read(options)
@@ -41,17 +42,8 @@ def execute(options: argparse.Namespace) -> int:
     with terminal.busy("solving the scenes that the page checks itself against"):
         text = page(options.scene, specimens)
     files.write_atomically(options.output, text)
-    if options.json:
-        terminal.print_json({"page": options.output, "bytes": len(text.encode())})
-    else:
-        print(f"{options.output}: open it in a browser ({Path(options.output).resolve().as_uri()})")
-    return terminal.DONE
-
-
-COMMAND = Command(
-    "explore",
-    "an interactive page: the wear follows the parameters",
-    EXAMPLE,
-    add_arguments,
-    execute,
-)
+    place = Path(options.output).resolve().as_uri()
+    return Answer(
+        {"page": options.output, "bytes": len(text.encode())},
+        lambda: f"{options.output}: open it in a browser ({place})",
+    )

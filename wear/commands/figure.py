@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments, run_output
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ LAST = 9000  # cycle shown, unless the load ends before or readings go on
 MOST_AT_ONCE = 7  # scenes or cycles in one figure: as many as there are colours
 ABSCISSAE = ("cycles", "hours", "distance")
 
+SUMMARY = "wear, roughness and pressure against cycles"
 EXAMPLE = """\
   wear figure section4 -o wear.pdf                          9000 cycles
   wear figure section4 -o wear.svg --cycles 1e8 --log       on a logarithmic axis
@@ -79,7 +80,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Solve the scenes and draw them."""
     faults = arguments.read(options)
     scenes, inside, output = options.scene, options.inside, options.output
@@ -94,7 +95,7 @@ def execute(options: argparse.Namespace) -> int:
         _check_inside(inside, scenes, faults)
     faults.stop_if_any()
     if inside is not None:
-        return _pressure_inside(scenes[0], inside, output, as_json=options.json)
+        return _pressure_inside(scenes[0], inside, output)
     return _against_cycles(options, last[0] if last else _default_last(scenes, specimens))
 
 
@@ -105,7 +106,7 @@ def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int
     return max(read) if read else min(LAST, *(most_cycles(scene.load) for scene in scenes))
 
 
-def _against_cycles(options: argparse.Namespace, last: int) -> int:
+def _against_cycles(options: argparse.Namespace, last: int) -> Answer:
     from wear.figure_data import Abscissa, panels_of, points_of
     from wear.figures import history
     from wear.life import cycles_until
@@ -120,6 +121,7 @@ def _against_cycles(options: argparse.Namespace, last: int) -> int:
         found = [solve(scene, cycles, rtol=1e-6, progress=tell) for scene in runs.values()]
     wear, *others = panels_of(found, tuple(runs), abscissa)
     summary = _summary(found[0].scene, cycles, options.output) | {"scenes": list(runs)}
+    lines: list[str] = []
     if limit is not None:
         lives = [cycles_until(scene, limit, rtol=1e-6) for scene in runs.values()]
         ends = [float(life.cycles[0]) for life in lives]
@@ -127,16 +129,12 @@ def _against_cycles(options: argparse.Namespace, last: int) -> int:
         summary |= {"cycles_until": ends, "reached": reached}
         for name, end, way in zip(runs, ends, reached, strict=True):
             said = f"{end:.0f} cycles" if math.isfinite(end) else way
-            if not options.json:
-                print(f"{name}: {limit:g} mm: {said}")
+            lines.append(f"{name}: {limit:g} mm: {said}")
     shown = replace(wear, points=points_of(options.readings, runs, abscissa), limit=limit)
     drawn = history([shown, *others], abscissa=abscissa, logarithmic=options.log)
     _write(drawn, options.output)
-    if options.json:
-        terminal.print_json(summary)
-    for notice in dict.fromkeys(n for each in found for n in run_output.worth_telling(each)):
-        terminal.complain("wear figure", notice)
-    return terminal.DONE
+    notices = dict.fromkeys(n for each in found for n in run_output.worth_telling(each))
+    return Answer(summary, lambda: "\n".join(lines), tuple(notices))
 
 
 def shown_cycles(last: int, *, logarithmic: bool) -> tuple[int, ...]:
@@ -167,22 +165,14 @@ def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: argume
             faults.add(f"--inside: {against}; leave --inside out")
 
 
-def _pressure_inside(scene: Scene, inside: Sequence[int], output: Path, *, as_json: bool) -> int:
+def _pressure_inside(scene: Scene, inside: Sequence[int], output: Path) -> Answer:
     from wear.figure_data import pressure_inside
     from wear.figures import pressure_in_cycles
 
     _write(pressure_in_cycles(pressure_inside(scene, inside)), output)
-    if as_json:
-        terminal.print_json(_summary(scene.title or scene.name, sorted(inside), output))
-    for notice in scene.notices:
-        terminal.complain("wear figure", notice)
-    return terminal.DONE
+    summary = _summary(scene.title or scene.name, sorted(inside), output)
+    return Answer(summary, notices=scene.notices)
 
 
 def _summary(scene: str, cycles: Sequence[int], output: Path) -> dict[str, object]:
     return {"scene": scene, "file": str(output), "cycles": [cycles[0], cycles[-1]]}
-
-
-COMMAND = Command(
-    "figure", "wear, roughness and pressure against cycles", EXAMPLE, add_arguments, execute
-)

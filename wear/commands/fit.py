@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.fitting.estimate import Fit
     from wear.fitting.readings import FloatArray
 
+SUMMARY = "parameters of a scene from measured wear"
 EXAMPLE = """\
   wear fit readings.csv scene.toml --free bearing.wear_coefficient
   wear fit readings.csv scene.toml --free bearing.wear_coefficient bearing.roughness_growth \\
@@ -73,8 +74,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
-    """Fit, and print what came out."""
+def execute(options: argparse.Namespace) -> Answer:
+    """Fit."""
     from wear.faults import UsageError
     from wear.fitting.estimate import Fit, prepare
     from wear.fitting.least_squares import estimate
@@ -106,13 +107,7 @@ def execute(options: argparse.Namespace) -> int:
         document = as_json(found, options.data, cycles, wear, samples)
     if options.output is not None:
         _write(options.output, found, document, samples)
-    if options.json:
-        terminal.print_json(document)
-    else:
-        print("\n".join(_lines(document)))
-    for notice in document["notices"]:
-        terminal.complain("wear fit", notice)
-    return terminal.DONE
+    return Answer(document, lambda: "\n".join(_lines(document)), document["notices"])
 
 
 def as_json(
@@ -232,8 +227,3 @@ def _write(folder: Path, found: Fit, document: dict[str, Any], samples: FloatArr
             files.write_atomically(made / name, scene.to_toml())
         for name, figure in drawn.items():
             files.write_atomically(made / name, encoded(figure, ".svg"))
-
-
-COMMAND = Command(
-    "fit", "parameters of a scene from measured wear", EXAMPLE, add_arguments, execute
-)

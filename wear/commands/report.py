@@ -7,9 +7,10 @@ import shlex
 from pathlib import Path
 
 from derive import files, terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments
 
+SUMMARY = "the report of a scene of one's own"
 EXAMPLE = """\
   wear report scene.toml              into the folder scene-report
   wear report section4 -o elsewhere   model, data, equations, wear, life
@@ -28,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Solve the scene and write its report."""
     name = options.scene
     arguments.read(options).stop_if_any()
@@ -43,15 +44,9 @@ def execute(options: argparse.Namespace) -> int:
         document = report(options.scene, command, options.readings)
         with files.replacing_in(folder) as draft:
             published = publish(document, draft)
-            written = sorted(path.name for path in published.files)
-    if options.json:
-        terminal.print_json({"folder": str(folder), "files": written})
-    else:
-        print(f"report: {folder / 'report.html'}")
-    for line in (published.notice, *published.warnings):
-        if line:
-            terminal.complain("wear report", line)
-    return terminal.DONE
-
-
-COMMAND = Command("report", "the report of a scene of one's own", EXAMPLE, add_arguments, execute)
+            written = sorted(path.name for path in draft.iterdir())
+    return Answer(
+        {"folder": str(folder), "files": written},
+        lambda: f"report: {folder / 'report.html'}",
+        published.said,
+    )

@@ -9,15 +9,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear import processes
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.report.claims import Entry
-    from wear.report.publish import Published
+    from wear.report.typeset import Typeset
     from wear.report.verification import Verification
 
+SUMMARY = "derive, solve and judge everything: the report"
 EXAMPLE = """\
   wear reproduce               writes report/report.html and all that belongs to it
   wear reproduce -o elsewhere  into another folder
@@ -38,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Derive, verify, solve, judge, and write the report."""
     arguments.read(options).stop_if_any()
     folder = options.output
@@ -46,21 +47,13 @@ def execute(options: argparse.Namespace) -> int:
     with terminal.busy("deriving the equations") as progress:
         verification, ledger, published = _reproduce(folder, progress)
     summary = _summary(folder, verification, ledger, published, time.monotonic() - start)
-    if options.json:
-        terminal.print_json(summary)
-    else:
-        print("\n".join(_lines(summary)))
-    for line in (published.notice, *published.warnings):
-        if line:
-            terminal.complain("wear reproduce", line)
-    for identifier, check in verification.failures:
-        terminal.complain("wear reproduce", f"({identifier}) {check.kind} fails: {check.detail}")
-    return terminal.DONE if verification.passed else terminal.FAILED
+    failures = [f"({i}) {check.kind} fails: {check.detail}" for i, check in verification.failures]
+    status = terminal.DONE if verification.passed else terminal.FAILED
+    notices = (*published.said, *failures)
+    return Answer(summary, lambda: "\n".join(_lines(summary)), notices, status)
 
 
-def _reproduce(
-    folder: Path, progress: Progress
-) -> tuple[Verification, tuple[Entry, ...], Published]:
+def _reproduce(folder: Path, progress: Progress) -> tuple[Verification, tuple[Entry, ...], Typeset]:
     """Make everything, then put it in place."""
     from derive.catalogue import equations
     from derive.note.claim_checks import SYMBOLIC
@@ -95,7 +88,7 @@ def _summary(
     folder: Path,
     verification: Verification,
     ledger: tuple[Entry, ...],
-    published: Published,
+    published: Typeset,
     seconds: float,
 ) -> dict[str, Any]:
     from collections import Counter
@@ -122,7 +115,3 @@ def _lines(summary: dict[str, Any]) -> list[str]:
         f"claims: {verdicts}",
         f"report: {Path(summary['folder'], 'report.html')}",
     ]
-
-
-COMMAND = Command("reproduce", "derive, solve and judge everything: the report", EXAMPLE,
-                  add_arguments, execute)  # fmt: skip

@@ -8,12 +8,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments, run_inside, run_output
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
+SUMMARY = "the state of a scene after given numbers of cycles"
 EXAMPLE = """\
   wear run section4                                    a table
   wear run section4 --cycles 1,9000,1e8 --rtol 1e-12   the wear after 1e8 cycles, 12 digits
@@ -72,7 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     from wear.faults import AccuracyError, Interrupted
     from wear.solver import obstacle, solve
 
@@ -86,33 +87,33 @@ def execute(options: argparse.Namespace) -> int:
     wears, output = options.until_wear, options.output
     if options.phases is not None:
         phases = int(options.phases)
-        return run_inside.execute(scene, cycles, phases, rtol, output, as_json=options.json)
+        return run_inside.execute(scene, cycles, phases, rtol, output)
 
-    status, fault = terminal.DONE, ""
+    status, faulty = terminal.DONE, list[str]()
     try:
         with terminal.busy("counting cycles") as tell:
             history = solve(scene, cycles, rtol, options.method, options.time_limit, tell)
     except Interrupted as stop:
-        history, status, fault = stop.history, terminal.INTERRUPTED, str(stop)
+        history, status, faulty = stop.history, terminal.INTERRUPTED, [str(stop)]
     except AccuracyError as miss:
         if miss.best is None:
             raise
-        history, status, fault = miss.best, terminal.INACCURATE, str(miss)
+        history, status, faulty = miss.best, terminal.INACCURATE, [str(miss)]
     if options.strict:
         faults.refuse_implausible(history.notices)
         faults.stop_if_any()
     until = {} if wears is None else _cycles_until(scene, wears, rtol)
-    if options.json:
-        terminal.print_json(history.as_json() | until)
-    elif output is None:
-        print(run_output.text(history))
-    if until and not options.json:
-        print("\n" + run_output.until_text(until))
     if output is not None:
         run_output.write(history, output)
-    for notice in (*run_output.worth_telling(history), *([fault] if fault else [])):
-        terminal.complain("wear run", notice)
-    return status
+
+    def text() -> str:
+        parts = [] if output is not None else [run_output.text(history)]
+        if until:
+            parts.append(f"\n{run_output.until_text(until)}")
+        return "\n".join(parts)
+
+    notices = (*run_output.worth_telling(history), *faulty)
+    return Answer(history.as_json() | until, text, notices, status)
 
 
 def _depths(text: str) -> tuple[float, ...]:
@@ -139,8 +140,3 @@ def _methods() -> Sequence[str]:
     from wear.solver import METHODS
 
     return METHODS
-
-
-COMMAND = Command(
-    "run", "the state of a scene after given numbers of cycles", EXAMPLE, add_arguments, execute
-)

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive import files, terminal
+from derive import terminal
+from derive.command_line import Answer
 from wear.commands import arguments
 
 if TYPE_CHECKING:
@@ -40,12 +41,11 @@ def check(options: argparse.Namespace, faults: arguments.Faults) -> None:
         faults.add(f"--cycles: the last cycle with phases begins after {most - 1}; the load ends")
 
 
-def execute(
-    scene: Scene, cycles: Sequence[int], phases: int, rtol: float, output: Path, *, as_json: bool
-) -> int:
+def execute(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, output: Path) -> Answer:
     """Write the states inside the cycles, and tell how many they are and how accurate."""
     import numpy as np
 
+    from wear.faults import Interrupted
     from wear.history_files import write_inside
     from wear.inside import fields_inside
     from wear.model import bind
@@ -66,29 +66,21 @@ def execute(
         "rtol": repr(rtol),
     }
     try:
-        with files.replacing(output) as draft:
-            write_inside(parts(), draft, attributes)
+        write_inside(parts(), output, attributes)
     except KeyboardInterrupt:
         told = f"interrupted after {done} of {len(cycles)} cycles; {output} was not written"
-        terminal.complain("wear run", told)
-        return terminal.INTERRUPTED
-    if as_json:
-        terminal.print_json(
-            {
-                "scene": scene.title or scene.name,
-                "file": str(output),
-                "cycles": len(cycles),
-                "phases": phases,
-                "method": "abel",
-                "rtol": rtol,
-                "largest_error_estimate": worst,
-                "notices": list(scene.notices),
-            }
-        )
-    for notice in scene.notices:
-        terminal.complain("wear run", notice)
-    if not worst <= rtol:
-        missed = f"the estimated error is {worst:.1e}, {rtol:.1e} was requested"
-        terminal.complain("wear run", missed)
-        return terminal.INACCURATE
-    return terminal.DONE
+        raise Interrupted(told, None) from None
+    document = {
+        "scene": scene.title or scene.name,
+        "file": str(output),
+        "cycles": len(cycles),
+        "phases": phases,
+        "method": "abel",
+        "rtol": rtol,
+        "largest_error_estimate": worst,
+        "notices": list(scene.notices),
+    }
+    if worst <= rtol:
+        return Answer(document, notices=scene.notices)
+    missed = f"the estimated error is {worst:.1e}, {rtol:.1e} was requested"
+    return Answer(document, notices=(*scene.notices, missed), status=terminal.INACCURATE)

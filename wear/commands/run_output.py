@@ -118,11 +118,10 @@ def latex_number(number: float, digits: int) -> str:
 
 def write(history: History, path: Path) -> None:
     """Write a file with one of the `SUFFIXES`, whole or not at all."""
-    with files.replacing(path) as draft:
-        if path.suffix == ".tex":
-            draft.write_text(latex(history), encoding="utf-8")
-        else:
-            history.write(draft)
+    if path.suffix == ".tex":
+        files.write_atomically(path, latex(history))
+    else:
+        history.write(path)
 
 
 def _modelled(history: History) -> Sequence[Column]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from derive import terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments
 
+SUMMARY = "the built-in scenes"
 EXAMPLE = """\
   wear scenes                                 names and titles
   wear scenes --describe section4             what it is, and its data
@@ -27,26 +27,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--describe", action="store_true", help="show each as a scene file")
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     from wear.scene import load_scene
 
     arguments.read(options).stop_if_any()
     scenes = [load_scene(name) for name in options.names or arguments.built_in_names()]
-    if options.json:
-        terminal.print_json(
-            [
-                {"name": scene.name, "title": scene.title, "description": scene.description}
-                | ({"tables": scene.to_tables()} if options.describe else {})
-                for scene in scenes
-            ]
-        )
-    elif options.describe:
-        print("\n".join(f"# wear run {scene.name}\n{scene.to_toml()}" for scene in scenes))
-    else:
-        width = max(len(scene.name) for scene in scenes)
-        for scene in scenes:
-            print(f"{scene.name:{width}}  {scene.title}")
-    return terminal.DONE
-
-
-COMMAND = Command("scenes", "the built-in scenes", EXAMPLE, add_arguments, execute)
+    document = [
+        {"name": scene.name, "title": scene.title, "description": scene.description}
+        | ({"tables": scene.to_tables()} if options.describe else {})
+        for scene in scenes
+    ]
+    width = max(len(scene.name) for scene in scenes)
+    lines = [
+        f"# wear run {scene.name}\n{scene.to_toml()}\n"
+        if options.describe
+        else f"{scene.name:{width}}  {scene.title}\n"
+        for scene in scenes
+    ]
+    return Answer(document, lambda: "".join(lines))

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derive import files, terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.sensitivities import Sensitivities
 
+SUMMARY = "how the wear depends on every number of the scene"
 EXAMPLE = """\
   wear sensitivity section4                             elasticities, a table
   wear sensitivity section4 --cycles 1,9000,1e8 --json  with derivatives and error estimates
@@ -49,8 +50,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
-    """Print how the wear depends on the numbers of a scene."""
+def execute(options: argparse.Namespace) -> Answer:
+    """Find how the wear depends on the numbers of a scene."""
     from wear.sensitivities import sensitivity
 
     faults = arguments.read(options)
@@ -67,20 +68,18 @@ def execute(options: argparse.Namespace) -> int:
         cycles = (*cycles, int(life.cycles[0]))
     with terminal.busy("counting cycles") as tell:
         found = sensitivity(scene, cycles, rtol, tell)
-    if options.json:
-        terminal.print_json(found.as_json())
-    elif output is None:
-        print("\n".join([*_lines(found), *([] if depth is None else _lines_of_life(found, depth))]))
     if output is not None:
         files.write_atomically(output, _written(found, output.suffix))
-    for notice in found.notices:
-        terminal.complain("wear sensitivity", notice)
     known = [bool(np.isfinite(column).all()) for column in found.error.T]
-    if not all(known):
-        late = ", ".join(str(n) for n, yes in zip(found.cycles, known, strict=True) if not yes)
-        terminal.complain("wear sensitivity", f"not known after {late} cycles")
-        return terminal.INACCURATE
-    return terminal.DONE
+    late = ", ".join(str(n) for n, yes in zip(found.cycles, known, strict=True) if not yes)
+    notices = (*found.notices, f"not known after {late} cycles") if late else found.notices
+    status = terminal.INACCURATE if late else terminal.DONE
+    return Answer(found.as_json(), lambda: "" if output else _text(found, depth), notices, status)
+
+
+def _text(found: Sensitivities, depth: float | None) -> str:
+    life = () if depth is None else _lines_of_life(found, depth)
+    return "\n".join([*_lines(found), *life])
 
 
 def _lines(found: Sensitivities) -> Iterator[str]:
@@ -122,9 +121,3 @@ def _written(found: Sensitivities, suffix: str) -> bytes:
             row = (float(value), n, float(wear), *(float(number) for number in numbers))
             rows.append(",".join([key, *map(repr, row)]))
     return ("\n".join(rows) + "\n").encode()
-
-
-COMMAND = Command(
-    "sensitivity", "how the wear depends on every number of the scene", EXAMPLE, add_arguments,
-    execute,
-)  # fmt: skip

@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive import completion, files, terminal
-from derive.command_line import Command
+from derive.command_line import Answer
 from wear import processes
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.studies.rows import Study
-    from wear.studies.store import Store
 
+SUMMARY = "many scenes that differ in a few numbers"
 EXAMPLE = """\
   wear study section4 --vary bearing.roughness_growth=0.1:0.4:31 \\
       --vary bearing.wear_coefficient=1e-8:1e-5:31:log --cycles 1e6 -o map.zarr
@@ -107,7 +107,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> int:
+def execute(options: argparse.Namespace) -> Answer:
     """Run a study, or say what it takes."""
     from wear.studies.run import prepare, run
 
@@ -118,7 +118,7 @@ def execute(options: argparse.Namespace) -> int:
     )  # fmt: skip
     asked = prepare(options.scene, options.vary, options.cycles, *request)
     if options.dry_run:
-        return _dry_run(options, asked, workers)
+        return _dry_run(asked, workers)
     with _executor(options.scheduler, workers) as executor, terminal.busy("solving") as tell:
         store = run(asked, Path(options.output), executor, tell)
     if options.figure is not None:
@@ -127,12 +127,16 @@ def execute(options: argparse.Namespace) -> int:
 
         drawn = encoded(picture(store.dataset()), options.figure.suffix)
         files.write_atomically(options.figure, drawn)
-    _print(options, store)
-    return terminal.DONE
+    counts = store.counts()
+    done = ", ".join(
+        f"{number} {name.replace('_', ' ')}" for name, number in counts.items() if number
+    )
+    document = {"output": options.output, "rows": counts}
+    return Answer(document, lambda: f"{options.output}: {done}")
 
 
-def _dry_run(options: argparse.Namespace, asked: Study, workers: int) -> int:
-    """Solve a few rows, and print what all of them would take."""
+def _dry_run(asked: Study, workers: int) -> Answer:
+    """Solve a few rows, and say what all of them would take."""
     from wear.benchmark.results import duration
     from wear.studies.design import ROWS
     from wear.studies.rows import solve_rows
@@ -147,14 +151,13 @@ def _dry_run(options: argparse.Namespace, asked: Study, workers: int) -> int:
         spent = time.process_time() - start
     seconds = spent / tried * rows
     size = disk_bytes(asked)
-    if options.json:
-        terminal.print_json({"scenes": rows, "core_seconds": seconds, "disk_bytes": size})
-        return terminal.DONE
-    print(
-        f"{rows} scenes, about {duration(seconds)} of one core "
-        f"({duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
+    return Answer(
+        {"scenes": rows, "core_seconds": seconds, "disk_bytes": size},
+        lambda: (
+            f"{rows} scenes, about {duration(seconds)} of one core "
+            f"({duration(seconds / workers)} on {workers}), up to {size / 1e6:.3g} MB on disk"
+        ),
     )
-    return terminal.DONE
 
 
 @contextmanager
@@ -191,20 +194,3 @@ def _cluster(address: str) -> Iterator[Executor]:
     finally:
         with suppress(OSError, RuntimeError):  # a scheduler that went away cannot be told
             client.close(timeout=LONGEST_WAIT)
-
-
-def _print(options: argparse.Namespace, store: Store) -> None:
-    """Print how many rows have which status, and where they are."""
-    counts = store.counts()
-    if options.json:
-        terminal.print_json({"output": options.output, "rows": counts})
-        return
-    done = ", ".join(
-        f"{number} {name.replace('_', ' ')}" for name, number in counts.items() if number
-    )
-    print(f"{options.output}: {done}")
-
-
-COMMAND = Command(
-    "study", "many scenes that differ in a few numbers", EXAMPLE, add_arguments, execute
-)

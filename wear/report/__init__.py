@@ -4,7 +4,7 @@ Contents
     paper.md, paper, values                    what the paper says, and its numbers
     text, document, number                     Markdown with values, labels numbered
     equations, derivations, markup             equations with titles, and how they follow
-    html, tex, svg, mathml, templates          the writers
+    writer, html, tex, templates, svg, mathml  the writer and its two forms
     typeset, publish, manifest                 the files of a report
     runs, claims, reconcile, verification      what is computed for it
     figures_of_note, drawing                   its figures

@@ -110,6 +110,14 @@ class Document:
         return next(b.content for a, b in pairwise(tokens) if a.tag == "h1")
 
     @property
+    def contents(self) -> Iterator[tuple[Mark, list[Token], int]]:
+        """The mark, title and level of every section, derivations left out."""
+        for heading, title in pairwise(self.text.tokens):
+            mark = self.marks.get(heading.meta.get("label", ""))
+            if heading.type == "heading_open" and mark and mark.kind != "derivation":
+                yield mark, title.children or [], int(heading.tag[1])
+
+    @property
     def shown(self) -> Iterator[Equation]:
         """The equations that the text shows, in reading order."""
         for token in self.text.tokens:

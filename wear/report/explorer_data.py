@@ -16,7 +16,8 @@ import numpy as np
 
 from wear import own_laws
 from wear.faults import UsageError
-from wear.load import Constant, Force, ForceTable, Harmonics, Load, Sine, Table
+from wear.load import Constant, Harmonics, Load, Sine, Table
+from wear.load.tables import as_table
 from wear.model import bind
 from wear.parameters import AREA
 from wear.resampling import resampled
@@ -82,27 +83,17 @@ def _size(load: Load) -> float:
 
 
 def _load_data(load: Load) -> dict[str, Any]:
-    if isinstance(load, Sine):
-        return {"kind": "sine", "stops": [0.25, 0.75]}
-    if isinstance(load, Constant):
-        return {"kind": "constant", "value_mm": load.value_mm, "stops": []}
-    if isinstance(load, Harmonics):
-        return {
-            "kind": "harmonics",
-            "mean_mm": load.mean_mm,
-            "cosine_mm": list(load.cosine_mm),
-            "sine_mm": list(load.sine_mm),
-            "stops": list(load.peaks),
-        }
-    assert isinstance(load, (Table, ForceTable, Force))
+    """Return the load, its rows over one period if it has any, and where a step must end."""
+    if isinstance(load, Sine | Constant | Harmonics):
+        stops = (0.25, 0.75) if isinstance(load, Sine) else load.peaks
+        return as_table(load) | {"stops": [] if isinstance(load, Constant) else list(stops)}
     phases = sorted({0.0, 1.0, *load.kinks})
-    values = [float(load(phase)) for phase in phases]
     return {
         "kind": "table" if isinstance(load, Table) else "force",
         "file": getattr(getattr(load, "source", None), "file", ""),
         "period_s": load.period,
         "phase": phases,
-        "value": values,
+        "value": [float(load(phase)) for phase in phases],
         "stops": list(load.kinks),
     }
 

@@ -16,16 +16,37 @@ from collections.abc import Mapping
 
 import numpy as np
 import sympy as sp
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from derive.results.regime_map import REGIMES
 from wear import figures
-from wear.figure_data import BEARING_WEAR, ROUGHNESS, WEAR, Example, Line, Panel
-from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, INK, canvas, stroke, styled
+from wear.figure_data import BEARING_WEAR, ROUGHNESS, WEAR, Line, Panel
+from wear.figure_style import (
+    COLUMN,
+    COLUMN_AND_HALF,
+    GREY,
+    HALO,
+    INK,
+    PAPER,
+    canvas,
+    label_above,
+    panels,
+    stroke,
+    styled,
+)
 from wear.history import FloatArray
 from wear.report import note
 from wear.report.runs import Approach, Runs
+from wear.scene import Scene
+
+_REGIMES = {
+    "steady": "#0072B2",
+    "saturating": "#009E73",
+    "finite-time": "#D55E00",
+    "arrest": "#CC79A7",
+}
 
 
 def wear_of_both(runs: Runs) -> Figure:
@@ -52,14 +73,11 @@ def _both(runs: Runs, bearing: str, pin: str) -> tuple[Line, ...]:
 
 def wear_and_asymptote(runs: Runs) -> Figure:
     """Fig. 3a: the solution, with and without loss of contact, and a line of the slope (21)."""
-    wear = [
-        _wear(runs, "section4", "solution", 0, 0),
-        _wear(runs, "section4" + note.CUTOFF, "loss of contact", 0, 1),
-    ]
-    last = wear[0]
+    wear = _wear(runs, "section4", "solution", 0, 0)
+    stopped = _wear(runs, "section4" + note.CUTOFF, "loss of contact", 0, 1)
     per_cycle = note.required(runs.asymptote("section4").wear_per_cycle_mm)
-    line = last.y[-1] + per_cycle * (last.x - last.x[-1])
-    return figures.wear_with_asymptote(wear, [Line("slope (21)", last.x, line, 1, 2)], width=COLUMN)
+    line = Line("slope (21)", wear.x, wear.y[-1] + per_cycle * (wear.x - wear.x[-1]), 1, 2)
+    return figures.history([Panel(BEARING_WEAR, (wear, stopped), behind=(line,))])
 
 
 def wear_coefficients(runs: Runs) -> Figure:
@@ -115,26 +133,70 @@ def wear_curve(runs: Runs) -> Figure:
     stopped = runs.history("section4" + note.CUTOFF)
     cycles = np.geomspace(1.0, found.cycles[-1], 200)
     held = np.interp(np.log(cycles), np.log(stopped.cycles[1:]), stopped.u_c[1:])
-    wear = [
-        Line("solution", np.r_[1.0, found.cycles], np.r_[stopped.u_c[1], found.wear]),
-        Line("loss of contact", cycles, held, 0, 1),
-    ]
-    lines = [
-        Line("slope (21)", cycles, note.required(limit.wear_per_cycle_mm) * cycles, 1, 1),
-        Line("as printed", cycles, note.PRINTED.formula_mm * cycles, 4, 2),
-    ]
-    return figures.wear_by_decades(wear, lines, mark=(note.PRINTED.cycles, "the note's cycle"))
+    per_cycle = note.required(limit.wear_per_cycle_mm)
+    lines = (
+        (0.9, Line("slope (21)", cycles, per_cycle * cycles, 1, 1)),
+        (0.9, Line("as printed", cycles, note.PRINTED.formula_mm * cycles, 4, 2)),
+        (1.4, Line("solution", np.r_[1.0, found.cycles], np.r_[stopped.u_c[1], found.wear])),
+        (1.4, Line("loss of contact", cycles, held, 0, 1)),
+    )
+    with styled():
+        figure, axes = canvas(COLUMN, 0.72 * COLUMN)
+        for width, line in lines:
+            look = stroke(line.family, line.variant)
+            axes.loglog(
+                line.x, line.y * WEAR.scale, color=look.colour, linestyle=look.dash,
+                linewidth=width, label=line.name,
+            )  # fmt: skip
+        mark = note.PRINTED.cycles
+        axes.axvline(mark, color=GREY, linewidth=0.6, linestyle=(0, (4.0, 2.0)))
+        across = axes.get_xaxis_transform()
+        axes.text(mark, 0.98, "the note's cycle ", transform=across, va="top", ha="right")
+        first, last = lines[2][1].y[[0, -1]] * WEAR.scale
+        axes.set(xlabel=r"Cycles  $N$", ylabel=BEARING_WEAR.label, xlim=cycles[[0, -1]])
+        axes.set_ylim(1e-3 * first, 10.0 * last)  # room for the legend
+        axes.legend(loc="lower right", borderpad=0.0, handlelength=2.5)
+    return figure
 
 
-def regimes(runs: Runs) -> Figure:
-    """The map of regimes with the examples of the note."""
-    points = []
-    for name in ("section3", "section4", "section5"):
-        scene = runs.cases[name].scene
-        gap = (scene.closure - scene.periodic_load.maximum) / scene.initial_roughness
-        slope = scene.bearing.roughness_growth
-        points.append(Example(f"§ {name[-1]}", slope, gap, one_solid=scene.pin is None))
-    return figures.regime_map(_regime, ("without loss of contact", "with loss of contact"), points)
+def regimes(scenes: Mapping[str, Scene]) -> Figure:
+    """Regions of f_c against the gap at the peak over the roughness, without and with loss of
+    contact; a dot at each of the named `scenes`, hollow where the pin wears or is rough."""
+    slopes, gaps = np.meshgrid(np.linspace(-0.6, 0.6, 480), np.linspace(-3.0, 4.0, 560))
+    with styled():
+        figure, [left, right] = panels(1, 2, COLUMN_AND_HALF, 0.5 * COLUMN_AND_HALF)
+        for axes, ends in ((left, False), (right, True)):
+            named = _regime(slopes, gaps, ends)
+            for name, colour in _REGIMES.items():
+                _region(axes, slopes, gaps, named == name, colour, name)
+            for name, scene in scenes.items():
+                _dot(axes, name, scene)
+            axes.set(title=f"{'with' if ends else 'without'} loss of contact")
+            axes.set(xlabel=r"Change of roughness with wear  $f_c$")
+            axes.set(xlim=(-0.6, 0.6), ylim=(-3.0, 4.0))
+        left.set_ylabel(r"Gap at the peak over roughness  $(h_0-\max U_a)/\bar\sigma(0)$")
+    return figure
+
+
+def _region(
+    axes: Axes, x: FloatArray, y: FloatArray, inside: NDArray[np.bool_], colour: str, name: str
+) -> None:
+    """A region in its colour, its name in the middle of it."""
+    if not inside.any():
+        return
+    axes.contourf(x, y, inside.astype(float), levels=[0.5, 1.5], colors=[colour], alpha=0.3)
+    level = np.argmax(inside.sum(axis=1))  # the row where the region is widest
+    across = x[level][inside[level]]
+    if np.ptp(across) > 0.05:
+        middle = float(across.mean()), float(y[inside].mean())
+        axes.text(*middle, name, ha="center", va="center", path_effects=[HALO])
+
+
+def _dot(axes: Axes, name: str, scene: Scene) -> None:
+    gap = (scene.closure - scene.periodic_load.maximum) / scene.initial_roughness
+    at = scene.bearing.roughness_growth, gap
+    axes.plot(*at, "o", color=INK, markerfacecolor=INK if scene.pin is None else PAPER)
+    label_above(axes, name, at, 5.0)
 
 
 def _regime(slope: FloatArray, gap: FloatArray, cutoff: bool) -> NDArray[np.str_]:

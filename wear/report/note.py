@@ -17,6 +17,7 @@ from wear.solver import solve
 FloatArray = NDArray[np.float64]
 Some = TypeVar("Some")
 
+EXAMPLES = ("section3", "section4", "section5")
 SECTION_5 = ("section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4")
 """The scenes of Fig. 3b, by rising wear coefficient."""
 CUTOFF = ".cutoff"

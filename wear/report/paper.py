@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from wear.benchmark.results import DIGITS, READER, committed, curves_by_cycles
 from wear.figures import speed_against_cycles
-from wear.report import drawing, figures_of_note
+from wear.report import drawing, figures_of_note, note
 from wear.report.document import Document, Figure, drawn
 from wear.report.equations import shown
 from wear.report.text import parsed
@@ -46,7 +46,9 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
         {
             "system": drawing.system(),
             "wear-curve": figures_of_note.wear_curve(runs),
-            "regimes": figures_of_note.regimes(runs),
+            "regimes": figures_of_note.regimes(
+                {f"§ {name[-1]}": runs.cases[name].scene for name in note.EXAMPLES}
+            ),
             "approach": figures_of_note.approach(runs.approach),
             "speed": speed_against_cycles(curves_by_cycles(committed().runs, READER, DIGITS[0])),
             "figure-2a": figures_of_note.wear_of_both(runs),

@@ -11,7 +11,7 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 
 from wear.generated import asymptotics as formula
@@ -69,11 +69,11 @@ def reconciliations() -> tuple[Reconciliation, ...]:
     given = note.scene("section4")
     factor = PRINTED.formula_mm / note.required(note.limit("section4").wear_per_cycle_mm)
     changes = (
-        ("f_c", "bearing", "roughness_growth", _slope(given) / given.bearing.roughness_growth),
-        ("K_c", "bearing", "wear_coefficient", factor),
-        ("p_max", "contact", "max_pressure_MPa", factor),
-        ("H_c", "bearing", "hardness_MPa", 1.0 / factor),
-        ("R", "motion", "radius_mm", factor),
+        ("f_c", "bearing.roughness_growth", _slope(given) / given.bearing.roughness_growth),
+        ("K_c", "bearing.wear_coefficient", factor),
+        ("p_max", "contact.max_pressure_MPa", factor),
+        ("H_c", "bearing.hardness_MPa", 1.0 / factor),
+        ("R", "motion.radius_mm", factor),
     )
     found = (_changed(given, *change) for change in changes)
     return tuple(sorted(found, key=lambda change: abs(change.misfit)))
@@ -87,15 +87,14 @@ def slope_for_simulation() -> float:
     given = note.scene("section4")
 
     def distance(slope: float) -> float:
-        bearing = replace(given.bearing, roughness_growth=slope)
-        return _simulated(replace(given, bearing=bearing)) - PRINTED.simulated_mm
+        changed = given.with_({"bearing.roughness_growth": slope})
+        return _simulated(changed) - PRINTED.simulated_mm
 
     return float(brentq(distance, given.bearing.roughness_growth, 0.5, rtol=1e-10))
 
 
-def _changed(scene: Scene, datum: str, table: str, key: str, factor: float) -> Reconciliation:
+def _changed(scene: Scene, datum: str, key: str, factor: float) -> Reconciliation:
     """Multiply one datum of a scene by a factor, and simulate."""
-    part = getattr(scene, table)
-    was = getattr(part, key)
-    changed = replace(scene, **{table: replace(part, **{key: was * factor})})
-    return Reconciliation(datum, was * factor, was, _simulated(changed))
+    was = scene.parameters()[datum]
+    simulated = _simulated(scene.with_({key: was * factor}))
+    return Reconciliation(datum, was * factor, was, simulated)

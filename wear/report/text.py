@@ -2,8 +2,8 @@ r"""The text of a report: Markdown with values, read into tokens.
 
 Overview
     A report is written in Markdown (``paper.md``) and filled in by Jinja2. `read` returns the
-    tokens of markdown-it; the writers `wear.report.html` and `wear.report.tex` turn the same tokens
-    into a page and into LaTeX.
+    tokens of markdown-it, with what a writer needs to know of their neighbours; `wear.report.html`
+    and `wear.report.tex` make a page and LaTeX of them.
 Marks, besides those of Markdown
     {{ wear.to(5) }}        a `Number`, shown to five digits
     $u_c$                   a formula
@@ -27,11 +27,11 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any, ClassVar
+from itertools import pairwise
+from typing import Any
 
 import jinja2
 from markdown_it import MarkdownIt
-from markdown_it.renderer import RendererHTML
 from markdown_it.rules_core import StateCore
 from markdown_it.rules_inline import StateInline
 from markdown_it.token import Token
@@ -47,6 +47,7 @@ _MARK = re.compile(
 )
 _NAMED = re.compile(rf"\s*\{{#(?P<label>{_LABEL})\}}$")
 _CAPTION = "Table: "
+_CLOSING = tuple(".,;:)?")
 _SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#])")
 
 
@@ -91,7 +92,7 @@ def parsed(template: str, values: Mapping[str, Any]) -> Text:
     )  # fmt: skip
     environment.filters["plain"] = escaped
     source = environment.from_string(template).render(values)
-    return Text(tuple(_MARKDOWN.parse(source)), tuple(numbers))
+    return Text(tuple(MARKDOWN.parse(source)), tuple(numbers))
 
 
 def escaped(text: str) -> str:
@@ -105,32 +106,8 @@ def escaped(text: str) -> str:
 
 def line(text: str) -> Sequence[Token]:
     """Return the tokens of one line of Markdown, a title say."""
-    (inline,) = _MARKDOWN.parseInline(text)
+    (inline,) = MARKDOWN.parseInline(text)
     return inline.children or ()
-
-
-class Writer(RendererHTML):
-    """What both writers do: a method for each kind of token is found by markdown-it; kinds that are
-    always written the same stand in `plain`."""
-
-    plain: ClassVar[Mapping[str, str]] = {}
-
-    def __init__(self) -> None:
-        super().__init__()
-        for kind, text in self.plain.items():
-            self.rules[kind] = lambda *_, text=text: text  # type: ignore[assignment]
-
-    def written(self, tokens: Sequence[Token]) -> str:
-        """Return a whole text."""
-        return str(self.render(tokens, _MARKDOWN.options, {}))
-
-    def inside(self, tokens: Sequence[Token] | None) -> str:
-        """Return what stands in a line."""
-        return str(self.renderInline(tokens or (), _MARKDOWN.options, {}))
-
-    def of_line(self, text: str) -> str:
-        """Return a line of Markdown, a title say."""
-        return self.inside(line(text))
 
 
 def _mark(state: StateInline, silent: bool) -> bool:
@@ -143,12 +120,13 @@ def _mark(state: StateInline, silent: bool) -> bool:
         token = state.push(kind, "", 0)
         token.content = found[kind]
         token.meta["bare"] = found["bare"] is not None
+        token.meta["kept"] = ""
     state.pos = found.end()
     return True
 
 
 def _labels(state: StateCore) -> None:
-    """Give headings and captions their labels, and tables the kinds of their columns."""
+    """Give headings and captions their labels, and find the paragraphs of figures."""
     for before, inline, after in zip(
         state.tokens, state.tokens[1:], state.tokens[2:], strict=False
     ):
@@ -173,30 +151,59 @@ def _is_figure(text: str) -> bool:
     return _FIGURES.fullmatch(text) is not None
 
 
+def _sections(state: StateCore) -> None:
+    """Tell headings, and the end of the text, how many sections end there."""
+    if state.inlineMode:
+        return
+    levels: list[int] = []  # of the sections that are open
+    state.tokens.append(Token("document_close", "", 0))
+    for token in state.tokens:
+        if token.type in ("heading_open", "document_close"):
+            level = int(token.tag[1:] or 0)
+            token.meta["closes"] = sum(each >= level for each in levels)
+            levels = [each for each in levels if each < level]
+            levels += [level] * ("label" in token.meta)
+
+
 def _columns(state: StateCore) -> None:
-    """Tell a table the kinds of its columns: ``narrow``, ``text`` or ``numeric``."""
+    """Tell a table and its cells the kinds of its columns: ``narrow``, ``text`` or ``numeric``."""
     kinds = {"text-align:left": "narrow", "text-align:right": "numeric", None: "text"}
-    table: Token | None = None
+    columns: list[str] = []
     for token in state.tokens:
         if token.type == "table_open":
-            table = token
-            table.meta["columns"] = []
+            columns = token.meta["columns"] = []
+        elif token.type == "table_close":
+            token.meta["columns"] = columns
         elif token.type == "tr_open":
-            column = 0
-        elif token.type in ("th_open", "td_open") and table is not None:
-            token.meta["kind"] = kinds[token.attrs.pop("style", None)]  # type: ignore[index]
-            token.meta["first"] = column == 0
+            column = -1
+        elif token.type in ("th_open", "td_open"):
             column += 1
+            token.meta["kind"] = kinds[token.attrs.pop("style", None)]  # type: ignore[index]
             if token.type == "th_open":
-                table.meta["columns"].append(token.meta["kind"])
+                columns.append(token.meta["kind"])
+        if token.type in ("th_open", "td_open", "td_close"):
+            token.meta["first"] = column == 0
+
+
+def _neighbours(state: StateCore) -> None:
+    """Give a formula the punctuation behind it, from which no line break parts it, and count the
+    figures that stand side by side."""
+    for children in (token.children or [] for token in state.tokens):
+        for formula, text in pairwise(children):
+            if formula.type == "math" and text.type == "text" and text.content.startswith(_CLOSING):
+                formula.meta["kept"], text.content = text.content[0], text.content[1:]
+        images = [token for token in children if token.type == "image"]
+        for image in images:
+            image.meta["several"] = len(images)
 
 
 def _markdown() -> MarkdownIt:
     markdown = MarkdownIt("commonmark").enable("table")
     markdown.inline.ruler.before("escape", "mark", _mark)
-    markdown.core.ruler.before("inline", "labels", _labels)
-    markdown.core.ruler.before("inline", "columns", _columns)
+    for rule in (_labels, _sections, _columns):
+        markdown.core.ruler.before("inline", rule.__name__, rule)
+    markdown.core.ruler.push("neighbours", _neighbours)
     return markdown
 
 
-_MARKDOWN = _markdown()
+MARKDOWN = _markdown()

@@ -22,9 +22,14 @@ _RERUNS = 3
 class Typeset:
     """The PDF if there is one, the warnings that matter, and a line for the user."""
 
-    pdf: Path | None
+    pdf: bytes | None
     warnings: tuple[str, ...]
     notice: str
+
+    @property
+    def said(self) -> tuple[str, ...]:
+        """Return the line, if any, and the warnings."""
+        return (self.notice, *self.warnings) if self.notice else self.warnings
 
 
 def typeset(source: Path, timeout: float = 120.0) -> Typeset:
@@ -55,7 +60,7 @@ def typeset(source: Path, timeout: float = 120.0) -> Typeset:
             return Typeset(None, warnings(log), f"no report.pdf, TeX says: {' '.join(faults[:1])}")
         if "Rerun to" not in log and "Table widths have changed" not in log:
             break
-    return Typeset(source.with_suffix(".pdf"), warnings(log), "")
+    return Typeset(source.with_suffix(".pdf").read_bytes(), warnings(log), "")
 
 
 def warnings(log: str) -> tuple[str, ...]:

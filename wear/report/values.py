@@ -26,7 +26,7 @@ from wear.report.equations import capital
 from wear.report.manifest import versions
 from wear.report.markup import markup
 from wear.report.number import Number, significant
-from wear.report.runs import Runs
+from wear.report.runs import STATIC_CYCLES, Runs
 from wear.report.text import escaped
 
 if TYPE_CHECKING:
@@ -52,7 +52,6 @@ _DATA = (
     ("sigma_c0", "mm"), ("sigma_a0", "mm"), ("h_0", "mm"), ("p_max", "MPa"), ("R", "mm"),
     ("T", "s"),
 )  # fmt: skip
-_EXAMPLES = ("section3", "section4", "section5")
 _LEDGER = (
     (1, 9, "the model"),
     (9, 18, "the condensed problem"),
@@ -105,7 +104,7 @@ def values(material: Material) -> dict[str, Any]:
         "origins": derivations.origins,
         "derived": [e.id for e in material.equations if derivations.origins(e.id)],
         "sections": _by_section(material),
-        "hard_cycles": _count(runs.hard[0].history.cycles[-1], "hard scenes"),
+        "hard_cycles": _count(runs.hard[0].cycles[-1], "hard scenes"),
     }
 
 
@@ -238,13 +237,13 @@ def _agreement(runs: Runs) -> dict[str, Any]:
     bounds = runs.wear_bounds
     wear = float(runs.history("section4").u_c[-1])
     arrests = {}
-    for name in _EXAMPLES:
+    for name in note.EXAMPLES:
         case = runs.cases[name + note.CUTOFF]
         off = abs(float(case.history.u_c[-1]) / note.required(case.asymptote.arrest_wear_mm) - 1.0)
         arrests[name] = Number(max(off, ROUNDOFF), f"{name} with loss of contact", 2)
     return {
-        "static_distance": Number(runs.static.distance, "section 4, constant load", 2),
-        "static_cycles": Number(float(runs.static.cycles[-1]), "request", 1),
+        "static_distance": Number(runs.static_distance, "section 4, constant load", 2),
+        "static_cycles": Number(float(STATIC_CYCLES[-1]), "request", 1),
         "phase_distance": Number(runs.phases.distance, "section 4, phases of the steady rate", 2),
         "drift_distance": Number(_drift_distance(runs), "drift against solver, section 4", 2),
         "bounds_width": Number((bounds.high - bounds.low) / wear, "bounds by cycle", 2),
@@ -299,7 +298,7 @@ def _speed() -> dict[str, Any]:
 
 
 def _data_row(runs: Runs, name: str, of: str) -> tuple[str, list[Number | str]]:
-    scenes = [runs.cases[example].scene for example in _EXAMPLES]
+    scenes = [runs.cases[example].scene for example in note.EXAMPLES]
     label = f"${QUANTITIES[name].latex}$" + (f" ({of})" if of else "")
     return label, [_entry(scene, name) for scene in scenes]
 
@@ -310,7 +309,7 @@ def _entry(scene: Scene, name: str) -> Number | str:
 
 
 def _amplitudes(runs: Runs) -> tuple[str, list[Number | str]]:
-    scenes = [runs.cases[example].scene for example in _EXAMPLES]
+    scenes = [runs.cases[example].scene for example in note.EXAMPLES]
     return "$U$ (mm)", [
         Number(scene.periodic_load.maximum, f"scene {scene.name}", 1) for scene in scenes
     ]
@@ -397,17 +396,17 @@ def _decay(runs: Runs) -> Iterator[tuple[Number, Number, Number]]:
 
 
 def _hard(runs: Runs) -> Iterator[list[Any]]:
-    cycles = int(runs.hard[0].history.cycles[-1])
-    true = {c.name: c.wear for c in cases("hard", [h.name for h in runs.hard], (cycles,))}
-    for case in runs.hard:
-        wear, source = float(case.history.u_c[-1]), f"scene {case.name}"
-        error = max(abs(wear / true[case.name] - 1.0), ROUNDOFF)
+    names, cycles = [each.definition.name for each in runs.hard], int(runs.hard[0].cycles[-1])
+    true = {case.name: case.wear for case in cases("hard", names, (cycles,))}
+    for name, found in zip(names, runs.hard, strict=True):
+        wear, source = float(found.u_c[-1]), f"scene {name}"
+        error = max(abs(wear / true[name] - 1.0), ROUNDOFF)
         yield [
-            markup(case.title),
+            markup(found.scene),
             Number(wear, source, 6),
-            Number(error, f"{case.name} against reference", 1),
-            Number(float(case.history.error[-1]), source, 1),
-            _count(case.history.cost["rhs_evaluations"], source),
+            Number(error, f"{name} against reference", 1),
+            Number(float(found.error[-1]), source, 1),
+            _count(found.cost["rhs_evaluations"], source),
         ]
 
 

@@ -190,6 +190,13 @@ KEYS: Mapping[str, tuple[str, str]] = {
     "n": ("motion", "speed_rpm"),
 }
 """Table and key of each parameter in a scene file, by symbol, but those of the load."""
+_OF_PIN = {
+    "bearing": (),
+    "rough": ("sigma_a0",),
+    "worn": ("K_a", "H_a"),
+    "worn_rough": ("K_a", "H_a", "sigma_a0", "f_a"),
+}
+"""The parameters of the pin that are modelled, by its state."""
 
 
 class VariantKey(NamedTuple):
@@ -366,25 +373,13 @@ class Scene(SceneTable):
         >>> sorted(load_scene("section4").parameters())
         ['H_c', 'K_c', 'R', 'T', 'f_c', 'h_0', 'n', 'p_max', 'sigma_c0']
         """
-        numbers = {
-            "K_c": self.bearing.wear_coefficient,
-            "H_c": self.bearing.hardness_MPa,
-            "f_c": self.bearing.roughness_growth,
-            "sigma_c0": self.bearing.roughness_mm,
-            "p_max": self.contact.max_pressure_MPa,
-            "h_0": self.closure,
-            "R": self.motion.radius_mm,
-            "n": self.motion.speed_rpm,
-        }
-        pin = self._pin_state
-        if self.pin is not None and pin in ("worn", "worn_rough"):
-            numbers |= {"K_a": self.pin.wear_coefficient, "H_a": self.pin.hardness_MPa}
-        if self.pin is not None and pin in ("rough", "worn_rough"):
-            numbers["sigma_a0"] = self.pin.roughness_mm
-        if self.pin is not None and pin == "worn_rough":
-            numbers["f_a"] = self.pin.roughness_growth
-        if self.support is not None:
-            numbers["k"] = self.support.stiffness_MPa_per_mm
+        pin = _OF_PIN[self._pin_state]
+        numbers: dict[str, float] = {}
+        for symbol, (name, key) in KEYS.items():
+            part = getattr(self, name)
+            if part is not None and (name != "pin" or symbol in pin):
+                numbers[symbol] = getattr(part, key)
+        numbers["h_0"] = self.closure
         if not isinstance(self.load, Blocks | HistoryLoad):
             numbers["T"] = self.periodic_load.period
         if self.contact.width_mm is not None and self.contact.length_mm is not None:
@@ -450,7 +445,9 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     data = read_bytes(file, MOST_BYTES)
     if isinstance(data, tuple):
         problem, remedy = data
-        if meant := did_you_mean(name, builtin_names()):
+        if meant := did_you_mean(file.name, [each.name for each in file.parent.glob("*.toml")]):
+            remedy = f"did you mean {meant}?"
+        elif meant := did_you_mean(name, builtin_names()):
             remedy = f"did you mean the built-in scene {meant}?"
         elif not file.suffix:
             remedy = "give a file or a built-in scene; `wear scenes` lists these"

@@ -21,6 +21,7 @@ import pytest
 import derive.note.claim_checks
 from derive.catalogue import equations
 from derive.check import Check
+from derive.files import write_atomically
 from tests.wear.browser import browser
 from tests.wear.report import quick
 from tests.wear.report.test_html import Outline
@@ -135,7 +136,7 @@ def test_every_claim_decided_is_in_the_ledger(paper: Document) -> None:
 def test_both_writers_take_it(paper: Document) -> None:
     assert "<h1>" in page(paper)
     sources = report(paper)
-    assert all(f"Eq{name}}}" in sources.equations for name in ("WearPerCycle", "ContactLaw"))
+    assert all(f"Eq{name}}}" in sources["equations.tex"] for name in ("WearPerCycle", "ContactLaw"))
 
 
 def test_the_findings_have_the_numbers_of_the_run(paper: Document, runs: Runs) -> None:
@@ -245,7 +246,7 @@ def test_the_approach_follows_the_predicted_law(runs: Runs) -> None:
 
 
 def test_the_closed_solution_is_the_solver_s(runs: Runs) -> None:
-    assert runs.static.distance < 1e-12
+    assert runs.static_distance < 1e-12
 
 
 def test_two_solvers_agree(runs: Runs) -> None:
@@ -282,11 +283,8 @@ def test_the_paper_compiles_and_numbers_as_the_page_does(
 ) -> None:
     """No warning: references undefined, boxes too wide. Equations, figures, tables, sections."""
     need_tool("pdflatex")
-    sources = report(paper)
-    for name, content in sources.figures.items():
-        (tmp_path / name).write_bytes(content)
-    (tmp_path / "equations.tex").write_text(sources.equations, encoding="utf-8")
-    (tmp_path / "report.tex").write_text(sources.report, encoding="utf-8")
+    for name, content in report(paper).items():
+        write_atomically(tmp_path / name, content)
     outcome = typeset(tmp_path / "report.tex")
     assert (outcome.notice, outcome.warnings) == ("", ())
     auxiliary = (tmp_path / "report.aux").read_text(encoding="utf-8")
