@@ -19,16 +19,16 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of
 from wear.load import Blocks, Load, Loading
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
-from wear.loss_of_contact.stage import CountToArrest
 from wear.model import Model, bind
 from wear.orbit.iterates import Iterates
 from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
-from wear.orbit.segments import NEARLY, Orbit, orbit
+from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
 from wear.resampling import resampled
 
@@ -78,53 +78,6 @@ class CyclesToDepth(NamedTuple):
     error: FloatArray
 
 
-class InContact(NamedTuple):
-    """A count without loss of contact: what `CountToArrest` is of one with it."""
-
-    orbit: Orbit
-
-    @property
-    def cost(self) -> Cost:
-        """Return what it took."""
-        return self.orbit.cost
-
-    @property
-    def last_wear(self) -> float:
-        """Return the wear (mm) up to which it counts."""
-        return float(self.orbit.last(0).counted.last_state[0])
-
-    @property
-    def ended(self) -> bool:
-        """Return whether wear has stopped for good."""
-        return bool(self.orbit.last(0).counted.at_rest[0])
-
-    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the wear (mm) after `cycles` (n,) and its relative error."""
-        wear, error = self.orbit.after(cycles[None])
-        return wear[0], error[0]
-
-    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the whole cycles to each wear (mm, (n,)), infinite where it is not reached, and
-        their error in cycles."""
-        count, error = self.orbit.until(wear[None])
-        return count[0], error[0]
-
-    def notices(self, wear: FloatArray) -> Iterator[str]:
-        """Return what is worth knowing beside the wear (mm)."""
-        last = self.orbit.last(0)
-        limit = float(last.counted.limit[0])
-        if np.any(wear >= NEARLY * limit):
-            yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
-        elif self.ended:
-            assert isinstance(last.counted, Iterates)
-            idle = int(last.begins[0]) + last.counted.first_idle_cycle
-            yield f"from cycle {idle} on a cycle adds less than double precision resolves"
-
-
-Counted = InContact | CountToArrest
-"""The cycles of one scene, counted from some wear under a load that repeats."""
-
-
 # Trial states far off the solution may overflow; what is no number fails the estimate of error.
 @np.errstate(all="ignore")
 def count_cycles(
@@ -140,9 +93,13 @@ def count_cycles(
     `start_error`; after the `deadline` (`time.monotonic()`) nothing is refined any more."""
     if model.ends_at_3_sigma:
         return counted_stages([Wanted(model, load, cycles, start, start_error)], rtol, deadline)[0]
-    equation = WearEquation(model, (load,))
-    one = np.ones(1)
-    return InContact(orbit(equation, cycles * one, rtol, start * one, start_error * one, deadline))
+    one, equation = np.ones(1), WearEquation(model, (load,))
+    found = orbit(equation, cycles * one, rtol, start * one, start_error * one, deadline)
+    last = found.segments[-1]
+    if not found.at_rest[0]:
+        return Counted(found, None)
+    assert isinstance(last.counted, Iterates)
+    return Counted(found, End(int(last.begins[0]) + last.counted.first_idle_cycle, 0, IDLES))
 
 
 def wear_after(
@@ -283,14 +240,7 @@ def sweep(
     last = float(np.max(cycles, initial=0.0))
 
     def together(some: Sequence[Scene]) -> Answer:
-        if some[0].contact.ends_at_3_sigma:
-            wanted = [Wanted(bind(scene), scene.periodic_load, last) for scene in some]
-            rows = [each.after(cycles) for each in counted_stages(wanted, rtol)]
-            u, error = np.array(rows).swapaxes(0, 1)
-            return u, error
-        none = np.zeros(len(some))
-        found = orbit(equation_of(some), np.full(len(some), last), rtol, none, none)
-        return found.after(np.broadcast_to(cycles, (len(some), len(cycles))))
+        return _orbit(some, last, rtol).after(np.broadcast_to(cycles, (len(some), len(cycles))))
 
     def alone(scene: Scene) -> Answer:
         return wear_after(bind(scene), scene.load, cycles, rtol)[:2]
@@ -322,20 +272,15 @@ def cycles_to_depth(
     wear = np.asarray(wear, dtype=float)
 
     def together(some: Sequence[Scene]) -> Answer:
-        if some[0].contact.ends_at_3_sigma:
-            rows = np.array([alone(scene) for scene in some])
-            return rows[:, 0], rows[:, 1]
-        equation = equation_of(some)
         count, error = np.full((2, len(some), len(wear)), np.inf)
         todo, reach = np.arange(len(some)), LEAST
         while len(todo):
-            none, reach = np.zeros(len(todo)), min(reach * FARTHER, MOST_CYCLES)
-            found = orbit(equation.take(todo), np.full(len(todo), reach), rtol, none, none)
+            reach = min(reach * FARTHER, MOST_CYCLES)
+            found = _orbit([some[i] for i in todo.tolist()], reach, rtol)
             cycles, missed = found.until(np.broadcast_to(wear, (len(todo), len(wear))))
             cycles[cycles > reach] = np.inf
             count[todo], error[todo] = cycles, missed / np.maximum(cycles, 1.0)
-            ended = np.array([found.last(i).counted.at_rest.all() for i in range(len(todo))])
-            more = np.isinf(cycles).any(axis=1) & ~ended
+            more = np.isinf(cycles).any(axis=1) & ~found.at_rest
             todo = todo[more] if reach < MOST_CYCLES else todo[:0]
         return count, np.where(np.isinf(count), 0.0, error)
 
@@ -349,6 +294,15 @@ def cycles_to_depth(
 
 
 Answer = tuple[FloatArray, FloatArray]
+
+
+def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
+    """Return the orbit of scenes of one variant, so many cycles of each."""
+    if scenes[0].contact.ends_at_3_sigma:
+        wanted = [Wanted(bind(scene), scene.periodic_load, cycles) for scene in scenes]
+        return joined([found.orbit for found in counted_stages(wanted, rtol)])
+    none = np.zeros(len(scenes))
+    return orbit(equation_of(scenes), cycles + none, rtol, none, none)
 
 
 @np.errstate(all="ignore")

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.cycles import Counted, InContact, count_cycles, growth
+from wear.counted import Counted
+from wear.cycles import count_cycles, growth
 from wear.equation import WearEquation
 from wear.faults import AccuracyError, UsageError
 from wear.load import HistoryLoad, Load, Loading
@@ -95,7 +96,7 @@ class _Stretch(NamedTuple):
     ) -> Iterator[tuple[float, float, DenseOutput | SwitchedDenseOutput]]:
         """Return the parts of the stretch in which some of the `cycles` lie: from which cycle to
         which, that excluded, and what these add up to the phases."""
-        if not isinstance(self.found, InContact):
+        if model.ends_at_3_sigma:
             if np.any((cycles >= self.begins) & (cycles < self.ends)):
                 yield self.begins, self.ends, switched_dense_output(model, self.load, phases, rtol)
             return

@@ -313,15 +313,16 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """Return the cycle in which wear stops, from the cycle count, as far as its error lets it be
     told."""
+    from wear.counted import FADES
     from wear.cycles import MOST_CYCLES
     from wear.loss_of_contact.count import Wanted, counted_stages
 
     (found,) = counted_stages([Wanted(bind(case.scene), case.load, MOST_CYCLES)], 1e-12)
-    arrest = found.arrest
-    if arrest is not None and arrest.fades:
-        return None, (str(arrest),)
-    if arrest is not None:
-        return arrest.cycle, (str(arrest),) if arrest.uncertain else ()
+    end = found.end
+    if end is not None and end.way == FADES:
+        return None, (str(end),)
+    if end is not None:
+        return end.cycle, (str(end),) if end.uncertain else ()
     _, error = found.after(np.array([MOST_CYCLES]))
     if np.isfinite(error).all():
         return None, (f"wear goes on for more than {MOST_CYCLES:.0e} cycles",)

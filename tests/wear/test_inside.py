@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
 from wear import inside
-from wear.cycles import InContact, count_cycles, wear_after
+from wear.cycles import count_cycles, wear_after
 from wear.equation import equation_of
 from wear.faults import UsageError
 from wear.inside import Inside, fields_inside
@@ -215,7 +215,6 @@ def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
     scene = Scene.from_dict(made, "faster")
     cycles = np.array([0.0, 100.0, 12_823.0, 12_824.0, 12_830.0, 1e5, 1e7])
     counted = count_cycles(bind(scene), scene.periodic_load, 1e7, 1e-12)
-    assert isinstance(counted, InContact)
     assert len(counted.orbit.segments) > 1
     phases = np.array([0.0, 0.4, 1.0])
     found = history(scene, cycles, phases)
@@ -313,7 +312,6 @@ def test_panels_from_the_first_cycle_on_are_not_cut_for_it(name: str) -> None:
     """The wear they begin with is no measure of an error: it is zero."""
     scene = scene_of(name)
     counted = count_cycles(bind(scene), scene.periodic_load, 9000.0, 1e-12)
-    assert isinstance(counted, InContact)
     (segment,) = counted.orbit.segments
     assert isinstance(segment.counted, Iterates)
     prepared = dense_output(equation_of([scene]), segment.counted, PHASES, 1e-12)

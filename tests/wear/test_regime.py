@@ -14,9 +14,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from wear.counted import Counted
 from wear.generated import asymptotics as formula
 from wear.loss_of_contact import count as counting
-from wear.loss_of_contact.stage import CountToArrest
 from wear.regime import Asymptote, asymptote
 from wear.scene import load_scene
 from wear.solver import solve
@@ -81,11 +81,11 @@ def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch: pytest.Monkey
     """A count whose error is infinite says neither when wear stops nor that it goes on."""
     count = counting.counted_stages
 
-    def missed(*arguments: Any) -> list[CountToArrest]:
+    def missed(*arguments: Any) -> list[Counted]:
         (found,) = count(*arguments)
-        last = found.segments[-1]._replace(inherited=np.array([np.inf]))
-        segments = (*found.segments[:-1], last)
-        return [found._replace(orbit=found.orbit._replace(segments=segments))]
+        last = found.orbit.segments[-1]._replace(inherited=np.array([np.inf]))
+        segments = (*found.orbit.segments[:-1], last)
+        return [Counted(found.orbit._replace(segments=segments), None)]
 
     monkeypatch.setattr(counting, "counted_stages", missed)
     found = _asymptote("section4-cutoff")

@@ -17,7 +17,7 @@ from pydantic import Field
 
 from wear.checked import Positive, Real, table
 from wear.load.blocks import Block, Blocks
-from wear.load.harmonics import Harmonics, Smooth, Waves
+from wear.load.harmonics import Harmonics, Smooth, Waves, derivative
 from wear.load.lines import ForceTable, HistoryLoad, Table
 from wear.load.phase import FloatArray, centred
 from wear.load.protocol import Load
@@ -150,4 +150,4 @@ def waves(loads: Sequence[Load]) -> Waves:
     terms = np.zeros((3, max(own.shape[1] for own in each), len(loads)))
     for k, own in enumerate(each):
         terms[:, : own.shape[1], k] = own
-    return Waves(np.array([load.mean for load in loads]), terms)
+    return Waves(np.array([load.mean for load in loads]), terms, derivative(terms))

@@ -45,7 +45,7 @@ class Harmonics(Smooth):
         return self.mean_mm + _trigonometric_sum(self.terms(), phase)
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
-        return _trigonometric_sum(_derivative(self.terms()), phase)
+        return _trigonometric_sum(derivative(self.terms()), phase)
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         turn = 2.0 * math.pi * centred(phase)
@@ -85,19 +85,20 @@ class Harmonics(Smooth):
     @cached_property
     def _turning_points(self) -> FloatArray:
         """Phases of zero slope (and perhaps a few more), in [0, 1), increasing, never empty."""
-        return _zeros(_derivative(self.terms()))
+        return _zeros(derivative(self.terms()))
 
 
 class Waves(NamedTuple):
     """The `mean` (k,) and `terms` (3, n, k), rows j, cosine_j, sine_j, of the displacements in many
-    cycles."""
+    cycles, and the terms of their slopes."""
 
     mean: FloatArray
     terms: FloatArray
+    slopes: FloatArray
 
     def take(self, which: NDArray[Any]) -> Waves:
         """Return the displacements in some of the cycles."""
-        return Waves(self.mean[which], self.terms[..., which])
+        return Waves(self.mean[which], self.terms[..., which], self.slopes[..., which])
 
     def __call__(self, phase: FloatArray) -> FloatArray:
         """Return the displacement (mm) at phases (..., k)."""
@@ -105,13 +106,13 @@ class Waves(NamedTuple):
 
     def slope(self, phase: FloatArray) -> FloatArray:
         """Return its derivative with respect to the phase, mm."""
-        return _polynomial(_derivative(self.terms), phase)
+        return _polynomial(self.slopes, phase)
 
 
 def _trigonometric_sum(terms: FloatArray, phase: FloatArray | float) -> FloatArray:
     turn = 2.0 * math.pi * centred(phase)
     total = np.zeros_like(turn)
-    for order, cosine, sine in np.moveaxis(terms, 1, 0):
+    for order, cosine, sine in zip(*terms, strict=True):
         if np.any(cosine):
             total += cosine * np.cos(order * turn)
         if np.any(sine):
@@ -133,7 +134,7 @@ def _polynomial(terms: FloatArray, phase: FloatArray) -> FloatArray:
     return np.asarray(total.real)
 
 
-def _derivative(terms: FloatArray) -> FloatArray:
+def derivative(terms: FloatArray) -> FloatArray:
     order, cosine, sine = terms
     return np.stack([order, 2.0 * math.pi * order * sine, -2.0 * math.pi * order * cosine])
 
@@ -155,7 +156,7 @@ def _zeros(terms: FloatArray) -> FloatArray:
     alpha, beta = _roots(np.concatenate([half[::-1], [0.0], half.conj()]))
     ring = np.abs(np.abs(alpha) - np.abs(beta)) < 0.2 * np.abs(alpha)
     phases = np.angle(alpha[ring] * beta[ring].conj()) / (2.0 * math.pi)
-    slopes = _derivative(terms)
+    slopes = derivative(terms)
     for _ in range(4):
         slope = _trigonometric_sum(slopes, phases)
         step = np.divide(

@@ -1,4 +1,5 @@
-"""The count of cycles between two grazing wears, or towards the wear at which contact is lost."""
+"""Counts of cycles between two grazing wears or towards the limit wear; and what follows where
+double precision resolves no cycles any more, or wear has stopped."""
 
 from __future__ import annotations
 
@@ -114,3 +115,92 @@ class TabulatedCount(NamedTuple):
     def _error_at(self, cycles: FloatArray) -> FloatArray:
         ends = np.append(self.table.cycles, self.table.last_cycles)
         return np.interp(cycles, ends, self.count_error)
+
+
+class Unresolved(NamedTuple):
+    """The way from the wear `start` to `last_state` (1,), mm, so short that double precision does
+    not resolve the cycles that it takes, some `reach` of them (1,)."""
+
+    start: FloatArray
+    last_state: FloatArray
+    reach: FloatArray
+
+    def take(self, rows: IntArray) -> Unresolved:
+        """Return the same: it is of one scene."""
+        return self
+
+    @property
+    def limit(self) -> FloatArray:
+        """Return that the model goes on."""
+        return np.full(1, np.inf)
+
+    @property
+    def at_rest(self) -> BoolArray:
+        """Return that wear goes on."""
+        return np.full(1, False)
+
+    @property
+    def whole_cycles(self) -> FloatArray:
+        """Return how many whole cycles it counts."""
+        return np.ceil(self.reach)
+
+    @property
+    def first_increment(self) -> FloatArray:
+        """Return the wear (mm) that a cycle adds."""
+        return (self.last_state - self.start) / self.reach
+
+    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after `cycles` (1, c), and its relative error."""
+        wear = np.minimum(self.start + cycles * self.first_increment, self.last_state)
+        return wear, (self.last_state - self.start) / wear
+
+    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the whole cycles after which each wear (mm, (1, c)) is reached, infinite beyond,
+        and the error in cycles."""
+        count = np.ceil(np.maximum(wear - self.start, 0.0) / self.first_increment)
+        return np.where(wear > self.last_state, np.inf, count), self.reach + np.zeros(wear.shape)
+
+
+class Rest(NamedTuple):
+    """Wear that has stopped for good at `wear` (1,), mm, known up to a relative error (1,)."""
+
+    wear: FloatArray
+    relative_error: FloatArray
+
+    def take(self, rows: IntArray) -> Rest:
+        """Return the same: it is of one scene."""
+        return self
+
+    @property
+    def limit(self) -> FloatArray:
+        """Return that the model goes on."""
+        return np.full(1, np.inf)
+
+    @property
+    def at_rest(self) -> BoolArray:
+        """Return that wear has stopped."""
+        return np.full(1, True)
+
+    @property
+    def whole_cycles(self) -> FloatArray:
+        """Return how many cycles it counts: none."""
+        return np.zeros(1)
+
+    @property
+    def first_increment(self) -> FloatArray:
+        """Return the wear (mm) that a cycle adds."""
+        return np.zeros(1)
+
+    @property
+    def last_state(self) -> FloatArray:
+        """Return the wear (mm)."""
+        return self.wear
+
+    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after `cycles` (1, c), and its relative error."""
+        none = np.zeros(cycles.shape)
+        return self.wear + none, self.relative_error + none
+
+    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return that no wear (1, c) is first reached at rest."""
+        return np.full(wear.shape, np.inf), np.zeros(wear.shape)

@@ -22,9 +22,11 @@ from wear.numerics.tolerances import ROUNDOFF, TINY
 
 MOST_ITERATIONS = 12  # of Newton
 PATIENCE = 4  # iterations that may diverge at first
-SHORTEST = 1e-12  # part of a stretch
-MOST_PARTS = 1000  # of a stretch, then it is not sound
+SHORTEST = 1e-12  # step, of a stretch
+MOST_PARTS = 1000  # steps, then a stretch is not sound
+CAUTION, SHRINK, GROW = 0.9, 0.25, 4.0  # from one step to the next
 LEAST = 0.1  # of the length of contact, that may be left from one iteration to the next
+SETTLED = 1e-2  # of the tolerance: what Newton's method may leave
 STALLED = 1e-7  # what rounding may change from one iteration to the next, at the very most
 BLUR = 4 * ROUNDOFF  # of the margin's terms and of the phase: what the end of contact is known to
 LAYER = 0.25  # of the roughness: wear that changes the pressure by a factor of order one
@@ -55,6 +57,8 @@ class Contact(NamedTuple):
 
     def take(self, which: BoolArray | IntArray) -> Contact:
         """Return the contact in some of the cycles."""
+        if which.dtype == bool and which.all():
+            return self
         return Contact(
             self.cycles.take(which), self.by_law, self.level[which], self.direction[which]
         )
@@ -136,6 +140,8 @@ class ContactResult(NamedTuple):
     def among(self, rows: IntArray, number: int) -> ContactResult:
         """Return the result where the wears were those in `rows` of so many others, which add
         nothing."""
+        if len(rows) == number:
+            return self
         added, length = np.zeros((2, number))
         added[rows], length[rows] = self.added, self.length
         sound = np.full(number, True)
@@ -155,31 +161,31 @@ def wear_in_contact(
     """Return the wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm
     so far.
 
-    Each stretch is cut in two until the rate is resolved to `tolerance` of what the cycle adds.
+    Each stretch is taken in steps, as long as the rate on them is resolved to `tolerance` of what
+    the cycle adds; all wears take a step at once, each its own.
     """
-    added, length = np.zeros((2, len(u)))
-    todo: list[tuple[IntArray, float, float]] = [(np.arange(len(u)), 0.0, 1.0)]
-    evaluations = 0
-    passed: list[ContactPart] = []
-    sound, ended = np.full(len(u), True), np.full(len(u), False)
-    while todo:
-        rows, begin, end = todo.pop()
-        rows = rows[~ended[rows]]
-        if len(rows) == 0:
-            continue
-        whole = (end - begin) * over.whole[rows]
-        left = over.expected[rows] - begin * over.whole[rows]
+    added, length, step = np.zeros(len(u)), np.zeros(len(u)), over.whole.copy()
+    going, sound = np.full((2, len(u)), True)
+    evaluations, parts = 0, list[ContactPart]()
+    rows = np.arange(len(u))
+    while len(rows):
+        left = over.whole[rows] - length[rows]
+        steps = np.ceil(left / step[rows])
+        whole = left / steps
+        expected = over.expected[rows] - length[rows]
+        expected = np.minimum(np.where(expected > 0.0, expected, LEAST * whole), whole)
+        stretch = Interval((over.begin + length)[rows], whole, expected)
         start, earlier = (u + added)[rows], (before + added)[rows]
-        expected = np.minimum(np.where(left > 0.0, left, LEAST * whole), whole)
-        stretch = Interval(over.begin[rows] + begin * over.whole[rows], whole, expected)
-        part = _part(contact.take(rows), rule, start, stretch)
+        part = _part(contact.take(going), rule, tolerance, start, stretch)
         evaluations += part.evaluations
-        fine = part.sound & _is_fine(rule, part, tolerance, earlier)
-        if end - begin <= SHORTEST or len(passed) >= MOST_PARTS:
-            sound[rows] &= fine
-            fine[:] = True
-        some, over_before = rows[fine], part.length[fine] < whole[fine]
-        passed.append(
+        missed = _missed(rule, part, earlier) / tolerance
+        given_up = (whole <= SHORTEST * over.whole[rows]) | (len(parts) >= MOST_PARTS)
+        sound[rows] &= ~given_up | (missed <= 1.0)
+        fine = given_up | (missed <= 1.0)
+        change = CAUTION * np.maximum(missed, TINY) ** (-0.5 / len(rule.nodes))
+        step[rows] = whole * np.clip(change, SHRINK, GROW)
+        some, ended = rows[fine], (part.length < whole)[fine]
+        parts.append(
             ContactPart(
                 contact.by_law,
                 some,
@@ -187,16 +193,14 @@ def wear_in_contact(
                 part.length[fine],
                 start[fine],
                 part.inside[:, fine],
-                over_before,
+                ended,
             )
         )
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
         length[some] += part.length[fine]
-        ended[some] = over_before
-        if not fine.all():
-            middle, again = (begin + end) / 2, rows[~fine]
-            todo += [(again, middle, end), (again, begin, middle)]
-    return ContactResult(added, length, sound, evaluations, tuple(passed))
+        going[some] = (steps[fine] > 1.0) & ~ended
+        rows = np.flatnonzero(going)
+    return ContactResult(added, length, sound, evaluations, tuple(parts))
 
 
 class _Part(NamedTuple):
@@ -214,9 +218,9 @@ class _Part(NamedTuple):
     evaluations: int
 
 
-def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> BoolArray:
-    """Return whether the nodes resolve the rate, as measured by what this cycle has added (k,),
-    (k,).
+def _missed(rule: Gauss, part: _Part, before: FloatArray) -> FloatArray:
+    """Return what the nodes miss of each step (k,), relative to what this cycle has added with it
+    and `before` (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
     foretells. Where the wear follows the load within less than the distance of two nodes, it leaves
@@ -231,13 +235,15 @@ def _is_fine(rule: Gauss, part: _Part, tolerance: float, before: FloatArray) -> 
     left = tail * gain * part.length
     allowed = part.noise / np.maximum(1.0, part.stiffness / len(series) ** 2)
     left[tail < 100 * allowed] = 0.0
-    resolved: BoolArray = left <= tolerance * np.maximum(before + part.added, 0.0)
-    return resolved
+    missed = left / (np.maximum(before + part.added, 0.0) + TINY)
+    return np.where(part.sound & ~np.isnan(missed), missed, np.inf)
 
 
-def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Interval) -> _Part:
-    """Newton's method on contact; where it has a level, the end of contact is found by tangents
-    along with the wear, of which Radau's last node is the last."""
+def _part(contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: Interval) -> _Part:
+    """Newton's method on contact, until an iteration more would change the wear by a small part of
+    the `tolerance`; where contact has a level, its end is found by tangents along with the wear, of
+    which Radau's last node is the last."""
+    settled = max(ROUNDOFF, SETTLED * tolerance)
     length = np.where(contact.direction == 0.0, over.whole, over.expected)
     ends, nodes = np.any(contact.direction != 0.0), rule.nodes[:, None]
     inside = np.zeros((len(nodes), len(u)))
@@ -268,7 +274,7 @@ def _part(contact: Contact, rule: Gauss, u: FloatArray, over: Interval) -> _Part
             added, length = added + rate[-1] * change, length + change
             allowed += np.where(length < over.whole, uncertainty / length, 0.0)
         lost |= ~(apart < DIVERGED) | ((apart > last) & ~done & (iteration > PATIENCE))
-        done |= _has_settled(apart, last, allowed)
+        done |= _has_settled(apart, last, settled, allowed)
         if np.all(done | lost):
             break
         last = apart
@@ -293,11 +299,11 @@ def _newton(rule: Gauss, slope: FloatArray, missing: FloatArray) -> FloatArray:
     return np.asarray(x)
 
 
-def _has_settled(apart: FloatArray, last: FloatArray, noise: FloatArray) -> BoolArray:
-    """Return whether an iteration that has changed by `apart`, after `last`, has come to its
-    end."""
+def _has_settled(apart: FloatArray, last: FloatArray, least: float, noise: FloatArray) -> BoolArray:
+    """Return whether an iteration that has changed by `apart`, after `last`, has come to its end:
+    the next change would be the `least` that counts, or this one is `noise`."""
     # A change that was large foretells nothing; one that is small and grows is rounding.
     foretold = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
     stalled = (last < STALLED) & (apart >= last)
-    settled: BoolArray = (foretold <= ROUNDOFF) | (apart <= noise) | stalled
+    settled: BoolArray = (foretold <= least) | (apart <= noise) | stalled
     return settled

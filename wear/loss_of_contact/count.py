@@ -14,8 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.counted import FADES, STOPS, Counted, End
 from wear.load import Load
-from wear.loss_of_contact.arrest import TO_ROUNDOFF, LimitWear, TabulatedCount
+from wear.loss_of_contact.arrest import TO_ROUNDOFF, LimitWear, Rest, TabulatedCount, Unresolved
 from wear.loss_of_contact.grazing import limit_wear_of
 from wear.loss_of_contact.increments import Increments, Span, fitted, frame_of, middle
 from wear.loss_of_contact.period_map import switched_period_map
@@ -28,19 +29,18 @@ from wear.loss_of_contact.requests import (
     answered,
     without_feedback,
 )
-from wear.loss_of_contact.roundoff import roundoff, roundoff_of_cycles
-from wear.loss_of_contact.stage import CountToArrest, Unresolved
+from wear.loss_of_contact.roundoff import Roundoff, roundoff
 from wear.loss_of_contact.switching import Edge, edge_of_contact
 from wear.model import Model
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import FloatArray
+from wear.numerics.gauss import BoolArray, FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import Settings, settings
 from wear.orbit.problem import Cost
-from wear.orbit.segments import Counted, Orbit, Segment
+from wear.orbit.segments import Orbit, Segment
 from wear.orbit.transient import SAFETY
 
 FEW = 4.0  # cycles to the next grazing wear: they are integrated
@@ -54,6 +54,7 @@ ENOUGH = 1.5  # cycles per coefficient of a panel
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: increments that have no series
+JUDGED = 1e-2  # of the tolerance of a cycle: that of the cycle that judges it
 MOST_POOR = 8  # times that panels may hold too few cycles
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
@@ -73,7 +74,7 @@ class Wanted(NamedTuple):
 @np.errstate(all="ignore")
 def counted_stages(
     wanted: Sequence[Wanted], rtol: float, deadline: float = np.inf
-) -> list[CountToArrest]:
+) -> list[Counted]:
     """Count the cycles of scenes of one variant, or until wear ends.
 
     After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
@@ -82,12 +83,13 @@ def counted_stages(
     edges = [edge_of_contact(*pair) for pair in zip(models, loads, strict=True)]
     size = settings(rtol)
     coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
-    fine = switched_period_map(models, loads, edges, size.finer_nodes)
+    finer = max(ROUNDOFF, JUDGED * size.endpoint_tolerance)
+    fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(*each, rtol, deadline) for each in zip(wanted, edges, strict=True)]
     return answered(counts, [coarse, fine])
 
 
-def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[CountToArrest]:
+def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[Counted]:
     problem = yield from problem_of(wanted.model, wanted.load, edge, rtol, deadline)
     runs = _Count(problem, wanted.start)
     while not runs.over and (runs.done < wanted.cycles or not runs.parts):
@@ -95,26 +97,67 @@ def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[C
     return (yield from _judged(problem, runs, wanted.start_error, wanted.cycles))
 
 
-class Single(NamedTuple):
-    """Cycles one by one: the `wear` (mm) before and after each and what each has `added` (mm), by
-    a `series`; integrated if there is none."""
+class OneByOne(NamedTuple):
+    """Cycles one by one: the `wear` (mm) before and after each and what each has `added` (mm); and
+    the series that these are found with, for so many each, or None where they are integrated."""
 
     wear: list[float]
     added: list[float]
-    series: Increments | None
+    found_with: list[tuple[int, Increments | None]]
+
+    @property
+    def marks(self) -> FloatArray:
+        """Return the wears (mm) between which rounding counts."""
+        return np.array(self.wear)
 
     @property
     def ran(self) -> float:
         """Return how many cycles."""
         return float(len(self.added))
 
+    @property
+    def integrated(self) -> BoolArray:
+        """Return which cycles (k,) are integrated."""
+        numbers, series = zip(*self.found_with, strict=True)
+        return np.repeat([each is None for each in series], numbers)
+
+    def extended(self, wear: list[float], added: list[float], series: Increments | None) -> None:
+        """Add cycles, from the last wear to each `wear` (mm)."""
+        self.wear.extend(wear)
+        self.added.extend(added)
+        self.found_with.append((len(added), series))
+
     def missed(self) -> tuple[FloatArray, FloatArray]:
-        """Return what each cycle may have missed (mm), and its derivative."""
-        assert self.series is not None
+        """Return what each cycle on a series may have missed (mm), and its derivative dP/du; zero
+        for cycles that are integrated."""
         wear, added = np.array(self.wear), np.array(self.added)
-        misfit = self.series.missed(self.series.coordinate.at(wear[:-1]))
-        slope = np.diff(added, append=added[-1]) / (added + TINY)
-        return misfit * added, np.abs(1 + slope)
+        missed, growth = np.zeros((2, len(added)))
+        begin = 0
+        for number, series in self.found_with:
+            some = slice(begin, begin + number)
+            begin += number
+            if series is not None:
+                own = added[some]
+                missed[some] = series.missed(series.coordinate.at(wear[some])) * own
+                growth[some] = np.abs(1 + np.diff(own, append=own[-1]) / (own + TINY))
+        return missed, growth
+
+    def judged(
+        self, problem: Problem, missed: FloatArray, growth: FloatArray, rounding: Roundoff
+    ) -> Iterates:
+        """Return the cycles with what each may have missed (mm) and the factor by which it changes
+        an error."""
+        wear, added = np.array(self.wear), np.array(self.added)
+        # The response to a relative error of the rate: what is made early grows, but once the wear
+        # exceeds the roughness the rate hardly grows any more.
+        response = added + np.minimum(added, 4 * problem.scale) * growth
+        lost = SAFETY * missed + rounding.of_cycles * response
+        error = [0.0]
+        for more, factor in zip(lost.tolist(), growth.tolist(), strict=True):
+            error.append(error[-1] * factor + more)
+        estimate = np.array(error) + ROUNDOFF * wear
+        one, limit = np.zeros((1, 1)), np.array([problem.end])
+        return Iterates(wear[None], estimate[None], None, None, one, limit, one)
 
 
 class OnPanels(NamedTuple):
@@ -134,7 +177,12 @@ class OnPanels(NamedTuple):
         last = self.table.last_cycles
         return float(np.ceil(last) if self.limit_wear else np.floor(last))
 
-    def judged(self, problem: Problem) -> TabulatedCount:
+    @property
+    def marks(self) -> FloatArray:
+        """Return the wears (mm) between which rounding counts."""
+        return self.series.coordinate.wear(np.append(self.table.u, self.table.ends[-1]))
+
+    def judged(self, problem: Problem, rounding: Roundoff) -> TabulatedCount:
         """Return the count with its estimated error: of the increments, of Abel's equation, at
         junctions of panels, by rounding."""
         table, panels = self.table, self.panels
@@ -148,11 +196,9 @@ class OnPanels(NamedTuple):
         if len(panels.series) > 1:
             apart = abel.matching_defect(panels.take(slice(-1)), panels.take(slice(1, None)))
             missed[parts - 1 : -1 : parts] += SAFETY * apart
-        wear = coordinate.wear(np.append(table.u, table.ends[-1]))
-        rounding = roundoff(problem.model, problem.load, wear)
         terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
         of_density = ROUNDOFF * np.repeat(terms, parts)
-        missed += (np.maximum(rounding[1:], rounding[:-1]) + of_density) * table.gain
+        missed += (rounding.larger_rate + of_density) * table.gain
         error = np.concatenate([[0.0], np.cumsum(missed)])
         limit = np.array([problem.end])
         return TabulatedCount(coordinate, table, panels, error, self.limit_wear, limit)
@@ -163,7 +209,7 @@ class _Count:
 
     def __init__(self, problem: Problem, start: float) -> None:
         self.problem, self.wear, self.done, self.over = problem, start, 0.0, False
-        self.parts: list[Single | OnPanels | Unresolved] = []
+        self.parts: list[OneByOne | OnPanels | Unresolved] = []
         self.known: list[tuple[Span, Increments]] = []
         self.problem_of = start
         self.singles = self.poor = 0
@@ -187,7 +233,7 @@ class _Count:
             left = 2 * (ahead - self.wear) / rate
             if FEW < left < np.inf:
                 way = np.array([[self.wear], [ahead], [np.floor(left)]])
-                self._append(Unresolved(*way), ahead)
+                self._append(Unresolved(*way), float(np.floor(left)), ahead)
                 return
         yield from self._single()
 
@@ -209,10 +255,19 @@ class _Count:
             width = -np.log(TO_ROUNDOFF * limit * series.end)
             self.known[-1] = span._replace(end=limit), series.on_a_line(float(width))
 
-    def _append(self, part: Single | OnPanels | Unresolved, wear: float) -> None:
+    def _append(self, part: OnPanels | Unresolved, ran: float, wear: float) -> None:
         self.parts.append(part)
-        ran = float(part.whole_cycles[0]) if isinstance(part, Unresolved) else part.ran
         self.wear, self.done = wear, self.done + ran
+
+    def _append_cycles(
+        self, wear: list[float], added: list[float], series: Increments | None
+    ) -> None:
+        if not (self.parts and isinstance(self.parts[-1], OneByOne)):
+            self.parts.append(OneByOne([self.wear], [], []))
+        last = self.parts[-1]
+        assert isinstance(last, OneByOne)
+        last.extended(wear, added, series)
+        self.wear, self.done = wear[-1], self.done + len(added)
 
     def _single(self) -> Asking[None]:
         """Integrate one cycle."""
@@ -226,14 +281,7 @@ class _Count:
             and self.wear < self.problem.limit_wear.wear
         ):
             added = self.problem.limit_wear.wear - self.wear  # nearer than rounding resolves
-        part = Single([self.wear, self.wear + added], [added], None)
-        last = self.parts[-1] if self.parts else None
-        if isinstance(last, Single) and last.series is None:
-            last.wear.append(self.wear + added)
-            last.added.append(added)
-            self.wear, self.done = self.wear + added, self.done + 1
-        else:
-            self._append(part, self.wear + added)
+        self._append_cycles([self.wear + added], [added], None)
         self.arrested = not added > 0.0
         self.fades = self.arrested and self.problem.limit_wear is not None
         late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
@@ -279,13 +327,13 @@ class _Count:
             panels, residual = on_a_line(panels, residual, series)
         part = OnPanels(cells(panels), panels, residual, series, limit_wear, line)
         if limit_wear is not None:
-            self._append(part, limit_wear.wear)
+            self._append(part, part.ran, limit_wear.wear)
             self.over = self.arrested = self.fades = True
         elif part.ran < 1.0:
             yield from self._single()
         else:
             z, _ = part.table.state_after(np.array([part.ran]))
-            self._append(part, float(span.coordinate.wear(z)[0]))
+            self._append(part, part.ran, float(span.coordinate.wear(z)[0]))
 
     def _walk(self, span: Span, series: Increments, end: float, cycles: float) -> Asking[None]:
         """Go on cycle by cycle until z passes `end`."""
@@ -296,8 +344,7 @@ class _Count:
         if span.tends and end == series.end and len(walked) <= min(cycles, MOST_AT_ONCE):
             walked += [span.end, span.end]
             self.over = self.arrested = self.fades = True
-        added = np.diff(walked).tolist()
-        self._append(Single(walked, added, series), walked[-1])
+        self._append_cycles(walked[1:], np.diff(walked).tolist(), series)
 
 
 def solved(
@@ -359,62 +406,88 @@ def on_a_line(
     return more, np.append(residual, abs(found - slope))
 
 
-def _judged(
-    problem: Problem, runs: _Count, begun_with: float, cycles: float
-) -> Asking[CountToArrest]:
-    """Return the parts of the way as stages, each with its estimate of error."""
-    single = [part for part in runs.parts if isinstance(part, Single) and part.series is None]
-    at = np.array([wear for part in single for wear in part.wear[:-1]])
-    added = np.array([x for part in single for x in part.added])
-    cost = runs.cost
-    if len(at):
-        fine = yield Request(FINE, at)
-        missed = np.abs(fine.increment - added)
-        if not fine.converged.all():
-            missed[:] = np.inf
-        apart = APART * (4 * problem.scale + at)
-        beside = yield Request(COARSE, at + apart)
-        growth = np.abs(1 + (beside.increment - added) / apart)
-        cost = cost.plus(2 * len(at), fine.evaluations + beside.evaluations)
+def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) -> Asking[Counted]:
+    """Return the parts of the way as segments, each with its estimate of error."""
+    marks = [np.empty(0) if isinstance(part, Unresolved) else part.marks for part in runs.parts]
+    ends = np.cumsum([len(at) for at in marks]).tolist()
+    rounding = roundoff(problem.model, problem.load, np.concatenate(marks))
+    missed, growth, cost = yield from _judge(problem, runs)
     segments: list[Segment] = []
-    begins, drift, one, used = 0.0, 0.0, np.zeros(1), 0
+    begins, drift, one = 0.0, 0.0, np.zeros(1)
     inherited = one + begun_with
-    for part in runs.parts:
-        counted: Counted
-        if isinstance(part, Single) and part.series is None:
-            some = slice(used, used + len(part.added))
-            used += len(part.added)
-            counted = _one_by_one(problem, part, missed[some], growth[some])
-        elif isinstance(part, Single):
-            counted = _one_by_one(problem, part, *part.missed())
+    for i, (part, end, at) in enumerate(zip(runs.parts, ends, marks, strict=True)):
+        counted: TabulatedCount | Iterates | Unresolved
+        own = rounding.part(slice(end - len(at), end))
+        if isinstance(part, OneByOne):
+            counted = part.judged(problem, missed[i], growth[i], own)
         else:
-            counted = part.judged(problem) if isinstance(part, OnPanels) else part
+            counted = part.judged(problem, own) if isinstance(part, OnPanels) else part
         segments.append(Segment(_FIRST, counted, one + begins, inherited, one + drift))
         ran = counted.whole_cycles
         after, relative = counted.after(ran[None])
         inherited = after[0] * (relative[0] + inherited / (after[0] + TINY))
         begins += float(ran[0])
         drift += float(part.reach[0]) if isinstance(part, Unresolved) else 0.0
-    last = float(segments[-1].counted.last_state[0])
-    limit_wear = limit_wear_of(problem.model, problem.load, last) if runs.arrested else None
-    at_rest = limit_wear.uncertainty / last if limit_wear else np.inf
-    arrested, compliant = runs.arrested and begins <= cycles, problem.model.compliant
-    orbit = Orbit(1, tuple(segments), cost)
-    return CountToArrest(orbit, arrested, at_rest, runs.fades, compliant)
+    end_of_wear = None
+    if runs.arrested and begins <= cycles:
+        end_of_wear = _end(problem, segments, runs.fades)
+        rest = end_of_wear and _rest(problem, segments, end_of_wear)
+        segments += [rest] if rest else []
+    return Counted(Orbit(1, tuple(segments), cost), end_of_wear)
 
 
-def _one_by_one(problem: Problem, part: Single, missed: FloatArray, growth: FloatArray) -> Iterates:
-    """Return the cycles with what each may have missed (mm) and the factor by which it changes an
-    error."""
-    wear, added = np.array(part.wear), np.array(part.added)
-    # The response to a relative error of the rate: what is made early grows, but once the wear
-    # exceeds the roughness the rate hardly grows any more.
-    response = added + np.minimum(added, 4 * problem.scale) * growth
-    lost = roundoff_of_cycles(problem.model, problem.load, wear) * response
-    error = [0.0]
-    for more, factor in zip(SAFETY * missed + lost, growth, strict=True):
-        error.append(error[-1] * factor + more)
-    estimate = np.array(error) + ROUNDOFF * wear
-    one = np.zeros((1, 1))
-    limit = np.array([problem.end])
-    return Iterates(wear[None], estimate[None], None, None, one, limit, one)
+def _judge(
+    problem: Problem, runs: _Count
+) -> Asking[tuple[dict[int, FloatArray], dict[int, FloatArray], Cost]]:
+    """Return what cycles one by one missed (mm), by part, and their derivatives dP/du: by the
+    series, or those that are integrated by another map and from beside; and the cost of all."""
+    parts = {i: part for i, part in enumerate(runs.parts) if isinstance(part, OneByOne)}
+    missed, growth = {}, {}
+    for i, part in parts.items():
+        missed[i], growth[i] = part.missed()
+    which = {i: part.integrated for i, part in parts.items()}
+    none = [np.empty(0)]
+    at = np.concatenate(none + [part.marks[:-1][which[i]] for i, part in parts.items()])
+    added = np.concatenate(none + [np.array(part.added)[which[i]] for i, part in parts.items()])
+    if len(at) == 0:
+        return missed, growth, runs.cost
+    fine = yield Request(FINE, at)
+    apart = APART * (4 * problem.scale + at)
+    beside = yield Request(COARSE, at + apart)
+    off = np.abs(fine.increment - added) if fine.converged.all() else np.full(len(at), np.inf)
+    change, begin = np.abs(1 + (beside.increment - added) / apart), 0
+    for i, own in which.items():
+        some = slice(begin, begin := begin + int(np.sum(own)))
+        missed[i][own], growth[i][own] = off[some], change[some]
+    return missed, growth, runs.cost.plus(2 * len(at), fine.evaluations + beside.evaluations)
+
+
+def _end(problem: Problem, segments: list[Segment], fades: bool) -> End | None:
+    """Return the cycle in which wear stops, if its error is known."""
+    last = segments[-1]
+    begins, counted = int(last.begins[0]), last.counted
+    # A segment that begins at rest does not tell how long it took to get there.
+    moving = [float(s.blur[0]) for s in segments if s.counted.first_increment[0] > 0]
+    uncertainty = max([float(last.blur[0]), *moving[-1:]])
+    if not np.isfinite(last.inherited[0] + uncertainty):
+        return None
+    if isinstance(counted, TabulatedCount):
+        cycle = begins + int(counted.whole_cycles[0])
+        return End(cycle, round(uncertainty + float(counted.count_error[-1])), FADES)
+    if not isinstance(counted, Iterates) or not np.isfinite(counted.transient_error).all():
+        return None
+    cycle = begins + counted.first_idle_cycle
+    # On springs the pressure vanishes with the distance that is left: no cycle is the last.
+    fades |= problem.model.compliant and cycle > 0
+    return End(cycle, round(uncertainty), FADES if fades else STOPS)
+
+
+def _rest(problem: Problem, segments: list[Segment], end: End) -> Segment | None:
+    """Return the cycles after the end, if the limit of the wear is known: to rounding, whatever the
+    error of the cycles before."""
+    wear = segments[-1].counted.last_state
+    limit = limit_wear_of(problem.model, problem.load, float(wear[0]))
+    if limit is None:
+        return None
+    none, begins = np.zeros(1), np.array([end.cycle + 2.0 * end.uncertain])
+    return Segment(_FIRST, Rest(wear, limit.uncertainty / wear), begins, none, none)

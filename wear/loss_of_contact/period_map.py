@@ -62,12 +62,14 @@ class Advanced(NamedTuple):
 
 class SwitchedPeriodMap(NamedTuple):
     """The map of a cycle of some scenes, of each of which `cycles` has one. Their `pieces` come one
-    after the other, from the numbers `first` (scenes + 1,) on. On a stretch of contact there are
-    the nodes of the `rule`: it is cut until the rate is resolved to `tolerance`."""
+    after the other, from the numbers `first` (scenes + 1,) on; the `tops` (scenes, pieces) are the
+    highest displacements on each, mm. On a step of contact there are the nodes of the `rule`, which
+    resolve the rate to `tolerance`."""
 
     cycles: Cycles
     pieces: Piece
     first: IntArray
+    tops: FloatArray
     rule: Gauss
     tolerance: float
 
@@ -89,14 +91,22 @@ class SwitchedPeriodMap(NamedTuple):
     def pieces_from(
         self, wear: FloatArray, scene: IntArray
     ) -> Iterator[tuple[Piece, ContactResult]]:
-        """Return what each piece of a cycle adds to each wear (k,); for one scene with the piece of
-        all of them."""
+        """Return what pieces of a cycle add to each wear (k,), in order, a piece of each wear at a
+        time: the next one on which there may be contact, until there is none."""
         added, cycles = np.zeros(len(wear)), self.cycles.take(scene)
-        first, number = self.first[scene], np.diff(self.first)[scene]
-        for j in range(int(np.max(number, initial=0))):
-            rows = np.flatnonzero(j < number)
-            piece = self.pieces.take(first[rows] + j)
-            run = self.through(cycles.take(rows), piece, (wear + added)[rows], added[rows])
+        tops, number = self.tops[scene], np.arange(self.tops.shape[1])
+        after = np.full(len(wear), -1)
+        while True:
+            ahead = tops > displacement_at(cycles.model, wear + added)[:, None]
+            ahead &= number > after[:, None]
+            which: BoolArray = np.any(ahead, axis=1)
+            if not which.any():
+                return
+            after = np.where(which, np.argmax(ahead, axis=1), len(number))
+            rows = np.flatnonzero(which)
+            piece = self.pieces.take(np.minimum(self.first[scene] + after, self.first[-1] - 1))
+            own, before = cycles.take(which), added[rows]
+            run = self.through(own, piece.take(rows), wear[rows] + before, before)
             run = run.among(rows, len(wear))
             added = added + run.added
             yield piece, run
@@ -108,13 +118,13 @@ class SwitchedPeriodMap(NamedTuple):
         already."""
         needed = displacement_at(cycles.model, wear)
         uncertainty = margin_roundoff(cycles.model, cycles.peak, wear)
-        rows = np.flatnonzero(piece.top - needed > uncertainty)
-        if len(rows) == 0:
+        which = piece.top - needed > uncertainty
+        if not which.any():
             none = np.zeros(len(wear))
             return ContactResult(none, none, np.full(len(wear), True), 0)
-        piece = piece.take(rows)
+        piece, rows = piece.take(which), np.flatnonzero(which)
         some = _Progress(
-            cycles.take(rows).on(piece), piece, wear[rows], before[rows], self.rule, self.tolerance
+            cycles.take(which).on(piece), piece, wear[rows], before[rows], self.rule, self.tolerance
         )
         follow = some.on_springs if cycles.model.compliant else some.rigid
         return follow(needed[rows], uncertainty[rows]).among(rows, len(wear))
@@ -170,10 +180,11 @@ def switched_period_map(
             for part in zip(*(edge.pieces for edge in edges), strict=True)
         )
     )
-    first = np.cumsum([0, *(len(edge.pieces.closes) for edge in edges)])
-    return SwitchedPeriodMap(
-        cycles_of(models, loads, edges), pieces, first, radau(nodes), tolerance
-    )
+    number = np.array([len(edge.pieces.closes) for edge in edges])
+    tops = np.full((len(edges), np.max(number)), -np.inf)
+    tops[np.arange(tops.shape[1]) < number[:, None]] = pieces.top
+    first, cycles = np.cumsum([0, *number.tolist()]), cycles_of(models, loads, edges)
+    return SwitchedPeriodMap(cycles, pieces, first, tops, radau(nodes), tolerance)
 
 
 def margin_roundoff(model: Model, peak: FloatArray | float, wear: FloatArray) -> FloatArray:
@@ -261,7 +272,7 @@ class _Progress:
         phases `expected` (k,); return which of them have come to it."""
         came, rows = np.full(len(who), False), np.flatnonzero(who)
         if len(rows):
-            run = self._run(rows, by_law, level, direction, expected).among(rows, len(who))
+            run = self._run(who, by_law, level, direction, expected).among(rows, len(who))
             self.evaluations += run.evaluations
             self.parts += run.parts
             came = who & (run.length < self.piece.end - self.at)
@@ -275,29 +286,28 @@ class _Progress:
 
     def _run(
         self,
-        rows: IntArray,
+        who: BoolArray,
         by_law: bool,
         level: FloatArray,
         direction: FloatArray,
         expected: FloatArray,
     ) -> ContactResult:
-        contact = Contact(self.cycles, by_law, level, direction).take(rows)
-        at = self.at[rows]
-        over = Interval(at, self.piece.end[rows] - at, expected[rows] - at)
-        start, before = ((x + self.added)[rows] for x in (self.u, self.before))
+        contact = Contact(self.cycles, by_law, level, direction).take(who)
+        at = self.at[who]
+        over = Interval(at, self.piece.end[who] - at, expected[who] - at)
+        start, before = ((x + self.added)[who] for x in (self.u, self.before))
         return wear_in_contact(contact, self.rule, self.tolerance, start, over, before)
 
     def _closes_at_last(self, held: BoolArray, level: FloatArray) -> BoolArray:
         """Return which of those that are `held` under a falling load come to contact by the law:
         past the turning wear wear may close contact faster than the load opens."""
         up = held & (self.u >= self.cycles.turning_wear) & self.piece.closes
-        rows = np.flatnonzero(up)
-        if len(rows):
-            lasts = np.zeros_like(level)
-            run = self._run(rows, False, lasts, lasts, self.piece.end)
+        if up.any():
+            lasts, end = np.zeros_like(level), self.piece.heights[-1]
+            run = self._run(up, False, lasts, lasts, self.piece.end)
             self.evaluations += run.evaluations
-            last, U_a = (self.u + self.added)[rows] + run.added, self.piece.heights[-1, rows]
-            up[rows] = self.cycles.take(rows).model.margin(last, U_a) > level[rows]
+            last = (self.u + self.added)[up] + run.added
+            up[up] = self.cycles.take(up).model.margin(last, end[up]) > level[up]
         return np.asarray(up)
 
     def _kinds(self, level: FloatArray, uncertainty: FloatArray) -> tuple[BoolArray, BoolArray]:

@@ -1,37 +1,51 @@
 """What rounding alone may do: the floor of every estimate of error."""
 
+from __future__ import annotations
+
+from typing import NamedTuple
+
 import numpy as np
 
 from wear.equation import APART
 from wear.equation import roundoff as rate_roundoff
 from wear.load import Load
 from wear.model import Model
-from wear.numerics.gauss import (
-    FloatArray,
-)
-from wear.numerics.tolerances import (
-    ROUNDOFF,
-    TINY,
-)
+from wear.numerics.gauss import FloatArray
+from wear.numerics.tolerances import ROUNDOFF, TINY
 
 
-def roundoff(model: Model, load: Load, wear: FloatArray) -> FloatArray:
-    """Return the relative error by rounding of the rate at the peak of the load, and of where
-    contact ends."""
-    return _of_rate(model, load, wear) + _of_contact(model, load, wear)
+class Roundoff(NamedTuple):
+    """Relative errors (k,) by rounding at some wears: of the `rate` at the peak of the load, and of
+    where `contact` ends."""
+
+    rate: FloatArray
+    contact: FloatArray
+
+    def part(self, some: slice) -> Roundoff:
+        """Return those at some of the wears."""
+        return Roundoff(self.rate[some], self.contact[some])
+
+    @property
+    def larger_rate(self) -> FloatArray:
+        """Return the error (k - 1,) of rate and contact between each wear and the next."""
+        either = self.rate + self.contact
+        return np.asarray(np.maximum(either[1:], either[:-1]))
+
+    @property
+    def of_cycles(self) -> FloatArray:
+        """Return the relative error (k - 1,) of what cycles add from each wear to the next.
+
+        A cycle that all but empties the margin m of contact does not lose what is left of it:
+        contact that begins with m_0 lasts for a time ~ m_0^(1/2), and its end, where m_1 is left,
+        is known to ~ 1/m_1^(1/2).
+        """
+        lost = np.sqrt(self.contact[1:] * self.contact[:-1])
+        return np.asarray(np.maximum(self.rate[1:], self.rate[:-1]) + lost)
 
 
-def roundoff_of_cycles(model: Model, load: Load, wear: FloatArray) -> FloatArray:
-    """Return the relative error by rounding (k,) of the wear that cycles add, from each wear (k +
-    1,) to the next.
-
-    A cycle that all but empties the margin m of contact does not lose what is left of it: contact
-    that begins with m_0 lasts for a time ~ m_0^(1/2), and its end, where m_1 is left, is known to
-    ~ 1/m_1^(1/2).
-    """
-    rate, contact = _of_rate(model, load, wear), _of_contact(model, load, wear)
-    result: FloatArray = np.maximum(rate[1:], rate[:-1])
-    return result + np.sqrt(contact[1:] * contact[:-1])
+def roundoff(model: Model, load: Load, wear: FloatArray) -> Roundoff:
+    """Return what rounding does at each wear (k,), mm."""
+    return Roundoff(_of_rate(model, load, wear), _of_contact(model, load, wear))
 
 
 def _of_rate(model: Model, load: Load, wear: FloatArray) -> FloatArray:

@@ -22,13 +22,15 @@ from wear.numerics.tolerances import (
     ROUNDOFF,
 )
 
-SAMPLES = 2048  # of a cycle, to look for where q rises through zero
+SAMPLES = 512  # of a cycle, to look for where q rises through zero
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
 NEARLY = 1e-13  # of a stretch: how near to its ends one looks
 SECTIONS = 32  # of an interval at once
 BISECTIONS = 12  # into so many sections, to roundoff
-FEW_BISECTIONS = 6  # where a small error has no effect of first order
+FEW_BISECTIONS = 6  # to roundoff of a cycle
+FEWER_BISECTIONS = 3  # for the least value of a function
 MOST_NEWTON = 60  # for the wear at the edge, which may be far off
+PATIENCE = 8  # of them; then a change that is no smaller than the last is rounding
 PHASE_NEWTON = 60  # for a phase: a few, but for a load that is far from a parabola at its turns
 PHASE_PATIENCE = 3  # of them; then one that is no smaller than the last is rounding
 MAY_VANISH = 0.5  # of the least sample: a parabola whose least value is larger does not vanish
@@ -104,6 +106,8 @@ class Cycles(NamedTuple):
 
     def take(self, which: BoolArray | IntArray) -> Cycles:
         """Return some of the cycles, each perhaps several times."""
+        if which.dtype == bool and which.all():
+            return self
         load = self.load
         if isinstance(load, (Waves, Lines)):
             load = load.take(which)
@@ -261,7 +265,7 @@ def _extremes(function: Function, x: FloatArray) -> FloatArray:
     at = at[least < MAY_VANISH * middle]
     low, high, sign = x[at - 1], x[at + 1], sign[at]
     inner = np.arange(SECTIONS + 1)[:, None] / SECTIONS
-    for _ in range(FEW_BISECTIONS if len(at) else 0):
+    for _ in range(FEWER_BISECTIONS if len(at) else 0):
         points = low + (high - low) * inner
         lowest, row = np.argmin(sign * function(points), axis=0), np.arange(len(at))
         low, high = (
@@ -320,14 +324,16 @@ def wear_at(
 
     The margin is convex in the wear, so that from the side of contact no step goes too far.
     """
-    wear = guess
-    for _ in range(MOST_NEWTON):
+    wear, last = guess, np.full_like(guess, np.inf)
+    for iteration in range(MOST_NEWTON):
         slope = model.margin_slope(wear, displacement)
         fresh = np.clip(wear - model.margin(wear, displacement) / slope, least, most)
         change = np.abs(fresh - wear)
         wear = fresh
-        if not np.any(change > 2 * ROUNDOFF * np.abs(wear)):
+        moves = change > 2 * ROUNDOFF * np.abs(wear)
+        if not np.any(moves & ((change < last) | (iteration < PATIENCE))):
             break
+        last = change
     return wear
 
 

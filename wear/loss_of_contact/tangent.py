@@ -17,10 +17,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.arrest import TabulatedCount
+from wear.counted import Counted
+from wear.loss_of_contact.arrest import Rest, TabulatedCount
 from wear.loss_of_contact.contact import ContactPart
 from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
-from wear.loss_of_contact.stage import CountToArrest
 from wear.loss_of_contact.switching import Piece, edge_of_contact
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import FloatArray
@@ -38,7 +38,7 @@ LEFT = 1e12  # digits of the derivative of a limit, which follows from the margi
 
 @np.errstate(all="ignore")
 def stage_tangents(
-    found: CountToArrest,
+    found: Counted,
     equation: ParametrisedEquation,
     cycles: FloatArray,
     rtol: float,
@@ -58,7 +58,7 @@ def stage_tangents(
     derivative, missed = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
     increment = np.zeros(cycles.shape)
     now, now_error = start[0], start_error[0]
-    for segment in found.segments:
+    for segment in found.orbit.segments:
         begins, counted = segment.begins, segment.counted
         here = cycles[0] >= begins
         last = counted.whole_cycles
@@ -67,18 +67,15 @@ def stage_tangents(
             part = _one_by_one(both, equation, counted, wanted, now, now_error)
         elif isinstance(counted, TabulatedCount):
             part = _tabulated(both, equation, counted, wanted, now, now_error)
-        else:  # an unresolved stage: no cycle of it is known
+        elif isinstance(counted, Rest):
+            limit = np.tile(_limit(equation, found.last_wear), (len(wanted), 1))
+            part = _Part(limit, np.abs(limit) / LEFT, np.zeros_like(wanted))
+        else:  # an unresolved segment: no cycle of it is known
             unknown = np.full((len(wanted), equation.parameters), np.inf)
             part = _Part(unknown, unknown, np.zeros_like(wanted))
         derivative[0, :, here], missed[0, :, here] = part.derivative[:-1], part.error[:-1]
         increment[0, here] = part.increment[:-1]
         now, now_error = part.derivative[-1], part.error[-1]
-    arrest = found.arrest
-    if arrest is not None and np.isfinite(found.at_rest):
-        rests = cycles[0] >= arrest.cycle + 2 * arrest.uncertain
-        limit = _limit(equation, found.last_wear)[:, None]
-        derivative[0, :, rests] = limit.T
-        missed[0, :, rests] = 1 / LEFT * np.abs(limit.T)
     missed = np.where(np.isfinite(error)[:, None] & np.isfinite(missed), missed, np.inf)
     return Tangents(u, error, derivative, missed, increment)
 

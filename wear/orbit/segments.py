@@ -11,6 +11,7 @@ Key results
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -88,9 +89,10 @@ class Orbit(NamedTuple):
         """Return the states after `cycles` (s, c) and their estimated relative errors, infinite
         where out of reach."""
         u, error = np.full(cycles.shape, np.nan), np.full(cycles.shape, np.inf)
-        for segment in self.segments:
+        found = np.full(cycles.shape, False)
+        for segment in reversed(self.segments):
             since = cycles[segment.which] - segment.begins[:, None]
-            here = since >= 0
+            here = (since >= 0) & ~found[segment.which]
             if not here.any():
                 continue
             state, missed = segment.counted.after(np.maximum(since, 0.0))
@@ -98,6 +100,7 @@ class Orbit(NamedTuple):
             missed[np.isnan(missed)] = np.inf
             u[segment.which] = np.where(here, state, u[segment.which])
             error[segment.which] = np.where(here, missed, error[segment.which])
+            found[segment.which] |= here
         return u, error
 
     def until(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -111,6 +114,14 @@ class Orbit(NamedTuple):
             count[segment.which] = np.where(here, after, count[segment.which])
             error[segment.which] = np.where(here, missed, error[segment.which])
         return count, error
+
+    @property
+    def at_rest(self) -> BoolArray:
+        """Return which scenes (s,) have come to rest."""
+        found = np.full(self.scenes, False)
+        for segment in self.segments:
+            found[segment.which] = segment.counted.at_rest
+        return found
 
     def last(self, scene: int) -> Segment:
         """Return the last segment of a scene, alone."""
@@ -170,6 +181,17 @@ def orbit(
         found += [segment._replace(which=again[segment.which]) for segment in tight.segments]
         cost = cost.plus(*tight.cost)
     return Orbit(problem.scenes, tuple(found), cost)
+
+
+def joined(orbits: Sequence[Orbit]) -> Orbit:
+    """Return the orbits of one scene each as that of all of them."""
+    parts = [
+        segment._replace(which=segment.which + i)
+        for i, orbit in enumerate(orbits)
+        for segment in orbit.segments
+    ]
+    cost = Cost(*np.sum([orbit.cost for orbit in orbits], axis=0).tolist())
+    return Orbit(len(orbits), tuple(parts), cost)
 
 
 def _without(segment: Segment, scenes: IntArray) -> Segment | None:
