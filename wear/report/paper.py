@@ -17,9 +17,9 @@ from wear.report.values import Material, values
 
 if TYPE_CHECKING:
     from derive import equations as derived
+    from derive.verification import Verification
     from wear.report.claims import Entry
     from wear.report.runs import Runs
-    from wear.report.verification import Verification
 
 _EQUATIONS = re.compile(r"^```equations\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
@@ -47,7 +47,7 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
             "system": drawing.system(),
             "wear-curve": figures_of_note.wear_curve(runs),
             "regimes": figures_of_note.regimes(
-                {f"§ {name[-1]}": runs.cases[name].scene for name in note.EXAMPLES}
+                {f"§\u2009{name[-1]}": runs.cases[name].scene for name in note.EXAMPLES}
             ),
             "approach": figures_of_note.approach(runs.approach),
             "speed": speed_against_cycles(curves_by_cycles(committed().runs, READER, DIGITS[0])),
