@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
 
 import pytest
 import sympy as sp
 
-from derive import catalogue
 from derive.note import claim_checks
 from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Verdict
@@ -49,16 +47,6 @@ VERDICTS = {
 }
 
 
-@pytest.fixture
-def untried(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Leave out models, on which test_derivation tries these equations."""
-    monkeypatch.setattr(catalogue, "on_models", lambda _: ())
-    claim_checks._holds.cache_clear()
-    yield
-    claim_checks._holds.cache_clear()
-
-
-@pytest.mark.usefixtures("untried")
 @pytest.mark.parametrize("identifier", SYMBOLIC)
 def test_verdict(identifier: str) -> None:
     finding = SYMBOLIC[identifier]()
@@ -89,7 +77,6 @@ def test_an_equation_whose_step_fails_refutes_its_claim(monkeypatch: pytest.Monk
     assert claim_checks.vacuous().verdict is Verdict.CONFIRMED
 
 
-@pytest.mark.usefixtures("untried")
 def test_hypotheses_are_told_in_symbols() -> None:
     for identifier in ("C22", "C26", "C29", "C31"):
         assert SYMBOLIC[identifier]().evidence.endswith("needs f_c > 0, |U_a| <= U")
