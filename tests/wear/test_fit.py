@@ -173,6 +173,14 @@ def test_an_interval_ends_where_the_others_have_followed() -> None:
     np.testing.assert_allclose(roots, found.quantile, rtol=0.01)
 
 
+def test_an_end_that_only_the_bounds_of_another_parameter_make_is_open() -> None:
+    """The less wear coefficient, the more growth, which can be a thousandfold at the most."""
+    late = synthetic(9, np.array([1e6, 1.26e6, 1.587e6, 2e6]))
+    found = wear.fit([late], "section4", [K, GROWTH])
+    assert np.isinf(found.profiles[0].interval).all()
+    assert np.isinf(found.profiles[1].interval[1])
+
+
 def test_two_keys_that_enter_only_as_a_quotient_are_said_to() -> None:
     found = wear.fit([synthetic(1)], "section4", [K, "bearing.hardness_MPa"])
     ((combination, sentence),) = undetermined(found)

@@ -123,6 +123,7 @@ amplitude_mm = [1.0]
         ("title", '"' + "a" * 201 + '"', "201 characters", "at most 200"),
         ("zzz.key", "3", "unknown table", "known here: bearing, contact, motion, load"),
         ("bearing.zzz", "3", "unknown key", "known here: hardness_MPa"),
+        ("period_s", "0.1", "the table is missing", "did you mean load.period_s?"),
     ],
 )
 def test_one_bad_value(entry: str, value: str, problem: str, remedy: str) -> None:
@@ -234,6 +235,8 @@ def test_names_that_lead_nowhere(tmp_path: Path) -> None:
     assert "`wear scenes`" in fault("my-scene").remedy
     assert fault("").problem == "is a folder"
     assert fault(tmp_path / "no.toml").problem == "there is no such file"
+    (tmp_path / "mine.toml").touch()
+    assert fault(tmp_path / "mien.toml").remedy == "did you mean mine.toml?"
     assert fault(tmp_path).problem == "is a folder"
     assert fault("a\0b").problem
     assert "\x1b" not in str(fault("\x1b[31m"))

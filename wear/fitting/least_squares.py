@@ -15,7 +15,7 @@ SEARCHED = 20.0  # e-folds, or multiples of a parameter's size, around the scene
 FACTORS = tuple(10.0**power for power in range(-2, 3))  # of wear coefficients, to start from
 GROWTHS = (0.08, 0.15, 0.25, 0.4)  # of roughness, to start from
 FOLLOWED = 4  # starts
-ROUGHLY, CLOSELY = 1e-4, 1e-9  # of the sum of squares: how closely its least is sought
+ROUGHLY, CLOSELY = 1e-4, 1e-6  # of the sum of squares: how closely its least is sought
 DAMPING, HOPELESS = 1e-3, 1e8  # of a Gauss-Newton step: first, and where none descends
 
 

@@ -445,7 +445,9 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     data = read_bytes(file, MOST_BYTES)
     if isinstance(data, tuple):
         problem, remedy = data
-        if meant := did_you_mean(name, builtin_names()):
+        if meant := did_you_mean(file.name, [each.name for each in file.parent.glob("*.toml")]):
+            remedy = f"did you mean {meant}?"
+        elif meant := did_you_mean(name, builtin_names()):
             remedy = f"did you mean the built-in scene {meant}?"
         elif not file.suffix:
             remedy = "give a file or a built-in scene; `wear scenes` lists these"

@@ -166,6 +166,10 @@ def _read_override(option: str) -> tuple[Path, object] | Fault:
     if not equals or not all(path) or not 1 <= len(path) <= 2:
         remedy = "write --set TABLE.KEY=VALUE, such as --set bearing.hardness_MPa=200"
         return Fault(f"--set {shown(option)}", None, "", "", "is no TABLE.KEY=VALUE", remedy)
+    owner = next((each.place for each in TABLES if each.place and path[0] in each.entries), "")
+    if len(path) == 1 and owner:
+        remedy = f"did you mean {owner}.{path[0]}?"
+        return Fault(f"--set {shown(option)}", None, "", "", "the table is missing", remedy)
     value = _override_value(raw.strip())
     if path in _TABLE_PATHS and not isinstance(value, dict):
         known = next(([*each.entries] for each in TABLES if (each.place,) == path), [])
