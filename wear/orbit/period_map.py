@@ -32,7 +32,6 @@ from wear.numerics.tolerances import ROUNDOFF, TINY
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase do not show what they miss
 LOOSEST = 1e-4  # relative error: a looser count saves nothing
-ITERATED = 1e-2  # of the requested error: what iterations may leave
 MOST_INTERVALS = 256  # of one cycle; or so many for each that its breakpoints make:
 MOST_CUTS = 8
 FEW_NODES = 8
@@ -77,7 +76,7 @@ def settings(rtol: float, breakpoints: Sequence[FloatArray] = ()) -> Settings:
         panel_nodes=panel_nodes,
         tail_tolerance=max(rtol / 4, 1e-12),
         residual_tolerance=max(min(rtol, LOOSEST) / 4, 30 * ROUNDOFF),
-        iteration_tolerance=max(ITERATED * min(rtol, COARSEST), NOISE),
+        iteration_tolerance=NOISE,
     )
 
 
