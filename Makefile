@@ -15,8 +15,10 @@ reproduce: $(VENV)/installed ## derive, verify and solve everything; write the r
 	@$(BIN)/wear reproduce -o $(REPORT)
 	@echo "The report lies in $(REPORT)/report.html"
 
+# The processes that tests start share bytecode, whatever the user's shell says.
 # Every check runs, whatever the others found. Types are checked while the tests run; pytest, which
 # takes longer, closes the output.
+test: export PYTHONDONTWRITEBYTECODE :=
 test: $(VENV)/installed-test ## run all checks: style, types, import walls, tests, doctests
 	@status=0; \
 	$(BIN)/ruff check || status=1; \

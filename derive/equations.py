@@ -8,16 +8,18 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .hypotheses import Hypothesis
-from .kernel import Judgement, chain
+from .hypotheses import Hypothesis, Kind
+from .kernel import Judgement, chain, domain
 from .rules.assumption import Assume
+from .rules.proving import holds
+from .symbols import CLOCKS, t
 from .typeset.display import evaluated, latex
 from .typeset.present import presentable
 from .zero import same
@@ -96,10 +98,25 @@ class Equation:
         extra = () if self.refutation is None else (self.refutation,)
         return chain(*self.statements, *extra)
 
-    @property
+    @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:
-        """Return what a reader needs to know beside the equation of when it holds."""
-        return tuple(h for h in self.hypotheses if h.shown)
+        """Return what a reader needs to know beside the equation of when it holds.
+
+        A name may be positive by the vocabulary: what it is defined as then has to be.
+        """
+        shown = tuple(h for h in self.hypotheses if h.shown)
+        names = (h.relation for h in self.hypotheses if h.kind is Kind.DEFINITION)
+        signs = dict.fromkeys(s for n in names if n not in self.claims and (s := _sign(n)))
+        return (*shown, *(sign for sign in signs if not self._follows(sign)))
+
+    def _follows(self, sign: Hypothesis) -> bool:
+        """Return whether the sign of a name follows from what is derived of it, and else holds."""
+        name, given = sign.relation.args[0], set(self.hypotheses)
+        derived = (s.relation for s in self.steps if given.issuperset(s.hypotheses))
+        values = (r for r in derived if isinstance(r, sp.Equality) and r.lhs == name)
+        said = (r for r in (*values, *(h.relation for h in given)) if not r.has(t))
+        known = frozenset(r.xreplace({name: _ANY}) for r in said)
+        return holds(sign.relation.func(_ANY, 0), known)
 
     @property
     def hypotheses(self) -> tuple[Hypothesis, ...]:
@@ -137,6 +154,16 @@ class Equation:
         if all(isinstance(s.rule, Assume) for s in self.statements):
             return Status.DEFINITION
         return Status.DERIVED
+
+
+_ANY = sp.Symbol("value", real=True)
+
+
+def _sign(definition: sp.Basic) -> Hypothesis | None:
+    """Return the sign that the vocabulary gives to a name which does not vary."""
+    name = definition.args[0] if definition.args else t
+    sign = domain(name) if name.is_Symbol and name.name not in CLOCKS else None
+    return sign and replace(sign, kind=Kind.PARAMETER)
 
 
 def beyond(

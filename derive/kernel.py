@@ -125,7 +125,7 @@ class Judgement:
     def domains(self) -> tuple[Hypothesis, ...]:
         """Return what the vocabulary says of the domains of the symbols that occur."""
         relations = (self.relation, *(h.relation for h in self.hypotheses))
-        found = {domain.text: domain for r in relations for domain in _domains(r)}
+        found = {known.text: known for r in relations for known in _domains(r)}
         return tuple(found[text] for text in sorted(found))
 
     def named(self, name: str, remark: str = "") -> Judgement:
@@ -139,11 +139,11 @@ class Judgement:
 @cache
 def _domains(relation: sp.Basic) -> tuple[Hypothesis, ...]:
     """Return the domains of the quantities that a relation speaks of."""
-    found = map(_domain, relation.atoms(sp.Symbol, sp.Function))
-    return tuple(domain for domain in found if domain is not None)
+    found = map(domain, relation.atoms(sp.Symbol, sp.Function))
+    return tuple(known for known in found if known is not None)
 
 
-def _domain(atom: sp.Expr) -> Hypothesis | None:
+def domain(atom: sp.Expr) -> Hypothesis | None:
     """Return the domain of a quantity of the vocabulary, where it is not all reals."""
     if (atom.name if atom.is_Symbol else atom.func.__name__) not in QUANTITIES:
         return None

@@ -2,10 +2,12 @@
 
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from tests.browser import Page, browser
 
 # No test depends on the speed of the machine. Under CI the draws are the same every time, so that
 # a commit either passes or does not; everywhere else they are new in every run.
@@ -33,6 +35,33 @@ def _need_tool(*names: str) -> str:
     if os.environ.get("CI"):
         pytest.fail(reason)
     pytest.skip(reason)
+
+
+#: Where the whole catalogue is derived; the rest may go to another process, which need not.
+_OF_THE_CATALOGUE = ("tests/wear/report/", "tests/wear/test_cli_re", "tests/test_", "tests/derive/")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put the tests that derive the catalogue first: of two processes one begins with them."""
+    items.sort(key=lambda item: not item.nodeid.startswith(_OF_THE_CATALOGUE))
+
+
+@pytest.fixture(scope="session")
+def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    """A browser for all tests of a process."""
+    program = _need_tool("chromium", "chromium-browser", "google-chrome")
+    with browser(program, tmp_path_factory.mktemp("profile")) as page:
+        yield page
+
+
+@pytest.fixture
+def window(chromium: Page) -> Page:
+    """The page of the browser, of the size of a desk's screen, with nothing emulated."""
+    chromium.size(1280, 1000)
+    chromium.command("Emulation.setEmulatedMedia", media="", features=[])
+    chromium.complaints.clear()
+    chromium.requests.clear()
+    return chromium
 
 
 @pytest.fixture(scope="session")

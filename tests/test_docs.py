@@ -23,7 +23,6 @@ from sphinx.cmd.build import main as sphinx
 from derive.note.claims import Verdict
 from tests import pages
 from tests.derive import test_claims as symbolic
-from tests.wear.browser import browser
 from tests.wear.report import test_claims as simulated
 
 ROOT = Path(__file__).parents[1]
@@ -302,22 +301,20 @@ def test_nothing_comes_from_the_network(site):
     assert not [s for s in styles if re.search(r"(url\(|@import )['\"]?(https?:)?//", s)]
 
 
-def test_pages_fit_a_phone_a_screen_and_paper(site, need_tool, tmp_path):
+def test_pages_fit_a_phone_a_screen_and_paper(site, window):
     """Nothing runs out of a page, and what is for the keyboard alone is not printed."""
     folder, found = site
-    chromium = need_tool("chromium", "chromium-browser", "google-chrome")
     link = "getComputedStyle(document.querySelector('.skip-to-content')).display"
-    with browser(chromium, tmp_path) as page:
-        for name in found:
-            page.size(390, 900)
-            page.open(folder / name, "document.readyState === 'complete'")
-            for width in (390, 1280):
-                page.size(width, 900)
-                assert page.run("document.documentElement.scrollWidth") <= width, name
-            page.command("Emulation.setEmulatedMedia", media="print")
-            assert page.run(link) == "none", name
-            page.command("Emulation.setEmulatedMedia", media="")
-            assert page.run(link) != "none", name
+    for name in found:
+        window.size(390, 900)
+        window.open(folder / name, "document.readyState === 'complete'")
+        for width in (390, 1280):
+            window.size(width, 900)
+            assert window.run("document.documentElement.scrollWidth") <= width, name
+        window.command("Emulation.setEmulatedMedia", media="print")
+        assert window.run(link) == "none", name
+        window.command("Emulation.setEmulatedMedia", media="")
+        assert window.run(link) != "none", name
 
 
 def test_formulas_and_pictures_can_be_read(site):

@@ -47,39 +47,22 @@ if TYPE_CHECKING:
     from wear.studies.run import study
 
 _HOMES = {
-    "wear.faults": (
-        "AccuracyError",
-        "Interrupted",
-        "SceneError",
-        "UsageError",
-        "WearError",
-        "WorkersLost",
-    ),
-    "wear.cycles": ("sweep",),
-    "wear.fitting.estimate": ("Fit", "fit"),
-    "wear.history": ("History",),
-    "wear.inside": ("fields_inside",),
-    "wear.life": ("cycles_until",),
-    "wear.load": (
-        "Block",
-        "Blocks",
-        "Constant",
-        "Force",
-        "ForceTable",
-        "Harmonics",
-        "HistoryLoad",
-        "Sine",
-        "Table",
-    ),
-    "wear.model": ("bind",),
-    "wear.regime": ("Asymptote", "asymptote"),
-    "wear.scene": ("Bearing", "Contact", "Motion", "Pin", "Scene", "Support", "load_scene"),
-    "wear.sensitivities": ("Sensitivities", "sensitivity"),
-    "wear.solver": ("solve",),
-    "wear.studies.indices": ("sobol_indices",),
-    "wear.studies.run": ("study",),
+    "wear.faults": "AccuracyError Interrupted SceneError UsageError WearError WorkersLost",
+    "wear.cycles": "sweep",
+    "wear.fitting.estimate": "Fit fit",
+    "wear.history": "History",
+    "wear.inside": "fields_inside",
+    "wear.life": "cycles_until",
+    "wear.load": "Block Blocks Constant Force ForceTable Harmonics HistoryLoad Sine Table",
+    "wear.model": "bind",
+    "wear.regime": "Asymptote asymptote",
+    "wear.scene": "Bearing Contact Motion Pin Scene Support load_scene",
+    "wear.sensitivities": "Sensitivities sensitivity",
+    "wear.solver": "solve",
+    "wear.studies.indices": "sobol_indices",
+    "wear.studies.run": "study",
 }
-_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 __all__ = [
     "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Fit",

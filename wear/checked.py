@@ -48,17 +48,8 @@ T = TypeVar("T")
 Path = tuple[str | int, ...]
 """Where a value stands: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
 
-
 Finding = tuple[str | Path, str, str]
 """A path, which may be dotted, the problem there, and its remedy."""
-
-
-class Problem(NamedTuple):
-    """What is wrong at `path`, and what to do about it."""
-
-    path: Path
-    problem: str
-    remedy: str
 
 
 def unit_of(key: str) -> str:
@@ -134,10 +125,10 @@ def _path(path: str | Path) -> Path:
     return path if isinstance(path, tuple) else tuple(path.split(".") if path else ())
 
 
-def problems(error: ValidationError, place: Path = ()) -> list[Problem]:
+def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, str]]:
     """Return all that was found wrong in a table at a `place` of another, each with its path."""
     return [
-        Problem((*place, *entry["loc"]), entry["ctx"]["problem"], entry["ctx"]["remedy"])
+        ((*place, *entry["loc"]), entry["ctx"]["problem"], entry["ctx"]["remedy"])
         for entry in error.errors(include_url=False)
     ]
 
@@ -342,7 +333,7 @@ def _homes(kind: type[SceneTable], name: str) -> str:
     return " or ".join(homes)
 
 
-def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> Problem:
+def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> Finding:
     meant = _meant_by(kind, name)
     if RENAMED.get(name) == meant:
         remedy = f"renamed to {meant}"
@@ -352,18 +343,18 @@ def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> Problem:
         remedy = f"did you mean {meant}?"
     else:
         remedy = f"known here: {', '.join(kind.entries)}"
-    return Problem((name,), f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy)
+    return (name,), f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy
 
 
-def _of_entry(kind: type[SceneTable], entry: Any) -> Problem:
+def _of_entry(kind: type[SceneTable], entry: Any) -> Finding:
     """Return what pydantic found in an entry."""
     loc = entry["loc"]
     if entry["type"] == "wrong":
-        return Problem(loc, entry["ctx"]["problem"], entry["ctx"]["remedy"])
+        return loc, entry["ctx"]["problem"], entry["ctx"]["remedy"]
     problem, remedy = _of_value(kind, str(loc[0]), entry)
     if len(loc) > 1:  # in a list
         problem = f"entry {int(loc[1]) + 1}: {problem}"
-    return Problem(loc[:1], problem, remedy)
+    return loc[:1], problem, remedy
 
 
 def _of_value(kind: type[SceneTable], key: str, entry: Any) -> tuple[str, str]:

@@ -24,7 +24,7 @@ of h/sigma times |phi'/phi|. See `derive.results.pressure_root`.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -36,22 +36,6 @@ CLOSE = float(np.finfo(float).eps) / 4.0
 Real = Any  # a float or an array of floats
 
 
-class CompliantModule(Protocol):
-    """A generated module for a compliant support; `c` are its constants."""
-
-    def undeflected(self, u: Real, U_a: Real, c: Any) -> Real: ...
-
-    def softness(self, u: Real, c: Any) -> Real: ...
-
-    def start(self, at: Real, give: Real, c: Any) -> Real: ...
-
-    def lower(self, at: Real, give: Real, c: Any) -> Real: ...
-
-    def upper(self, at: Real, give: Real, c: Any) -> Real: ...
-
-    def newton(self, p: Real, at: Real, give: Real, c: Any) -> Real: ...
-
-
 class Root(NamedTuple):
     """The pressure in MPa, and how many iterations the slowest of its elements took."""
 
@@ -59,8 +43,9 @@ class Root(NamedTuple):
     iterations: int
 
 
-def pressure(module: CompliantModule, u: Real, U_a: Real, c: Any, near: Real | None = None) -> Root:
-    """Solve for the contact pressure at wear `u` and displacement `U_a` (mm), which broadcast.
+def pressure(module: Any, u: Real, U_a: Real, c: Any, near: Real | None = None) -> Root:
+    """Solve for the contact pressure at wear `u` and displacement `U_a` (mm), which broadcast, with
+    a generated `module` for a compliant support and its constants `c`.
 
     `near` is a pressure to start from in place of the general start; any number will do. The
     relative accuracy is that of the law's value: a few units of roundoff, times the argument of

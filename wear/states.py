@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from wear.direct.cutoff import pressure_share, roundoff
 from wear.generated import reaction
 from wear.given_load import GivenLoad
-from wear.load import HistoryLoad
 from wear.load.spans import span
 
 if TYPE_CHECKING:
@@ -23,9 +22,10 @@ FloatArray = NDArray[np.float64]
 
 def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) -> Fields:
     """Fields at the ends of cycles; at the edge of contact with the share of pressure that acts."""
-    loads = [_displacement(scene, cycle) for cycle in cycles]
-    U_a = np.array([value for value, _ in loads], dtype=float)
-    return fields_under_load(model, u, U_a, np.array([rise for _, rise in loads]))
+    acting = [span(scene.load, cycle).load for cycle in cycles]
+    U_a = np.array([load(0.0) for load in acting], dtype=float)
+    rise = np.array([load.slope(0.0) / load.period for load in acting], dtype=float)
+    return fields_under_load(model, u, U_a, rise)
 
 
 def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatArray) -> Fields:
@@ -36,15 +36,6 @@ def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatA
         return fields
     closed = model.fields(u, U_a + roundoff(model, u, U_a)).p
     return fields._replace(p=closed * pressure_share(model, u, U_a, rise))
-
-
-def _displacement(scene: Scene, cycle: int) -> tuple[float, float]:
-    """U_a (mm) and dU_a/dt (mm/s) at the end of a cycle."""
-    if isinstance(scene.load, HistoryLoad):
-        at = scene.load.time_at(cycle)
-        return float(scene.load.value(at)), float(scene.load.slope(at))
-    load = span(scene.load, cycle).load
-    return float(load(0.0)), float(load.slope(0.0)) / load.period
 
 
 def displacement_of(model: Model, scene: Scene, u: FloatArray) -> FloatArray | None:

@@ -14,16 +14,17 @@ Key results
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from ..laws import GENERAL
-from ..symbols import symbol, t
+from ..symbols import DATA, symbol, t
+from .balls import field_of
 from .models import Model, of, quantities, reached
 from .truth import truth
 
@@ -56,8 +57,12 @@ def with_law(relation: sp.Basic, seed: int) -> sp.Basic:
 
 @dataclass
 class _Draft:
-    """What is determined so far; ``loop``: the field that rests on itself."""
+    """What is determined so far; ``loop``: the field that rests on itself.
 
+    ``moving`` are data over which a limit or a derivative is taken: no other datum follows them.
+    """
+
+    moving: frozenset[sp.Basic]
     values: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
     loop: sp.Expr | None = None
 
@@ -67,45 +72,69 @@ class _Draft:
         field_or_rate = of(quantity.expr if rate else quantity)[:2]
         if any(known in self.values for known in (quantity, *field_or_rate)):
             return False
-        if not rate and quantity in reached((value,), _stateless(self.values)):
+        rests_on = reached((value,), _stateless(self.values))
+        if _name(quantity) in DATA and rests_on & self.moving:
+            return False
+        if not rate and quantity in rests_on:
             if not looped or not quantity.args or self.loop:
                 return False
-            self.loop = quantity
+            self.loop = field_of(quantity)
         self.values[quantity] = value
         return True
 
 
 def drawn(
-    relations: Iterable[sp.Basic],
-    wanted: Iterable[sp.Basic],
+    relations: tuple[sp.Basic, ...],
+    wanted: tuple[sp.Basic, ...],
     seed: int,
     free: frozenset[sp.Expr] = frozenset(),
 ) -> Model | None:
     """Return a model that is made to satisfy ``relations`` and gives all of ``wanted`` a value.
 
-    The domains of the quantities in ``free`` are left on purpose.
+    The domains of the quantities in ``free`` are left on purpose.  Whatever is wanted, the same
+    relations have the same model, but for derivatives and limits over data, and now and then a
+    model on the edge of what is wanted.
     """
-    chance = random.Random(seed)
-    draft = _Draft()
-    relations, wanted = tuple(relations), tuple(wanted)
-    parts = [p for relation in relations for p in _parts(relation, chance)]
+    chance = random.Random(f"{seed} edge")
+    edges = [edge for relation in wanted for edge in relation.atoms(Relational)]
+    if edges and chance.random() < 0.15:
+        edge = chance.choice(sorted(edges, key=str))
+        relations = (*relations, sp.Eq(*edge.args, evaluate=False))
     everything = sp.Tuple(*relations, *wanted)
-    edges = sorted((e for w in wanted for e in w.atoms(Relational)), key=str)
-    if edges and chance.random() < 0.15:  # on the edge of what is claimed
-        edge = chance.choice(edges)
-        parts.append(sp.Eq(*edge.args, evaluate=False))
+    over = {d for d in everything.atoms(sp.Derivative) if t not in d.variables}
+    ends = {limit.args[1] for limit in everything.atoms(sp.Limit)} - {t}
+    moving = ends.union(*(slope.variables for slope in over))
+    model = _made(relations, seed, free, frozenset(d.expr for d in over), frozenset(moving))
+    if model is not None:
+        for quantity in quantities(sp.Tuple(*wanted)):
+            if not any(known in model.values for known in of(quantity)[:2]):
+                draw = test_function if quantity.args else _value
+                model.values[quantity] = draw(quantity, seed, quantity in free)
+    return model
+
+
+@lru_cache(maxsize=300)
+def _made(
+    relations: tuple[sp.Basic, ...],
+    seed: int,
+    free: frozenset[sp.Expr],
+    slopes: frozenset[sp.Expr],
+    moving: frozenset[sp.Basic],
+) -> Model | None:
+    """Return a model of relations; what is differentiated over data (``slopes``) follows from
+    the data that are ``moving``."""
+    chance, draft = random.Random(seed), _Draft(moving)
+    parts = [p for relation in relations for p in _parts(relation, chance)]
     parts.sort(key=lambda part: not isinstance(part, sp.Eq))
     still = {f: sp.Symbol(f"{_name(f)}(0)", real=True) for f in map(_constant, parts) if f}
     draft.values.update(still)
     parts = [p if p.has(sp.Derivative) else p.xreplace(still) for p in parts]
     pending = [_imposed(part, chance, seed % WILD == WILD - 1) for part in parts]
-    slopes = {d.expr for d in everything.atoms(sp.Derivative) if t not in d.variables}
     _assign([p for p in pending if p is not None], draft, chance, slopes)
     values = draft.values
-    unknown = quantities(sp.Tuple(everything, T, U, *values.values()))
-    for datum in sorted((q for q in unknown if not q.args), key=str):
-        if datum not in values:
-            values[datum] = _value(datum, seed, datum in free)
+    unknown = quantities(sp.Tuple(*relations, *slopes, T, U, *values.values()))
+    for datum in (q for q in unknown if not q.args and q not in values):
+        values[datum] = _value(datum, seed, datum in free)
     for varying in sorted((q for q in unknown if q.args), key=str):
         _, rate, start = of(varying)
         if rate in values:
@@ -226,7 +255,7 @@ def _approaching(
 
 
 def _assign(
-    equations: list[sp.Eq], draft: _Draft, chance: random.Random, slopes: set[sp.Expr]
+    equations: list[sp.Eq], draft: _Draft, chance: random.Random, slopes: frozenset[sp.Expr]
 ) -> None:
     """Let each equation determine one unknown; those that nothing can be solved for are left.
 
@@ -287,8 +316,10 @@ def _solved(equation: sp.Eq, quantity: sp.Expr) -> sp.Expr | None:
     else:
         dummy = sp.Dummy()
         residual = (left - right).xreplace({quantity: dummy})
+        if not _polynomial(residual, dummy):
+            return None
         slope = sp.diff(residual, dummy)
-        if slope == 0 or slope.has(dummy, sp.Derivative):
+        if slope == 0 or slope.has(dummy):
             return None
         value = -residual.xreplace({dummy: sp.S.Zero}) / slope
     known = quantity.expr if isinstance(quantity, sp.Derivative) else None
@@ -296,6 +327,13 @@ def _solved(equation: sp.Eq, quantity: sp.Expr) -> sp.Expr | None:
     if quantity.args and any(f.func == field and f != known for f in value.atoms(AppliedUndef)):
         return None
     return value
+
+
+def _polynomial(expr: sp.Expr, unknown: sp.Symbol) -> bool:
+    """Return whether an unknown stands in sums and products alone."""
+    if not expr.has(unknown) or expr == unknown:
+        return True
+    return isinstance(expr, (sp.Add, sp.Mul)) and all(_polynomial(a, unknown) for a in expr.args)
 
 
 def _value(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:

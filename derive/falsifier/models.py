@@ -82,13 +82,14 @@ class Model:
     """One model: of quantities what they equal, in terms of one another.  ``loop`` is the field
     that is the root of its equation."""
 
-    values: Mapping[sp.Expr, sp.Expr]
+    values: dict[sp.Expr, sp.Expr]
     loop: sp.Expr | None = None
 
     def __post_init__(self) -> None:
         self._known: dict[object, Number] = {}
         self._formulas: dict[tuple[sp.Expr, int], sp.Expr] = {}
         self._windows: dict[tuple[sp.Limit, int], Windows] = {}
+        self.satisfied: dict[object, bool] = {}
 
     @cached_property
     def states(self) -> dict[sp.Expr, int]:
@@ -123,7 +124,7 @@ class Model:
 
     def field(self, field: sp.Expr, at: Number, order: int = 0) -> Number:
         """Return a field at a time, or its derivative of an order."""
-        key = (field, order, at, ctx.prec) if isinstance(at, fmpq) else None
+        key = (field, order, int(at.p), int(at.q), ctx.prec) if isinstance(at, fmpq) else None
         if key in self._known:
             return self._known[key]
         value = self._evaluated(field, at, order)
@@ -134,7 +135,7 @@ class Model:
     def _evaluated(self, field: sp.Expr, at: Number, order: int) -> Number:
         if order == 0 and field in self.states:
             return self._state(field, at)
-        if order == 0 and self.loop and field == self.loop:
+        if order == 0 and field is self.loop:
             return self._root(float(arb(at)))
         return self._valued(self.formula(field, order), at)
 
@@ -148,8 +149,7 @@ class Model:
 
     def _root(self, at: float) -> arb:
         states = self.motion.at(at)[0] if self.states else np.zeros(0)
-        time = np.array([at])
-        (y,) = Present(self).at(time, states[:, None]).field(self.loop, time)
+        (y,) = self.system.root(np.array([at]), states[:, None])
         if not np.isfinite(y):
             raise Undecided("a loop without a root")
         return arb(float(y), 1e-11 * abs(float(y)) + 1e-14)
@@ -186,6 +186,11 @@ class Model:
         while found := known & expr.atoms(AppliedUndef):
             expr = expr.xreplace({field: self.values[field] for field in found})
         return expr
+
+    @cached_property
+    def system(self) -> _System:
+        """The equations to integrate."""
+        return _System(self)
 
     @cached_property
     def motion(self) -> Motion:
@@ -252,6 +257,8 @@ class Model:
         if not self.states:
             return [self._window(10**k) for k in (8, 16, 32, 64)]
         period = float(arb(self.period))
+        if far == _FARTHEST and not self.motion.may_reach(period * far * 2):
+            raise Undecided("the fields are not known for long enough")
         periods = min(self.motion.upto(period * far * 5) / period, 5 * far) / 4
         if periods > far / 2:
             return [self._window(int(periods ** (0.5**k))) for k in (2, 1, 0)]
@@ -277,58 +284,102 @@ def _slope(expr: sp.Expr) -> sp.Expr:
     return sp.diff(expr.xreplace(steps), t).xreplace({dummy: s for s, dummy in steps.items()})
 
 
-class Present:
-    """A model while it is integrated: floats, at the times of one step all at once."""
+_Line = tuple[int, Callable[..., Any], list[int]]
+"""An assignment: its place, a function, and the places of what it is applied to."""
+
+
+class _System:
+    """The equations of a model in floats, at many times all at once: its rates and its loop.
+
+    What these rest on is worked out in order, each quantity in a place of its own.
+    """
 
     def __init__(self, model: Model) -> None:
-        self.of, self.time = model, np.zeros(1)
-        self._constants: dict[sp.Symbol, float] = {}
-        self._known: dict[tuple[sp.Expr, int], Any] = {}
+        self._of, self._values = model, list[Any]([None])
+        self._places: dict[sp.Expr, int | None] = {t: 0}
+        self._given = [self._new(field) for field in model.states]
+        self._loop = self._new(model.loop) if model.loop else None
+        self._root: list[_Line] = []
+        if model.loop:
+            lines, value = self._lines([model.values[model.loop]])
+            self._root, self._next = lines, value[0]
+        self._rest, self._rates = self._lines([state.diff(t) for state in model.states])
         self._near: Any = 0.0
+
+    def _new(self, quantity: sp.Expr, value: Any = None) -> int:
+        self._places[quantity] = len(self._values)
+        self._values.append(value)
+        return len(self._values) - 1
+
+    def _lines(self, wanted: list[sp.Expr]) -> tuple[list[_Line], list[int]]:
+        """Return the assignments that wanted expressions still need, and the places of these."""
+        lines: list[_Line] = []
+
+        def place(quantity: sp.Expr) -> int:
+            if quantity not in self._places:
+                self._places[quantity] = None
+                self._places[quantity] = self._datum(quantity)
+                if self._places[quantity] is None:
+                    function, arguments = _coded(self._formula(quantity))
+                    at = [place(argument) for argument in arguments]
+                    lines.append((self._new(quantity), function, at))
+            known = self._places[quantity]
+            if known is None:
+                raise Undecided(f"{quantity} rests on itself")
+            return known
+
+        return lines, [place(quantity) for quantity in wanted]
+
+    def _datum(self, quantity: sp.Expr) -> int | None:
+        """Return the place of what does not vary."""
+        if quantity.is_Symbol or quantity.args == (0,):
+            with ctx.workprec(BITS):
+                value = ball(compiled(quantity)(Moment(self._of)))
+            return self._new(quantity, float(value.mid()))
+        return None
+
+    def _formula(self, quantity: sp.Expr) -> sp.Expr:
+        """Return what a field or a rate is computed from, an expression from itself."""
+        field, order = quantity, 0
+        if isinstance(quantity, sp.Derivative) and set(quantity.variables) == {t}:
+            field, order = quantity.expr, quantity.derivative_count
+        if not isinstance(field, AppliedUndef):
+            return quantity
+        if field.args != (t,):
+            raise Undecided("a rate that needs another time")
+        return self._of.formula(field, order)
+
+    def _run(self, lines: list[_Line]) -> None:
+        values = self._values
+        for at, function, arguments in lines:
+            values[at] = function(*[values[a] for a in arguments])
 
     def rates(self, times: Array, states: Array) -> Array:
         """Return the rates of the states at times, shape ``(states, times)``."""
         with np.errstate(all="ignore"):
-            self.at(times, states)
-            found = [self.field(state, times, 1) for state in self.of.states]
-        return np.array([np.broadcast_to(rate, times.shape) for rate in found], float)
+            self.root(times, states)
+            self._run(self._rest)
+        found = np.empty((len(self._rates), len(times)))
+        for row, at in zip(found, self._rates, strict=True):
+            row[:] = self._values[at]
+        return found
 
-    def at(self, times: Array, states: Array) -> Present:
-        """Go to times at which the states are known."""
-        self.time = times
-        self._known = {(f, 0): state for f, state in zip(self.of.states, states, strict=True)}
-        return self
+    def root(self, times: Array, states: Array) -> Any:
+        """Go to times at which the states are known; return the loop there."""
+        self._values[0] = times
+        for at, state in zip(self._given, states, strict=True):
+            self._values[at] = state
+        loop = self._loop
+        return None if loop is None else self._solved(loop, self._near + 0.0 * times)
 
-    def constant(self, symbol: sp.Symbol) -> float:
-        """Return a datum."""
-        if symbol not in self._constants:
-            with ctx.workprec(BITS):
-                self._constants[symbol] = float(ball(self.of.constant(symbol)).mid())
-        return self._constants[symbol]
-
-    def field(self, field: sp.Expr, at: Any, order: int = 0) -> Any:
-        """Return a field, or its derivative, at the times of the step."""
-        if at is not self.time:
-            if isinstance(at, fmpq) and at == 0 and order == 0:
-                return float(ball(self.of.field(field, at)).mid())
-            raise Undecided("a rate that needs another time")
-        if (field, order) not in self._known:
-            self._known[field, order] = (
-                self._root(field)
-                if self.of.loop and order == 0 and field == self.of.loop
-                else compiled(self.of.formula(field, order), t, True)(Moment(self, self.time))
-            )
-        return self._known[field, order]
-
-    def _root(self, loop: sp.Expr) -> Any:
+    def _solved(self, loop: int, y: Array) -> Array:
         """Return the root of ``y - G(y)``, which increases: by Newton's method, else by halves."""
-        value, known = compiled(self.of.values[loop], t, True), dict(self._known)
 
-        def rest(y: Any) -> Any:
-            self._known = {**known, (loop, 0): y}
-            return y - value(Moment(self, self.time))
+        def rest(y: Array) -> Array:
+            self._values[loop] = y
+            self._run(self._root)
+            return np.asarray(y - self._values[self._next])
 
-        y = self._near + 0.0 * self.time
         with np.errstate(all="ignore"):
             for _ in range(12):
                 small = 1e-7 * (1 + np.abs(y))
@@ -338,13 +389,27 @@ class Present:
                 if np.all(np.abs(step) <= 1e-14 * (1 + np.abs(y))):
                     break
             else:
-                low, high = -(2.0**40) + 0 * self.time, 2.0**40 + 0 * self.time
+                low, high = np.full_like(y, -(2.0**40)), np.full_like(y, 2.0**40)
                 for _ in range(100):
                     y = (low + high) / 2
-                    low, high = np.where(rest(y) < 0, y, low), np.where(rest(y) < 0, high, y)
+                    below = rest(y) < 0
+                    low, high = np.where(below, y, low), np.where(below, high, y)
                 y = np.where(np.abs(rest(y)) < 1e-6 * (1 + np.abs(y)), y, np.nan)
-        self._known, self._near = known, y
+            rest(y)
+        self._near = y
         return y
+
+
+@cache
+def _coded(expr: sp.Expr) -> tuple[Callable[..., Any], tuple[sp.Expr, ...]]:
+    """Return a function of arrays that evaluates an expression, and what it is applied to."""
+    if expr.has(sp.Integral, sp.Limit, sp.Subs, sp.zoo, sp.nan):
+        raise Undecided(f"{expr} has no number")
+    parts = (*expr.atoms(AppliedUndef, sp.Derivative), *expr.free_symbols)
+    names = {part: sp.Dummy() for part in parts}
+    flat = expr.xreplace(names)
+    used = [part for part in parts if names[part] in flat.free_symbols]
+    return sp.lambdify([names[part] for part in used], flat, "numpy"), tuple(used)
 
 
 @lru_cache(maxsize=400)
@@ -354,9 +419,11 @@ def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]], loop: sp.Expr | None
     with ctx.workprec(BITS):
         first = np.array([float(ball(model.field(f, ZERO)).mid()) for f in model.states])
         spacing = min(_spacings(model), default=0.0)
-    present = Present(model)
-    present.rates(np.zeros(1), first[:, None])  # they can be computed
-    return Motion(present.rates, first, spacing, float(arb(model.period)) / 4)
+        rates = [float(ball(model.field(f, ZERO, 1)).mid()) for f in model.states]
+    in_floats = model.system.rates(np.zeros(1), first[:, None])[:, 0]
+    if not np.allclose(in_floats, rates, rtol=1e-9, atol=0):
+        raise Undecided("rates that are lost in rounding")
+    return Motion(model.system.rates, first, spacing, float(arb(model.period)) / 4)
 
 
 def _spacings(model: Model) -> Iterator[float]:

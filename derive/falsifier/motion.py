@@ -33,7 +33,7 @@ _PRIMITIVE = np.array([chebyshev.chebint(e, lbnd=-1) for e in np.eye(NODES)]) / 
 _INTEGRAL = chebyshev.chebvander(_POINTS, NODES) @ _PRIMITIVE.T @ _COEFFICIENTS
 _SWEEPS, _FEW, _HUGE = 40, 14, 1e200
 _SETTLED, _LEFT_OUT = 1e-14, 1e-13
-MOST_STEPS = 400
+_FIRST, MOST_STEPS = 80, 400
 
 
 @dataclass(eq=False)
@@ -70,6 +70,12 @@ class Motion:
             self._advance()
         return self.reached
 
+    def may_reach(self, time: float) -> bool:
+        """Return whether a time can be reached, as far as the first steps show."""
+        while self.reached <= time and len(self._pieces) < _FIRST and not self._stuck:
+            self._advance()
+        return self.reached > time * _FIRST / MOST_STEPS * 1e-3
+
     def _advance(self) -> None:
         begin, step = self.reached, self.width
         first = self.first if not self._pieces else self._pieces[-1].sum(axis=0)
@@ -92,13 +98,13 @@ class Motion:
         states = np.repeat(first[:, None], NODES, axis=1)
         for sweep in range(_SWEEPS):
             rates = self.rates(times, states)
-            if not np.all(np.abs(rates) < _HUGE):
+            if not (np.abs(rates) < _HUGE).all():
                 break
             new = first[:, None] + step * rates @ _INTEGRAL.T
-            size = np.max(np.abs(new), axis=1) + 1e-30
-            change, states = np.max(np.max(np.abs(new - states), axis=1) / size), new
+            size = np.abs(new).max(axis=1) + 1e-30
+            change, states = (np.abs(new - states).max(axis=1) / size).max(), new
             if change <= _SETTLED:
                 piece = _COEFFICIENTS @ states.T
-                rest = np.max(np.abs(piece[-2:]), axis=0) / size
-                return (piece if np.max(rest) <= _LEFT_OUT else None), sweep
+                rest = np.abs(piece[-2:]).max(axis=0) / size
+                return (piece if rest.max() <= _LEFT_OUT else None), sweep
         return None, _SWEEPS

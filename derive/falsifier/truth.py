@@ -13,6 +13,7 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
+from operator import eq, ge, gt, le, lt, ne
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -41,6 +42,9 @@ EARLY = 5
 """So many of a model's times are within three periods."""
 _ROUNDING, _AGREE = arb(10) ** -40, arb(10) ** -3
 """Relative widths of balls: due to rounding alone; up to which those that overlap are equal."""
+
+
+_COMPARED = {"==": eq, "!=": ne, "<": lt, "<=": le, ">": gt, ">=": ge}
 
 
 @dataclass(frozen=True)
@@ -113,7 +117,7 @@ def _compared(
     a, b = (compiled(side, variable)(moment) for side in (left, right))
     gap = a - b
     if isinstance(gap, fmpq) or gap.is_zero() or not gap.contains(0):
-        return bool(relation.func(_sign(gap), 0))
+        return bool(_COMPARED[relation.rel_op](_sign(gap), 0))
     gap = ball(gap)
     size = max(_size(side, moment, variable) for side in (left, right))
     if not final and gap.rad() <= _ROUNDING * size:

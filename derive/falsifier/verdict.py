@@ -85,13 +85,13 @@ def falsify(
 
     Of ``dropped``, a hypothesis or the domain of a quantity, the models satisfy the contrary.
     """
-    free = quantities(dropped) if _is_domain(dropped) else set()
+    free = quantities(dropped) if _is_domain(dropped) else frozenset[sp.Expr]()
     hypotheses = tuple(h for h in hypotheses if h != dropped)
     imposed = (*((dropped.negated,) if isinstance(dropped, _ORDERS) else ()), *hypotheses)
     models = decided = 0
-    for trial in _models((*hypotheses, dropped, claim), imposed, draws, frozenset(free)):
+    for trial in _models((*hypotheses, dropped, claim), imposed, draws, free):
         *given, without, claimed = trial.relations
-        if not trial.fits(given, free) or truth(without, trial.model).holds is not False:
+        if not trial.known_to_fit(given, free) or truth(without, trial.model).holds is not False:
             continue
         models += 1
         outcome = truth(claimed, trial.model)
@@ -114,6 +114,14 @@ class _Trial:
     relations: tuple[sp.Basic, ...]
     seed: int
 
+    def known_to_fit(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool:
+        """Return whether the model fits; the same model is asked once for several claims."""
+        asked = tuple(given), free, frozenset(self._varied())
+        found = self.model.satisfied
+        if asked not in found:
+            found[asked] = self.fits(given, free)
+        return found[asked]
+
     def fits(self, given: Iterable[sp.Basic], free: Iterable[sp.Expr] = ()) -> bool:
         """Return whether the model satisfies the hypotheses, and all quantities lie where their
         symbols say."""
@@ -129,11 +137,15 @@ class _Trial:
         values = (self.model.values.get(q, q) for q in quantities(relation))
         return sp.Tuple(relation, *values).has(sp.Limit)
 
+    def _varied(self) -> set[sp.Symbol]:
+        """Return the data over which something is differentiated."""
+        slopes = sp.Tuple(*self.relations).atoms(sp.Derivative)
+        return {v for slope in slopes for v in slope.variables if v != t}
+
     def _moved(self) -> Iterator[Model]:
         """Return the models next to this one, where a claim has a derivative with respect to
         data: the hypotheses must hold there too."""
-        slopes = sp.Tuple(*self.relations).atoms(sp.Derivative)
-        for datum in {v for slope in slopes for v in slope.variables if v != t}:
+        for datum in self._varied():
             value = self.model.values.get(datum)
             if value is not None and value.is_Rational:
                 yield self.model.with_datum(datum, fraction(value) + fmpq(1, 10**6))

@@ -147,7 +147,7 @@ def test_slopes_are_derivatives(variant):
     """Against derivatives by another route, dual numbers in place of formulas, to 40 digits."""
     made = exact.made(variant)
     functions = {f.name: exact.composed(f)[0] for f in made.functions if f.name != "fields"}
-    for at in exact.points(variant, 12)[7:]:
+    for at in exact.points(variant, 10)[7:]:
         values = exact.exact_values(variant, at)
         for name, value in derivatives(variant, functions, values).items():
             found = exact.dual(functions[name], values).value
@@ -191,7 +191,7 @@ def test_gradients_are_derivatives(variant):
     functions = {f.name: exact.composed(f)[0] for f in made.functions if f.name != "fields"}
     gradient = exact.composed(joint(variant)["rate_gradient"])
     names = ["U_a", *(name.name for name, _ in made.constants)]
-    for at in exact.points(variant, 12)[7:]:
+    for at in exact.points(variant, 10)[7:]:
         values = exact.exact_values(variant, at)
         if variant.compliant:  # a pressure is the root for the load that belongs to it
             values["p_max"] = values["p"] / exact.dual(share(variant), values).value
@@ -260,7 +260,7 @@ def test_loss_of_contact_adds_functions_that_know_neither_law_nor_support(pin):
 def test_a_step_of_newton_is_that_of_the_residual(variant):
     """p - residual/slope, in a form in which nothing cancels, to 40 digits."""
     functions = {f.name: exact.composed(f)[0] for f in exact.made(variant).functions}
-    for at in exact.points(variant, 12)[7:]:
+    for at in exact.points(variant, 10)[7:]:
         values = exact.exact_values(variant, at)
         residual = exact.dual(functions["residual"], values)
         for name in ("undeflected", "softness"):

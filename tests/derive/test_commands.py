@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -144,19 +143,6 @@ def test_a_wrong_abbreviation_is_caught() -> None:
     wrong_law = sp.Eq(law.lhs, law.rhs / 2)
     for where in ((wrong_gap, law), (gap, wrong_law), (gap,)):
         assert not replace(equation, where=where).typeset_agrees
-
-
-def test_macros_compile(tmp_path: Path, need_tool) -> None:  # type: ignore[no-untyped-def]
-    engine = need_tool("pdflatex")
-    (tmp_path / "equations.tex").write_text(macros(catalogue.equations()), encoding="utf-8")
-    body = "\n".join(
-        rf"\begin{{equation}}\{macro_name(e)}\end{{equation}}" for e in catalogue.equations()
-    )
-    document = "\\documentclass{article}\\usepackage{amsmath}\\input{equations}\\begin{document}\n"
-    (tmp_path / "report.tex").write_text(document + body + "\n\\end{document}\n", encoding="utf-8")
-    command = [engine, "-interaction=nonstopmode", "-halt-on-error", "report.tex"]
-    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert run.returncode == 0, run.stdout[-2000:]
 
 
 def test_help_of_every_command_shows_an_example(capsys: pytest.CaptureFixture[str]) -> None:

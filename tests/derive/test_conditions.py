@@ -95,3 +95,10 @@ def test_a_guard_says_no() -> None:
     condition = Hypothesis("the bearing roughens", sp.Gt(slope, 0))
     assert condition.guard({"f_c": -0.05}) is False
     assert condition.guard({"f_a": 0.05}) is None
+
+
+def test_the_sign_of_a_name_is_a_condition_unless_it_follows() -> None:
+    """The gap h* is positive by the vocabulary, which h_0 - sigma_c0/f_c - U_a need not be."""
+    shown = {i: catalogue.equation(i).conditions for i in ("saturating-wear", "22", "20")}
+    assert "h_star > 0" in {h.text for h in shown["saturating-wear"]}
+    assert not {"p_inf > 0", "u_cum > 0"} & {h.text for i in ("20", "22") for h in shown[i]}

@@ -75,3 +75,15 @@ def test_a_field_without_a_value_breaks_no_claim():
     """Solved for G, the hypothesis leaves it without a value at a time at which trends are read."""
     late = symbols("T")[0] * (10**8 + sp.Rational(1, 20))
     assert falsify((sp.Eq(G * (t - late), h_0),), sp.Eq(forever(G), 0)).passed
+
+
+def test_a_limit_over_a_datum_holds_the_others_fixed():
+    """Only a name may follow the datum: u_cum, and not h_0."""
+    named = sp.Eq(symbols("u_cum")[0], f_c**2 * h_0)
+    assert falsify((named,), sp.Eq(sp.Limit(h_0, f_c, sp.oo), h_0), MANY, enough=MANY).passed
+
+
+def test_a_rate_that_is_lost_in_rounding_breaks_no_claim():
+    slow = 1 - sp.tanh(100 * p_max)
+    given = (sp.Eq(rate("u_c"), slow), sp.Eq(initial("u_c"), 0))
+    assert falsify(given, sp.Eq(u_c, slow * t)).passed

@@ -172,7 +172,7 @@ def test_what_the_mesh_of_phase_misses_for_few_wears_is_told(
     assert holds(made(K, f_c, 3.6e-4, 1.08e-3, load, k=k, pin=pin), rtol)
 
 
-@settings(max_examples=40)
+@settings(max_examples=24)
 @given(
     K=st.floats(-9.0, -5.5),
     f_c=st.floats(0.55, 1.05),

@@ -13,7 +13,6 @@ import pytest
 import wear
 from derive.codegen.sources import definitions
 from tests.derive.exact import made, variant_of
-from tests.wear.browser import browser
 from wear.cli import main
 from wear.report import explorer, explorer_data, explorer_derived
 from wear.scene import builtin_names, load_scene, parse_scene
@@ -30,21 +29,9 @@ def page_file(tmp_path_factory) -> Path:
     return path
 
 
-@pytest.fixture(scope="module")
-def window(page_file, need_tool, tmp_path_factory):
-    """A browser with the page open in it."""
-    program = need_tool("chromium", "chromium-browser", "google-chrome")
-    with browser(program, tmp_path_factory.mktemp("profile")) as page:
-        page.size(1280, 1000)
-        page.open(page_file, READY)
-        yield page
-
-
 @pytest.fixture
 def page(window, page_file):
     """The page as it comes up, and no complaint of the browser while it is used."""
-    window.complaints.clear()
-    window.requests.clear()
     window.open(page_file, READY)
     yield window
     assert window.complaints == []

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import mpmath
 import numpy as np
@@ -38,7 +38,7 @@ class Law(NamedTuple):
     the least h/sigma: deeper the exponential law has pressures far above its largest, and the
     algebraic one as it is written loses digits."""
 
-    module: pressure_root.CompliantModule
+    module: Any
     phi: Callable[[mpmath.mpf], mpmath.mpf]
     steepness: float
     least: float = -20.0

@@ -68,7 +68,9 @@ def test_one_wrong_row_among_many_is_told_with_its_line(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text(HEAD + "\n".join(lines))
     with pytest.raises(ValidationError) as caught:
         read_rows(TableFile("a.csv"), tmp_path)
-    assert [p.problem for p in problems(caught.value)] == ['a.csv line 702: "700;1e-4" is no row']
+    assert [problem for _, problem, _ in problems(caught.value)] == [
+        'a.csv line 702: "700;1e-4" is no row'
+    ]
 
 
 # Files as instruments write them

@@ -39,7 +39,7 @@ def scene_of(i: int) -> Scene:
     return replace(Scene.from_dict(tables), load=Table(times, values))
 
 
-@pytest.mark.parametrize("i", [0, 1, 2, 3, 5, 6, 7])
+@pytest.mark.parametrize("i", [1, 2, 5, 7])
 def test_slow_wear_with_loss_of_contact_is_counted(i: int) -> None:
     found = solve(scene_of(i), CYCLES, rtol=RESOLVED)
     assert np.all(found.error <= RESOLVED)
@@ -51,7 +51,11 @@ def test_the_cycle_of_arrest_is_known_to_analysis_and_to_numerics(i: int, cycle:
     scene = scene_of(i)
     found = asymptote(scene)
     assert found.arrest_cycle == cycle
-    before, after, long_after = solve(scene, [cycle - 1, cycle, 10**12], rtol=1e-12).u_c
+    counted = solve(scene, sorted({*CYCLES, cycle - 1, cycle, 10**12}), rtol=1e-12)
+    assert counted.cost["cycles_integrated"] <= MOST_CYCLES_INTEGRATED
+    assert np.all(counted.error <= RESOLVED)
+    wear = dict(zip(counted.cycles.tolist(), counted.u_c.tolist(), strict=True))
+    before, after, long_after = (wear[n] for n in (cycle - 1, cycle, 10**12))
     assert before < after == long_after
     assert after == pytest.approx(found.arrest_wear_mm, rel=1e-13)
 

@@ -10,7 +10,7 @@ from typing import Annotated, NamedTuple, Self
 import numpy as np
 from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
 
-from wear.checked import MOST_CYCLES, Count, Problem, SceneTable, all_wrong, problems, table, wrong
+from wear.checked import MOST_CYCLES, Count, Finding, SceneTable, all_wrong, problems, table, wrong
 from wear.load.phase import FloatArray
 from wear.load.protocol import Load
 from wear.load.tables import PERIODIC, load_from
@@ -39,7 +39,7 @@ def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
     if not 1 <= len(raw) <= MOST_BLOCKS:
         raise wrong(f"has {len(raw)} blocks", f"give from 1 to {MOST_BLOCKS}; see repeat")
     made: list[Block] = []
-    faults: list[Problem] = []
+    faults: list[Finding] = []
     for place, block in enumerate(raw):
         rest = block._asdict() if isinstance(block, Block) else dict(block)
         cycles = {key: rest.pop(key) for key in ("cycles",) if key in rest}

@@ -11,7 +11,8 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -50,21 +51,6 @@ def _initial_closure(name: str, printed: float, digits: int) -> Finding:
         return Finding(Verdict.NOT_REPRODUCIBLE, evidence)
     side = "out of contact" if printed > exact else "inside contact"
     return Finding(Verdict.CONDITIONAL, f"{evidence}, its rounding; taken literally, {side}")
-
-
-def closure_of_section_3() -> Finding:
-    """C16."""
-    return _initial_closure("section3", 0.0011, 4)
-
-
-def closure_of_section_4() -> Finding:
-    """C33."""
-    return _initial_closure("section4", 0.00108, 5)
-
-
-def closure_of_section_5() -> Finding:
-    """C39."""
-    return _initial_closure("section5", 0.0011, 4)
 
 
 def two_stages() -> Finding:
@@ -200,17 +186,17 @@ def pressure_and_hardness() -> Finding:
     )
 
 
-SIMULATED = MappingProxyType(
+SIMULATED: Mapping[str, Callable[[], Finding]] = MappingProxyType(
     {
-        "C16": closure_of_section_3,
+        "C16": partial(_initial_closure, "section3", 0.0011, 4),
         "C17": two_stages,
-        "C33": closure_of_section_4,
+        "C33": partial(_initial_closure, "section4", 0.00108, 5),
         "C34": stabilised_after,
         "C35": simulated_wear,
         "C36": formula_wear,
         "C37": efficiency,
         "C38": quicker_for_lower_wear,
-        "C39": closure_of_section_5,
+        "C39": partial(_initial_closure, "section5", 0.0011, 4),
         "C40": data_and_condition,
         "C41": pressure_and_hardness,
     }

@@ -161,9 +161,7 @@ class Document:
         found: dict[str, dict[str, None]] = {}
         for where, label in self._places():
             if where and label.startswith("eq:") and label in self.marks:
-                derives = where.startswith("der:") and where[4:] != label[3:]
-                if not derives:
-                    found.setdefault(self.marks[label].target, {})[where] = None
+                found.setdefault(self.marks[label].target, {})[where] = None
         return {label: tuple(sources) for label, sources in found.items()}
 
     def _references(self) -> Iterator[str]:

@@ -20,6 +20,12 @@ if TYPE_CHECKING:
 #: Width in em up to which a hypothesis is shown as a formula.
 _SHORT = 12.0
 
+#: The settings that the texts of both reports call bearing wear alone.
+_BEARING_ALONE = (
+    "no loss of contact", "smooth pin", "no cross coupling of roughness", "unworn pin",
+    "rigid support",
+)  # fmt: skip
+
 
 def shown(equations: Sequence[derived.Equation]) -> Mapping[str, Equation]:
     """Return the equations by id, each with the ids of those that say the same."""
@@ -67,8 +73,11 @@ def _title(equation: derived.Equation) -> str:
         if hypotheses:
             parts.append(f"{word} {listed(hypotheses)}")
     title = ", ".join(parts)
-    settings = ", ".join(dict.fromkeys(markup(c.text) for c in words))
-    return f"{title} ({settings})" if settings else title
+    settings = list(dict.fromkeys(c.text for c in words))
+    if set(_BEARING_ALONE) <= set(settings):
+        rest = [text for text in settings if text not in _BEARING_ALONE]
+        settings = ["bearing wear alone", *rest]
+    return f"{title} ({', '.join(map(markup, settings))})" if settings else title
 
 
 def _short(hypothesis: Hypothesis) -> bool:

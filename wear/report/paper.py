@@ -47,7 +47,7 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
             "system": drawing.system(),
             "wear-curve": figures_of_note.wear_curve(runs),
             "regimes": figures_of_note.regimes(
-                {f"§ {name[-1]}": runs.cases[name].scene for name in note.EXAMPLES}
+                {f"§\u2009{name[-1]}": runs.cases[name].scene for name in note.EXAMPLES}
             ),
             "approach": figures_of_note.approach(runs.approach),
             "speed": speed_against_cycles(curves_by_cycles(committed().runs, READER, DIGITS[0])),

@@ -2,36 +2,36 @@
 
 from __future__ import annotations
 
-_SPECIAL = {
-    "\\": r"\textbackslash{}",
-    "{": r"\{",
-    "}": r"\}",
-    "$": r"\$",
-    "&": r"\&",
-    "#": r"\#",
-    "%": r"\%",
-    "_": r"\_",
-    "^": r"\textasciicircum{}",
-    "~": r"\textasciitilde{}",
-    "<": r"\textless{}",
-    ">": r"\textgreater{}",
-    "|": r"\textbar{}",
-    '"': r"\textquotedbl{}",
-}
+_FORMS = str.maketrans(
+    {
+        "\\": r"\textbackslash{}",
+        "{": r"\{",
+        "}": r"\}",
+        "$": r"\$",
+        "&": r"\&",
+        "#": r"\#",
+        "%": r"\%",
+        "_": r"\_",
+        "^": r"\textasciicircum{}",
+        "~": r"\textasciitilde{}",
+        "<": r"\textless{}",
+        ">": r"\textgreater{}",
+        "|": r"\textbar{}",
+        '"': r"\textquotedbl{}",
+        "\u2009": r"\,",
+        "\u202f": r"\,",
+        "\u2010": "-",
+        "\u2011": r"\mbox{-}",
+        "\u2212": r"\ensuremath{-}",
+        "→": r"\ensuremath{\to}",
+        "≤": r"\ensuremath{\le}",
+        "≥": r"\ensuremath{\ge}",
+        "≈": r"\ensuremath{\approx}",
+        "∞": r"\ensuremath{\infty}",
+    }
+)
 _TYPED = "\u00a0\u2013\u2014\u2018\u2019\u201c\u201d\u2026·×±°µ²³"
 """Signs that LaTeX sets as they are typed."""
-_SIGN = {
-    "\u2009": r"\,",
-    "\u202f": r"\,",
-    "\u2010": "-",
-    "\u2011": r"\mbox{-}",
-    "\u2212": r"\ensuremath{-}",
-    "→": r"\ensuremath{\to}",
-    "≤": r"\ensuremath{\le}",
-    "≥": r"\ensuremath{\ge}",
-    "≈": r"\ensuremath{\approx}",
-    "∞": r"\ensuremath{\infty}",
-}
 _LATIN = range(0x00C0, 0x0180)
 
 
@@ -41,9 +41,16 @@ def escape(text: str) -> str:
     >>> print(escape("5 % of p_max – Éric & Söhne"))
     5 \% of p\_max – Éric \& Söhne
 
-    Raises `ValueError` for a character without a form; formulas belong into `Math` nodes.
+    Raises `ValueError` for a character without a form; formulas belong between dollar signs.
     """
-    return "".join(_character(character, text) for character in text)
+    for character in text:
+        known = character.isascii() or character in _TYPED or ord(character) in _LATIN
+        if not known and ord(character) not in _FORMS:
+            raise ValueError(
+                f"no LaTeX form for {character!r} (U+{ord(character):04X}) in {text!r}: "
+                "write it as a formula or add it to the table in wear.report.tex_text"
+            )
+    return text.translate(_FORMS)
 
 
 def verbatim(code: str, width: int) -> str:
@@ -57,16 +64,3 @@ def verbatim(code: str, width: int) -> str:
             line = "    " + line[width:]
         lines.append(line)
     return "\n".join(lines)
-
-
-def _character(character: str, text: str) -> str:
-    if character in _SPECIAL:
-        return _SPECIAL[character]
-    if character.isascii() or character in _TYPED or ord(character) in _LATIN:
-        return character
-    if character in _SIGN:
-        return _SIGN[character]
-    raise ValueError(
-        f"no LaTeX form for {character!r} (U+{ord(character):04X}) in {text!r}: "
-        "write it as a formula or add it to the table of signs in wear.report.tex_text"
-    )

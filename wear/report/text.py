@@ -48,6 +48,7 @@ _MARK = re.compile(
 _NAMED = re.compile(rf"\s*\{{#(?P<label>{_LABEL})\}}$")
 _CAPTION = "Table: "
 _CLOSING = tuple(".,;:)?")
+_FIGURES = re.compile(r"(?:\s*!\[(?:[^\]]|\[[^\]]*\])*\]\(fig:[^)]*\))+\s*", re.DOTALL)
 _SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#])")
 
 
@@ -140,15 +141,8 @@ def _labels(state: StateCore) -> None:
         if label and (is_caption or before.type == "heading_open"):
             before.meta["label"] = after.meta["label"] = label["label"]
             inline.content = inline.content[: label.start()]
-        if before.type == "paragraph_open" and _is_figure(inline.content):
+        if before.type == "paragraph_open" and _FIGURES.fullmatch(inline.content):
             before.type, after.type = "figures_open", "figures_close"
-
-
-_FIGURES = re.compile(r"(?:\s*!\[(?:[^\]]|\[[^\]]*\])*\]\(fig:[^)]*\))+\s*", re.DOTALL)
-
-
-def _is_figure(text: str) -> bool:
-    return _FIGURES.fullmatch(text) is not None
 
 
 def _sections(state: StateCore) -> None:

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
 from collections import Counter
-from collections.abc import Callable
-from html import unescape
 from html.parser import HTMLParser
 from itertools import pairwise
 from pathlib import Path
@@ -15,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.wear.browser import browser
+from tests.browser import Page
 from tests.wear.report.conftest import document
 from wear.report import html, mathml, svg
 from wear.report.document import Document
@@ -148,7 +145,7 @@ def test_two_figures_with_the_same_ids_do_not_meet() -> None:
     assert not set(re.findall(r'id="(.*?)"', first)) & set(re.findall(r'id="(.*?)"', second))
 
 
-_MEASURE = """<script>
+_MEASURE = """
 document.fonts.load('16px "STIX Two Math"', 'σ').then(fonts => {
   const wide = [...document.querySelectorAll('main *')].filter(e =>
     e.getBoundingClientRect().right > innerWidth + 1 && !e.closest('.formula, .scroll table') &&
@@ -157,48 +154,29 @@ document.fonts.load('16px "STIX Two Math"', 'σ').then(fonts => {
     fonts: fonts.length, page: document.documentElement.scrollWidth - innerWidth,
     wide: wide.map(e => e.outerHTML.slice(0, 80))});
 });
-</script>"""
-
-
-def _browse(folder: Path, page: str, browser: str, *options: str) -> str:
-    """What a browser without network prints for a page."""
-    file = folder / "page.html"
-    file.write_text(page, encoding="utf-8")
-    command = [
-        browser, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
-        "--disable-background-networking", "--disable-component-update", "--disable-sync",
-        f"--user-data-dir={folder / 'profile'}", *options, file.as_uri(),
-    ]  # fmt: skip
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
-    return done.stdout
+"""
 
 
 @pytest.mark.parametrize("width", [1280, 768, 500])
-def test_nothing_runs_out_of_the_page(
-    page: str, width: int, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
-    browser = need_tool("chromium", "google-chrome")
-    measured = re.sub(r"<meta http-equiv[^>]*>", "", page) + _MEASURE
-    options = ("--hide-scrollbars", "--virtual-time-budget=5000", "--dump-dom")
-    shown = _browse(tmp_path, measured, browser, f"--window-size={width},900", *options)
-    title = re.search(r"<title>(\{.*?\})</title>", shown)
-    assert title is not None
-    outcome = json.loads(unescape(title[1]))
-    assert outcome == {"fonts": 1, "page": 0, "wide": []}
+def test_nothing_runs_out_of_the_page(page: str, width: int, tmp_path: Path, window: Page) -> None:
+    file = tmp_path / "page.html"
+    file.write_text(page, encoding="utf-8")
+    window.size(width, 900)
+    window.open(file, "document.readyState === 'complete'")
+    window.run(_MEASURE)
+    window.wait("document.title.startsWith('{')")
+    assert json.loads(window.run("document.title")) == {"fonts": 1, "page": 0, "wide": []}
 
 
-def test_the_section_that_is_read_is_marked(
-    page: str, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_the_section_that_is_read_is_marked(page: str, tmp_path: Path, window: Page) -> None:
     """And the list of contents is folded where it would stand in the way."""
     file = tmp_path / "page.html"
     file.write_text(page, encoding="utf-8")
-    with browser(need_tool("chromium", "google-chrome"), tmp_path / "profile") as window:
-        window.size(1280, 400)
-        window.open(file, "document.readyState === 'complete'")
-        window.run("document.getElementById('app:claims').scrollIntoView()")
-        marked = "document.querySelector('nav [aria-current]')?.hash"
-        window.wait(f"{marked} === '#app:claims'")
-        assert window.run("document.querySelector('nav details').open")
-        window.size(600, 400)
-        window.wait("!document.querySelector('nav details').open")
+    window.size(1280, 400)
+    window.open(file, "document.readyState === 'complete'")
+    window.run("document.getElementById('app:claims').scrollIntoView()")
+    marked = "document.querySelector('nav [aria-current]')?.hash"
+    window.wait(f"{marked} === '#app:claims'")
+    assert window.run("document.querySelector('nav details').open")
+    window.size(600, 400)
+    window.wait("!document.querySelector('nav details').open")

@@ -22,7 +22,7 @@ import derive.note.claim_checks
 from derive.catalogue import equations
 from derive.check import Check
 from derive.files import write_atomically
-from tests.wear.browser import browser
+from tests.browser import Page
 from tests.wear.report import quick
 from tests.wear.report.test_html import Outline
 from wear.report import claims, reconcile
@@ -314,17 +314,16 @@ def test_links_have_names(paper: Document) -> None:
 
 
 def test_on_a_phone_captions_are_read_without_scrolling(
-    paper: Document, tmp_path: Path, need_tool: Callable[..., str]
+    paper: Document, tmp_path: Path, window: Page
 ) -> None:
     """Tables and figures may be wider, in boxes of their own; letters are not made too small."""
     file = tmp_path / "report.html"
     file.write_text(page(paper), encoding="utf-8")
-    with browser(need_tool("chromium", "google-chrome"), tmp_path / "profile") as phone:
-        phone.size(390, 800)
-        phone.open(file, "document.readyState === 'complete'")
-        assert phone.run("document.documentElement.scrollWidth") == 390
-        right = "[...document.querySelectorAll('caption div, figcaption')].map(e => "
-        assert max(phone.run(right + "e.getBoundingClientRect().right)")) <= 390
-        scale = "[...document.querySelectorAll('figure svg')].map(e => "
-        drawn = phone.run(scale + "e.getBoundingClientRect().width / e.viewBox.baseVal.width)")
-        assert min(drawn) >= 1.1  # pixels a point: eight points are nine pixels
+    window.size(390, 800)
+    window.open(file, "document.readyState === 'complete'")
+    assert window.run("document.documentElement.scrollWidth") == 390
+    right = "[...document.querySelectorAll('caption div, figcaption')].map(e => "
+    assert max(window.run(right + "e.getBoundingClientRect().right)")) <= 390
+    scale = "[...document.querySelectorAll('figure svg')].map(e => "
+    drawn = window.run(scale + "e.getBoundingClientRect().width / e.viewBox.baseVal.width)")
+    assert min(drawn) >= 1.1  # pixels a point: eight points are nine pixels
