@@ -30,7 +30,6 @@ from wear.loss_of_contact.requests import (
     answered,
     without_feedback,
 )
-from wear.loss_of_contact.roundoff import roundoff
 from wear.loss_of_contact.switching import Edge, edge_of_contact
 from wear.model import Model
 from wear.numerics.tolerances import ROUNDOFF, TINY
@@ -85,14 +84,15 @@ def counted_stages(
 
 def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[Counted]:
     problem = yield from problem_of(wanted.model, wanted.load, edge, rtol, deadline)
-    runs = _Count(problem, wanted.start)
-    while not runs.over and (runs.done < wanted.cycles or not runs.parts):
-        yield from runs.go(max(wanted.cycles - runs.done, 1.0))
-    return (yield from _judged(problem, runs, wanted.start_error, wanted.cycles))
+    way = _Way(problem, wanted.start)
+    while not way.over and (way.done < wanted.cycles or not way.parts):
+        yield from way.go(max(wanted.cycles - way.done, 1.0))
+    return (yield from _judged(problem, way, wanted.start_error, wanted.cycles))
 
 
-class _Count:
-    """The way so far: `parts`, one after the other, `done` cycles in all, and the `wear` (mm)."""
+class _Way:
+    """The way of a count: `parts`, one after the other, `done` cycles in all, and the `wear` (mm)
+    so far."""
 
     def __init__(self, problem: Problem, start: float) -> None:
         self.problem, self.wear, self.done, self.over = problem, start, 0.0, False
@@ -119,8 +119,9 @@ class _Count:
             rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
             left = 2 * (ahead - self.wear) / rate
             if FEW < left < np.inf:
-                way = np.array([[self.wear], [ahead], [np.floor(left)], [ahead - self.wear]])
-                self._append(Unresolved(*way), float(np.floor(left)), ahead)
+                left = np.floor(left)
+                part = np.array([[self.wear], [ahead], [left], [ahead - self.wear]])
+                self._append(Unresolved(*part), float(left), ahead)
                 return
         yield from self._single()
 
@@ -240,19 +241,14 @@ class _Count:
         self._append_cycles(cycles_on)
 
 
-def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) -> Asking[Counted]:
+def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> Asking[Counted]:
     """Return the parts of the way as segments, each with its estimate of error."""
-    marks = [np.empty(0) if isinstance(part, Unresolved) else part.marks for part in runs.parts]
-    ends = np.cumsum([len(at) for at in marks]).tolist()
-    rounding = roundoff(problem.model, problem.load, np.concatenate(marks))
-    yield from _judge(problem, runs)
+    yield from _judge(problem, way)
     segments: list[Segment] = []
     begins, drift, one = 0.0, 0.0, np.zeros(1)
     inherited = one + begun_with
-    for part, end, at in zip(runs.parts, ends, marks, strict=True):
-        counted: TabulatedCount | Iterates | Unresolved
-        own = rounding.part(slice(end - len(at), end))
-        counted = part if isinstance(part, Unresolved) else part.judged(problem, own)
+    for part in way.parts:
+        counted = part if isinstance(part, Unresolved) else part.judged(problem)
         segments.append(Segment(_FIRST, counted, one + begins, inherited, one + drift))
         ran = counted.whole_cycles
         after, relative = counted.after(ran[None])
@@ -260,18 +256,18 @@ def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) ->
         begins += float(ran[0])
         drift += float(part.reach[0]) if isinstance(part, Unresolved) else 0.0
     end_of_wear = None
-    if runs.arrested and begins <= cycles:
-        end_of_wear = _end(problem, segments, runs.fades)
+    if way.arrested and begins <= cycles:
+        end_of_wear = _end(problem, segments, way.fades)
         rest = end_of_wear and _rest(problem, segments, end_of_wear)
         segments += [rest] if rest else []
-    return Counted(Orbit(1, tuple(segments), runs.cost), end_of_wear)
+    return Counted(Orbit(1, tuple(segments), way.cost), end_of_wear)
 
 
-def _judge(problem: Problem, runs: _Count) -> Asking[None]:
+def _judge(problem: Problem, way: _Way) -> Asking[None]:
     """Judge the cycles that were integrated, by another map and from beside."""
     todo = [
         (part, k)
-        for part in runs.parts
+        for part in way.parts
         if isinstance(part, OneByOne)
         for k, missed in enumerate(part.missed)
         if np.isnan(missed)
@@ -287,7 +283,7 @@ def _judge(problem: Problem, runs: _Count) -> Asking[None]:
     for (part, k), *found in zip(todo, missed.tolist(), growth.tolist(), strict=True):
         part.missed[k], part.growth[k] = found
     evaluations = fine.evaluations + beside.evaluations
-    runs.cost = runs.cost.plus(2 * len(at), evaluations)
+    way.cost = way.cost.plus(2 * len(at), evaluations)
 
 
 def _end(problem: Problem, segments: list[Segment], fades: bool) -> End | None:

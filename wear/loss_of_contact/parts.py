@@ -9,7 +9,7 @@ import numpy as np
 from wear.loss_of_contact.arrest import LimitWear, TabulatedCount
 from wear.loss_of_contact.increments import Increments, frame_of, middle
 from wear.loss_of_contact.plan import Problem
-from wear.loss_of_contact.roundoff import Roundoff
+from wear.loss_of_contact.roundoff import roundoff
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
@@ -32,14 +32,10 @@ class OneByOne(NamedTuple):
     missed: list[float]
     growth: list[float]
 
-    @property
-    def marks(self) -> FloatArray:
-        """Return the wears (mm) between which rounding counts."""
-        return np.array(self.wear)
-
-    def judged(self, problem: Problem, rounding: Roundoff) -> Iterates:
+    def judged(self, problem: Problem) -> Iterates:
         """Return the cycles with their estimated error."""
         wear, added, missed, growth = map(np.array, self)
+        rounding = roundoff(problem.model, problem.load, wear)
         # The response to a relative error of the rate: what is made early grows, but once the wear
         # exceeds the roughness the rate hardly grows any more.
         response = added + np.minimum(added, 4 * problem.scale) * growth
@@ -79,18 +75,15 @@ class OnPanels(NamedTuple):
         last = self.table.last_cycles
         return float(np.ceil(last) if self.limit_wear else np.floor(last))
 
-    @property
-    def marks(self) -> FloatArray:
-        """Return the wears (mm) between which rounding counts."""
-        return self.series.coordinate.wear(np.append(self.table.u, self.table.ends[-1]))
-
-    def judged(self, problem: Problem, rounding: Roundoff) -> TabulatedCount:
+    def judged(self, problem: Problem) -> TabulatedCount:
         """Return the count with its estimated error: of the increments, of Abel's equation, at
         junctions of panels, by rounding."""
         table, panels = self.table, self.panels
         coordinate = self.series.coordinate
         parts = len(table.length) // len(panels.series)
-        ends = self.series.missed(np.append(table.u, table.ends[-1]))
+        z = np.append(table.u, table.ends[-1])
+        rounding = roundoff(problem.model, problem.load, coordinate.wear(z))
+        ends = self.series.missed(z)
         misfit = np.maximum(ends[1:], ends[:-1])
         if self.line:
             misfit[table.u >= self.series.frame.starts[-1]] = 0.0  # there the residual says it all
@@ -100,7 +93,7 @@ class OnPanels(NamedTuple):
             missed[parts - 1 : -1 : parts] += SAFETY * apart
         terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
         of_density = ROUNDOFF * np.repeat(terms, parts)
-        missed += (rounding.larger_rate + of_density) * table.gain
+        missed += (rounding.larger + of_density) * table.gain
         error = np.concatenate([[0.0], np.cumsum(missed)])
         limit = np.array([problem.end])
         return TabulatedCount(coordinate, table, panels, error, self.limit_wear, limit)
