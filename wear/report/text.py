@@ -56,9 +56,10 @@ Tokens = tuple[Token, ...]
 
 
 def inline(tokens: Tokens) -> Iterator[Token]:
-    """Return all tokens inside lines, in reading order."""
-    for token in tokens:
-        yield from token.children or ()
+    """Return all tokens inside lines, captions among them, in reading order."""
+    for piece in (piece for token in tokens for piece in token.children or ()):
+        yield piece
+        yield from piece.children or ()
 
 
 def read(name: str, values: Mapping[str, Any]) -> Tokens:
@@ -88,11 +89,7 @@ def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
     )  # fmt: skip
     environment.filters["plain"] = escaped
     source = environment.from_string(template).render(values)
-    tokens = tuple(MARKDOWN.parse(source))
-    for token in inline(tokens):
-        if token.type == "number":
-            token.meta["number"] = numbers[int(token.content)]
-    return tokens
+    return tuple(MARKDOWN.parse(source, {"numbers": numbers}))
 
 
 def escaped(text: str) -> str:
@@ -121,6 +118,8 @@ def _mark(state: StateInline, silent: bool) -> bool:
         token.content = found[kind]
         token.meta["bare"] = found["bare"] is not None
         token.meta["kept"] = ""
+        if kind == "number":
+            token.meta["number"] = state.env["numbers"][int(token.content)]
     state.pos = found.end()
     return True
 
