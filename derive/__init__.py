@@ -12,14 +12,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .catalogue import equation, verify
+    from .catalogue import equation
+    from .verification import verify
 
 __all__ = ["equation", "verify"]
 
 
 def __getattr__(name: str) -> Any:
     if name in __all__:
-        from . import catalogue
+        from . import catalogue, verification
 
-        return getattr(catalogue, name)
+        return {"equation": catalogue.equation, "verify": verification.verify}[name]
     raise AttributeError(f"module 'derive' has no attribute {name!r}")

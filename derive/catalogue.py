@@ -3,21 +3,17 @@
 Key results
     equations    all of them, the note's first, in its order
     equation     one, by its id
-    verify       every check on which some or all of them rest
 """
 
 from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Callable, Hashable, Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 from functools import cache
 from types import ModuleType
 
-from .check import Check, checks, on_models, reasons_of
-from .equations import Equation, Status
-from .kernel import Judgement
+from .equations import Equation
 from .note import condensed, governing, problems, stabilised
 from .note.governing import Model
 from .results import (
@@ -67,20 +63,6 @@ class UnknownEquationError(KeyError):
 
     def __str__(self) -> str:
         return str(self.args[0])
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """What came of the checks of one equation."""
-
-    id: str
-    status: Status
-    checks: tuple[Check, ...]
-
-    @property
-    def passed(self) -> bool:
-        """Whether every check passed."""
-        return all(outcome.passed for outcome in self.checks)
 
 
 def equations() -> tuple[Equation, ...]:
@@ -139,46 +121,3 @@ def equation(identifier: str) -> Equation:
     near = difflib.get_close_matches(identifier, known, n=3, cutoff=0.5)
     hint = f"; did you mean {' or '.join(near)}?" if near else "; see `derive list`"
     raise UnknownEquationError(f"{identifier}: there is no such equation{hint}")
-
-
-def verify(
-    identifiers: str | Iterable[str] = (),
-    progress: Callable[[int, int, str], None] | None = None,
-    deep: bool = False,
-) -> tuple[Verdict, ...]:
-    """Re-run every check on which the named equations rest (all of them if none is named); a text
-    is one identifier.
-
-    A statement on which several equations rest is checked once.  ``progress`` is told how many
-    of how many equations are done, and which is next.  With ``deep``
-    each hypothesis of an equation is dropped in turn, which takes minutes.
-    """
-    named = (identifiers,) if isinstance(identifiers, str) else identifiers
-    chosen = [equation(identifier) for identifier in named] or list(equations())
-    numbers: dict[Hashable, int] = {}
-    done: dict[int, tuple[Check, ...]] = {}
-    verdicts = []
-    for number, found in enumerate(chosen):
-        if progress is not None:
-            progress(number, len(chosen), found.id)
-        outcomes: list[Check] = []
-        for step, place in _numbered(found.steps, numbers):
-            if place not in done:
-                done[place] = (*checks(step), *on_models(step))
-            outcomes += done[place]
-        shown = Check("typeset", found.typeset_agrees, "the display form equals the claim")
-        why = (r for s in found.statements for r in reasons_of(s)) if deep else ()
-        verdicts.append(Verdict(found.id, found.status, (*outcomes, shown, *why)))
-    return tuple(verdicts)
-
-
-def _numbered(
-    steps: tuple[Judgement, ...], numbers: dict[Hashable, int]
-) -> Iterator[tuple[Judgement, int]]:
-    """Give every step a number; steps that say the same for the same reasons share one."""
-    known: dict[int, int] = {}
-    for step in steps:  # parents come first
-        parents = tuple(known[id(parent)] for parent in step.parents)
-        content = (step.claim, step.rule, step.hypotheses, parents)
-        known[id(step)] = numbers.setdefault(content, len(numbers))
-        yield step, known[id(step)]

@@ -118,8 +118,9 @@ def _of(part: Inside, over: Mesh, wear_of_unit: FloatArray, given_load: bool) ->
     whole &= (touching.edges[:, :-1] > 0.0) & (touching.edges[:, 1:] > 0.0)
     fraction = np.ones(len(part.cycles))
     if not whole.all():
-        undeflected = fields.h - getattr(fields, "U_c", 0.0)
-        margin = fields.p if given_load else CONTACT_REACH * fields.sigma - undeflected
+        margin = fields.p
+        if not given_load:
+            margin = CONTACT_REACH * fields.sigma - (fields.h - getattr(fields, "U_c", 0.0))
         fraction = _share_above_zero(_sampled(margin, over), touching, over, whole)
     whole |= given_load
     tail = np.max(np.abs(p.nodes @ over.rule.coefficients.T)[..., -2:], axis=-1)

@@ -253,7 +253,7 @@ def _history(
         h=fields.h,
         p=fields.p,
         error=error,
-        U_c=fields.U_c if model.compliant else None,
+        U_c=getattr(fields, "U_c", None),
         R_a=reaction_of(scene, fields.p),
         U_a=displacement_of(model, scene, u),
         scene=scene.title or scene.name,

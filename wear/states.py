@@ -32,6 +32,8 @@ def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatA
     """Fields under displacements (mm) that rise by `rise` (mm/s), all of which broadcast; at the
     edge of contact with the share of pressure that acts."""
     fields = model.fields(u, U_a)
+    if isinstance(model, GivenLoad) and not model.compliant:
+        return fields._replace(U_c=None)  # of the module for springs, here rigid ones
     if not model.ends_at_3_sigma or model.compliant:
         return fields
     closed = model.fields(u, U_a + roundoff(model, u, U_a)).p

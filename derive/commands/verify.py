@@ -11,7 +11,7 @@ from derive.command_line import Answer
 from derive.commands import arguments
 
 if TYPE_CHECKING:
-    from derive.catalogue import Verdict
+    from derive.verification import Verdict
 
 SUMMARY = "check every step of equations again"
 EXAMPLE = """\
@@ -31,10 +31,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> Answer:
     """Run the checks."""
-    from derive import catalogue
+    from derive.verification import verify
 
     arguments.equations(options.ids)
-    verdicts = catalogue.verify(
+    verdicts = verify(
         options.ids,
         lambda done, total, name: terminal.progress(f"{done}/{total} {name}"),
         options.deep,

@@ -17,11 +17,9 @@ from functools import cache, reduce
 from math import isqrt
 from typing import Any
 
-import numpy as np
 import sympy as sp
 from flint import arb, fmpq
 from sympy.core.function import AppliedUndef
-from sympy.functions.elementary.piecewise import ExprCondPair
 
 from ..symbols import t
 
@@ -177,41 +175,12 @@ _CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
 }
 
 
-def _switched(*cases: tuple[Any, Any]) -> Any:
-    """Return the value of the first condition that holds, place by place."""
-    found: Any = np.nan
-    for condition, value in reversed(cases):
-        found = np.where(condition, value, found)
-    return found
-
-
-_FLOATS: dict[type, Callable[..., Any]] = {
-    **{
-        getattr(sp, name): getattr(np, name)
-        for name in ("exp", "log", "tanh", "sinh", "cosh", "sin", "cos", "tan", "sign", "floor")
-    },
-    sp.Abs: np.abs,
-    sp.atan: np.arctan,
-    sp.Pow: np.power,
-    sp.Add: lambda *xs: sum(xs),
-    sp.Mul: lambda *xs: reduce(np.multiply, xs),
-    **{sp.Ge: np.greater_equal, sp.Gt: np.greater, sp.Le: np.less_equal, sp.Lt: np.less},
-    type(sp.true): lambda: True,
-    ExprCondPair: lambda value, condition: (condition, value),
-    sp.Piecewise: _switched,
-}
-"""What motions are integrated with: arrays of floats."""
-
-
 @cache
-def compiled(expr: sp.Basic, variable: sp.Symbol = t, floats: bool = False) -> Value:
+def compiled(expr: sp.Basic, variable: sp.Symbol = t) -> Value:
     """Return the function that gives an expression its value at a moment; ``variable`` is what
     runs there (time)."""
     if expr == variable:
         return lambda moment: moment.time
-    if floats and expr.is_number and not expr.atoms(AppliedUndef):
-        plain = float(expr)
-        return lambda _: plain
     if expr in _CONSTANTS:
         known = _CONSTANTS[expr]
         return lambda _: known()
@@ -220,14 +189,13 @@ def compiled(expr: sp.Basic, variable: sp.Symbol = t, floats: bool = False) -> V
         return lambda _: number
     if isinstance(expr, sp.Symbol):
         return lambda moment: moment.model.constant(expr)
-    functions = _FLOATS if floats else _FUNCTIONS
     for kind, build in _SPECIAL:
-        if isinstance(expr, kind) and type(expr) not in functions:
+        if isinstance(expr, kind):
             return build(expr, variable)
-    if type(expr) not in functions:
+    if type(expr) not in _FUNCTIONS:
         raise Undecided(f"{type(expr).__name__} has no number")
-    function = functions[type(expr)]
-    arguments = [compiled(a, variable, floats) for a in expr.args]
+    function = _FUNCTIONS[type(expr)]
+    arguments = [compiled(a, variable) for a in expr.args]
     return lambda moment: function(*[argument(moment) for argument in arguments])
 
 

@@ -91,7 +91,7 @@ def falsify(
     models = decided = 0
     for trial in _models((*hypotheses, dropped, claim), imposed, draws, free):
         *given, without, claimed = trial.relations
-        if not trial.known_to_fit(given, free) or truth(without, trial.model).holds is not False:
+        if not trial.fits(given, free) or truth(without, trial.model).holds is not False:
             continue
         models += 1
         outcome = truth(claimed, trial.model)
@@ -114,17 +114,16 @@ class _Trial:
     relations: tuple[sp.Basic, ...]
     seed: int
 
-    def known_to_fit(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool:
-        """Return whether the model fits; the same model is asked once for several claims."""
-        asked = tuple(given), free, frozenset(self._varied())
-        found = self.model.satisfied
-        if asked not in found:
-            found[asked] = self.fits(given, free)
-        return found[asked]
-
-    def fits(self, given: Iterable[sp.Basic], free: Iterable[sp.Expr] = ()) -> bool:
+    def fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool:
         """Return whether the model satisfies the hypotheses, and all quantities lie where their
-        symbols say."""
+        symbols say; asked once for several claims, while its fields are known for as long."""
+        asked = tuple(given), free, frozenset(self._varied()), self.model.times
+        known = self.model.satisfied
+        if asked not in known:
+            known[asked] = self._fits(given, free)
+        return known[asked]
+
+    def _fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool:
         fixed = {h.lhs for h in given if isinstance(h, sp.Eq) and h.rhs.is_number}
         bounded = quantities(sp.Tuple(*self.relations)) - fixed.union(free)
         demands = sorted((*given, *map(domain, bounded)), key=self._rests_on_a_limit)

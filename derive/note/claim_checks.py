@@ -24,6 +24,7 @@ from ..rules.algebra import Solve
 from ..rules.proving import sign
 from ..symbols import symbols
 from ..typeset.present import presentable
+from ..verification import verify
 from ..zero import is_zero
 from .claims import Finding, Verdict
 from .governing import ROUGH_BEARING, Model
@@ -37,7 +38,7 @@ f_c, sigma_c0, K_c, k, u_cum = symbols("f_c sigma_c0 K_c k u_cum")
 @cache
 def _holds(*ids: str) -> tuple[bool, str, bool]:
     """Return whether equations hold, a sentence on it, and whether they need conditions."""
-    verdicts = catalogue.verify(ids)
+    verdicts = verify(ids)
     good = all(v.passed and v.status in (Status.DERIVED, Status.DEFINITION) for v in verdicts)
     count = sum(len(v.checks) for v in verdicts)
     found = [c for i in ids for c in catalogue.equation(i).conditions if c != ROUGH_BEARING]

@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 from sympy.core.function import UndefinedFunction
 
-from derive import catalogue, check
+from derive import catalogue, check, verification
 from derive.cli import main
 from derive.equations import Status
 from derive.symbols import QUANTITIES, symbol
@@ -90,7 +90,7 @@ def test_a_failing_check_is_status_1(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     planted = (check.Check("proof", False, "planted"),)
-    monkeypatch.setattr(catalogue, "checks", lambda _: planted)
+    monkeypatch.setattr(verification, "checks", lambda _: planted)
     assert main(["verify", "21"]) == 1
     assert "planted" in capsys.readouterr().out
 

@@ -21,6 +21,7 @@ from derive.note.problems import given_load, given_motion, undetermined
 from derive.rules.assumption import Assume, assume
 from derive.symbols import symbols
 from derive.typeset.display import evaluated
+from derive.verification import verify
 from derive.zero import same
 from tests.derive.mutation import mutants
 
@@ -71,7 +72,7 @@ def test_what_is_typeset_is_what_was_derived(part: int) -> None:
 
 
 def test_one_identifier_may_be_given_as_it_is() -> None:
-    assert [verdict.id for verdict in catalogue.verify("21")] == ["21"]
+    assert [verdict.id for verdict in verify("21")] == ["21"]
 
 
 def test_every_step_follows_again_and_dimensions_agree() -> None:

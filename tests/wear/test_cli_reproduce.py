@@ -10,11 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from derive import verification
 from derive.check import Check
 from tests.wear.conftest import Call
 from tests.wear.report import quick
 from wear import processes, regime
-from wear.report import claims, paper, runs, typeset, verification
+from wear.report import claims, paper, runs, typeset
 from wear.scene import load_scene
 
 ALWAYS = {

@@ -14,9 +14,9 @@ from wear import processes
 from wear.commands import arguments
 
 if TYPE_CHECKING:
+    from derive.verification import Verification
     from wear.report.claims import Entry
     from wear.report.typeset import Typeset
-    from wear.report.verification import Verification
 
 SUMMARY = "derive, solve and judge everything: the report"
 EXAMPLE = """\
@@ -57,12 +57,12 @@ def _reproduce(folder: Path, progress: Progress) -> tuple[Verification, tuple[En
     """Make everything, then put it in place."""
     from derive.catalogue import equations
     from derive.note.claim_checks import SYMBOLIC
+    from derive.verification import checked_at, verified
     from wear.report.claims import SIMULATED, as_json, decided, ledger
     from wear.report.manifest import NAME, manifest
     from wear.report.paper import drawings, paper
     from wear.report.publish import publish
     from wear.report.runs import run
-    from wear.report.verification import checked_at, verified
 
     with files.replacing_in(folder) as draft, processes.assistant() as ask:
         begun = {claim: ask(decided, claim) for claim in SYMBOLIC}

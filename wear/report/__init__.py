@@ -6,7 +6,7 @@ Contents
     equations, derivations, markup             equations with titles, and how they follow
     writer, html, tex, templates, svg, mathml  the writer and its two forms
     typeset, publish, manifest                 the files of a report
-    runs, claims, reconcile, verification      what is computed for it
+    runs, claims, reconcile                    what is computed for it
     figures_of_note, drawing                   its figures
     explorer                                   the interactive page
 """

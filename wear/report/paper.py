@@ -17,9 +17,9 @@ from wear.report.values import Material, values
 
 if TYPE_CHECKING:
     from derive import equations as derived
+    from derive.verification import Verification
     from wear.report.claims import Entry
     from wear.report.runs import Runs
-    from wear.report.verification import Verification
 
 _EQUATIONS = re.compile(r"^```equations\n(.*?)^```", re.MULTILINE | re.DOTALL)
 

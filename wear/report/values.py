@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from derive.equations import Equation
+    from derive.verification import Verification
     from wear.report.claims import Entry
     from wear.report.document import Equation as Shown
-    from wear.report.verification import Verification
     from wear.scene import Scene
 
 ROUNDOFF = sys.float_info.epsilon

@@ -12,12 +12,12 @@ from unittest.mock import patch
 from derive.catalogue import equations
 from derive.check import Check
 from derive.equations import Equation
+from derive.verification import Verification, identity
 from wear.report.claims import Entry, ledger
 from wear.report.document import Document
 from wear.report.paper import drawings
 from wear.report.paper import paper as written
 from wear.report.runs import Runs, run
-from wear.report.verification import Verification, identity
 
 #: Those that the text speaks of, and some others.
 CLAIMS = ("C1", "C4", "C7", "C14", "C15", "C16", "C17", "C24", *(f"C{n}" for n in range(32, 41)))

@@ -22,6 +22,7 @@ import derive.note.claim_checks
 from derive.catalogue import equations
 from derive.check import Check
 from derive.files import write_atomically
+from derive.verification import Verification, checked, parts, verified
 from tests.browser import Page
 from tests.wear.report import quick
 from tests.wear.report.test_html import Outline
@@ -35,7 +36,6 @@ from wear.report.runs import Runs
 from wear.report.tex import report
 from wear.report.text import inline
 from wear.report.typeset import typeset
-from wear.report.verification import Verification, checked, parts, verified
 from wear.scene import Scene
 
 _TEXT = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
