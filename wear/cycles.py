@@ -245,12 +245,11 @@ def sweep(
     def alone(scene: Scene) -> Answer:
         return wear_after(bind(scene), scene.load, cycles, rtol)[:2]
 
-    models = [bind(scene) for scene in scenes]
-    fewer = [resampled(*each, rtol) for each in zip(scenes, models, strict=True)]
+    fewer = [resampled(scene, rtol) for scene in scenes]
     some = [each.scene for each in fewer]
     u, error = _each(some, len(cycles), together, alone, Pace(progress))
-    for row, (each, model) in enumerate(zip(fewer, models, strict=True)):
-        error[row] += each.missed(model, u[row])
+    for row, each in enumerate(fewer):
+        error[row] += each.missed(u[row])
     return Sweep(u, error)
 
 
@@ -287,7 +286,7 @@ def cycles_to_depth(
     def alone(scene: Scene) -> Answer:
         return cycles_until(bind(scene), scene.load, wear, rtol)[:2]
 
-    fewer = [resampled(scene, bind(scene), rtol) for scene in scenes]
+    fewer = [resampled(scene, rtol) for scene in scenes]
     some = [each.scene for each in fewer]
     count, error = _each(some, len(wear), together, alone, Pace(progress))
     return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))

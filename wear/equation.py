@@ -47,7 +47,10 @@ class WearEquation:
         """Return some of the scenes."""
         if self.scenes == 1:
             return self
-        loads = tuple(self.loads[i] for i in np.arange(self.scenes)[rows].tolist())
+        if isinstance(rows, slice):
+            loads = self.loads[rows]
+        else:
+            loads = tuple(self.loads[i] for i in rows.tolist())
         return WearEquation(self.model.select(rows), loads)
 
     def forcing(self, phases: FloatArray) -> FloatArray:

@@ -40,7 +40,7 @@ class GivenLoad(Model):
         return bool(np.all(self.constants.compliance > 0.0))
 
     def _changed(self, change: Callable[[Real], Real]) -> GivenLoad:
-        return GivenLoad(self.bound.changed(change), area=Area(*map(change, self.area)))
+        return GivenLoad(self.bound.changed(change), area=Area(*change(np.array([*self.area]))))
 
     def pressure(self, u: Real, R_a: Real, near: Real | None = None) -> Real:
         """Return the contact pressure in MPa, Eq. (7b)."""

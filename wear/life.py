@@ -78,9 +78,8 @@ def cycles_until(
 
     scene = as_scene(scene)
     depths = _checked(scene, wear_mm, rtol)
-    model = bind(scene)
-    fewer = resampled(scene, model, rtol)
-    found = count_until(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
+    fewer = resampled(scene, rtol)
+    found = count_until(bind(scene), fewer.scene.load, np.array(depths), rtol - fewer.error)
     cycles, error = found.cycles.copy(), found.error + fewer.error
     known = np.isfinite(cycles) & np.isfinite(error)
     reached = [Reached.COUNTED] * len(depths)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from itertools import islice
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -39,10 +40,12 @@ class Bound(NamedTuple):
     signs: tuple[Real, ...]
 
     def changed(self, change: Callable[[Real], Real]) -> Bound:
-        """Return the module with all its numbers changed."""
-        constants = self.constants._make(map(change, self.constants))
-        data = self.data._make(map(change, self.data))
-        return Bound(self.module, constants, data, tuple(map(change, self.signs)))
+        """Return the module with all its numbers changed, as rows of one array."""
+        rows = iter(change(np.array([*self.constants, *self.data, *self.signs])))
+        constants, data = (
+            numbers._make(islice(rows, len(numbers))) for numbers in (self.constants, self.data)
+        )
+        return Bound(self.module, constants, data, tuple(rows))
 
     def gradient(self, by_constants: Any) -> dict[str, Real]:
         """Return derivatives with respect to the parameters from those to the constants."""
@@ -89,11 +92,11 @@ class Model:
 
     def select(self, index: Any) -> Model:
         """Return the model of some of many scenes, chosen by an index of the scene axis."""
-        return self._changed(lambda value: value[index])
+        return self._changed(lambda rows: rows[:, index])
 
     def reshaped(self, shape: tuple[int, ...]) -> Model:
         """Return the model of many scenes with its numbers in this shape."""
-        return self._changed(lambda value: value.reshape(shape))
+        return self._changed(lambda rows: rows.reshape(len(rows), *shape))
 
     def _changed(self, change: Callable[[Real], Real]) -> Model:
         return Model(self.bound.changed(change), self.loss and self.loss.changed(change))

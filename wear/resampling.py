@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from wear.equation import WearEquation
 from wear.load import ForceTable, Table
+from wear.model import Model, bind
 from wear.numerics.gauss import Mesh, mesh
 from wear.numerics.tolerances import TINY
 
 if TYPE_CHECKING:
-    from wear.model import Model
     from wear.scene import Scene
 
 FloatArray = NDArray[np.float64]
@@ -41,18 +41,18 @@ class Resampled(NamedTuple):
     error: float
     notices: tuple[str, ...]
 
-    def missed(self, model: Model, wear: FloatArray) -> FloatArray:
+    def missed(self, wear: FloatArray) -> FloatArray:
         """Return the relative error of wears (n,), more where the wear accelerates."""
         from wear.cycles import growth
 
         if not self.error:
             return np.zeros(wear.shape)
-        load = self.scene.periodic_load
+        model, load = bind(self.scene), self.scene.periodic_load
         grown = [growth(model, load, 0.0, u) if u > 0.0 else 0.0 for u in wear.tolist()]
         return self.error * np.array(grown)
 
 
-def resampled(scene: Scene, model: Model, rtol: float) -> Resampled:
+def resampled(scene: Scene, rtol: float) -> Resampled:
     """Return a scene whose measured load has as few rows as `rtol` allows.
 
     Only rows of a file that lets it by `resample = true` are merged, and none where contact may be
@@ -61,9 +61,9 @@ def resampled(scene: Scene, model: Model, rtol: float) -> Resampled:
     load = scene.load
     if not isinstance(load, Rows) or load.source is None or not load.source.resample:
         return Resampled(scene, 0.0, ())
-    if len(load.times_s) < FEWEST_ROWS or model.ends_at_3_sigma:
+    if len(load.times_s) < FEWEST_ROWS or scene.contact.ends_at_3_sigma:
         return Resampled(scene, 0.0, ())
-    rows = len(load.times_s) - 1
+    model, rows = bind(scene), len(load.times_s) - 1
     for step in (step for step in STEPS if rows >= FEWEST_ROWS * step / 2):
         fewer = _merged(load, step)
         error = _changed(model, load, fewer)

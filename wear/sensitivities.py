@@ -11,7 +11,7 @@ Key results
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -80,7 +80,7 @@ def gradients(
     found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
     pace, done = Pace(progress), 0
     pace.begin("scene", len(scenes))
-    for which in _groups(scenes):
+    for which in groups(scenes):
         some, parts = _in_parts([scenes[i] for i in which.tolist()])
         part = _of_one_variant(some, keys, cycles * parts, rtol, pace.say)
         done += len(which)
@@ -90,15 +90,6 @@ def gradients(
         found.derivative[which] = part.derivative * per_key
         found.error[which] = part.derivative_error * per_key
     return found
-
-
-def _groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
-    """Return which scenes are solved together: with loss of contact each is alone."""
-    for which in groups(scenes):
-        if scenes[which[0]].contact.ends_at_3_sigma:
-            yield from which[:, None]
-        else:
-            yield which
 
 
 def _in_parts(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
@@ -150,13 +141,23 @@ def _of_one_variant(
         say(f"cycle {done} of {last:.10g}")
         here = (cycles >= done) & (cycles <= end)
         wanted = np.tile(np.append(cycles[here], end) - done, (number, 1))
-        equation = parametrised(scenes, acting, keys)
-        if equation.model.ends_at_3_sigma:
-            begin = float(start[0]), float(missed[0])
-            one = Wanted(equation.model, acting[0].load, wanted[0, -1], *begin)
-            (stages,) = counted_stages([one], rtol)
-            part = stage_tangents(stages, equation, wanted, rtol, slope, slope_error)
+        if scenes[0].contact.ends_at_3_sigma:
+            each = [parametrised(*own, keys) for own in zip(zip(scenes), zip(acting), strict=True)]
+            begins = zip(wanted[:, -1], start, missed, strict=True)
+            counts = counted_stages(
+                [
+                    Wanted(own.model, own.loads[0], *map(float, begin))
+                    for own, begin in zip(each, begins, strict=True)
+                ],
+                rtol,
+            )
+            rows = [
+                stage_tangents(count, own, wanted[:1], rtol, slope[[i]], slope_error[[i]])
+                for i, (count, own) in enumerate(zip(counts, each, strict=True))
+            ]
+            part = Tangents(*map(np.concatenate, zip(*rows, strict=True)))
         else:
+            equation = parametrised(scenes, acting, keys)
             counted = orbit(equation, wanted[:, -1], rtol, start, missed)
             part = tangents(equation, counted, wanted, rtol, slope, slope_error)
         for whole, values in zip(found, part, strict=True):

@@ -85,9 +85,9 @@ def solve(
     wanted = checked_request(scene, cycles, rtol, method, time_limit)
     model = bind(scene)
     deadline = np.inf if time_limit is None else start + time_limit
-    fewer = resampled(scene, model, rtol)
+    fewer = resampled(scene, rtol)
     wear = _solved(model, fewer.scene, wanted, rtol - fewer.error, method, deadline, progress)
-    error = wear.error + fewer.missed(model, wear.u)
+    error = wear.error + fewer.missed(wear.u)
     wear = wear._replace(error=error, notices=(*fewer.notices, *wear.notices))
     history = _history(scene, model, wanted, wear, rtol, time.monotonic() - start)
     if wear.interrupted:

@@ -9,7 +9,6 @@ import pytest
 
 import wear
 from wear.cycles import cycles_to_depth, sweep
-from wear.model import bind
 from wear.resampling import resampled
 
 ROWS = 801
@@ -52,10 +51,9 @@ def test_merging_stays_within_the_error_that_it_tells(
 
 def test_the_looser_the_fewer_and_the_mean_is_kept(tmp_path: Path) -> None:
     scene = measured(tmp_path, 1e-6)
-    model = bind(scene)
     left = []
     for rtol in (1e-2, 1e-4, 1e-6):
-        load = resampled(scene, model, rtol).scene.load
+        load = resampled(scene, rtol).scene.load
         assert isinstance(load, wear.Table)
         assert load.mean == pytest.approx(scene.load.mean, abs=1e-15)
         left.append(len(load.times_s))
@@ -81,13 +79,13 @@ def test_unequal_steps_and_a_force_are_merged_too(tmp_path: Path) -> None:
 
 def test_nothing_is_merged_where_contact_is_lost(tmp_path: Path) -> None:
     scene = measured(tmp_path).with_({"contact.ends_at_3_sigma": True})
-    assert resampled(scene, bind(scene), 1e-2).scene is scene
+    assert resampled(scene, 1e-2).scene is scene
 
 
 def test_many_scenes_share_what_their_load_is_merged_to(tmp_path: Path) -> None:
     scene = measured(tmp_path)
     scenes = [scene.with_({"bearing.roughness_growth": f}) for f in (0.2, 0.25, 0.3)]
-    loads = [resampled(each, bind(each), 1e-3).scene.load for each in scenes]
+    loads = [resampled(each, 1e-3).scene.load for each in scenes]
     assert loads[0] is loads[1] is loads[2]
     found = sweep(scenes, np.array([1.0, 1e6]), rtol=1e-4)
     exact = [wear.solve(each.with_({"load.resample": False}), [1, 10**6]).u_c for each in scenes]
@@ -97,7 +95,7 @@ def test_many_scenes_share_what_their_load_is_merged_to(tmp_path: Path) -> None:
 
 def test_cycles_to_a_depth_are_counted_with_the_merged_rows(tmp_path: Path) -> None:
     scene = measured(tmp_path)
-    merged = resampled(scene, bind(scene), 1e-4).error
+    merged = resampled(scene, 1e-4).error
     exact = wear.cycles_until(scene.with_({"load.resample": False}), 1e-2, rtol=1e-8)
     one = wear.cycles_until(scene, 1e-2, rtol=1e-4)
     (many,), (error,) = cycles_to_depth([scene], np.array([1e-2]), rtol=1e-4)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import CONSTANT, REFERENCE, SINE, reference_scene, tables
-from wear.cycles import sweep, wear_after
+from wear.cycles import cycles_to_depth, sweep, wear_after
 from wear.load import Table
 from wear.model import bind
 from wear.scene import Scene, load_scene
@@ -243,6 +243,12 @@ def test_scenes_that_lose_contact_are_as_if_alone_in_any_order() -> None:
     assert np.all(found.error <= 1e-7)
     for i, wear, error in zip(order, found.u_c, found.error, strict=True):
         assert np.all(np.abs(wear / alone[i].u_c - 1) <= error + alone[i].error)
+    depth = 0.7 * np.array([each.u_c[1] for each in alone])
+    lives = cycles_to_depth([scenes[i] for i in order[:3]], depth[order[:3]], 1e-7)
+    for k, i in enumerate(order[:3]):
+        life = int(lives.cycles[k, k])
+        ends = wear_after(bind(scenes[i]), scenes[i].load, np.array([life - 1.0, life]), 1e-11).u_c
+        assert ends[0] < depth[i] <= ends[1]
 
 
 def test_no_scenes_have_no_wear() -> None:

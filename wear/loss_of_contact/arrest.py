@@ -9,7 +9,7 @@ import numpy as np
 
 from wear.loss_of_contact.increments import Coordinate
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.numerics.tolerances import ROUNDOFF
+from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit.abel import Panels
 from wear.orbit.iterates import Cells, Iterates
 
@@ -118,12 +118,14 @@ class TabulatedCount(NamedTuple):
 
 
 class Unresolved(NamedTuple):
-    """The way from the wear `start` to `last_state` (1,), mm, so short that double precision does
-    not resolve the cycles that it takes, some `reach` of them (1,)."""
+    """Wear between `start` and `last_state` (1,), mm, so near to each other that double precision
+    does not resolve the `reach` cycles (1,) that it takes; it is known up to `uncertainty` (1,),
+    mm. At rest it takes none."""
 
     start: FloatArray
     last_state: FloatArray
     reach: FloatArray
+    uncertainty: FloatArray
 
     def take(self, rows: IntArray) -> Unresolved:
         """Return the same: it is of one scene."""
@@ -136,8 +138,8 @@ class Unresolved(NamedTuple):
 
     @property
     def at_rest(self) -> BoolArray:
-        """Return that wear goes on."""
-        return np.full(1, False)
+        """Return whether wear has stopped."""
+        return np.asarray(self.reach == 0.0)
 
     @property
     def whole_cycles(self) -> FloatArray:
@@ -147,60 +149,16 @@ class Unresolved(NamedTuple):
     @property
     def first_increment(self) -> FloatArray:
         """Return the wear (mm) that a cycle adds."""
-        return (self.last_state - self.start) / self.reach
+        return (self.last_state - self.start) / np.maximum(self.reach, 1.0)
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the wear (mm) after `cycles` (1, c), and its relative error."""
         wear = np.minimum(self.start + cycles * self.first_increment, self.last_state)
-        return wear, (self.last_state - self.start) / wear
+        return wear, self.uncertainty / wear
 
     def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the whole cycles after which each wear (mm, (1, c)) is reached, infinite beyond,
-        and the error in cycles."""
-        count = np.ceil(np.maximum(wear - self.start, 0.0) / self.first_increment)
-        return np.where(wear > self.last_state, np.inf, count), self.reach + np.zeros(wear.shape)
-
-
-class Rest(NamedTuple):
-    """Wear that has stopped for good at `wear` (1,), mm, known up to a relative error (1,)."""
-
-    wear: FloatArray
-    relative_error: FloatArray
-
-    def take(self, rows: IntArray) -> Rest:
-        """Return the same: it is of one scene."""
-        return self
-
-    @property
-    def limit(self) -> FloatArray:
-        """Return that the model goes on."""
-        return np.full(1, np.inf)
-
-    @property
-    def at_rest(self) -> BoolArray:
-        """Return that wear has stopped."""
-        return np.full(1, True)
-
-    @property
-    def whole_cycles(self) -> FloatArray:
-        """Return how many cycles it counts: none."""
-        return np.zeros(1)
-
-    @property
-    def first_increment(self) -> FloatArray:
-        """Return the wear (mm) that a cycle adds."""
-        return np.zeros(1)
-
-    @property
-    def last_state(self) -> FloatArray:
-        """Return the wear (mm)."""
-        return self.wear
-
-    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the wear (mm) after `cycles` (1, c), and its relative error."""
-        none = np.zeros(cycles.shape)
-        return self.wear + none, self.relative_error + none
-
-    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return that no wear (1, c) is first reached at rest."""
-        return np.full(wear.shape, np.inf), np.zeros(wear.shape)
+        and the error in cycles; at rest none is reached any more."""
+        reached = (wear <= self.last_state) & ~self.at_rest
+        taken = np.maximum(wear - self.start, 0.0) / (self.first_increment + TINY)
+        return np.where(reached, np.ceil(taken), np.inf), self.reach + np.zeros(wear.shape)

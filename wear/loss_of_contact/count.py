@@ -16,9 +16,10 @@ import numpy as np
 
 from wear.counted import FADES, STOPS, Counted, End
 from wear.load import Load
-from wear.loss_of_contact.arrest import TO_ROUNDOFF, LimitWear, Rest, TabulatedCount, Unresolved
+from wear.loss_of_contact.arrest import TO_ROUNDOFF, TabulatedCount, Unresolved
 from wear.loss_of_contact.grazing import limit_wear_of
-from wear.loss_of_contact.increments import Increments, Span, fitted, frame_of, middle
+from wear.loss_of_contact.increments import Increments, Span, fitted, frame_of
+from wear.loss_of_contact.parts import ENOUGH, OneByOne, OnPanels, on_a_line, solved, walked
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
 from wear.loss_of_contact.requests import (
@@ -29,19 +30,13 @@ from wear.loss_of_contact.requests import (
     answered,
     without_feedback,
 )
-from wear.loss_of_contact.roundoff import Roundoff, roundoff
 from wear.loss_of_contact.switching import Edge, edge_of_contact
 from wear.model import Model
-from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import BoolArray, FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
-from wear.orbit import abel
-from wear.orbit.iterates import Cells, Iterates, cells
-from wear.orbit.panels import CHECKS
-from wear.orbit.period_map import Settings, settings
+from wear.orbit.iterates import Iterates, cells
+from wear.orbit.period_map import settings
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, Segment
-from wear.orbit.transient import SAFETY
 
 FEW = 4.0  # cycles to the next grazing wear: they are integrated
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
@@ -49,8 +44,6 @@ MOST_WALKED = 250  # cycles on a series that are taken one by one
 LOOKS = 65  # at a series, for how many cycles it takes
 KEPT = 5  # cycles integrated one by one even when there is no time left
 MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
-MOST_CUTS = 16  # rounds of cutting panels in two
-ENOUGH = 1.5  # cycles per coefficient of a panel
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: increments that have no series
@@ -91,121 +84,15 @@ def counted_stages(
 
 def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[Counted]:
     problem = yield from problem_of(wanted.model, wanted.load, edge, rtol, deadline)
-    runs = _Count(problem, wanted.start)
-    while not runs.over and (runs.done < wanted.cycles or not runs.parts):
-        yield from runs.go(max(wanted.cycles - runs.done, 1.0))
-    return (yield from _judged(problem, runs, wanted.start_error, wanted.cycles))
+    way = _Way(problem, wanted.start)
+    while not way.over and (way.done < wanted.cycles or not way.parts):
+        yield from way.go(max(wanted.cycles - way.done, 1.0))
+    return (yield from _judged(problem, way, wanted.start_error, wanted.cycles))
 
 
-class OneByOne(NamedTuple):
-    """Cycles one by one: the `wear` (mm) before and after each and what each has `added` (mm); and
-    the series that these are found with, for so many each, or None where they are integrated."""
-
-    wear: list[float]
-    added: list[float]
-    found_with: list[tuple[int, Increments | None]]
-
-    @property
-    def marks(self) -> FloatArray:
-        """Return the wears (mm) between which rounding counts."""
-        return np.array(self.wear)
-
-    @property
-    def ran(self) -> float:
-        """Return how many cycles."""
-        return float(len(self.added))
-
-    @property
-    def integrated(self) -> BoolArray:
-        """Return which cycles (k,) are integrated."""
-        numbers, series = zip(*self.found_with, strict=True)
-        return np.repeat([each is None for each in series], numbers)
-
-    def extended(self, wear: list[float], added: list[float], series: Increments | None) -> None:
-        """Add cycles, from the last wear to each `wear` (mm)."""
-        self.wear.extend(wear)
-        self.added.extend(added)
-        self.found_with.append((len(added), series))
-
-    def missed(self) -> tuple[FloatArray, FloatArray]:
-        """Return what each cycle on a series may have missed (mm), and its derivative dP/du; zero
-        for cycles that are integrated."""
-        wear, added = np.array(self.wear), np.array(self.added)
-        missed, growth = np.zeros((2, len(added)))
-        begin = 0
-        for number, series in self.found_with:
-            some = slice(begin, begin + number)
-            begin += number
-            if series is not None:
-                own = added[some]
-                missed[some] = series.missed(series.coordinate.at(wear[some])) * own
-                growth[some] = np.abs(1 + np.diff(own, append=own[-1]) / (own + TINY))
-        return missed, growth
-
-    def judged(
-        self, problem: Problem, missed: FloatArray, growth: FloatArray, rounding: Roundoff
-    ) -> Iterates:
-        """Return the cycles with what each may have missed (mm) and the factor by which it changes
-        an error."""
-        wear, added = np.array(self.wear), np.array(self.added)
-        # The response to a relative error of the rate: what is made early grows, but once the wear
-        # exceeds the roughness the rate hardly grows any more.
-        response = added + np.minimum(added, 4 * problem.scale) * growth
-        lost = SAFETY * missed + rounding.of_cycles * response
-        error = [0.0]
-        for more, factor in zip(lost.tolist(), growth.tolist(), strict=True):
-            error.append(error[-1] * factor + more)
-        estimate = np.array(error) + ROUNDOFF * wear
-        one, limit = np.zeros((1, 1)), np.array([problem.end])
-        return Iterates(wear[None], estimate[None], None, None, one, limit, one)
-
-
-class OnPanels(NamedTuple):
-    """A count by Abel's equation on `panels` of z, with its `residual` on each and the `series` of
-    the increments; to the `limit_wear`, if it goes so far."""
-
-    table: Cells
-    panels: abel.Panels
-    residual: FloatArray
-    series: Increments
-    limit_wear: LimitWear | None
-    line: bool
-
-    @property
-    def ran(self) -> float:
-        """Return how many whole cycles."""
-        last = self.table.last_cycles
-        return float(np.ceil(last) if self.limit_wear else np.floor(last))
-
-    @property
-    def marks(self) -> FloatArray:
-        """Return the wears (mm) between which rounding counts."""
-        return self.series.coordinate.wear(np.append(self.table.u, self.table.ends[-1]))
-
-    def judged(self, problem: Problem, rounding: Roundoff) -> TabulatedCount:
-        """Return the count with its estimated error: of the increments, of Abel's equation, at
-        junctions of panels, by rounding."""
-        table, panels = self.table, self.panels
-        coordinate = self.series.coordinate
-        parts = len(table.length) // len(panels.series)
-        ends = self.series.missed(np.append(table.u, table.ends[-1]))
-        misfit = np.maximum(ends[1:], ends[:-1])
-        if self.line:
-            misfit[table.u >= self.series.frame.starts[-1]] = 0.0  # there the residual says it all
-        missed = SAFETY * (np.repeat(self.residual, parts) + misfit) * table.gain + table.missed
-        if len(panels.series) > 1:
-            apart = abel.matching_defect(panels.take(slice(-1)), panels.take(slice(1, None)))
-            missed[parts - 1 : -1 : parts] += SAFETY * apart
-        terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
-        of_density = ROUNDOFF * np.repeat(terms, parts)
-        missed += (rounding.larger_rate + of_density) * table.gain
-        error = np.concatenate([[0.0], np.cumsum(missed)])
-        limit = np.array([problem.end])
-        return TabulatedCount(coordinate, table, panels, error, self.limit_wear, limit)
-
-
-class _Count:
-    """The way so far: `parts`, one after the other, `done` cycles in all, and the `wear` (mm)."""
+class _Way:
+    """The way of a count: `parts`, one after the other, `done` cycles in all, and the `wear` (mm)
+    so far."""
 
     def __init__(self, problem: Problem, start: float) -> None:
         self.problem, self.wear, self.done, self.over = problem, start, 0.0, False
@@ -232,8 +119,9 @@ class _Count:
             rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
             left = 2 * (ahead - self.wear) / rate
             if FEW < left < np.inf:
-                way = np.array([[self.wear], [ahead], [np.floor(left)]])
-                self._append(Unresolved(*way), float(np.floor(left)), ahead)
+                left = np.floor(left)
+                part = np.array([[self.wear], [ahead], [left], [ahead - self.wear]])
+                self._append(Unresolved(*part), float(left), ahead)
                 return
         yield from self._single()
 
@@ -259,15 +147,14 @@ class _Count:
         self.parts.append(part)
         self.wear, self.done = wear, self.done + ran
 
-    def _append_cycles(
-        self, wear: list[float], added: list[float], series: Increments | None
-    ) -> None:
-        if not (self.parts and isinstance(self.parts[-1], OneByOne)):
-            self.parts.append(OneByOne([self.wear], [], []))
-        last = self.parts[-1]
-        assert isinstance(last, OneByOne)
-        last.extended(wear, added, series)
-        self.wear, self.done = wear[-1], self.done + len(added)
+    def _append_cycles(self, cycles: OneByOne) -> None:
+        if self.parts and isinstance(last := self.parts[-1], OneByOne):
+            last.wear.extend(cycles.wear[1:])
+            for own, more in zip(last[1:], cycles[1:], strict=True):
+                own.extend(more)
+        else:
+            self.parts.append(cycles)
+        self.wear, self.done = cycles.wear[-1], self.done + len(cycles.added)
 
     def _single(self) -> Asking[None]:
         """Integrate one cycle."""
@@ -281,7 +168,9 @@ class _Count:
             and self.wear < self.problem.limit_wear.wear
         ):
             added = self.problem.limit_wear.wear - self.wear  # nearer than rounding resolves
-        self._append_cycles([self.wear + added], [added], None)
+        unknown = [np.nan]
+        cycle = OneByOne([self.wear, self.wear + added], [added], unknown.copy(), unknown.copy())
+        self._append_cycles(cycle)
         self.arrested = not added > 0.0
         self.fades = self.arrested and self.problem.limit_wear is not None
         late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
@@ -337,91 +226,29 @@ class _Count:
 
     def _walk(self, span: Span, series: Increments, end: float, cycles: float) -> Asking[None]:
         """Go on cycle by cycle until z passes `end`."""
-        walked = series.walk(self.wear, end, min(cycles, MOST_AT_ONCE))
-        if len(walked) == 1:
+        most = min(cycles, MOST_AT_ONCE)
+        cycles_on = walked(series, self.wear, end, most)
+        if not cycles_on.added:
             yield from self._single()
             return
-        if span.tends and end == series.end and len(walked) <= min(cycles, MOST_AT_ONCE):
-            walked += [span.end, span.end]
+        if span.tends and end == series.end and len(cycles_on.wear) <= most:
+            rest = span.end - cycles_on.wear[-1]
+            cycles_on.wear.extend([span.end, span.end])
+            cycles_on.added.extend([rest, 0.0])
+            cycles_on.missed.extend([0.0, 0.0])
+            cycles_on.growth.extend([0.0, 1.0])
             self.over = self.arrested = self.fades = True
-        self._append_cycles(walked[1:], np.diff(walked).tolist(), series)
+        self._append_cycles(cycles_on)
 
 
-def solved(
-    series: Increments, begin: float, end: float, size: Settings
-) -> tuple[abel.Panels, FloatArray, bool]:
-    """Solve Abel's equation from one z to another; return also the residual off the nodes, and
-    whether it is poor on a panel that holds too few cycles to be cut."""
-    coordinate, m = series.coordinate, size.panel_nodes
-    shift = coordinate.shift
-    starts, ends = np.array([begin]), np.array([end])
-    done: list[tuple[float, float, FloatArray, float]] = []
-    poor = False
-    for rounds in range(MOST_CUTS):
-        across = np.log((ends + shift) / (starts + shift))
-        frame = frame_of(coordinate, starts, across)
-        nodes = frame.states(chebyshev_nodes(m))
-        steps = coordinate.step(nodes, series.at(nodes))
-        panels = abel.solve(frame, steps)
-        checks = frame.states(CHECKS)
-        more = coordinate.step(checks, series.at(checks))
-        residual = np.max(np.abs(abel.residual(panels, CHECKS, more)), axis=1)
-        allowed = np.full(len(starts), size.residual_tolerance)
-        if coordinate.ahead:
-            allowed *= np.clip(coordinate.origin * starts, 1.0, 10.0)
-        number = across / 2 * np.mean((nodes + shift) / steps, axis=1)
-        short = number <= ENOUGH * m
-        poor |= bool(np.any(~(residual <= allowed) & short))
-        bad = ~(residual <= allowed) & ~short & (rounds < MOST_CUTS - 1)
-        done += list(
-            zip(starts[~bad], across[~bad], panels.series[~bad], residual[~bad], strict=True)
-        )
-        if not bad.any():
-            break
-        middles = np.array(
-            [middle(shift, *ends_of) for ends_of in zip(starts[bad], ends[bad], strict=True)]
-        )
-        starts, ends = np.append(starts[bad], middles), np.append(middles, ends[bad])
-    done.sort(key=lambda panel: float(panel[0]))
-    starts, across, coefficients, residual = map(np.array, zip(*done, strict=True))
-    return abel.Panels(frame_of(coordinate, starts, across), coefficients), residual, poor
-
-
-def on_a_line(
-    panels: abel.Panels, residual: FloatArray, series: Increments
-) -> tuple[abel.Panels, FloatArray]:
-    """Return the panels with one more, to the end of the series, on which the density dn/dy in
-    y = ln z goes on as a power of z: 0, 1/2 or 1, as decay is geometric or algebraic. What the last
-    e-fold differs from that by is its residual."""
-    start, width = float(series.frame.starts[-1]), float(series.frame.widths[-1])
-    last = float(panels.frame.widths[-1])
-    t = np.array([1.0 - 2.0 * min(1.0, last) / last, 1.0])
-    before, level = chebyshev_values(t, panels.series.shape[1]) @ panels.series[-1]
-    found = 1.0 + (level - before) / min(1.0, last)
-    slope = float(np.clip(np.round(2 * found) / 2, 0.0, 1.0))
-    line = np.zeros((1, panels.series.shape[1]))
-    line[0, :2] = level + (slope - 1) * width / 2, (slope - 1) * width / 2
-    frame = panels.frame.with_panel(start, width)
-    more = abel.Panels(frame, np.concatenate([panels.series, line]))
-    return more, np.append(residual, abs(found - slope))
-
-
-def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) -> Asking[Counted]:
+def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> Asking[Counted]:
     """Return the parts of the way as segments, each with its estimate of error."""
-    marks = [np.empty(0) if isinstance(part, Unresolved) else part.marks for part in runs.parts]
-    ends = np.cumsum([len(at) for at in marks]).tolist()
-    rounding = roundoff(problem.model, problem.load, np.concatenate(marks))
-    missed, growth, cost = yield from _judge(problem, runs)
+    yield from _judge(problem, way)
     segments: list[Segment] = []
     begins, drift, one = 0.0, 0.0, np.zeros(1)
     inherited = one + begun_with
-    for i, (part, end, at) in enumerate(zip(runs.parts, ends, marks, strict=True)):
-        counted: TabulatedCount | Iterates | Unresolved
-        own = rounding.part(slice(end - len(at), end))
-        if isinstance(part, OneByOne):
-            counted = part.judged(problem, missed[i], growth[i], own)
-        else:
-            counted = part.judged(problem, own) if isinstance(part, OnPanels) else part
+    for part in way.parts:
+        counted = part if isinstance(part, Unresolved) else part.judged(problem)
         segments.append(Segment(_FIRST, counted, one + begins, inherited, one + drift))
         ran = counted.whole_cycles
         after, relative = counted.after(ran[None])
@@ -429,37 +256,34 @@ def _judged(problem: Problem, runs: _Count, begun_with: float, cycles: float) ->
         begins += float(ran[0])
         drift += float(part.reach[0]) if isinstance(part, Unresolved) else 0.0
     end_of_wear = None
-    if runs.arrested and begins <= cycles:
-        end_of_wear = _end(problem, segments, runs.fades)
+    if way.arrested and begins <= cycles:
+        end_of_wear = _end(problem, segments, way.fades)
         rest = end_of_wear and _rest(problem, segments, end_of_wear)
         segments += [rest] if rest else []
-    return Counted(Orbit(1, tuple(segments), cost), end_of_wear)
+    return Counted(Orbit(1, tuple(segments), way.cost), end_of_wear)
 
 
-def _judge(
-    problem: Problem, runs: _Count
-) -> Asking[tuple[dict[int, FloatArray], dict[int, FloatArray], Cost]]:
-    """Return what cycles one by one missed (mm), by part, and their derivatives dP/du: by the
-    series, or those that are integrated by another map and from beside; and the cost of all."""
-    parts = {i: part for i, part in enumerate(runs.parts) if isinstance(part, OneByOne)}
-    missed, growth = {}, {}
-    for i, part in parts.items():
-        missed[i], growth[i] = part.missed()
-    which = {i: part.integrated for i, part in parts.items()}
-    none = [np.empty(0)]
-    at = np.concatenate(none + [part.marks[:-1][which[i]] for i, part in parts.items()])
-    added = np.concatenate(none + [np.array(part.added)[which[i]] for i, part in parts.items()])
-    if len(at) == 0:
-        return missed, growth, runs.cost
+def _judge(problem: Problem, way: _Way) -> Asking[None]:
+    """Judge the cycles that were integrated, by another map and from beside."""
+    todo = [
+        (part, k)
+        for part in way.parts
+        if isinstance(part, OneByOne)
+        for k, missed in enumerate(part.missed)
+        if np.isnan(missed)
+    ]
+    if not todo:
+        return
+    at, added = np.array([(part.wear[k], part.added[k]) for part, k in todo]).T
     fine = yield Request(FINE, at)
     apart = APART * (4 * problem.scale + at)
     beside = yield Request(COARSE, at + apart)
-    off = np.abs(fine.increment - added) if fine.converged.all() else np.full(len(at), np.inf)
-    change, begin = np.abs(1 + (beside.increment - added) / apart), 0
-    for i, own in which.items():
-        some = slice(begin, begin := begin + int(np.sum(own)))
-        missed[i][own], growth[i][own] = off[some], change[some]
-    return missed, growth, runs.cost.plus(2 * len(at), fine.evaluations + beside.evaluations)
+    missed = np.abs(fine.increment - added) if fine.converged.all() else np.full(len(at), np.inf)
+    growth = np.abs(1 + (beside.increment - added) / apart)
+    for (part, k), *found in zip(todo, missed.tolist(), growth.tolist(), strict=True):
+        part.missed[k], part.growth[k] = found
+    evaluations = fine.evaluations + beside.evaluations
+    way.cost = way.cost.plus(2 * len(at), evaluations)
 
 
 def _end(problem: Problem, segments: list[Segment], fades: bool) -> End | None:
@@ -490,4 +314,5 @@ def _rest(problem: Problem, segments: list[Segment], end: End) -> Segment | None
     if limit is None:
         return None
     none, begins = np.zeros(1), np.array([end.cycle + 2.0 * end.uncertain])
-    return Segment(_FIRST, Rest(wear, limit.uncertainty / wear), begins, none, none)
+    rest = Unresolved(wear, wear, none, none + limit.uncertainty)
+    return Segment(_FIRST, rest, begins, none, none)

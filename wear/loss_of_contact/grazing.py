@@ -8,7 +8,8 @@ import numpy as np
 from wear.load import Load
 from wear.loss_of_contact.arrest import LimitWear
 from wear.loss_of_contact.period_map import TOUCH, margin_roundoff
-from wear.loss_of_contact.switching import NEARLY, Edge, bracketed
+from wear.loss_of_contact.roots import bracketed
+from wear.loss_of_contact.switching import NEARLY, Edge
 from wear.model import Model
 from wear.numerics.tolerances import (
     ROUNDOFF,

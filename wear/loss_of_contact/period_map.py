@@ -32,15 +32,8 @@ from wear.loss_of_contact.contact import (
     Interval,
     wear_in_contact,
 )
-from wear.loss_of_contact.switching import (
-    Cycles,
-    Edge,
-    Piece,
-    cycles_of,
-    displacement_at,
-    phase_of,
-    wear_at,
-)
+from wear.loss_of_contact.roots import displacement_at, wear_at
+from wear.loss_of_contact.switching import Cycles, Edge, Piece, cycles_of, phase_of
 from wear.model import Model
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray, gauss, radau
 from wear.numerics.tolerances import ROUNDOFF

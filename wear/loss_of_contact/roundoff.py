@@ -21,12 +21,8 @@ class Roundoff(NamedTuple):
     rate: FloatArray
     contact: FloatArray
 
-    def part(self, some: slice) -> Roundoff:
-        """Return those at some of the wears."""
-        return Roundoff(self.rate[some], self.contact[some])
-
     @property
-    def larger_rate(self) -> FloatArray:
+    def larger(self) -> FloatArray:
         """Return the error (k - 1,) of rate and contact between each wear and the next."""
         either = self.rate + self.contact
         return np.asarray(np.maximum(either[1:], either[:-1]))

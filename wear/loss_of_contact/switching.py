@@ -10,32 +10,30 @@ any part of it, tells for certain whether contact has been lost on it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from wear.load import Constant, Load, Table, Waves, waves
+from wear.loss_of_contact.roots import (
+    FEW_BISECTIONS,
+    Function,
+    bracketed,
+    displacement_at,
+    nearest_to_zero,
+    wear_at,
+)
 from wear.model import Model, stacked
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.numerics.tolerances import (
-    ROUNDOFF,
-)
+from wear.numerics.tolerances import ROUNDOFF
 
 SAMPLES = 512  # of a cycle, to look for where q rises through zero
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
 NEARLY = 1e-13  # of a stretch: how near to its ends one looks
-SECTIONS = 32  # of an interval at once
-BISECTIONS = 12  # into so many sections, to roundoff
-FEW_BISECTIONS = 6  # to roundoff of a cycle
-FEWER_BISECTIONS = 3  # for the least value of a function
-MOST_NEWTON = 60  # for the wear at the edge, which may be far off
-PATIENCE = 8  # of them; then a change that is no smaller than the last is rounding
 PHASE_NEWTON = 60  # for a phase: a few, but for a load that is far from a parabola at its turns
 PHASE_PATIENCE = 3  # of them; then one that is no smaller than the last is rounding
-MAY_VANISH = 0.5  # of the least sample: a parabola whose least value is larger does not vanish
 FAR = 1e6  # times the roughness: wear at which the margin is as good as linear
-Function = Callable[[FloatArray], FloatArray]
 Numbers = Any  # a float, or an array of floats
 
 
@@ -242,7 +240,7 @@ def _closings(closing_speed: Function, turns: FloatArray, both: bool) -> FloatAr
     inside = (1 - np.cos(np.pi * np.arange(number + 1) / number)) / 2
     inside[0], inside[-1] = NEARLY, 1 - NEARLY
     phases = (turns[:-1, None] + np.diff(turns)[:, None] * inside).ravel()
-    phases = np.unique(np.concatenate([phases, _extremes(closing_speed, phases)]))
+    phases = np.unique(np.concatenate([phases, nearest_to_zero(closing_speed, phases)]))
     value = closing_speed(phases)
     same = np.diff(np.searchsorted(turns, phases)) == 0
     turned = (value[:-1] < 0.0) & (value[1:] >= 0.0)
@@ -250,51 +248,6 @@ def _closings(closing_speed: Function, turns: FloatArray, both: bool) -> FloatAr
         turned |= (value[:-1] >= 0.0) & (value[1:] < 0.0)
     turned &= same
     return bracketed(closing_speed, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)[1]
-
-
-def _extremes(function: Function, x: FloatArray) -> FloatArray:
-    """Return where a function comes nearest to zero between samples at `x` of one sign, if it may
-    come there."""
-    value = function(x)
-    sign, size = np.sign(value), np.abs(value)
-    nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:])
-    nearest &= (sign[1:-1] == sign[:-2]) & (sign[1:-1] == sign[2:])
-    at = 1 + np.flatnonzero(nearest)
-    before, middle, after = size[at - 1], size[at], size[at + 1]
-    least = middle - (after - before) ** 2 / (8 * (after - 2 * middle + before))  # a parabola's
-    at = at[least < MAY_VANISH * middle]
-    low, high, sign = x[at - 1], x[at + 1], sign[at]
-    inner = np.arange(SECTIONS + 1)[:, None] / SECTIONS
-    for _ in range(FEWER_BISECTIONS if len(at) else 0):
-        points = low + (high - low) * inner
-        lowest, row = np.argmin(sign * function(points), axis=0), np.arange(len(at))
-        low, high = (
-            points[np.maximum(lowest - 1, 0), row],
-            points[np.minimum(lowest + 1, SECTIONS), row],
-        )
-    return np.asarray((low + high) / 2)
-
-
-def bracketed(
-    function: Function, low: FloatArray, high: FloatArray, steps: int = BISECTIONS
-) -> tuple[FloatArray, FloatArray]:
-    """Return between which points a function changes its sign, in each of many intervals (k,) at
-    whose ends it differs; it takes points (n, k)."""
-    sign, row = np.sign(function(low)), np.arange(len(low))
-    inner = np.arange(1, SECTIONS)[:, None] / SECTIONS
-    for _ in range(steps if len(low) else 0):
-        points = np.concatenate([low[None], low + (high - low) * inner, high[None]])
-        other = np.append(np.sign(function(points[1:-1])) != sign, [row >= 0], axis=0)
-        at = np.argmax(other, axis=0)
-        low, high = points[at, row], points[at + 1, row]
-    return low, high
-
-
-def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
-    """Return the displacement (mm) that just makes contact at each wear: the margin rises with it
-    by as much."""
-    edge: FloatArray = -model.margin(wear, np.zeros_like(wear))
-    return edge
 
 
 def _crest(model: Model) -> float:
@@ -314,27 +267,6 @@ def _crest(model: Model) -> float:
     if last <= 0.0:
         return np.inf
     return float(scale * np.expm1(bracketed(slope, ends[:1], ends[1:])[1][0]))
-
-
-def wear_at(
-    model: Model, displacement: FloatArray, guess: FloatArray, least: float, most: float
-) -> FloatArray:
-    """Return the wear (mm) at which contact ends under a displacement, by Newton's method; the
-    nearest of `least` and `most` if there is none between.
-
-    The margin is convex in the wear, so that from the side of contact no step goes too far.
-    """
-    wear, last = guess, np.full_like(guess, np.inf)
-    for iteration in range(MOST_NEWTON):
-        slope = model.margin_slope(wear, displacement)
-        fresh = np.clip(wear - model.margin(wear, displacement) / slope, least, most)
-        change = np.abs(fresh - wear)
-        wear = fresh
-        moves = change > 2 * ROUNDOFF * np.abs(wear)
-        if not np.any(moves & ((change < last) | (iteration < PATIENCE))):
-            break
-        last = change
-    return wear
 
 
 def phase_of(load: Load | Waves | Lines, piece: Piece, height: FloatArray) -> FloatArray:

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.counted import Counted
-from wear.loss_of_contact.arrest import Rest, TabulatedCount
+from wear.loss_of_contact.arrest import TabulatedCount
 from wear.loss_of_contact.contact import ContactPart
 from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
 from wear.loss_of_contact.switching import Piece, edge_of_contact
@@ -67,7 +67,7 @@ def stage_tangents(
             part = _one_by_one(both, equation, counted, wanted, now, now_error)
         elif isinstance(counted, TabulatedCount):
             part = _tabulated(both, equation, counted, wanted, now, now_error)
-        elif isinstance(counted, Rest):
+        elif counted.at_rest[0]:
             limit = np.tile(_limit(equation, found.last_wear), (len(wanted), 1))
             part = _Part(limit, np.abs(limit) / LEFT, np.zeros_like(wanted))
         else:  # an unresolved segment: no cycle of it is known

@@ -51,7 +51,7 @@ def opened(scene: Scene) -> Scene:
     """
     if own_laws.is_own(scene.contact.law):
         raise UsageError("the explorer has the contact laws of the package alone")
-    fewer = resampled(scene, bind(scene), PLOTTED)
+    fewer = resampled(scene, PLOTTED)
     peaks = "The peak of the pressure is that of the merged rows." if fewer.error else ""
     described = " ".join([scene.description, *(f"{said}." for said in fewer.notices), peaks])
     return replace(fewer.scene, description=described.strip())

@@ -1,0 +1,86 @@
+"""Roots: where a function changes its sign, and the wear at which contact ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from wear.model import Model
+from wear.numerics.gauss import FloatArray
+from wear.numerics.tolerances import ROUNDOFF
+
+SECTIONS = 32  # of an interval at once
+BISECTIONS = 12  # into so many sections, to roundoff
+FEW_BISECTIONS = 6  # to roundoff of a cycle
+FEWER_BISECTIONS = 3  # for the least value of a function
+MOST_NEWTON = 60  # for the wear at the edge, which may be far off
+PATIENCE = 8  # of them; then a change that is no smaller than the last is rounding
+MAY_VANISH = 0.5  # of the least sample: a parabola whose least value is larger does not vanish
+Function = Callable[[FloatArray], FloatArray]
+
+
+def bracketed(
+    function: Function, low: FloatArray, high: FloatArray, steps: int = BISECTIONS
+) -> tuple[FloatArray, FloatArray]:
+    """Return between which points a function changes its sign, in each of many intervals (k,) at
+    whose ends it differs; it takes points (n, k)."""
+    sign, row = np.sign(function(low)), np.arange(len(low))
+    inner = np.arange(1, SECTIONS)[:, None] / SECTIONS
+    for _ in range(steps if len(low) else 0):
+        points = np.concatenate([low[None], low + (high - low) * inner, high[None]])
+        other = np.append(np.sign(function(points[1:-1])) != sign, [row >= 0], axis=0)
+        at = np.argmax(other, axis=0)
+        low, high = points[at, row], points[at + 1, row]
+    return low, high
+
+
+def nearest_to_zero(function: Function, x: FloatArray) -> FloatArray:
+    """Return where a function comes nearest to zero between samples at `x` of one sign, if it may
+    come there."""
+    value = function(x)
+    sign, size = np.sign(value), np.abs(value)
+    nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:])
+    nearest &= (sign[1:-1] == sign[:-2]) & (sign[1:-1] == sign[2:])
+    at = 1 + np.flatnonzero(nearest)
+    before, middle, after = size[at - 1], size[at], size[at + 1]
+    least = middle - (after - before) ** 2 / (8 * (after - 2 * middle + before))  # a parabola's
+    at = at[least < MAY_VANISH * middle]
+    low, high, sign = x[at - 1], x[at + 1], sign[at]
+    inner = np.arange(SECTIONS + 1)[:, None] / SECTIONS
+    for _ in range(FEWER_BISECTIONS if len(at) else 0):
+        points = low + (high - low) * inner
+        lowest, row = np.argmin(sign * function(points), axis=0), np.arange(len(at))
+        low, high = (
+            points[np.maximum(lowest - 1, 0), row],
+            points[np.minimum(lowest + 1, SECTIONS), row],
+        )
+    return np.asarray((low + high) / 2)
+
+
+def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
+    """Return the displacement (mm) that just makes contact at each wear: the margin rises with it
+    by as much."""
+    edge: FloatArray = -model.margin(wear, np.zeros_like(wear))
+    return edge
+
+
+def wear_at(
+    model: Model, displacement: FloatArray, guess: FloatArray, least: float, most: float
+) -> FloatArray:
+    """Return the wear (mm) at which contact ends under a displacement, by Newton's method; the
+    nearest of `least` and `most` if there is none between.
+
+    The margin is convex in the wear, so that from the side of contact no step goes too far.
+    """
+    wear, last = guess, np.full_like(guess, np.inf)
+    for iteration in range(MOST_NEWTON):
+        slope = model.margin_slope(wear, displacement)
+        fresh = np.clip(wear - model.margin(wear, displacement) / slope, least, most)
+        change = np.abs(fresh - wear)
+        wear = fresh
+        moves = change > 2 * ROUNDOFF * np.abs(wear)
+        if not np.any(moves & ((change < last) | (iteration < PATIENCE))):
+            break
+        last = change
+    return wear
