@@ -335,7 +335,7 @@ def test_the_command_writes_its_files(wear, monkeypatch, tmp_path):
     """With all that `--peers` adds but the packages of others, which are tried above."""
     added = {"jumps": jumps, "peers": SimpleNamespace(PEERS=())}
     monkeypatch.setattr(bench, "load_peers", added.get)
-    monkeypatch.setattr("wear.benchmark.methods.CYCLES", (1, 10))
+    monkeypatch.setattr("wear.benchmark.methods.CYCLES", (1, 9000))
     folder = tmp_path / "new"
     status, shown, _ = wear("--quick", "--peers", "-o", str(folder))
     assert status == 0
