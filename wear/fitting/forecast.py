@@ -164,9 +164,8 @@ def next_reading(found: Fit, cycles: float | None = None) -> NextReading:
     tried = np.unique(np.rint(np.geomspace(1.0, last, CANDIDATES)))
     slots = [np.append(tried, cycles or min(AHEAD * last, 1e12))] * len(specimens)
     level, slope = found.model.log_wear(found.theta[None], slots)
-    weight = np.median(found.model.residuals.weight) * (
-        np.ones_like(level) if found.model.residuals.relative else np.exp(level)
-    )
+    residuals = found.model.residuals
+    weight = replace(residuals, weight=np.median(residuals.weight, keepdims=True)).slope(level)
     shape = (len(specimens), len(tried) + 1, -1)
     target = slope.reshape(shape)[:, -1]
     read = (slope * np.reshape(weight, (-1, 1))).reshape(shape)[:, :-1].reshape(-1, slope.shape[-1])
