@@ -9,6 +9,8 @@ SymPy is imported when something is first asked for, not with the package.
 
 from __future__ import annotations
 
+import os
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -17,10 +19,13 @@ if TYPE_CHECKING:
 
 __all__ = ["equation", "verify"]
 
+_HOMES = {"equation": "catalogue", "verify": "verification"}
+
+# The results that SymPy remembers; its own 1000 are too few for a derivation.
+os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
+
 
 def __getattr__(name: str) -> Any:
-    if name in __all__:
-        from . import catalogue, verification
-
-        return {"equation": catalogue.equation, "verify": verification.verify}[name]
+    if name in _HOMES:
+        return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
     raise AttributeError(f"module 'derive' has no attribute {name!r}")

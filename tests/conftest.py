@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from hypothesis import HealthCheck, settings
 
+import derive  # noqa: F401 - it sets what SymPy remembers, before a test imports SymPy
 from tests.browser import Page, browser
 
 # No test depends on the speed of the machine. Under CI the draws are the same every time, so that

@@ -33,7 +33,7 @@ _SET_UP = re.compile(
 )
 _FENCE = re.compile(r"^```(?P<language>[^\s`]*) *(?P<argument>.*)\n(?P<body>(?:.*\n)*?)```$", re.M)
 _OPTION = re.compile(r"^:(\w+): *(.*)\n", re.M)
-_SHELL = re.compile(r"[|<>;&*?'\"`$]")
+_SHELL = re.compile(r"[|<>;&*?`$]")
 
 
 class Block(NamedTuple):

@@ -25,6 +25,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wear import own_laws
+from wear.counted import FADES
+from wear.cycles import MOST_CYCLES, count_cycles
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.model import bind
@@ -313,11 +315,7 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """Return the cycle in which wear stops, from the cycle count, as far as its error lets it be
     told."""
-    from wear.counted import FADES
-    from wear.cycles import MOST_CYCLES
-    from wear.loss_of_contact.count import Wanted, counted_stages
-
-    (found,) = counted_stages([Wanted(bind(case.scene), case.load, MOST_CYCLES)], 1e-12)
+    found = count_cycles(bind(case.scene), case.load, MOST_CYCLES, 1e-12)
     end = found.end
     if end is not None and end.way == FADES:
         return None, (str(end),)

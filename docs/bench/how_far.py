@@ -1,4 +1,4 @@
-"""How far a cycle jump may go: its error against its length, measured and foretold.
+"""How far a cycle jump may go: its error against its length, measured and predicted.
 
     python docs/bench/how_far.py
 
@@ -33,7 +33,7 @@ class Row(NamedTuple):
     cycles: int
     integrated: int
     error: float
-    foretold: float
+    predicted: float
 
 
 def fixed(cycles: Cycles, case: Case, length: int) -> Row:
@@ -54,12 +54,12 @@ def adaptive(cycles: Cycles, case: Case, share: float) -> Row:
     first, last = cycles.wear(0.0), cycles.wear(case.wear)
     fresh, worn = cycles.roughness(0.0), cycles.roughness(case.wear)
     grown = (worn - fresh) * case.cycles * last / case.wear
-    foretold = share / 2 * (worn - fresh * last / first - grown) / case.wear
+    predicted = share / 2 * (worn - fresh * last / first - grown) / case.wear
 
     def length(u: float, wear: float) -> float:
         return share * cycles.roughness(u) / wear
 
-    return _row("adaptive", share, cycles, case, length, foretold)
+    return _row("adaptive", share, cycles, case, length, predicted)
 
 
 def _row(
@@ -68,10 +68,10 @@ def _row(
     cycles: Cycles,
     case: Case,
     length: Callable[[float, float], float],
-    foretold: float,
+    predicted: float,
 ) -> Row:
     wear, jumps = extrapolated(cycles, case.cycles, length)
-    return Row(kind, reach, case.cycles, jumps, wear / case.wear - 1, foretold)
+    return Row(kind, reach, case.cycles, jumps, wear / case.wear - 1, predicted)
 
 
 def measured() -> Iterator[Row]:
@@ -123,7 +123,7 @@ def figure(rows: list[Row]) -> bytes:
                 color=look.colour,
                 label=f"{kind}, {cycle_count(number)} cycles",
             )
-            axes.loglog(x, [row.foretold for row in own], "-", color=look.colour, linewidth=0.8)
+            axes.loglog(x, [row.predicted for row in own], "-", color=look.colour, linewidth=0.8)
         axes.set(xlabel="Cycles integrated", ylabel="Relative error of the wear")
         axes.legend()
     return encoded(drawn, ".svg")

@@ -95,7 +95,7 @@ def test_the_median_leaves_the_first_run_out(clock):
     assert starts[0].seconds == 7.0
 
 
-def test_a_run_that_would_be_too_long_is_foretold(clock):
+def test_a_run_that_would_be_too_long_is_predicted(clock):
     calls: list[tuple[str, int]] = []
     slow = method("a", clock, calls, times=lambda cycles, _: 0.01 * cycles)
     runs, _ = benchmark.benchmark([slow], made_cases(1, 100, 9000), EFFORT)
@@ -106,7 +106,7 @@ def test_a_run_that_would_be_too_long_is_foretold(clock):
     assert ("a", 9000) not in calls
 
 
-def test_a_method_that_counts_cycles_is_never_foretold(clock):
+def test_a_method_that_counts_cycles_is_never_predicted(clock):
     flat = method("a", clock, [], times=lambda *_: 9.0, steps=False)
     runs, _ = benchmark.benchmark([flat], made_cases(1, 10**8), EFFORT)
     assert all(run.repeats == 1 for run in runs)
@@ -285,7 +285,7 @@ def test_the_page_on_jumps_has_what_is_measured(monkeypatch):
     written = (bench.PEERS / "how-far.md").read_text()
     for line in results.markdown_table(how_far.table(rows)).splitlines():
         assert line in written
-    assert all(0.9 < row.foretold / row.error < 1.1 for row in rows)
+    assert all(0.9 < row.predicted / row.error < 1.1 for row in rows)
 
 
 def test_averaging_of_first_order_has_an_error_that_no_tolerance_reduces(cycles):

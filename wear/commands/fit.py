@@ -134,7 +134,7 @@ def as_json(
     own_forecast = forecast.forecast_rms_from_first_half(found)
     notices = [f"the {law.law} law describes these data better (AICc)"
                for law in others if law.aicc < found.aicc]  # fmt: skip
-    notices += [f"the {law.law} law foretells the last readings better, from the first half"
+    notices += [f"the {law.law} law predicts the last readings better, from the first half"
                 for law in others if law.forecast_rms < own_forecast]  # fmt: skip
     if found.degrees_of_freedom == 0 and not found.model.residuals.known:
         notices.append("there are as many parameters as readings: the scatter is unknown")
@@ -191,7 +191,7 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
     yield ""
     own = {"law": "this scene"} | {key: document[key] for key in ("rms", "aicc", "forecast_rms")}
     yield terminal.table(
-        ["law", "rms", "AICc", "rms of the last reading,\nforetold from the first half"],
+        ["law", "rms", "AICc", "rms of the last reading,\npredicted from the first half"],
         [[row["law"], f"{row['rms']:.3g}", f"{row['aicc']:.1f}", f"{row['forecast_rms']:.3g}"]
          for row in (own, *document["alternatives"])],
     )  # fmt: skip

@@ -23,7 +23,7 @@ UNKNOWN = 1.0  # standard error of a logarithm, or share of a value, from which 
 ALIKE = 0.1  # relative spread of powers that are shown as one
 NEGLIGIBLE = 0.02  # power
 CANDIDATES = 25  # numbers of cycles at which a further reading is tried
-AHEAD = 10.0  # times the cycles of the last reading: what is foretold if nothing is asked for
+AHEAD = 10.0  # times the cycles of the last reading: what is predicted if nothing is asked for
 
 
 class Open(NamedTuple):
@@ -124,7 +124,7 @@ def _band(level: float, width: float) -> tuple[float, float]:
 
 def forecast_rms_from_first_half(found: Fit) -> float:
     """Return the root mean square error of ln(wear) where the first half of the readings of each
-    specimen foretells the last; no number where they are fewer than the parameters."""
+    specimen predicts the last; no number where they are fewer than the parameters."""
     model = found.model
     early = replace(model, specimens=tuple(first_half(model.specimens)))
     if len(early.residuals.observed) < len(found.theta):
@@ -164,9 +164,8 @@ def next_reading(found: Fit, cycles: float | None = None) -> NextReading:
     tried = np.unique(np.rint(np.geomspace(1.0, last, CANDIDATES)))
     slots = [np.append(tried, cycles or min(AHEAD * last, 1e12))] * len(specimens)
     level, slope = found.model.log_wear(found.theta[None], slots)
-    weight = np.median(found.model.residuals.weight) * (
-        np.ones_like(level) if found.model.residuals.relative else np.exp(level)
-    )
+    residuals = found.model.residuals
+    weight = replace(residuals, weight=np.median(residuals.weight, keepdims=True)).slope(level)
     shape = (len(specimens), len(tried) + 1, -1)
     target = slope.reshape(shape)[:, -1]
     read = (slope * np.reshape(weight, (-1, 1))).reshape(shape)[:, :-1].reshape(-1, slope.shape[-1])

@@ -28,7 +28,7 @@ LOST = 1e6  # residual of a law that overflows
 @dataclass(frozen=True)
 class Alternative:
     """How a law does: root mean square of its residuals, AICc, and the root mean square error of
-    ln(wear) where the first half of the readings of each specimen foretells the last."""
+    ln(wear) where the first half of the readings of each specimen predicts the last."""
 
     law: str
     rms: float
@@ -46,8 +46,8 @@ def alternatives(specimens: Sequence[Specimen], relative: bool) -> list[Alternat
         off = residuals(np.concatenate(levels))
         last = _fitted(law, early, relative)([s.cycles[-1:] for s in specimens])
         parameters = len(specimens) + bool(starts)
-        foretold = forecast_rms(specimens, np.concatenate(last))
-        found.append(Alternative(law, rms(off), residuals.aicc(off, parameters), foretold))
+        predicted = forecast_rms(specimens, np.concatenate(last))
+        found.append(Alternative(law, rms(off), residuals.aicc(off, parameters), predicted))
     return found
 
 

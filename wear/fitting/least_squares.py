@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.faults import UsageError
-from wear.fitting.model import LOST, Model, given
+from wear.fitting.model import LOST, Model
 from wear.fitting.readings import FloatArray
 
 SEARCHED = 20.0  # e-folds, or multiples of a parameter's size, around the scene
@@ -95,7 +95,7 @@ def settle(model: Model, start: FloatArray, box: tuple[FloatArray, FloatArray]) 
 
 def _starts(model: Model) -> FloatArray:
     """Return the scene's own point and, around it, a grid over what wear depends on most."""
-    choices = [[p.theta(given(model.scene, p.key) or 0.0)] for p in model.parameters]
+    choices = [[x] for x in model.start().tolist()]
     for choice, p in zip(choices, model.parameters, strict=True):
         if not p.specimen and p.key.endswith(".wear_coefficient"):
             choice[:] = [choice[0] + np.log(factor) for factor in FACTORS]

@@ -100,7 +100,10 @@ class Model:
 
     def start(self) -> FloatArray:
         """Return the point (p,) that the scene itself is."""
-        return np.array([p.theta(given(self.scene, p.key) or 0.0) for p in self.parameters])
+        from wear.parameters import parameters_of
+
+        numbers = parameters_of(self.scene)
+        return np.array([p.theta(numbers[p.key]) for p in self.parameters])
 
     def scale(self, theta: FloatArray) -> FloatArray:
         """Return the size (p,) of every parameter: 1 for a logarithm, else what it is at a point
@@ -184,16 +187,11 @@ def _gradients(
     return np.concatenate([u for u, _ in parts]), np.concatenate([d for _, d in parts])
 
 
-def given(scene: Scene, key: str) -> float | None:
-    """Return the number that a scene has for a key, None if its wear depends on none such."""
-    from wear.parameters import parameters_of
-
-    return parameters_of(scene).get(key)
-
-
 def is_positive(scene: Scene, key: str) -> bool:
     """Return whether only positive numbers make a scene: the sign is tried."""
-    return not _may_change(scene, key, -abs(given(scene, key) or 1.0))
+    from wear.parameters import parameters_of
+
+    return not _may_change(scene, key, -abs(parameters_of(scene)[key] or 1.0))
 
 
 def _may_change(scene: Scene, key: str, value: float) -> bool:
@@ -210,17 +208,17 @@ def faults(
     """Yield what is wrong with the choice of what is free."""
     from wear.parameters import no_such_number, parameters_of
 
-    keys = [*free, *free_each]
+    keys, numbers = [*free, *free_each], parameters_of(scene)
     if not keys:
-        yield f"free: name at least one of {', '.join(parameters_of(scene))}"
+        yield f"free: name at least one of {', '.join(numbers)}"
     for key in dict.fromkeys(keys):
-        value = given(scene, key)
+        value = numbers.get(key)
         if keys.count(key) > 1:
             yield f"free: {key} is named twice"
         if any(key in specimen.changes for specimen in specimens):
             yield f"free: {key} is given by the data"
         if value is None:
-            yield f"free: {no_such_number(key, parameters_of(scene))}"
+            yield f"free: {no_such_number(key, numbers)}"
         elif not _may_change(scene, key, value):
             yield f"free: {key}: an entry of a list cannot be free"
         elif value == 0.0 and is_positive(scene, key):

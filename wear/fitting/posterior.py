@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wear.faults import UsageError
 from wear.fitting.estimate import FARTHEST, Fit
 from wear.fitting.readings import FloatArray
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 WALKERS = 4  # a parameter, and no fewer than LEAST_WALKERS
 LEAST_WALKERS = 32
@@ -56,18 +52,13 @@ def posterior(found: Fit, steps: int, seed: int = 0) -> FloatArray:
             density[inside] = -square / 2.0 if known else -n / 2.0 * np.log(square)
         return density
 
-    random = np.random.default_rng(seed)
     walkers = max(WALKERS * len(found.theta), LEAST_WALKERS)
+    errors, rows = found.directions  # walkers begin along these
+    steps_away = np.random.default_rng(seed).standard_normal((walkers, len(errors)))
+    begin = found.theta + np.minimum(BEGIN * errors, BEGIN) * steps_away @ rows * found.scale
     sampler = emcee.EnsembleSampler(walkers, len(found.theta), log_density, vectorize=True)
     sampler.random_state = np.random.RandomState(seed).get_state()
-    sampler.run_mcmc(_beginnings(found, walkers, random), steps)
+    sampler.run_mcmc(begin, steps)
     samples = sampler.get_chain(discard=int(BURN_IN * steps), flat=True)
     columns = zip(found.parameters, samples.T, strict=True)
     return np.column_stack([parameter.value(column) for parameter, column in columns])
-
-
-def _beginnings(found: Fit, walkers: int, random: Generator) -> FloatArray:
-    """Return where the walkers begin, along the directions that the data see."""
-    errors, rows = found.directions
-    steps = np.minimum(BEGIN * errors, BEGIN) * random.standard_normal((walkers, len(errors)))
-    return np.asarray(found.theta + steps @ rows * found.scale)

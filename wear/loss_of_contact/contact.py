@@ -223,7 +223,7 @@ def _missed(rule: Gauss, part: _Part, before: FloatArray) -> FloatArray:
     and `before` (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
-    foretells. Where the wear follows the load within less than the distance of two nodes, it leaves
+    predicts. Where the wear follows the load within less than the distance of two nodes, it leaves
     those from m on, over that time.
     """
     series = np.abs(rule.coefficients @ part.rate)
@@ -302,8 +302,8 @@ def _newton(rule: Gauss, slope: FloatArray, missing: FloatArray) -> FloatArray:
 def _has_settled(apart: FloatArray, last: FloatArray, least: float, noise: FloatArray) -> BoolArray:
     """Return whether an iteration that has changed by `apart`, after `last`, has come to its end:
     the next change would be the `least` that counts, or this one is `noise`."""
-    # A change that was large foretells nothing; one that is small and grows is rounding.
-    foretold = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
+    # A change that was large predicts nothing; one that is small and grows is rounding.
+    predicted = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
     stalled = (last < STALLED) & (apart >= last)
-    settled: BoolArray = (foretold <= least) | (apart <= noise) | stalled
+    settled: BoolArray = (predicted <= least) | (apart <= noise) | stalled
     return settled

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from markdown_it.token import Token
 
 from wear.cite import REFERENCES
-from wear.report.text import Text
+from wear.report.text import Tokens, inline
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
@@ -97,22 +97,21 @@ class Mark:
 
 @dataclass(frozen=True)
 class Document:
-    """A text with all equations (by id) and figures (by label) that it may show."""
+    """A text, as tokens, with all equations (by id) and figures (by label) that it may show."""
 
-    text: Text
+    tokens: Tokens
     equations: Mapping[str, Equation]
     figures: Mapping[str, Figure]
 
     @property
     def title(self) -> str:
         """The heading of the first level."""
-        tokens = self.text.tokens
-        return next(b.content for a, b in pairwise(tokens) if a.tag == "h1")
+        return next(b.content for a, b in pairwise(self.tokens) if a.tag == "h1")
 
     @property
     def contents(self) -> Iterator[tuple[Mark, list[Token], int]]:
         """The mark, title and level of every section, derivations left out."""
-        for heading, title in pairwise(self.text.tokens):
+        for heading, title in pairwise(self.tokens):
             mark = self.marks.get(heading.meta.get("label", ""))
             if heading.type == "heading_open" and mark and mark.kind != "derivation":
                 yield mark, title.children or [], int(heading.tag[1])
@@ -120,7 +119,7 @@ class Document:
     @property
     def shown(self) -> Iterator[Equation]:
         """The equations that the text shows, in reading order."""
-        for token in self.text.tokens:
+        for token in self.tokens:
             if token.type == "fence" and token.info == "equations":
                 yield from (self.equations[identifier] for identifier in token.content.split())
 
@@ -165,14 +164,14 @@ class Document:
         return {label: tuple(sources) for label, sources in found.items()}
 
     def _references(self) -> Iterator[str]:
-        for token in self.text.inline:
+        for token in inline(self.tokens):
             if token.type == "reference":
                 yield token.content
 
     def _places(self) -> Iterator[tuple[str, str]]:
         """What stands where: the derivation or claim around each reference, and its label."""
         where = ""
-        for token in self.text.tokens:
+        for token in self.tokens:
             if token.type in ("heading_open", "tr_close", "table_close"):
                 where = str(token.meta.get("label", ""))
                 where = where if where.startswith("der:") else ""
@@ -186,7 +185,7 @@ class Document:
 
     def _marks(self) -> Iterator[Mark]:
         counts: Counter[str] = Counter()
-        for token in self.text.tokens:
+        for token in self.tokens:
             if token.type == "heading_open" and "label" in token.meta:
                 yield _heading(token, counts)
             elif token.type == "caption_open" and "label" in token.meta:

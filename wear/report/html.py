@@ -48,7 +48,7 @@ def page(document: Document) -> str:
         style=style(),
         script=asset("report.js"),
         contents=[(mark, writer.inside(words), level) for mark, words, level in document.contents],
-        body=writer.written(document.text.tokens),
+        body=writer.written(document.tokens),
     )
 
 

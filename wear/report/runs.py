@@ -87,7 +87,7 @@ class Runs:
 
     ``cases`` has the note's scenes by name, those with loss of contact under ``name.cutoff``.
     ``printed_increment`` mm is the wear of the cycle that the note calls stabilised,
-    ``threshold_excess`` the relative excess over (21) at the cycle that the drift foretells for
+    ``threshold_excess`` the relative excess over (21) at the cycle that the drift predicts for
     the note's criterion. ``static_distance`` is the largest relative difference between closed
     solution and solver under a constant load, and ``integrated`` that between the cycle count and
     the integration of every cycle, by case. ``hard`` has the stress tests.
@@ -124,7 +124,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
         cases[name + note.CUTOFF] = _case(name + note.CUTOFF, CUTOFF_RTOL)
     application = note.scene("section4")
     progress("approach to the asymptote")
-    foretold = note.limit("section4").cycles_to_stabilise["mean_rate_within_1e-6"]
+    predicted = note.limit("section4").cycles_to_stabilise["mean_rate_within_1e-6"]
     progress("closed solutions and bounds")
     (loose,) = static_bounds(application, [note.PRINTED.cycles])
     (tight,) = wear_bounds(application, [note.PRINTED.cycles])
@@ -135,7 +135,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
         decay=_decay(note.scene("section3")),
         printed_increment=float(note.increments_after(application, note.PRINTED.cycles)[0]),
         reconciliation=reconciliations()[0],
-        threshold_excess=float(_approach("section4", [round(note.required(foretold))]).excess[0]),
+        threshold_excess=float(_approach("section4", [round(note.required(predicted))]).excess[0]),
         phases=_steady_phases(cases["section4"]),
         static_distance=_static_distance(application),
         integrated={name: _integrated(cases[name]) for name in INTEGRATED},

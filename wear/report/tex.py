@@ -44,7 +44,7 @@ def report(document: Document) -> dict[str, str | bytes]:
     ValueError
         for references that lead nowhere and characters without a LaTeX form.
     """
-    body = _writer(document).written(document.text.tokens)
+    body = _writer(document).written(document.tokens)
     title = re.sub(
         r"[^A-Za-z0-9À-ÖØ-öø-ÿ ,.:()\-]", "", document.title
     )  # an entry of the PDF, not typeset

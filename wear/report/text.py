@@ -25,7 +25,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from importlib.resources import files
 from itertools import pairwise
 from typing import Any
@@ -52,21 +51,18 @@ _FIGURES = re.compile(r"(?:\s*!\[(?:[^\]]|\[[^\]]*\])*\]\(fig:[^)]*\))+\s*", re.
 _SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#])")
 
 
-@dataclass(frozen=True)
-class Text:
-    """A text that was read: its tokens, and the numbers that occur in it."""
-
-    tokens: tuple[Token, ...]
-    numbers: tuple[Number, ...]
-
-    @property
-    def inline(self) -> Iterator[Token]:
-        """All tokens inside lines, in reading order."""
-        for token in self.tokens:
-            yield from token.children or ()
+Tokens = tuple[Token, ...]
+"""A text that was read."""
 
 
-def read(name: str, values: Mapping[str, Any]) -> Text:
+def inline(tokens: Tokens) -> Iterator[Token]:
+    """Return all tokens inside lines, captions among them, in reading order."""
+    for piece in (piece for token in tokens for piece in token.children or ()):
+        yield piece
+        yield from piece.children or ()
+
+
+def read(name: str, values: Mapping[str, Any]) -> Tokens:
     """Return the text of a file of this package, filled in.
 
     Raises
@@ -77,8 +73,8 @@ def read(name: str, values: Mapping[str, Any]) -> Text:
     return parsed(files("wear.report").joinpath(name).read_text(encoding="utf-8"), values)
 
 
-def parsed(template: str, values: Mapping[str, Any]) -> Text:
-    """Return a text, filled in."""
+def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
+    """Return a text, filled in; where a number stands its token has it as `meta["number"]`."""
     numbers: list[Number] = []
 
     def shown(value: Any) -> Any:
@@ -93,7 +89,7 @@ def parsed(template: str, values: Mapping[str, Any]) -> Text:
     )  # fmt: skip
     environment.filters["plain"] = escaped
     source = environment.from_string(template).render(values)
-    return Text(tuple(MARKDOWN.parse(source)), tuple(numbers))
+    return tuple(MARKDOWN.parse(source, {"numbers": numbers}))
 
 
 def escaped(text: str) -> str:
@@ -122,6 +118,8 @@ def _mark(state: StateInline, silent: bool) -> bool:
         token.content = found[kind]
         token.meta["bare"] = found["bare"] is not None
         token.meta["kept"] = ""
+        if kind == "number":
+            token.meta["number"] = state.env["numbers"][int(token.content)]
     state.pos = found.end()
     return True
 

@@ -197,7 +197,7 @@ def _note(runs: Runs) -> dict[str, Any]:
         "increment": _mm(increment, 5, "section 4, increment at the note's cycle"),
         "ratio": Number(increment / per_cycle, "section 4, increment over limit", 3),
         "early": Number(increment / per_cycle - 1.0, "section 4 at the note's cycle", 3),
-        "excess": Number(runs.threshold_excess, "section 4 at the foretold cycle", 6),
+        "excess": Number(runs.threshold_excess, "section 4 at the predicted cycle", 6),
         "factor": Number(note.PRINTED.formula_mm / per_cycle, "printed value over Eq. (21)", 3),
         "changed_slope": Number(runs.reconciliation.value, "inverse of (21)", 7),
         "altered": _mm(runs.reconciliation.simulated_mm, 4, "section 4 with that slope"),

@@ -133,8 +133,22 @@ class Store:
         folder = Path(tempfile.mkdtemp(prefix=f".{self.path.name}.", dir=self.path.parent))
         try:
             group: Any = zarr.open_group(folder, mode="w", zarr_format=3)
+            lengths = dict(zip(self.design.dimensions, self.design.shape, strict=True))
+            chunks = dict(zip(self.design.dimensions, self.design.chunk_shape, strict=True))
+            lengths["cycle"] = chunks["cycle"] = len(self.study.cycles)
+            fills = {"uint8": int(Status.PENDING), "string": "", "int64": 0, "float64": math.nan}
             for name, dimensions, kind, attributes in self._arrays():
-                self._make(group, name, dimensions, kind, attributes)
+                # A coordinate is known beforehand, and written whole.
+                parts = lengths if dimensions == (name,) else chunks
+                group.create_array(
+                    name,
+                    shape=tuple(lengths[dimension] for dimension in dimensions),
+                    chunks=tuple(parts[dimension] for dimension in dimensions),
+                    dtype=kind,
+                    fill_value=fills[kind],
+                    dimension_names=dimensions,
+                    attributes={key: value for key, value in attributes.items() if value},
+                )
             group["cycle"][:] = np.array(self.study.cycles)
             if self.design.kind == "grid":
                 for vary in self.design.vary:
@@ -166,30 +180,6 @@ class Store:
                 attributes["coordinates"] = " ".join(vary.key for vary in self.design.vary)
             dimensions = (*rows, "cycle") if variable.per_cycle else rows
             yield variable.name, dimensions, variable.kind, attributes
-
-    def _make(
-        self,
-        group: Any,
-        name: str,
-        dimensions: tuple[str, ...],
-        kind: str,
-        attributes: dict[str, Any],
-    ) -> None:
-        lengths = dict(zip(self.design.dimensions, self.design.shape, strict=True))
-        chunks = dict(zip(self.design.dimensions, self.design.chunk_shape, strict=True))
-        if dimensions == (name,):  # a coordinate: known beforehand, and written whole
-            chunks = {}
-        lengths["cycle"] = len(self.study.cycles)
-        fill = {"uint8": int(Status.PENDING), "string": "", "int64": 0}.get(kind, math.nan)
-        group.create_array(
-            name,
-            shape=tuple(lengths[dimension] for dimension in dimensions),
-            chunks=tuple(chunks.get(d, lengths[d]) for d in dimensions),
-            dtype=kind,
-            fill_value=fill,
-            dimension_names=dimensions,
-            attributes={key: value for key, value in attributes.items() if value},
-        )
 
     def _require_space(self) -> None:
         parent = self.path.parent

@@ -11,7 +11,7 @@ from markdown_it.token import Token
 
 from tests.wear.report import quick
 from wear.report.document import Document
-from wear.report.text import line
+from wear.report.text import inline, line
 
 _GREEK = "alpha|beta|theta|kappa|lambda|mu|nu|eta|zeta|rho|sigma|tau|omega|varepsilon|ell|phi"
 _UPRIGHT = re.compile(
@@ -35,7 +35,7 @@ def paper() -> Document:
 def _sentences(paper: Document) -> Iterator[Token]:
     """What stands inside sentences, not captions or cells."""
     kinds = {"paragraph_open", "heading_open"}
-    tokens = paper.text.tokens
+    tokens = paper.tokens
     for before, token in pairwise(tokens):
         if token.type == "inline" and before.type in kinds:
             yield from token.children or ()
@@ -48,7 +48,7 @@ def test_every_figure_and_table_is_mentioned_in_the_text(paper: Document) -> Non
 
 
 def test_every_claim_is_linked_to_an_equation_or_mentioned_in_the_text(paper: Document) -> None:
-    mentioned = {piece.content for piece in paper.text.inline if piece.type == "reference"}
+    mentioned = {piece.content for piece in inline(paper.tokens) if piece.type == "reference"}
     linked = {claim for sources in paper.mentions.values() for claim in sources}
     claims = {label for label, mark in paper.marks.items() if mark.kind == "claim"}
     assert claims - mentioned - linked == set()
@@ -71,7 +71,7 @@ def _plain(symbol: str) -> str:
 def _listed(paper: Document) -> set[str]:
     """The symbols of the two tables of symbols: formulas in the first cell of a row."""
     found, inside, first = set(), False, False
-    for token in paper.text.tokens:
+    for token in paper.tokens:
         if token.type == "caption_open":
             inside = token.meta["label"] in ("tab:nomenclature", "tab:symbols")
         first = token.meta.get("first", False) if token.type == "td_open" else first
@@ -97,7 +97,7 @@ def _defined(latex: str) -> set[str]:
 def _sections(paper: Document) -> Iterator[list[Token]]:
     """The tokens under each heading."""
     tokens: list[Token] = []
-    for token in paper.text.tokens:
+    for token in paper.tokens:
         if token.type == "heading_open":
             yield tokens
             tokens = []
@@ -138,7 +138,7 @@ def test_every_symbol_is_in_a_table_or_defined_where_it_stands(paper: Document) 
 def test_the_tables_of_symbols_have_none_that_does_not_occur(paper: Document) -> None:
     used: set[str] = set()
     inside = False
-    for token in paper.text.tokens:
+    for token in paper.tokens:
         if token.type == "caption_open":
             inside = token.meta["label"] in ("tab:nomenclature", "tab:symbols")
         inside = inside and token.type != "table_close"
@@ -150,7 +150,7 @@ def test_the_tables_of_symbols_have_none_that_does_not_occur(paper: Document) ->
 def test_nothing_of_the_machine_is_left_in_a_formula(paper: Document) -> None:
     """No truth value, no name of a class, no space between hypotheses."""
     left = re.compile(r"\\?text\{(?:True|False)\}|True|False|None|Symbol|Dummy|nan")
-    for token in paper.text.tokens:
+    for token in paper.tokens:
         for latex, _ in _formulas(paper, token):
             assert not left.search(latex), latex
     for equation in paper.equations.values():

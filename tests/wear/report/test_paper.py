@@ -30,9 +30,11 @@ from wear.report import claims, reconcile
 from wear.report.document import Document
 from wear.report.html import page
 from wear.report.note import CUTOFF, required
+from wear.report.number import Number
 from wear.report.paper import paper as written
 from wear.report.runs import Runs
 from wear.report.tex import report
+from wear.report.text import inline
 from wear.report.typeset import typeset
 from wear.scene import Scene
 
@@ -111,7 +113,7 @@ def test_corrected_equations_show_the_printed_form_beside(paper: Document) -> No
 
 def test_every_step_stands_once(paper: Document) -> None:
     """A step with a formula is not repeated, and none refers to one that comes later."""
-    tokens = paper.text.tokens
+    tokens = paper.tokens
     formulas = Counter(t.content for t in tokens if t.type == "fence" and t.info == "math")
     assert max(formulas.values()) == 1
     place = 0
@@ -126,8 +128,8 @@ def test_the_four_figures_of_the_note_are_files(paper: Document) -> None:
 
 
 def test_every_claim_decided_is_in_the_ledger(paper: Document) -> None:
-    claims = [t.content for t in paper.text.inline if t.type == "target"]
-    verdicts = [t.content for t in paper.text.inline if t.type == "verdict"]
+    claims = [t.content for t in inline(paper.tokens) if t.type == "target"]
+    verdicts = [t.content for t in inline(paper.tokens) if t.type == "verdict"]
     decided = quick.few_claims()
     assert claims == [f"claim:{entry.claim.id}" for entry in decided]
     assert verdicts == [str(entry.finding.verdict) for entry in decided]
@@ -139,8 +141,13 @@ def test_both_writers_take_it(paper: Document) -> None:
     assert all(f"Eq{name}}}" in sources["equations.tex"] for name in ("WearPerCycle", "ContactLaw"))
 
 
+def numbers(paper: Document) -> list[Number]:
+    """Return the numbers of the text, in reading order."""
+    return [t.meta["number"] for t in inline(paper.tokens) if t.type == "number"]
+
+
 def test_the_findings_have_the_numbers_of_the_run(paper: Document, runs: Runs) -> None:
-    values = {number.value for number in paper.text.numbers}
+    values = {number.value for number in numbers(paper)}
     assert required(runs.asymptote("section4").wear_per_cycle_mm) in values
     assert required(runs.asymptote("section4" + CUTOFF).arrest_cycle) in values
 
@@ -163,7 +170,7 @@ def test_a_changed_run_changes_every_number(paper: Document) -> None:
     random = np.random.default_rng(1)
     runs = _changed(quick.runs(), random)
     other = written(found, changed, runs, quick.few_claims(), paper.figures)
-    pairs = zip(paper.text.numbers, other.text.numbers, strict=True)
+    pairs = zip(numbers(paper), numbers(other), strict=True)
     same = {(a.source, a.value) for a, b in pairs if a.value == b.value}
     assert {number for number in same if not _CONSTANT.match(number[0])} == set()
 

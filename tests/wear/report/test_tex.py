@@ -116,8 +116,8 @@ def test_a_caption_may_name_anything(
     need_tool("pdflatex")
     named = " ".join(f"[{label}] [({label})]" for label in sample.marks)
     table = f"\n\nTable: Seen in {named}. {{#tab:one}}\n\n| a | b |\n| :-- | --- |\n| c | d |\n"
-    text = replace(sample.text, tokens=(*sample.text.tokens, *document(table).text.tokens))
-    outcome = typeset(_write(tmp_path, tex.report(replace(sample, text=text))))
+    both = replace(sample, tokens=(*sample.tokens, *document(table).tokens))
+    outcome = typeset(_write(tmp_path, tex.report(both)))
     assert (outcome.notice, outcome.warnings) == ("", ())
 
 
@@ -135,9 +135,9 @@ def test_a_listing_loses_no_character() -> None:
 
 def test_a_macro_has_letters_only() -> None:
     wrong = {"21": Equation("21", "a", macro="Eq21")}
-    text = document("```equations\n21\n```\n").text
+    tokens = document("```equations\n21\n```\n").tokens
     with pytest.raises(ValueError, match="Eq21"):
-        tex.equations(Document(text, wrong, {}))
+        tex.equations(Document(tokens, wrong, {}))
 
 
 @pytest.mark.parametrize(
