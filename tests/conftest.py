@@ -38,13 +38,19 @@ def _need_tool(*names: str) -> str:
     pytest.skip(reason)
 
 
-#: Where the whole catalogue is derived; the rest may go to another process, which need not.
+#: Where the paper is written or the whole catalogue is derived, dearest first.
 _OF_THE_CATALOGUE = ("tests/wear/report/", "tests/wear/test_cli_re", "tests/test_", "tests/derive/")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put the tests that derive the catalogue first: of two processes one begins with them."""
-    items.sort(key=lambda item: not item.nodeid.startswith(_OF_THE_CATALOGUE))
+    """Put the tests that need the catalogue first: of two processes one begins with them, and the
+    other, which need not derive it, with the rest."""
+
+    def place(item: pytest.Item) -> int:
+        starts = map(item.nodeid.startswith, _OF_THE_CATALOGUE)
+        return next((n for n, here in enumerate(starts) if here), len(_OF_THE_CATALOGUE))
+
+    items.sort(key=place)
 
 
 @pytest.fixture(scope="session")
