@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of
-from wear.load import Blocks, Load, Loading
+from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.model import Model, bind
@@ -328,15 +328,15 @@ def _each(
 
 def groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
     """Return which scenes are solved together: those of one variant whose loads repeat, no more
-    than go together; with loss of contact only those under loads of one kind, for all of them
-    wait for the one with the most pieces; a scene with a load in blocks is alone."""
+    than go together; with loss of contact only those under loads that are all straight between
+    corners, or all waves; a scene with a load in blocks is alone."""
     kinds: dict[object, list[int]] = {}
     for i, scene in enumerate(scenes):
         kind: object = scene.variant
         if isinstance(scene.load, Blocks):
             kind = i
         elif scene.contact.ends_at_3_sigma:
-            kind = scene.variant, type(scene.load)
+            kind = scene.variant, isinstance(scene.load, (Table, Constant))
         kinds.setdefault(kind, []).append(i)
     for which in kinds.values():
         most = max(len(getattr(scenes[i].load, "kinks", ())) for i in which)

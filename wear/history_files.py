@@ -142,7 +142,7 @@ def _write_records(parts: Iterable[States], path: Path, attributes: Attributes) 
             _write_header(part, path, attributes)
             os.truncate(path, path.stat().st_size - 8 * records.shape[1])
         with path.open("ab") as file:
-            records.astype(">f8").tofile(file)
+            file.write(records.astype(">f8").data)
         rows += len(records)
     with path.open("r+b") as file:
         file.seek(_NUMBER_OF_RECORDS)

@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
-from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -36,7 +35,8 @@ from .balls import (
     field_of,
     fraction,
 )
-from .motion import Array, Motion
+from .motion import Motion
+from .system import System
 
 _FACTORS = ((1, 5), (1.3, 21), (1.9, 37), (2.7, 58), (3.9, 83))
 """Times of a window: a factor, and a phase in hundredths of the period."""
@@ -188,9 +188,9 @@ class Model:
         return expr
 
     @cached_property
-    def system(self) -> _System:
+    def system(self) -> System:
         """The equations to integrate."""
-        return _System(self)
+        return System(self)
 
     @cached_property
     def motion(self) -> Motion:
@@ -282,134 +282,6 @@ def _slope(expr: sp.Expr) -> sp.Expr:
     """Return the derivative in time, jumps apart."""
     steps = {step: sp.Dummy() for step in expr.atoms(sp.floor)}
     return sp.diff(expr.xreplace(steps), t).xreplace({dummy: s for s, dummy in steps.items()})
-
-
-_Line = tuple[int, Callable[..., Any], list[int]]
-"""An assignment: its place, a function, and the places of what it is applied to."""
-
-
-class _System:
-    """The equations of a model in floats, at many times all at once: its rates and its loop.
-
-    What these rest on is worked out in order, each quantity in a place of its own.
-    """
-
-    def __init__(self, model: Model) -> None:
-        self._of, self._values = model, list[Any]([None])
-        self._places: dict[sp.Expr, int | None] = {t: 0}
-        self._given = [self._new(field) for field in model.states]
-        self._loop = self._new(model.loop) if model.loop else None
-        self._root: list[_Line] = []
-        if model.loop:
-            lines, value = self._lines([model.values[model.loop]])
-            self._root, self._next = lines, value[0]
-        self._rest, self._rates = self._lines([state.diff(t) for state in model.states])
-        self._near: Any = 0.0
-
-    def _new(self, quantity: sp.Expr, value: Any = None) -> int:
-        self._places[quantity] = len(self._values)
-        self._values.append(value)
-        return len(self._values) - 1
-
-    def _lines(self, wanted: list[sp.Expr]) -> tuple[list[_Line], list[int]]:
-        """Return the assignments that wanted expressions still need, and the places of these."""
-        lines: list[_Line] = []
-
-        def place(quantity: sp.Expr) -> int:
-            if quantity not in self._places:
-                self._places[quantity] = None
-                self._places[quantity] = self._datum(quantity)
-                if self._places[quantity] is None:
-                    function, arguments = _coded(self._formula(quantity))
-                    at = [place(argument) for argument in arguments]
-                    lines.append((self._new(quantity), function, at))
-            known = self._places[quantity]
-            if known is None:
-                raise Undecided(f"{quantity} rests on itself")
-            return known
-
-        return lines, [place(quantity) for quantity in wanted]
-
-    def _datum(self, quantity: sp.Expr) -> int | None:
-        """Return the place of what does not vary."""
-        if quantity.is_Symbol or quantity.args == (0,):
-            with ctx.workprec(BITS):
-                value = ball(compiled(quantity)(Moment(self._of)))
-            return self._new(quantity, float(value.mid()))
-        return None
-
-    def _formula(self, quantity: sp.Expr) -> sp.Expr:
-        """Return what a field or a rate is computed from, an expression from itself."""
-        field, order = quantity, 0
-        if isinstance(quantity, sp.Derivative) and set(quantity.variables) == {t}:
-            field, order = quantity.expr, quantity.derivative_count
-        if not isinstance(field, AppliedUndef):
-            return quantity
-        if field.args != (t,):
-            raise Undecided("a rate that needs another time")
-        return self._of.formula(field, order)
-
-    def _run(self, lines: list[_Line]) -> None:
-        values = self._values
-        for at, function, arguments in lines:
-            values[at] = function(*[values[a] for a in arguments])
-
-    def rates(self, times: Array, states: Array) -> Array:
-        """Return the rates of the states at times, shape ``(states, times)``."""
-        with np.errstate(all="ignore"):
-            self.root(times, states)
-            self._run(self._rest)
-        found = np.empty((len(self._rates), len(times)))
-        for row, at in zip(found, self._rates, strict=True):
-            row[:] = self._values[at]
-        return found
-
-    def root(self, times: Array, states: Array) -> Any:
-        """Go to times at which the states are known; return the loop there."""
-        self._values[0] = times
-        for at, state in zip(self._given, states, strict=True):
-            self._values[at] = state
-        loop = self._loop
-        return None if loop is None else self._solved(loop, self._near + 0.0 * times)
-
-    def _solved(self, loop: int, y: Array) -> Array:
-        """Return the root of ``y - G(y)``, which increases: by Newton's method, else by halves."""
-
-        def rest(y: Array) -> Array:
-            self._values[loop] = y
-            self._run(self._root)
-            return np.asarray(y - self._values[self._next])
-
-        with np.errstate(all="ignore"):
-            for _ in range(12):
-                small = 1e-7 * (1 + np.abs(y))
-                now = rest(y)
-                step = now * small / (rest(y + small) - now)
-                y = y - step
-                if np.all(np.abs(step) <= 1e-14 * (1 + np.abs(y))):
-                    break
-            else:
-                low, high = np.full_like(y, -(2.0**40)), np.full_like(y, 2.0**40)
-                for _ in range(100):
-                    y = (low + high) / 2
-                    below = rest(y) < 0
-                    low, high = np.where(below, y, low), np.where(below, high, y)
-                y = np.where(np.abs(rest(y)) < 1e-6 * (1 + np.abs(y)), y, np.nan)
-            rest(y)
-        self._near = y
-        return y
-
-
-@cache
-def _coded(expr: sp.Expr) -> tuple[Callable[..., Any], tuple[sp.Expr, ...]]:
-    """Return a function of arrays that evaluates an expression, and what it is applied to."""
-    if expr.has(sp.Integral, sp.Limit, sp.Subs, sp.zoo, sp.nan):
-        raise Undecided(f"{expr} has no number")
-    parts = (*expr.atoms(AppliedUndef, sp.Derivative), *expr.free_symbols)
-    names = {part: sp.Dummy() for part in parts}
-    flat = expr.xreplace(names)
-    used = [part for part in parts if names[part] in flat.free_symbols]
-    return sp.lambdify([names[part] for part in used], flat, "numpy"), tuple(used)
 
 
 @lru_cache(maxsize=400)

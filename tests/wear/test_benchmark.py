@@ -1,6 +1,7 @@
 """The benchmark: statuses, order of runs, medians, what readers learn, peers, the command."""
 
 import csv
+import gc
 import io
 import json
 import math
@@ -233,6 +234,7 @@ def test_peers_refuse_what_they_are_not_set_up_for():
         np.tanh(peers.Traced(1.0, known))
 
 
+@pytest.mark.filterwarnings("ignore:Implicitly cleaning up:ResourceWarning")  # by JiTCODE
 def test_installed_peers_agree():
     """The extra `peers` is optional: those that are there are tried."""
     wanted = REFERENCE["S2"][10]
@@ -240,6 +242,7 @@ def test_installed_peers_agree():
         if not missing(peer):
             answer = peer.prepare(load_scene("section4"))(10, 1e-9)
             assert answer.wear == pytest.approx(wanted, rel=1e-5), peer.name
+    gc.collect()  # now, not within another test
 
 
 @pytest.fixture(scope="module")
@@ -332,6 +335,7 @@ def test_the_command_writes_its_files(wear, monkeypatch, tmp_path):
     """With all that `--peers` adds but the packages of others, which are tried above."""
     added = {"jumps": jumps, "peers": SimpleNamespace(PEERS=())}
     monkeypatch.setattr(bench, "load_peers", added.get)
+    monkeypatch.setattr("wear.benchmark.methods.CYCLES", (1, 9000))
     folder = tmp_path / "new"
     status, shown, _ = wear("--quick", "--peers", "-o", str(folder))
     assert status == 0

@@ -113,9 +113,9 @@ def _trigonometric_sum(terms: FloatArray, phase: FloatArray | float) -> FloatArr
     turn = 2.0 * math.pi * centred(phase)
     total = np.zeros_like(turn)
     for order, cosine, sine in zip(*terms, strict=True):
-        if np.any(cosine):
+        if cosine.any():
             total += cosine * np.cos(order * turn)
-        if np.any(sine):
+        if sine.any():
             total += sine * np.sin(order * turn)
     return total
 
