@@ -9,7 +9,6 @@ SymPy is imported when something is first asked for, not with the package.
 
 from __future__ import annotations
 
-import os
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -20,9 +19,6 @@ if TYPE_CHECKING:
 __all__ = ["equation", "verify"]
 
 _HOMES = {"equation": "catalogue", "verify": "verification"}
-
-# The results that SymPy remembers; its own 1000 are too few for a derivation.
-os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
 
 
 def __getattr__(name: str) -> Any:

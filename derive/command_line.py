@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -123,7 +124,11 @@ def main(
     arguments: Sequence[str] | None,
     expected: Mapping[type[Exception], int],
 ) -> int:
-    """Execute the command that the arguments name; return the exit status."""
+    """Execute the command that the arguments name; return the exit status.
+
+    SymPy remembers more results than the 1000 it would by itself, which a derivation exceeds.
+    """
+    os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
     words = sys.argv[1:] if arguments is None else list(arguments)
 
     def execute() -> int:

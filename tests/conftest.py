@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 import pytest
 from hypothesis import HealthCheck, settings
 
-import derive  # noqa: F401 - it sets what SymPy remembers, before a test imports SymPy
 from tests.browser import Page, browser
 
+os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")  # as the commands have it
 # No test depends on the speed of the machine. Under CI the draws are the same every time, so that
 # a commit either passes or does not; everywhere else they are new in every run.
 settings.register_profile(
