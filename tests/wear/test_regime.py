@@ -14,9 +14,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from wear import cycles
 from wear.counted import Counted
 from wear.generated import asymptotics as formula
-from wear.loss_of_contact import count as counting
 from wear.regime import Asymptote, asymptote
 from wear.scene import load_scene
 from wear.solver import solve
@@ -79,7 +79,7 @@ def test_arrest(name: str, overrides: tuple[str, ...], depth: float, cycle: int)
 
 def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """A count whose error is infinite says neither when wear stops nor that it goes on."""
-    count = counting.counted_stages
+    count = cycles.counted_stages
 
     def missed(*arguments: Any) -> list[Counted]:
         (found,) = count(*arguments)
@@ -87,7 +87,7 @@ def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch: pytest.Monkey
         segments = (*found.orbit.segments[:-1], last)
         return [Counted(found.orbit._replace(segments=segments), None)]
 
-    monkeypatch.setattr(counting, "counted_stages", missed)
+    monkeypatch.setattr(cycles, "counted_stages", missed)
     found = _asymptote("section4-cutoff")
     assert found.arrest_cycle is None
     assert found.arrest_wear_mm == pytest.approx(0.002, rel=1e-14)
