@@ -179,6 +179,9 @@ def test_an_end_that_only_the_bounds_of_another_parameter_make_is_open() -> None
     found = wear.fit([late], "section4", [K, GROWTH])
     assert np.isinf(found.profiles[0].interval).all()
     assert np.isinf(found.profiles[1].interval[1])
+    for profile in found.profiles:  # what is drawn comes to no end there either
+        for root, end in zip(profile.roots[[0, -1]], profile.interval, strict=True):
+            assert np.isfinite(end) or root < found.quantile
 
 
 def test_two_keys_that_enter_only_as_a_quotient_are_said_to() -> None:

@@ -39,12 +39,13 @@ class _End:
     above: float = np.inf
     unfollowed: bool = False  # at `outer` another parameter can follow no farther
     done: bool = False
-    seen: dict[float, float] = field(default_factory=dict)
+    seen: dict[float, float] = field(default_factory=dict)  # where all others could follow
 
     def learn(self, point: FloatArray, root: float, limit: float, unfollowed: bool) -> None:
         """Take in the root of the deviance at the step, (p,) away from the estimate, and choose
         the next."""
-        self.seen[self.side * self.step] = root
+        if not unfollowed:
+            self.seen[self.side * self.step] = root
         if root < limit:
             self.path = point / (self.side * self.step)
             flat = root - self.below < FLAT * (self.step - self.inner) / self.error
