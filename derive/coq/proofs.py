@@ -20,6 +20,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.core.relational import _Inequality as Inequality
 
+from ..rules.limits import later
 from ..symbols import t
 from . import limits, theorems
 from .printer import term
@@ -96,7 +97,7 @@ def divisors(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
             continue
         for premise in step.statement.premises:
             if isinstance(premise.relation, sp.Gt) and premise.relation.args == (relation.lhs, 0):
-                at = term(relation.rhs if time == "t" else limits.one_period_later(relation.rhs))
+                at = term(relation.rhs if time == "t" else later(relation.rhs))
                 now = f" _ {proof}" if other.timed else ""
                 here = f" _ {proof}" if premise.timed else ""
                 said = f"rewrite <- ({step.cited(other)}{now}); exact ({premise.label}{here})"

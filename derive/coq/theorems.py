@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ..rules.limits import in_terms_of
 from ..symbols import symbol, t
-from .limits import in_terms_of
 from .printer import binder, field, term
 from .steps import Step
 
