@@ -118,7 +118,7 @@ def _known(step: Step) -> list[str]:
 
 def _passes(step: Step, inside: sp.Expr) -> list[str]:
     """Write the expression with what has a limit, and let the limit pass through it."""
-    from .proofs import divisors, stated
+    from .proofs import signs_at, stated
 
     found, _ = _composed(step, inside)
     equations = [
@@ -126,13 +126,12 @@ def _passes(step: Step, inside: sp.Expr) -> list[str]:
         for s in step.frontier
         if isinstance(s.relation, sp.Equality) and not s.relation.has(sp.Limit)
     ]
-    text, named = stated(step, [s for s in equations if s.timed])
     lines = [f"apply (tends_ext (fun t => {found})).", "{ intros t Ht."]
-    lines += divisors(step)
+    lines += signs_at(step)
     if inside.has(t + _T):
-        lines += ["assert (HT : 0 <= T + t) by lra.", *divisors(step, "T + t", "HT")]
-    rewrites = "".join(f"rewrite ?{label}; " for label, e in named if inside.has(e.lhs))
-    return [*lines, f"{text}{rewrites}identity. }}", "limit."]
+        lines += ["assert (HT : 0 <= T + t) by lra.", *signs_at(step, "T + t", "HT")]
+    timed = stated(step, [s for s in equations if s.timed])
+    return [*lines, f"{timed}insert; identity. }}", "limit."]
 
 
 def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
