@@ -378,7 +378,7 @@ CASES: dict[str, Case] = {
     "the arcsine of the sine of any real": (  # f_c = 3.5
         lambda: Insert(sp.Eq(f_c, sp.asin(kappa - 1)))(given(sp.Eq(kappa, 1 + sp.sin(f_c)))),
         lambda: Insert(sp.Eq(f_c, kappa - 1))(given(sp.Eq(kappa, 1 + f_c))),
-        "missing premise",
+        "of no kind",
     ),
     "zero is not one": (
         lambda: Identity(sp.Eq(sp.log(f_c**2) - sp.log(f_c**2), 1, evaluate=False))(),
@@ -461,7 +461,7 @@ CASES: dict[str, Case] = {
     "a number that is infinite": (  # 0 times oo
         lambda: given(sp.Eq(u_c, sp.oo, evaluate=False)),
         lambda: assume(supposed(sp.Eq(forever(u_c), sp.oo))),
-        "limits alone",
+        "of no kind",
     ),
     "a circle of definitions": (
         lambda: defined(b_0, b_0 + 1),
@@ -542,7 +542,7 @@ def test_a_subclass_of_a_hypothesis_is_none() -> None:
     class Changing(Hypothesis):
         pass
 
-    with pytest.raises(RuleError, match="cannot be assumed"):
+    with pytest.raises(RuleError, match="nor a hypothesis"):
         assume(Changing("rough", sp.Gt(f_c, 0)))
 
 

@@ -50,7 +50,7 @@ from derive.rules.limits import (
 from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC, SINE
 from derive.rules.solutions import FirstRoot, Inverted, Parametric, Solution
 from derive.symbols import initial, rate, symbols, t
-from tests.derive import test_hostile, test_rules
+from tests.derive import test_hostile, test_hostile_again, test_rules
 from tests.derive.test_hostile import GROWING, SLOPE, forgotten, integral, supposed, timed
 from tests.derive.test_rules import (
     BOUNDED,
@@ -119,7 +119,7 @@ def by_pressure(
 ) -> Judgement:
     """Apply Parametric, with one thing wrong."""
     law = given(sp.Eq(rate("u_c"), C * p / p_max))
-    return Parametric(sp.Eq(t, time), p)(law, given(sp.Eq(u_c, wear)), START, assume(CONSTANT))
+    return Parametric(sp.Eq(t, time))(law, given(sp.Eq(u_c, wear)), START, assume(CONSTANT))
 
 
 def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Judgement:
@@ -376,7 +376,11 @@ def test_a_side_condition_is_asked_for(said: str, false: Callable[[], Judgement]
 
 def test_every_refusal_of_the_rules_is_brought_about() -> None:
     """A line of a rule that refuses, or asks for a condition, and never did is not tested."""
-    cases = (*test_rules.CASES.values(), *test_hostile.CASES.values())
+    cases = (
+        *test_rules.CASES.values(),
+        *test_hostile.CASES.values(),
+        *test_hostile_again.CASES.values(),
+    )
     errors = [error for kind in kinds() for error in dropped(kind) if isinstance(error, RuleError)]
     errors += [refusal(false) for false in (*(c[0] for c in cases), *(f for _, f in REFUSED))]
     hit = {
