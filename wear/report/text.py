@@ -88,6 +88,7 @@ def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
         keep_trailing_newline=True, autoescape=False, comment_start_string="{##",
     )  # fmt: skip
     environment.filters["plain"] = escaped
+    environment.filters["cell"] = lambda text: text.replace("|", r"\|")
     source = environment.from_string(template).render(values)
     return tuple(MARKDOWN.parse(source, {"numbers": numbers}))
 

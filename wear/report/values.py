@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -53,10 +54,14 @@ _DATA = (
     ("T", "s"),
 )  # fmt: skip
 _LEDGER = (
-    (1, 9, "the model"),
-    (9, 18, "the condensed problem"),
-    (18, 33, "the stabilised response"),
-    (33, 41, "the numerical examples"),
+    (1, "the model"),
+    (9, "the condensed problem"),
+    (14, "the rigid support and the first example"),
+    (18, "what a stabilised response is"),
+    (22, "the passage to the limit"),
+    (28, "wear and pressure of a stabilised response"),
+    (33, "the application"),
+    (38, "the wear coefficient and the data"),
 )
 VERDICTS = (
     "confirmed", "confirmed-with-conditions", "not-reproducible", "inconsistent", "refuted",
@@ -414,8 +419,8 @@ def _ledger(material: Material) -> Iterator[dict[str, Any]]:
     """Yield the parts of the ledger, each with its claims."""
     labels = {f"eq:{equation.id}" for equation in material.equations}
     labels |= {f"claim:{entry.claim.id}" for entry in material.ledger}
-    for first, end, what in _LEDGER:
-        ids = {f"C{number}" for number in range(first, end)}
+    starts = [first for first, _ in _LEDGER]
+    for place, (first, what) in enumerate(_LEDGER, 1):
         claims = [
             {
                 "id": claim.id,
@@ -425,7 +430,7 @@ def _ledger(material: Material) -> Iterator[dict[str, Any]]:
                 "evidence": markup(finding.evidence, labels),
             }
             for claim, finding in material.ledger
-            if claim.id in ids
+            if bisect_right(starts, int(claim.id[1:])) == place
         ]
         yield {"what": what, "label": f"tab:claims-{first}", "claims": claims}
 
