@@ -48,7 +48,7 @@ _SMOOTH = (
     *(sp.Symbol, sp.Number, sp.NumberSymbol),
 )
 #: Functions that have a value at every real argument.
-_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.atan, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
+_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
 _RELATIONS = {
     sp.Equality: lambda a, b: a == b,
     sp.Unequality: lambda a, b: a != b,
@@ -251,8 +251,11 @@ def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:
 
 def _need(expr: sp.Basic) -> list[sp.Basic]:
     """Return the relation that gives an expression a value where its arguments have one."""
-    if expr in (sp.zoo, sp.nan) or isinstance(expr, (sp.Limit, FirstZero)):
+    if expr in (sp.zoo, sp.nan):
         return [sp.false]
+    unknown = sp.Ne(expr, sp.zoo, evaluate=False)
+    if isinstance(expr, (sp.Limit, FirstZero)):
+        return [unknown]
     if isinstance(expr, sp.Integral):
         ranges = (
             (ends, sp.Gt if x.is_positive else sp.Ge)
@@ -269,15 +272,13 @@ def _need(expr: sp.Basic) -> list[sp.Basic]:
     if isinstance(expr, sp.log):
         return [sp.Gt(expr.args[0], 0)]
     if isinstance(expr, sp.besseli):
-        return [] if expr.order.is_Integer else [sp.false]
+        return [] if expr.order.is_Integer else [unknown]
     if isinstance(expr, sp.LambertW):
-        return [sp.Ge(expr.args[0], 0) if len(expr.args) == 1 else sp.false]
+        return [sp.Ge(expr.args[0], 0) if len(expr.args) == 1 else unknown]
     if isinstance(expr, sp.Ei):
         return [sp.Ne(expr.args[0], 0)]
-    if isinstance(expr, sp.atanh):
-        return [sp.Lt(expr.args[0] ** 2, 1)]
     partial = isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise))
-    return [sp.false] if partial and not isinstance(expr, AppliedUndef) else []
+    return [unknown] if partial and not isinstance(expr, AppliedUndef) else []
 
 
 def continuous(expr: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgement) -> bool:

@@ -46,9 +46,7 @@ def plain(expr: sp.Expr) -> sp.Expr:
     """Functions of time as the symbols of a program, the slip rate in terms of its data."""
     names = {"u_c": "u", "U_a": "U_a", "p": "p"}
     fields = [f for f in expr.atoms(AppliedUndef) if f.func.__name__ in QUANTITIES]
-    return expr.xreplace(
-        {f: sp.Symbol(names[f.func.__name__], real=True) for f in fields},
-    )
+    return expr.xreplace({f: sp.Symbol(names[f.func.__name__], real=True) for f in fields})
 
 
 def in_parameters(variant: Variant, name: str) -> sp.Expr:

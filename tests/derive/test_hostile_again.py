@@ -46,11 +46,22 @@ from derive.rules.limits import (
     unbounded,
     vanishes,
 )
-from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC
+from derive.rules.reading import CONTINUOUS, PERIODIC
 from derive.rules.solutions import Parametric
 from derive.symbols import initial, rate, symbol, symbols, t
-from tests.derive.test_hostile import SMOOTH, supposed, timed
-from tests.derive.test_rules import BOUNDED, DEEP, ROUGHENS, START, drift_premises, given, tends
+from tests.derive.judgements import (
+    BOUNDED,
+    CONSTANTLY,
+    DEEP,
+    ROUGHENS,
+    START,
+    drift_premises,
+    equal,
+    given,
+    supposed,
+    tends,
+    timed,
+)
 
 u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, f_c, C, T, N, q, b_0, d, M = symbols("h_0 f_c C T N q b_0 d M")
@@ -59,10 +70,6 @@ x, y = sp.symbols("x y", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du, CLOCK = rate("u_c"), defined(t, T * tau)
 FALLING, STEADY = C / (1 + tau) ** 2, C / (1 + f_c**2) ** 2
-
-
-def equal(left: sp.Basic, right: sp.Basic) -> sp.Equality:
-    return sp.Eq(left, right, evaluate=False)
 
 
 def integral(body: sp.Expr, low: sp.Expr, high: sp.Expr) -> sp.Integral:
@@ -105,7 +112,7 @@ def by_pressure(field: sp.Expr, size: sp.Expr) -> Judgement:
     """The time at which a field has a value, where wear is a multiple of its size."""
     wear = h_0 * (size - size.subs(t, 0))
     law, start = given(equal(du, C)), given(equal(u_c, wear))
-    return Parametric(equal(t, h_0 * (field - field.subs(t, 0)) / C))(law, start, START, STILL)
+    return Parametric(equal(t, h_0 * (field - field.subs(t, 0)) / C))(law, start, START, CONSTANTLY)
 
 
 def lying(**methods: object) -> sp.Expr:
@@ -162,7 +169,7 @@ def drawn(kind: object, relation: sp.Basic) -> Judgement:
     return assume(Hypothesis("drawn", relation, kind=kind))  # type: ignore[arg-type]
 
 
-STILL = assume(CONSTANT)
+SMOOTH = assume(DIFFERENTIABLE)
 HEIGHT = initial("h")
 OPEN = given(sp.Ge(h, u_a))
 TWINS = sp.Dummy("x", real=True), sp.Dummy("x", real=True)
@@ -316,7 +323,7 @@ CASES: dict[str, Case] = {
             )
         )(tends(G, theta)),
         lambda: Insert(equal(theta * forever(G), theta * b_0))(tends(G, b_0)),
-        "for every|no identity|False",
+        "for every|no identity|zoo",
     ),
     # ---- what has no value
     "a logarithm of what is negative, integrated": (
@@ -332,17 +339,17 @@ CASES: dict[str, Case] = {
     "a factor that is no limit": (
         lambda: Multiply(sp.Limit(sp.sin(y), y, sp.oo))(given(equal(h, u_a))),
         lambda: Multiply(forever(G))(given(equal(h, u_a)), tends(G, theta)),
-        "False",
+        "zoo",
     ),
     "a factor that is no zero": (
         lambda: Multiply(FirstZero(y**2 + 1, y))(given(equal(h, u_a))),
         lambda: Multiply(u_stop)(given(equal(h, u_a))),
-        "False",
+        "zoo",
     ),
     "a Bessel function of half an order": (  # y = -1: imaginary
         lambda: Identity(equal(sp.besseli(sp.S.Half, y) + 0, sp.besseli(sp.S.Half, y)))(),
         lambda: Identity(equal(sp.besseli(0, y) + 0, sp.besseli(0, y)))(),
-        "False",
+        "zoo",
     ),
     "infinity, a factor": (  # h = u_a = 0
         lambda: Multiply(sp.oo)(given(equal(h, u_a))),

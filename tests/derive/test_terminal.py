@@ -133,11 +133,7 @@ class Terminal(io.StringIO):
 
 @pytest.mark.parametrize(
     ("screen", "kind", "shown"),
-    [
-        (Terminal, "xterm", "\r\033[Kverifying"),
-        (Terminal, "dumb", ""),
-        (io.StringIO, "xterm", ""),
-    ],
+    [(Terminal, "xterm", "\r\033[Kverifying"), (Terminal, "dumb", ""), (io.StringIO, "xterm", "")],
 )
 def test_progress_is_for_a_terminal_that_can_take_it_back(monkeypatch, screen, kind, shown):
     monkeypatch.setenv("TERM", kind)

@@ -16,16 +16,7 @@ from tests.wear.reference_scenes import REFERENCE
 from wear import benchmark, cli
 from wear.benchmark import Effort, Status, judge, results
 from wear.benchmark.machine import footer, machine, missing
-from wear.benchmark.methods import (
-    CYCLES,
-    OWN,
-    Answer,
-    Case,
-    Method,
-    UnsuitableError,
-    cases,
-    names,
-)
+from wear.benchmark.methods import CYCLES, OWN, Answer, Case, Method, UnsuitableError, cases, names
 from wear.commands import bench
 from wear.direct.problem import problem
 from wear.model import bind

@@ -19,7 +19,7 @@ CYCLES = np.array([1.0, 10.0, 100.0, 1000.0, 9000.0])
 
 @pytest.mark.parametrize("rtol", [1e-7, 1e-11])
 @pytest.mark.parametrize("names", [["S1"], ["S2", "S4", "S5", "S6"], ["S3a", "S3b", "S3c", "S3d"]])
-def test_reference_values(names: list[str], rtol: float) -> None:
+def test_reference_values(names, rtol):
     found = sweep([reference_scene(name) for name in names], CYCLES, rtol)
     want = np.array([[REFERENCE[name][int(n)] for n in CYCLES] for name in names])
     true = np.abs(found.u_c / want - 1)
@@ -27,7 +27,7 @@ def test_reference_values(names: list[str], rtol: float) -> None:
     assert np.all((true <= found.error) | (true < 3e-15))
 
 
-def test_figure_3b_is_one_call() -> None:
+def test_figure_3b_is_one_call():
     names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
     found = sweep([load_scene(name) for name in names], CYCLES)
     assert np.all(np.diff(found.u_c, axis=0) > 0)
@@ -41,7 +41,7 @@ def test_figure_3b_is_one_call() -> None:
         max_size=20,
     )
 )
-def test_a_scene_does_not_feel_its_neighbours(drawn: list[tuple[int, int, int]]) -> None:
+def test_a_scene_does_not_feel_its_neighbours(drawn):
     scenes = [
         Scene.from_dict(
             tables(
@@ -60,7 +60,7 @@ def test_a_scene_does_not_feel_its_neighbours(drawn: list[tuple[int, int, int]])
     assert np.all(np.abs(found.u_c / alone - 1) <= found.error + 1e-12)
 
 
-def test_loads_of_all_kinds_go_together() -> None:
+def test_loads_of_all_kinds_go_together():
     """Their meshes of phase differ, in the number of intervals too."""
     loads = [
         {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.06},
@@ -74,7 +74,7 @@ def test_loads_of_all_kinds_go_together() -> None:
     assert np.all(np.abs(found.u_c / np.array(alone) - 1) <= found.error)
 
 
-def test_panels_are_as_many_as_a_scene_needs() -> None:
+def test_panels_are_as_many_as_a_scene_needs():
     """1e12 cycles take more of them than the two that every scene begins with."""
     scenes = [Scene.from_dict(tables(f_c=f), "drawn") for f in (0.05, 0.2, 0.35)]
     cycles = np.array([1e3, 1e12])
@@ -90,9 +90,7 @@ def test_panels_are_as_many_as_a_scene_needs() -> None:
         (0.1678, 0.4846, {"kind": "constant", "value_mm": 3.338e-4, "period_s": 0.5337}),
     ],
 )
-def test_wear_that_opens_the_gap_before_the_first_node_is_not_overlooked(
-    K: float, f_c: float, load: dict[str, object]
-) -> None:
+def test_wear_that_opens_the_gap_before_the_first_node_is_not_overlooked(K, f_c, load):
     """The two maps agree there, for neither sees it."""
     scene = Scene.from_dict(tables(K=K, f_c=f_c, load=load), "fast")
     found = sweep([scene], CYCLES, 1e-4)
@@ -101,7 +99,7 @@ def test_wear_that_opens_the_gap_before_the_first_node_is_not_overlooked(
 
 
 @pytest.mark.parametrize("k", [None, 1e4])
-def test_scenes_of_a_wide_range(k: float | None) -> None:
+def test_scenes_of_a_wide_range(k):
     """Wear coefficients over three decades, swings over one, up to a hundred million cycles."""
     drawn = np.random.default_rng(7).uniform(size=(40, 3))
     scenes = [
@@ -123,7 +121,7 @@ def test_scenes_of_a_wide_range(k: float | None) -> None:
     assert np.all(np.abs(found.u_c / np.array(alone) - 1) <= found.error + 1e-12)
 
 
-def test_a_hard_scene_does_not_disturb_the_others() -> None:
+def test_a_hard_scene_does_not_disturb_the_others():
     """Pulses of a hundredth of a period and fast wear."""
     narrow = tables(K=1e-2, load={"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06})
     found = sweep([reference_scene("S2"), Scene.from_dict(narrow, "narrow")], CYCLES, 1e-10)
@@ -131,7 +129,7 @@ def test_a_hard_scene_does_not_disturb_the_others() -> None:
     assert_allclose(found.u_c[0], [REFERENCE["S2"][int(n)] for n in CYCLES], rtol=1e-10)
 
 
-def test_scenes_of_different_kinds_are_mixed_in_one_call() -> None:
+def test_scenes_of_different_kinds_are_mixed_in_one_call():
     """Variants, loss of contact and blocks; each as by itself."""
     blocks = {
         "kind": "blocks",
@@ -150,7 +148,7 @@ def test_scenes_of_different_kinds_are_mixed_in_one_call() -> None:
         assert np.all(np.abs(wear / alone.u_c - 1) <= error + alone.error)
 
 
-def test_a_sharp_density_is_judged_by_more_nodes_than_it_was_solved_with() -> None:
+def test_a_sharp_density_is_judged_by_more_nodes_than_it_was_solved_with():
     """Wear that takes off: within a cycle the density changes by orders of magnitude, and the same
     quadrature twice told nothing of that. It came to light beside a scene of sharp density."""
     drawn = [(2.77e-3, 0.7424, 3.352e-3, 1.145e-5), (2.482e-4, 0.36384, 1.58474e-3, 4.002e-5)]
@@ -182,7 +180,7 @@ MISSED_ON_THE_WAY = (1.772079e-4, 0.54323347, 9.7268339e-7, 9.4937768e-4, 2.6236
 
 
 @pytest.mark.parametrize("drawn", [FADING, MISSED_ON_THE_WAY])
-def test_the_request_is_met_by_wear_of(drawn: tuple[float, float, float, float, float]) -> None:
+def test_the_request_is_met_by_wear_of(drawn):
     scene, cycles = smooth(*drawn), np.array([3.0, 3000.0, 1e8])
     found = sweep([scene, smooth(3.6e-4, 0.25, 1e-6, 1.08e-3, 5e-4)], cycles, 1e-7)
     alone = wear_after(bind(scene), scene.load, cycles, 1e-12)
@@ -191,7 +189,7 @@ def test_the_request_is_met_by_wear_of(drawn: tuple[float, float, float, float, 
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-def test_variants_may_be_mixed_in_any_order(seed: int) -> None:
+def test_variants_may_be_mixed_in_any_order(seed):
     """Jobs that are joined on the way hold their scenes in any order."""
     rng = np.random.default_rng(seed)
     scenes = []
@@ -214,7 +212,7 @@ def test_variants_may_be_mixed_in_any_order(seed: int) -> None:
         assert np.all(np.abs(wear / alone.u_c - 1) <= error + alone.error)
 
 
-def test_scenes_that_lose_contact_are_as_if_alone_in_any_order() -> None:
+def test_scenes_that_lose_contact_are_as_if_alone_in_any_order():
     """Loads of one kind go together, rising and falling at different phases; some come twice."""
     rng = np.random.default_rng(3)
 
@@ -251,6 +249,6 @@ def test_scenes_that_lose_contact_are_as_if_alone_in_any_order() -> None:
         assert ends[0] < depth[i] <= ends[1]
 
 
-def test_no_scenes_have_no_wear() -> None:
+def test_no_scenes_have_no_wear():
     found = sweep([], CYCLES)
     assert found.u_c.shape == found.error.shape == (0, len(CYCLES))
