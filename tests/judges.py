@@ -63,6 +63,6 @@ def true_wear(scene: Scene, cycles: Sequence[int]) -> FloatArray:
 
 
 def honest(wear: FloatArray, error: FloatArray, want: FloatArray, missed: Any = 0.0) -> bool:
-    """Whether relative errors are within their estimates, what the reference misses, or rounding."""
+    """Whether relative errors are within estimates, what the reference misses, or rounding."""
     true = np.abs(wear / want - 1)
     return bool(np.all((true <= error + missed) | (true < ROUNDING)))

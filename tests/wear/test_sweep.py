@@ -38,12 +38,6 @@ def test_reference_values(names, rtol):
     assert honest(found.u_c, found.error, want)
 
 
-def test_figure_3b_is_one_call():
-    names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
-    found = sweep([load_scene(name) for name in names], CYCLES)
-    assert np.all(np.diff(found.u_c, axis=0) > 0)
-
-
 @settings(max_examples=5)
 @given(
     st.lists(
