@@ -23,24 +23,6 @@ from wear.model import bind
 from wear.scene import Scene, load_scene
 
 
-@pytest.mark.parametrize(
-    ("name", "cycle", "wear"),
-    [
-        ("section4-cutoff", 2045, 0.002),
-        ("section3-cutoff", 491, 0.000622179713311576220356230662647),
-        ("section5-cutoff", 824, 0.000980449714835624807061453807989),
-    ],
-)
-def test_wear_stops_in_its_cycle_and_stays(name, cycle, wear):
-    scene = load_scene(name)
-    around = np.array([cycle - 1.0, float(cycle), 1e12])
-    found = count.wear_after(bind(scene), scene.periodic_load, around, 1e-10)
-    assert found.notices == (f"wear stops for good in cycle {cycle}",)
-    assert_allclose(found.u_c[1:], wear, rtol=1e-15)
-    assert found.u_c[0] < wear
-    assert np.all(found.error <= 1e-10)
-
-
 @pytest.mark.parametrize("slope", [0.25, 0.5])
 def test_counted_cycles_are_integrated_ones(slope):
     """f above and below 1/3: direct integration with events shares no code with the map."""

@@ -39,12 +39,6 @@ def page(window, page_file):
     assert set(fetched) == {page_file.as_uri()}
 
 
-def test_what_the_page_has_of_the_derivation_is_up_to_date() -> None:
-    """Else: python -m wear.report.explorer_derived."""
-    file = Path(explorer.__file__).parent / "assets" / explorer_derived.FILE
-    assert file.read_text(encoding="utf-8") == explorer_derived.derived()
-
-
 def put(page, name, value, event="input"):
     """Set a control and wait for the page to have followed."""
     before = page.run(UPDATES)

@@ -150,24 +150,6 @@ def test_what_is_asked_for_changes_nothing() -> None:
     assert all_of_them.u[0] == all_of_them.error[0] == 0.0
 
 
-def test_in_other_units() -> None:
-    """Lengths and times multiplied by powers of two: the same digits."""
-    length, span = 2.0**-20, 2.0**9
-    load = record(10)
-    made = tables(load=CONSTANT)
-    model = bind(Scene.from_dict(made))
-    made["bearing"]["roughness_mm"] *= length
-    made["contact"]["closure_mm"] *= length
-    made["motion"]["radius_mm"] *= length
-    made["motion"]["speed_rpm"] /= span
-    times, levels = np.array(load.times_s) * span, np.array(load.values_mm) * length
-    other = HistoryLoad(tuple(times.tolist()), tuple(levels.tolist()), PERIOD * span)
-    one = follow(model, load, [1, 10], 1e-10)
-    two = follow(bind(Scene.from_dict(made)), other, [1, 10], 1e-10)
-    assert_allclose(two.u / length, one.u, rtol=1e-14)
-    assert_allclose(two.error, one.error, rtol=0.5)
-
-
 def test_a_pause_out_of_contact_only_delays() -> None:
     load = record(10)
     away = -1.0  # mm
