@@ -17,7 +17,6 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of
@@ -25,6 +24,7 @@ from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.model import Model, bind
+from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.iterates import Iterates
 from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
@@ -35,8 +35,6 @@ from wear.resampling import resampled
 if TYPE_CHECKING:
     from wear.scene import Scene
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.intp]
 
 MOST_CYCLES = 1e12
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.counted import Counted
 from wear.cycles import count_cycles, growth
@@ -14,13 +13,12 @@ from wear.load import HistoryLoad, Load, Loading
 from wear.load.spans import span
 from wear.loss_of_contact.dense_output import SwitchedDenseOutput, switched_dense_output
 from wear.model import Fields, Model
+from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import SAFETY
 from wear.numerics.tolerances import TINY
 from wear.orbit.dense_output import Added, DenseOutput, dense_output
 from wear.orbit.iterates import Iterates
 from wear.states import fields_under_load
-
-FloatArray = NDArray[np.float64]
 
 CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
 BATCH = 10_000  # cycles of which the wear at the start is found at once
