@@ -29,7 +29,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.typing import ColorType, LineStyleType
 
-from wear.figure_data import FloatArray
+from wear.numerics.gauss import FloatArray
 
 #: Widths of a journal's single, one and a half, and double column, in mm.
 COLUMN = 90.0
