@@ -273,7 +273,7 @@ def fortran_driver(variant):
     data = range(1, len(made.parameters) + 1)
     given = ", ".join([f"d({i})" for i in data] + ["pin_wear_sign"] * variant.pin.wears)
     at = ", ".join(words(a.name for a in made.functions[-1].arguments))
-    values = [f"{f.name}({', '.join(words(a.name for a in f.arguments) + ['c'])})" for f in plain]
+    values = [f"{f.name}({', '.join([*words(a.name for a in f.arguments), 'c'])})" for f in plain]
     values += [f"f%{name}" for name in words(fields)]
     values += [f"{root}(u, pin_displacement, c)" for root in roots]
     write = "    write (*, '(es28.17e4)', advance='no') "
