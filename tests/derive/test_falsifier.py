@@ -5,31 +5,21 @@ import sympy as sp
 
 from derive.falsifier.verdict import falsify
 from derive.symbols import initial, rate, symbols, t
-from tests.derive.false_statements import (
-    BOUNDED,
-    CASES,
-    CONSTANT,
-    GAP,
-    RATE,
-    SIZE,
-    STEADY,
-    Case,
-    forever,
-)
+from tests.derive.false_statements import BOUNDED, CASES, CONSTANT, GAP, RATE, SIZE, STEADY, forever
 
 MANY = 400
 f_c, h_0, u_c, U_a, G, p_max = symbols("f_c h_0 u_c U_a G p_max")
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.said)
-def test_a_false_statement_is_falsified(case: Case):
+def test_a_false_statement_is_falsified(case):
     answer = falsify(case.given, case.false, MANY, enough=MANY)
     assert answer.counterexample is not None
     assert str(answer.counterexample) or not case.false.free_symbols
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.said)
-def test_its_true_neighbour_is_not(case: Case):
+def test_its_true_neighbour_is_not(case):
     answer = falsify(*case.neighbour, enough=4)
     assert answer.passed, str(answer.counterexample)
     assert answer.decided >= 4

@@ -1,7 +1,7 @@
 """The report: a text in Markdown with computed values, written as a page and as LaTeX.
 
 Contents
-    paper.md, paper, values                    what the paper says, and its numbers
+    paper.md, paper; scene.md, own              what the reports say, and their numbers
     text, document, number                     Markdown with values, labels numbered
     equations, derivations, markup             equations with titles, and how they follow
     writer, html, tex, templates, svg, mathml  the writer and its two forms

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from tests.wear.report.conftest import document
 from wear.report.document import Document
+from wear.report.markup import escaped
 from wear.report.number import Number
-from wear.report.text import escaped, line, parsed
+from wear.report.text import line, parsed
 
 
 def test_every_label_has_the_number_of_its_place(sample: Document) -> None:
