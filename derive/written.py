@@ -42,7 +42,7 @@ _IN_PYTHON = (
 )
 
 _OPERATIONS: Mapping[type, Any] = {
-    ast.Mult: operator.mul, ast.Pow: operator.pow, ast.USub: operator.neg,
+    ast.Mult: operator.mul, ast.Pow: operator.pow, ast.USub: operator.neg, ast.UAdd: operator.pos,
     ast.Eq: sp.Eq, ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge,
 }  # fmt: skip
 
@@ -88,7 +88,7 @@ class _Reader(ast.NodeVisitor):
         raise ValueError(f"{ast.unparse(node)} is not understood")
 
     def visit_Constant(self, node: ast.Constant) -> sp.Basic:
-        return sp.Integer(node.value)
+        return sp.Rational(ast.unparse(node))
 
     def visit_Name(self, node: ast.Name) -> sp.Basic:
         name = node.id.rstrip("_")
