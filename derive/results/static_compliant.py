@@ -94,7 +94,7 @@ class StaticCompliant:
     def _time(self, claim: sp.Basic, wear: Judgement, *facts: Judgement) -> Judgement:
         law, start = self.model.wear_laws[2], self.model.start[1]
         parents = (law, wear, start, half_rate, assume(CONSTANT), *facts)
-        return Parametric(claim, p)(*parents, name="time")
+        return Parametric(claim)(*parents, name="time")
 
 
 def _elementary() -> sp.Expr:
