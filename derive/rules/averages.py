@@ -137,7 +137,7 @@ class SlowTime(Rule):
     """
 
     claim: sp.Equality
-    words = "Integrate the averaged drift, {all}, term by term."
+    words = "Integrate the averaged drift term by term, with {all}."
     source = "termwise integration of an asymptotic series"
 
     def conclude(self, *premises: Judgement) -> Conclusion:

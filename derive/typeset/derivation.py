@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import sympy as sp
 
+from ..hypotheses import Kind
 from ..kernel import Judgement
 from .breaking import broken
-from .display import latex
+from .display import inline, latex
 from .macros import macro_name, macros
 from .present import presentable
 
@@ -103,8 +104,17 @@ class Derivations:
             return f"[eq:{numbered}]"
         equation, place = self._told.get(parent.relation, ("", 0))
         if not equation:
-            return f"[eq:{numbered}]" if numbered else "the hypotheses"
+            return _assumed(parent)
         return f"step {place}" if equation == of else f"step {place} of the [der:{equation}]"
+
+
+def _assumed(hypothesis: Judgement) -> str:
+    """Return how a step refers to a hypothesis that no equation shows: by its formula, if any."""
+    relation, said = hypothesis.relation, hypothesis.hypotheses[-1]
+    names = relation is sp.true or relation.lhs.is_Symbol
+    if said.kind is Kind.DEFINITION and names:
+        return "the definitions"
+    return said.text if relation is sp.true else f"${inline(presentable(relation))}$"
 
 
 def is_hypothesis(statement: Judgement) -> bool:
