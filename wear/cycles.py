@@ -12,8 +12,9 @@ Key results
 
 from __future__ import annotations
 
+import os
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of
+from wear.faults import UsageError
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
@@ -220,34 +222,42 @@ def _since(notice: str, done: int) -> str:
 
 
 def sweep(
-    scenes: Sequence[Scene],
-    cycles: FloatArray,
+    scenes: Sequence[Scene | str | os.PathLike[str]],
+    cycles: FloatArray | Iterable[float] | float,
     rtol: float = 1e-7,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Sweep:
-    """Return the wear of many scenes after the same whole numbers of cycles (n,).
+    """Return the wear of many scenes, or their names, after the same whole numbers of cycles (n,).
 
     Scenes of one variant of the model whose loads repeat are solved together; variants may be
     mixed. After two seconds `progress` is told now and then how many scenes are done.
 
-    >>> from wear.scene import load_scene
-    >>> names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
-    >>> found = sweep([load_scene(name) for name in names], np.array([1.0, 9000.0]))
+    >>> found = sweep(["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"], [1, 9000])
     >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
     ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
     """
-    cycles = np.asarray(cycles, dtype=float)
-    last = float(np.max(cycles, initial=0.0))
+    from wear.scene import as_scene
+    from wear.solver import is_number, whole_cycles
+
+    faults: list[str] = []
+    numbers = np.array(whole_cycles(cycles, faults), dtype=float)
+    if not is_number(rtol) or not 0.0 < rtol <= 0.1:
+        faults.append(f"rtol: {rtol!r} is not between 0 and 0.1")
+    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
+        faults.append("scenes: give a list of them")
+    if faults:
+        raise UsageError("\n".join(faults))
+    last = float(np.max(numbers, initial=0.0))
 
     def together(some: Sequence[Scene]) -> Answer:
-        return _orbit(some, last, rtol).after(np.broadcast_to(cycles, (len(some), len(cycles))))
+        return _orbit(some, last, rtol).after(np.tile(numbers, (len(some), 1)))
 
     def alone(scene: Scene) -> Answer:
-        return wear_after(bind(scene), scene.load, cycles, rtol)[:2]
+        return wear_after(bind(scene), scene.load, numbers, rtol)[:2]
 
-    fewer = [resampled(scene, rtol) for scene in scenes]
+    fewer = [resampled(as_scene(scene), rtol) for scene in scenes]
     some = [each.scene for each in fewer]
-    u, error = _each(some, len(cycles), together, alone, Pace(progress))
+    u, error = _each(some, len(numbers), together, alone, Pace(progress))
     for row, each in enumerate(fewer):
         error[row] += each.missed(u[row])
     return Sweep(u, error)

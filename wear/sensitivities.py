@@ -171,7 +171,7 @@ def _of_one_variant(
     return found._replace(derivative_error=np.where(unknown, np.inf, found.derivative_error))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sensitivities:
     """How the wear of a scene after `cycles` (n,) depends on its numbers.
 
@@ -209,8 +209,15 @@ class Sensitivities:
         with np.errstate(all="ignore"):
             return -self.derivative / self.wear_per_cycle_mm
 
+    def __repr__(self) -> str:
+        heads = "".join(f"{n:>14.6g}" for n in self.cycles)
+        rows = [f"{key:<28}" + "".join(f"{value:>14.6f}" for value in row)
+                for key, row in zip(self.keys, self.elasticity, strict=True)]  # fmt: skip
+        return "\n".join([f"{'elasticity after cycles':<28}{heads}", *rows])
+
     def as_json(self) -> dict[str, Any]:
-        """Return the document of `wear sensitivity --json`."""
+        """Return the document of `wear sensitivity --json`; `pandas.DataFrame` makes a table of its
+        "parameters"."""
         rows = zip(
             self.keys, self.values.tolist(), self.derivative, self.elasticity,
             self.elasticity_error, self.cycles_derivative, strict=True,

@@ -7,7 +7,7 @@ import os
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -108,10 +108,7 @@ def checked_request(
 ) -> tuple[int, ...]:
     """The numbers of cycles as integers; everything that is wrong with the request at once."""
     faults: list[str] = []
-    several = cycles if isinstance(cycles, Iterable) else (cycles,)
-    wanted = tuple(_whole(number, faults) for number in several)
-    if not wanted:
-        faults.append("cycles: give at least one number of cycles")
+    wanted = whole_cycles(cycles, faults)
     if not is_number(rtol) or not LEAST_RTOL <= rtol <= LARGEST_RTOL:
         faults.append(f"rtol: {rtol!r} is not between 1e-15 and 0.1")
     if method not in METHODS:
@@ -129,15 +126,29 @@ def checked_request(
     return wanted
 
 
+def whole_cycles(
+    cycles: float | Iterable[float], faults: list[str], least: int = 0
+) -> tuple[int, ...]:
+    """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
+    given: Any = cycles.tolist() if isinstance(cycles, np.ndarray | np.generic) else cycles
+    if hasattr(given, "to_numpy"):  # of pandas and xarray
+        given = given.to_numpy().tolist()
+    several = given if isinstance(given, Iterable) and not isinstance(given, str) else [given]
+    wanted = tuple(_whole(number, faults, least) for number in several)
+    if not wanted:
+        faults.append("cycles: give at least one number of cycles")
+    return wanted
+
+
 def is_number(given: object) -> bool:
     """Return whether something is a real number and no truth value."""
     return isinstance(given, numbers.Real) and not isinstance(given, bool)
 
 
-def _whole(number: float, faults: list[str]) -> int:
-    if not is_number(number) or not 0 <= number <= MOST_CYCLES or number != int(number):
-        faults.append(f"cycles: {number!r} is no whole number from 0 to 1e12")
-        return 0
+def _whole(number: float, faults: list[str], least: int) -> int:
+    if not is_number(number) or not least <= number <= MOST_CYCLES or number != int(number):
+        faults.append(f"cycles: {number!r} is no whole number from {least} to 1e12")
+        return least
     return int(number)
 
 

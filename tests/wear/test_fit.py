@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 from scipy import stats
 from scipy.optimize import least_squares
@@ -13,8 +15,7 @@ from scipy.optimize import least_squares
 import wear
 from wear.cli import main
 from wear.faults import UsageError
-from wear.fitting.estimate import Fit
-from wear.fitting.forecast import forecast, life, next_reading, undetermined
+from wear.fitting.fit import Fit
 from wear.fitting.laws import alternatives
 from wear.fitting.least_squares import follow
 from wear.fitting.posterior import posterior
@@ -79,6 +80,28 @@ def test_readings_may_be_written_as_instruments_do(tmp_path: Path) -> None:
         read_readings(file)
 
 
+def test_names_of_columns_may_have_capitals(tmp_path: Path) -> None:
+    file = tmp_path / "wear.csv"
+    file.write_text("Rig 3\nCycles,Wear_um,Specimen\n1,2,A\n2,3,A\n")
+    (only,) = read_readings(file)
+    assert (only.name, only.wear_mm.tolist()) == ("A", [2e-3, 3e-3])
+
+
+def test_a_point_beside_decimal_commas_is_no_decimal_sign(tmp_path: Path) -> None:
+    file = tmp_path / "wear.csv"
+    file.write_text("cycles;wear_um\n1.000;0,8\n2.000;1,2\n")
+    with pytest.raises(UsageError, match=r"line 2: 1\.000 has a point"):
+        read_readings(file)
+
+
+def test_a_file_without_a_header_is_refused_in_one_sentence(tmp_path: Path) -> None:
+    file = tmp_path / "wear.csv"
+    file.write_text("Time (h);Wear (um)\n0,5;0,8\n1;1,2;ok\n")
+    with pytest.raises(UsageError, match="no column cycles") as caught:
+        read_readings(file)
+    assert "\n" not in str(caught.value)
+
+
 # Fits
 
 K, GROWTH, ROUGHNESS = (
@@ -116,16 +139,16 @@ def test_intervals_of_synthetic_readings_cover_the_truth(found: Fit, far_off: Sc
         for profile, truth in zip(each.profiles, (1e-6, 0.25), strict=True)
     ]
     assert sum(covered) >= 5
-    assert not any(list(undetermined(each)) for each in fits)
+    assert not any(each.undetermined() for each in fits)
 
 
 def test_what_late_readings_leave_open_is_named(far_off: Scene) -> None:
     late = synthetic(7, np.array([1e6, 1.26e6, 1.587e6, 2e6]))  # they see one rate of wear
     found = wear.fit([late], far_off, [K, GROWTH], intervals=False)
-    ((combination, sentence),) = undetermined(found)
+    ((combination, sentence),) = found.undetermined()
     assert set(combination) == {K, GROWTH}
     assert "do not determine" in sentence
-    (ahead,) = forecast(found, [3e6])
+    (ahead,) = found.forecast([3e6])
     truth = float(wear.solve("section4", 3_000_000).u_c[0])
     assert ahead.interval_95[0] < truth < ahead.interval_95[1]
 
@@ -186,30 +209,30 @@ def test_an_end_that_only_the_bounds_of_another_parameter_make_is_open() -> None
 
 def test_two_keys_that_enter_only_as_a_quotient_are_said_to() -> None:
     found = wear.fit([synthetic(1)], "section4", [K, "bearing.hardness_MPa"])
-    ((combination, sentence),) = undetermined(found)
+    ((combination, sentence),) = found.undetermined()
     assert combination == pytest.approx({K: 1.0, "bearing.hardness_MPa": 1.0}, rel=1e-3)
     assert "enter only as" in sentence
     assert all(np.isinf(profile.interval).all() for profile in found.profiles)
     assert np.isinf(found.standard_errors).all()
-    (ahead,) = forecast(found, [1e5])  # determined all the same
+    (ahead,) = found.forecast([1e5])  # determined all the same
     assert ahead.interval_95[1] / ahead.interval_95[0] < 1.5
 
 
 def test_a_forecast_covers_the_truth_and_a_life_is_its_inverse(found: Fit) -> None:
-    (ahead,) = forecast(found, [100_000])
+    (ahead,) = found.forecast([100_000])
     truth = float(wear.solve("section4", 100_000).u_c[0])
     assert ahead.interval_95[0] < truth < ahead.interval_95[1]
-    (reached,) = life(found, ahead.bearing_wear_mm)
+    (reached,) = found.life(ahead.bearing_wear_mm)
     assert reached.cycles == pytest.approx(1e5, rel=1e-4)
     wide = np.log(reached.interval_95[1] / reached.interval_95[0])
-    (before, after) = forecast(found, [90_000, 110_000])
+    (before, after) = found.forecast([90_000, 110_000])
     steepness = np.log(after.bearing_wear_mm / before.bearing_wear_mm) / np.log(11 / 9)
     band = np.log(ahead.interval_95[1] / ahead.interval_95[0])
     assert wide == pytest.approx(band / steepness, rel=0.01)
 
 
 def test_the_next_reading_narrows_the_band_as_if_it_had_been_read(found: Fit) -> None:
-    advice = next_reading(found, 1e6)
+    advice = found.next_reading(1e6)
     slope = found.model(found.theta[None])[1][0]
     _, ahead = found.model.log_wear(found.theta[None], [np.array([advice.cycles, 1e6])])
     reading, target = ahead[0]
@@ -271,6 +294,26 @@ def test_the_posterior_of_a_determined_parameter_is_that_of_the_fit() -> None:
     samples = np.log(posterior(found, 20, seed=1)[:, 0])
     assert np.mean(samples) == pytest.approx(found.theta[0], abs=0.5 * error)
     assert np.std(samples) == pytest.approx(error, rel=0.5)
+
+
+def test_columns_of_a_notebook_are_readings(found: Fit, far_off: Scene) -> None:
+    readings = synthetic(1)
+    columns = {"cycles": readings.cycles.astype(int), "wear_um": 1e3 * readings.wear_mm}
+    frame = pandas.DataFrame(columns)
+    fits = [wear.fit(data, far_off, K, intervals=False) for data in (columns, frame, [readings])]
+    assert fits[0].estimates == fits[1].estimates
+    assert fits[0].estimates == pytest.approx(fits[2].estimates, rel=1e-9)
+    again = pickle.loads(pickle.dumps(found))
+    assert again.as_json()["parameters"] == found.as_json()["parameters"]
+    assert repr(found).startswith(f"<Fit to 9 readings: {K} = 1.0")
+    assert len(found.plot().axes) == 2
+
+
+def test_readings_and_estimates_that_are_hardly_meant_are_said() -> None:
+    """Micrometres typed as mm make a surface rougher than any."""
+    columns = {"cycles": [1000, 2000], "wear_mm": [0.8, 1.2]}
+    found = wear.fit(columns, load_scene("section4").with_({K: 1e-2}), K, intervals=False)
+    assert "implausible: the roughness of 0.3" in " ".join(found.as_json()["notices"])
 
 
 # Bad requests and the command

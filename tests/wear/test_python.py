@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 import runpy
 from pathlib import Path
 
@@ -13,7 +14,8 @@ import pytest
 
 import derive
 import wear
-from wear.fitting.readings import Specimen
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 def test_a_script_needs_no_deep_import(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -23,6 +25,15 @@ def test_a_script_needs_no_deep_import(tmp_path: Path, monkeypatch: pytest.Monke
     assert made["deepest"] > made["many"].u_c[0, 0] > 0.0
     assert made["regime"] == "steady"
     assert (tmp_path / "wear.svg").stat().st_size > 1000
+
+
+def test_everything_that_the_reference_names_is_in_the_package_itself() -> None:
+    page = (DOCS / "reference" / "python.md").read_text()
+    named = re.findall(
+        r"auto(?:function|class|exception):: (?:wear)\.[\w.]*?(\w+)(?:\(\))?\n", page
+    )
+    assert len(named) > 30
+    assert not [name for name in named if name not in dir(wear)]
 
 
 def test_an_equation_shows_itself_in_short_and_typeset() -> None:
@@ -48,7 +59,7 @@ def test_what_takes_long_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> 
     wear.sensitivity("section4", 10, 1e-6, told.append)
     assert told[2:] == ["cycle 0 of 10"]
     read = np.array([10.0, 100.0, 1000.0])
-    specimen = Specimen("", read, wear.solve("section4", read).u_c, None, {})
+    specimen = wear.Specimen("", read, wear.solve("section4", read).u_c, None, {})
     free = ["bearing.wear_coefficient"]
     wear.fit([specimen], "section4", free, intervals=False, progress=told.append)
     assert told[3].startswith("least sum of squares: ")

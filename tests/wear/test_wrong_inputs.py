@@ -12,6 +12,7 @@ import wear
 from wear import cli
 
 NAN, INF = float("nan"), float("inf")
+K, HARDNESS = "bearing.wear_coefficient", "bearing.hardness_MPa=150,200"
 SECTION4 = wear.load_scene("section4")
 OPEN: Any = wear  # whose calls below are wrong on purpose
 
@@ -71,6 +72,29 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.Blocks(3),
         lambda: OPEN.Bearing({}, [], None, "x"),
         lambda: OPEN.solve("section4", 1).write("wear.xlsx"),
+        lambda: OPEN.fit(None, "section4", K),
+        lambda: OPEN.fit([1, 2], "section4", K),
+        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1]}, "section4", K),
+        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [[1], None]}, "section4", K),
+        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1, 2]}, "section4", K, error=print),
+        lambda: OPEN.study("section4", "bearing.hardness", 1, "out.zarr"),
+        lambda: OPEN.study("section4", [3], 1, "out.zarr"),
+        lambda: OPEN.study("section4", HARDNESS, NAN, "out.zarr"),
+        lambda: OPEN.study("section4", HARDNESS, "9000", "out.zarr"),
+        lambda: OPEN.study("section4", HARDNESS, 1, None),
+        lambda: OPEN.study("section4", HARDNESS, 1, "out.zarr", rtol="1e-7"),
+        lambda: OPEN.study("section4", HARDNESS, 1, "out.zarr", until_wear="1"),
+        lambda: OPEN.study("section4", HARDNESS, 1, "out.zarr", design=None),
+        lambda: OPEN.study("section4", HARDNESS, 1, "out.zarr", seed=None),
+        lambda: OPEN.study("section4", HARDNESS, 1, "out.zarr", samples="8"),
+        lambda: OPEN.study("section4", HARDNESS, 1, "out.zarr", executor=4),
+        lambda: OPEN.sobol_indices("section4", HARDNESS, 1, samples=2.5),
+        lambda: OPEN.sweep(["nowhere"], [1]),
+        lambda: OPEN.sweep("section4", [1]),
+        lambda: OPEN.sweep(["section4"], [-1]),
+        lambda: OPEN.sweep(["section4"], None),
+        lambda: OPEN.sweep(["section4"], [1], rtol="1e-7"),
+        lambda: OPEN.sensitivity("section4", "9000"),
     ],
 )
 def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call: Callable[[], object]) -> None:
