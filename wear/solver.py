@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear import direct, records
 from wear.checked import MOST_CYCLES
@@ -29,7 +28,6 @@ if TYPE_CHECKING:
 
 __all__ = ["METHODS", "MOST_CYCLES", "solve"]
 
-FloatArray = NDArray[np.float64]
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)
 LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails

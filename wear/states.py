@@ -6,18 +6,16 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.direct.cutoff import pressure_share, roundoff
 from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.load.spans import span
+from wear.numerics.gauss import FloatArray
 
 if TYPE_CHECKING:
     from wear.model import Fields, Model
     from wear.scene import Scene
-
-FloatArray = NDArray[np.float64]
 
 
 def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) -> Fields:

@@ -31,7 +31,7 @@ from .regimes import Regimes
 from .two_solids import TwoSolids, apart, sigma
 from .validity import threshold_bound
 
-q, g, p_1, kappa, p_inf, T = symbols("q g p_1 kappa p_inf T")
+q, g, p_1, p_inf, T = symbols("q g p_1 p_inf T")
 K_a, K_c, H_a, H_c, p_max = symbols("K_a K_c H_a H_c p_max")
 h_0, U_mean, U_max, sigma_c0, N = symbols("h_0 U_mean U_max sigma_c0 N")
 p, sigma_a0 = symbols("p sigma_a0")

@@ -16,11 +16,11 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Equation, beyond
+from ..equations import Proved
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
@@ -30,7 +30,6 @@ from ..rules.algebra import Insert, Logarithm, Solve
 from ..rules.assumption import assume
 from ..rules.calculus import RIGID
 from ..symbols import symbols
-from ..typeset.display import as_written
 
 h, h_0, U_a, U_c, sigma = symbols("h h_0 U_a U_c sigma")
 p, p_max, k, f_c, sigma_c0 = symbols("p p_max k f_c sigma_c0")
@@ -85,18 +84,11 @@ class FirstIntegral:
         return Insert(claim)(*parents)
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the first integrals."""
-    general, tanh = FirstIntegral(GENERAL), FirstIntegral(TANH)
-    with as_written():
-        bracket = sp.log(p / (p_max - p)) - (8 - 4 / f_c)
-        value = 4 * (sigma_c0 / f_c - h_0)
-        rigid = sp.Eq(sp.Add(sigma * bracket, -(4 * U_a)), value)
-        compliant = sp.Eq(sp.Add(sigma * bracket, 4 * p / k, -(4 * U_a)), value)
-        line = sp.Eq(sp.Add(h, U_a, -U_c, -(sigma / f_c)), h_0 - sigma_c0 / f_c)
-    result, soft = partial(beyond, "first integral"), "first integral, compliant support"
-    return (
-        result("closure-line", "first integral, any law", general.line, line),
-        result("first-integral", "first integral", tanh.rigid, rigid),
-        result("first-integral-compliant", soft, tanh.compliant, compliant),
-    )
+    tanh = FirstIntegral(TANH)
+    return {
+        "closure-line": FirstIntegral(GENERAL).line,
+        "first-integral": tanh.rigid,
+        "first-integral-compliant": tanh.compliant,
+    }

@@ -15,11 +15,11 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Equation, beyond
+from ..equations import Proved
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
@@ -29,10 +29,9 @@ from ..rules.assumption import assume
 from ..rules.reading import CONSTANT
 from ..rules.solutions import Parametric
 from ..symbols import initial, symbols, t
-from ..typeset.display import as_written, over
 from .first_integral import SLOPED, UNSATURATED, FirstIntegral
 from .regimes import KEPT
-from .static_solution import half_rate, load_offset, written_offset
+from .static_solution import half_rate, load_offset
 
 h, h_0, U_a, u_c, sigma, sigma_c0, f_c = symbols("h h_0 U_a u_c sigma sigma_c0 f_c")
 p, p_max, k, C, beta, p_s = symbols("p p_max k C beta p_s")
@@ -125,35 +124,10 @@ def _elementary() -> sp.Expr:
     )
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the static solutions on a compliant support."""
     static = StaticCompliant()
-    result = partial(beyond, "static load")
-    size, primitive = sp.Function("S"), sp.Function("Q")
-    with as_written():
-        odds = sp.Add(sp.log(p_s / (p_max - p_s)), -8, 4 / f_c)
-        roughness = sp.Eq(size(p_s), 2 * sp.Add(beta, -(2 * p_s / k)) / odds)
-        worn, growth = sp.Add(size(p), -sigma_c0), sp.Add(size(p_s), -sigma_c0)
-        inside = p_max * growth / (f_c * p_s**2)
-        with sp.evaluate(True):
-            integral = sp.Integral(inside, (p_s, p_start, p))
-        by_parts = sp.Add((p_max * worn) / (f_c * p), integral)
-        rough = (sp.Eq(u_c, over(f_c) * worn), sp.Eq(t, over(2 * C) * by_parts))
-        ratio = (p_max - p_s) / p_s
-        depth = sigma_c0 / 4 * sp.Add(ratio, sp.log(ratio))
-        elementary = sp.Eq(primitive(p_s), sp.Add(depth, -(p_max / k * sp.log(p_s / p_max))))
-        change = sp.Add(primitive(p), -primitive(p_start))
-        smooth = (sp.Eq(u_c, _worn_smooth()), sp.Eq(t, over(2 * C) * change))
-    title, of_slope = "wear and time at a pressure", (load_offset, half_rate)
-    sloped, flat = (static.wear, static.time, *of_slope), (static.wear_smooth, static.time_smooth)
-    shown = (*rough, written_offset, half_rate.relation)
-    return (
-        result("static-solution-compliant", title, sloped, shown, (roughness,)),
-        result(
-            "static-solution-compliant-smooth",
-            f"{title}, f_c = 0",
-            (*flat, half_rate),
-            (*smooth, half_rate.relation),
-            (elementary,),
-        ),
-    )
+    return {
+        "static-solution-compliant": (static.wear, static.time, load_offset, half_rate),
+        "static-solution-compliant-smooth": (static.wear_smooth, static.time_smooth, half_rate),
+    }

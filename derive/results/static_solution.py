@@ -17,11 +17,11 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Equation, beyond
+from ..equations import Proved
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
@@ -29,7 +29,6 @@ from ..rules.assumption import assume, defined
 from ..rules.reading import CONSTANT
 from ..rules.solutions import Inverted, Solution
 from ..symbols import symbols, t
-from ..typeset.display import as_written, over
 from .first_integral import SLOPED
 from .regimes import Regimes
 
@@ -41,9 +40,6 @@ MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(
 half_rate = defined(C, K_c * V * p_max / (6 * H_c))
 load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a), "", assume(CONSTANT))
 limit_argument = defined(x_inf, 4 - 2 / f_c)
-
-with as_written():
-    written_offset = sp.Eq(beta, 2 * sp.Add(sigma_c0 / f_c, -h_0, U_a))
 
 
 def excess(roughness: sp.Expr) -> sp.Expr:
@@ -92,30 +88,11 @@ def _inverse() -> sp.Expr:
     return sp.Add(2 * travel, -(sigma_c0 / 4 * sp.LambertW(inside)))
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the static solutions."""
-    static, result = StaticSolution(), partial(beyond, "static load")
-    s, gap = sp.Symbol("s", positive=True), sp.Symbol("ell", positive=True)
-    primitive = sp.Function("P")
-    with as_written():
-        z = -(2 * beta / s)
-        excess_of = sp.Eq(primitive(s), sp.Add(s * sp.exp(z), 2 * beta * sp.Ei(z)))
-        change = sp.Add(primitive(sigma_c0 + f_c * u_c), -primitive(sigma_c0))
-        travelled = sp.Add(u_c / 2, over(2 * f_c) * sp.exp(-(2 * x_inf)) * change)
-        time = sp.Eq(t, over(C) * travelled)
-        opened = sp.exp(sp.Add(4 * sp.Add(h_0, -U_a) / sigma_c0, -8))
-        smooth_gap = sp.Eq(gap, sigma_c0 / 8 * opened)
-        worn = sp.Add(sp.exp(4 * u_c / sigma_c0), -1)
-        smooth = sp.Eq(t, over(C) * sp.Add(u_c / 2, gap * worn))
-        travel = sp.Add(C * t, gap)
-        lambert = sp.LambertW(8 * gap / sigma_c0 * sp.exp(8 * travel / sigma_c0))
-        inverse = sp.Eq(u_c, sp.Add(2 * travel, -(sigma_c0 / 4 * lambert)))
-        shown = (time, written_offset, limit_argument.relation, half_rate.relation)
-    statements, where = (static.time, load_offset, limit_argument, half_rate), (smooth_gap,)
-    flat, shown_flat = (static.time_smooth, half_rate), (smooth, half_rate.relation)
-    of_time, of_wear = (f"{what} under a constant load" for what in ("time", "wear"))
-    return (
-        result("static-solution", of_time, statements, shown, (excess_of,)),
-        result("static-solution-smooth", f"{of_time}, f_c = 0", flat, shown_flat, where),
-        result("static-wear-smooth", f"{of_wear}, f_c = 0", static.wear_smooth, inverse, where),
-    )
+    static = StaticSolution()
+    return {
+        "static-solution": (static.time, load_offset, limit_argument, half_rate),
+        "static-solution-smooth": (static.time_smooth, half_rate),
+        "static-wear-smooth": static.wear_smooth,
+    }

@@ -56,22 +56,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=arguments.cycles,
         help="the wear after these cycles, with band",
     )
-    parser.add_argument(
-        "--until-wear", metavar="MM", type=arguments.depth, help="cycles to a wear depth, with band"
-    )
+    arguments.add_depth(parser, "cycles to a wear depth, with band")
     parser.add_argument(
         "--posterior",
         type=arguments.number(10, 1e6),
         metavar="STEPS",
         help="also sample the posterior by emcee, so many steps for each walker",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=arguments.folder,
-        help="write fit.json, fitted.toml and the figures there",
-    )
+    arguments.add_folder(parser, "write fit.json, fitted.toml and the figures there")
 
 
 def execute(options: argparse.Namespace) -> Answer:

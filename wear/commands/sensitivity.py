@@ -27,27 +27,12 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scene, the numbers of cycles and the file."""
     arguments.add_scene(parser)
-    parser.add_argument(
-        "--cycles",
-        metavar="N,...",
-        type=arguments.cycles,
-        default="1,9000,100000000",
-        help="numbers of cycles (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--until-wear",
-        metavar="MM",
-        type=arguments.depth,
-        help="also for the number of cycles to this depth of wear",
-    )
+    about = "numbers of cycles (default: %(default)s)"
+    arguments.add_cycles(parser, about, "1,9000,100000000")
+    arguments.add_depth(parser, "also for the number of cycles to this depth of wear")
     arguments.add_rtol(parser, 1e-13, "1e-10")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        type=arguments.file(".csv", *arguments.PICTURES),
-        help="write a .csv file, or draw a tornado diagram: .png, .svg, .pdf",
-    )
+    about = "write a .csv file, or draw a tornado diagram: .png, .svg, .pdf"
+    arguments.add_file(parser, (".csv", *arguments.PICTURES), about)
 
 
 def execute(options: argparse.Namespace) -> Answer:
