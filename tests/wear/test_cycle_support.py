@@ -7,11 +7,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tests import independent_support
 from tests.independent_support import SupportJudge
+from tests.judges import problem
 from tests.wear.reference_scenes import tables
-from tests.wear.test_cycle_count import between, problem
-from tests.wear.test_cycle_cutoff import loads, supported
+from tests.wear.test_cycle_count import between
+from tests.wear.test_cycle_cutoff import agrees_with_the_judge, loads, supported
 from wear import cycles as count
 from wear import direct
 from wear.load import Harmonics, Sine, Table
@@ -22,14 +22,6 @@ from wear.scene import Scene
 STEPS = Table((0.0, 0.25, 0.5, 0.75, 1.0), (1.2e-6, 1.2e-6, 2.25e-5, 2.25e-5, 1.2e-6))
 WAVES = Harmonics(2e-5, (1e-4, -6e-5), (1.5e-4, 4e-5), 0.06)
 SHARP = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
-
-
-def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
-    found = count.wear_after(bind(scene), scene.periodic_load, np.array(cycles, float), rtol)
-    true = independent_support.wear_after(problem(scene), cycles)
-    want = np.array([true[cycle] for cycle in cycles])
-    assert np.all(found.error <= rtol)
-    assert np.all(np.abs(found.u_c - want) <= (found.error + 3e-15) * want)
 
 
 @pytest.mark.parametrize("load", [Sine(2e-4, 0.06), WAVES, SHARP, STEPS])

@@ -100,10 +100,6 @@ def test_svg_holds_no_date_and_needs_no_font(written):
         assert "dc:date" not in content
 
 
-def test_pdf_holds_no_date(drawn):
-    assert b"CreationDate" not in figure_style.encoded(drawn["wear"], ".pdf")
-
-
 def test_width_is_the_width_of_a_column(written):
     for name, millimetres in (("wear", 90.0), ("speed", 190.0), ("system", 90.0)):
         width = re.search(r'width="([\d.]+)pt"', written[name])

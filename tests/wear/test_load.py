@@ -236,9 +236,3 @@ def test_blocks_of_one_load_are_that_load():
     twice = Blocks((Block(TWO_TONES, 2), Block(TWO_TONES, 3)), 2)
     assert twice.mean == pytest.approx(TWO_TONES.mean)
     assert (twice.minimum, twice.maximum) == (TWO_TONES.minimum, TWO_TONES.maximum)
-
-
-@pytest.mark.parametrize("load", [*LOADS, RECORD, SERIES])
-def test_loads_are_frozen(load):
-    with pytest.raises(AttributeError):
-        load.period_s = 1.0  # type: ignore[attr-defined]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -188,23 +187,6 @@ def test_a_change_of_units_changes_lengths_only():
         assert other.log_coefficient_mm == pytest.approx(
             plain.log_coefficient_mm * scale, rel=1e-12
         )
-
-
-def test_the_fields_are_those_of_the_contract():
-    names = {field.name for field in fields(Asymptote)}
-    assert names >= {
-        "scene",
-        "regime",
-        "tanh_argument",
-        "wear_per_cycle_mm",
-        "pressure_MPa",
-        "log_coefficient_mm",
-        "offset_mm",
-        "arrest_wear_mm",
-        "arrest_cycle",
-        "cycles_to_stabilise",
-        "notices",
-    }
 
 
 def test_the_load_factor_does_not_overflow():

@@ -250,7 +250,7 @@ def test_a_study_killed_at_random_moments_ends_with_the_same_bits(tmp_path):
     words = ["section4", "--vary", vary, "--cycles", "9000", "--workers", "1"]
     random = np.random.default_rng(5)
     part = tmp_path / "part.zarr"
-    for _ in range(5):
+    for _ in range(2):
         process = subprocess.Popen(_command(*words, "-o", str(part)))
         begun = time.monotonic()
         while not part.exists() and process.poll() is None and time.monotonic() < begun + 60:
@@ -329,19 +329,12 @@ def test_a_scheduler_that_goes_away_is_a_clear_error(tmp_path):
     assert "Traceback" not in complaint
 
 
-def test_a_scheduler_that_is_not_there_is_a_clear_error(capfd):
-    from wear.cli import main
-    from wear.commands import study as command
-
-    command_wait = command.LONGEST_WAIT
-    command.LONGEST_WAIT = 1
-    try:
-        status = main(["study", "section4", "--vary", f"{GROWTH}=0.1,0.2", "-o", "never.zarr",
-                       "--scheduler", "tcp://127.0.0.1:9"])  # fmt: skip
-    finally:
-        command.LONGEST_WAIT = command_wait
+def test_a_scheduler_that_is_not_there_is_a_clear_error(call, monkeypatch):
+    monkeypatch.setattr("wear.commands.study.LONGEST_WAIT", 1)
+    words = ("section4", "--vary", f"{GROWTH}=0.1,0.2", "-o", "never.zarr")
+    status, _, messages = call("study", *words, "--scheduler", "tcp://127.0.0.1:9")
     assert status == 2
-    assert "nothing answers at tcp://127.0.0.1:9" in capfd.readouterr().err
+    assert "nothing answers at tcp://127.0.0.1:9" in messages
 
 
 # Sobol' indices
@@ -375,25 +368,20 @@ def test_indices_of_scenes_without_an_answer_are_refused():
 # The command
 
 
-def test_a_dry_run_says_what_a_study_takes_and_writes_nothing(tmp_path, capfd):
-    from wear.cli import main
-
+def test_a_dry_run_says_what_a_study_takes_and_writes_nothing(call, tmp_path):
     out = tmp_path / "a.zarr"
-    words = ["study", "section4", "--vary", f"{GROWTH}=0.1:0.3:21", "-o", str(out), "--dry-run"]
-    assert main([*words, "--json"]) == 0
-    said = json.loads(capfd.readouterr().out)
-    assert said["scenes"] == 21
+    words = ("section4", "--vary", f"{GROWTH}=0.1:0.3:21", "-o", str(out), "--dry-run")
+    status, shown, _ = call("study", *words, "--json")
+    said = json.loads(shown)
+    assert (status, said["scenes"], said["disk_bytes"]) == (0, 21, 21 * 17)
     assert said["core_seconds"] > 0
-    assert said["disk_bytes"] == 21 * 17
     assert not out.exists()
 
 
-def test_the_command_writes_a_picture_and_says_what_became_of_the_rows(tmp_path, capfd):
-    from wear.cli import main
-
+def test_the_command_writes_a_picture_and_says_what_became_of_the_rows(call, tmp_path):
     out, figure = tmp_path / "a.zarr", tmp_path / "a.svg"
-    words = ["study", "section4", "--vary", f"{HARDNESS}=normal(200,20)", "--design", "sobol"]
+    words = ["section4", "--vary", f"{HARDNESS}=normal(200,20)", "--design", "sobol"]
     words += ["--samples", "16", "--cycles", "9000", "--until-wear", "0.001", "-o", str(out)]
-    assert main([*words, "--workers", "1", "--figure", str(figure), "--json"]) == 0
-    assert json.loads(capfd.readouterr().out)["rows"]["done"] == 16
+    status, shown, _ = call("study", *words, "--workers", "1", "--figure", str(figure), "--json")
+    assert (status, json.loads(shown)["rows"]["done"]) == (0, 16)
     assert figure.read_text().startswith("<?xml")

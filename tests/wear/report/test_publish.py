@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
 
+from wear.report import explorer_derived
 from wear.report.document import Document
 from wear.report.publish import publish
 
@@ -32,3 +34,9 @@ def test_without_tex_only_the_pdf_is_missing(
     published = publish(sample, tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == FILES
     assert "install" in published.notice
+
+
+def test_what_the_explorer_has_of_the_derivation_is_up_to_date():
+    """Else: python -m wear.report.explorer_derived. It is tried here, where all is derived."""
+    written = files("wear.report").joinpath("assets", explorer_derived.FILE)
+    assert written.read_text(encoding="utf-8") == explorer_derived.derived()
