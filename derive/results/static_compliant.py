@@ -92,7 +92,7 @@ class StaticCompliant:
         law, start = self.model.wear_laws[2], self.model.start[1]
         claim = sp.Eq(t, travelled / (2 * C))
         parents = (law, wear, start, half_rate, assume(CONSTANT), *facts)
-        return Parametric(claim, p)(*parents, name="time")
+        return Parametric(claim)(*parents, name="time")
 
 
 def _worn(at: sp.Expr) -> sp.Expr:

@@ -34,6 +34,7 @@ from .reading import (
     PERIODIC,
     T,
     between,
+    clocks,
     constant,
     equality,
     field_of_rate,
@@ -75,7 +76,10 @@ class OnePeriodLater(Rule):
     asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        return Conclusion(premises[0].claim.map(later))
+        claim = premises[0].claim
+        if clocks(claim.relation) or claim.relation.has(sp.Integral, sp.Limit):
+            raise RuleError(f"missing premise: {claim.relation} is about fields at one time")
+        return Conclusion(claim.map(later))
 
 
 one_period_later = OnePeriodLater()
@@ -131,7 +135,7 @@ def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judge
     given = frozenset(r.xreplace(plain) for r in (*known, *fixed))
     flat = rate.xreplace(plain)
     goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
-    if flat.has(t) or not all(holds(goal, given) for goal in goals):
+    if not constant(flat) or not all(holds(goal, given) for goal in goals):
         raise RuleError(f"missing premise: {rate} is positive and continuous")
 
 
@@ -378,7 +382,8 @@ class Intermittent(Rule):
         if not isinstance(contact, Relational) or [e for e, _ in rest] != [0]:
             raise RuleError("missing premise: a rate that is 0 out of contact")
         room = sp.expand(contact.gts - contact.lts)
-        if fields(room) != {LOAD} or not isinstance(contact, (sp.Le, sp.Ge)):
+        level = room.subs(LOAD, 0)
+        if fields(room) != {LOAD} or not _fixed(level) or not isinstance(contact, (sp.Le, sp.Ge)):
             raise RuleError("missing premise: contact depends on the load alone")
         shares = (
             sp.Integral(sp.Piecewise((1, c), (0, True)), (t, 0, T)) / T

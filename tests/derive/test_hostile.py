@@ -323,7 +323,7 @@ CASES: dict[str, Case] = {
     "the arcsine of the sine of any real": (  # f_c = 3.5
         lambda: Insert(sp.Eq(f_c, sp.asin(kappa - 1)))(eq(kappa, 1 + sp.sin(f_c))),
         lambda: Insert(sp.Eq(f_c, kappa - 1))(eq(kappa, 1 + f_c)),
-        "missing premise",
+        "of no kind",
     ),
     "zero is not one": (
         lambda: Identity(equal(sp.log(f_c**2) - sp.log(f_c**2), 1))(),
@@ -399,7 +399,7 @@ CASES: dict[str, Case] = {
     "a number that is infinite": (  # 0 times oo
         lambda: eq(u_c, sp.oo, evaluate=False),
         lambda: assume(supposed(end(u_c, sp.oo))),
-        "limits alone",
+        "of no kind",
     ),
     "a circle of definitions": (
         lambda: defined(b_0, b_0 + 1),
@@ -431,7 +431,7 @@ CASES: dict[str, Case] = {
     "a subclass of a hypothesis": (
         lambda: assume(Changing("rough", sp.Gt(f_c, 0))),
         lambda: ROUGHENS,
-        "cannot be assumed",
+        "nor a hypothesis",
     ),
     "an expression that says it is zero": (
         lambda: Identity(equal(h_0, h_0 + Lie()))(),

@@ -60,7 +60,7 @@ from derive.rules.limits import (
 from derive.rules.reading import CONTINUOUS, PERIODIC, SINE
 from derive.rules.solutions import FirstRoot, Inverted, Parametric, Solution
 from derive.symbols import initial, rate, symbol, symbols, t
-from tests.derive import test_hostile, test_rules
+from tests.derive import test_hostile, test_hostile_again, test_rules
 from tests.derive.judgements import (
     BOUNDED,
     CONSTANTLY,
@@ -140,7 +140,7 @@ def some_of_the_time(
 def by_pressure(time: sp.Expr = TIME, wear: sp.Expr = U_a - h_0 * p / p_max) -> Judgement:
     """Apply Parametric, with one thing wrong."""
     law = eq(rate("u_c"), C * p / p_max)
-    return Parametric(sp.Eq(t, time), p)(law, eq(u_c, wear), START, CONSTANTLY)
+    return Parametric(sp.Eq(t, time))(law, eq(u_c, wear), START, CONSTANTLY)
 
 
 def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Judgement:
@@ -374,8 +374,20 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
 )
 
 
+CASES = tuple(
+    case for room in (test_rules, test_hostile, test_hostile_again) for case in room.CASES.values()
+)
+
+
 def applications() -> Iterator[Callable[[], Judgement]]:
-    yield from (case[1] for case in (*test_rules.CASES.values(), *test_hostile.CASES.values()))
+    yield from (
+        case[1]
+        for case in (
+            *test_rules.CASES.values(),
+            *test_hostile.CASES.values(),
+            *test_hostile_again.CASES.values(),
+        )
+    )
     yield from NEEDED.values()
 
 
@@ -444,10 +456,9 @@ def test_a_side_condition_is_asked_for(said: str, false: Callable[[], Judgement]
 
 def test_every_refusal_of_the_rules_is_brought_about() -> None:
     """A line of a rule that refuses, or asks for a condition, and never did is not tested."""
-    cases = (*test_rules.CASES.values(), *test_hostile.CASES.values())
     known = [judgement for of_a_rule in made().values() for judgement in of_a_rule]
     errors = [error for one in known for error in dropped(one) if isinstance(error, RuleError)]
-    errors += [refusal(false) for false in (*(c[0] for c in cases), *(f for _, f in REFUSED))]
+    errors += [refusal(false) for false in (*(c[0] for c in CASES), *(f for _, f in REFUSED))]
     hit = {
         (Path(frame.filename).name, frame.lineno)
         for error in errors
