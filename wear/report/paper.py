@@ -20,6 +20,7 @@ from derive.reasons import table
 from derive.results.regime_map import REGIMES
 from derive.results.validity import RESOLUTIONS
 from derive.symbols import QUANTITIES
+from derive.typeset.derivation import Derivations
 from derive.typeset.display import inline
 from derive.typeset.nomenclature import occurring, unit
 from derive.typeset.present import presentable
@@ -36,7 +37,6 @@ from wear.benchmark.results import (
 from wear.figures import speed_against_cycles
 from wear.generated import asymptotics
 from wear.report import drawing, figures_of_note, note
-from wear.report.derivations import Derivations
 from wear.report.document import Document, Figure, drawn
 from wear.report.document import Equation as Shown
 from wear.report.equations import capital, shown
@@ -99,9 +99,12 @@ def paper(
         "symbols": [_symbol(name) for name in _MODEL],
         "further_symbols": [_symbol(name) for name in _further(equations)],
         "versions": versions(),
-        "derivations": derivations.full,
-        "origins": derivations.origins,
-        "derived": [e.id for e in equations if derivations.origins(e.id)],
+        "derivations": derivations,
+        "origins": {
+            e.id: listed(f"[(eq:{name})]" for name in found)
+            for e in equations
+            if (found := derivations.origins(e.id))
+        },
         "sections": _by_section(equations, displayed),
         "in_text": [name for names in _EQUATIONS.findall(text) for name in names.split()],
     }
