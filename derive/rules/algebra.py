@@ -242,7 +242,7 @@ class Discharge(Rule):
     """``Gamma, H |- C`` and ``Delta |- H`` give ``Gamma, Delta |- C`` (cut)."""
 
     hypothesis: Hypothesis
-    words = "{0}, where the hypothesis is met by {others}."
+    words = "The hypothesis of {0} is met by {others}."
     asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:

@@ -37,6 +37,7 @@ ROUGHNESS = sp.Symbol("s", positive=True)
 
 EXPANSION = Hypothesis(
     "m is the averaged roughness, dm/dtau = rho (1 + c_1/m + ...), with s_0 for its start",
+    typeset=r"\mathrm{d}m / \mathrm{d}\tau = \rho \left(1 + c_1 / m + \dots\right)",
     kind=Kind.DEFINITION,
 )
 OFFSET = sp.Eq(b_0, sigma_c0 / f_c - h_0)
@@ -137,7 +138,7 @@ class SlowTime(Rule):
     """
 
     claim: sp.Equality
-    words = "Integrate the averaged drift, {all}, term by term."
+    words = "Integrate the averaged drift term by term, with {all}."
     source = "termwise integration of an asymptotic series"
 
     def conclude(self, *premises: Judgement) -> Conclusion:

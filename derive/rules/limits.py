@@ -255,7 +255,7 @@ def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
 class Vanishes(Rule):
     """``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
 
-    words = "Bounds that tend to zero, {0}, as the roughness grows, {others}."
+    words = "The bounds in {0} tend to zero, since the roughness grows by {others}."
     source = "squeeze theorem"
     asks = ("the bounds", "the growth")
 
@@ -367,7 +367,7 @@ class Intermittent(Rule):
     u grows without bound, and tends to R as u -> oo: ``u(t + T) - u(t) -> d T R``.
     """
 
-    words = "The limit of the rate {0} holds during a fixed part of every period, {others}."
+    words = "The limit of the rate in {0} holds during a fixed part of every period, by {others}."
     source = "mean value theorem on the part of the period in contact"
     asks = ("the rate", "the fraction in contact", "the least wear")
 

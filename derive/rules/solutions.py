@@ -162,7 +162,7 @@ class FirstRoot(Rule):
     """
 
     factor: sp.Expr
-    words = "The first root of a quadratic equation, {all}."
+    words = "The first root of a quadratic equation, from {all}."
     source = "the quadratic formula, in the form without cancellation"
     asks = ("the definition",)
 

@@ -19,6 +19,7 @@ from derive.note.governing import Model, Pin
 from derive.note.problems import given_load, given_motion, undetermined
 from derive.rules.assumption import Assume, assume
 from derive.symbols import symbols
+from derive.typeset.derivation import Derivations
 from derive.verification import verify
 from derive.written import evaluated
 from derive.zero import same
@@ -173,3 +174,16 @@ def test_an_order_that_uses_what_it_has_not_is_told():
     problem = given_motion()
     shuffled = replace(problem, order=problem.order[::-1])
     assert undetermined(shuffled) != ()
+
+
+def test_a_step_shows_the_hypotheses_that_it_uses():
+    steps = Derivations(catalogue.equations_up_to("arrest-depth")).steps("arrest-depth")
+    solved, inserted = (step.sentence for step in steps)
+    assert solved.startswith(r"Solve $\max U_a")
+    assert solved.endswith(r"= 0$ for $u_{\mathrm{stop}}$.")
+    assert inserted == "Insert step 1 and $f_c < 1 / 3$: an identity remains."
+
+
+def test_no_step_follows_from_the_equation_that_it_proves():
+    steps = Derivations(catalogue.equations_up_to("expansion-drift")).steps("expansion-drift")
+    assert steps[-1].sentence.endswith("and the definitions.")

@@ -77,3 +77,9 @@ def test_a_rate_that_is_lost_in_rounding_breaks_no_claim():
     slow = 1 - sp.tanh(100 * p_max)
     given = (sp.Eq(rate("u_c"), slow), sp.Eq(initial("u_c"), 0))
     assert falsify(given, sp.Eq(u_c, slow * t)).passed
+
+
+def test_the_two_sides_are_shown_to_as_many_digits_as_part_them():
+    close = sp.Eq(h_0, 2 + sp.Rational(1, 10**9))
+    broken = falsify((sp.Eq(h_0, 2),), close)
+    assert "2 on the left, 2.000000001 on the right" in str(broken)
