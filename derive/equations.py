@@ -66,8 +66,12 @@ def written(form: str, texts: Mapping[str, str], known: Names = _NONE) -> tuple[
 
 
 def stated(identifier: str, known: Names = _NONE) -> tuple[sp.Basic, ...]:
-    """Return what an equation says as it is shown, evaluated: the claim of a rule."""
-    return tuple(map(evaluated, written("shown", TEXTS[identifier], known)))
+    """Return what an equation says as it is shown, evaluated and without abbreviations.
+
+    So the claim of a rule need not be typed a second time.
+    """
+    shown, where = (written(form, TEXTS[identifier], known) for form in ("shown", "where"))
+    return tuple(_in_full(evaluated(relation), where) for relation in shown)
 
 
 class Status(StrEnum):
@@ -191,13 +195,7 @@ class Equation:
     @property
     def shown_in_full(self) -> tuple[sp.Basic, ...]:
         """Return what is typeset, without abbreviations."""
-        return tuple(self._in_full(part) for part in self.shown)
-
-    def _in_full(self, written: sp.Basic) -> sp.Basic:
-        """Return a relation of the display form without its abbreviations."""
-        for short in reversed(self.where):
-            written = _replaced(written, evaluated(short))
-        return written
+        return tuple(_in_full(part, self.where) for part in self.shown)
 
     @property
     def status(self) -> Status:
@@ -239,6 +237,13 @@ def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:
     return len(written) == len(claims) and all(
         same(evaluated(left), right) for left, right in zip(written, claims, strict=True)
     )
+
+
+def _in_full(relation: sp.Basic, where: tuple[sp.Basic, ...]) -> sp.Basic:
+    """Return a relation with abbreviations written out."""
+    for short in reversed(where):
+        relation = _replaced(relation, evaluated(short))
+    return relation
 
 
 def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:

@@ -42,7 +42,7 @@ _IN_PYTHON = (
 )
 
 _OPERATIONS: Mapping[type, Any] = {
-    ast.Mult: operator.mul, ast.Pow: operator.pow, ast.USub: operator.neg,
+    ast.Mult: operator.mul, ast.Pow: operator.pow, ast.USub: operator.neg, ast.UAdd: operator.pos,
     ast.Eq: sp.Eq, ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge,
 }  # fmt: skip
 
@@ -59,7 +59,7 @@ def read(text: str, names: Names = MappingProxyType({})) -> sp.Basic:
     A name that is neither in ``names`` nor in the vocabulary is a real number.
 
     >>> read("h = h_0 + u_c(t + T) - 2 U_a/f_c")
-    Eq(h(t), h_0 + u_c(t + T) - 2*U_a(t)/f_c)
+    Eq(h(t), h_0 + u_c(T + t) - 2*U_a(t)/f_c)
     """
     for mark, python in _IN_PYTHON:
         text = re.sub(mark, python, text)
@@ -88,7 +88,9 @@ class _Reader(ast.NodeVisitor):
         raise ValueError(f"{ast.unparse(node)} is not understood")
 
     def visit_Constant(self, node: ast.Constant) -> sp.Basic:
-        return sp.Integer(node.value)
+        if not isinstance(node.value, int | float):
+            return self.generic_visit(node)
+        return sp.Rational(ast.unparse(node))
 
     def visit_Name(self, node: ast.Name) -> sp.Basic:
         name = node.id.rstrip("_")

@@ -19,8 +19,7 @@ from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
-from wear.scene.plausibility import implausible_results
-from wear.states import displacement_of, fields_at, negative_roughness, reaction_of
+from wear.states import displacement_of, fields_at, reaction_of, result_notices
 
 if TYPE_CHECKING:
     from wear.model import Model
@@ -277,10 +276,7 @@ def _history(
             *_repeated(wanted),
             *scene.notices,
             *wear.notices,
-            *negative_roughness(model, fields, u),
-            *implausible_results(
-                scene, np.array(cycles), u, fields.sigma_c, getattr(fields, "sigma_a", np.zeros(1))
-            ),
+            *result_notices(model, scene, fields, cycles, u),
         ),
         stopped=wear.stopped is not None,
     )

@@ -17,15 +17,12 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Proved
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic
-from ..symbols import symbols
 from .first_integral import UNSATURATED
-
-U_a, p, p_max, k = symbols("U_a p p_max k")
 
 _a, _cosine = sp.symbols("a c", real=True)
 
@@ -42,7 +39,7 @@ class Comparison:
     @cached_property
     def compliant(self) -> Judgement:
         """The load that a compliant support leaves lies between two rigid ones."""
-        claim = sp.And(sp.Lt(U_a - p_max / k, U_a - p / k), sp.Lt(U_a - p / k, U_a))
+        (claim,) = stated("compliant-load")
         return Arithmetic(claim)(assume(UNSATURATED), name="load and support")
 
     @cached_property

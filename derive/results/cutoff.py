@@ -33,7 +33,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Proved
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
@@ -51,7 +51,7 @@ from .steady_state import BOUNDED_LOAD, closure, roughness, wear_rate, worn
 
 h_0, U_a, u_c, u_stop, U_max, U_min = symbols("h_0 U_a u_c u_stop U_max U_min")
 sigma_c0, f_c, u_perm, u_cum, d, T = symbols("sigma_c0 f_c u_perm u_cum d T")
-p, p_max, k, h, sigma, K_c, H_c, V = symbols("p p_max k h sigma K_c H_c V")
+p_max, K_c, H_c, V = symbols("p_max K_c H_c V")
 
 SMOOTHING = Hypothesis("the gap outgrows the roughness", sp.Lt(f_c, sp.Rational(1, 3)))
 ROUGHER = Hypothesis("the roughness outgrows the gap", sp.Gt(f_c, sp.Rational(1, 3)))
@@ -75,9 +75,7 @@ class Cutoff:
     @cached_property
     def contact(self) -> Judgement:
         """Contact as a condition on the wear."""
-        room = 3 * sigma_c0 - h_0 + U_a
-        active = sp.Le(closure, 3 * roughness)
-        claim = sp.Equivalent(active, sp.Le((1 - 3 * f_c) * u_c, room))
+        (claim,) = stated("contact-condition")
         return Alike(claim)(name="contact condition")
 
     @cached_property
@@ -92,7 +90,7 @@ class Cutoff:
     @cached_property
     def no_contact(self) -> Judgement:
         """Beyond the arrest depth the margin is negative at every load."""
-        claim = sp.Eq(margin, (1 - 3 * f_c) * (u_stop - u_c) - (U_max - U_a))
+        (claim,) = stated("no-contact")
         return Insert(claim)(self.arrest_depth, name="margin and arrest depth")
 
     @cached_property
@@ -120,19 +118,19 @@ class Cutoff:
         kept = assume(Hypothesis("h = 3 sigma is kept", sp.Eq(margin, 0), kind=Kind.STATE))
         smoothing = assume(SMOOTHING)
         solved = Solve(rate("u_c"))(differentiate(kept, assume(DIFFERENTIABLE)), smoothing)
-        claim = sp.Eq(rate("u_c"), rate("U_a") / (1 - 3 * f_c))
+        (claim,) = stated("sliding-rate")
         return Insert(claim)(solved, smoothing, name="sliding rate")
 
     @cached_property
     def margin_rate(self) -> Judgement:
         """How the margin changes: wear lowers it, a rising load raises it."""
-        claim = sp.Eq(sp.diff(margin, t), rate("U_a") - (1 - 3 * f_c) * rate("u_c"))
+        (claim,) = stated("margin-rate")
         return Identity(claim)(name="rate of the margin")
 
     @cached_property
     def in_wear(self) -> Judgement:
         """The margin is linear in the wear, and for f_c = 1/3 independent of it."""
-        claim = sp.Eq(margin, 3 * sigma_c0 - h_0 + U_a + (3 * f_c - 1) * u_c)
+        (claim,) = stated("margin")
         return Identity(claim)(name="margin and wear")
 
     @cached_property
@@ -162,7 +160,7 @@ class Cutoff:
     @cached_property
     def always_contact(self) -> Judgement:
         """Beyond that depth the margin is positive at every load."""
-        claim = sp.Eq(margin, (3 * f_c - 1) * (u_c - u_perm) + (U_a - U_min))
+        (claim,) = stated("always-contact")
         return Insert(claim)(self.permanent, name="margin and permanent contact")
 
     @cached_property
@@ -172,8 +170,7 @@ class Cutoff:
         ``h - p/k`` is the undeflected closure.  Where the smooth solution has h > 3 sigma, the
         bearing rests at h = 3 sigma, with the pressure k margin that its springs give.
         """
-        undeflected = h - p / k
-        claim = sp.Equivalent(sp.Le(p, k * (3 * sigma - undeflected)), sp.Le(k * h, 3 * k * sigma))
+        (claim,) = stated("edge-of-contact")
         return Alike(claim)(name="edge of contact, compliant support")
 
 

@@ -20,7 +20,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Proved
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
@@ -31,8 +31,8 @@ from ..rules.assumption import assume
 from ..rules.calculus import RIGID
 from ..symbols import symbols
 
-h, h_0, U_a, U_c, sigma = symbols("h h_0 U_a U_c sigma")
-p, p_max, k, f_c, sigma_c0 = symbols("p p_max k f_c sigma_c0")
+h, sigma = symbols("h sigma")
+p, p_max, f_c = symbols("p p_max f_c")
 
 SLOPED = Hypothesis("the roughness changes with wear", sp.Ne(f_c, 0))
 UNSATURATED = Hypothesis(
@@ -56,7 +56,7 @@ class FirstIntegral:
         """Closure and roughness lie on a line that the load shifts."""
         model = self.model
         parents = (model.closure, model.roughness_at_wear, model.wear_of_pin)
-        claim = sp.Eq(h + U_a - U_c - sigma / f_c, h_0 - sigma_c0 / f_c)
+        (claim,) = stated("closure-line")
         return Insert(claim)(*parents, assume(SLOPED), name="line of closure")
 
     @cached_property
@@ -70,17 +70,18 @@ class FirstIntegral:
     def compliant(self) -> Judgement:
         """What stays constant, with a support of stiffness k."""
         deflection = bearing_only(self.law).deflection
-        return self._from(deflection, p / k).named("first integral, compliant support")
+        return self._from("first-integral-compliant", deflection).named(
+            "first integral, compliant support"
+        )
 
     @cached_property
     def rigid(self) -> Judgement:
         """What stays constant, on a rigid support."""
-        return self._from(assume(RIGID), sp.S.Zero).named("first integral")
+        return self._from("first-integral", assume(RIGID)).named("first integral")
 
-    def _from(self, deflection: Judgement, depth: sp.Expr) -> Judgement:
+    def _from(self, identifier: str, deflection: Judgement) -> Judgement:
         parents = (self.log_odds, Solve(h)(self.line), deflection)
-        bracket = sp.log(p / (p_max - p)) - (8 - 4 / f_c)
-        claim = sp.Eq(sigma * bracket + 4 * depth - 4 * U_a, 4 * (sigma_c0 / f_c - h_0))
+        (claim,) = stated(identifier)
         return Insert(claim)(*parents)
 
 

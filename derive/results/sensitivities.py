@@ -20,7 +20,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..equations import Proved
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.stabilised import Stabilised, named_limit
@@ -35,8 +35,8 @@ from .regimes import largest_wear
 from .steady_state import ROUGHENING
 
 u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
-f_c, h, h_0, U_a, U, u_c = symbols("f_c h h_0 U_a U u_c")
-p, sigma_c0, M, k = symbols("p sigma_c0 M k")
+f_c, h, h_0, U, u_c = symbols("f_c h h_0 U u_c")
+sigma_c0, M, k = symbols("sigma_c0 M k")
 
 
 @cache
@@ -98,8 +98,7 @@ def coefficient_from_wear() -> Judgement:
 
 def slope_from_rate() -> Judgement:
     """f_c from the pressure at one instant."""
-    log_odds = sp.log(p / (p_max - p))
-    claim = sp.Eq(f_c, (4 * (h_0 + u_c - U_a) / (8 - log_odds) - sigma_c0) / u_c)
+    (claim,) = stated("slope-from-pressure")
     integral = FirstIntegral()
     model = integral.model
     closure = substitute(model.closure, model.wear_of_pin, assume(RIGID))

@@ -19,7 +19,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Proved
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
@@ -33,8 +33,8 @@ from .first_integral import SLOPED, UNSATURATED, FirstIntegral
 from .regimes import KEPT
 from .static_solution import half_rate, load_offset
 
-h, h_0, U_a, u_c, sigma, sigma_c0, f_c = symbols("h h_0 U_a u_c sigma sigma_c0 f_c")
-p, p_max, k, C, beta, p_s = symbols("p p_max k C beta p_s")
+h, u_c, sigma, sigma_c0, f_c = symbols("h u_c sigma sigma_c0 f_c")
+p, p_max, k, C, p_s = symbols("p p_max k C p_s")
 p_start = initial("p")
 
 log_odds = sp.log(p / (p_max - p))
@@ -64,13 +64,15 @@ class StaticCompliant:
         roughness = Solve(sigma)(FirstIntegral().compliant, off)
         grown = Solve(u_c)(self.model.roughness_at_wear, sloped)
         parents = (grown, roughness, load_offset, off, sloped)
-        return Insert(sp.Eq(u_c, _worn(p)))(*parents, name="wear at a pressure")
+        claim, *_ = stated("static-solution-compliant")
+        return Insert(claim)(*parents, name="wear at a pressure")
 
     @cached_property
     def time(self) -> Judgement:
         """The time at a pressure, counted from the first pressure p(0)."""
         facts = (load_offset, assume(OFF_LIMIT), assume(SLOPED), *map(assume, BETWEEN))
-        return self._time(self.wear, _by_parts(), *facts)
+        _, claim, *_ = stated("static-solution-compliant")
+        return self._time(claim, self.wear, *facts)
 
     @cached_property
     def wear_smooth(self) -> Judgement:
@@ -80,39 +82,19 @@ class StaticCompliant:
         closed = Solve(h)(FirstIntegral().log_odds)
         opened = Solve(u_c)(substitute(model.closure, model.wear_of_pin))
         parents = (opened, closed, bearing_only().deflection, smooth)
-        return Insert(sp.Eq(u_c, _worn_smooth()))(*parents, name="wear, f_c = 0")
+        claim, *_ = stated("static-solution-compliant-smooth")
+        return Insert(claim)(*parents, name="wear, f_c = 0")
 
     @cached_property
     def time_smooth(self) -> Judgement:
         """The time at a pressure, for f_c = 0."""
         facts = (assume(UNSATURATED), assume(START))
-        return self._time(self.wear_smooth, _elementary(), *facts)
+        return self._time(sp.Eq(t, _elementary() / (2 * C)), self.wear_smooth, *facts)
 
-    def _time(self, wear: Judgement, travelled: sp.Expr, *facts: Judgement) -> Judgement:
+    def _time(self, claim: sp.Basic, wear: Judgement, *facts: Judgement) -> Judgement:
         law, start = self.model.wear_laws[2], self.model.start[1]
-        claim = sp.Eq(t, travelled / (2 * C))
         parents = (law, wear, start, half_rate, assume(CONSTANT), *facts)
         return Parametric(claim)(*parents, name="time")
-
-
-def _worn(at: sp.Expr) -> sp.Expr:
-    """Return the wear at a pressure, for f_c != 0."""
-    drop = 2 * sp.Add(beta, -(2 * at / k))
-    roughness = drop / sp.Add(sp.log(at / (p_max - at)), -8, 4 / f_c)
-    return sp.Add(roughness, -sigma_c0) / f_c
-
-
-def _by_parts() -> sp.Expr:
-    """Return the integral of (p_max/p) du from p(0), where u = 0, to p."""
-    inside = p_max * _worn(p_s) / p_s**2
-    with sp.evaluate(True):  # else SymPy writes an orientation, 1, into the integrand
-        integral = sp.Integral(inside, (p_s, p_start, p))
-    return sp.Add(p_max / p * _worn(p), integral)
-
-
-def _worn_smooth() -> sp.Expr:
-    """Return the wear at a pressure, for f_c = 0."""
-    return sp.Add(U_a, -h_0, -(p / k), sigma_c0 / 4 * (8 - log_odds))
 
 
 def _elementary() -> sp.Expr:

@@ -21,18 +21,18 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Proved
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.assumption import assume, defined
 from ..rules.reading import CONSTANT
 from ..rules.solutions import Inverted, Solution
-from ..symbols import symbols, t
+from ..symbols import symbols
 from .first_integral import SLOPED
 from .regimes import Regimes
 
-h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
+h_0, U_a, sigma_c0, f_c = symbols("h_0 U_a sigma_c0 f_c")
 p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")
 
 MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(beta, 0))
@@ -60,32 +60,24 @@ class StaticSolution:
     @cached_property
     def time(self) -> Judgement:
         """The time at which the wear is u_c."""
-        gap = sp.exp(-2 * x_inf) / (2 * f_c) * (excess(sigma_c0 + f_c * u_c) - excess(sigma_c0))
+        claim, *_ = stated("static-solution")
         names = (half_rate, load_offset, limit_argument)
         facts = (assume(CONSTANT), assume(SLOPED), assume(MOVING), *Regimes().rough)
         parents = (bearing_only().rigid, self.start, *names, *facts)
-        return Solution(sp.Eq(t, (u_c / 2 + gap) / C))(*parents, name="static solution")
+        return Solution(claim)(*parents, name="static solution")
 
     @cached_property
     def time_smooth(self) -> Judgement:
         """The time at which the wear is u_c, for f_c = 0."""
-        gap = sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8)
-        claim = sp.Eq(t, (u_c / 2 + gap * (sp.exp(4 * u_c / sigma_c0) - 1)) / C)
+        claim, *_ = stated("static-solution-smooth")
         parents = (Regimes().kept, self.start, half_rate, assume(CONSTANT))
         return Solution(claim)(*parents, name="static solution, f_c = 0")
 
     @cached_property
     def wear_smooth(self) -> Judgement:
         """The wear at a time, for f_c = 0."""
-        return Inverted(sp.Eq(u_c, _inverse()))(self.time_smooth, name="wear at a time, f_c = 0")
-
-
-def _inverse() -> sp.Expr:
-    """Return the wear at time t, for f_c = 0."""
-    gap = sigma_c0 / 8 * sp.exp(4 * sp.Add(h_0, -U_a) / sigma_c0 - 8)
-    travel = C * t + gap
-    inside = 8 * gap / sigma_c0 * sp.exp(8 * travel / sigma_c0)
-    return sp.Add(2 * travel, -(sigma_c0 / 4 * sp.LambertW(inside)))
+        (claim,) = stated("static-wear-smooth")
+        return Inverted(claim)(self.time_smooth, name="wear at a time, f_c = 0")
 
 
 def results() -> dict[str, Proved]:

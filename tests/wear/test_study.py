@@ -188,10 +188,18 @@ def test_another_study_at_the_same_place_is_refused(tmp_path):
 
 
 def test_all_that_is_wrong_with_a_request_is_said_at_once(tmp_path):
+    vary = ["bearing.hardnes_MPa=1,2", f"{GROWTH}=2:1:3", "support.x=1,2", "radius=1,2"]
     with pytest.raises(UsageError) as caught:
-        study("section4", ["bearing.hardnes_MPa=1,2", f"{GROWTH}=2:1:3", "support.x=1,2"], [],
-              tmp_path / "a.zarr", rtol=1.0, until_wear=-1.0)  # fmt: skip
-    for word in ("hardness_MPa", "low < high", "support", "cycles", "rtol", "until_wear"):
+        study("section4", vary, [], tmp_path / "a.zarr", rtol=1.0, until_wear=-1.0)
+    for word in (
+        "hardness_MPa",
+        "low < high",
+        "support",
+        "mean motion.radius_mm",
+        "cycles",
+        "rtol",
+        "until_wear",
+    ):
         assert word in str(caught.value)
     assert list(tmp_path.iterdir()) == []
 

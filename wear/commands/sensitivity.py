@@ -64,19 +64,7 @@ def execute(options: argparse.Namespace) -> Answer:
 
 def _text(found: Sensitivities, depth: float | None) -> str:
     life = () if depth is None else _lines_of_life(found, depth)
-    return "\n".join([*_lines(found), *life])
-
-
-def _lines(found: Sensitivities) -> Iterator[str]:
-    """Yield the elasticities as a table, and what they are worth."""
-    width = max(len(key) for key in found.keys)
-    yield "change of the wear in % for 1 % more of each number (elasticity)"
-    yield f"{'cycles':{width}} {'':>12}" + "".join(f"{n:>14.6g}" for n in found.cycles)
-    yield f"{'bearing wear, mm':{width}} {'':>12}" + "".join(f"{u:>14.6e}" for u in found.wear_mm)
-    for key, value, row in zip(found.keys, found.values, found.elasticity, strict=True):
-        shown = "".join(f"{'-':>14}" if np.isnan(e) else f"{e:>14.6f}" for e in row)
-        yield f"{key:{width}} {value:>12.6g}{shown}"
-    yield f"largest estimated error: {np.nanmax(found.elasticity_error, initial=0.0):.0e}"
+    return "\n".join([repr(found), *life])
 
 
 def _lines_of_life(found: Sensitivities, depth: float) -> Iterator[str]:

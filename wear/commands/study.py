@@ -121,7 +121,7 @@ def execute(options: argparse.Namespace) -> Answer:
         f"{number} {name.replace('_', ' ')}" for name, number in counts.items() if number
     )
     document = {"output": options.output, "rows": counts}
-    return Answer(document, lambda: f"{options.output}: {done}")
+    return Answer(document, lambda: f"{options.output}: {done}", asked.scene.notices)
 
 
 def _dry_run(asked: Study, workers: int) -> Answer:

@@ -25,8 +25,7 @@ from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
 from wear.model import bind
 from wear.progress import Pace
-from wear.scene.plausibility import implausible_results
-from wear.states import fields_at
+from wear.states import fields_at, result_notices
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -205,10 +204,9 @@ class Fit(Estimate):
             notices.append("there are as many parameters as readings: the scatter is unknown")
         for specimen, scene in zip(self.model.specimens, self.scenes, strict=True):
             notices += scene.notices
-            cycles, u = specimen.cycles.astype(np.int64), specimen.wear_mm
-            fields = fields_at(bind(scene), scene, cycles.tolist(), u)
-            rough = [getattr(fields, name, np.zeros(1)) for name in ("sigma_c", "sigma_a")]
-            notices += implausible_results(scene, cycles, u, *rough)
+            model, cycles, u = bind(scene), specimen.cycles.tolist(), specimen.wear_mm
+            fields = fields_at(model, scene, cycles, u)
+            notices += result_notices(model, scene, fields, cycles, u)
         return list(dict.fromkeys(notices))
 
     def plot(self) -> Figure:

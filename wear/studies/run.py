@@ -127,6 +127,7 @@ def prepare(
     rtol: float,
 ) -> Study:
     """Return what is to be solved, or raise all that is wrong with it."""
+    from wear.parameters import no_such_number, parameters_of
     from wear.scene import as_scene
     from wear.solver import is_number, whole_cycles
 
@@ -136,6 +137,8 @@ def prepare(
     for entry in [vary] if isinstance(vary, str) else vary:
         try:
             parsed.append(entry if isinstance(entry, Levels | Distribution) else parse(entry))
+            if "." not in parsed[-1].key:
+                raise UsageError(no_such_number(parsed[-1].key, parameters_of(base)))
             base.with_({parsed[-1].key: parsed[-1].example})
         except ValueError as fault:
             faults.append(str(fault))
