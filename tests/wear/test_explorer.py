@@ -288,12 +288,6 @@ def test_arrest_is_found_in_its_cycle(page):
     assert number(text(page, "value-wear-now")) == pytest.approx(0.002, rel=1e-4)
 
 
-def test_arrest_of_two_solids_is_found_in_its_cycle(page):
-    put(page, "scene", "section3-cutoff")
-    put(page, "cycles", "3")
-    assert text(page, "notices") == "Wear stops in cycle 491."
-
-
 def test_page_says_when_nothing_wears(page):
     click(page, "cutoff")
     put(page, "number-h_0", "100", event="change")

@@ -94,7 +94,8 @@ def test_files_are_the_same_in_every_run(written):
     assert figure_style.encoded(first, ".pdf") == figure_style.encoded(second, ".pdf")
 
 
-def test_svg_holds_no_date_and_needs_no_font(written):
+def test_files_hold_no_date_and_need_no_font(drawn, written):
+    assert b"CreationDate" not in figure_style.encoded(drawn["wear"], ".pdf")
     for content in written.values():
         assert "<text" not in content
         assert "dc:date" not in content

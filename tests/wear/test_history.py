@@ -14,7 +14,7 @@ from wear import direct
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history_files import write_inside
 from wear.inside import fields_inside
-from wear.load import Blocks, HistoryLoad, Table
+from wear.load import Table
 from wear.model import bind
 from wear.scene import Scene
 from wear.solver import solve
@@ -230,43 +230,6 @@ def test_the_pressure_out_of_contact_is_zero_and_arrest_is_told():
     assert history.p.tolist() == [pytest.approx(300 / (1 + np.exp(4))), 0.0]
     assert history.h[1] == pytest.approx(1.08e-3 + 0.002)
     assert "wear stops for good in cycle 21" in history.notices
-
-
-def blocks(repeat: int = 1):
-    small = {"kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06, "cycles": 2}
-    large = {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.03, "cycles": 3}
-    return tables(K=1e-5, load={"kind": "blocks", "blocks": [small, large], "repeat": repeat})
-
-
-def test_blocks_wear_like_their_loads_one_after_the_other():
-    scene = Scene.from_dict(blocks(2))
-    assert isinstance(scene.load, Blocks)
-    history = solve(scene, [1, 2, 5, 10], 1e-9)
-    alone = solve(Scene.from_dict(tables(K=1e-5, load={
-        "kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06})), [1, 2], 1e-9)  # fmt: skip
-    direct = solve(scene, [1, 2, 5, 10], 1e-9, "DOP853")
-    assert history.method == "abel"
-    np.testing.assert_allclose(history.u_c, direct.u_c, rtol=2e-9)
-    np.testing.assert_allclose(history.u_c[:2], alone.u_c, rtol=2e-9)
-    assert history.u_c[3] < 2 * history.u_c[2]
-    with pytest.raises(UsageError, match="ends after 10 whole cycles"):
-        solve(scene, [11], 1e-6)
-
-
-def test_a_measured_history_wears_like_the_table_it_repeats():
-    times = np.array([0.0, 0.01, 0.03, 0.045, 0.06])
-    values = np.array([0.0, 5e-4, 1e-4, -5e-4, 0.0])
-    repeated = np.concatenate([times[:-1] + 0.06 * n for n in range(3)] + [[0.18]])
-    levels = np.concatenate([*[values[:-1]] * 3, [0.0]])
-    scene = Scene.from_dict(tables(K=1e-5))
-    measured = HistoryLoad(tuple(repeated), tuple(levels), 0.06)
-    table = Table(tuple(times), tuple(values))
-    one, other = (
-        solve(dataclasses.replace(scene, load=load), [1, 3], 1e-9, method)
-        for load, method in ((measured, "auto"), (table, "DOP853"))
-    )
-    assert one.method == "collocation"
-    np.testing.assert_allclose(one.u_c, other.u_c, rtol=2e-9)
 
 
 @pytest.mark.parametrize("name", ["S2", "S8_2"])

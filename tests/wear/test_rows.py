@@ -62,17 +62,6 @@ def test_a_million_rows_are_read(tmp_path):
     assert read.values.tolist() == level.tolist()
 
 
-def test_one_wrong_row_among_many_is_told_with_its_line(tmp_path):
-    lines = [f"{n},1e-4" for n in range(1000)]
-    lines[700] = "700;1e-4"
-    (tmp_path / "a.csv").write_text(HEAD + "\n".join(lines))
-    with pytest.raises(ValidationError) as caught:
-        read_rows(TableFile("a.csv"), tmp_path)
-    assert [problem for _, problem, _ in problems(caught.value)] == [
-        'a.csv line 702: "700;1e-4" is no row'
-    ]
-
-
 # Files as instruments write them
 
 
