@@ -72,13 +72,19 @@ def test_another_distribution_of_the_same_name_is_named(tmp_path):
 import sys
 sys.meta_path = [finder for finder in sys.meta_path if "editable" not in str(finder)]
 sys.path.append({str(ROOT)!r})
+import wear
 import wear.__main__ as start
+try:
+    wear.solve
+except ImportError as fault:
+    print(fault)
 sys.exit(start.main())
 """
     run = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path
     )
     assert run.returncode == 2
+    assert "another distribution's" in run.stdout
     assert "another distribution's" in run.stderr
     assert "Traceback" not in run.stderr
 

@@ -83,9 +83,25 @@ __all__ = [
 ]  # fmt: skip
 
 
+CLASH = """\
+the package `derive` found here is another distribution's of the same name.
+Uninstall that, or make an environment for derive-wear alone, and then
+pip install --force-reinstall derive-wear"""
+
+
+def is_clash(fault: ImportError) -> bool:
+    """Return whether an import failed because `derive` is not ours."""
+    return fault.name is not None and fault.name.partition(".")[0] == "derive"
+
+
 def __getattr__(name: str) -> Any:
     if name in _HOME_OF:
-        return getattr(import_module(_HOME_OF[name]), name)
+        try:
+            return getattr(import_module(_HOME_OF[name]), name)
+        except ImportError as fault:
+            if is_clash(fault):
+                raise ImportError(CLASH, name=fault.name) from fault
+            raise
     raise AttributeError(f"module 'wear' has no attribute {name!r}")
 
 

@@ -127,11 +127,10 @@ class Stretch(NamedTuple):
         late = count > self.ends
         return np.where(late, np.inf, count), np.where(late, 0.0, missed)
 
-    def notices(self) -> Iterator[str]:
-        """Yield what is worth knowing beside the wear."""
-        wear, _ = self.after(np.array([self.ends]))
+    def notices(self, wear: FloatArray) -> Iterator[str]:
+        """Yield what is worth knowing beside the wear (mm)."""
+        after = f"in the block after {self.begins} cycles: "
         for text in self.found.notices(wear):
-            after = f"in the block after {self.begins} cycles: "
             yield after * (self.begins > 0) + text
 
 
@@ -149,17 +148,22 @@ def stretches(
     grows: two solutions of one equation keep their distance in time. No block follows one whose
     error is not known, or that ended after the `deadline`.
     """
-    inherited, done, ends = 0.0, 0, -1.0
-    while ends < last and inherited < np.inf and (done == 0 or time.monotonic() <= deadline):
+    inherited, done = 0.0, 0
+    while True:
         acting, until, _ = span(load, done)
         ends = min(float(until), last)
         found = count_cycles(model, acting, ends - done, rtol, start, deadline)
         part = Stretch(acting, done, ends, found, 0.0)
+        if ends >= last and not inherited:
+            yield part
+            return
         end, missed = (float(x[0]) for x in part.after(np.array([ends])))
         if inherited:
             inherited *= growth(model, acting, start, end)
         yield part._replace(inherited=inherited)
         start, inherited, done = end, inherited + missed, until
+        if ends >= last or not inherited < np.inf or time.monotonic() > deadline:
+            return
 
 
 def wear_after(
@@ -182,10 +186,10 @@ def wear_after(
     cost, notices = Cost(0, 0), dict[str, None]()
     for part in stretches(model, load, np.max(cycles, initial=0.0), rtol, start, deadline):
         here = (cycles >= part.begins) & (cycles <= part.ends)
-        wear, missed = part.after(cycles[here])
-        u[here], error[here] = wear, missed / np.where(wear > 0, wear, 1.0)
+        wear, missed = part.after(np.append(cycles[here], part.ends))
+        u[here], error[here] = wear[:-1], (missed / np.where(wear > 0, wear, 1.0))[:-1]
         cost = cost.plus(*part.found.cost)
-        notices |= dict.fromkeys(part.notices())
+        notices |= dict.fromkeys(part.notices(wear))
     return Wear(u, error, cost, tuple(notices))
 
 

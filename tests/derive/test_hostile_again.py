@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
-from derive.claims import Equality, FirstZero
+from derive.claims import Drift, Equality, FirstZero
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Judgement, RuleError, infer, replayed
 from derive.rules.algebra import (
@@ -25,6 +25,7 @@ from derive.rules.algebra import (
     substitute,
 )
 from derive.rules.assumption import assume, defined
+from derive.rules.averages import Averaging, SlowTime, term_of
 from derive.rules.calculus import (
     DIFFERENTIABLE,
     ParameterLimit,
@@ -57,7 +58,9 @@ from tests.derive.judgements import (
     START,
     drift_premises,
     equal,
+    expansion_premises,
     given,
+    slow_time,
     supposed,
     tends,
     timed,
@@ -65,7 +68,7 @@ from tests.derive.judgements import (
 
 u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, f_c, C, T, N, q, b_0, d, M = symbols("h_0 f_c C T N q b_0 d M")
-theta, u_cum, U_mean, tau, p_max, u_stop = symbols("theta u_cum U_mean tau p_max u_stop")
+theta, u_cum, U_mean, tau, u_stop, c_1, m = symbols("theta u_cum U_mean tau u_stop c_1 m")
 x, y = sp.symbols("x y", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du, CLOCK = rate("u_c"), defined(t, T * tau)
@@ -113,6 +116,22 @@ def by_pressure(field: sp.Expr, size: sp.Expr) -> Judgement:
     wear = h_0 * (size - size.subs(t, 0))
     law, start = given(equal(du, C)), given(equal(u_c, wear))
     return Parametric(equal(t, h_0 * (field - field.subs(t, 0)) / C))(law, start, START, CONSTANTLY)
+
+
+def averaged(factor: sp.Expr) -> Judgement:
+    """The first drift under a pressure that is a multiple of the note's."""
+    known, sine, *constants, _ = expansion_premises("c_1")
+    pressure = known.claim.rhs * factor
+    name = defined(c_1, term_of(Drift, 1, pressure))
+    facts = given(equal(p, pressure)), sine, *constants, name, ROUGHENS
+    return Averaging(equal(c_1, 2 * (1 - theta) * b_0))(*facts)
+
+
+def slow(added: sp.Expr) -> Judgement:
+    """The slow time, with something added to the function of m."""
+    known = slow_time()
+    claim = equal(known.claim.lhs, known.claim.rhs + added)
+    return SlowTime(claim)(*known.parents)
 
 
 def lying(**methods: object) -> sp.Expr:
@@ -361,6 +380,22 @@ CASES: dict[str, Case] = {
         lambda: by_pressure(G, sp.sqrt(G**2)),
         lambda: by_pressure(p, sp.sqrt(p**2)),
         "functions of the pressure",
+    ),
+    # ---- averages
+    "the average of a pressure that varies with the phase": (
+        lambda: averaged(1 + sp.sin(2 * sp.pi * tau) / 2),
+        lambda: averaged(1 + q),
+        "at given wear and load",
+    ),
+    "another constant of integration": (  # s_0 is one of them
+        lambda: slow(h_0),
+        lambda: slow(h_0**6 / m**5),
+        "a function of m",
+    ),
+    "the slow time, with a wear that goes like m": (  # h_0^3 u_c/m^4 is no o(m^-3)
+        lambda: slow(h_0**4 * u_c / m**4),
+        lambda: slow(h_0**5 / m**4),
+        "a function of m",
     ),
     # ---- definitions that hide a condition
     "two squares, called a definition": (  # f_c = 1

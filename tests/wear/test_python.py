@@ -7,10 +7,14 @@ from __future__ import annotations
 
 import re
 import runpy
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas
 import pytest
+import xarray
 
 import derive
 import wear
@@ -40,6 +44,18 @@ def test_an_equation_shows_itself_in_short_and_typeset() -> None:
     found = derive.equation("21")
     assert repr(found) == f"<Equation 21: {found.title}>"
     assert found._repr_latex_() == f"$\\displaystyle {found.latex}$"
+
+
+def test_a_scene_is_short_in_a_script_and_a_file_in_a_notebook() -> None:
+    scene = wear.load_scene("section4")
+    assert repr(scene) == f"<Scene {scene.title!r}: rigid_bearing, {scene.load!r}>"
+    assert "roughness_growth = 0.25" in scene._repr_html_()
+
+
+@pytest.mark.parametrize("of", [np.array, pandas.Series, xarray.DataArray])
+def test_numbers_of_cycles_come_from_any_array(of: Callable[[list[int]], Any]) -> None:
+    assert wear.solve("section4", of([10, 1]), rtol=1e-6).cycles.tolist() == [10, 1]
+    assert wear.solve("section4", of([10])[0], rtol=1e-6).cycles.tolist() == [10]
 
 
 def test_a_history_draws_wear_roughness_and_pressure() -> None:

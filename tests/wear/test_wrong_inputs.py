@@ -1,6 +1,5 @@
 """Whatever is wrong with a request is one of the documented errors, by command line and Python."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -97,7 +96,7 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.sensitivity("section4", "9000"),
     ],
 )
-def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call: Callable[[], object]) -> None:
+def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call):
     with pytest.raises(wear.WearError) as caught:
         call()
     assert str(caught.value).strip()
@@ -134,9 +133,7 @@ def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call: Callable[[]
         "scenes nowhere",
     ],
 )
-def test_no_command_ends_otherwise_than_by_status_2(
-    line: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_command_ends_otherwise_than_by_status_2(line, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     try:
         status = cli.main(line.split())

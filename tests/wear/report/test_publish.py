@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from importlib.resources import files
-from pathlib import Path
-
-import pytest
 
 from wear.report import explorer_derived
-from wear.report.document import Document
 from wear.report.publish import publish
 
 FILES = {
@@ -18,18 +13,14 @@ FILES = {
 }  # fmt: skip
 
 
-def test_a_report_is_these_files(
-    sample: Document, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_a_report_is_these_files(sample, tmp_path, need_tool):
     need_tool("pdflatex")
     published = publish(sample, tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == FILES | {"report.pdf"}
     assert (published.warnings, published.notice) == ((), "")
 
 
-def test_without_tex_only_the_pdf_is_missing(
-    sample: Document, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_tex_only_the_pdf_is_missing(sample, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     published = publish(sample, tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == FILES
