@@ -22,7 +22,7 @@ from .steps import Step
 
 _FOLDER = Path("build/prove")
 _SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default Timeout 30.\n"
-"""Seconds for one sentence of a proof; one way of several has 6."""
+"""Seconds for one sentence of a proof; one way of several has 12."""
 
 
 def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
