@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from functools import cache
 from types import ModuleType
 
-from .equations import Equation
+from .equations import Equation, numbered
 from .note import condensed, governing, problems, stabilised
 from .note.governing import Model
 from .results import (
@@ -80,17 +80,13 @@ def _in_order() -> Iterator[Equation]:
 @cache
 def _of_the_note() -> tuple[Equation, ...]:
     model = Model()
-    note = (
-        *governing.equations(model),
-        *condensed.equations(model),
-        *stabilised.equations(),
-    )
-    return tuple(sorted(note, key=_place))
+    proved = governing.results(model) | condensed.results(model) | stabilised.results()
+    return tuple(sorted(numbered(proved), key=_place))
 
 
 @cache
 def _beyond(module: ModuleType) -> tuple[Equation, ...]:
-    return tuple(module.equations())
+    return numbered(module.results())
 
 
 def _place(found: Equation) -> tuple[int, str]:

@@ -1,28 +1,77 @@
 """Equations: the statements a reader knows by number, with their printed and typeset forms.
 
+Overview
+    What is proved is in ``note`` and ``results``; ``equations.toml`` has the rest by id: section,
+    title and remark, the form that the note prints, the form that an author lays out with its
+    abbreviations.  A check compares the forms with what is derived.
 Key results
-    Equation    id, section, title, statements, printed form, display form
-    beyond      an equation beyond the note
+    Equation    one of them
+    numbered    the equations of results by id
+    written     the formulas of one, as they are written
     Status      definition, derived, derived-numerically, corrected, refuted
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from .hypotheses import Hypothesis, Kind
 from .kernel import Judgement, chain, domain
+from .language import names
 from .rules.assumption import Assume
 from .rules.proving import holds
-from .symbols import CLOCKS, t
-from .typeset.display import evaluated, latex
+from .symbols import CLOCKS, QUANTITIES, t
+from .typeset.display import latex
 from .typeset.present import presentable
+from .written import Names, evaluated, read
 from .zero import same
+
+_SECTIONS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+_ABBREVIATIONS = _SECTIONS.pop("abbreviations")
+TEXTS: Mapping[str, Mapping[str, str]] = {
+    identifier: {"section": section, "remark": "", **texts}
+    for section, entries in _SECTIONS.items()
+    for identifier, texts in entries.items()
+}
+"""Section, title, remark and formulas by id."""
+
+_NONE: Mapping[str, str] = MappingProxyType({})
+
+Proved = Judgement | tuple[Judgement, ...]
+"""What an equation states: a judgement, or those of a system."""
+
+
+def written(form: str, texts: Mapping[str, str], known: Names = _NONE) -> tuple[sp.Basic, ...]:
+    """Return the formulas of a form (``printed``, ``shown``, ``where``) as they are written.
+
+    ``known`` are names beyond the vocabulary.
+
+    >>> written("printed", TEXTS["7c"])
+    (Eq(U_c(t), p(t)/k),)
+    """
+    lines = texts.get(form, "").strip().splitlines()
+    return tuple(
+        read(f"{line} = {_ABBREVIATIONS[line]}" if line in _ABBREVIATIONS else line, known)
+        for line in lines
+    )
+
+
+def stated(identifier: str, known: Names = _NONE) -> tuple[sp.Basic, ...]:
+    """Return what an equation says as it is shown, evaluated and without abbreviations.
+
+    So the claim of a rule need not be typed a second time.
+    """
+    shown, where = (written(form, TEXTS[identifier], known) for form in ("shown", "where"))
+    return tuple(_in_full(evaluated(relation), where) for relation in shown)
 
 
 class Status(StrEnum):
@@ -35,26 +84,22 @@ class Status(StrEnum):
     REFUTED = "refuted"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Equation:
     """An equation of the note, or a result beyond it.
 
-    A system is a tuple of statements.  ``printed`` is the note's form, transcribed apart from
-    the derivation and only compared with it; ``display`` is the derived form laid out by an
-    author (built with ``as_written``), where it differs from the printed one.  Where the
-    printed form is false, ``refutation`` is the statement that contradicts it.  ``where`` are
-    the abbreviations that the display form uses, each a relation with the new name on its left.
+    A system is a tuple of statements.  ``texts`` are its formulas: ``printed`` is the note's form,
+    transcribed apart from the derivation and only compared with it; ``shown`` the derived form laid
+    out by an author, where it differs from the printed one; ``where`` the abbreviations in it,
+    each a relation with the new name on its left.
     """
 
     id: str
     section: str
     title: str
     statements: tuple[Judgement, ...]
-    printed: tuple[sp.Basic, ...] = ()
-    display: tuple[sp.Basic, ...] = ()
-    refutation: Judgement | None = None
     remark: str = ""
-    where: tuple[sp.Eq, ...] = ()
+    texts: Mapping[str, str] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<Equation {self.id}: {self.title}>"
@@ -73,14 +118,29 @@ class Equation:
         """Return the claims of the statements."""
         return tuple(statement.relation for statement in self.statements)
 
-    @property
+    @cached_property
+    def printed(self) -> tuple[sp.Basic, ...]:
+        """Return the form of the note; empty for results that it does not have."""
+        return self._written("printed")
+
+    @cached_property
+    def where(self) -> tuple[sp.Basic, ...]:
+        """Return the abbreviations in what is typeset."""
+        return self._written("where")
+
+    @cached_property
     def shown(self) -> tuple[sp.Basic, ...]:
-        """Return what is typeset: the display form, the printed form if it holds, the claims."""
-        if self.display:
-            return self.display
+        """Return what is typeset: an author's form, the printed one if it holds, the claims."""
+        if found := self._written("shown"):
+            return found
         if self.printed and self.agrees:
             return self.printed
         return tuple(presentable(claim) for claim in self.claims)
+
+    def _written(self, form: str) -> tuple[sp.Basic, ...]:
+        own = {name: by for claim in self.claims for name, by in names(claim)}
+        known = {name: by for name, by in own.items() if name not in QUANTITIES}
+        return written(form, self.texts, known)
 
     @property
     def latex(self) -> str:
@@ -95,8 +155,7 @@ class Equation:
     @property
     def steps(self) -> tuple[Judgement, ...]:
         """Return the chain of statements from the governing equations to this one."""
-        extra = () if self.refutation is None else (self.refutation,)
-        return chain(*self.statements, *extra)
+        return chain(*self.statements)
 
     @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:
@@ -136,19 +195,11 @@ class Equation:
     @property
     def shown_in_full(self) -> tuple[sp.Basic, ...]:
         """Return what is typeset, without abbreviations."""
-        return tuple(self._in_full(part) for part in self.shown)
-
-    def _in_full(self, written: sp.Basic) -> sp.Basic:
-        """Return a relation of the display form without its abbreviations."""
-        for short in reversed(self.where):
-            written = _replaced(written, evaluated(short))
-        return written
+        return tuple(_in_full(part, self.where) for part in self.shown)
 
     @property
     def status(self) -> Status:
         """Return what the machine says of the equation as printed."""
-        if self.refutation is not None:
-            return Status.REFUTED
         if not self.agrees:
             return Status.CORRECTED
         if all(isinstance(s.rule, Assume) for s in self.statements):
@@ -166,25 +217,33 @@ def _sign(definition: sp.Basic) -> Hypothesis | None:
     return sign and replace(sign, kind=Kind.PARAMETER)
 
 
-def beyond(
-    section: str,
-    identifier: str,
-    title: str,
-    statements: Judgement | tuple[Judgement, ...],
-    display: sp.Basic | tuple[sp.Basic, ...] = (),
-    where: tuple[sp.Eq, ...] = (),
-    remark: str = "",
-) -> Equation:
-    """Return a result beyond the note, which has no printed form of it; one or several each."""
-    stated = (statements,) if isinstance(statements, Judgement) else statements
-    shown = display if isinstance(display, tuple) else (display,)
-    return Equation(identifier, section, title, stated, (), shown, remark=remark, where=where)
+def numbered(results: Mapping[str, Proved]) -> tuple[Equation, ...]:
+    """Return the equations that state results, which are given by id."""
+    return tuple(
+        Equation(
+            identifier,
+            texts["section"],
+            texts["title"],
+            proved if isinstance(proved, tuple) else (proved,),
+            texts["remark"],
+            texts,
+        )
+        for identifier, proved in results.items()
+        for texts in (TEXTS[identifier],)
+    )
 
 
 def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:
     return len(written) == len(claims) and all(
         same(evaluated(left), right) for left, right in zip(written, claims, strict=True)
     )
+
+
+def _in_full(relation: sp.Basic, where: tuple[sp.Basic, ...]) -> sp.Basic:
+    """Return a relation with abbreviations written out."""
+    for short in reversed(where):
+        relation = _replaced(relation, evaluated(short))
+    return relation
 
 
 def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:

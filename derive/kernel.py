@@ -176,22 +176,26 @@ def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
         raise RuleError("missing premise: a judgement")
     if len(premises) < len(rule.asks):
         raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.asks)}")
-    _require_language(*(value for value in vars(rule).values() if isinstance(value, sp.Basic)))
+    _require_language(*vars(rule).values())
     application = rule, tuple((premise.hypotheses, premise.claim) for premise in premises)
     known = _KNOWN.get(application)
-    if known is None or _parts(known[1]) != known[2]:
-        hypotheses, claim = _concluded(rule, premises)
-        known = _KNOWN[application] = hypotheses, claim, _parts(claim)
+    if known is None or _content(known[:2]) != known[2]:
+        made = _concluded(rule, premises)
+        if known is not None and _content(made) != known[2]:
+            raise RuleError("what it rests on was changed")
+        known = _KNOWN[application] = *made, _content(made)
     return known[:2]
 
 
-_KNOWN: dict[Hashable, tuple[tuple[Hypothesis, ...], Claim, tuple[object, ...]]] = {}
+_KNOWN: dict[Hashable, tuple[tuple[Hypothesis, ...], Claim, object]] = {}
 
 
-def _parts(claim: Claim) -> tuple[object, ...]:
-    """Return the type of a claim and what it is made of, which nobody can change."""
-    values = vars(claim).values()
-    return (type(claim), *(_parts(v) if isinstance(v, Claim) else v for v in values))
+def _content(whole: object) -> object:
+    """Return what a thing is made of, down to its leaves, which nobody can change."""
+    if isinstance(whole, (Claim, Hypothesis)):
+        return type(whole), *map(_content, vars(whole).values())
+    parts = whole if isinstance(whole, tuple) else getattr(whole, "args", ())
+    return (type(whole), *map(_content, parts)) if parts else whole
 
 
 def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
@@ -200,7 +204,7 @@ def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypot
     union = (h for premise in premises for h in premise.hypotheses)
     kept = (h for h in union if h not in made.discharges)
     hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
-    _require_language(made.claim.relation, *(h.relation for h in hypotheses))
+    _require_language(made.claim.relation, *hypotheses)
     _require_names(hypotheses)
     return hypotheses, made.claim
 
@@ -219,25 +223,32 @@ def _require_names(hypotheses: tuple[Hypothesis, ...]) -> None:
         names -= done
 
 
-def _require_language(*expressions: sp.Basic) -> None:
+def _require_language(*parts: object) -> None:
     """Refuse what is not of the language, and two quantities of one name."""
-    faults = [found for found in map(fault, expressions) if found]
+    said = [h for h in parts if type(h) is Hypothesis and type(h.kind) is Kind]
+    expressions = [part for part in parts if isinstance(part, sp.Basic)]
+    if len(said) + len(expressions) < len(parts):
+        raise RuleError("no claim: neither an expression nor a hypothesis")
+    expressions += [hypothesis.relation for hypothesis in said]
+    if found := next(filter(None, map(fault, expressions)), None):
+        raise RuleError(f"no claim: {found}")
     bearers = frozenset().union(*map(names, expressions))
     if len({name for name, _ in bearers}) < len(bearers):
-        faults.append("two quantities have one name")
-    if faults:
-        raise RuleError(f"no claim: {faults[0]}")
+        raise RuleError("no claim: two quantities have one name")
 
 
 def replayed(judgement: Judgement) -> str | None:
     """Return None if the rule gives this judgement again from its parents, else what is wrong."""
     if type(judgement) is not Judgement:
         return "it is no judgement"
+    if {type(judgement.hypotheses), type(judgement.parents)} != {tuple}:
+        return "its hypotheses or parents are no tuple"
     try:
+        _require_language(judgement.claim.relation, *judgement.hypotheses)
         hypotheses, claim = _followed(judgement.rule, judgement.parents)
     except (RuleError, ValueError, TypeError, AttributeError, KeyError) as refusal:
         return str(refusal) or type(refusal).__name__
-    if _parts(claim) != _parts(judgement.claim):
+    if _content(claim) != _content(judgement.claim):
         return f"the rule gives {claim.relation}"
     return (
         None if hypotheses == judgement.hypotheses else "its hypotheses are not those of the rule"

@@ -1,9 +1,9 @@
 """The language of claims: which expressions may stand in one, and what they bind.
 
 Overview
-    The kernel trusts SymPy's own heads, real numbers, and names with the domain that the
-    vocabulary gives them.  A head of somebody's own may lie about its sign, a second f_c may be
-    positive, a number of limited precision may absorb another: none is of the language.
+    The kernel trusts the heads that the model needs, real numbers, and names with the domain that
+    the vocabulary gives them.  A head of somebody's own may lie about its sign, another f_c may be
+    positive, O(t) is no number, nor is one of limited precision: none is of the language.
 Key results
     fault(expr)    why an expression is not of the language, or None
     names(expr)    the names in an expression, each with what bears it
@@ -13,55 +13,89 @@ Key results
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import cache
 
 import sympy as sp
 from sympy.concrete.expr_with_limits import ExprWithLimits
-from sympy.core.function import UndefinedFunction
+from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.core.relational import Relational
+from sympy.functions.elementary.piecewise import ExprCondPair
 
-from .claims import FirstZero, Term
+from .claims import Drift, FirstZero, Oscillation, Term
 from .symbols import QUANTITIES, symbol
 
-_OURS = f"{__package__}.claims"
-_NO_REALS = (sp.Float, type(sp.I), type(sp.nan), type(sp.zoo))
+_HEADS = frozenset(
+    (
+        *(sp.Add, sp.Mul, sp.Pow, sp.Abs, sp.Max, sp.Min, sp.sign, sp.Piecewise, ExprCondPair),
+        *(sp.exp, sp.log, sp.tanh, sp.sin, sp.cos, sp.LambertW, sp.Ei, sp.besseli),
+        *(sp.Limit, sp.Integral, sp.Derivative, sp.Subs, sp.Lambda, sp.Tuple),
+        *(sp.Eq, sp.Ne, sp.Gt, sp.Ge, sp.Lt, sp.Le, sp.And, sp.Equivalent),
+        *map(type, (sp.true, sp.false, sp.pi, sp.E, sp.S.Half, sp.S(0), sp.S(1), sp.S(-1))),
+        *(sp.Integer, sp.Rational, FirstZero, Drift, Oscillation),
+    )
+)
+_NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 _DOMAINS = [
     sp.Dummy(**{domain: True}).assumptions0 for domain in ("real", "positive", "nonnegative")
 ]
 
 
-@cache
 def fault(expr: sp.Basic) -> str | None:
     """Return why an expression is not of the language, None if it is.
+
+    Nothing is asked of a node before its type is known: it may say that it equals another.
 
     >>> fault(symbol("f_c") + 1), fault(sp.Symbol("f_c", positive=True))
     (None, 'f_c is not the f_c of the vocabulary')
     """
-    return next(filter(None, map(_fault, _nodes(expr))), None)
+    found = next(filter(None, map(_fault, _nodes(expr))), None)
+    if not found and any(isinstance(free, sp.Dummy) for free in expr.free_symbols):
+        return f"{expr} has a name that others may have"
+    return found
 
 
 def _nodes(expr: sp.Basic) -> Iterator[sp.Basic]:
+    """Return the nodes of an expression, but infinity where a limit may have it."""
     yield expr
-    for part in expr.args[:3] if isinstance(expr, sp.Limit) else expr.args:
+    parts = expr.args
+    if isinstance(expr, sp.Limit):
+        parts = parts[:2] if parts[2] is sp.oo else parts[:3]
+    elif isinstance(expr, sp.Eq) and isinstance(parts[0], sp.Limit):
+        parts = [part for part in parts if part is not sp.oo and part is not -sp.oo]
+    for part in parts:
         yield from _nodes(part)
 
 
 def _fault(node: sp.Basic) -> str | None:
-    name = _name(node)
+    kind = type(node)
+    if isinstance(kind, UndefinedFunction) and _plain(kind):
+        return _fault_of_name(node, kind.__name__)
+    if kind in (sp.Symbol, sp.Dummy):
+        return _fault_of_name(node, node.name)
+    if kind not in _HEADS:
+        return f"{kind.__name__} is of no kind that a claim may hold"
+    if kind is sp.Limit and node != sp.Limit(*node.args[:3]):
+        return f"{node} is no limit from above"
+    return None
+
+
+def _plain(function: type) -> bool:
+    """Return whether an unspecified function has no method of its own."""
+    plain = sp.Function(function.__name__, **function._kwargs)  # type: ignore[attr-defined]
+    return function.__bases__ == (AppliedUndef,) and vars(function).keys() <= vars(plain).keys()
+
+
+def _fault_of_name(node: sp.Expr, name: str) -> str | None:
     if name in QUANTITIES:
         known = symbol(name)
         same = node.func == known.func if node.args else node == known
         return None if same else f"{name} is not the {name} of the vocabulary"
-    if name:
-        # Of a function only the domain counts.
-        fits = node.assumptions0 in _DOMAINS if node.is_Symbol else node.is_real
-        return None if fits and not node.is_zero else f"{name} is no real quantity"
-    home = type(node).__module__
-    if not (home.startswith("sympy.") or home == _OURS) or isinstance(node, _NO_REALS):
-        return f"{node} is of no kind that a claim may hold"
-    if isinstance(node, sp.Limit) and node != sp.Limit(*node.args[:3]):
-        return f"{node} is no limit from above"
+    # Of a function only the domain counts.
+    fits = node.assumptions0 in _DOMAINS if node.is_Symbol else node.is_real
+    if not fits or node.is_zero or not _NAME.fullmatch(name):
+        return f"{name} is no real quantity"
     return None
 
 

@@ -1,7 +1,7 @@
 """A contact law that is given as text: read, never executed, proved and made into sources.
 
 Overview
-    The text is parsed by Python's own parser and rebuilt from the few nodes that the grammar
+    The text is parsed by Python's own parser and read from the few nodes that the grammar
     allows: numbers, r, + - * / ^ and exp, tanh, sqrt.  That phi is positive and falls is proved,
     its inflection is found, and of equal forms that which loses fewest digits is written out.
 Key results
@@ -14,10 +14,9 @@ from __future__ import annotations
 
 import ast
 import json
-from collections.abc import Callable, Mapping
 from functools import cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .faults import UsageError
 
@@ -98,33 +97,6 @@ def _half_integer(node: ast.expr) -> float:
     raise UsageError(f"phi: {ast.unparse(node)[:40]!r} is no power: give a number such as 2 or 3/2")
 
 
-def _expression(node: ast.AST) -> sp.Expr:
-    """Return the SymPy form of what `_check` has passed, with exact numbers."""
-    import sympy as sp
-
-    from .laws import r
-
-    match node:
-        case ast.Constant():
-            return sp.Rational(ast.unparse(node))
-        case ast.Name():
-            return r
-        case ast.UnaryOp(op=op, operand=operand):
-            inner = _expression(operand)
-            return -inner if isinstance(op, ast.USub) else inner
-        case ast.BinOp(left=left, op=op, right=right):
-            above, below = _expression(left), _expression(right)
-            operations: Mapping[type, Callable[[Any, Any], Any]] = {
-                ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b,
-                ast.Mult: lambda a, b: a * b, ast.Div: lambda a, b: a / b,
-                ast.Pow: lambda a, b: a**b,
-            }  # fmt: skip
-            return operations[type(op)](above, below)
-        case ast.Call(func=ast.Name(id=name), args=[argument]):
-            return {"exp": sp.exp, "tanh": sp.tanh, "sqrt": sp.sqrt}[name](_expression(argument))
-    raise AssertionError("checked before")
-
-
 @cache
 def own_law(text: str) -> tuple[ComputedLaw, float]:
     """Return the contact law of a text, and the relative error of its value and slope by rounding.
@@ -141,11 +113,12 @@ def own_law(text: str) -> tuple[ComputedLaw, float]:
     from .laws import r
     from .stable import ComputedLaw, Stable, share
     from .time_limit import TimeLimitError, time_limit
+    from .written import evaluated, read
 
     text = normal(text)
     try:
         with time_limit(SECONDS, f"phi = {text}"):
-            phi = _expression(ast.parse(text, mode="eval").body)
+            phi = evaluated(read(text))
             if r not in phi.free_symbols or phi.has(sp.zoo, sp.nan, sp.I):
                 raise UsageError(f"phi = {text} is no function of r = h/sigma")
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))

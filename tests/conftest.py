@@ -1,5 +1,6 @@
 """What all tests share: tools beyond Python, and how Hypothesis draws."""
 
+import gc
 import os
 import shutil
 from collections.abc import Callable, Iterator
@@ -10,6 +11,7 @@ from hypothesis import HealthCheck, settings
 from tests.browser import Page, browser
 
 os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")  # as the commands have it
+gc.set_threshold(200_000, 50, 100)  # of millions of expressions that stay, hardly any is garbage
 # No test depends on the speed of the machine. Under CI the draws are the same every time, so that
 # a commit either passes or does not; everywhere else they are new in every run.
 settings.register_profile(

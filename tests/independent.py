@@ -9,7 +9,7 @@ integers, and the step is chosen so that the truncated terms are below 1e-18 of 
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from operator import mul
 
 import mpmath
@@ -77,6 +77,10 @@ class Judge:
         self.level, self.steep = (0, 1) if problem.exponential else (8, 4)
         self.wear = 0
 
+    def harmonics(self) -> Iterable[tuple[int, tuple[float, float]]]:
+        """The order of each harmonic of the load with its cosine and sine."""
+        return enumerate(zip_longest(self.data.cosine, self.data.sine, fillvalue=0.0), 1)
+
     def displacement(self, phase: mpmath.mpf) -> list[int]:
         """Taylor coefficients of U_a in phase."""
         if self.data.rows:
@@ -84,7 +88,7 @@ class Judge:
         with mpmath.workprec(BITS + 60):
             series = [mpmath.mpf(0)] * (ORDER + 1)
             series[0] = mpmath.mpf(self.data.mean)
-            for n, (c, s) in enumerate(zip_longest(self.data.cosine, self.data.sine), 1):
+            for n, (c, s) in self.harmonics():
                 omega = 2 * mpmath.pi * n
                 cos, sin = mpmath.cos(omega * phase), mpmath.sin(omega * phase)
                 c, s = mpmath.mpf(c), mpmath.mpf(s)
@@ -190,20 +194,14 @@ class Judge:
                 e -= 1
 
 
-def zip_longest(a: Iterable[float], b: Iterable[float]) -> list[tuple[float, float]]:
-    """Pairs, the shorter filled with zeros."""
-    a, b = list(a), list(b)
-    size = max(len(a), len(b))
-    return list(zip(a + [0.0] * (size - len(a)), b + [0.0] * (size - len(b)), strict=True))
-
-
-def wear_after(problem: Problem, cycles: Iterable[int]) -> dict[int, float]:
+def wear_after(judge: Judge, cycles: Iterable[int]) -> dict[int, float]:
     """u_c in mm at the end of each of `cycles`, to double precision."""
-    judge, done, found = Judge(problem), 0, {}
+    done, found = 0, {}
     for wanted in sorted(cycles):
         while done < wanted:
+            before = judge.wear
             judge.cycle()
-            done += 1
+            done = wanted if judge.wear == before else done + 1
         with mpmath.workprec(BITS):
             found[wanted] = float(mpmath.mpf(judge.wear) / ONE * judge.unit)
     return found

@@ -7,13 +7,13 @@ wear apart closes them, one that rises more slowly is followed along the edge. Z
 some 40 digits.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from itertools import pairwise
 
 import mpmath
 from mpmath import mpf
 
-from tests.independent import BITS, ONE, Judge, Problem, fixed, zip_longest
+from tests.independent import BITS, ONE, Judge, Problem, fixed
 
 BISECTIONS = 130
 LOOKS = 32  # at each step, or along the edge of contact, before bisection
@@ -54,7 +54,7 @@ class CutoffJudge(Judge):
             (start, value), _ = self.ends(phase)
             return value + self.speed(phase) * (phase - start)
         total = mpf(self.data.mean)
-        for n, (c, s) in enumerate(zip_longest(self.data.cosine, self.data.sine), 1):
+        for n, (c, s) in self.harmonics():
             turn = 2 * mpmath.pi * n * phase
             total += c * mpmath.cos(turn) + s * mpmath.sin(turn)
         return total / self.unit
@@ -65,7 +65,7 @@ class CutoffJudge(Judge):
             (start, first), (end, last) = self.ends(phase)
             return (last - first) / (end - start)
         total = mpf(0)
-        for n, (c, s) in enumerate(zip_longest(self.data.cosine, self.data.sine), 1):
+        for n, (c, s) in self.harmonics():
             turn = 2 * mpmath.pi * n
             total += turn * (s * mpmath.cos(turn * phase) - c * mpmath.sin(turn * phase))
         return total / self.unit
@@ -211,17 +211,3 @@ def evaluate(series: list[int], step: mpf) -> mpf:
     for coefficient in reversed(series):
         total = total * step + coefficient
     return total
-
-
-def wear_after(problem: Problem, cycles: Iterable[int]) -> dict[int, float]:
-    """u_c in mm at the end of each of `cycles`, to double precision."""
-    assert not problem.deflection
-    judge, done, found = CutoffJudge(problem), 0, {}
-    for wanted in sorted(cycles):
-        while done < wanted:
-            before = judge.wear
-            judge.cycle()
-            done = wanted if judge.wear == before else done + 1
-        with mpmath.workprec(BITS):
-            found[wanted] = float(mpf(judge.wear) / ONE * judge.unit)
-    return found

@@ -9,13 +9,13 @@ it is a linear equation, u' = a (U_a + b - c u): its solution is written down, w
 stiffness.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from itertools import pairwise
 
 import mpmath
 from mpmath import mpf
 
-from tests.independent import BITS, ONE, ORDER, Problem, times, zip_longest
+from tests.independent import BITS, ONE, ORDER, Problem, times
 from tests.independent_cutoff import BLUR, LONGEST, CutoffJudge, Real, evaluate, zero
 
 LOOKS = 8  # at each step of a series
@@ -160,7 +160,7 @@ class SupportJudge(CutoffJudge):
             speed = self.speed(phase)
             return lambda t: speed / decay if decay else speed * t
         harmonics = []
-        for n, (c, s) in enumerate(zip_longest(self.data.cosine, self.data.sine), 1):
+        for n, (c, s) in self.harmonics():
             turn = 2 * mpmath.pi * n
             harmonics.append((turn, mpmath.mpc(c, -s) / self.unit))
 
@@ -172,15 +172,3 @@ class SupportJudge(CutoffJudge):
             return total
 
         return solution
-
-
-def wear_after(problem: Problem, cycles: Iterable[int]) -> dict[int, float]:
-    """u_c in mm at the end of each of `cycles`, to double precision."""
-    judge, done, found = SupportJudge(problem), 0, {}
-    for wanted in sorted(cycles):
-        while done < wanted:
-            judge.cycle()
-            done += 1
-        with mpmath.workprec(BITS):
-            found[wanted] = float(mpf(judge.wear) / ONE * judge.unit)
-    return found

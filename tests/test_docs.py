@@ -18,7 +18,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from sphinx.cmd.build import main as sphinx
 
 from derive.note.claims import Verdict
 from tests import pages
@@ -264,6 +263,8 @@ class _Page(HTMLParser):
 @pytest.fixture(scope="session")
 def site(tmp_path_factory):
     """The pages as `make docs` builds them; a warning is an error."""
+    from sphinx.cmd.build import main as sphinx  # only where it is needed: both processes collect
+
     folder = tmp_path_factory.mktemp("site")
     options = ("-W", "--keep-going", "-q", "-b", "html", "-d", str(folder / "cache"))
     told = io.StringIO()

@@ -14,7 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from wear.cycles import sweep
+    from wear.cycles import cycles_to_depth, sweep
     from wear.faults import (
         AccuracyError,
         Interrupted,
@@ -23,10 +23,12 @@ if TYPE_CHECKING:
         WearError,
         WorkersLost,
     )
-    from wear.fitting.estimate import Fit, fit
+    from wear.fitting.fit import Fit, fit
+    from wear.fitting.posterior import posterior
+    from wear.fitting.readings import Specimen, read_readings
     from wear.history import History
     from wear.inside import fields_inside
-    from wear.life import cycles_until
+    from wear.life import Life, Reached, cycles_until
     from wear.load import (
         Block,
         Blocks,
@@ -38,27 +40,33 @@ if TYPE_CHECKING:
         Sine,
         Table,
     )
-    from wear.model import bind
+    from wear.model import bind, bind_many
+    from wear.orbit.general import count_cycles
     from wear.regime import Asymptote, asymptote
     from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
-    from wear.sensitivities import Sensitivities, sensitivity
+    from wear.sensitivities import Sensitivities, gradients, sensitivity
     from wear.solver import solve
+    from wear.studies.figures import picture, ten_percent_life
     from wear.studies.indices import sobol_indices
     from wear.studies.run import study
 
 _HOMES = {
     "wear.faults": "AccuracyError Interrupted SceneError UsageError WearError WorkersLost",
-    "wear.cycles": "sweep",
-    "wear.fitting.estimate": "Fit fit",
+    "wear.cycles": "cycles_to_depth sweep",
+    "wear.fitting.fit": "Fit fit",
+    "wear.fitting.posterior": "posterior",
+    "wear.fitting.readings": "Specimen read_readings",
     "wear.history": "History",
     "wear.inside": "fields_inside",
-    "wear.life": "cycles_until",
+    "wear.life": "Life Reached cycles_until",
     "wear.load": "Block Blocks Constant Force ForceTable Harmonics HistoryLoad Sine Table",
-    "wear.model": "bind",
+    "wear.model": "bind bind_many",
+    "wear.orbit.general": "count_cycles",
     "wear.regime": "Asymptote asymptote",
     "wear.scene": "Bearing Contact Motion Pin Scene Support load_scene",
-    "wear.sensitivities": "Sensitivities sensitivity",
+    "wear.sensitivities": "Sensitivities gradients sensitivity",
     "wear.solver": "solve",
+    "wear.studies.figures": "picture ten_percent_life",
     "wear.studies.indices": "sobol_indices",
     "wear.studies.run": "study",
 }
@@ -66,16 +74,34 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names.split
 
 __all__ = [
     "AccuracyError", "Asymptote", "Bearing", "Block", "Blocks", "Constant", "Contact", "Fit",
-    "Force", "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Motion", "Pin",
-    "Scene", "SceneError", "Sensitivities", "Sine", "Support", "Table", "UsageError", "WearError",
-    "WorkersLost", "asymptote", "bind", "cycles_until", "fields_inside", "fit", "load_scene",
-    "sensitivity", "sobol_indices", "solve", "study", "sweep",
+    "Force", "ForceTable", "Harmonics", "History", "HistoryLoad", "Interrupted", "Life",
+    "Motion", "Pin", "Reached", "Scene", "SceneError", "Sensitivities", "Sine", "Specimen",
+    "Support", "Table", "UsageError", "WearError", "WorkersLost", "asymptote", "bind",
+    "bind_many", "count_cycles", "cycles_to_depth", "cycles_until", "fields_inside", "fit",
+    "gradients", "load_scene", "picture", "posterior", "read_readings", "sensitivity",
+    "sobol_indices", "solve", "study", "sweep", "ten_percent_life",
 ]  # fmt: skip
+
+
+CLASH = """\
+the package `derive` found here is another distribution's of the same name.
+Uninstall that, or make an environment for derive-wear alone, and then
+pip install --force-reinstall derive-wear"""
+
+
+def is_clash(fault: ImportError) -> bool:
+    """Return whether an import failed because `derive` is not ours."""
+    return fault.name is not None and fault.name.partition(".")[0] == "derive"
 
 
 def __getattr__(name: str) -> Any:
     if name in _HOME_OF:
-        return getattr(import_module(_HOME_OF[name]), name)
+        try:
+            return getattr(import_module(_HOME_OF[name]), name)
+        except ImportError as fault:
+            if is_clash(fault):
+                raise ImportError(CLASH, name=fault.name) from fault
+            raise
     raise AttributeError(f"module 'wear' has no attribute {name!r}")
 
 

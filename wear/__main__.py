@@ -2,10 +2,7 @@
 
 import sys
 
-CLASH = """\
-wear: the package `derive` found here is another distribution's of the same name.
-Uninstall that, or make an environment for derive-wear alone, and then
-pip install --force-reinstall derive-wear"""
+from wear import CLASH, is_clash
 
 
 def main() -> int:
@@ -15,9 +12,9 @@ def main() -> int:
 
         return cli.main()
     except ImportError as fault:
-        if fault.name is None or fault.name.partition(".")[0] != "derive":
+        if not is_clash(fault):
             raise
-        print(CLASH, file=sys.stderr)
+        print(f"wear: {CLASH}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return 130  # as `derive.terminal` has it, which may not be imported yet

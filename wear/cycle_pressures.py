@@ -21,12 +21,10 @@ from wear.inside import Inside, fields_inside
 from wear.load import Blocks, HistoryLoad, Load
 from wear.load.spans import span
 from wear.model import Model, bind
-from wear.numerics.gauss import Mesh, mesh
+from wear.numerics.gauss import FloatArray, Mesh, mesh
 from wear.numerics.tolerances import ROUNDOFF
 from wear.scene import Scene
 from wear.scene.notices import CONTACT_REACH
-
-FloatArray = NDArray[np.float64]
 
 NODES = 12  # on each interval
 INTERVALS = 32  # of a cycle, at least: pulses of a hundredth of the period are resolved

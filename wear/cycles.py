@@ -12,19 +12,21 @@ Key results
 
 from __future__ import annotations
 
+import os
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of
+from wear.faults import UsageError
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.model import Model, bind
+from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.iterates import Iterates
 from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
@@ -35,8 +37,6 @@ from wear.resampling import resampled
 if TYPE_CHECKING:
     from wear.scene import Scene
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.intp]
 
 MOST_CYCLES = 1e12
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
@@ -86,20 +86,84 @@ def count_cycles(
     cycles: float,
     rtol: float,
     start: float = 0.0,
-    start_error: float = 0.0,
     deadline: float = np.inf,
 ) -> Counted:
-    """Count up to `cycles` of a load that repeats, from the wear `start` (mm), known up to
-    `start_error`; after the `deadline` (`time.monotonic()`) nothing is refined any more."""
+    """Count up to `cycles` of a load that repeats, from the wear `start` (mm); after the `deadline`
+    (`time.monotonic()`) nothing is refined any more."""
     if model.ends_at_3_sigma:
-        return counted_stages([Wanted(model, load, cycles, start, start_error)], rtol, deadline)[0]
+        return counted_stages([Wanted(model, load, cycles, start)], rtol, deadline)[0]
     one, equation = np.ones(1), WearEquation(model, (load,))
-    found = orbit(equation, cycles * one, rtol, start * one, start_error * one, deadline)
+    found = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
     last = found.segments[-1]
     if not found.at_rest[0]:
         return Counted(found, None)
     assert isinstance(last.counted, Iterates)
     return Counted(found, End(int(last.begins[0]) + last.counted.first_idle_cycle, 0, IDLES))
+
+
+class Stretch(NamedTuple):
+    """Cycles from `begins` to `ends` of one load that repeats, what they `found`, and by how much
+    the wear in them may be wrong as its start is, `inherited` (mm)."""
+
+    load: Load
+    begins: int
+    ends: float
+    found: Counted
+    inherited: float
+
+    def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the wear (mm) after some of the cycles (n,), and what it may be wrong by (mm)."""
+        with np.errstate(all="ignore"):
+            wear, relative = self.found.after(cycles - self.begins)
+            own = np.where(np.isfinite(relative), relative * wear, np.inf)
+        return wear, own + self.inherited
+
+    def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the cycles after which each wear (mm, (n,)) is reached, infinite where it is not,
+        and their own error in cycles."""
+        with np.errstate(all="ignore"):
+            count, missed = self.found.until(wear)
+        count = self.begins + count
+        late = count > self.ends
+        return np.where(late, np.inf, count), np.where(late, 0.0, missed)
+
+    def notices(self, wear: FloatArray) -> Iterator[str]:
+        """Yield what is worth knowing beside the wear (mm)."""
+        after = f"in the block after {self.begins} cycles: "
+        for text in self.found.notices(wear):
+            yield after * (self.begins > 0) + text
+
+
+def stretches(
+    model: Model,
+    load: Loading,
+    last: float,
+    rtol: float,
+    start: float = 0.0,
+    deadline: float = np.inf,
+) -> Iterator[Stretch]:
+    """Yield the stretches of a load up to cycle `last`, from the wear `start` (mm) on.
+
+    An error that a block starts with is carried on, in proportion to the wear rate where that
+    grows: two solutions of one equation keep their distance in time. No block follows one whose
+    error is not known, or that ended after the `deadline`.
+    """
+    inherited, done = 0.0, 0
+    while True:
+        acting, until, _ = span(load, done)
+        ends = min(float(until), last)
+        found = count_cycles(model, acting, ends - done, rtol, start, deadline)
+        part = Stretch(acting, done, ends, found, 0.0)
+        if ends >= last and not inherited:
+            yield part
+            return
+        end, missed = (float(x[0]) for x in part.after(np.array([ends])))
+        if inherited:
+            inherited *= growth(model, acting, start, end)
+        yield part._replace(inherited=inherited)
+        start, inherited, done = end, inherited + missed, until
+        if ends >= last or not inherited < np.inf or time.monotonic() > deadline:
+            return
 
 
 def wear_after(
@@ -112,99 +176,63 @@ def wear_after(
 ) -> Wear:
     """Return the wear u_c (mm) after whole numbers of cycles (n,), to relative accuracy `rtol`.
 
-    The load repeats or consists of blocks; `start` is the wear (mm) before. An error that a block
-    starts with is carried on, in proportion to the wear rate where that grows: two solutions of one
-    equation keep their distance in time. After the `deadline` (`time.monotonic()`) nothing is
-    refined and no other block begun; wear in a block that was not begun is no number, with an
-    infinite error. Where the accuracy was not reached the estimated error says so.
+    The load repeats or consists of blocks; `start` is the wear (mm) before. After the `deadline`
+    (`time.monotonic()`) nothing is refined and no other block begun; wear in a block that was not
+    begun is no number, with an infinite error. Where the accuracy was not reached the estimated
+    error says so.
     """
     cycles = np.asarray(cycles, dtype=float)
-    last = float(np.max(cycles, initial=0.0))
     u, error = np.full(cycles.shape, np.nan), np.full(cycles.shape, np.inf)
-    missed, done, cost = 0.0, 0, Cost(0, 0)
-    notices: list[str] = []
-    while True:
-        acting, until, _ = span(load, done)
-        end = min(float(until), last)
-        here = (cycles >= done) & (cycles <= end)
-        wanted = np.append(cycles[here], end) - done
-        found = count_cycles(model, acting, end - done, rtol, start, deadline=deadline)
-        with np.errstate(all="ignore"):
-            wear, relative = found.after(wanted)
-            absolute = np.where(np.isfinite(relative), relative * wear, np.inf)
-        if missed:
-            absolute += missed * growth(model, acting, start, float(wear[-1]))
-        u[here] = wear[:-1]
-        error[here] = (absolute / np.where(wear > 0, wear, 1.0))[:-1]
-        start, missed = float(wear[-1]), float(absolute[-1])
-        cost = cost.plus(*found.cost)
-        notices += [_since(text, done) for text in found.notices(wear)]
-        if end >= last or not missed < np.inf or time.monotonic() > deadline:
-            return Wear(u, error, cost, tuple(dict.fromkeys(notices)))
-        done = until
+    cost, notices = Cost(0, 0), dict[str, None]()
+    for part in stretches(model, load, np.max(cycles, initial=0.0), rtol, start, deadline):
+        here = (cycles >= part.begins) & (cycles <= part.ends)
+        wear, missed = part.after(np.append(cycles[here], part.ends))
+        u[here], error[here] = wear[:-1], (missed / np.where(wear > 0, wear, 1.0))[:-1]
+        cost = cost.plus(*part.found.cost)
+        notices |= dict.fromkeys(part.notices(wear))
+    return Wear(u, error, cost, tuple(notices))
 
 
 def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> Cycles:
     """Return the whole cycles after which each wear u_c (mm, (n,)) is first reached, infinite where
     it is not within the load or 1e12 cycles, and the estimated relative error of their number.
 
-    What is reached but for the estimated error counts as reached. If a block did not, one after it
-    does, at its own rate: that is part of the error.
+    What is reached but for the estimated error counts as reached; when it is reached for certain,
+    perhaps in another block, is part of the error.
     """
     wear = np.asarray(wear, dtype=float)
     count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
-    start, missed, done, cost = 0.0, 0.0, 0, Cost(0, 0)
+    doubtful, cost = np.full(wear.shape, False), Cost(0, 0)
+    for part in _as_far_as_needed(model, load, wear, rtol):
+        cost = cost.plus(*part.found.cost)
+        reached, own = part.until(wear)
+        certain = part.until(wear + part.inherited)[0] if part.inherited else reached
+        new = np.isinf(count) & np.isfinite(reached)
+        count[new], error[new] = reached[new], own[new]
+        some = doubtful | new
+        error[some] = np.maximum(error[some], certain[some] - count[some])
+        doubtful = some & np.isinf(certain)
+        if np.isfinite(count).all() and not doubtful.any():
+            break
+    return Cycles(count, error / np.maximum(count, 1.0), cost)
+
+
+def _as_far_as_needed(
+    model: Model, load: Loading, wear: FloatArray, rtol: float
+) -> Iterator[Stretch]:
+    """Yield the blocks of a load, or one stretch of a load that repeats, ever longer till it has
+    the deepest wear (mm)."""
     most = min(MOST_CYCLES, float(most_cycles(load)))
-    doubtful = np.full(wear.shape, False)
-    while (np.isinf(count) | doubtful).any() and done < most:
-        acting, until, _ = span(load, done)
-        length = min(float(until), most) - done
-        still = np.isinf(count)
-        if doubtful.any():
-            late = _until(model, acting, wear[doubtful], rtol, max(start - missed, 0.0), length)
-            largest = done + late.cycles * (1.0 + late.error)
-            known = np.where(np.isfinite(largest), largest / count[doubtful] - 1.0, 0.0)
-            error[doubtful] = np.maximum(error[doubtful], known)
-            doubtful[doubtful] = np.isinf(largest)
-            cost = cost.plus(*late.cost)
-        found = _until(model, acting, wear[still], rtol, start, length, missed)
-        count[still] = done + found.cycles
-        own = np.where(np.isfinite(found.cycles), found.cycles, 0.0)  # what the error refers to
-        error[still] = found.error * np.maximum(own, 1.0) / np.maximum(done + own, 1.0)
-        cost = cost.plus(*found.cost)
-        if until < most:
-            ended = wear_after(model, acting, np.array([length]), rtol, start)
-            begun, start = start, float(ended.u_c[0])
-            missed *= growth(model, acting, begun, start)
-            missed += float(ended.error[0]) * start
-            doubtful = np.isfinite(count) & (wear > start - missed)
-        done = until
-    error[doubtful] = np.inf
-    return Cycles(count, error, cost)
-
-
-def _until(
-    model: Model,
-    load: Load,
-    wear: FloatArray,
-    rtol: float,
-    start: float,
-    most: float,
-    start_error: float = 0.0,
-) -> Cycles:
-    """Return the cycles under a load that repeats, up to `most`, from the wear `start` (mm)."""
-    reach, cost = min(LEAST, most), Cost(0, 0)
+    if isinstance(load, Blocks):
+        yield from stretches(model, load, most, rtol)
+        return
+    reach = LEAST
     while True:
-        found = count_cycles(model, load, reach, rtol, start, start_error)
-        cost = cost.plus(*found.cost)
-        if reach >= most or found.ended or np.max(wear, initial=0.0) <= found.last_wear:
+        (part,) = stretches(model, load, reach, rtol)
+        if reach >= most or part.found.ended or np.max(wear, initial=0.0) <= part.found.last_wear:
             break
         reach = min(reach * FARTHER, most)
-    with np.errstate(all="ignore"):
-        count, missed = found.until(wear)
-    late = count > most
-    count[late], missed[late] = np.inf, 0.0
-    return Cycles(count, np.where(late, 0.0, missed / np.maximum(count, 1.0)), cost)
+    yield part._replace(ends=most)
 
 
 def growth(model: Model, load: Load, start: float, end: float) -> float:
@@ -214,40 +242,43 @@ def growth(model: Model, load: Load, start: float, end: float) -> float:
     return max(1.0, after / before) if before > 0.0 else 1.0
 
 
-def _since(notice: str, done: int) -> str:
-    """Return a notice of one block, whose cycles are counted from its start."""
-    return f"in the block after {done} cycles: {notice}" if done else notice
-
-
 def sweep(
-    scenes: Sequence[Scene],
-    cycles: FloatArray,
+    scenes: Sequence[Scene | str | os.PathLike[str]],
+    cycles: FloatArray | Iterable[float] | float,
     rtol: float = 1e-7,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Sweep:
-    """Return the wear of many scenes after the same whole numbers of cycles (n,).
+    """Return the wear of many scenes, or their names, after the same whole numbers of cycles (n,).
 
     Scenes of one variant of the model whose loads repeat are solved together; variants may be
     mixed. After two seconds `progress` is told now and then how many scenes are done.
 
-    >>> from wear.scene import load_scene
-    >>> names = ["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"]
-    >>> found = sweep([load_scene(name) for name in names], np.array([1.0, 9000.0]))
+    >>> found = sweep(["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"], [1, 9000])
     >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
     ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
     """
-    cycles = np.asarray(cycles, dtype=float)
-    last = float(np.max(cycles, initial=0.0))
+    from wear.scene import as_scene
+    from wear.solver import is_number, whole_cycles
+
+    faults: list[str] = []
+    numbers = np.array(whole_cycles(cycles, faults), dtype=float)
+    if not is_number(rtol) or not 0.0 < rtol <= 0.1:
+        faults.append(f"rtol: {rtol!r} is not between 0 and 0.1")
+    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
+        faults.append("scenes: give a list of them")
+    if faults:
+        raise UsageError("\n".join(faults))
+    last = float(np.max(numbers, initial=0.0))
 
     def together(some: Sequence[Scene]) -> Answer:
-        return _orbit(some, last, rtol).after(np.broadcast_to(cycles, (len(some), len(cycles))))
+        return _orbit(some, last, rtol).after(np.tile(numbers, (len(some), 1)))
 
     def alone(scene: Scene) -> Answer:
-        return wear_after(bind(scene), scene.load, cycles, rtol)[:2]
+        return wear_after(bind(scene), scene.load, numbers, rtol)[:2]
 
-    fewer = [resampled(scene, rtol) for scene in scenes]
+    fewer = [resampled(as_scene(scene), rtol) for scene in scenes]
     some = [each.scene for each in fewer]
-    u, error = _each(some, len(cycles), together, alone, Pace(progress))
+    u, error = _each(some, len(numbers), together, alone, Pace(progress))
     for row, each in enumerate(fewer):
         error[row] += each.missed(u[row])
     return Sweep(u, error)

@@ -13,17 +13,15 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.load import Load, sampled
 from wear.model import Model, bind, bind_many
+from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import ROUNDOFF, SMALLEST, TINY
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.intp]
 
 FAR = 1e12  # roughnesses of wear: further than any count goes
 APART = 1e-4  # of the roughness: displacements between which the rate's steepness is taken

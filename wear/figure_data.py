@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from wear.generated import reaction
 from wear.load import Blocks, HistoryLoad
+from wear.numerics.gauss import FloatArray
 
 if TYPE_CHECKING:
     from wear.fitting.readings import Specimen
     from wear.history import History
     from wear.scene import Scene
 
-FloatArray = NDArray[np.float64]
 PHASES = 800  # of a cycle, besides the peaks of the load
 _SECONDS_PER_HOUR = 3600.0
 _MILLIMETRES_PER_METRE = 1e3

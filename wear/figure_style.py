@@ -29,7 +29,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.typing import ColorType, LineStyleType
 
-from wear.figure_data import FloatArray
+from wear.numerics.gauss import FloatArray
 
 #: Widths of a journal's single, one and a half, and double column, in mm.
 COLUMN = 90.0
@@ -167,10 +167,14 @@ def spread(heights: FloatArray, gap: float) -> FloatArray:
 
 
 def _settle(figure: Figure) -> None:
-    """Lay the figure out once for all files: each drawing would move the axes a little more."""
+    """Lay the figure out once for all files: each drawing would move the axes a little more.
+
+    With ``"none"`` a place holder would stay, for which every file is drawn twice.
+    """
     if figure.get_layout_engine() is not None:
         figure.draw_without_rendering()
-        figure.set_layout_engine("none")
+        with mpl.rc_context({"figure.constrained_layout.use": False}):
+            figure.set_layout_engine(None)
 
 
 def svg(figure: Figure) -> str:

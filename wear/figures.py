@@ -25,7 +25,6 @@ from wear.checked import words_of
 from wear.figure_data import (
     PRESSURE,
     Abscissa,
-    FloatArray,
     Line,
     Method,
     Panel,
@@ -46,6 +45,7 @@ from wear.figure_style import (
     stroke,
     styled,
 )
+from wear.numerics.gauss import FloatArray
 
 #: Distance of a line's markers, in diagonals of the axes.
 _MARK_EVERY = 0.14

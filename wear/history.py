@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from wear import history_files
 from wear.history_files import Column, States, columns_of, error_column
+from wear.numerics.gauss import FloatArray
 
 if TYPE_CHECKING:
     import pandas
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from wear.cycle_pressures import CyclePressures
     from wear.scene import Scene
 
-FloatArray = NDArray[np.float64]
 MOST_SHOWN = 50  # rows in a notebook
 
 

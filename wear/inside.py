@@ -4,23 +4,19 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from wear.counted import Counted
-from wear.cycles import count_cycles, growth
+from wear.cycles import Stretch, stretches
 from wear.equation import WearEquation
 from wear.faults import AccuracyError, UsageError
-from wear.load import HistoryLoad, Load, Loading
-from wear.load.spans import span
+from wear.load import HistoryLoad, Loading
 from wear.loss_of_contact.dense_output import SwitchedDenseOutput, switched_dense_output
 from wear.model import Fields, Model
+from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import SAFETY
 from wear.numerics.tolerances import TINY
 from wear.orbit.dense_output import Added, DenseOutput, dense_output
 from wear.orbit.iterates import Iterates
 from wear.states import fields_under_load
-
-FloatArray = NDArray[np.float64]
 
 CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
 BATCH = 10_000  # cycles of which the wear at the start is found at once
@@ -73,55 +69,33 @@ def fields_inside(
         raise UsageError("the load does not repeat: its cycles cannot be counted")
     cycles, phases = np.sort(np.asarray(cycles, dtype=float)), np.asarray(phases, dtype=float)
     rows = max(1, chunk // max(1, len(phases)))
-    for stretch in _stretches(model, load, float(cycles[-1]), rtol):
-        for begin, end, within in stretch.dense(model, phases, rtol, cycles):
+    for stretch in stretches(model, load, cycles[-1] + 1.0, rtol):
+        for begin, end, within in _dense(model, stretch, phases, rtol, cycles):
             wanted = cycles[(cycles >= begin) & (cycles < end)]
             part = _Part(model, stretch, within, phases, begin)
             for at in range(0, len(wanted), BATCH):
                 yield from part.rows(wanted[at : at + BATCH], rows, rtol)
+    if stretch.ends <= cycles[-1]:
+        raise AccuracyError(f"the wear after {stretch.ends:.0f} cycles could not be found")
 
 
-class _Stretch(NamedTuple):
-    """Cycles from `begins` to `ends`, that excluded, of one load that repeats, counted from wear
-    that may be wrong by `inherited` (mm)."""
-
-    load: Load
-    begins: float
-    ends: float
-    found: Counted
-    inherited: float
-
-    def dense(
-        self, model: Model, phases: FloatArray, rtol: float, cycles: FloatArray
-    ) -> Iterator[tuple[float, float, DenseOutput | SwitchedDenseOutput]]:
-        """Return the parts of the stretch in which some of the `cycles` lie: from which cycle to
-        which, that excluded, and what these add up to the phases."""
-        if model.ends_at_3_sigma:
-            if np.any((cycles >= self.begins) & (cycles < self.ends)):
-                yield self.begins, self.ends, switched_dense_output(model, self.load, phases, rtol)
-            return
-        equation, segments = WearEquation(model, (self.load,)), self.found.orbit.segments
-        begins = [self.begins + float(segment.begins[0]) for segment in segments]
-        observable = model.pressure if model.compliant else None
-        for begin, end, segment in zip(begins, [*begins[1:], self.ends], segments, strict=True):
-            if np.any((cycles >= begin) & (cycles < end)):
-                assert isinstance(segment.counted, Iterates)
-                yield begin, end, dense_output(equation, segment.counted, phases, rtol, observable)
-
-
-def _stretches(model: Model, load: Loading, last: float, rtol: float) -> Iterator[_Stretch]:
-    """Return the blocks up to cycle `last` and over it."""
-    wear, missed, done = 0.0, 0.0, 0
-    while done <= last:
-        acting, until, _ = span(load, done)
-        length = min(float(until), last + 1.0) - done
-        found = count_cycles(model, acting, length, rtol, wear)
-        after, error = (float(x[0]) for x in found.after(np.array([length])))
-        missed *= growth(model, acting, wear, after)
-        yield _Stretch(acting, float(done), done + length, found, missed)
-        wear, missed, done = after, missed + error * after, until
-        if done <= last and not missed < np.inf:
-            raise AccuracyError(f"the wear after {done} cycles could not be found")
+def _dense(
+    model: Model, stretch: Stretch, phases: FloatArray, rtol: float, cycles: FloatArray
+) -> Iterator[tuple[float, float, DenseOutput | SwitchedDenseOutput]]:
+    """Yield the parts of a stretch in which some of the `cycles` lie: from which cycle to which,
+    that excluded, and what these add up to the phases."""
+    if model.ends_at_3_sigma:
+        if np.any((cycles >= stretch.begins) & (cycles < stretch.ends)):
+            within = switched_dense_output(model, stretch.load, phases, rtol)
+            yield stretch.begins, stretch.ends, within
+        return
+    equation, segments = WearEquation(model, (stretch.load,)), stretch.found.orbit.segments
+    begins = [stretch.begins + float(segment.begins[0]) for segment in segments]
+    observable = model.pressure if model.compliant else None
+    for begin, end, segment in zip(begins, [*begins[1:], stretch.ends], segments, strict=True):
+        if np.any((cycles >= begin) & (cycles < end)):
+            assert isinstance(segment.counted, Iterates)
+            yield begin, end, dense_output(equation, segment.counted, phases, rtol, observable)
 
 
 class _Part(NamedTuple):
@@ -129,7 +103,7 @@ class _Part(NamedTuple):
     some `phases`."""
 
     model: Model
-    stretch: _Stretch
+    stretch: Stretch
     within: DenseOutput | SwitchedDenseOutput
     phases: FloatArray
     begins: float
@@ -138,7 +112,7 @@ class _Part(NamedTuple):
         """Return the states in `cycles` (n,), so many cycles at once."""
         # Where the wear rate rises or contact grazes, an error grows within the cycle.
         ends = np.unique(np.concatenate([cycles, cycles + 1.0]))
-        wear, wrong = self._before(ends)
+        wear, wrong = self.stretch.after(ends)
         first, last = np.searchsorted(ends, cycles), np.searchsorted(ends, cycles + 1.0)
         starts, wrong = wear[first], np.maximum(wrong[first], wrong[last])
         for at in range(0, len(cycles), at_once):
@@ -148,12 +122,6 @@ class _Part(NamedTuple):
             missed = wrong[here] + SAFETY * added.missed
             error = np.nan_to_num(missed / (wear[last[here]] + TINY), nan=np.inf)
             yield Inside(cycles[here], self.phases, u, self.fields(u, added, rtol), error)
-
-    def _before(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the wear after `cycles` (n,) and what it may be wrong by, mm."""
-        with np.errstate(all="ignore"):
-            wear, error = self.stretch.found.after(cycles - self.stretch.begins)
-        return wear, error * wear + self.stretch.inherited
 
     def fields(self, u: FloatArray, added: Added, rtol: float) -> Fields:
         """Return all fields; on a compliant support from the interpolated pressure, if right."""

@@ -9,7 +9,7 @@ Key results
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -47,9 +47,9 @@ def parameters_of(scene: Scene) -> dict[str, float]:
     return found
 
 
-def no_such_number(key: str, numbers: Iterable[str]) -> str:
+def no_such_number(key: str, numbers: Collection[str]) -> str:
     """Return the complaint about a key that is not among the `numbers` of a scene."""
-    meant = did_you_mean(key, numbers)
+    meant = next((name for name in numbers if key in name), "") or did_you_mean(key, numbers)
     remedy = f"did you mean {meant}?" if meant else f"it has {', '.join(numbers)}"
     return f"{key}: the wear of this scene does not depend on it; {remedy}"
 

@@ -10,19 +10,16 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.equation import WearEquation, roundoff
 from wear.load import HistoryLoad
 from wear.model import Model
-from wear.numerics.gauss import mesh
+from wear.numerics.gauss import FloatArray, mesh
 from wear.numerics.initial_value import Rules, StoppedError, integrate
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import PeriodMap
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
-
-FloatArray = NDArray[np.float64]
 
 METHOD = "collocation"
 NODES, FINER_NODES = 8, 12  # on each line: for the result, and for its judge

@@ -13,18 +13,16 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.equation import WearEquation
 from wear.load import ForceTable, Table
 from wear.model import Model, bind
-from wear.numerics.gauss import Mesh, mesh
+from wear.numerics.gauss import FloatArray, Mesh, mesh
 from wear.numerics.tolerances import TINY
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
-FloatArray = NDArray[np.float64]
 Rows = Table | ForceTable
 
 FEWEST_ROWS = 64  # a load of fewer costs next to nothing

@@ -26,13 +26,14 @@ from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import edge_of_contact
 from wear.loss_of_contact.tangent import stage_tangents
-from wear.model import bind
+from wear.model import Model, bind
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import no_such_number, parameters_of, parametrised
 from wear.progress import Pace
 from wear.scene import Scene, as_scene
 from wear.solver import checked_request, obstacle
+from wear.states import fields_at, result_notices
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
@@ -171,14 +172,15 @@ def _of_one_variant(
     return found._replace(derivative_error=np.where(unknown, np.inf, found.derivative_error))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sensitivities:
     """How the wear of a scene after `cycles` (n,) depends on its numbers.
 
     The `wear_mm` (n,) and the `wear_per_cycle_mm` (n,) of the cycle that ends there; the `keys`
     (k,) of the numbers with their `values` (k,); the `derivative` (k, n) of the wear with respect
     to them, in mm per unit of the key, and its estimated absolute `error` (k, n), infinite where
-    the count does not reach. `notices` say where a derivative is that from one side.
+    the count does not reach. `notices` say what is hardly meant, and where a derivative is that
+    from one side.
     """
 
     scene: Scene
@@ -209,8 +211,22 @@ class Sensitivities:
         with np.errstate(all="ignore"):
             return -self.derivative / self.wear_per_cycle_mm
 
+    def __repr__(self) -> str:
+        width = max(len(key) for key in self.keys)
+        lines = [
+            "change of the wear in % for 1 % more of each number (elasticity)",
+            f"{'cycles':{width}} {'':>12}" + "".join(f"{n:>14.6g}" for n in self.cycles),
+            f"{'bearing wear, mm':{width}} {'':>12}" + "".join(f"{u:>14.6e}" for u in self.wear_mm),
+        ]
+        for key, value, row in zip(self.keys, self.values, self.elasticity, strict=True):
+            shown = "".join(f"{'-':>14}" if np.isnan(e) else f"{e:>14.6f}" for e in row)
+            lines.append(f"{key:{width}} {value:>12.6g}{shown}")
+        worst = np.nanmax(self.elasticity_error, initial=0.0)
+        return "\n".join([*lines, f"largest estimated error: {worst:.0e}"])
+
     def as_json(self) -> dict[str, Any]:
-        """Return the document of `wear sensitivity --json`."""
+        """Return the document of `wear sensitivity --json`; `pandas.DataFrame` makes a table of its
+        "parameters"."""
         rows = zip(
             self.keys, self.values.tolist(), self.derivative, self.elasticity,
             self.elasticity_error, self.cycles_derivative, strict=True,
@@ -269,14 +285,21 @@ def sensitivity(
     found = _of_one_variant([scene], list(numbers), counted, rtol, Pace(progress).say)
     u, _, derivative, error, added = (part[0] for part in found)
     values = np.array(list(numbers.values()))
+    known = np.flatnonzero(np.isfinite(u)).tolist()
+    cycles_known, model = [wanted[i] for i in known], bind(scene)
+    fields = fields_at(model, scene, cycles_known, u[known])
+    notices = (
+        *scene.notices,
+        *result_notices(model, scene, fields, cycles_known, u[known]),
+        *_one_sided(model, scene),
+    )
     return Sensitivities(
-        scene, wanted, u, added, tuple(numbers), values, derivative, error, _notices(scene)
+        scene, wanted, u, added, tuple(numbers), values, derivative, error, notices
     )
 
 
-def _notices(scene: Scene) -> tuple[str, ...]:
+def _one_sided(model: Model, scene: Scene) -> tuple[str, ...]:
     """Return whether contact grazes before any wear, as where the closure is 3 sigma."""
-    model = bind(scene)
     if not model.ends_at_3_sigma:
         return ()
     load = span(scene.load, 0).load

@@ -7,10 +7,9 @@ import os
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear import direct, records
 from wear.checked import MOST_CYCLES
@@ -20,8 +19,7 @@ from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
-from wear.scene.plausibility import implausible_results
-from wear.states import displacement_of, fields_at, negative_roughness, reaction_of
+from wear.states import displacement_of, fields_at, reaction_of, result_notices
 
 if TYPE_CHECKING:
     from wear.model import Model
@@ -29,7 +27,6 @@ if TYPE_CHECKING:
 
 __all__ = ["METHODS", "MOST_CYCLES", "solve"]
 
-FloatArray = NDArray[np.float64]
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)
 LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
@@ -108,10 +105,7 @@ def checked_request(
 ) -> tuple[int, ...]:
     """The numbers of cycles as integers; everything that is wrong with the request at once."""
     faults: list[str] = []
-    several = cycles if isinstance(cycles, Iterable) else (cycles,)
-    wanted = tuple(_whole(number, faults) for number in several)
-    if not wanted:
-        faults.append("cycles: give at least one number of cycles")
+    wanted = whole_cycles(cycles, faults)
     if not is_number(rtol) or not LEAST_RTOL <= rtol <= LARGEST_RTOL:
         faults.append(f"rtol: {rtol!r} is not between 1e-15 and 0.1")
     if method not in METHODS:
@@ -129,15 +123,29 @@ def checked_request(
     return wanted
 
 
+def whole_cycles(
+    cycles: float | Iterable[float], faults: list[str], least: int = 0
+) -> tuple[int, ...]:
+    """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
+    given: Any = cycles.tolist() if isinstance(cycles, np.ndarray | np.generic) else cycles
+    if hasattr(given, "to_numpy"):  # of pandas and xarray
+        given = given.to_numpy().tolist()
+    several = given if isinstance(given, Iterable) and not isinstance(given, str) else [given]
+    wanted = tuple(_whole(number, faults, least) for number in several)
+    if not wanted:
+        faults.append("cycles: give at least one number of cycles")
+    return wanted
+
+
 def is_number(given: object) -> bool:
     """Return whether something is a real number and no truth value."""
     return isinstance(given, numbers.Real) and not isinstance(given, bool)
 
 
-def _whole(number: float, faults: list[str]) -> int:
-    if not is_number(number) or not 0 <= number <= MOST_CYCLES or number != int(number):
-        faults.append(f"cycles: {number!r} is no whole number from 0 to 1e12")
-        return 0
+def _whole(number: float, faults: list[str], least: int) -> int:
+    if not is_number(number) or not least <= number <= MOST_CYCLES or number != int(number):
+        faults.append(f"cycles: {number!r} is no whole number from {least} to 1e12")
+        return least
     return int(number)
 
 
@@ -268,10 +276,7 @@ def _history(
             *_repeated(wanted),
             *scene.notices,
             *wear.notices,
-            *negative_roughness(model, fields, u),
-            *implausible_results(
-                scene, np.array(cycles), u, fields.sigma_c, getattr(fields, "sigma_a", np.zeros(1))
-            ),
+            *result_notices(model, scene, fields, cycles, u),
         ),
         stopped=wear.stopped is not None,
     )

@@ -9,9 +9,9 @@ cancels.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from wear.numerics.gauss import FloatArray
 
 FRACTION_TERMS = 150  # of the continued fraction: 1e-16 from w = 1 on
 SERIES_FROM, SERIES_TERMS = 40.0, 40  # cut at its smallest term: 3e-15 at 40, rounding from 45 on

@@ -6,18 +6,17 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.direct.cutoff import pressure_share, roundoff
 from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.load.spans import span
+from wear.numerics.gauss import FloatArray
+from wear.scene.plausibility import implausible_results
 
 if TYPE_CHECKING:
     from wear.model import Fields, Model
     from wear.scene import Scene
-
-FloatArray = NDArray[np.float64]
 
 
 def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) -> Fields:
@@ -45,6 +44,15 @@ def displacement_of(model: Model, scene: Scene, u: FloatArray) -> FloatArray | N
     if not isinstance(model, GivenLoad):
         return None
     return np.asarray(model.displacement(u, np.full(u.shape, float(scene.periodic_load(0.0)))))
+
+
+def result_notices(
+    model: Model, scene: Scene, fields: Fields, cycles: Sequence[int], u: FloatArray
+) -> tuple[str, ...]:
+    """Return what is worth knowing of results: where the model ends, and what is hardly meant."""
+    rough = [getattr(fields, name) for name in ("sigma_c", "sigma_a") if name in fields._fields]
+    results = implausible_results(scene, np.array(cycles), u, *rough)
+    return (*negative_roughness(model, fields, u), *results)
 
 
 def negative_roughness(model: Model, fields: Fields, u: FloatArray) -> tuple[str, ...]:

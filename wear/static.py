@@ -15,17 +15,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from wear.faults import UsageError
 from wear.generated import static_solution as formula
 from wear.load import Constant
 from wear.model import Model, bind
-from wear.numerics.gauss import gauss, mesh
+from wear.numerics.gauss import FloatArray, gauss, mesh
 from wear.scene import Scene
 from wear.special import ei_remainder
-
-FloatArray = NDArray[np.float64]
 
 NODES = 24  # Gauss-Legendre: exact to rounding where the integrand changes by a factor e at most
 NEAR = 1.0  # change of the integrand's logarithm over which one panel is exact to rounding

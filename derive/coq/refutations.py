@@ -15,13 +15,13 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from ..note import printed_stabilised as printed
+from ..equations import TEXTS, written
 from ..results.steady_state import closure, roughness
 from ..symbols import symbols, t
 from .printer import always, proposition, term
 from .steps import Step
 
-U_a, u_c, u_inf, U_mean, u_cum = symbols("U_a u_c u_inf U_mean u_cum")
+U_a, u_c, u_inf, u_cum = symbols("U_a u_c u_inf u_cum")
 f_c, h_0, sigma_c0, M, H_c = symbols("f_c h_0 sigma_c0 M H_c")
 
 NAMES = MappingProxyType(
@@ -35,7 +35,9 @@ NAMES = MappingProxyType(
 )
 NEEDS = ("19", "18", "closure-ratio", "21")
 
-RELATIONS = (*printed.EQ_16B, *printed.EQ_19, *printed.EQ_21, sp.Gt(M, 0), sp.Eq(h_0, sigma_c0))
+(_EQ_16B,), (_EQ_19,), (_EQ_21,) = (written("printed", TEXTS[each]) for each in ("16b", "19", "21"))
+
+RELATIONS = (_EQ_16B, _EQ_19, _EQ_21, sp.Gt(M, 0), sp.Eq(h_0, sigma_c0))
 """What speaks of all quantities that the refutations do."""
 
 _SECTION_4 = (sp.Eq(f_c, sp.Rational(1, 4)), sp.Eq(h_0, sp.Rational(27, 25000)))
@@ -68,20 +70,20 @@ def _bracket() -> str:
         sp.Eq(sigma_c0, sp.Rational(9, 25000)),
         sp.Gt(u_cum, 0, evaluate=False),
     )
-    bracket = term(printed.BRACKET)
+    bracket = term(_EQ_16B.atoms(sp.Limit).pop().args[0])
     proof = f"""intros rest f h s c [l [L E]].
 assert (K : tends (fun t => {bracket}) (- (9 / 50000))).
 {{ apply (tends_ext (fun _ => - (9 / 50000))); [| apply tends_const].
   intros t Ht; rewrite rest, f, h, s by assumption; field. }}
 pose proof (tends_unique _ _ _ L K); subst l; nra."""
-    return _lemma("C24", [always(d) for d in data], f"~ ({proposition(*printed.EQ_16B)})", proof)
+    return _lemma("C24", [always(d) for d in data], f"~ ({proposition(_EQ_16B)})", proof)
 
 
 def _asymptote(drift: Step, rate: Step) -> str:
     """(19): the asymptotic response is no straight line, but for one load."""
     coefficient = drift.relation.rhs
     response = f"tends (fun t => {term(u_c)} - {term(u_inf)}) 0"
-    (line,) = printed.EQ_19
+    line = _EQ_19
     premises = [p.said for p in drift.statement.premises]
     labels = " ".join(p.label for p in drift.statement.premises)
     speed, slope = term(rate.relation.rhs), term(sp.diff(line.rhs, t))
@@ -107,7 +109,7 @@ assert (1 / 8 < 1 / 10); [apply claimed; [lra | apply tanh_above] | lra]."""
 
 def _wear() -> str:
     """(21) with the data of section 4: not 2.35e-5 mm."""
-    (formula,) = printed.EQ_21
+    formula = _EQ_21
     hard = sp.Gt(H_c, 0, evaluate=False)
     total = sp.Eq(M, sp.simplify(2 * formula.rhs / (1 + sp.tanh(4 - 2 / f_c))), evaluate=False)
     data = (formula, total, sp.Eq(M, 44 * sp.pi / 10**6, evaluate=False), _SECTION_4[0], hard)

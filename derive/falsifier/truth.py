@@ -185,16 +185,20 @@ def _sides(relation: sp.Basic, moment: Moment) -> str:
     """Return the values of the two sides of a relation that does not hold."""
     if not isinstance(relation, Relational):
         return "it does not hold"
-    shown = []
+    values: list[tuple[str, Number | str]] = []
     for side in relation.args:
         try:
             limit = isinstance(side, sp.Limit)
             found = moment.model.latest(side) if limit else compiled(side, t)(moment)
-            shown.append(f"{'towards ' if limit else ''}{_shown(found)}")
+            values.append(("towards " if limit else "", found))
         except (ArithmeticError, ValueError):
-            shown.append("oo" if side.is_infinite else "?")
-    return f"{shown[0]} on the left, {shown[1]} on the right"
+            values.append(("", "oo" if side.is_infinite else "?"))
+    for digits in range(6, 18):
+        left, right = (_shown(value, digits) for _, value in values)
+        if left != right:
+            break
+    return f"{values[0][0]}{left} on the left, {values[1][0]}{right} on the right"
 
 
-def _shown(number: Number) -> str:
-    return f"{float(arb(number).mid()):.6g}"
+def _shown(number: Number | str, digits: int = 6) -> str:
+    return number if isinstance(number, str) else f"{float(arb(number).mid()):.{digits}g}"

@@ -31,7 +31,7 @@ from .governing import ROUGH_BEARING, Model
 from .problems import given_motion, undetermined
 from .stabilised import Stabilised
 
-h, h_0, U_a, U_c, u_a, u_c, p, p_max = symbols("h h_0 U_a U_c u_a u_c p p_max")
+h_0, U_a, U_c, u_a, u_c, p = symbols("h_0 U_a U_c u_a u_c p")
 f_c, sigma_c0, K_c, k, u_cum = symbols("f_c sigma_c0 K_c k u_cum")
 
 

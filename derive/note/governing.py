@@ -23,7 +23,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Equation
+from ..equations import Proved
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
@@ -31,11 +31,10 @@ from ..rules.algebra import Insert, Solve, restrict, substitute
 from ..rules.assumption import assume, defined
 from ..rules.calculus import SPRINGS, integrate
 from ..symbols import symbols
-from ..typeset.display import as_written
-from . import model, printed
+from . import model
 
-h, h_0, U_a, U_c, u_a, u_c = symbols("h h_0 U_a U_c u_a u_c")
-sigma, sigma_a, sigma_c, p, p_max, R_a, b, L, k = symbols("sigma sigma_a sigma_c p p_max R_a b L k")
+h, U_c, u_a = symbols("h U_c u_a")
+sigma, sigma_a, sigma_c, p, p_max, R_a, b, L = symbols("sigma sigma_a sigma_c p p_max R_a b L")
 f_a, f_c, f_aa, f_ac, f_cc, f_ca = symbols("f_a f_c f_aa f_ac f_cc f_ca")
 
 ROUGH_BEARING = Hypothesis("the bearing is rough", sp.Gt(sigma_c, 0), kind=Kind.STATE)
@@ -199,37 +198,21 @@ class Model:
         return substitute(slip, speed)
 
 
-def equations(model: Model) -> tuple[Equation, ...]:
+def results(model: Model) -> dict[str, Proved]:
     """Return equations (1) to (7g) of a model."""
-    with as_written():
-        closure = (sp.Eq(h, h_0 + (u_c + U_c) - (u_a + U_a)),)
-        reaction = (sp.Eq(p * b * L - R_a, 0),)
-        support = (sp.Eq(k * U_c - p, 0),)
-    deflection = Solve(U_c)(model.support)
-    dropped = (
-        "follows from (4) where contact is active; the note then uses it at every closure, "
-        "which is a hypothesis of its own"
-    )
-    return (
-        Equation("1", "2.1", "closure of the mean surfaces", (model.closure,), display=closure),
-        Equation("2a", "2.2", "equilibrium of the pin", (model.reaction,), display=reaction),
-        Equation("2b", "2.2", "equilibrium of the bearing", (model.support,), display=support),
-        Equation("3", "2.3", "equivalent roughness", (model.roughness,), display=printed.EQ_7D),
-        Equation("4", "2.3", "contact law with its cutoff", (model.pressure_with_cutoff,)),
-        Equation("5", "2.4", "wear laws", model.archard),
-        Equation("6", "2.5", "initial conditions", model.start),
-        Equation("7a", "2.6", "closure", (model.closure,), printed.EQ_7A),
-        Equation("7b", "2.6", "reaction of the pin", (model.reaction_force,), printed.EQ_7B),
-        Equation("7c", "2.6", "deflection of the support", (deflection,), printed.EQ_7C),
-        Equation("7d", "2.6", "equivalent roughness", (model.roughness,), printed.EQ_7D),
-        Equation(
-            "7e",
-            "2.6",
-            "contact pressure",
-            (model.pressure_in_contact,),
-            printed.EQ_7E,
-            remark=dropped,
-        ),
-        Equation("7f", "2.6", "wear laws without cross coupling", model.wear_laws, printed.EQ_7F),
-        Equation("7g", "2.6", "initial conditions", model.start, printed.EQ_7G),
-    )
+    return {
+        "1": model.closure,
+        "2a": model.reaction,
+        "2b": model.support,
+        "3": model.roughness,
+        "4": model.pressure_with_cutoff,
+        "5": model.archard,
+        "6": model.start,
+        "7a": model.closure,
+        "7b": model.reaction_force,
+        "7c": Solve(U_c)(model.support),
+        "7d": model.roughness,
+        "7e": model.pressure_in_contact,
+        "7f": model.wear_laws,
+        "7g": model.start,
+    }

@@ -15,23 +15,22 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..codegen.formulas import Formula, Guard, formula_module
-from ..hypotheses import Hypothesis
+from ..codegen.formulas import Formula, formula_module
 from ..laws import LAWS, ContactLaw, r
 from ..note.condensed import bearing_only
 from ..rules.algebra import substitute
 from ..stable import released, stable
 from ..symbols import symbol, symbols
 from ..zero import is_zero
-from . import cutoff_two_solids
 from .cutoff import SMOOTHING as OUTGROWN
 from .cutoff import THIRD, Cutoff
-from .cutoff_two_solids import CutoffTwoSolids
+from .cutoff_two_solids import LOST, CutoffTwoSolids
+from .cutoff_two_solids import discriminant as whole
 from .regimes import Regimes
 from .two_solids import TwoSolids, apart, sigma
 from .validity import threshold_bound
 
-q, g, p_1, kappa, p_inf, T = symbols("q g p_1 kappa p_inf T")
+q, g, p_1, p_inf, T = symbols("q g p_1 p_inf T")
 K_a, K_c, H_a, H_c, p_max = symbols("K_a K_c H_a H_c p_max")
 h_0, U_mean, U_max, sigma_c0, N = symbols("h_0 U_mean U_max sigma_c0 N")
 p, sigma_a0 = symbols("p sigma_a0")
@@ -64,12 +63,12 @@ OFFSET = (h_0 - U_mean) / q - g * p_1 / q**3
 """The limit of u_c (h/sigma - g/q), averaged over a cycle."""
 
 
-def formulas() -> tuple[Formula | Guard, ...]:
+def formulas() -> tuple[Formula, ...]:
     """Return the long-time formulas."""
     return (*_geometry(), *_laws(), *_steady(), *_cutoff(), *_logarithmic())
 
 
-def _geometry() -> tuple[Formula | Guard, ...]:
+def _geometry() -> tuple[Formula, ...]:
     printed, physical = TwoSolids(), TwoSolids(opening=True)
     growth, gap, cross = (judgement.claim.rhs for judgement in printed.definitions)
     opening = physical.definitions[1].claim.rhs
@@ -95,7 +94,7 @@ def _vanishing() -> sp.Expr:
     return wear
 
 
-def _laws() -> tuple[Formula | Guard, ...]:
+def _laws() -> tuple[Formula, ...]:
     made = [Formula("tanh_argument", (r,), 4 - 2 * r, "argument of tanh at h/sigma = r")]
     for law in LAWS.values():
         made += _law(law)
@@ -138,7 +137,7 @@ def _equal(form: sp.Expr, exact: sp.Expr) -> sp.Expr:
     return form
 
 
-def _steady() -> tuple[Formula | Guard, ...]:
+def _steady() -> tuple[Formula, ...]:
     problem = bearing_only()
     archard = substitute(problem.model.wear_laws[2], problem.model.slip).claim.rhs
     deflection = problem.deflection.claim.rhs
@@ -163,7 +162,7 @@ def _steady() -> tuple[Formula | Guard, ...]:
     )
 
 
-def _cutoff() -> tuple[Formula | Guard, ...]:
+def _cutoff() -> tuple[Formula, ...]:
     one, two = Cutoff(), CutoffTwoSolids()
     gap, half, product, root = sp.symbols("gap half product root", real=True)
     parts = (
@@ -174,7 +173,7 @@ def _cutoff() -> tuple[Formula | Guard, ...]:
     inside = half**2 + (g**2 - 9 * q**2) * product
     depth = product / (sp.sqrt(inside) - half)
     for written, derived in (
-        (inside, cutoff_two_solids.discriminant),
+        (inside, whole),
         (depth, two.arrest_depth.claim.rhs),
     ):
         for name, value in reversed(parts):
@@ -182,12 +181,11 @@ def _cutoff() -> tuple[Formula | Guard, ...]:
         _equal(written, derived)
     discriminant = sp.Symbol("discriminant", real=True)
     relation = sp.And(discriminant >= 0, discriminant > half * sp.Abs(half))
-    lost = Hypothesis(cutoff_two_solids.LOST.text, relation)
     return (
         Formula("arrest_depth", (), one.arrest_depth.claim.rhs, "wear at arrest, one worn solid"),
-        Guard("gap_outgrows_roughness", OUTGROWN),
-        Guard("gap_and_cutoff_grow_alike", THIRD),
-        Guard("margin_is_lost", lost, (*parts, (discriminant, inside))),
+        Formula("gap_outgrows_roughness", (), OUTGROWN.relation, OUTGROWN.text),
+        Formula("gap_and_cutoff_grow_alike", (), THIRD.relation, THIRD.text),
+        Formula("margin_is_lost", (), relation, LOST.text, (*parts, (discriminant, inside))),
         Formula(
             "arrest_depth_two_solids",
             (),
@@ -204,7 +202,7 @@ def _cutoff() -> tuple[Formula | Guard, ...]:
     )
 
 
-def _logarithmic() -> tuple[Formula | Guard, ...]:
+def _logarithmic() -> tuple[Formula, ...]:
     claim = Regimes().logarithmic.claim
     factor = sp.besseli(0, 4 * symbols("U")[0] / sigma_c0)
     inside = claim.rhs.atoms(sp.log).pop().args[0]

@@ -29,11 +29,11 @@ Remarks
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Equation, beyond
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
@@ -47,12 +47,11 @@ from ..rules.inequalities import Arithmetic, Monotone
 from ..rules.limits import intermittent
 from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols, t
-from ..typeset.display import as_written, minus, over
 from .steady_state import BOUNDED_LOAD, closure, roughness, wear_rate, worn
 
 h_0, U_a, u_c, u_stop, U_max, U_min = symbols("h_0 U_a u_c u_stop U_max U_min")
 sigma_c0, f_c, u_perm, u_cum, d, T = symbols("sigma_c0 f_c u_perm u_cum d T")
-p, p_max, k, h, sigma, K_c, H_c, V = symbols("p p_max k h sigma K_c H_c V")
+p_max, K_c, H_c, V = symbols("p_max K_c H_c V")
 
 SMOOTHING = Hypothesis("the gap outgrows the roughness", sp.Lt(f_c, sp.Rational(1, 3)))
 ROUGHER = Hypothesis("the roughness outgrows the gap", sp.Gt(f_c, sp.Rational(1, 3)))
@@ -76,9 +75,7 @@ class Cutoff:
     @cached_property
     def contact(self) -> Judgement:
         """Contact as a condition on the wear."""
-        room = 3 * sigma_c0 - h_0 + U_a
-        active = sp.Le(closure, 3 * roughness)
-        claim = sp.Equivalent(active, sp.Le((1 - 3 * f_c) * u_c, room))
+        (claim,) = stated("contact-condition")
         return Alike(claim)(name="contact condition")
 
     @cached_property
@@ -93,7 +90,7 @@ class Cutoff:
     @cached_property
     def no_contact(self) -> Judgement:
         """Beyond the arrest depth the margin is negative at every load."""
-        claim = sp.Eq(margin, (1 - 3 * f_c) * (u_stop - u_c) - (U_max - U_a))
+        (claim,) = stated("no-contact")
         return Insert(claim)(self.arrest_depth, name="margin and arrest depth")
 
     @cached_property
@@ -121,19 +118,19 @@ class Cutoff:
         kept = assume(Hypothesis("h = 3 sigma is kept", sp.Eq(margin, 0), kind=Kind.STATE))
         smoothing = assume(SMOOTHING)
         solved = Solve(rate("u_c"))(differentiate(kept, assume(DIFFERENTIABLE)), smoothing)
-        claim = sp.Eq(rate("u_c"), rate("U_a") / (1 - 3 * f_c))
+        (claim,) = stated("sliding-rate")
         return Insert(claim)(solved, smoothing, name="sliding rate")
 
     @cached_property
     def margin_rate(self) -> Judgement:
         """How the margin changes: wear lowers it, a rising load raises it."""
-        claim = sp.Eq(sp.diff(margin, t), rate("U_a") - (1 - 3 * f_c) * rate("u_c"))
+        (claim,) = stated("margin-rate")
         return Identity(claim)(name="rate of the margin")
 
     @cached_property
     def in_wear(self) -> Judgement:
         """The margin is linear in the wear, and for f_c = 1/3 independent of it."""
-        claim = sp.Eq(margin, 3 * sigma_c0 - h_0 + U_a + (3 * f_c - 1) * u_c)
+        (claim,) = stated("margin")
         return Identity(claim)(name="margin and wear")
 
     @cached_property
@@ -163,7 +160,7 @@ class Cutoff:
     @cached_property
     def always_contact(self) -> Judgement:
         """Beyond that depth the margin is positive at every load."""
-        claim = sp.Eq(margin, (3 * f_c - 1) * (u_c - u_perm) + (U_a - U_min))
+        (claim,) = stated("always-contact")
         return Insert(claim)(self.permanent, name="margin and permanent contact")
 
     @cached_property
@@ -173,8 +170,7 @@ class Cutoff:
         ``h - p/k`` is the undeflected closure.  Where the smooth solution has h > 3 sigma, the
         bearing rests at h = 3 sigma, with the pressure k margin that its springs give.
         """
-        undeflected = h - p / k
-        claim = sp.Equivalent(sp.Le(p, k * (3 * sigma - undeflected)), sp.Le(k * h, 3 * k * sigma))
+        (claim,) = stated("edge-of-contact")
         return Alike(claim)(name="edge of contact, compliant support")
 
 
@@ -182,33 +178,19 @@ def _defined(text: str, relation: sp.Basic) -> Judgement:
     return assume(Hypothesis(text, relation, kind=Kind.DEFINITION))
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return what the cutoff brings, for one worn solid."""
-    cut, result = Cutoff(), partial(beyond, "cutoff")
-    with as_written():
-        opens, outgrows = sp.Add(1, minus(3 * f_c)), sp.Add(3 * f_c, -1)
-        now = sp.Add(3 * sp.Add(sigma_c0, f_c * u_c), minus(sp.Add(h_0, u_c, minus(U_a))))
-        room = sp.Add(3 * sigma_c0, minus(h_0), U_a)
-        linear = sp.Eq(now, sp.Add(room, outgrows * u_c))
-        gone = sp.Eq(now, sp.Add(opens * sp.Add(u_stop, -u_c), -sp.Add(U_max, -U_a)))
-        kept = sp.Eq(now, sp.Add(outgrows * sp.Add(u_c, -u_perm), U_a, -U_min))
-        follows = sp.Eq(rate("u_c"), over(opens) * rate("U_a"))
-        before = sp.Add(3 * f_c * rate("u_c"), -sp.Add(rate("u_c"), -rate("U_a")))
-        changes = sp.Eq(before, sp.Add(rate("U_a"), minus(opens * rate("u_c"))))
-        active = sp.Le(sp.Add(h_0, u_c, -U_a), 3 * sp.Add(sigma_c0, f_c * u_c))
-        touching = sp.Equivalent(sp.Le(opens * u_c, room), active)
-        spring = k * sp.Add(3 * sigma, -sp.Add(h, -(p / k)))
-        edge = sp.Equivalent(sp.Le(p, spring), sp.Le(k * h, 3 * k * sigma))
-    return (
-        result("contact-condition", "condition of contact", cut.contact, touching),
-        result("arrest-depth", "arrest depth", cut.arrest_depth),
-        result("no-contact", "margin and arrest depth", cut.no_contact, gone),
-        result("rate-in-contact", "least rate in contact", cut.lowest_rate),
-        result("sliding-rate", "wear that follows the load", cut.sliding, follows),
-        result("margin-rate", "rate of the margin", cut.margin_rate, changes),
-        result("margin", "margin 3 sigma - h", cut.in_wear, linear),
-        result("one-third", "wear per cycle, f_c = 1/3", cut.per_cycle),
-        result("permanent-contact", "wear from which contact is permanent", cut.permanent),
-        result("always-contact", "margin and permanent contact", cut.always_contact, kept),
-        result("edge-of-contact", "edge of contact, compliant support", cut.at_edge, edge),
-    )
+    cut = Cutoff()
+    return {
+        "contact-condition": cut.contact,
+        "arrest-depth": cut.arrest_depth,
+        "no-contact": cut.no_contact,
+        "rate-in-contact": cut.lowest_rate,
+        "sliding-rate": cut.sliding,
+        "margin-rate": cut.margin_rate,
+        "margin": cut.in_wear,
+        "one-third": cut.per_cycle,
+        "permanent-contact": cut.permanent,
+        "always-contact": cut.always_contact,
+        "edge-of-contact": cut.at_edge,
+    }

@@ -16,22 +16,21 @@ Remarks
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
 from ..claims import FirstZero
-from ..equations import Equation, beyond
+from ..equations import Proved
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..rules.algebra import Identity, Insert
 from ..rules.assumption import assume, defined
 from ..rules.solutions import FirstRoot
 from ..symbols import symbols
-from ..typeset.display import as_written, minus
 
 h_0, U_max, u_stop, q, g, p_1 = symbols("h_0 U_max u_stop q g p_1")
-sigma_a0, sigma_c0, sigma = symbols("sigma_a0 sigma_c0 sigma")
+sigma_a0, sigma_c0 = symbols("sigma_a0 sigma_c0")
 
 sigma_stop = sp.sqrt(sigma_a0**2 + sigma_c0**2 + 2 * p_1 * u_stop + q**2 * u_stop**2)
 margin = 3 * sigma_stop - (h_0 + g * u_stop - U_max)
@@ -75,30 +74,7 @@ class CutoffTwoSolids:
         return Insert(claim)(found, *facts, name="arrest depth")
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return what the cutoff brings, for two solids."""
     cut = CutoffTwoSolids()
-    result = partial(beyond, "cutoff")
-    a_0, a_1, a_2 = sp.symbols("a_0 a_1 a_2", real=True)
-    with as_written():
-        squares = sp.Add(sigma_a0**2, sigma_c0**2)
-        stopped = sp.Add(squares, 2 * p_1 * u_stop, q**2 * u_stop**2)
-        slope = sp.Add(p_1, q**2 * u_stop) ** 2 / sigma**2
-        second = sp.Add(q**2, minus(slope)) * (3 / sigma)
-        curved = sp.Eq(second, 3 * sp.Add(q**2 * squares, minus(p_1**2)) / sigma**3)
-        gap = sp.Add(h_0, minus(U_max))
-        root = sp.sqrt(sp.Add(a_1**2, minus(a_2 * a_0)))
-        depth = sp.Eq(u_stop, a_0 / sp.Add(root, minus(a_1)))
-        names = (
-            sp.Eq(a_0, sp.Add(9 * squares, minus(gap**2))),
-            sp.Eq(a_1, sp.Add(9 * p_1, minus(g * gap))),
-            sp.Eq(a_2, sp.Add(9 * q**2, minus(g**2))),
-        )
-        where = (sp.Eq(sigma, sp.sqrt(stopped)),)
-    curvature = "second derivative of the margin with respect to wear"
-    return (
-        result("margin-curvature", curvature, cut.convex, curved, where),
-        result(
-            "arrest-depth-two-solids", "arrest depth, two solids", cut.arrest_depth, depth, names
-        ),
-    )
+    return {"margin-curvature": cut.convex, "arrest-depth-two-solids": cut.arrest_depth}

@@ -15,12 +15,10 @@ Key results
 
 from __future__ import annotations
 
-from functools import partial
-
 import sympy as sp
 
 from ..dimensions import dimension
-from ..equations import Equation, beyond
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note import condensed
@@ -30,7 +28,6 @@ from ..rules.assumption import assume, defined
 from ..rules.calculus import change_clock
 from ..rules.inequalities import Arithmetic
 from ..symbols import symbols, t
-from ..typeset.display import as_written, over
 
 U_a, u_c, p, h_0, U, k, T, V = symbols("U_a u_c p h_0 U k T V")
 f_a, f_c, K_a, K_c, H_a, H_c, p_max = symbols("f_a f_c K_a K_c H_a H_c p_max")
@@ -77,34 +74,17 @@ def count(data: tuple[sp.Symbol, ...]) -> tuple[int, int]:
 
 
 def _scaled(
-    rough: Judgement, parent: Judgement, claim: sp.Basic, groups: tuple[sp.Symbol, ...]
+    identifier: str, rough: Judgement, parent: Judgement, groups: tuple[sp.Symbol, ...]
 ) -> Judgement:
     """Return a scaled equation, in which no datum is left but the groups."""
+    fields = {field.func.__name__: field.func for field in (v, a, q)}
+    names = {group.name: group for group in (mu, eta, nu, zeta, lamda)}
+    claim, *_ = stated(identifier, fields | names)
     definitions = tuple(DEFINITIONS[group] for group in groups if group in DEFINITIONS)
     clock = change_clock(SCALES[0], CLOCK)
     factor, pace = (1 / p_max, ()) if claim.lhs == q else (T / sigma_c0, (clock,))
     first = Multiply(factor)(parent)
     return Consequence(claim)(first, *pace, *SCALES, *definitions, rough, name="scaled")
-
-
-def _rate(closure: sp.Expr, roughness: sp.Expr) -> sp.Basic:
-    argument = sp.Add(4, -(2 * closure / roughness))
-    return sp.Eq(sp.Derivative(v, tau), mu / 2 * (1 + sp.tanh(argument)))
-
-
-def _one() -> sp.Basic:
-    return _rate(sp.Add(eta, v, -(nu * a)), 1 + f_c * v)
-
-
-def _two() -> sp.Basic:
-    roughness = sp.sqrt((zeta + f_a * (kappa * v)) ** 2 + (1 + f_c * v) ** 2)
-    return _rate(sp.Add(eta, (1 - kappa) * v, -(nu * a)), roughness)
-
-
-def _compliant() -> sp.Basic:
-    closure = sp.Add(eta, v, -(nu * a), lamda * q)
-    argument = sp.Add(4, -(2 * closure / (1 + f_c * v)))
-    return sp.Eq(q, over(2) * (1 + sp.tanh(argument)))
 
 
 GROUPS_OF_ONE = (f_c, mu, eta, nu)
@@ -115,7 +95,8 @@ GROUPS_COMPLIANT = (f_c, eta, nu, lamda)
 def one_solid() -> Judgement:
     """Four groups for one worn solid."""
     problem = bearing_only()
-    return _scaled(problem.model.roughness_at_wear, problem.rigid, _one(), GROUPS_OF_ONE)
+    rough = problem.model.roughness_at_wear
+    return _scaled("groups-one-solid", rough, problem.rigid, GROUPS_OF_ONE)
 
 
 def two_solids() -> Judgement:
@@ -128,29 +109,23 @@ def two_solids() -> Judgement:
         problem.model.wear_of_pin,
         *(SCALES[0], DEFINITIONS[zeta], DEFINITIONS[kappa]),
     )
-    return _scaled(rough, problem.rigid, _two(), GROUPS_OF_TWO)
+    return _scaled("groups-two-solids", rough, problem.rigid, GROUPS_OF_TWO)
 
 
 def compliant() -> Judgement:
     """One more group for a compliant support, in the pressure."""
     problem = bearing_only()
-    parent = problem.pressure_of_bearing_wear
-    return _scaled(problem.model.roughness_at_wear, parent, _compliant(), GROUPS_COMPLIANT)
+    rough, parent = problem.model.roughness_at_wear, problem.pressure_of_bearing_wear
+    return _scaled("groups-compliant", rough, parent, GROUPS_COMPLIANT)
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the dimensionless problems."""
-    result = partial(beyond, "dimensionless groups")
-    with as_written():
-        one, two, soft = _one(), _two(), _compliant()
-    return tuple(
-        result(name, title, (found, *more), (law, *(s.relation for s in more)))
-        for name, title, found, law, more in (
-            ("groups-one-solid", "four groups", one_solid(), one, _defined(mu, eta, nu)),
-            ("groups-two-solids", "seven groups", two_solids(), two, _defined(kappa, zeta)),
-            ("groups-compliant", "pressure, one more group", compliant(), soft, _defined(lamda)),
-        )
-    )
+    return {
+        "groups-one-solid": (one_solid(), *_defined(mu, eta, nu)),
+        "groups-two-solids": (two_solids(), *_defined(kappa, zeta)),
+        "groups-compliant": (compliant(), *_defined(lamda)),
+    }
 
 
 def _defined(*groups: sp.Symbol) -> tuple[Judgement, ...]:

@@ -16,26 +16,23 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
 from ..claims import Drift, Oscillation, Term, landau_o
-from ..equations import Equation, beyond
+from ..equations import Proved, stated
 from ..kernel import Judgement
-from ..note.stabilised import Stabilised, drift_and_wear
+from ..note.stabilised import Stabilised
 from ..rules.assumption import assume, defined
 from ..rules.averages import EXPANSION, OFFSET, SATURATION, Averaging, SlowTime, term_of
-from ..rules.limits import forever
 from ..rules.reading import SINE
-from ..symbols import symbol, symbols, t
-from ..typeset.display import as_written
+from ..symbols import symbols
 from .steady_state import steady_state
 
-h_0, sigma_c0, f_c, U, T = symbols("h_0 sigma_c0 f_c U T")
-b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
-u_c, u_cum, A = symbols("u_c u_cum A")
-c_1, c_2, c_3, c_4 = symbols("c_1 c_2 c_3 c_4")
+(f_c,) = symbols("f_c")
+rho, m = symbols("rho m")
+(u_cum,) = symbols("u_cum")
 
 MEANING = "sigma = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...)"
 
@@ -44,59 +41,17 @@ saturation = defined(*SATURATION.args)
 growth = defined(rho, f_c * u_cum)
 
 
-def _drifts() -> dict[int, sp.Expr]:
-    """Return c_1 to c_4, as an author writes them; ``Averaging`` proves them."""
-    rest = 1 - theta
-    third = (3 * theta**2 - 1) * (3 * U**2 + 2 * b_0**2)
-    fourth = (3 * theta**2 - 2) * sp.Add(3 * U**4, 24 * U**2 * b_0**2, 8 * b_0**4)
-    return {
-        1: 2 * rest * b_0,
-        2: -(2 * theta * rest * (U**2 + 2 * b_0**2)),
-        3: sp.Rational(4, 3) * rest * b_0 * third,
-        4: sp.Add(
-            rest**2 * U**2 * rho**2 / (2 * sp.pi**2),
-            -(sp.Rational(2, 3) * theta * rest * fourth),
-        ),
-    }
-
-
-def _oscillations() -> dict[int, sp.Expr]:
-    """Return w_1 and w_2, as an author writes them; ``Averaging`` proves them."""
-    rest, angle = 1 - theta, 2 * sp.pi * tau
-    waves = sp.Add(
-        sp.pi * U * theta * sp.sin(4 * sp.pi * tau),
-        8 * sp.pi * b_0 * theta * sp.cos(angle),
-        -(rho * sp.sin(angle)),
-    )
-    return {
-        1: -(rest * U * rho / sp.pi * sp.cos(angle)),
-        2: rest * U * rho / (2 * sp.pi**2) * waves,
-    }
-
-
-def _slow_time() -> sp.Expr:
-    """Return rho tau + s_0 as a function of m."""
-    fourth = sp.Add(c_1**4, -(3 * c_1**2 * c_2), 2 * c_1 * c_3, c_2**2, -c_4)
-    return sp.Add(
-        m,
-        -(c_1 * sp.log(m / rho)),
-        sp.Add(c_2, -(c_1**2)) / m,
-        sp.Add(c_1**3, -(2 * c_1 * c_2), c_3) / (2 * m**2),
-        -(fourth / (3 * m**3)),
-    )
-
-
 @dataclass(frozen=True)
 class Expansion:
     """The expansion for the note's law, a rigid support and a sine load."""
 
     def drift(self, n: int) -> Judgement:
         """Growth of the roughness at order 1/m^n."""
-        return self._term(Drift, n, sp.Eq(symbol(f"c_{n}"), _drifts()[n]))
+        return self._term(Drift, n, stated("expansion-drift")[n - 1])
 
     def oscillation(self, n: int) -> Judgement:
         """Oscillation of the roughness at order 1/m^n."""
-        return self._term(Oscillation, n, sp.Eq(symbol(f"w_{n}"), _oscillations()[n]))
+        return self._term(Oscillation, n, stated("expansion-oscillation")[n - 1])
 
     def _term(self, kind: type[Term], n: int, claim: sp.Equality) -> Judgement:
         pressure = steady_state().pressure_at_wear
@@ -109,28 +64,18 @@ class Expansion:
     def slow_time(self) -> Judgement:
         """The number of cycles as a function of the averaged roughness."""
         drifts = tuple(self.drift(n) for n in (1, 2, 3, 4))
-        claim = sp.Eq(rho * tau + s_0, _slow_time())
+        (shown,) = stated("expansion")
+        claim = sp.Eq(shown.lhs, shown.rhs - landau_o(m**-3))
         return SlowTime(claim)(*drifts, assume(EXPANSION), name="slow time")
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the expansion and the coefficient of the drift."""
     expansion = Expansion()
-    result = partial(beyond, "long times")
-    terms = (*(expansion.drift(n) for n in (1, 2, 3, 4)), offset, saturation, growth)
-    waves = tuple(expansion.oscillation(n) for n in (1, 2))
-    with as_written():
-        steps = tuple(sp.Eq(symbol(f"c_{n}"), value) for n, value in _drifts().items())
-        shifted = sp.Eq(b_0, sp.Add(sigma_c0 / f_c, -h_0))
-        drifts = (*steps, shifted, saturation.relation, growth.relation)
-        swings = tuple(sp.Eq(symbol(f"w_{n}"), value) for n, value in _oscillations().items())
-        slow = sp.Eq(rho * tau + s_0, sp.Add(_slow_time(), landau_o(m**-3)))
-        line = u_cum * t / T
-        logarithm = sp.Eq(forever(sp.Add(u_c, -line) / sp.log(t / T)), A)
-    drift, where = Stabilised().asymptote, drift_and_wear()
-    return (
-        result("log-drift", "logarithmic drift of the wear", drift, logarithm, where),
-        result("expansion-drift", "drift of the averaged roughness", terms, drifts),
-        result("expansion-oscillation", "oscillation within a cycle", waves, swings),
-        result("expansion", "cycles and averaged roughness", expansion.slow_time, slow),
-    )
+    drifts = (expansion.drift(n) for n in (1, 2, 3, 4))
+    return {
+        "log-drift": Stabilised().asymptote,
+        "expansion-drift": (*drifts, offset, saturation, growth),
+        "expansion-oscillation": tuple(expansion.oscillation(n) for n in (1, 2)),
+        "expansion": expansion.slow_time,
+    }

@@ -16,11 +16,11 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Equation, beyond
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
@@ -30,10 +30,9 @@ from ..rules.algebra import Insert, Logarithm, Solve
 from ..rules.assumption import assume
 from ..rules.calculus import RIGID
 from ..symbols import symbols
-from ..typeset.display import as_written
 
-h, h_0, U_a, U_c, sigma = symbols("h h_0 U_a U_c sigma")
-p, p_max, k, f_c, sigma_c0 = symbols("p p_max k f_c sigma_c0")
+h, sigma = symbols("h sigma")
+p, p_max, f_c = symbols("p p_max f_c")
 
 SLOPED = Hypothesis("the roughness changes with wear", sp.Ne(f_c, 0))
 UNSATURATED = Hypothesis(
@@ -57,7 +56,7 @@ class FirstIntegral:
         """Closure and roughness lie on a line that the load shifts."""
         model = self.model
         parents = (model.closure, model.roughness_at_wear, model.wear_of_pin)
-        claim = sp.Eq(h + U_a - U_c - sigma / f_c, h_0 - sigma_c0 / f_c)
+        (claim,) = stated("closure-line")
         return Insert(claim)(*parents, assume(SLOPED), name="line of closure")
 
     @cached_property
@@ -71,32 +70,26 @@ class FirstIntegral:
     def compliant(self) -> Judgement:
         """What stays constant, with a support of stiffness k."""
         deflection = bearing_only(self.law).deflection
-        return self._from(deflection, p / k).named("first integral, compliant support")
+        return self._from("first-integral-compliant", deflection).named(
+            "first integral, compliant support"
+        )
 
     @cached_property
     def rigid(self) -> Judgement:
         """What stays constant, on a rigid support."""
-        return self._from(assume(RIGID), sp.S.Zero).named("first integral")
+        return self._from("first-integral", assume(RIGID)).named("first integral")
 
-    def _from(self, deflection: Judgement, depth: sp.Expr) -> Judgement:
+    def _from(self, identifier: str, deflection: Judgement) -> Judgement:
         parents = (self.log_odds, Solve(h)(self.line), deflection)
-        bracket = sp.log(p / (p_max - p)) - (8 - 4 / f_c)
-        claim = sp.Eq(sigma * bracket + 4 * depth - 4 * U_a, 4 * (sigma_c0 / f_c - h_0))
+        (claim,) = stated(identifier)
         return Insert(claim)(*parents)
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the first integrals."""
-    general, tanh = FirstIntegral(GENERAL), FirstIntegral(TANH)
-    with as_written():
-        bracket = sp.log(p / (p_max - p)) - (8 - 4 / f_c)
-        value = 4 * (sigma_c0 / f_c - h_0)
-        rigid = sp.Eq(sp.Add(sigma * bracket, -(4 * U_a)), value)
-        compliant = sp.Eq(sp.Add(sigma * bracket, 4 * p / k, -(4 * U_a)), value)
-        line = sp.Eq(sp.Add(h, U_a, -U_c, -(sigma / f_c)), h_0 - sigma_c0 / f_c)
-    result, soft = partial(beyond, "first integral"), "first integral, compliant support"
-    return (
-        result("closure-line", "first integral, any law", general.line, line),
-        result("first-integral", "first integral", tanh.rigid, rigid),
-        result("first-integral-compliant", soft, tanh.compliant, compliant),
-    )
+    tanh = FirstIntegral(TANH)
+    return {
+        "closure-line": FirstIntegral(GENERAL).line,
+        "first-integral": tanh.rigid,
+        "first-integral-compliant": tanh.compliant,
+    }

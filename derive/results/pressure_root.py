@@ -21,11 +21,11 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Equation, beyond
+from ..equations import Proved
 from ..kernel import Judgement, infer
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import two_solids
@@ -33,12 +33,10 @@ from ..rules.algebra import Identity, substitute
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic, Lipschitz
 from ..symbols import symbols
-from ..typeset.display import as_written, minus
-from ..typeset.present import presentable
 from .first_integral import UNSATURATED
 
 p, p_max, k, sigma, U_a, u_a, u_c = symbols("p p_max k sigma U_a u_a u_c")
-h_0, h_rigid = symbols("h_0 h_rigid")
+(h_0,) = symbols("h_0")
 
 undeflected = h_0 + u_c - u_a - U_a
 """The closure on an undeflected support, g."""
@@ -120,55 +118,11 @@ def curvature() -> tuple[Judgement, Judgement]:
     )
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the results on the pressure of a compliant support."""
-    root, result = PressureRoot(), partial(beyond, "compliant support")
-    iteration, softening = (*newton(GENERAL), *curvature()), (root.softening, root.error_bound)
-    (unique, softer), where = _displays()
-    steps, names = _newton()
-    shown = (*steps, *(presentable(statement.relation) for statement in curvature()))
-    return (
-        result("pressure-root", "exactly one pressure", root.unique, unique, where),
-        result(
-            "pressure-iteration", "Newton's iteration for the pressure", iteration, shown, names
-        ),
-        result("rigid-limit-error", "distance from a rigid support", softening, softer, where),
-    )
-
-
-def _newton() -> tuple[tuple[sp.Eq, sp.Eq], tuple[sp.Eq, sp.Eq, sp.Eq]]:
-    """Return the step of Newton's iteration to be read, and its abbreviations."""
-    below = sp.Symbol("D", positive=True)
-    near, there = GENERAL.ratio(a + s * x), GENERAL.ratio(a + s * y)
-    slope = sp.Subs(sp.diff(GENERAL.phi, r), r, a + s * x)
-    at_x, at_y = sp.symbols("phi_x phi_y", positive=True)
-    with as_written():
-        step = sp.Add(x, minus(sp.Add(x, -at_x) / below))
-        end = sp.Add(at_x, minus(s * x * slope)) / below
-        distance = sp.Add(y, -x, sp.Add(x, -at_x) / below, minus(sp.Add(y, -at_y) / below))
-        bent = sp.Add(at_y, -at_x, minus(s * sp.Add(y, -x) * slope)) / below
-        steepness = sp.Eq(below, sp.Add(1, minus(s * slope)))
-    names = (steepness, sp.Eq(at_x, near), sp.Eq(at_y, there))
-    return (sp.Eq(step, end), sp.Eq(distance, bent)), names
-
-
-def _displays() -> tuple[tuple[tuple[sp.Basic, ...], ...], tuple[sp.Eq, sp.Eq]]:
-    """Return the forms to be read, for the law of the note, and their abbreviations."""
-    phi = sp.Function("phi")
-    with as_written():
-        gap = sp.Eq(h_rigid, h_0 + u_c - u_a - U_a)
-        law = sp.Eq(phi(r), sp.Rational(1, 2) * (1 + sp.tanh(sp.Add(4, minus(2 * r)))))
-        rigid, full, soft = (x / sigma for x in (h_rigid, h_rigid + p_max / k, h_rigid + p / k))
-        slope = sp.Subs(sp.Derivative(phi(r), r), r, soft)
-        root = (
-            sp.Lt(-(p_max * phi(rigid)), 0),
-            sp.Gt(p_max - p_max * phi(full), 0),
-            sp.Gt(1 - p_max / (k * sigma) * slope, 0),
-        )
-        change = sp.Add(p_max * phi(rigid), minus(p_max * phi(soft)))
-        bound = p_max / (k * sigma) * p
-        softening = (
-            sp.And(sp.Ge(change, 0), sp.Le(change, bound)),
-            sp.Le(bound, p_max**2 / (k * sigma)),
-        )
-    return (root, softening), (gap, law)
+    root = PressureRoot()
+    return {
+        "pressure-root": root.unique,
+        "pressure-iteration": (*newton(GENERAL), *curvature()),
+        "rigid-limit-error": (root.softening, root.error_bound),
+    }

@@ -16,11 +16,11 @@ Key results
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import cache
 
 import sympy as sp
 
-from ..equations import Equation, beyond
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.stabilised import Stabilised, named_limit
@@ -29,15 +29,14 @@ from ..rules.assumption import assume
 from ..rules.calculus import RIGID
 from ..rules.data import Differentiated
 from ..symbols import symbols
-from ..typeset.display import as_written, over
 from .compliant import CompliantSteadyState
 from .first_integral import FirstIntegral
 from .regimes import largest_wear
 from .steady_state import ROUGHENING
 
 u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
-f_c, h, h_0, U_a, U, u_c = symbols("f_c h h_0 U_a U u_c")
-p, sigma_c0, M, k = symbols("p sigma_c0 M k")
+f_c, h, h_0, U, u_c = symbols("f_c h h_0 U u_c")
+sigma_c0, M, k = symbols("sigma_c0 M k")
 
 
 @cache
@@ -99,8 +98,7 @@ def coefficient_from_wear() -> Judgement:
 
 def slope_from_rate() -> Judgement:
     """f_c from the pressure at one instant."""
-    log_odds = sp.log(p / (p_max - p))
-    claim = sp.Eq(f_c, (4 * (h_0 + u_c - U_a) / (8 - log_odds) - sigma_c0) / u_c)
+    (claim,) = stated("slope-from-pressure")
     integral = FirstIntegral()
     model = integral.model
     closure = substitute(model.closure, model.wear_of_pin, assume(RIGID))
@@ -109,30 +107,23 @@ def slope_from_rate() -> Judgement:
     return Insert(claim)(*parents, name="f_c from a pressure")
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return sensitivities, elasticities and identification."""
-    result = partial(beyond, "sensitivities")
     wear_per_cycle, pressure = stabilised().wear_per_cycle, stabilised().pressure
     compliant_wear = named_limit(u_cum, CompliantSteadyState().wear_per_cycle, "wear per cycle")
     by_share = 4 / f_c**2 * share * (1 - share)
-    powers = tuple(elasticity(wear_per_cycle, a, sp.Integer(n)) for a, n in POWERS.items())
-    nothing = tuple(sensitivity(compliant_wear, a, sp.S.Zero) for a in WITHOUT_EFFECT)
-    slope = sensitivity(wear_per_cycle, f_c, M * by_share)
-    relative = elasticity(wear_per_cycle, f_c, 4 / f_c * (1 - share))
-    pressures = (
-        sensitivity(pressure, f_c, p_max * by_share),
-        sensitivity(pressure, p_max, share),
-    )
-    with as_written():
-        instant = 4 * sp.Add(h_0, u_c, -U_a) / sp.Add(8, -sp.log(p / (p_max - p)))
-        at_once = sp.Eq(f_c, over(u_c) * sp.Add(instant, -sigma_c0))
-    return (
-        result("elasticities", "elasticities of u_cum", powers),
-        result("sensitivity-slope", "sensitivity of u_cum to f_c", slope),
-        result("elasticity-slope", "elasticity of u_cum in f_c", relative),
-        result("without-effect", "what u_cum does not depend on", nothing),
-        result("sensitivity-pressure", "sensitivities of p_inf", pressures),
-        result("slope-from-wear", "f_c from u_cum", slope_from_wear()),
-        result("coefficient-from-wear", "K_c from u_cum", coefficient_from_wear()),
-        result("slope-from-pressure", "f_c from one measured pressure", slope_from_rate(), at_once),
-    )
+    return {
+        "elasticities": tuple(
+            elasticity(wear_per_cycle, a, sp.Integer(n)) for a, n in POWERS.items()
+        ),
+        "sensitivity-slope": sensitivity(wear_per_cycle, f_c, M * by_share),
+        "elasticity-slope": elasticity(wear_per_cycle, f_c, 4 / f_c * (1 - share)),
+        "without-effect": tuple(sensitivity(compliant_wear, a, sp.S.Zero) for a in WITHOUT_EFFECT),
+        "sensitivity-pressure": (
+            sensitivity(pressure, f_c, p_max * by_share),
+            sensitivity(pressure, p_max, share),
+        ),
+        "slope-from-wear": slope_from_wear(),
+        "coefficient-from-wear": coefficient_from_wear(),
+        "slope-from-pressure": slope_from_rate(),
+    }

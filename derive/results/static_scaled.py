@@ -16,13 +16,12 @@ from __future__ import annotations
 import sympy as sp
 
 from ..codegen.formulas import Formula, formula_module
-from ..equations import Equation, beyond
+from ..equations import Proved
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.algebra import Insert, inserted, substitute
 from ..rules.assumption import assume, defined
 from ..symbols import symbols
-from ..typeset.display import as_written
 from .first_integral import FirstIntegral
 from .regimes import largest_wear
 from .static_solution import MOVING, excess, load_offset
@@ -106,23 +105,6 @@ def module() -> str:
     return formula_module("Static solution, without the exponential integral.", origin, formulas())
 
 
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the scaled form."""
-    with as_written():
-        left = sp.exp(-(2 * x_inf)) * sp.Add(
-            sigma * sp.exp(-(2 * beta / sigma)), 2 * beta * sp.Ei(-(2 * beta / sigma))
-        )
-        display = (
-            sp.Eq(left, sigma * sp.exp(E) * _remainder()),
-            exponent.relation,
-            sp.Eq(z, -(2 * beta / sigma)),
-        )
-    statements = scaled_primitive(), exponent, argument
-    found = beyond(
-        "static load",
-        "static-solution-scaled",
-        "the primitive without overflow",
-        statements,
-        display,
-    )
-    return (found,)
+    return {"static-solution-scaled": (scaled_primitive(), exponent, argument)}

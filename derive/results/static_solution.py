@@ -17,23 +17,22 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Equation, beyond
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.assumption import assume, defined
 from ..rules.reading import CONSTANT
 from ..rules.solutions import Inverted, Solution
-from ..symbols import symbols, t
-from ..typeset.display import as_written, over
+from ..symbols import symbols
 from .first_integral import SLOPED
 from .regimes import Regimes
 
-h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
+h_0, U_a, sigma_c0, f_c = symbols("h_0 U_a sigma_c0 f_c")
 p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")
 
 MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(beta, 0))
@@ -41,9 +40,6 @@ MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(
 half_rate = defined(C, K_c * V * p_max / (6 * H_c))
 load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a), "", assume(CONSTANT))
 limit_argument = defined(x_inf, 4 - 2 / f_c)
-
-with as_written():
-    written_offset = sp.Eq(beta, 2 * sp.Add(sigma_c0 / f_c, -h_0, U_a))
 
 
 def excess(roughness: sp.Expr) -> sp.Expr:
@@ -64,58 +60,31 @@ class StaticSolution:
     @cached_property
     def time(self) -> Judgement:
         """The time at which the wear is u_c."""
-        gap = sp.exp(-2 * x_inf) / (2 * f_c) * (excess(sigma_c0 + f_c * u_c) - excess(sigma_c0))
+        claim, *_ = stated("static-solution")
         names = (half_rate, load_offset, limit_argument)
         facts = (assume(CONSTANT), assume(SLOPED), assume(MOVING), *Regimes().rough)
         parents = (bearing_only().rigid, self.start, *names, *facts)
-        return Solution(sp.Eq(t, (u_c / 2 + gap) / C))(*parents, name="static solution")
+        return Solution(claim)(*parents, name="static solution")
 
     @cached_property
     def time_smooth(self) -> Judgement:
         """The time at which the wear is u_c, for f_c = 0."""
-        gap = sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8)
-        claim = sp.Eq(t, (u_c / 2 + gap * (sp.exp(4 * u_c / sigma_c0) - 1)) / C)
+        claim, *_ = stated("static-solution-smooth")
         parents = (Regimes().kept, self.start, half_rate, assume(CONSTANT))
         return Solution(claim)(*parents, name="static solution, f_c = 0")
 
     @cached_property
     def wear_smooth(self) -> Judgement:
         """The wear at a time, for f_c = 0."""
-        return Inverted(sp.Eq(u_c, _inverse()))(self.time_smooth, name="wear at a time, f_c = 0")
+        (claim,) = stated("static-wear-smooth")
+        return Inverted(claim)(self.time_smooth, name="wear at a time, f_c = 0")
 
 
-def _inverse() -> sp.Expr:
-    """Return the wear at time t, for f_c = 0."""
-    gap = sigma_c0 / 8 * sp.exp(4 * sp.Add(h_0, -U_a) / sigma_c0 - 8)
-    travel = C * t + gap
-    inside = 8 * gap / sigma_c0 * sp.exp(8 * travel / sigma_c0)
-    return sp.Add(2 * travel, -(sigma_c0 / 4 * sp.LambertW(inside)))
-
-
-def equations() -> tuple[Equation, ...]:
+def results() -> dict[str, Proved]:
     """Return the static solutions."""
-    static, result = StaticSolution(), partial(beyond, "static load")
-    s, gap = sp.Symbol("s", positive=True), sp.Symbol("ell", positive=True)
-    primitive = sp.Function("P")
-    with as_written():
-        z = -(2 * beta / s)
-        excess_of = sp.Eq(primitive(s), sp.Add(s * sp.exp(z), 2 * beta * sp.Ei(z)))
-        change = sp.Add(primitive(sigma_c0 + f_c * u_c), -primitive(sigma_c0))
-        travelled = sp.Add(u_c / 2, over(2 * f_c) * sp.exp(-(2 * x_inf)) * change)
-        time = sp.Eq(t, over(C) * travelled)
-        opened = sp.exp(sp.Add(4 * sp.Add(h_0, -U_a) / sigma_c0, -8))
-        smooth_gap = sp.Eq(gap, sigma_c0 / 8 * opened)
-        worn = sp.Add(sp.exp(4 * u_c / sigma_c0), -1)
-        smooth = sp.Eq(t, over(C) * sp.Add(u_c / 2, gap * worn))
-        travel = sp.Add(C * t, gap)
-        lambert = sp.LambertW(8 * gap / sigma_c0 * sp.exp(8 * travel / sigma_c0))
-        inverse = sp.Eq(u_c, sp.Add(2 * travel, -(sigma_c0 / 4 * lambert)))
-        shown = (time, written_offset, limit_argument.relation, half_rate.relation)
-    statements, where = (static.time, load_offset, limit_argument, half_rate), (smooth_gap,)
-    flat, shown_flat = (static.time_smooth, half_rate), (smooth, half_rate.relation)
-    of_time, of_wear = (f"{what} under a constant load" for what in ("time", "wear"))
-    return (
-        result("static-solution", of_time, statements, shown, (excess_of,)),
-        result("static-solution-smooth", f"{of_time}, f_c = 0", flat, shown_flat, where),
-        result("static-wear-smooth", f"{of_wear}, f_c = 0", static.wear_smooth, inverse, where),
-    )
+    static = StaticSolution()
+    return {
+        "static-solution": (static.time, load_offset, limit_argument, half_rate),
+        "static-solution-smooth": (static.time_smooth, half_rate),
+        "static-wear-smooth": static.wear_smooth,
+    }

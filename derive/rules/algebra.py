@@ -131,7 +131,7 @@ def inserted(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
         if isinstance(claim, Equality):
             expr = replaced(expr, claim.lhs, claim.rhs)
         elif isinstance(claim, Limit) and claim.value.is_finite is not False:
-            expr = expr.subs(claim.term, claim.value)
+            expr = replaced(expr, claim.term, claim.value)
     return expr
 
 
@@ -196,7 +196,10 @@ class Consequence(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *others = premises
         claim = claim_of(self.claim)
-        require_defined(self.claim, *premises)
+        require_defined(claim.value if isinstance(claim, Limit) else self.claim, *premises)
+        taken = {claim.variable} - {t} if isinstance(claim, Limit) else set()
+        if any(taken & other.relation.free_symbols for other in others):
+            raise RuleError(f"missing premise: {self.claim} for every {claim.variable}")
         places, sides = _inside(self.claim), _inside(first.relation)
         same = type(claim) is type(first.claim) and [p for p, _ in places] == [p for p, _ in sides]
         pairs = zip(places, sides, strict=False)
@@ -239,7 +242,7 @@ class Discharge(Rule):
     """``Gamma, H |- C`` and ``Delta |- H`` give ``Gamma, Delta |- C`` (cut)."""
 
     hypothesis: Hypothesis
-    words = "{0}, where the hypothesis is met by {others}."
+    words = "The hypothesis of {0} is met by {others}."
     asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -248,6 +251,8 @@ class Discharge(Rule):
             raise RuleError(f"{first.relation} does not rest on {self.hypothesis.text}")
         if any(self.hypothesis in premise.hypotheses for premise in known):
             raise RuleError(f"missing premise: {self.hypothesis.text}, from others")
+        if self.hypothesis.relation == sp.true:
+            raise RuleError(f"missing premise: {self.hypothesis.text}, which only words say")
         require(self.hypothesis.relation, *known)
         return Conclusion(first.claim, discharges=(self.hypothesis,))
 
@@ -267,6 +272,8 @@ class Forget(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
+        if not isinstance(self.hypothesis.relation, sp.Equality):
+            raise RuleError(f"missing premise: {self.hypothesis.text} is the value of a symbol")
         name, value = self.hypothesis.relation.args
         others = [h.relation for h in first.hypotheses if h != self.hypothesis]
         if not constant(sp.Tuple(name, value)):

@@ -15,8 +15,7 @@ from ..note.model import FIELDS, belongs
 from ..symbols import CLOCKS, DATA, t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import LAW
-from .reading import at_an_instant, clocks, fields
+from .reading import at_an_instant, clocks, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
@@ -33,8 +32,7 @@ class Assume(Rule):
         instant = bool(clocks(relation)) and not relation.atoms(AppliedUndef)
         named = kind is Kind.DEFINITION
         if (
-            type(said) is not Hypothesis
-            or relation == sp.false
+            relation == sp.false
             or kind is Kind.DOMAIN
             or relation.has(landau_o)
             or (not named and (instant or premises))
@@ -43,8 +41,6 @@ class Assume(Rule):
         if not belongs(kind, relation):
             raise RuleError(f"{said.text}: no equation of the model")
         claim = Property(said.text) if relation is sp.true else claim_of(relation)
-        if not isinstance(claim, Limit) and any(side in (sp.oo, -sp.oo) for side in relation.args):
-            raise RuleError(f"{said.text}: infinity is the value of limits alone")
         if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
             raise RuleError(f"{said.text}: no equation")
         if named and isinstance(claim, (Equality, Limit)):
@@ -58,16 +54,22 @@ class Assume(Rule):
 def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:
     """Refuse to define what is given, or a constant by what varies."""
     name, value = relation.lhs, at_an_instant(relation.rhs)
-    functions = {field.func for field in relation.atoms(AppliedUndef)} - {LAW}
-    constants = {s for s in relation.free_symbols if s.name not in DATA | CLOCKS}
-    if not name.is_Symbol and (functions - FIELDS or (constants and not functions)):
+    found = {field.func for field in functions(relation)}
+    if not name.is_Symbol and (found - FIELDS or (not found and _linear(relation))):
         return  # an equation for a field of one's own, or for a name
     if not name.is_Symbol or name.name in DATA or value.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
     rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
     change = inserted(sp.Add(*rates), premises).doit()
-    if not clocks(name) and (clocks(value) or not is_zero(change)):
+    if not clocks(name) and (clocks(relation.rhs) or not is_zero(change)):
         raise RuleError(f"missing premise: {value} is constant")
+
+
+def _linear(relation: sp.Equality) -> bool:
+    """Return whether an equation is linear in a name, and so has a solution for most data."""
+    names = (s for s in relation.free_symbols if s.name not in DATA | CLOCKS)
+    slopes = ((name, sp.diff(relation.lhs - relation.rhs, name)) for name in names)
+    return any(not slope.has(name) and not is_zero(slope) for name, slope in slopes)
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:

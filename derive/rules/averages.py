@@ -26,7 +26,7 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
-from .reading import LOAD, SINE, T, equality, fields, require_hypothesis
+from .reading import LOAD, SINE, T, clocks, constant, equality, fields, require_hypothesis
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
@@ -37,6 +37,7 @@ ROUGHNESS = sp.Symbol("s", positive=True)
 
 EXPANSION = Hypothesis(
     "m is the averaged roughness, dm/dtau = rho (1 + c_1/m + ...), with s_0 for its start",
+    typeset=r"\mathrm{d}m / \mathrm{d}\tau = \rho \left(1 + c_1 / m + \dots\right)",
     kind=Kind.DEFINITION,
 )
 OFFSET = sp.Eq(b_0, sigma_c0 / f_c - h_0)
@@ -107,7 +108,7 @@ class Averaging(Rule):
         given, name = equality(premises[0]), self.claim.lhs
         for relation in (SINE.relation, OFFSET, SATURATION, sp.Gt(f_c, 0)):
             require_hypothesis(relation, *premises)
-        if given.lhs != p or fields(given.rhs) - {u_c, LOAD}:
+        if given.lhs != p or fields(given.rhs) - {u_c, LOAD} or clocks(given.rhs):
             raise RuleError("missing premise: the pressure at given wear and load")
         meaning, solved = _meaning(name, premises[1:]), averaged(given.rhs)
         known = {term_of(Drift, n, given.rhs): solved.drift[n] for n in range(1, ORDER + 1)}
@@ -132,12 +133,13 @@ def _definitions(law: sp.Expr) -> set[sp.Equality]:
 class SlowTime(Rule):
     """``rho tau + s_0 = F(m) + o(m^-3)``: ``F' (1 + c_1/m + ... + c_4/m^4) = 1 + O(m^-5)``.
 
+    s_0 is the constant of integration, so F is made of powers of m and ln(m/rho) alone.
     The premises define c_1 to c_4, all of one pressure, or rest on these definitions; the others
     say what m and s_0 are.
     """
 
     claim: sp.Equality
-    words = "Integrate the averaged drift, {all}, term by term."
+    words = "Integrate the averaged drift term by term, with {all}."
     source = "termwise integration of an asymptotic series"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -151,6 +153,11 @@ class SlowTime(Rule):
         small = sp.Dummy("1/m", positive=True)
         speed = 1 + sum((c * small**n for n, c in enumerate(drifts, 1)), sp.S.Zero)
         slope = sp.diff(self.claim.rhs, m).subs(m, 1 / small)
+        large, log = sp.Dummy("m"), sp.Dummy("log")
+        inside = sp.expand(self.claim.rhs.subs(sp.log(m / rho), log).subs(m, large))
+        terms = sp.Add.make_args(inside)
+        if not all(term.has(large, log) and constant(term) for term in terms) or inside.has(sp.log):
+            raise RuleError("missing premise: what is added to s_0 is a function of m")
         remainder = sp.Poly(sp.expand(slope * speed - 1), small)
         if self.claim.lhs != rho * tau + s_0 or any(n <= ORDER for (n,) in remainder.monoms()):
             raise RuleError("missing premise: dtau/dm times dm/dtau is 1 + O(m^-5)")

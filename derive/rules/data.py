@@ -19,7 +19,7 @@ from ..symbols import DATA
 from ..zero import is_zero
 from .algebra import inserted
 from .proving import facts_of, holds, require_defined, smooth
-from .reading import equality, fields
+from .reading import equality, functions
 
 _OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)
 
@@ -27,7 +27,7 @@ _OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)
 def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
     """Refuse unless an expression has data alone, of which one may vary with the others fixed."""
     names = {s for s in expr.free_symbols if s.name not in DATA}
-    if fields(expr) or names:
+    if functions(expr) or names:
         raise RuleError(f"missing premise: {expr} is a function of data alone")
     for hypothesis in (h for premise in premises for h in premise.hypotheses):
         relation, kind = hypothesis.relation, hypothesis.kind

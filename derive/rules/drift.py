@@ -100,8 +100,10 @@ class LogarithmicDrift(Rule):
         periodic = -flat.subs(t, 0)
         speed = sp.expand(now - sp.diff(flat, t))
         rest = sp.expand(flat - t * (now - speed) + periodic)
-        linear = not sp.diff(periodic, load).has(load)
-        if approach.value != 0 or rest != 0 or speed.has(t, now) or not linear or fields(flat):
+        linear = constant(sp.Tuple(periodic, sp.diff(periodic, load))) and not sp.diff(
+            periodic, load, 2
+        )
+        if approach.value != 0 or rest != 0 or speed.has(now) or not constant(speed) or not linear:
             raise RuleError("missing premise: t (du/dt - R) - a(t) -> 0, a linear in the load")
         drift = (u - speed * t) / sp.log(t / T)
         return Conclusion(in_time(drift, periodic.subs(load, U_mean)))
@@ -178,7 +180,7 @@ class LastCycles(Rule):
         exact = rate.subs(u, sp.cancel(worn)).subs(LOAD, sp.cancel(load))
         claimed = inserted(sp.exp(self.claim.rhs), tuple(names)).subs(s, small)
         exact, claimed = (e.subs(slope, -fall) for e in (exact, claimed))
-        if {*fields(exact), *fields(claimed)}:
+        if not constant(sp.Tuple(exact, claimed)):
             raise RuleError("missing premise: rate and claim are functions of the roughness")
         steps = -sp.diff(claimed, small) * fall * T * exact.rewrite(sp.exp)
         if sp.limit(_one_exponential(claimed), small, 0, "+") != sp.oo:

@@ -34,6 +34,7 @@ from .reading import (
     PERIODIC,
     T,
     between,
+    clocks,
     constant,
     equality,
     field_of_rate,
@@ -75,7 +76,10 @@ class OnePeriodLater(Rule):
     asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        return Conclusion(premises[0].claim.map(later))
+        claim = premises[0].claim
+        if clocks(claim.relation) or claim.relation.has(sp.Integral, sp.Limit):
+            raise RuleError(f"missing premise: {claim.relation} is about fields at one time")
+        return Conclusion(claim.map(later))
 
 
 one_period_later = OnePeriodLater()
@@ -131,7 +135,7 @@ def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judge
     given = frozenset(r.xreplace(plain) for r in (*known, *fixed))
     flat = rate.xreplace(plain)
     goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
-    if flat.has(t) or not all(holds(goal, given) for goal in goals):
+    if not constant(flat) or not all(holds(goal, given) for goal in goals):
         raise RuleError(f"missing premise: {rate} is positive and continuous")
 
 
@@ -251,7 +255,7 @@ def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
 class Vanishes(Rule):
     """``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
 
-    words = "Bounds that tend to zero, {0}, as the roughness grows, {others}."
+    words = "The bounds in {0} tend to zero, since the roughness grows by {others}."
     source = "squeeze theorem"
     asks = ("the bounds", "the growth")
 
@@ -363,7 +367,7 @@ class Intermittent(Rule):
     u grows without bound, and tends to R as u -> oo: ``u(t + T) - u(t) -> d T R``.
     """
 
-    words = "The limit of the rate {0} holds during a fixed part of every period, {others}."
+    words = "The limit of the rate in {0} holds during a fixed part of every period, by {others}."
     source = "mean value theorem on the part of the period in contact"
     asks = ("the rate", "the fraction in contact", "the least wear")
 
@@ -378,7 +382,8 @@ class Intermittent(Rule):
         if not isinstance(contact, Relational) or [e for e, _ in rest] != [0]:
             raise RuleError("missing premise: a rate that is 0 out of contact")
         room = sp.expand(contact.gts - contact.lts)
-        if fields(room) != {LOAD} or not isinstance(contact, (sp.Le, sp.Ge)):
+        level = room.subs(LOAD, 0)
+        if fields(room) != {LOAD} or not _fixed(level) or not isinstance(contact, (sp.Le, sp.Ge)):
             raise RuleError("missing premise: contact depends on the load alone")
         shares = (
             sp.Integral(sp.Piecewise((1, c), (0, True)), (t, 0, T)) / T

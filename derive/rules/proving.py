@@ -28,7 +28,7 @@ import z3
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ..claims import Asymptotic, Limit, Property
+from ..claims import Asymptotic, FirstZero, Limit, Property
 from ..kernel import Judgement, RuleError
 from ..language import certain
 from ..laws import GENERAL
@@ -48,7 +48,7 @@ _SMOOTH = (
     *(sp.Symbol, sp.Number, sp.NumberSymbol),
 )
 #: Functions that have a value at every real argument.
-_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.atan, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
+_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
 _RELATIONS = {
     sp.Equality: lambda a, b: a == b,
     sp.Unequality: lambda a, b: a != b,
@@ -75,7 +75,11 @@ def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
     """Return the parts of claims that have a value, at every time and not just in the end."""
     late = (Asymptotic, Limit, Property)
     wholes = (premise.relation for premise in premises if not isinstance(premise.claim, late))
-    return {part for whole in wholes for part in certain(whole)}
+    ends = (premise.claim for premise in premises if isinstance(premise.claim, Limit))
+    return {
+        *(part for whole in wholes for part in certain(whole)),
+        *(end.term for end in ends if end.value.is_finite is not False),
+    }
 
 
 @cache
@@ -240,7 +244,7 @@ def require_defined(expr: sp.Basic, *premises: Judgement) -> None:
 
 def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:
     """Return the relations that give every part of an expression a value."""
-    if expr in known or isinstance(expr, (sp.Derivative, sp.Limit)):
+    if expr in known or isinstance(expr, sp.Derivative):
         return []
     return [*(goal for part in expr.args for goal in _needed(part, known)), *_need(expr)]
 
@@ -249,6 +253,16 @@ def _need(expr: sp.Basic) -> list[sp.Basic]:
     """Return the relation that gives an expression a value where its arguments have one."""
     if expr in (sp.zoo, sp.nan):
         return [sp.false]
+    unknown = sp.Ne(expr, sp.zoo, evaluate=False)
+    if isinstance(expr, (sp.Limit, FirstZero)):
+        return [unknown]
+    if isinstance(expr, sp.Integral):
+        ranges = (
+            (ends, sp.Gt if x.is_positive else sp.Ge)
+            for x, *ends in expr.limits
+            if x.is_nonnegative
+        )
+        return [relation(end, 0) for ends, relation in ranges for end in ends]
     if isinstance(expr, sp.Pow):
         base, exponent = expr.args
         if exponent.is_Integer:
@@ -257,14 +271,14 @@ def _need(expr: sp.Basic) -> list[sp.Basic]:
         return [relation(base, 0, evaluate=False)]
     if isinstance(expr, sp.log):
         return [sp.Gt(expr.args[0], 0)]
+    if isinstance(expr, sp.besseli):
+        return [] if expr.order.is_Integer else [unknown]
     if isinstance(expr, sp.LambertW):
-        return [sp.Ge(expr.args[0], 0) if len(expr.args) == 1 else sp.false]
+        return [sp.Ge(expr.args[0], 0) if len(expr.args) == 1 else unknown]
     if isinstance(expr, sp.Ei):
         return [sp.Ne(expr.args[0], 0)]
-    if isinstance(expr, sp.atanh):
-        return [sp.Lt(expr.args[0] ** 2, 1)]
     partial = isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise))
-    return [sp.false] if partial and not isinstance(expr, AppliedUndef) else []
+    return [unknown] if partial and not isinstance(expr, AppliedUndef) else []
 
 
 def continuous(expr: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgement) -> bool:

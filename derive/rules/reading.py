@@ -92,7 +92,12 @@ def initial_value(judgement: Judgement, field: sp.Expr) -> sp.Expr:
 
 def fields(expr: sp.Basic) -> set[sp.Expr]:
     """Return the functions of time in an expression."""
-    return {f for f in expr.atoms(AppliedUndef) if not isinstance(f, LAW) and f.has(t)}
+    return {f for f in functions(expr) if f.has(t)}
+
+
+def functions(expr: sp.Basic) -> set[sp.Expr]:
+    """Return the unspecified functions in an expression, also at one time, but the contact law."""
+    return {f for f in expr.atoms(AppliedUndef) if not isinstance(f, LAW)}
 
 
 def constant(expr: sp.Expr) -> bool:
@@ -102,10 +107,16 @@ def constant(expr: sp.Expr) -> bool:
 
 
 def clocks(expr: sp.Basic) -> set[sp.Basic]:
-    """Return the symbols in an expression that vary in time, and time itself."""
-    still = {field: sp.Dummy() for field in expr.atoms(AppliedUndef)}
-    free = at_an_instant(expr).xreplace(still).free_symbols
+    """Return the symbols in an expression that vary in time, and time itself outside of fields."""
+    still = {part: sp.Dummy() for part in expr.atoms(AppliedUndef, Drift) if not _by_clock(part)}
+    free = expr.xreplace(still).free_symbols
     return {s for s in free if s.name in CLOCKS and not isinstance(s, sp.Dummy)}
+
+
+def _by_clock(expr: sp.Expr) -> bool:
+    """Return whether an expression, but a drift, varies with another clock than time."""
+    named = {s.name for s in expr.free_symbols - {t} if not isinstance(s, sp.Dummy)}
+    return not isinstance(expr, Drift) and not CLOCKS.isdisjoint(named)
 
 
 def at_an_instant(expr: sp.Basic) -> sp.Basic:

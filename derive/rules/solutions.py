@@ -15,7 +15,7 @@ import sympy as sp
 
 from ..claims import Equality, FirstZero
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..symbols import t
+from ..symbols import symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .proving import require, require_defined, sign, smooth
@@ -29,6 +29,8 @@ from .reading import (
     rate_law,
     require_hypothesis,
 )
+
+PRESSURE = symbol("p")
 
 
 @dataclass(frozen=True)
@@ -114,11 +116,11 @@ def _resolved(expr: sp.Expr) -> sp.Expr:
 class Parametric(Rule):
     """``t = F(p)`` where ``du/dt = Q(p)`` and ``u = G(p)``: ``F' = G'/Q``, F = 0 at p(0).
 
-    Premises: rate, wear, u(0), then names of constants.  The load is constant.
+    Premises: rate, wear, u(0), then names of constants.  The load is constant, so the pressure p,
+    which is positive, is continuous.
     """
 
     claim: sp.Equality
-    pressure: sp.Expr
     words = "Wear and rate are known at a pressure, {0} and {1}; integrate over it."
     source = "chain rule"
     asks = ("the rate", "the wear", "u(0)")
@@ -132,8 +134,7 @@ class Parametric(Rule):
         require_defined(self.claim.rhs, *premises)
         p = sp.Dummy("p", positive=True)
         first, load = sp.Dummy("p_0", positive=True), sp.Dummy("U", real=True)
-        begin = self.pressure.subs(t, 0)
-        plain = {self.pressure: p, begin: first, LOAD: load, LOAD.subs(t, 0): load}
+        plain = {PRESSURE: p, PRESSURE.subs(t, 0): first, LOAD: load, LOAD.subs(t, 0): load}
         q, g, f = (
             inserted(e, tuple(names)).xreplace(plain) for e in (rate, worn.rhs, self.claim.rhs)
         )
@@ -161,7 +162,7 @@ class FirstRoot(Rule):
     """
 
     factor: sp.Expr
-    words = "The first root of a quadratic equation, {all}."
+    words = "The first root of a quadratic equation, from {all}."
     source = "the quadratic formula, in the form without cancellation"
     asks = ("the definition",)
 

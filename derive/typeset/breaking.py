@@ -9,6 +9,7 @@ become possible inside.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -23,6 +24,9 @@ _INDENT = 2.5  # of a line that is not the first, and begins with a sign
 _SHARES = (1.0, 0.75, 0.5, 0.25)
 #: The widest left side of a system, as a share of a line, that other rows are aligned with.
 _LEFT = 0.3
+#: Rows up to which a system has a line for each; in a longer one short rows share lines.
+_ROWS = 6
+_SHORT = 0.5  # the widest row that shares a line, as a share of it
 _SPACED = re.compile(r"\s*&")
 _SIZES = ((r"\bigl", r"\bigr"), (r"\biggl", r"\biggr"), (r"\Biggl", r"\Biggr"))
 _SYSTEM = re.compile(
@@ -42,12 +46,29 @@ def broken(latex: str, limit: float = LIMIT) -> str:
     """
     system = _SYSTEM.fullmatch(latex.strip())
     if system is not None and r"\begin{aligned}" not in system["rows"]:
-        lines = _system(rows(system["rows"]), limit)
+        lines = _system(_sharing(rows(system["rows"]), limit), limit)
         return system["open"] + r"\\".join(lines) + system["close"]
     lines = _lines(latex, limit)
     if len(lines) == 1:
         return latex
     return r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}"
+
+
+def _sharing(system: list[str], limit: float) -> list[str]:
+    """The rows of a long system with short ones side by side, two on a line."""
+    if len(system) <= _ROWS:
+        return system
+    lines: list[str] = []
+    last = math.inf
+    for row in system:
+        own = width(row)
+        if max(last, own) <= _SHORT * limit and not row.lstrip().startswith(r"\text"):
+            lines[-1] = rf"{lines[-1].rstrip()}, \quad {_SPACED.sub(' ', row).strip()}"
+            last = math.inf
+        else:
+            lines.append(row)
+            last = own
+    return lines
 
 
 def _system(system: list[str], limit: float) -> list[str]:

@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import sympy as sp
 
+from ..hypotheses import Kind
 from ..kernel import Judgement
 from .breaking import broken
-from .display import latex
+from .display import inline, latex
 from .macros import macro_name, macros
 from .present import presentable
 
@@ -43,7 +44,8 @@ class Derivations:
         self._equations = {equation.id: equation for equation in equations}
         self._named: dict[sp.Basic, str] = {}
         for equation in self._equations.values():
-            for statement in equation.statements:
+            results = [each for each in equation.statements if not is_hypothesis(each)]
+            for statement in results or equation.statements:
                 self._named.setdefault(statement.relation, equation.id)
         self._told: dict[sp.Basic, tuple[str, int]] = {}
 
@@ -59,8 +61,14 @@ class Derivations:
         return self._tell(identifier, own)
 
     def chain(self, identifier: str) -> tuple[Step, ...]:
-        """Return all steps to an equation, hypotheses and other equations on the way included."""
-        return self._tell(identifier, self._equations[identifier].steps)
+        """Return all steps to an equation, those to other equations on the way included."""
+        chain = self._equations[identifier].steps
+        return self._tell(identifier, (each for each in chain if not is_hypothesis(each)))
+
+    def start(self, identifier: str) -> tuple[Step, ...]:
+        """Return the hypotheses on which an equation rests, as steps without a sentence."""
+        chain = self._equations[identifier].steps
+        return tuple(dict.fromkeys(self._shown(each) for each in chain if is_hypothesis(each)))
 
     def _tell(self, identifier: str, statements: Iterable[Judgement]) -> tuple[Step, ...]:
         steps: list[Step] = []
@@ -88,13 +96,16 @@ class Derivations:
             yield from self._nearest(parent, of)
 
     def _step(self, statement: Judgement, of: str) -> Step:
-        name = self._named.get(statement.relation, "")
-        formula = "" if name else latex(presentable(statement.relation))
-        if is_hypothesis(statement):
-            return Step("", "", formula, name)
         parents = [self._name(parent, of) for parent in statement.parents]
         said = statement.rule.sentence(*parents, write=_written)
-        return Step(said, statement.remark, formula, name)
+        return self._shown(statement)._replace(sentence=said, remark=statement.remark)
+
+    def _shown(self, statement: Judgement) -> Step:
+        """Return what a step gave: an equation, a formula, or words."""
+        name, relation = self._named.get(statement.relation, ""), statement.relation
+        if relation is sp.true:
+            return Step("", "", statement.hypotheses[-1].latex, name)
+        return Step("", "", "" if name else latex(presentable(relation)), name)
 
     def _name(self, parent: Judgement, of: str) -> str:
         """How a step refers to another relation."""
@@ -103,8 +114,17 @@ class Derivations:
             return f"[eq:{numbered}]"
         equation, place = self._told.get(parent.relation, ("", 0))
         if not equation:
-            return f"[eq:{numbered}]" if numbered else "the hypotheses"
+            return _assumed(parent)
         return f"step {place}" if equation == of else f"step {place} of the [der:{equation}]"
+
+
+def _assumed(hypothesis: Judgement) -> str:
+    """Return how a step refers to a hypothesis that no equation shows: by its formula, if any."""
+    relation, said = hypothesis.relation, hypothesis.hypotheses[-1]
+    names = relation is sp.true or relation.lhs.is_Symbol
+    if said.kind is Kind.DEFINITION and names:
+        return "the definitions"
+    return said.text if relation is sp.true else f"${inline(presentable(relation))}$"
 
 
 def is_hypothesis(statement: Judgement) -> bool:
@@ -122,22 +142,21 @@ def prose(equations: Sequence[Equation], width: float) -> str:
     """
     *_, target = equations
     by_id = {equation.id: equation for equation in equations}
-    steps = Derivations(equations).chain(target.id)
-    shown = dict.fromkeys(step.equation for step in steps if step.equation)
+    derivations = Derivations(equations)
+    start, steps = derivations.start(target.id), derivations.chain(target.id)
+    shown = dict.fromkeys(step.equation for step in (*start, *steps) if step.equation)
     lines = [
         f"% How ({target.id}) follows: {target.title}.",
         macros([by_id[name] for name in shown], width).rstrip(),
         rf"\paragraph{{Derivation of ({target.id}).}}",
     ]
     told: set[str] = set()
-    start = [step for step in steps if not step.sentence]
     lines.append("The starting points are")
     lines += [line for step in start for line in _formula(step, by_id, told, width)]
     for place, step in enumerate(steps, start=1):
-        if step.sentence:
-            said = _REFERENCE.sub(r"(\1)", step.sentence)
-            lines.append(rf"\par\noindent\textit{{Step {place}.}} {said}")
-            lines += _formula(step, by_id, told, width)
+        said = _REFERENCE.sub(r"(\1)", step.sentence)
+        lines.append(rf"\par\noindent\textit{{Step {place}.}} {said}")
+        lines += _formula(step, by_id, told, width)
     return "\n".join(lines) + "\n"
 
 

@@ -1,14 +1,10 @@
 """Display forms: relations in the order in which an author writes them.
 
 Overview
-    SymPy sorts terms and moves signs.  A display form is therefore authored: a relation built
-    inside ``as_written()``, which keeps the order of terms, and a test asserts that it equals
-    the derived claim.  The printer here follows the order of the arguments, writes fields
-    without their "(t)", derivatives upright, those with respect to a datum as partial ones.
+    Display forms are read from text that keeps the order of terms (``derive.written``).  The
+    printer follows the order of the arguments, writes fields without their "(t)", derivatives
+    upright, those with respect to a datum as partial ones.
 Key results
-    as_written    context in which SymPy evaluates nothing
-    minus, over   terms and factors that keep their sign and their fraction
-    evaluated     the same relation, evaluated again
     latex         LaTeX of a relation or of a system of them
     inline        LaTeX of a relation in a line of text
 """
@@ -17,48 +13,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 from sympy.printing.latex import LatexPrinter
 
 from ..symbols import QUANTITIES, symbol, t
-
-
-def as_written() -> AbstractContextManager[None]:
-    """Return a context in which relations keep the order in which they are written."""
-    context: AbstractContextManager[None] = sp.evaluate(False)
-    return context
-
-
-def minus(expr: sp.Expr) -> sp.Expr:
-    r"""Return ``-expr`` as one product, so that it is typeset with a plain minus sign.
-
-    >>> with as_written():
-    ...     latex(sp.Add(4, minus(2 * sp.Symbol("g") / sp.Symbol("q"))))
-    '4 - \\frac{2 g}{q}'
-    """
-    return sp.Mul(-1, *sp.Mul.make_args(expr), evaluate=False)
-
-
-def over(expr: sp.Expr) -> sp.Expr:
-    r"""Return ``1/expr`` as a factor that keeps its own fraction; inside ``as_written``.
-
-    >>> x, y = sp.symbols("x y")
-    >>> with as_written():
-    ...     latex(over(x) * sp.Add(1, y))
-    '\\frac{1}{x} \\left(1 + y\\right)'
-    """
-    return sp.Mul(1, sp.Pow(expr, -1), evaluate=False)
-
-
-def evaluated(expr: sp.Basic) -> sp.Basic:
-    """Return an expression that was built as written, evaluated."""
-    if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):
-        return expr
-    return expr.func(*(evaluated(argument) for argument in expr.args))
-
 
 _RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
 

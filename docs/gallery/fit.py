@@ -10,7 +10,6 @@
 
 # %%
 import wear
-from wear.fitting.forecast import forecast
 
 free = ["bearing.wear_coefficient", "bearing.roughness_growth"]
 found = wear.fit("readings.csv", "section4", free)
@@ -19,11 +18,9 @@ for parameter, estimate, profile in zip(
 ):
     low, high = profile.interval
     print(f"{parameter.key:24}  {estimate:.3g}, 95 % from {low:.3g} to {high:.3g}")
-(far,) = forecast(found, [10**6])
+(far,) = found.forecast([10**6])
 print(f"after 1e6 cycles: {1e3 * far.bearing_wear_mm:.1f} µm, 95 % from", end=" ")
 print(" to ".join(f"{1e3 * end:.1f} µm" for end in far.interval_95))
 
 # %% Readings with the fitted wear and its 95 % band over cycles; below, the residuals
-from wear.fitting.figures import data_and_band
-
-data_and_band(found)
+found.plot()

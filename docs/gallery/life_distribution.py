@@ -11,7 +11,6 @@ import tempfile
 from pathlib import Path
 
 import wear
-from wear.studies.figures import picture, ten_percent_life
 
 with tempfile.TemporaryDirectory() as folder:
     results = wear.study(
@@ -24,7 +23,7 @@ with tempfile.TemporaryDirectory() as folder:
         seed=1,
         until_wear=1e-3,
     ).load()
-print(f"10 % life: {ten_percent_life(results):.0f} cycles")
+print(f"10 % life: {wear.ten_percent_life(results):.0f} cycles")
 
 # %% Median wear with its bands over cycles; below, the share of worn bearings over cycles
-picture(results)
+wear.picture(results)

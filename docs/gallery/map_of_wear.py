@@ -11,7 +11,6 @@ import tempfile
 from pathlib import Path
 
 import wear
-from wear.studies.figures import picture
 
 with tempfile.TemporaryDirectory() as folder:
     results = wear.study(
@@ -23,4 +22,4 @@ with tempfile.TemporaryDirectory() as folder:
 print(dict(results.sizes))
 
 # %% Bearing wear after a million cycles over roughness growth and wear coefficient, as colours
-picture(results)
+wear.picture(results)

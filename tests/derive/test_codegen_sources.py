@@ -239,76 +239,64 @@ def outputs(variant):
 
 def c_driver(variant):
     plain, fields, roots = outputs(variant)
-    signed = variant.pin.wears
-    parameters = [p.name for p in exact.made(variant).parameters]
-    calls = [f"wear_{f.name}({', '.join([a.name for a in f.arguments] + ['&c'])})" for f in plain]
-    at = ", ".join(a.name for a in exact.made(variant).functions[-1].arguments)
-    lines = [f'        printf("%.17g ", {call});' for call in calls]
-    lines += [f"        f = wear_fields({at}, &c);"]
-    lines += [f'        printf("%.17g ", f.{name});' for name in fields]
-    lines += [f'        printf("%.17g ", wear_{root}(u, U_a, &c));' for root in roots]
-    reads = " && ".join(
-        f'scanf("%lf", &{name}) == 1' for name in [*(f"d.{name}" for name in parameters), *STATE]
-    )
-    return "\n".join(
-        [
-            source(exact.made(variant), "c"),
-            "#include <stdio.h>",
-            "int main(void)",
-            "{",
-            "    struct wear_parameters d;",
-            "    struct wear_fields f;",
-            f"    double {', '.join(STATE)};",
-            f"    while ({reads}) {{",
-            f"        const struct wear_constants c = wear_bind(&d{', pin_wear_sign' * signed});",
-            *lines,
-            '        printf("\\n");',
-            "    }",
-            "    return 0;",
-            "}",
-            "",
-        ]
-    )
+    made = exact.made(variant)
+    at = ", ".join(a.name for a in made.functions[-1].arguments)
+    values = [f"wear_{f.name}({', '.join([a.name for a in f.arguments] + ['&c'])})" for f in plain]
+    values += [f"f.{name}" for name in fields] + [f"wear_{root}(u, U_a, &c)" for root in roots]
+    reads = [f"d.{p.name}" for p in made.parameters] + list(STATE)
+    return f"""{source(made, "c")}
+#include <stdio.h>
+int main(void)
+{{
+    struct wear_parameters d;
+    struct wear_fields f;
+    double {", ".join(STATE)};
+    while ({" && ".join(f'scanf("%lf", &{name}) == 1' for name in reads)}) {{
+        const struct wear_constants c = wear_bind(&d{", pin_wear_sign" * variant.pin.wears});
+        f = wear_fields({at}, &c);
+        {" ".join(f'printf("%.17g ", {value});' for value in values)}
+        printf("\\n");
+    }}
+    return 0;
+}}
+"""
 
 
 def fortran_driver(variant):
     plain, fields, roots = outputs(variant)
+    made = exact.made(variant)
     functions = {"undeflected": "at", "softness": "give", "margin": "m", "margin_slope": "dm"}
 
-    def words(name):
-        return functions.get(name) or FORTRAN.rename(name)
+    def words(names):
+        return [functions.get(name) or FORTRAN.rename(name) for name in names]
 
-    parameters = [p.name for p in exact.made(variant).parameters]
-    given = [f"d({i + 1})" for i in range(len(parameters))]
-    given += ["pin_wear_sign"] * variant.pin.wears
-    calls = [f"{f.name}({', '.join([words(a.name) for a in f.arguments] + ['c'])})" for f in plain]
-    at = ", ".join(words(a.name) for a in exact.made(variant).functions[-1].arguments)
-    calls += [f"f%{words(name)}" for name in fields]
-    calls += [f"{root}(u, pin_displacement, c)" for root in roots]
-    return "\n".join(
-        [
-            source(exact.made(variant), "fortran"),
-            "program driver",
-            "  use, intrinsic :: iso_fortran_env, only: dp => real64",
-            f"  use wear_{variant.law.name}_{variant.name}",
-            "  implicit none",
-            f"  real(dp) :: d({len(parameters)}), {', '.join(map(words, STATE))}",
-            "  type(constants) :: c",
-            "  type(fields_type) :: f",
-            "  integer :: status",
-            "  do",
-            f"    read (*, *, iostat=status) d, {', '.join(map(words, STATE))}",
-            "    if (status /= 0) exit",
-            f"    c = bind_constants({', '.join(given)})",
-            f"    f = fields({at}, c)",
-            *(f"    write (*, '(es28.17e4)', advance='no') {call}" for call in calls),
-            "    write (*, *)",
-            "    if (p < 0) stop",
-            "  end do",
-            "end program driver",
-            "",
-        ]
-    )
+    data = range(1, len(made.parameters) + 1)
+    given = ", ".join([f"d({i})" for i in data] + ["pin_wear_sign"] * variant.pin.wears)
+    at = ", ".join(words(a.name for a in made.functions[-1].arguments))
+    values = [f"{f.name}({', '.join([*words(a.name for a in f.arguments), 'c'])})" for f in plain]
+    values += [f"f%{name}" for name in words(fields)]
+    values += [f"{root}(u, pin_displacement, c)" for root in roots]
+    write = "    write (*, '(es28.17e4)', advance='no') "
+    return f"""{source(made, "fortran")}
+program driver
+  use, intrinsic :: iso_fortran_env, only: dp => real64
+  use wear_{variant.law.name}_{variant.name}
+  implicit none
+  real(dp) :: d({len(data)}), {", ".join(words(STATE))}
+  type(constants) :: c
+  type(fields_type) :: f
+  integer :: status
+  do
+    read (*, *, iostat=status) d, {", ".join(words(STATE))}
+    if (status /= 0) exit
+    c = bind_constants({given})
+    f = fields({at}, c)
+{chr(10).join(write + value for value in values)}
+    write (*, *)
+    if (p < 0) stop
+  end do
+end program driver
+"""
 
 
 def javascript_driver(variant):

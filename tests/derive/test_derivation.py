@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
@@ -11,17 +10,18 @@ import sympy as sp
 
 from derive import catalogue
 from derive.check import checks, on_models
-from derive.equations import Status
+from derive.equations import TEXTS, Equation, Status, numbered
 from derive.hypotheses import Kind
 from derive.kernel import Judgement, chain, infer, replayed
 from derive.laws import EXPONENTIAL, GENERAL, LAWS, TANH
-from derive.note import condensed, governing, problems
+from derive.note import condensed, governing
 from derive.note.governing import Model, Pin
 from derive.note.problems import given_load, given_motion, undetermined
 from derive.rules.assumption import Assume, assume
 from derive.symbols import symbols
-from derive.typeset.display import evaluated
+from derive.typeset.derivation import Derivations
 from derive.verification import verify
+from derive.written import evaluated
 from derive.zero import same
 from tests.derive.mutation import mutants
 
@@ -46,14 +46,14 @@ def _steps() -> list[Judgement]:
     return [step for step in found.values() if not isinstance(step.rule, Assume)]
 
 
-def test_the_note_is_there_in_its_order() -> None:
+def test_the_note_is_there_in_its_order():
     ids = [equation.id for equation in catalogue.equations()]
     assert [i for i in ids if i[0].isdigit()] == NOTE
-    assert len(ids) == len(set(ids))
+    assert sorted(ids) == sorted(TEXTS)
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_no_model_breaks_an_equation(part: int) -> None:
+def test_no_model_breaks_an_equation(part):
     """Of several results of one kind the first is tried; ``derive verify`` tries every step."""
     for found in catalogue.equations()[part :: len(PARTS)]:
         tried = found.statements if found.id in NOTE else found.statements[:1]
@@ -62,7 +62,7 @@ def test_no_model_breaks_an_equation(part: int) -> None:
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_what_is_typeset_is_what_was_derived(part: int) -> None:
+def test_what_is_typeset_is_what_was_derived(part):
     for equation in catalogue.equations()[part :: len(PARTS)]:
         assert len(equation.shown) == len(equation.claims), equation.id
         assert equation.typeset_agrees, equation.id
@@ -71,18 +71,18 @@ def test_what_is_typeset_is_what_was_derived(part: int) -> None:
                 assert same(evaluated(shown), claim), equation.id
 
 
-def test_one_identifier_may_be_given_as_it_is() -> None:
+def test_one_identifier_may_be_given_as_it_is():
     assert [verdict.id for verdict in verify("21")] == ["21"]
 
 
-def test_every_step_follows_again_and_dimensions_agree() -> None:
+def test_every_step_follows_again_and_dimensions_agree():
     for step in _steps():
         assert [outcome for outcome in checks(step) if not outcome.passed] == []
         assert {outcome.kind for outcome in checks(step)} >= {"dimensions", "proof"}
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_no_wrong_step_passes(part: int) -> None:
+def test_no_wrong_step_passes(part):
     """Of the steps whose claim an author wrote down: a mutant each, its kinds in turn."""
     authored = [step for step in _steps() if "claim" in vars(step.rule)]
     for place, step in list(enumerate(authored))[part :: len(PARTS)]:
@@ -95,6 +95,10 @@ def test_no_wrong_step_passes(part: int) -> None:
         with pytest.raises((ValueError, TypeError), match=r".") as refusal:
             infer(replace(step.rule, claim=claim), *step.parents)
         assert str(refusal.value), (written, what)
+
+
+def _sections_2_and_3(model: Model) -> tuple[Equation, ...]:
+    return numbered(governing.results(model) | condensed.results(model))
 
 
 HYPOTHESES = [(name, None) for name in ("closure", "support", "roughness", "pressure")] + [
@@ -116,36 +120,31 @@ def _with_wrong(name: str, place: int | None, what: int) -> Model:
 
 @pytest.mark.parametrize(("name", "place"), HYPOTHESES)
 @pytest.mark.parametrize("what", [0, 1])
-def test_a_wrong_hypothesis_shows_in_sections_2_and_3(
-    name: str, place: int | None, what: int
-) -> None:
+def test_a_wrong_hypothesis_shows_in_sections_2_and_3(name, place, what):
     """What follows from a wrong hypothesis is not what the note prints, or does not follow."""
     model = _with_wrong(name, place, what)
     try:
-        made = [*governing.equations(model), *condensed.equations(model)]
+        made = _sections_2_and_3(model)
     except (ValueError, AttributeError):
         return  # the derivation does not even go through
     assert not all(equation.agrees for equation in made)
 
 
-def test_printed_forms_of_sections_2_and_3_follow() -> None:
-    for equation in (*governing.equations(Model()), *condensed.equations(Model())):
+def test_printed_forms_of_sections_2_and_3_follow():
+    for equation in _sections_2_and_3(Model()):
         assert equation.agrees, equation.id
         assert equation.status in (Status.DEFINITION, Status.DERIVED)
 
 
-def test_a_physical_sign_is_told_from_the_printed_one() -> None:
-    opening = Model(opening=True)
-    parted = {
-        e.id for e in (*governing.equations(opening), *condensed.equations(opening)) if not e.agrees
-    }
+def test_a_physical_sign_is_told_from_the_printed_one():
+    parted = {e.id for e in _sections_2_and_3(Model(opening=True)) if not e.agrees}
     assert parted == {"7a", "8"}
 
 
 @pytest.mark.parametrize("law", [TANH, EXPONENTIAL, GENERAL], ids=lambda law: law.name)
 @pytest.mark.parametrize("pin", list(Pin))
 @pytest.mark.parametrize("opening", [False, True])
-def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening) -> None:  # type: ignore[no-untyped-def]
+def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening):
     if opening and not pin.wears:
         return
     problem = condensed.Condensed(Model(law, opening, pin))
@@ -153,7 +152,7 @@ def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening) 
         assert replayed(step) is None, step.relation
 
 
-def test_a_law_is_written_once() -> None:
+def test_a_law_is_written_once():
     """The exponential law's condensed problem, made by hand, is the derived one."""
     problem = condensed.Condensed(Model(LAWS["exponential"], pin=Pin.ABSENT))
     h_0, u_c, U_a, sigma_c0, f_c = symbols("h_0 u_c U_a sigma_c0 f_c")
@@ -163,7 +162,7 @@ def test_a_law_is_written_once() -> None:
 
 
 @pytest.mark.parametrize("given", [given_load, given_motion])
-def test_every_field_follows_in_both_problems(given: Callable[[], problems.Problem]) -> None:
+def test_every_field_follows_in_both_problems(given):
     problem = given()
     assert undetermined(problem) == ()
     fields = {"p", "u_a", "u_c", "sigma_a", "sigma_c", "sigma", "U_c", "h"}
@@ -171,7 +170,20 @@ def test_every_field_follows_in_both_problems(given: Callable[[], problems.Probl
     assert {str(u.func) for u in problem.unknowns} == fields | {other}
 
 
-def test_an_order_that_uses_what_it_has_not_is_told() -> None:
+def test_an_order_that_uses_what_it_has_not_is_told():
     problem = given_motion()
     shuffled = replace(problem, order=problem.order[::-1])
     assert undetermined(shuffled) != ()
+
+
+def test_a_step_shows_the_hypotheses_that_it_uses():
+    steps = Derivations(catalogue.equations_up_to("arrest-depth")).steps("arrest-depth")
+    solved, inserted = (step.sentence for step in steps)
+    assert solved.startswith(r"Solve $\max U_a")
+    assert solved.endswith(r"= 0$ for $u_{\mathrm{stop}}$.")
+    assert inserted == "Insert step 1 and $f_c < 1 / 3$: an identity remains."
+
+
+def test_no_step_follows_from_the_equation_that_it_proves():
+    steps = Derivations(catalogue.equations_up_to("expansion-drift")).steps("expansion-drift")
+    assert steps[-1].sentence.endswith("and the definitions.")

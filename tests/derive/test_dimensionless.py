@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 import sympy as sp
 
-from derive.kernel import Judgement, replayed
+from derive.kernel import replayed
 from derive.note.condensed import bearing_only
 from derive.results.dimensionless import (
     DEFINITIONS,
@@ -34,9 +32,7 @@ k, U_a, u_c, T, sigma_c0 = symbols("k U_a u_c T sigma_c0")
         (compliant, GROUPS_COMPLIANT, 4),
     ],
 )
-def test_the_number_of_groups(
-    made: Callable[[], Judgement], groups: tuple[sp.Symbol, ...], number: int
-) -> None:
+def test_the_number_of_groups(made, groups, number):
     """No datum is left but the groups."""
     scaled = made()
     assert replayed(scaled) is None
@@ -45,13 +41,13 @@ def test_the_number_of_groups(
     assert len(groups) == number
 
 
-def test_buckingham_leaves_more_groups_than_occur() -> None:
+def test_buckingham_leaves_more_groups_than_occur():
     assert count(ONE) == (9, 3)
     assert count(TWO) == (13, 3)
     assert count((*ONE, k)) == (10, 3)
 
 
-def test_other_units_and_another_pair_of_materials_change_nothing() -> None:
+def test_other_units_and_another_pair_of_materials_change_nothing():
     """Two scenes that share no number but their groups have the same scaled rate."""
     parent = bearing_only().rigid.claim.rhs
     names = symbols("K_c H_c V p_max T f_c sigma_c0 h_0 U")

@@ -5,31 +5,21 @@ import sympy as sp
 
 from derive.falsifier.verdict import falsify
 from derive.symbols import initial, rate, symbols, t
-from tests.derive.false_statements import (
-    BOUNDED,
-    CASES,
-    CONSTANT,
-    GAP,
-    RATE,
-    SIZE,
-    STEADY,
-    Case,
-    forever,
-)
+from tests.derive.false_statements import BOUNDED, CASES, CONSTANT, GAP, RATE, SIZE, STEADY, forever
 
 MANY = 400
 f_c, h_0, u_c, U_a, G, p_max = symbols("f_c h_0 u_c U_a G p_max")
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.said)
-def test_a_false_statement_is_falsified(case: Case):
+def test_a_false_statement_is_falsified(case):
     answer = falsify(case.given, case.false, MANY, enough=MANY)
     assert answer.counterexample is not None
     assert str(answer.counterexample) or not case.false.free_symbols
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.said)
-def test_its_true_neighbour_is_not(case: Case):
+def test_its_true_neighbour_is_not(case):
     answer = falsify(*case.neighbour, enough=4)
     assert answer.passed, str(answer.counterexample)
     assert answer.decided >= 4
@@ -87,3 +77,9 @@ def test_a_rate_that_is_lost_in_rounding_breaks_no_claim():
     slow = 1 - sp.tanh(100 * p_max)
     given = (sp.Eq(rate("u_c"), slow), sp.Eq(initial("u_c"), 0))
     assert falsify(given, sp.Eq(u_c, slow * t)).passed
+
+
+def test_the_two_sides_are_shown_to_as_many_digits_as_part_them():
+    close = sp.Eq(h_0, 2 + sp.Rational(1, 10**9))
+    broken = falsify((sp.Eq(h_0, 2),), close)
+    assert "2 on the left, 2.000000001 on the right" in str(broken)

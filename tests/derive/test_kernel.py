@@ -17,7 +17,6 @@ from derive.symbols import symbols
 from derive.time_limit import TimeLimitError, time_limit
 
 f_c, h_0 = symbols("f_c h_0")
-TRUE = Equality(h_0, h_0)
 FALSE = Equality(h_0, 2 * h_0)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -40,9 +39,7 @@ def _too_wide(log: str) -> list[float]:
 
 
 @pytest.mark.parametrize("head", _HEAD.values(), ids=_HEAD.keys())
-def test_all_macros_compile_elsewhere(
-    head: str, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_all_macros_compile_elsewhere(head, tmp_path, need_tool):
     engine = need_tool("pdflatex")
     equations = catalogue.equations()
     (tmp_path / "equations.tex").write_text(macros(equations), encoding="utf-8")
@@ -53,9 +50,7 @@ def test_all_macros_compile_elsewhere(
 
 
 @pytest.mark.parametrize("head", _HEAD.values(), ids=_HEAD.keys())
-def test_what_is_quoted_most_fits_with_its_symbols(
-    head: str, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_what_is_quoted_most_fits_with_its_symbols(head, tmp_path, need_tool):
     engine = need_tool("pdflatex")
     chosen = [catalogue.equation(identifier) for identifier in _CHOSEN]
     (tmp_path / "equations.tex").write_text(macros(chosen), encoding="utf-8")
@@ -64,9 +59,7 @@ def test_what_is_quoted_most_fits_with_its_symbols(
     assert _too_wide(log) == []
 
 
-def test_the_equations_of_an_own_law_fit_a_column(
-    tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_the_equations_of_an_own_law_fit_a_column(tmp_path, need_tool):
     engine = need_tool("pdflatex")
     place = str(tmp_path / "equations.tex")
     assert main(["latex", "--law", "1/(1 + exp(r - 1))^2", "--width", "246pt", "-o", place]) == 0
@@ -78,17 +71,13 @@ def test_the_equations_of_an_own_law_fit_a_column(
 
 
 @pytest.mark.parametrize("arguments", [["21", "--law", "exp(-r)"], ["--law", "sin(r)"]])
-def test_a_law_has_no_ids_and_is_read_by_its_grammar(
-    arguments: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_law_has_no_ids_and_is_read_by_its_grammar(arguments, capsys):
     assert main(["latex", *arguments]) == 2
     assert "Traceback" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("width", ["246pt", "345pt"])
-def test_every_equation_fits_a_column(
-    width: str, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_every_equation_fits_a_column(width, tmp_path, need_tool):
     """Beside its number, by its name and by its id."""
     engine = need_tool("pdflatex")
     equations = catalogue.equations()
@@ -103,9 +92,7 @@ def test_every_equation_fits_a_column(
 
 
 @pytest.mark.parametrize("identifier", ["7c", "8", "first-integral"])
-def test_a_derivation_fits_a_column(
-    identifier: str, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_a_derivation_fits_a_column(identifier, tmp_path, need_tool):
     """Prose with equations: starting points, every step, the equation with its number."""
     engine = need_tool("pdflatex")
     text = prose(catalogue.equations_up_to(identifier), room("246pt"))
@@ -125,12 +112,12 @@ def test_a_derivation_fits_a_column(
 
 
 @pytest.mark.parametrize("length", ["246", "3 cm", "wide", "-246pt", "1e9pt"])
-def test_what_is_no_width_is_refused(length: str) -> None:
+def test_what_is_no_width_is_refused(length):
     with pytest.raises(ValueError, match="such as 246pt"):
         room(length)
 
 
-def test_names_can_be_guessed() -> None:
+def test_names_can_be_guessed():
     """Words of the id, the number spelled out, or the word for an equation that is quoted most."""
     assert macro_name(catalogue.equation("7c")) == "EqSevenC"
     assert macro_name(catalogue.equation("static-solution")) == "EqStaticSolution"

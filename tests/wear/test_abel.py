@@ -4,12 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from wear.numerics.chebyshev import (
-    chebyshev_nodes,
-)
-from wear.numerics.gauss import (
-    FloatArray,
-)
+from wear.numerics.chebyshev import chebyshev_nodes
+from wear.numerics.gauss import FloatArray
 from wear.orbit import abel
 from wear.orbit.iterates import cells
 
@@ -33,13 +29,13 @@ def square_root_panels(edges: FloatArray, m: int) -> abel.Panels:
 AREA = 1e-2
 
 
-def test_geometric_map() -> None:
+def test_geometric_map():
     table = cells(panels(np.array([0.0, 1.0, 5.0]), 40, 0.01), 3.0)
     wear = np.array([0.0, 0.2, 1.0, 3.0, 4.9])
     assert_allclose(table.cycles_until(wear), 3.0 + np.log1p(wear / SHIFT) / 0.01, rtol=1e-14)
 
 
-def test_the_first_cycles_of_a_long_panel_keep_their_digits() -> None:
+def test_the_first_cycles_of_a_long_panel_keep_their_digits():
     slope = 1e-12
     table = cells(panels(np.array([0.0, 1.0]), 40, slope), 0.0)
     at = np.array([1.0, 7.0, 1e3])
@@ -49,7 +45,7 @@ def test_the_first_cycles_of_a_long_panel_keep_their_digits() -> None:
 
 
 @pytest.mark.parametrize("cycles", [101.0, 137.5, 1000.0, 9900.0])
-def test_square_root_map_and_its_inverse(cycles: float) -> None:
+def test_square_root_map_and_its_inverse(cycles):
     table = cells(square_root_panels(np.array([1.0, 2.0, 4.0, 10.0]), 24), 100.0)
     at = np.array([cycles])
     wear, pace = table.state_after(at)
@@ -58,7 +54,7 @@ def test_square_root_map_and_its_inverse(cycles: float) -> None:
     assert_allclose(table.cycles_until(wear), at, rtol=1e-13)
 
 
-def test_residual_tells_the_error_of_the_count() -> None:
+def test_residual_tells_the_error_of_the_count():
     t = np.linspace(-0.95, 0.95, 7)
     errors, residuals = [], []
     for m in (4, 8, 12, 16):
@@ -72,12 +68,12 @@ def test_residual_tells_the_error_of_the_count() -> None:
     assert residuals[-1] < 1e-3 * residuals[0]  # spectral: a factor 10 for every four nodes
 
 
-def test_counts_of_neighbours_agree_where_panels_are_long() -> None:
+def test_counts_of_neighbours_agree_where_panels_are_long():
     found = square_root_panels(np.array([1.0, 3.0, 10.0]), 24)
     assert np.max(abel.matching_defect(found.take(slice(-1)), found.take(slice(1, None)))) < 1e-10
 
 
-def test_counts_of_neighbours_part_where_panels_are_short() -> None:
+def test_counts_of_neighbours_part_where_panels_are_short():
     """Two cycles on 16 nodes leave room for an oscillation of period one cycle."""
     found = square_root_panels(np.sqrt(AREA * np.array([1.0, 3.0, 5.0])), 16)
     assert np.min(abel.matching_defect(found.take(slice(-1)), found.take(slice(1, None)))) > 1e-13

@@ -30,14 +30,14 @@ def contains(bounds: Enclosure, wear: float) -> bool:
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_bounds_contain_the_reference_values(name: str) -> None:
+def test_bounds_contain_the_reference_values(name):
     made = Scene.from_dict(TABLES[name])
     cycles = [1, 10, 100]
     for count, bounds in zip(cycles, wear_bounds(made, cycles), strict=True):
         assert contains(bounds, REFERENCE[name][count]), count
 
 
-def test_bounds_of_section_4_are_tight() -> None:
+def test_bounds_of_section_4_are_tight():
     (first, tenth, later) = wear_bounds(scene(), [1, 10, 1000])
     assert first.high / first.low < 1.16
     assert tenth.high / tenth.low < 1.07
@@ -45,13 +45,13 @@ def test_bounds_of_section_4_are_tight() -> None:
     assert contains(later, REFERENCE["S2"][1000])
 
 
-def test_bounds_under_a_constant_load_close_as_the_wear_slows_down() -> None:
+def test_bounds_under_a_constant_load_close_as_the_wear_slows_down():
     made = replace(scene(), load=Constant(5e-4, 0.06))
     early, late = wear_bounds(made, [10, 300])
     assert late.high / late.low < early.high / early.low < 1.1
 
 
-def test_static_bounds_are_looser() -> None:
+def test_static_bounds_are_looser():
     cycles = [1, 50]
     for tight, loose in zip(
         wear_bounds(scene(), cycles), static_bounds(scene(), cycles), strict=True
@@ -59,13 +59,13 @@ def test_static_bounds_are_looser() -> None:
         assert loose.low < tight.low < tight.high < loose.high
 
 
-def test_a_compliant_support_wears_less_than_a_rigid_one() -> None:
+def test_a_compliant_support_wears_less_than_a_rigid_one():
     rigid, compliant = wear_bounds(scene(), [20])[0], wear_bounds(scene(k=1e5), [20])[0]
     assert compliant.high == rigid.high
     assert compliant.low < rigid.low
 
 
-def test_the_strip_is_the_derived_one() -> None:
+def test_the_strip_is_the_derived_one():
     assert float(sp.N(DERIVED_STRIP, 20)) == STRIP
 
 
@@ -86,9 +86,7 @@ def to_a_picometre(length: float) -> float:
     second=st.floats(-2e-4, 2e-4).map(to_a_picometre),
     mean=st.floats(-2e-4, 2e-4).map(to_a_picometre),
 )
-def test_bounds_contain_the_solution(
-    slope: float, wear_coefficient: float, pin: bool, first: float, second: float, mean: float
-) -> None:
+def test_bounds_contain_the_solution(slope, wear_coefficient, pin, first, second, mean):
     load = Harmonics(mean, (first,), (second, first / 2), 0.06)
     made = replace(scene(K=wear_coefficient, f_c=slope, pin=pin), load=load)
     (bounds,) = wear_bounds(made, [3])
@@ -97,18 +95,18 @@ def test_bounds_contain_the_solution(
 
 @settings(max_examples=15)
 @given(amplitude=st.floats(1e-9, 1.5e-3), pin=st.booleans())
-def test_a_larger_load_never_gives_less_wear(amplitude: float, pin: bool) -> None:
+def test_a_larger_load_never_gives_less_wear(amplitude, pin):
     made = replace(scene(pin=pin), load=Sine(amplitude, 0.06))
     (static,) = static_bounds(made, [2])
     assert contains(static, float(solve(made, [2], rtol=1e-9).u_c[0]))
 
 
 @pytest.mark.parametrize("cycles", [[0], [1.5], [-1]])
-def test_only_whole_cycles(cycles: list[Any]) -> None:
+def test_only_whole_cycles(cycles):
     with pytest.raises(UsageError, match="whole numbers"):
         wear_bounds(scene(), cycles)
 
 
-def test_what_has_no_bounds_is_told() -> None:
+def test_what_has_no_bounds_is_told():
     with pytest.raises(UsageError, match="without cutoff"):
         wear_bounds(scene(cutoff=True), [1])

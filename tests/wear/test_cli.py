@@ -53,6 +53,7 @@ def test_bad_usage_is_told_on_standard_error(call, arguments):
         (["run", "section4", "--cylces", "3"], "run: error: --cylces: not understood; did you "),
         (["run", "section4", "section5"], "wear run: error: section5: not understood"),
         (["cite", "hairer93"], 'wear cite: KEY: "hairer93" is unknown; did you mean hairer1993?'),
+        (["run", "section4", "--method", "foo"], '"foo" is unknown; choose one of auto, '),
         (["explore", "-o", "nowhere/x.html"], "wear explore: --output: nowhere: no such folder"),
         (["run", "section4", "--cycles", "9,000"], 'wear run: --cycles: "000": no number of cyc'),
         (["bench", "-o", f"{__file__}/speed"], "test_cli.py: is not a folder"),
@@ -210,8 +211,3 @@ def test_the_completion_knows_commands_scenes_and_options(call, need_tool):
 def test_claims_end_with_a_count_of_verdicts(call):
     *_, last = call("claims", "C1", "C2")[1].splitlines()
     assert re.fullmatch(r"2 claims: 1 \w+, 1 \w+", last)
-
-
-def test_a_choice_is_told_in_one_sentence(call):
-    messages = call("run", "section4", "--method", "foo")[2]
-    assert '"foo" is unknown; choose one of auto, ' in messages

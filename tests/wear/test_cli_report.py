@@ -20,15 +20,13 @@ from wear.scene import load_scene
 
 
 @pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+def undrawn(monkeypatch):
     """Figures are named, not drawn."""
     none = Figure("", b"")
     monkeypatch.setattr(own, "drawn", lambda drawings: {f"fig:{name}": none for name in drawings})
 
 
-def test_the_files_and_what_they_say(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_files_and_what_they_say(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(typeset.shutil, "which", lambda _: None)
     scene = tmp_path / "mine.toml"
     text = load_scene("section4-cutoff").to_toml()
@@ -45,7 +43,7 @@ def test_the_files_and_what_they_say(
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_the_numbers_are_those_of_the_solver_and_the_equations_those_of_the_variant() -> None:
+def test_the_numbers_are_those_of_the_solver_and_the_equations_those_of_the_variant():
     scene = load_scene("section4")
     document = own.report(scene, "wear report section4")
     wear = solve(scene, [1, 10**6], rtol=1e-10).u_c * 1e3  # the wear after 1e7 cycles is absurd
@@ -60,13 +58,13 @@ def test_the_numbers_are_those_of_the_solver_and_the_equations_those_of_the_vari
     assert {"sec:long", "sec:life", "sec:sensitivities", "fig:inside"} <= set(document.marks)
 
 
-def test_a_scene_with_faults_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_scene_with_faults_is_refused(tmp_path, capsys):
     assert main(["report", "section4", "--set", "bearing.hardness_MPa=0", "-o", str(tmp_path)]) == 2
     assert "hardness" in capsys.readouterr().err
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_blocks_have_no_long_run() -> None:
+def test_blocks_have_no_long_run():
     """Nor pressure inside a cycle; what a cycle is differs from block to block."""
     hard, soft = Block(Sine(5e-4, 0.06), 3), Block(Sine(1e-4, 0.02), 2)
     scene = replace(load_scene("section4"), load=Blocks((hard, soft), repeat=10))
@@ -77,9 +75,7 @@ def test_blocks_have_no_long_run() -> None:
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_a_law_of_the_scenes_own_stands_in_its_report(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_law_of_the_scenes_own_stands_in_its_report(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     scene = load_scene("section4", ['contact.law={phi = "1/(1 + exp(r - 1))"}'])
     monkeypatch.setattr(own, "_solved", lambda _: solve(scene, [1, 10], rtol=1e-6))
@@ -102,9 +98,7 @@ repeat = true
 """
 
 
-def test_an_engineers_way_from_a_record_and_readings_to_a_report(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_engineers_way_from_a_record_and_readings_to_a_report(tmp_path, capsys, monkeypatch):
     """401 noisy rows as LabVIEW writes them, fifteen readings; and the report."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(typeset.shutil, "which", lambda _: None)

@@ -12,7 +12,6 @@ import pytest
 
 from derive import verification
 from derive.check import Check
-from tests.wear.conftest import Call
 from tests.wear.report import quick
 from wear import processes, regime
 from wear.report import claims, paper, runs, typeset
@@ -25,7 +24,7 @@ ALWAYS = {
 
 
 @pytest.fixture
-def shortened(monkeypatch: pytest.MonkeyPatch) -> None:
+def shortened(monkeypatch):
     """Have the main job use quick runs, trust the derivations, and find no TeX."""
     monkeypatch.setattr(runs, "run", lambda _: quick.runs())
     monkeypatch.setattr(verification, "verified", lambda found, _: quick.trusted(found))
@@ -38,7 +37,7 @@ def shortened(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("shortened")
-def test_the_main_job_writes_every_file(call: Call, tmp_path: Path) -> None:
+def test_the_main_job_writes_every_file(call, tmp_path):
     folder = tmp_path / "report"
     status, shown, messages = call("reproduce", "-o", str(folder), "--json")
     summary = json.loads(shown)
@@ -64,12 +63,10 @@ def _check_manifest(folder: Path) -> None:
 
 
 @pytest.mark.usefixtures("shortened")
-def test_a_step_that_does_not_hold_is_told(
-    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_step_that_does_not_hold_is_told(call, tmp_path, monkeypatch):
     failure = ("21", Check("proof", False, "the move gives something else"))
 
-    def failing(found, _):  # type: ignore[no-untyped-def]
+    def failing(found, _):
         return dataclasses.replace(quick.trusted(found), failures=(failure,))
 
     monkeypatch.setattr(verification, "verified", failing)
@@ -80,10 +77,8 @@ def test_a_step_that_does_not_hold_is_told(
 
 
 @pytest.mark.usefixtures("shortened")
-def test_an_interrupt_leaves_nothing_behind(
-    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupted(*_, **__):  # type: ignore[no-untyped-def]
+def test_an_interrupt_leaves_nothing_behind(call, tmp_path, monkeypatch):
+    def interrupted(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(claims, "ledger", interrupted)
@@ -92,7 +87,7 @@ def test_an_interrupt_leaves_nothing_behind(
     assert not folder.exists()
 
 
-def test_a_file_is_no_folder(call: Call, tmp_path: Path) -> None:
+def test_a_file_is_no_folder(call, tmp_path):
     (tmp_path / "report").write_text("kept")
     status, _, messages = call("reproduce", "-o", str(tmp_path / "report"))
     assert (status, (tmp_path / "report").read_text()) == (2, "kept")
@@ -106,7 +101,7 @@ KEYS = {
 
 
 @pytest.mark.parametrize("name", ["section4", "f-zero", "roughness-vanishing", "chatter"])
-def test_the_asymptote_has_the_keys_of_the_contract(call: Call, name: str) -> None:
+def test_the_asymptote_has_the_keys_of_the_contract(call, name):
     status, shown, messages = call("asymptote", name, "--json")
     found = json.loads(shown)
     assert (status, messages) == (0, "")
@@ -115,21 +110,21 @@ def test_the_asymptote_has_the_keys_of_the_contract(call: Call, name: str) -> No
     assert found["regime"] == regime.asymptote(load_scene(name)).regime
 
 
-def test_the_asymptote_is_printed_with_units(call: Call) -> None:
+def test_the_asymptote_is_printed_with_units(call):
     status, shown, _ = call("asymptote", "section4", "--set", "bearing.roughness_growth=0.5")
     assert status == 0
     assert "steady" in shown
     assert "6.911503838e-05 mm" in shown  # half of M: p_inf/p_max = 1/2 at f_c = 1/2
 
 
-def test_what_does_not_apply_is_not_printed(call: Call) -> None:
+def test_what_does_not_apply_is_not_printed(call):
     shown = call("asymptote", "chatter")[1]
     assert "wear stops in cycle  3" in shown
     assert "coefficient of ln N" not in shown
 
 
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png"])
-def test_a_figure_is_written(call: Call, tmp_path: Path, suffix: str) -> None:
+def test_a_figure_is_written(call, tmp_path, suffix):
     file = tmp_path / f"wear{suffix}"
     status, shown, _ = call("figure", "section3", "-o", str(file), "--cycles", "100", "--json")
     assert status == 0
@@ -137,13 +132,13 @@ def test_a_figure_is_written(call: Call, tmp_path: Path, suffix: str) -> None:
     assert json.loads(shown)["cycles"] == [0, 100]
 
 
-def test_a_logarithmic_figure_begins_with_the_first_cycle(call: Call, tmp_path: Path) -> None:
+def test_a_logarithmic_figure_begins_with_the_first_cycle(call, tmp_path):
     file = tmp_path / "wear.svg"
     shown = call("figure", "section4", "-o", str(file), "--cycles", "1e8", "--log", "--json")[1]
     assert json.loads(shown)["cycles"] == [1, 10**8]
 
 
-def test_a_figure_of_the_pressure_inside_cycles(call: Call, tmp_path: Path) -> None:
+def test_a_figure_of_the_pressure_inside_cycles(call, tmp_path):
     file = tmp_path / "pulses.svg"
     request = ("figure", "section4-cutoff", "-o", str(file), "--inside", "10,0", "--json")
     status, shown, _ = call(*request)
@@ -157,7 +152,7 @@ def test_a_figure_of_the_pressure_inside_cycles(call: Call, tmp_path: Path) -> N
     assert "the load does not repeat" in messages
 
 
-def test_a_figure_of_several_scenes_with_readings_and_a_limit(call: Call, tmp_path: Path) -> None:
+def test_a_figure_of_several_scenes_with_readings_and_a_limit(call, tmp_path):
     data, file = tmp_path / "read.csv", tmp_path / "both.svg"
     data.write_text("cycles,wear_um\n10,0.3\n50,0.7\n")
     request = ("figure", "section4", "section4-cutoff", "-o", str(file), "--data", str(data))
@@ -171,7 +166,7 @@ def test_a_figure_of_several_scenes_with_readings_and_a_limit(call: Call, tmp_pa
     assert all(word in messages for word in ("--axis", "radius_mm", "negative"))
 
 
-def test_readings_of_two_specimens_have_a_run_each(call: Call, tmp_path: Path) -> None:
+def test_readings_of_two_specimens_have_a_run_each(call, tmp_path):
     data, file = tmp_path / "read.csv", tmp_path / "both.svg"
     data.write_text(
         "specimen,cycles,wear_um,motion.radius_mm\nA,10,0.3,22\nA,20,0.4,22\nB,10,0.5,40\n"
@@ -180,7 +175,7 @@ def test_readings_of_two_specimens_have_a_run_each(call: Call, tmp_path: Path) -
     assert json.loads(shown)["scenes"] == ["A", "B"]
 
 
-def test_all_faults_of_a_figure_are_told_at_once(call: Call) -> None:
+def test_all_faults_of_a_figure_are_told_at_once(call):
     status, _, messages = call("figure", "nowhere", "-o", "wear.gif", "--cycles", "1,2")
     assert status == 2
     assert all(word in messages for word in ("nowhere", ".gif", "one number of cycles"))

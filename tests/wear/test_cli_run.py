@@ -3,7 +3,6 @@
 import csv
 import json
 import math
-import os
 import re
 import signal
 import subprocess
@@ -16,19 +15,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.wear.test_history import CONTRACT
 from wear import cli
 from wear.commands.run_output import latex_number, text
 from wear.faults import AccuracyError, Interrupted
 from wear.load.spans import most_cycles
 from wear.scene import load_scene
 from wear.solver import METHODS, solve
-
-CONTRACT = {
-    "scene", "model", "method", "rtol", "cycles", "bearing_wear_mm", "pin_wear_mm",
-    "bearing_roughness_mm", "pin_roughness_mm", "closure_mm", "pressure_at_start_MPa",
-    "peak_pressure_MPa", "mean_pressure_MPa", "contact_fraction",
-    "error_estimate", "cost", "seconds", "notices",
-}  # fmt: skip
 
 
 @pytest.fixture
@@ -65,13 +58,6 @@ def test_json_has_the_keys_of_the_contract_and_the_numbers_of_the_history(run):
         assert document[column.name] == column.values.tolist()
 
 
-def test_the_state_follows_the_order_of_the_cycles_in_the_json(run):
-    document = json.loads(run("section4", "--cycles", "10,1,10", "--json")[1])
-    wear = dict(zip(document["cycles"], document["bearing_wear_mm"], strict=True))
-    assert set(wear) == {1, 10}
-    assert wear[1] < wear[10]
-
-
 def test_the_table_names_quantities_with_units(run):
     status, shown, _ = run("section4", "--cycles", "1,1e1")
     words = shown.split()
@@ -79,20 +65,6 @@ def test_the_table_names_quantities_with_units(run):
     assert {"bearing", "wear", "roughness", "closure", "pressure", "(mm)", "(MPa)"} <= set(words)
     assert "pin" not in words  # section 4 has no pin to wear
     assert "pin" in run("section3", "--cycles", "1")[1].split()
-
-
-def test_the_table_shows_the_wear(run):
-    shown = run("section4", "--cycles", "1,1e1")[1]
-    expected = solve(load_scene("section4"), (1, 10)).u_c
-    states = [line.split() for line in shown.splitlines() if line.strip()[:2] in ("1 ", "10")]
-    assert [float(state[1]) for state in states] == pytest.approx(expected.tolist(), rel=1e-9)
-
-
-def test_a_number_can_be_set(run):
-    changed = "bearing.wear_coefficient=2e-6"
-    document = json.loads(run("section4", "--cycles", "1", "--set", changed, "--json")[1])
-    expected = solve(load_scene("section4", [changed]), (1,))
-    assert document["bearing_wear_mm"] == expected.u_c.tolist()
 
 
 def test_all_faults_are_told_at_once(run, tmp_path):
@@ -129,25 +101,6 @@ def test_an_unknown_form_of_file_is_refused_before_solving(run, solver, tmp_path
     assert ".csv, .nc, .tex" in messages
 
 
-def test_the_csv_file_holds_the_history(run, tmp_path):
-    file = tmp_path / "wear.csv"
-    assert run("section4", "--cycles", "1,10", "-o", str(file))[:2] == (0, "")
-    lines = (line for line in file.read_text().splitlines() if not line.startswith("#"))
-    rows = list(csv.DictReader(lines))
-    expected = solve(load_scene("section4"), (1, 10))
-    assert [float(row["bearing_wear_mm"]) for row in rows] == expected.u_c.tolist()
-
-
-def test_the_netcdf_file_holds_the_history(run, tmp_path):
-    from scipy.io import netcdf_file
-
-    path = tmp_path / "wear.nc"
-    assert run("section4", "--cycles", "1,10", "-o", str(path))[:2] == (0, "")
-    expected = solve(load_scene("section4"), (1, 10))
-    with netcdf_file(path, mmap=False) as file:
-        assert file.variables["bearing_wear_mm"][:].tolist() == expected.u_c.tolist()
-
-
 def test_the_latex_table_compiles(run, need_tool, tmp_path):
     need_tool("latexmk")
     assert run("section3", "--cycles", "1,1e4", "-o", str(tmp_path / "wear.tex"))[0] == 0
@@ -167,16 +120,6 @@ def test_a_number_in_latex_is_that_number(number):
     mantissa, _, power = text.rpartition("10^{") if "10^{" in text else (text, "", "0}")
     value = float(mantissa.strip("*") or 1) * 10.0 ** int(power.strip("}"))
     assert math.isclose(value, number, rel_tol=1e-15)
-
-
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="/dev/full is Linux's")
-def test_a_full_disk_under_the_output_is_told():
-    command = [sys.executable, "-m", "wear", "run", "section4", "--cycles", "1", "--json"]
-    with Path("/dev/full").open("wb") as full:
-        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-    assert done.returncode == 2
-    assert "No space left" in done.stderr
-    assert "Traceback" not in done.stderr
 
 
 def test_a_file_is_not_touched_when_the_solver_fails(run, solver, tmp_path):
@@ -220,15 +163,6 @@ def test_notices_go_to_standard_error(run):
     usual = "auto: abel, because the load repeats"  # the table's head says so
     assert all(notice in messages for notice in notices if notice != usual)
     assert set(notices) > {usual}
-
-
-def test_a_reader_may_stop_reading():
-    command = [sys.executable, "-m", "wear", "run", "section4", "--cycles", "1"]
-    reader, writer = os.pipe()
-    os.close(reader)
-    done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, check=False)
-    os.close(writer)
-    assert (done.returncode, done.stderr) == (0, b"")
 
 
 def test_the_usual_choice_of_a_method_is_no_notice_on_the_terminal(run):

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import wear
-from tests.wear.conftest import Call
 
 
-def test_the_document_has_the_keys_of_the_contract(call: Call) -> None:
+def test_the_document_has_the_keys_of_the_contract(call):
     status, shown, _ = call("sensitivity", "section4", "--cycles", "0,1,9000", "--json")
     found = json.loads(shown)
     assert status == 0
@@ -28,7 +26,7 @@ def test_the_document_has_the_keys_of_the_contract(call: Call) -> None:
     assert 0.0 < growth["error_estimate"][2] < 1e-10
 
 
-def test_the_table_shows_elasticities_of_wear_and_life(call: Call) -> None:
+def test_the_table_shows_elasticities_of_wear_and_life(call):
     status, shown, _ = call("sensitivity", "section4", "--cycles", "1", "--until-wear", "1e-3")
     assert status == 0
     rows = [line.split() for line in shown.splitlines() if line.startswith("bearing.wear_coef")]
@@ -42,7 +40,7 @@ def test_the_table_shows_elasticities_of_wear_and_life(call: Call) -> None:
 
 
 @pytest.mark.parametrize("suffix", ["csv", "svg"])
-def test_a_file_holds_every_number(call: Call, tmp_path: Path, suffix: str) -> None:
+def test_a_file_holds_every_number(call, tmp_path, suffix):
     file = tmp_path / f"found.{suffix}"
     status, shown, _ = call("sensitivity", "section4", "--cycles", "1,9000", "-o", str(file))
     assert (status, shown) == (0, "")
@@ -57,7 +55,7 @@ def test_a_file_holds_every_number(call: Call, tmp_path: Path, suffix: str) -> N
         assert "roughness growth" in text
 
 
-def test_all_faults_are_told_at_once(call: Call) -> None:
+def test_all_faults_are_told_at_once(call):
     status, _, messages = call(
         "sensitivity", "section4", "--cycles", "x", "--rtol", "2", "-o", "found.txt"
     )
@@ -65,13 +63,13 @@ def test_all_faults_are_told_at_once(call: Call) -> None:
     assert all(name in messages for name in ("--cycles", "--rtol", "--output"))
 
 
-def test_a_depth_that_is_not_reached_has_no_derivative(call: Call) -> None:
+def test_a_depth_that_is_not_reached_has_no_derivative(call):
     status, _, messages = call("sensitivity", "section4", "--until-wear", "1e20")
     assert status == 2
     assert "--until-wear: 1e+20 mm" in messages
 
 
-def test_a_measured_history_is_refused(call: Call, tmp_path: Path) -> None:
+def test_a_measured_history_is_refused(call, tmp_path):
     (tmp_path / "rows.csv").write_text("t_s,U_a_mm\n0,0\n1,1e-4\n2,0\n")
     change = f"load.file={tmp_path / 'rows.csv'}"
     status, _, messages = call(

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from tests import independent_cutoff
+from tests.judges import honest, true_wear
 from tests.wear.reference_scenes import reference_scene, tables
-from tests.wear.test_cycle_count import between, problem
+from tests.wear.test_cycle_count import between
 from wear import cycles as count
 from wear import direct
 from wear.load import Harmonics, Load, Sine, Table
@@ -23,33 +23,11 @@ from wear.model import bind
 from wear.scene import Scene, load_scene
 
 
-@pytest.mark.parametrize(
-    ("name", "cycle", "wear"),
-    [
-        ("section4-cutoff", 2045, 0.002),
-        ("section3-cutoff", 491, 0.000622179713311576220356230662647),
-        ("section5-cutoff", 824, 0.000980449714835624807061453807989),
-    ],
-)
-def test_wear_stops_in_its_cycle_and_stays(name: str, cycle: int, wear: float) -> None:
-    scene = load_scene(name)
-    around = np.array([cycle - 1.0, float(cycle), 1e12])
-    found = count.wear_after(bind(scene), scene.periodic_load, around, 1e-10)
-    assert found.notices == (f"wear stops for good in cycle {cycle}",)
-    assert_allclose(found.u_c[1:], wear, rtol=1e-15)
-    assert found.u_c[0] < wear
-    assert np.all(found.error <= 1e-10)
-
-
 @pytest.mark.parametrize("slope", [0.25, 0.5])
-def test_counted_cycles_are_integrated_ones(slope: float) -> None:
+def test_counted_cycles_are_integrated_ones(slope):
     """f above and below 1/3: direct integration with events shares no code with the map."""
     scene = Scene.from_dict(tables(f_c=slope, cutoff=True), "cutoff")
-    model, load = bind(scene), scene.periodic_load
-    cycles = [1, 2, 7, 40]
-    found = count.wear_after(model, load, np.array(cycles, dtype=float), 1e-10)
-    want = direct.integrate(model, load, cycles, 1e-10, "DOP853", np.inf)
-    assert np.all(np.abs(found.u_c / want.u - 1) <= found.error + want.error)
+    agrees_with_direct_integration(scene, [1, 2, 7, 40], 1e-10)
 
 
 UNEVEN = {  # rise slowly, then fast, and slowly again
@@ -67,15 +45,13 @@ def with_load(load: Load, K: float, f_c: float, pin: bool = False, closure: floa
 
 def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
     found = count.wear_after(bind(scene), scene.periodic_load, np.array(cycles, float), rtol)
-    true = independent_cutoff.wear_after(problem(scene), cycles)
-    want = np.array([true[cycle] for cycle in cycles])
     assert np.all(found.error <= rtol)
-    assert np.all(np.abs(found.u_c - want) <= (found.error + 3e-15) * want)
+    assert honest(found.u_c, found.error, true_wear(scene, cycles))
 
 
 @pytest.mark.parametrize("kind", ["harmonics", "table"])
 @pytest.mark.parametrize(("K", "f_c"), [(3e-4, 0.0), (5e-3, 0.0), (3e-3, 0.5)])
-def test_contact_lost_and_found_again_on_one_rise(kind: str, K: float, f_c: float) -> None:
+def test_contact_lost_and_found_again_on_one_rise(kind, K, f_c):
     agrees_with_the_judge(with_load(UNEVEN[kind], K, f_c), [1, 2], 1e-10)
 
 
@@ -93,13 +69,13 @@ def loads(draw: st.DrawFn) -> Load:
 
 @settings(max_examples=6)
 @given(loads(), between(-8, -1), between(-0.2, 1.0), st.booleans())
-def test_drawn_scenes_agree_with_the_judge(load: Load, K: float, f_c: float, pin: bool) -> None:
+def test_drawn_scenes_agree_with_the_judge(load, K, f_c, pin):
     scene = with_load(load, 10**K, f_c, pin)
     if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
         agrees_with_the_judge(scene, [1, 2], 1e-9)
 
 
-def test_in_permanent_contact_the_cutoff_changes_nothing() -> None:
+def test_in_permanent_contact_the_cutoff_changes_nothing():
     made = tables(f_c=0.5, cutoff=True)
     made["contact"]["closure_mm"] = 4e-4
     scene = Scene.from_dict(made, "closed")
@@ -113,7 +89,7 @@ def test_in_permanent_contact_the_cutoff_changes_nothing() -> None:
 
 
 @pytest.mark.parametrize("f_c", [1 / 3, 0.25])
-def test_the_margin_of_one_solid_keeps_its_digits(f_c: float) -> None:
+def test_the_margin_of_one_solid_keeps_its_digits(f_c):
     """Near f = 1/3 roughness and closure outgrow their difference by orders of magnitude."""
     scene = Scene.from_dict(tables(f_c=f_c, cutoff=True))
     p, u = scene.parameters(), 1e3
@@ -122,7 +98,7 @@ def test_the_margin_of_one_solid_keeps_its_digits(f_c: float) -> None:
     assert float(bind(scene).margin(u, 0.0)) == pytest.approx(float(true), rel=4e-16)
 
 
-def test_kinks_are_where_contact_grazes() -> None:
+def test_kinks_are_where_contact_grazes():
     scene = Scene.from_dict(tables(f_c=0.25, cutoff=True), "cutoff")
     model, load = bind(scene), scene.periodic_load
     # Section 4: (1 - 3 f) u = U_a at the edge, of which only the peak, 5e-4 mm, is ahead.
@@ -130,7 +106,7 @@ def test_kinks_are_where_contact_grazes() -> None:
     assert grazing.wear == pytest.approx(2e-3, rel=1e-14)
 
 
-def test_a_load_turns_where_its_slope_vanishes() -> None:
+def test_a_load_turns_where_its_slope_vanishes():
     load = Harmonics(0.0, (1e-4, -2e-4), (3e-4, 1e-4), 0.06)
     turns = turning_points(load)[1:-1]
     assert len(turns) == 4
@@ -138,7 +114,7 @@ def test_a_load_turns_where_its_slope_vanishes() -> None:
     assert turning_points(reference_scene("S2").periodic_load).tolist() == [0.0, 0.25, 0.75, 1.0]
 
 
-def test_the_wear_at_which_contact_ends_is_known_better_than_the_cycle() -> None:
+def test_the_wear_at_which_contact_ends_is_known_better_than_the_cycle():
     """f just below 1/3: arrest at U/(1 - 3 f), in a cycle that double precision cannot tell."""
     scene = load_scene("f-just-below-one-third")
     found = count.wear_after(bind(scene), scene.periodic_load, np.array([1e8, 1e12]), 1e-10)
@@ -148,7 +124,7 @@ def test_the_wear_at_which_contact_ends_is_known_better_than_the_cycle() -> None
     assert "(±" in found.notices[0]
 
 
-def test_contact_in_a_fixed_part_of_the_cycle_has_no_kinks() -> None:
+def test_contact_in_a_fixed_part_of_the_cycle_has_no_kinks():
     """In double precision f is less than 1/3: after 1e12 cycles the pace is lower by 1e-7."""
     scene = load_scene("f-one-third")
     model, load = bind(scene), scene.periodic_load
@@ -158,7 +134,7 @@ def test_contact_in_a_fixed_part_of_the_cycle_has_no_kinks() -> None:
     assert abs(found.u_c[0] / fine.u_c[0] - 1) <= found.error[0] + fine.error[0]
 
 
-def test_cycles_until_a_wear_with_a_cutoff() -> None:
+def test_cycles_until_a_wear_with_a_cutoff():
     scene = load_scene("section4-cutoff")
     model, load = bind(scene), scene.periodic_load
     wear = count.wear_after(model, load, np.array([7.0, 500.0]), 1e-11).u_c
@@ -167,7 +143,7 @@ def test_cycles_until_a_wear_with_a_cutoff() -> None:
     assert found.cycles.tolist() == [7.0, 500.0, 2045.0, np.inf]
 
 
-def test_the_last_cycles_before_arrest_are_known_as_well_as_rounding_permits() -> None:
+def test_the_last_cycles_before_arrest_are_known_as_well_as_rounding_permits():
     """Two solids and slow wear: contact ends where its margin is hardly more than its rounding."""
     load = Sine(1.7387680687168289e-4, 0.06)
     scene = with_load(load, 3.678394561303414e-8, 0.15051080555767343, True, 9.391617219250994e-4)
@@ -177,10 +153,9 @@ def test_the_last_cycles_before_arrest_are_known_as_well_as_rounding_permits() -
 
 
 @pytest.mark.parametrize(
-    ("K", "f_c", "cycles"),
-    [(1e-5, -0.1, [5, 20]), (1e-6, 0.1, [3, 20]), (3e-5, 0.1, [4, 12])],
+    ("K", "f_c", "cycles"), [(1e-5, -0.1, [5, 20]), (1e-6, 0.1, [3, 20]), (3e-5, 0.1, [4, 12])]
 )
-def test_at_a_sharp_peak_wear_fades(K: float, f_c: float, cycles: list[int]) -> None:
+def test_at_a_sharp_peak_wear_fades(K, f_c, cycles):
     """Each cycle takes the same part of the distance that is left: no cycle is the last."""
     load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
     scene = with_load(load, K, f_c)
@@ -193,7 +168,7 @@ def test_at_a_sharp_peak_wear_fades(K: float, f_c: float, cycles: list[int]) -> 
     assert last.error[0] < 1e-14
 
 
-def test_at_a_sharp_peak_that_rises_slowly_wear_stops() -> None:
+def test_at_a_sharp_peak_that_rises_slowly_wear_stops():
     """There wear opens the gap faster than the load closes it: contact slides up to the peak."""
     load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
     scene = with_load(load, 1e-3, 0.1)
@@ -201,7 +176,7 @@ def test_at_a_sharp_peak_that_rises_slowly_wear_stops() -> None:
     assert found.notices[0].startswith("wear stops for good in cycle")
 
 
-def test_the_edge_of_contact_turns_twice_between_two_samples() -> None:
+def test_the_edge_of_contact_turns_twice_between_two_samples():
     """The load rises ever more slowly and faster again; at its slowest, wear just wins."""
     slowest, swing = 0.1, 2 * np.pi * np.array([5e-4, -2e-4])
     turn = 2 * np.pi * slowest * np.array([1, 2])
@@ -217,7 +192,7 @@ def test_the_edge_of_contact_turns_twice_between_two_samples() -> None:
     assert np.min(np.abs(edge.pieces.end - slowest)) < 1e-4
 
 
-def test_cycles_until_a_wear_that_fades() -> None:
+def test_cycles_until_a_wear_that_fades():
     load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
     model = bind(with_load(load, 3e-6, 0.1))
     wear = count.wear_after(model, load, np.array([30.0, 60.0, 90.0]), 1e-11).u_c
@@ -226,7 +201,7 @@ def test_cycles_until_a_wear_that_fades() -> None:
     assert found.cycles.tolist() == [30.0, 60.0, 90.0, np.inf]
 
 
-def test_a_loose_request_has_an_estimate_too() -> None:
+def test_a_loose_request_has_an_estimate_too():
     """The map that judges once took longer stretches than the map it judged: both missed alike."""
     heights = np.array([6.827e-4, 6.7253e-4, 1.4235e-4])
     load = Table(tuple(np.linspace(0.0, 1.0, 7)), (*np.repeat(heights, 2), heights[0]))
@@ -245,7 +220,7 @@ def agrees_with_direct_integration(scene: Scene, cycles: list[int], rtol: float)
     found = count.wear_after(model, load, np.array(cycles, dtype=float), rtol)
     want = direct.integrate(model, load, cycles, 1e-9, "DOP853", np.inf)
     assert np.all(found.error <= rtol)
-    assert np.all(np.abs(found.u_c / want.u - 1) <= found.error + want.error)
+    assert honest(found.u_c, found.error, want.u, want.error)
 
 
 @pytest.mark.parametrize(
@@ -259,24 +234,20 @@ def agrees_with_direct_integration(scene: Scene, cycles: list[int], rtol: float)
         (1e-5, 0.05, True, 1e5),
     ],
 )
-def test_on_a_compliant_support_counted_cycles_are_integrated_ones(
-    K: float, f_c: float, pin: bool, k: float
-) -> None:
+def test_on_a_compliant_support_counted_cycles_are_integrated_ones(K, f_c, pin, k):
     agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 9], 1e-11)
 
 
 @settings(max_examples=5)
 @given(loads(), between(-7, -3), between(-0.2, 1.0), st.booleans(), between(3, 6))
-def test_drawn_compliant_supports_agree_with_direct_integration(
-    load: Load, K: float, f_c: float, pin: bool, k: float
-) -> None:
+def test_drawn_compliant_supports_agree_with_direct_integration(load, K, f_c, pin, k):
     scene = supported(10**K, f_c, pin, 10**k, load)
     if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
         agrees_with_direct_integration(scene, [1, 2], 1e-9)
 
 
 @pytest.mark.parametrize("load", [None, Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))])
-def test_on_a_compliant_support_wear_fades(load: Load | None) -> None:
+def test_on_a_compliant_support_wear_fades(load):
     """The pressure vanishes with the distance that is left: as d^(3/2) in a cycle at a smooth peak,
     as d^2 at a sharp one."""
     scene = supported(1e-5, 0.25, False, 1e5, load)
@@ -296,7 +267,7 @@ def test_on_a_compliant_support_wear_fades(load: Load | None) -> None:
         assert reached / (2.0**-54 * 4 * acting.maximum) == pytest.approx(1.0, rel=0.05)
 
 
-def test_a_count_on_a_compliant_support_goes_on_from_any_cycle() -> None:
+def test_a_count_on_a_compliant_support_goes_on_from_any_cycle():
     """Sixty cycles, counted and one by one."""
     scene = supported(1e-5, 0.25, True, 1e5)
     model, load = bind(scene), scene.periodic_load
@@ -309,7 +280,7 @@ def test_a_count_on_a_compliant_support_goes_on_from_any_cycle() -> None:
     assert abs(found.u_c[1] / wear - 1) <= found.error[1] + found.error[0] + 1e-14
 
 
-def test_a_trial_state_far_beyond_the_edge_ends_no_iteration() -> None:
+def test_a_trial_state_far_beyond_the_edge_ends_no_iteration():
     """Under a falling load the first guess is worn so much that its margin hardly changes."""
     cosine, sine = (-8.890226218723552e-5, 1.1996065136084995e-4), (7.6918511e-5, -2.62846186e-5)
     load = Harmonics(3.965692608849733e-5, cosine, sine, 0.06)
@@ -317,7 +288,7 @@ def test_a_trial_state_far_beyond_the_edge_ends_no_iteration() -> None:
     agrees_with_the_judge(scene, [1, 2], 1e-6)
 
 
-def test_a_phase_that_is_rounded_under_a_steep_load_is_no_lack_of_nodes() -> None:
+def test_a_phase_that_is_rounded_under_a_steep_load_is_no_lack_of_nodes():
     """The load rises by a roughness in 5e-3 of a cycle: no finer mesh smooths the rate."""
     times = (0.0, 0.0313, 0.0359, 0.0438, 0.0445, 0.06)
     load = Table(times, (0.0, 7.6e-4, -7.1e-4, 8e-5, 8.6e-4, 0.0))

@@ -41,7 +41,7 @@ LATE = made(5.62e-7, 1 / 3, 7.75e-4, 5.72e-3, constant(1.22e-3), k=544.0)
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-3])
 @pytest.mark.parametrize("scene", [SOFT, LATE], ids=["soft", "late"])
-def test_the_end_of_the_last_panel_is_looked_at(scene: Scene, rtol: float) -> None:
+def test_the_end_of_the_last_panel_is_looked_at(scene, rtol):
     """Most cycles of a long run lie there."""
     exact, found = counted(scene, CYCLES, 1e-13), counted(scene, CYCLES, rtol)
     true = np.abs(found.u_c / exact.u_c - 1)
@@ -55,7 +55,7 @@ SHARP = made(1e-9, 1.05, 2.26e-4, 6.77e-4, PULSE, k=4.3e5)
 
 
 @pytest.mark.parametrize("scene", [VIOLENT, SHARP], ids=["violent", "sharp"])
-def test_two_meshes_that_agree_by_chance_tell_no_error(scene: Scene) -> None:
+def test_two_meshes_that_agree_by_chance_tell_no_error(scene):
     """Neither resolves the first cycles: what the rates at the ends of intervals say is added."""
     exact, found = counted(scene, CYCLES, 1e-13), counted(scene, CYCLES, 1e-3)
     true = np.abs(found.u_c / exact.u_c - 1)
@@ -64,7 +64,7 @@ def test_two_meshes_that_agree_by_chance_tell_no_error(scene: Scene) -> None:
 
 
 @pytest.mark.parametrize("scene", [SOFT, LATE], ids=["soft", "late"])
-def test_the_error_of_the_cycles_until_a_wear_spans_least_and_largest(scene: Scene) -> None:
+def test_the_error_of_the_cycles_until_a_wear_spans_least_and_largest(scene):
     """The least count is told: the largest is off by twice what the count may be wrong by."""
     cycles = np.array([1e3, 1e5, 1e8, 1e12])
     wear = counted(scene, cycles, 1e-13).u_c
@@ -72,7 +72,7 @@ def test_the_error_of_the_cycles_until_a_wear_spans_least_and_largest(scene: Sce
     assert np.all(np.abs(found.cycles / cycles - 1) <= found.error + 1e-13)
 
 
-def test_cycles_until_a_wear_know_the_error_that_a_block_begins_with() -> None:
+def test_cycles_until_a_wear_know_the_error_that_a_block_begins_with():
     """Cycles integrated one by one are wrong by it as well."""
     model = bind(SOFT)
     load = Blocks((Block(SOFT.periodic_load, 10**8), Block(Constant(1e-5, 0.06), 10**8)))
@@ -86,9 +86,7 @@ def test_cycles_until_a_wear_know_the_error_that_a_block_begins_with() -> None:
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-3])
 @pytest.mark.parametrize("slow", [-1e-4, -2e-4])
-def test_a_wear_that_one_block_may_just_reach_or_the_next_one_late(
-    slow: float, rtol: float
-) -> None:
+def test_a_wear_that_one_block_may_just_reach_or_the_next_one_late(slow, rtol):
     """The next block hardly wears: there the same small wear takes ten times as many cycles."""
     scene = made(2.218e-6, 0.05877, 1.004e-4, 3.012e-4, constant(4.37e-4), k=620.3)
     model, number = bind(scene), 38000
@@ -100,7 +98,7 @@ def test_a_wear_that_one_block_may_just_reach_or_the_next_one_late(
     assert np.all(np.isfinite(found.error))
 
 
-def test_a_wear_that_may_never_be_reached_has_no_certain_count() -> None:
+def test_a_wear_that_may_never_be_reached_has_no_certain_count():
     """The next blocks do not wear at all."""
     scene = made(2.218e-6, 0.05877, 1.004e-4, 3.012e-4, constant(4.37e-4), k=620.3)
     model, number = bind(scene), 38000
@@ -115,9 +113,7 @@ def test_a_wear_that_may_never_be_reached_has_no_certain_count() -> None:
     ("K", "f_c", "closure", "value", "rtol"),
     [(1.84e-4, 0.587, 2.64e-4, 7.8e-5, 1e-2), (9.8e-3, 0.55, 8.7e-4, 3.25e-3, 1e-3)],
 )
-def test_a_first_cycle_that_goes_far_is_not_left_to_panels(
-    K: float, f_c: float, closure: float, value: float, rtol: float
-) -> None:
+def test_a_first_cycle_that_goes_far_is_not_left_to_panels(K, f_c, closure, value, rtol):
     """It changes the pace little, but takes most of the way: the count was out by 0.03 cycles."""
     load = {"kind": "constant", "value_mm": value, "period_s": 0.06}
     scene = made(K, f_c, 3.6e-4, closure, load)
@@ -143,12 +139,12 @@ def holds(scene: Scene, rtol: float) -> bool:
     return bool(good.all())
 
 
-def test_a_junction_of_panels_shifts_the_count_at_once() -> None:
+def test_a_junction_of_panels_shifts_the_count_at_once():
     """Its error was told over some cycles behind it, little by little."""
     assert holds(made(3.786e-4, 0.1315, 7.44e-5, 2.232e-4, sine(2.167e-5), k=454.5), 1e-4)
 
 
-def test_what_sweeps_miss_grows_as_the_wear_does() -> None:
+def test_what_sweeps_miss_grows_as_the_wear_does():
     """In wear that gathers pace it grows by more than the last increment did."""
     assert holds(made(6.97e-5, 0.953, 4.18e-4, 1.622e-3, sine(1.312e-5), pin=True), 1e-2)
 
@@ -165,9 +161,7 @@ THREE = {"kind": "harmonics", "sine_mm": [7.24e-4, 4.12e-4, -1.64e-3], "period_s
         (9.61e-9, 0.852, THREE, 2.68e5, False, 1e-7),
     ],
 )
-def test_what_the_mesh_of_phase_misses_for_few_wears_is_told(
-    K: float, f_c: float, load: dict[str, Any], k: float, pin: bool, rtol: float
-) -> None:
+def test_what_the_mesh_of_phase_misses_for_few_wears_is_told(K, f_c, load, k, pin, rtol):
     """It changes its sign as the wear grows, and was looked at where it vanishes."""
     assert holds(made(K, f_c, 3.6e-4, 1.08e-3, load, k=k, pin=pin), rtol)
 
@@ -181,8 +175,6 @@ def test_what_the_mesh_of_phase_misses_for_few_wears_is_told(
     pin=st.booleans(),
     rtol=st.sampled_from([1e-6, 1e-7, 1e-9]),
 )
-def test_contact_that_gets_short_on_springs(
-    K: float, f_c: float, swing: float, k: float, pin: bool, rtol: float
-) -> None:
+def test_contact_that_gets_short_on_springs(K, f_c, swing, k, pin, rtol):
     """Where one drawn scene of a hundred was wrong by more than its estimate."""
     assert holds(made(10**K, f_c, 3.6e-4, 1.08e-3, sine(10**swing), k=10**k, pin=pin), rtol)

@@ -7,14 +7,14 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tests import independent_support
 from tests.independent_support import SupportJudge
+from tests.judges import problem
 from tests.wear.reference_scenes import tables
-from tests.wear.test_cycle_count import between, problem
-from tests.wear.test_cycle_cutoff import loads, supported
+from tests.wear.test_cycle_count import between
+from tests.wear.test_cycle_cutoff import agrees_with_the_judge, loads, supported
 from wear import cycles as count
 from wear import direct
-from wear.load import Harmonics, Load, Sine, Table
+from wear.load import Harmonics, Sine, Table
 from wear.loss_of_contact.switching import edge_of_contact, phase_of
 from wear.model import bind
 from wear.scene import Scene
@@ -22,14 +22,6 @@ from wear.scene import Scene
 STEPS = Table((0.0, 0.25, 0.5, 0.75, 1.0), (1.2e-6, 1.2e-6, 2.25e-5, 2.25e-5, 1.2e-6))
 WAVES = Harmonics(2e-5, (1e-4, -6e-5), (1.5e-4, 4e-5), 0.06)
 SHARP = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
-
-
-def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
-    found = count.wear_after(bind(scene), scene.periodic_load, np.array(cycles, float), rtol)
-    true = independent_support.wear_after(problem(scene), cycles)
-    want = np.array([true[cycle] for cycle in cycles])
-    assert np.all(found.error <= rtol)
-    assert np.all(np.abs(found.u_c - want) <= (found.error + 3e-15) * want)
 
 
 @pytest.mark.parametrize("load", [Sine(2e-4, 0.06), WAVES, SHARP, STEPS])
@@ -43,22 +35,20 @@ def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
         (1e-1, 0.2, 1e9),  # the margin is emptied in 1e-7 of a cycle
     ],
 )
-def test_the_count_agrees_with_the_judge(load: Load, K: float, f_c: float, k: float) -> None:
+def test_the_count_agrees_with_the_judge(load, K, f_c, k):
     agrees_with_the_judge(supported(K, f_c, False, k, load), [1, 3], 1e-8)
 
 
 @settings(max_examples=5)
 @given(loads(), between(-8, -1), between(-0.2, 1.0), st.booleans(), between(2, 9))
-def test_drawn_scenes_agree_with_the_judge(
-    load: Load, K: float, f_c: float, pin: bool, k: float
-) -> None:
+def test_drawn_scenes_agree_with_the_judge(load, K, f_c, pin, k):
     assume(not pin or K + k < 3)  # the judge takes small steps there
     scene = supported(10**K, f_c, pin, 10**k, load)
     if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
         agrees_with_the_judge(scene, [1, 2], 1e-7)
 
 
-def test_two_rough_solids_on_a_very_stiff_support() -> None:
+def test_two_rough_solids_on_a_very_stiff_support():
     scene = supported(3e-2, 0.1, True, 1e7, Sine(2e-4, 0.06))
     model, load = bind(scene), scene.periodic_load
     found = count.wear_after(model, load, np.array([1.0, 2.0, 1000.0]), 1e-9)
@@ -68,7 +58,7 @@ def test_two_rough_solids_on_a_very_stiff_support() -> None:
     assert found.cost.rhs_evaluations < 30_000
 
 
-def test_the_judge_has_two_ways_that_agree() -> None:
+def test_the_judge_has_two_ways_that_agree():
     """One rough solid: the closed form, and the Taylor series that two of them need."""
 
     class Stepping(SupportJudge):
@@ -82,7 +72,7 @@ def test_the_judge_has_two_ways_that_agree() -> None:
     assert judges[0].wear == pytest.approx(judges[1].wear, rel=1e-18)
 
 
-def test_contact_that_begins_just_below_a_smooth_peak_is_found() -> None:
+def test_contact_that_begins_just_below_a_smooth_peak_is_found():
     """There Newton's method on the load only halves the distance at first."""
     load = Sine(2e-4, 0.06)
     edge = edge_of_contact(bind(supported(1e-2, 0.1, False, 1e7, load)), load)
@@ -91,7 +81,7 @@ def test_contact_that_begins_just_below_a_smooth_peak_is_found() -> None:
     assert np.max(np.abs(load(phase_of(load, rise, below)) - below)) < 1e-19
 
 
-def test_at_a_plateau_wear_on_springs_fades_within_a_cycle() -> None:
+def test_at_a_plateau_wear_on_springs_fades_within_a_cycle():
     """As exp(-decay tau), which rounding ends in the first cycle: even so it does not stop."""
     scene = supported(4e-4, -0.1, True, 4e5, STEPS)
     found = count.wear_after(bind(scene), STEPS, np.array([1.0, 1e9]), 1e-10)
@@ -99,7 +89,7 @@ def test_at_a_plateau_wear_on_springs_fades_within_a_cycle() -> None:
     assert np.all(found.error <= 1e-10)
 
 
-def test_a_margin_that_is_rounding_ends_the_iteration() -> None:
+def test_a_margin_that_is_rounding_ends_the_iteration():
     """After the first cycle all that changes on the plateau is the last digit."""
     times, values = (0.0, 0.25, 0.5, 0.75, 1.0), (2.85e-4, 2.85e-4, 1e-4, 1e-4, 2.85e-4)
     made = tables(K=9.36e-5, f_c=0.13, k=1.04e8, cutoff=True)
@@ -110,7 +100,7 @@ def test_a_margin_that_is_rounding_ends_the_iteration() -> None:
     assert found.cost.rhs_evaluations < 30_000
 
 
-def test_two_rough_solids_at_rest_on_a_plateau() -> None:
+def test_two_rough_solids_at_rest_on_a_plateau():
     """All nodes of a part see a margin that is nothing but rounding."""
     times, values = (0.0, 0.25, 0.5, 0.75, 1.0), (2.85e-4, 2.85e-4, 1e-4, 1e-4, 2.85e-4)
     scene = supported(5.72e-3, -0.181, True, 9.6e8, Table(times, values))

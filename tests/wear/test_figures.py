@@ -78,53 +78,50 @@ def _all() -> dict[str, Figure]:
 
 
 @pytest.fixture(scope="module")
-def drawn() -> dict[str, Figure]:
+def drawn():
     return _all()
 
 
 @pytest.fixture(scope="module")
-def written(drawn: dict[str, Figure]) -> dict[str, str]:
+def written(drawn):
     return {name: figure_style.svg(figure) for name, figure in drawn.items()}
 
 
-def test_files_are_the_same_in_every_run(written: dict[str, str]) -> None:
+def test_files_are_the_same_in_every_run(written):
     first, second = (_wear() for _ in range(2))
     assert figure_style.svg(first) == figure_style.svg(second) == written["wear"]
     assert figure_style.svg(first) == written["wear"]  # writing a figure does not change it
     assert figure_style.encoded(first, ".pdf") == figure_style.encoded(second, ".pdf")
 
 
-def test_svg_holds_no_date_and_needs_no_font(written: dict[str, str]) -> None:
+def test_files_hold_no_date_and_need_no_font(drawn, written):
+    assert b"CreationDate" not in figure_style.encoded(drawn["wear"], ".pdf")
     for content in written.values():
         assert "<text" not in content
         assert "dc:date" not in content
 
 
-def test_pdf_holds_no_date(drawn: dict[str, Figure]) -> None:
-    assert b"CreationDate" not in figure_style.encoded(drawn["wear"], ".pdf")
-
-
-def test_width_is_the_width_of_a_column(written: dict[str, str]) -> None:
+def test_width_is_the_width_of_a_column(written):
     for name, millimetres in (("wear", 90.0), ("speed", 190.0), ("system", 90.0)):
         width = re.search(r'width="([\d.]+)pt"', written[name])
         assert width is not None
         assert float(width[1]) == pytest.approx(millimetres / 25.4 * 72.0, rel=1e-5)
 
 
-def test_curves_are_the_data_in_micrometres(drawn: dict[str, Figure]) -> None:
+def test_curves_are_the_data_in_micrometres(drawn):
     curves = [line for line in drawn["wear"].axes[0].lines if len(line.get_xdata()) == 201]
     for curve, line in zip(curves, _lines(), strict=True):
         np.testing.assert_array_equal(curve.get_xdata(), line.x)
         np.testing.assert_allclose(curve.get_ydata(), line.y * 1e3, rtol=1e-15)
 
 
-def test_a_logarithmic_axis_leaves_out_the_start(drawn: dict[str, Figure]) -> None:
+def test_a_logarithmic_axis_leaves_out_the_start(drawn):
     axes = drawn["logarithmic"].axes[0]
     assert axes.get_xscale() == "log"
     assert axes.get_xlim() == (0.5, 100.0)
 
 
-def test_the_map_names_the_regimes_and_the_examples(drawn: dict[str, Figure]) -> None:
+def test_the_map_names_the_regimes_and_the_examples(drawn):
     """Dots lie at their scenes; those with two worn solids are hollow."""
     for axes, regimes in zip(
         drawn["map"].axes, ({"saturating", "finite-time"}, {"arrest", "finite-time"}), strict=True
@@ -138,7 +135,7 @@ def test_the_map_names_the_regimes_and_the_examples(drawn: dict[str, Figure]) ->
         np.testing.assert_allclose([first, second], [(-0.05, 1.633), (0.25, 1.611)], atol=1e-3)
 
 
-def test_failures_and_exact_results_are_shown(drawn: dict[str, Figure]) -> None:
+def test_failures_and_exact_results_are_shown(drawn):
     axes = drawn["speed"].axes[0]
     hollow = [line for line in axes.lines if line.get_markerfacecolor() == figure_style.PAPER]
     assert sum(len(line.get_xdata()) for line in hollow) == 9
@@ -146,17 +143,17 @@ def test_failures_and_exact_results_are_shown(drawn: dict[str, Figure]) -> None:
     assert shown.min() > 0.0
 
 
-def test_every_line_is_named(drawn: dict[str, Figure]) -> None:
+def test_every_line_is_named(drawn):
     names = [text.get_text() for text in drawn["wear"].axes[0].texts]
     assert sorted(names) == sorted(line.name for line in _lines())
 
 
-def test_lines_differ_without_colour() -> None:
+def test_lines_differ_without_colour():
     looks = [figure_style.stroke(family, variant) for family in range(7) for variant in range(2)]
     assert len({(look.marker, look.dash, look.face == look.colour) for look in looks}) == 14
 
 
-def test_neighbouring_families_differ_in_lightness() -> None:
+def test_neighbouring_families_differ_in_lightness():
     def lightness(family: int) -> float:
         red, green, blue = to_rgb(figure_style.stroke(family).colour)
         return 0.2126 * red + 0.7152 * green + 0.0722 * blue
@@ -164,7 +161,7 @@ def test_neighbouring_families_differ_in_lightness() -> None:
     assert abs(lightness(0) - lightness(1)) > 0.05
 
 
-def test_drawing_changes_no_settings() -> None:
+def test_drawing_changes_no_settings():
     before = dict(mpl.rcParams)
     figure_style.encoded(_wear(), ".png")
     assert dict(mpl.rcParams) == before
@@ -173,18 +170,16 @@ def test_drawing_changes_no_settings() -> None:
 @pytest.mark.parametrize(
     ("suffix", "start"), [(".svg", b"<?xml"), (".PDF", b"%PDF"), (".png", b"\x89PNG")]
 )
-def test_the_suffix_names_the_kind_of_file(
-    drawn: dict[str, Figure], suffix: str, start: bytes
-) -> None:
+def test_the_suffix_names_the_kind_of_file(drawn, suffix, start):
     assert figure_style.encoded(drawn["wear"], suffix).startswith(start)
 
 
-def test_an_unknown_suffix_is_told_with_the_known_ones(drawn: dict[str, Figure]) -> None:
+def test_an_unknown_suffix_is_told_with_the_known_ones(drawn):
     with pytest.raises(ValueError, match=r"\.bmp.*\.svg, \.pdf, \.png"):
         figure_style.encoded(drawn["wear"], ".bmp")
 
 
-def test_pyplot_is_not_imported() -> None:
+def test_pyplot_is_not_imported():
     code = (
         "import sys, wear.figures, wear.report.drawing as d, wear.figure_style as s;"
         "s.svg(d.system()); print('matplotlib.pyplot' in sys.modules)"
@@ -196,16 +191,13 @@ def test_pyplot_is_not_imported() -> None:
 @pytest.mark.parametrize(
     ("x", "y"), [(np.zeros(3), np.zeros(4)), (np.zeros((2, 2)), np.zeros((2, 2))), ([], [])]
 )
-def test_arrays_of_other_shapes_are_refused(x: np.ndarray, y: np.ndarray) -> None:
+def test_arrays_of_other_shapes_are_refused(x, y):
     with pytest.raises(ValueError, match="shape"):
         Line("line", x, y)
 
 
-@given(
-    heights=st.lists(st.floats(0.0, 1.0), min_size=1, max_size=10),
-    gap=st.floats(0.01, 0.1),
-)
-def test_names_stay_apart_in_order_and_inside(heights: list[float], gap: float) -> None:
+@given(heights=st.lists(st.floats(0.0, 1.0), min_size=1, max_size=10), gap=st.floats(0.01, 0.1))
+def test_names_stay_apart_in_order_and_inside(heights, gap):
     ends = np.sort(np.array(heights))
     placed = figure_style.spread(ends, gap)
     assert np.all(np.diff(placed) >= gap * (1.0 - 1e-9))
@@ -216,7 +208,7 @@ def test_names_stay_apart_in_order_and_inside(heights: list[float], gap: float) 
 
 
 @pytest.mark.parametrize("name", ["section4", "section4-cutoff"])
-def test_the_pressure_inside_cycles_is_that_of_the_equations(name: str) -> None:
+def test_the_pressure_inside_cycles_is_that_of_the_equations(name):
     """At phase 0 the state of `solve`, and at the peak of the first cycle the law at its wear."""
     scene, cycles = load_scene(name), [50, 0, 10]
     lines = pressure_inside(scene, cycles)
@@ -229,14 +221,14 @@ def test_the_pressure_inside_cycles_is_that_of_the_equations(name: str) -> None:
     assert (lines[-1].y == 0.0).any() == scene.contact.ends_at_3_sigma
 
 
-def test_many_cycles_have_a_line_each() -> None:
+def test_many_cycles_have_a_line_each():
     """More than fit a chunk of the history."""
     lines = pressure_inside(load_scene("section4"), range(100))
     assert [line.family for line in lines] == list(range(100))
     assert np.all(np.diff([line.y.max() for line in lines]) < 0.0)
 
 
-def test_what_grows_by_decades_has_a_logarithmic_axis() -> None:
+def test_what_grows_by_decades_has_a_logarithmic_axis():
     cycles = np.array([0.0, 1.0, 1e2, 1e4])
     wear, level = (
         Line("bearing", cycles, 1e-7 * cycles),
@@ -249,7 +241,7 @@ def test_what_grows_by_decades_has_a_logarithmic_axis() -> None:
         assert [axes.get_yscale() for axes in drawn.axes] == [scale, "linear", "log"]
 
 
-def test_a_pressure_that_only_the_fresh_state_has_is_left_out_of_decades() -> None:
+def test_a_pressure_that_only_the_fresh_state_has_is_left_out_of_decades():
     cycles = np.array([0.0, 1.0, 1e2, 1e4])
     falling = Line("peak", cycles, np.array([300.0, 300.0, 1.0, 0.0]))
     first = Line("start", cycles, np.array([5.0, 0.0, 0.0, 0.0]))
@@ -257,7 +249,7 @@ def test_a_pressure_that_only_the_fresh_state_has_is_left_out_of_decades() -> No
     assert (axes.get_yscale(), [text.get_text() for text in axes.texts]) == ("log", ["peak"])
 
 
-def test_readings_and_the_limit_stand_beside_the_wear() -> None:
+def test_readings_and_the_limit_stand_beside_the_wear():
     read = Line("measured", np.array([10.0, 120.0]), np.array([1e-4, 7e-4]), 6)
     axes = figures.history([Panel(WEAR, _lines(), (read,), limit=9e-4)]).axes[0]
     np.testing.assert_allclose(axes.lines[3].get_xydata(), [[10.0, 0.1], [120.0, 0.7]])
@@ -266,7 +258,7 @@ def test_readings_and_the_limit_stand_beside_the_wear() -> None:
     assert {"measured", "limit"} <= {text.get_text() for text in axes.texts}
 
 
-def test_one_run_has_a_colour_a_quantity_and_several_a_colour_each() -> None:
+def test_one_run_has_a_colour_a_quantity_and_several_a_colour_each():
     runs = [solve(name, [1, 100, 5000], 1e-6) for name in ("section3", "section4-cutoff")]
     wear, _, pressure = panels_of(runs[:1])
     assert [line.name for line in wear.lines] == ["bearing", "pin"]
@@ -279,13 +271,13 @@ def test_one_run_has_a_colour_a_quantity_and_several_a_colour_each() -> None:
     np.testing.assert_allclose(contact.lines[0].x * 3600.0, [0.06, 6.0, 300.0])
 
 
-def test_sliding_distance_is_that_of_the_speed() -> None:
+def test_sliding_distance_is_that_of_the_speed():
     """22 mm at 2000 rpm: two turns in a cycle of 0.06 s."""
     slid = Abscissa.DISTANCE.of(load_scene("section4"), np.array([1.0, 1e6]))
     np.testing.assert_allclose(slid, 2.0 * 2.0 * np.pi * 0.022 * np.array([1.0, 1e6]), rtol=1e-12)
 
 
-def test_hours_of_blocks_are_those_of_their_periods() -> None:
+def test_hours_of_blocks_are_those_of_their_periods():
     blocks = Blocks((Block(Constant(0.0, 3600.0), 2), Block(Constant(0.0, 1800.0), 2)))
     scene = replace(load_scene("section4"), load=blocks)
     np.testing.assert_allclose(Abscissa.HOURS.of(scene, np.array([1.0, 3.0, 4.0])), [1.0, 2.5, 3.0])

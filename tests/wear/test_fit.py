@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 from scipy import stats
 from scipy.optimize import least_squares
@@ -13,21 +15,19 @@ from scipy.optimize import least_squares
 import wear
 from wear.cli import main
 from wear.faults import UsageError
-from wear.fitting.estimate import Fit
-from wear.fitting.forecast import forecast, life, next_reading, undetermined
 from wear.fitting.laws import alternatives
 from wear.fitting.least_squares import follow
 from wear.fitting.posterior import posterior
 from wear.fitting.readings import FloatArray, Specimen, read_readings
 from wear.fitting.residuals import Residuals
-from wear.scene import Scene, load_scene
+from wear.scene import load_scene
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 
 # Readings
 
 
-def test_readings_are_those_of_the_file_in_mm(tmp_path: Path) -> None:
+def test_readings_are_those_of_the_file_in_mm(tmp_path):
     file = tmp_path / "wear.csv"
     file.write_text("specimen,load_g,load.value_mm,cycles,wear_um\n"
                     "b,10,-1e-4,5,2.5\nb,10,-1e-4,5,2\n\na,20,0,7,1\n")  # fmt: skip
@@ -51,9 +51,7 @@ def test_readings_are_those_of_the_file_in_mm(tmp_path: Path) -> None:
         ("cycles,wear_mm,load.value_mm,specimen\n1,2,0,a\n2,2,1,a\n", ["value_mm of specimen a"]),
     ],
 )  # fmt: skip
-def test_everything_that_is_wrong_with_a_file_is_said_at_once(
-    tmp_path: Path, text: str, words: list[str]
-) -> None:
+def test_everything_that_is_wrong_with_a_file_is_said_at_once(tmp_path, text, words):
     file = tmp_path / "wear.csv"
     file.write_text(text)
     with pytest.raises(UsageError) as caught:
@@ -62,12 +60,12 @@ def test_everything_that_is_wrong_with_a_file_is_said_at_once(
         assert word in str(caught.value)
 
 
-def test_a_file_that_cannot_be_read_is_named(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_read_is_named(tmp_path):
     with pytest.raises(UsageError, match="is a folder"):
         read_readings(tmp_path)
 
 
-def test_readings_may_be_written_as_instruments_do(tmp_path: Path) -> None:
+def test_readings_may_be_written_as_instruments_do(tmp_path):
     file = tmp_path / "wear.csv"
     head = "Prüfstand 3;22.11.2026\r\n\r\n"
     file.write_text(f'{head}cycles;"wear_um"\r\n1;0,25\r\n1e3;"1,5"\r\n', encoding="latin-1")
@@ -77,6 +75,28 @@ def test_readings_may_be_written_as_instruments_do(tmp_path: Path) -> None:
     file.write_text(f"{head}cycles;wear_mm\n1;2\n2;3;4\n")
     with pytest.raises(UsageError, match="line 5: 3 entries, but the header has 2"):
         read_readings(file)
+
+
+def test_names_of_columns_may_have_capitals(tmp_path):
+    file = tmp_path / "wear.csv"
+    file.write_text("Rig 3\nCycles,Wear_um,Specimen\n1,2,A\n2,3,A\n")
+    (only,) = read_readings(file)
+    assert (only.name, only.wear_mm.tolist()) == ("A", [2e-3, 3e-3])
+
+
+def test_a_point_beside_decimal_commas_is_no_decimal_sign(tmp_path):
+    file = tmp_path / "wear.csv"
+    file.write_text("cycles;wear_um\n1.000;0,8\n2.000;1,2\n")
+    with pytest.raises(UsageError, match=r"line 2: 1\.000 has a point"):
+        read_readings(file)
+
+
+def test_a_file_without_a_header_is_refused_in_one_sentence(tmp_path):
+    file = tmp_path / "wear.csv"
+    file.write_text("Time (h);Wear (um)\n0,5;0,8\n1;1,2;ok\n")
+    with pytest.raises(UsageError, match="no column cycles") as caught:
+        read_readings(file)
+    assert "\n" not in str(caught.value)
 
 
 # Fits
@@ -98,17 +118,17 @@ def synthetic(seed: int, cycles: FloatArray = CYCLES, scene: str = "section4") -
 
 
 @pytest.fixture(scope="module")
-def far_off() -> Scene:
+def far_off():
     """The scene of the synthetic readings with other numbers than theirs, to start from."""
     return load_scene("section4").with_({K: 5e-6, GROWTH: 0.15})
 
 
 @pytest.fixture(scope="module")
-def found(far_off: Scene) -> Fit:
+def found(far_off):
     return wear.fit([synthetic(1)], far_off, [K, GROWTH])
 
 
-def test_intervals_of_synthetic_readings_cover_the_truth(found: Fit, far_off: Scene) -> None:
+def test_intervals_of_synthetic_readings_cover_the_truth(found, far_off):
     fits = [found, *(wear.fit([synthetic(seed)], far_off, [K, GROWTH]) for seed in (2, 3))]
     covered = [
         profile.interval[0] < truth < profile.interval[1]
@@ -116,21 +136,21 @@ def test_intervals_of_synthetic_readings_cover_the_truth(found: Fit, far_off: Sc
         for profile, truth in zip(each.profiles, (1e-6, 0.25), strict=True)
     ]
     assert sum(covered) >= 5
-    assert not any(list(undetermined(each)) for each in fits)
+    assert not any(each.undetermined() for each in fits)
 
 
-def test_what_late_readings_leave_open_is_named(far_off: Scene) -> None:
+def test_what_late_readings_leave_open_is_named(far_off):
     late = synthetic(7, np.array([1e6, 1.26e6, 1.587e6, 2e6]))  # they see one rate of wear
     found = wear.fit([late], far_off, [K, GROWTH], intervals=False)
-    ((combination, sentence),) = undetermined(found)
+    ((combination, sentence),) = found.undetermined()
     assert set(combination) == {K, GROWTH}
     assert "do not determine" in sentence
-    (ahead,) = forecast(found, [3e6])
+    (ahead,) = found.forecast([3e6])
     truth = float(wear.solve("section4", 3_000_000).u_c[0])
     assert ahead.interval_95[0] < truth < ahead.interval_95[1]
 
 
-def test_the_estimate_is_that_of_scipys_least_squares(found: Fit) -> None:
+def test_the_estimate_is_that_of_scipys_least_squares(found):
     other = least_squares(
         lambda theta: found.model(theta[None])[0][0],
         found.theta + 0.05,
@@ -144,14 +164,14 @@ def test_the_estimate_is_that_of_scipys_least_squares(found: Fit) -> None:
     np.testing.assert_allclose(found.correlation[0, 1], found.correlation[1, 0])
 
 
-def test_the_jacobian_is_that_of_differences(found: Fit) -> None:
+def test_the_jacobian_is_that_of_differences(found):
     slope = found.model(found.theta[None])[1][0]
     for place, step in enumerate(1e-3 * np.eye(2)):
         off, _ = found.model(found.theta + np.array([step, -step]))
         np.testing.assert_allclose(slope[:, place], (off[0] - off[1]) / 2e-3, rtol=1e-3, atol=1e-5)
 
 
-def test_an_interval_ends_where_the_deviance_reaches_its_quantile(far_off: Scene) -> None:
+def test_an_interval_ends_where_the_deviance_reaches_its_quantile(far_off):
     found = wear.fit([synthetic(6)], far_off.with_({GROWTH: 0.25}), [K])
     ends = np.log(np.array(found.profiles[0].interval))[:, None]
     deviance = (found.model.cost(ends) - found.chi_square) / found.scatter**2
@@ -159,7 +179,7 @@ def test_an_interval_ends_where_the_deviance_reaches_its_quantile(far_off: Scene
     assert found.quantile == pytest.approx(stats.t.ppf(0.975, len(CYCLES) - 1))
 
 
-def test_an_interval_ends_where_the_others_have_followed() -> None:
+def test_an_interval_ends_where_the_others_have_followed():
     """And not at the point beyond that was tried first. The two specimens are of the tutorial."""
     readings = read_readings(EXAMPLES / "metal-wear.csv", ["load_g"])
     some = [readings[0], readings[4]]
@@ -173,7 +193,7 @@ def test_an_interval_ends_where_the_others_have_followed() -> None:
     np.testing.assert_allclose(roots, found.quantile, rtol=0.01)
 
 
-def test_an_end_that_only_the_bounds_of_another_parameter_make_is_open() -> None:
+def test_an_end_that_only_the_bounds_of_another_parameter_make_is_open():
     """The less wear coefficient, the more growth, which can be a thousandfold at the most."""
     late = synthetic(9, np.array([1e6, 1.26e6, 1.587e6, 2e6]))
     found = wear.fit([late], "section4", [K, GROWTH])
@@ -184,32 +204,32 @@ def test_an_end_that_only_the_bounds_of_another_parameter_make_is_open() -> None
             assert np.isfinite(end) or root < found.quantile
 
 
-def test_two_keys_that_enter_only_as_a_quotient_are_said_to() -> None:
+def test_two_keys_that_enter_only_as_a_quotient_are_said_to():
     found = wear.fit([synthetic(1)], "section4", [K, "bearing.hardness_MPa"])
-    ((combination, sentence),) = undetermined(found)
+    ((combination, sentence),) = found.undetermined()
     assert combination == pytest.approx({K: 1.0, "bearing.hardness_MPa": 1.0}, rel=1e-3)
     assert "enter only as" in sentence
     assert all(np.isinf(profile.interval).all() for profile in found.profiles)
     assert np.isinf(found.standard_errors).all()
-    (ahead,) = forecast(found, [1e5])  # determined all the same
+    (ahead,) = found.forecast([1e5])  # determined all the same
     assert ahead.interval_95[1] / ahead.interval_95[0] < 1.5
 
 
-def test_a_forecast_covers_the_truth_and_a_life_is_its_inverse(found: Fit) -> None:
-    (ahead,) = forecast(found, [100_000])
+def test_a_forecast_covers_the_truth_and_a_life_is_its_inverse(found):
+    (ahead,) = found.forecast([100_000])
     truth = float(wear.solve("section4", 100_000).u_c[0])
     assert ahead.interval_95[0] < truth < ahead.interval_95[1]
-    (reached,) = life(found, ahead.bearing_wear_mm)
+    (reached,) = found.life(ahead.bearing_wear_mm)
     assert reached.cycles == pytest.approx(1e5, rel=1e-4)
     wide = np.log(reached.interval_95[1] / reached.interval_95[0])
-    (before, after) = forecast(found, [90_000, 110_000])
+    (before, after) = found.forecast([90_000, 110_000])
     steepness = np.log(after.bearing_wear_mm / before.bearing_wear_mm) / np.log(11 / 9)
     band = np.log(ahead.interval_95[1] / ahead.interval_95[0])
     assert wide == pytest.approx(band / steepness, rel=0.01)
 
 
-def test_the_next_reading_narrows_the_band_as_if_it_had_been_read(found: Fit) -> None:
-    advice = next_reading(found, 1e6)
+def test_the_next_reading_narrows_the_band_as_if_it_had_been_read(found):
+    advice = found.next_reading(1e6)
     slope = found.model(found.theta[None])[1][0]
     _, ahead = found.model.log_wear(found.theta[None], [np.array([advice.cycles, 1e6])])
     reading, target = ahead[0]
@@ -219,7 +239,7 @@ def test_the_next_reading_narrows_the_band_as_if_it_had_been_read(found: Fit) ->
     assert 1 <= advice.cycles <= CYCLES[-1]
 
 
-def test_specimens_share_some_parameters_and_have_others_of_their_own() -> None:
+def test_specimens_share_some_parameters_and_have_others_of_their_own():
     changes = [{"load.amplitude_mm": 5e-4}, {"load.amplitude_mm": 8e-4}]
     scene = load_scene("section4")
     specimens = []
@@ -236,14 +256,14 @@ def test_specimens_share_some_parameters_and_have_others_of_their_own() -> None:
     assert found.chi_square < 1e-6
 
 
-def test_as_many_parameters_as_readings_leave_every_interval_open() -> None:
+def test_as_many_parameters_as_readings_leave_every_interval_open():
     found = wear.fit([synthetic(1, np.array([10.0, 1000.0]))], "section4", [K, GROWTH])
     assert found.rms < 1e-4
     assert all(np.isinf(profile.interval).all() for profile in found.profiles)
 
 
 @pytest.mark.parametrize("relative", [True, False])
-def test_every_law_describes_its_own_data(relative: bool) -> None:
+def test_every_law_describes_its_own_data(relative):
     shapes = {"archard": CYCLES, "power": CYCLES**0.3, "logarithm": np.log1p(0.2 * CYCLES)}
     for law, shape in shapes.items():
         pair = [Specimen(n, CYCLES, s * shape, None, {}) for n, s in (("a", 1e-3), ("b", 3e-3))]
@@ -255,7 +275,7 @@ def test_every_law_describes_its_own_data(relative: bool) -> None:
         )
 
 
-def test_an_information_criterion_is_that_of_the_likelihood() -> None:
+def test_an_information_criterion_is_that_of_the_likelihood():
     readings = Specimen("", CYCLES, CYCLES, None, {})
     off = 0.1 * np.random.default_rng(1).standard_normal(len(CYCLES))
     scale = np.sqrt(np.mean(off**2))
@@ -265,12 +285,32 @@ def test_an_information_criterion_is_that_of_the_likelihood() -> None:
     assert Residuals.of([readings], True).aicc(off, 2) == pytest.approx(expected - constant)
 
 
-def test_the_posterior_of_a_determined_parameter_is_that_of_the_fit() -> None:
+def test_the_posterior_of_a_determined_parameter_is_that_of_the_fit():
     found = wear.fit([synthetic(1, CYCLES[:4])], "section4", [K], intervals=False)
     error = found.standard_errors[0] / found.estimates[0]
     samples = np.log(posterior(found, 20, seed=1)[:, 0])
     assert np.mean(samples) == pytest.approx(found.theta[0], abs=0.5 * error)
     assert np.std(samples) == pytest.approx(error, rel=0.5)
+
+
+def test_columns_of_a_notebook_are_readings(found, far_off):
+    readings = synthetic(1)
+    columns = {"cycles": readings.cycles.astype(int), "wear_um": 1e3 * readings.wear_mm}
+    frame = pandas.DataFrame(columns)
+    fits = [wear.fit(data, far_off, K, intervals=False) for data in (columns, frame, [readings])]
+    assert fits[0].estimates == fits[1].estimates
+    assert fits[0].estimates == pytest.approx(fits[2].estimates, rel=1e-9)
+    again = pickle.loads(pickle.dumps(found))
+    assert again.as_json()["parameters"] == found.as_json()["parameters"]
+    assert repr(found).startswith(f"<Fit to 9 readings: {K} = 1.0")
+    assert len(found.plot().axes) == 2
+
+
+def test_readings_and_estimates_that_are_hardly_meant_are_said():
+    """Micrometres typed as mm make a surface rougher than any."""
+    columns = {"cycles": [1000, 2000], "wear_mm": [0.8, 1.2]}
+    found = wear.fit(columns, load_scene("section4").with_({K: 1e-2}), K, intervals=False)
+    assert "implausible: the roughness of 0.3" in " ".join(found.as_json()["notices"])
 
 
 # Bad requests and the command
@@ -286,9 +326,7 @@ def test_the_posterior_of_a_determined_parameter_is_that_of_the_fit() -> None:
         ([K, GROWTH], [ROUGHNESS], ["2 readings are fewer than 3 parameters"]),
     ],
 )
-def test_everything_that_is_wrong_with_a_request_is_said_at_once(
-    free: list[str], each: list[str], words: list[str]
-) -> None:
+def test_everything_that_is_wrong_with_a_request_is_said_at_once(free, each, words):
     readings = Specimen("", CYCLES[:2], np.array([1e-3, 0.0]), None, {"load.amplitude_mm": 5e-4})
     with pytest.raises(UsageError) as caught:
         wear.fit([readings], "section4", free, each, error="relative")
@@ -296,9 +334,7 @@ def test_everything_that_is_wrong_with_a_request_is_said_at_once(
         assert word in str(caught.value)
 
 
-def test_a_bad_command_line_has_status_2_and_writes_nothing(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_bad_command_line_has_status_2_and_writes_nothing(tmp_path, capsys):
     file = tmp_path / "wear.csv"
     file.write_text("cycles,wear_mm\n3,-1\n")
     out = tmp_path / "out"
@@ -311,9 +347,7 @@ def test_a_bad_command_line_has_status_2_and_writes_nothing(
     assert not out.exists()
 
 
-def test_the_command_says_and_writes_what_was_found(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_says_and_writes_what_was_found(tmp_path, capsys):
     file, out = tmp_path / "wear.csv", tmp_path / "out"
     readings = synthetic(1, CYCLES[:7])
     rows = zip(readings.cycles.tolist(), readings.wear_mm.tolist(), strict=True)

@@ -4,8 +4,9 @@ import math
 
 import pytest
 
-from tests import independent, independent_cutoff
-from tests.wear.test_cycle_count import problem
+from tests.independent import Judge, wear_after
+from tests.independent_cutoff import CutoffJudge
+from tests.judges import problem, true_wear
 from wear.benchmark import Measurement, Status
 from wear.benchmark import hard as hard_cases
 from wear.benchmark.hard import attempt, catalogue, methods_of, worst
@@ -47,17 +48,15 @@ def test_defaults_of_scipy_are_wrong_without_a_word():
 
 @pytest.mark.parametrize("name", ["fast-wear", "very-fast-wear", "tiny-amplitude", "equal-wear"])
 def test_references_without_cutoff_are_integrated_anew(name):
-    found = independent.wear_after(problem(load_scene(name)), [1])
     (case,) = cases("hard", [name], [1])
-    assert found[1] == case.wear
+    assert true_wear(load_scene(name), [1]) == case.wear
 
 
 @pytest.mark.parametrize("name", ["chatter", "grazing", "f-one-third"])
 def test_references_with_cutoff_are_integrated_anew(name):
-    found = independent_cutoff.wear_after(problem(load_scene(name)), [1, 2])
+    first, second = true_wear(load_scene(name), [1, 2])
     (case,) = cases("hard", [name], [1])
-    assert found[1] == case.wear
-    assert found[2] > found[1]
+    assert second > first == case.wear
 
 
 @pytest.mark.parametrize("name", ["chatter", "grazing"])
@@ -71,7 +70,7 @@ def test_arrest_is_at_the_depth_that_opens_the_gap(name):
 def test_the_judge_of_the_cutoff_without_an_edge_is_the_other_judge():
     """Deep in contact, 3 sigma is never reached."""
     data = problem(load_scene("tiny-amplitude", ["contact.closure_mm=2e-4"]))
-    assert independent_cutoff.wear_after(data, [1]) == independent.wear_after(data, [1])
+    assert wear_after(CutoffJudge(data), [1]) == wear_after(Judge(data), [1])
 
 
 def entry(method="auto", status=Status.MET, error=1e-12, cycles=1, **changes) -> Measurement:

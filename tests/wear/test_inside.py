@@ -19,8 +19,6 @@ from wear.load import Harmonics, HistoryLoad, Table
 from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import Rules, integrate
-from wear.orbit.dense_output import dense_output
-from wear.orbit.iterates import Iterates
 from wear.orbit.period_map import PeriodMap, period_map
 from wear.scene import Scene, builtin_names, load_scene
 from wear.solver import solve
@@ -305,15 +303,3 @@ def test_no_wear_inside_cycles_without_pressure() -> None:
     found = history(Scene.from_dict(made, "far"), np.array([0.0, 1e6]))
     assert not found.u.any()
     assert not found.error.any()
-
-
-@pytest.mark.parametrize("name", ["S1", "S2", "S8_1", "S8_2"])
-def test_panels_from_the_first_cycle_on_are_not_cut_for_it(name: str) -> None:
-    """The wear they begin with is no measure of an error: it is zero."""
-    scene = scene_of(name)
-    counted = count_cycles(bind(scene), scene.periodic_load, 9000.0, 1e-12)
-    (segment,) = counted.orbit.segments
-    assert isinstance(segment.counted, Iterates)
-    prepared = dense_output(equation_of([scene]), segment.counted, PHASES, 1e-12)
-    assert prepared.panels is not None
-    assert len(prepared.panels.series) == 1

@@ -84,11 +84,6 @@ def test_a_scene_has_only_the_operations_that_it_needs() -> None:
     assert "margin" in bind(load_scene("section4-cutoff")).operations
 
 
-def test_a_model_has_the_fields_of_its_variant_alone() -> None:
-    fields = bind(load_scene("section4")).fields(1e-4, 0.0)
-    assert set(fields._fields) == {"sigma_c", "sigma", "h", "p"}
-
-
 def test_many_scenes_at_once_are_each_of_them() -> None:
     scenes = [load_scene("section3", [f"bearing.wear_coefficient={K}"]) for K in (1e-7, 1e-6, 1e-5)]
     many, loads = bind_many(scenes), np.linspace(-5e-4, 5e-4, 5)

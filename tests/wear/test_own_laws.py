@@ -22,7 +22,7 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module", autouse=True)
-def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def home(tmp_path_factory):
     """A cache of this module's own."""
     folder = tmp_path_factory.mktemp("cache")
     with pytest.MonkeyPatch.context() as patch:
@@ -35,7 +35,7 @@ def with_law(text: str, name: str = "section4") -> wear.Scene:
 
 
 @pytest.mark.parametrize("name", ["section4", "section3", "soft-support"])
-def test_the_note_s_law_by_its_formula_gives_the_note_s_wear(name: str) -> None:
+def test_the_note_s_law_by_its_formula_gives_the_note_s_wear(name):
     """The cancelling form, too: of equal forms the one that keeps its digits is written."""
     scene = with_law("(1 - tanh(2*r - 4))/2", name)
     cycles = [1, 9000, 10**8]
@@ -48,7 +48,7 @@ def test_the_note_s_law_by_its_formula_gives_the_note_s_wear(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["section4", "soft-support"])
-def test_a_law_with_an_algebraic_tail_is_integrated(name: str) -> None:
+def test_a_law_with_an_algebraic_tail_is_integrated(name):
     scene = with_law(ALGEBRAIC, name)
     load, n = scene.periodic_load, 3
     of = scene.bearing
@@ -78,7 +78,7 @@ def test_a_law_with_an_algebraic_tail_is_integrated(name: str) -> None:
     assert wear.solve(scene, [n]).u_c[0] == pytest.approx(found.y[0, -1], rel=1e-8)
 
 
-def test_the_asymptote_is_that_of_the_law() -> None:
+def test_the_asymptote_is_that_of_the_law():
     scene = with_law(ALGEBRAIC)
     found, x = wear.asymptote(scene), 1 / 0.25 - 2
     assert found.pressure_MPa == pytest.approx(150 * (1 - x / np.sqrt(1 + x * x)), rel=1e-13)
@@ -91,7 +91,7 @@ def test_the_asymptote_is_that_of_the_law() -> None:
     np.testing.assert_allclose(late, expected, rtol=1e-9)
 
 
-def test_a_law_is_derived_once_and_the_package_stays_as_it_is(home: Path) -> None:
+def test_a_law_is_derived_once_and_the_package_stays_as_it_is(home):
     wear.solve(with_law(ALGEBRAIC), [1])
     text = with_law(ALGEBRAIC.replace(" ", "")).contact.law
     assert text == with_law(ALGEBRAIC).contact.law
@@ -106,14 +106,14 @@ def test_a_law_is_derived_once_and_the_package_stays_as_it_is(home: Path) -> Non
     assert not list(kept.rglob("*own*"))
 
 
-def test_a_scene_with_a_law_of_its_own_reads_back() -> None:
+def test_a_scene_with_a_law_of_its_own_reads_back():
     scene = with_law("1/(1 + exp(r - 1))^2")
     assert scene.contact.law == "phi = 1 / (1 + exp(r - 1)) ** 2"
     assert wear.Scene.from_dict(json.loads(scene.to_json())) == scene
     assert wear.scene.parse_scene(scene.to_toml()) == scene
 
 
-def test_the_formula_may_stand_in_a_file_beside_the_scene(tmp_path: Path) -> None:
+def test_the_formula_may_stand_in_a_file_beside_the_scene(tmp_path):
     (tmp_path / "soft.law").write_text("# measured in 2026\nphi = 1/(1 +\n  exp(r - 1))^2  # fit\n")
     text = (
         wear.load_scene("section4").to_toml().replace('law = "tanh"', 'law = {file = "soft.law"}')
@@ -146,13 +146,13 @@ def test_the_formula_may_stand_in_a_file_beside_the_scene(tmp_path: Path) -> Non
         ("-" * 499 + "r", "is no formula"),
     ],
 )
-def test_nothing_but_the_grammar_is_read(text: str, problem: str) -> None:
+def test_nothing_but_the_grammar_is_read(text, problem):
     with pytest.raises(wear.SceneError, match=problem):
         with_law(text)
 
 
 @pytest.mark.parametrize("raw", [3.0, {"phi": 3.0}, {}, {"phi": "exp(-r)", "x": 1}, ["exp(-r)"]])
-def test_what_is_no_law_is_a_fault(raw: object) -> None:
+def test_what_is_no_law_is_a_fault(raw):
     with pytest.raises(wear.SceneError, match="law"):
         wear.load_scene("section4").with_({"contact.law": raw})
 
@@ -168,20 +168,18 @@ def test_what_is_no_law_is_a_fault(raw: object) -> None:
         ("1/r", "not proved|concave below|could not be checked"),
     ],
 )
-def test_what_the_theorems_ask_for_must_be_proved(text: str, problem: str) -> None:
+def test_what_the_theorems_ask_for_must_be_proved(text, problem):
     with pytest.raises(wear.UsageError, match=problem):
         wear.solve(with_law(text), [1])
 
 
-def test_lost_digits_are_said() -> None:
+def test_lost_digits_are_said():
     scene = with_law("(1 - r/sqrt(1 + r^2))/2 + exp(-r)")
     assert any("loses digits" in notice for notice in scene.notices)
     assert not any("loses digits" in notice for notice in with_law(ALGEBRAIC).notices)
 
 
-def test_code_is_not_run_from_a_cache_that_others_may_write(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_code_is_not_run_from_a_cache_that_others_may_write(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     folder = tmp_path / "derive-wear" / "contact-laws"
     folder.mkdir(parents=True)
@@ -190,7 +188,7 @@ def test_code_is_not_run_from_a_cache_that_others_may_write(
         own_laws.about("phi = exp(-3 * r)")
 
 
-def test_the_spelling_does_not_matter() -> None:
+def test_the_spelling_does_not_matter():
     assert normal("exp( -r )^2") == normal("exp(-r)**2")
     with pytest.raises(NotUnderstood, match="is not understood"):
         normal("r if r else r")

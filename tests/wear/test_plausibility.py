@@ -4,6 +4,7 @@ import pytest
 
 from wear import cli
 from wear.scene import builtin_names, hard_names, load_scene
+from wear.sensitivities import sensitivity
 from wear.solver import solve
 
 SECTION4 = load_scene("section4")
@@ -47,9 +48,10 @@ def test_scenes_of_the_note_are_plausible() -> None:
     ],
 )
 def test_results_out_of_range_are_told(cycles: int, phrases: tuple[str, ...]) -> None:
-    found = [text for text in solve(SECTION4, cycles).notices if text.startswith("implausible")]
-    assert len(found) == len(phrases)
-    assert all(phrase in text for phrase, text in zip(phrases, found, strict=True))
+    for result in (solve(SECTION4, cycles), sensitivity(SECTION4, cycles)):
+        found = [text for text in result.notices if text.startswith("implausible")]
+        assert len(found) == len(phrases)
+        assert all(phrase in text for phrase, text in zip(phrases, found, strict=True))
 
 
 def test_strict_refuses_entries_and_results(capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,15 +5,21 @@
 
 from __future__ import annotations
 
+import re
 import runpy
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas
 import pytest
+import xarray
 
 import derive
 import wear
-from wear.fitting.readings import Specimen
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 def test_a_script_needs_no_deep_import(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -25,10 +31,31 @@ def test_a_script_needs_no_deep_import(tmp_path: Path, monkeypatch: pytest.Monke
     assert (tmp_path / "wear.svg").stat().st_size > 1000
 
 
+def test_everything_that_the_reference_names_is_in_the_package_itself() -> None:
+    page = (DOCS / "reference" / "python.md").read_text()
+    named = re.findall(
+        r"auto(?:function|class|exception):: (?:wear)\.[\w.]*?(\w+)(?:\(\))?\n", page
+    )
+    assert len(named) > 30
+    assert not [name for name in named if name not in dir(wear)]
+
+
 def test_an_equation_shows_itself_in_short_and_typeset() -> None:
     found = derive.equation("21")
     assert repr(found) == f"<Equation 21: {found.title}>"
     assert found._repr_latex_() == f"$\\displaystyle {found.latex}$"
+
+
+def test_a_scene_is_short_in_a_script_and_a_file_in_a_notebook() -> None:
+    scene = wear.load_scene("section4")
+    assert repr(scene) == f"<Scene {scene.title!r}: rigid_bearing, {scene.load!r}>"
+    assert "roughness_growth = 0.25" in scene._repr_html_()
+
+
+@pytest.mark.parametrize("of", [np.array, pandas.Series, xarray.DataArray])
+def test_numbers_of_cycles_come_from_any_array(of: Callable[[list[int]], Any]) -> None:
+    assert wear.solve("section4", of([10, 1]), rtol=1e-6).cycles.tolist() == [10, 1]
+    assert wear.solve("section4", of([10])[0], rtol=1e-6).cycles.tolist() == [10]
 
 
 def test_a_history_draws_wear_roughness_and_pressure() -> None:
@@ -48,7 +75,7 @@ def test_what_takes_long_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> 
     wear.sensitivity("section4", 10, 1e-6, told.append)
     assert told[2:] == ["cycle 0 of 10"]
     read = np.array([10.0, 100.0, 1000.0])
-    specimen = Specimen("", read, wear.solve("section4", read).u_c, None, {})
+    specimen = wear.Specimen("", read, wear.solve("section4", read).u_c, None, {})
     free = ["bearing.wear_coefficient"]
     wear.fit([specimen], "section4", free, intervals=False, progress=told.append)
     assert told[3].startswith("least sum of squares: ")

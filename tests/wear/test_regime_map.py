@@ -21,7 +21,7 @@ THIRD = 1 / 3
 
 
 @pytest.fixture(autouse=True)
-def _without_integration(monkeypatch: pytest.MonkeyPatch) -> None:
+def _without_integration(monkeypatch):
     """The regime is asked for, not the cycle of arrest or the offset."""
     monkeypatch.setattr(wear_regime, "_arrest_cycle", lambda _case: (None, ()))
     monkeypatch.setattr(wear_regime, "offset", lambda *_: None)
@@ -35,9 +35,7 @@ def _without_integration(monkeypatch: pytest.MonkeyPatch) -> None:
     closure=st.floats(5e-4, 3e-3),
     cutoff=st.booleans(),
 )
-def test_a_scene_is_in_the_regime_of_the_map(
-    slope: float, amplitude: float, closure: float, cutoff: bool
-) -> None:
+def test_a_scene_is_in_the_regime_of_the_map(slope, amplitude, closure, cutoff):
     scene = Scene.from_dict(tables(f_c=slope, cutoff=cutoff))
     contact = replace(scene.contact, closure_mm=closure)
     scene = replace(scene, contact=contact, load=Sine(amplitude, 0.06))
@@ -45,14 +43,14 @@ def test_a_scene_is_in_the_regime_of_the_map(
     assert asymptote(scene).regime == regime(data, cutoff).name
 
 
-def test_one_third_is_steady_with_the_cutoff() -> None:
+def test_one_third_is_steady_with_the_cutoff():
     found = asymptote(Scene.from_dict(tables(f_c=THIRD, cutoff=True)))
     assert found.regime == "steady"
     assert found.wear_per_cycle_mm == pytest.approx(1.243117591822268629e-6, rel=1e-12)
     assert Fraction(THIRD) != Fraction(1, 3)  # the nearest double stands for it
 
 
-def test_the_map_names_equations_that_exist() -> None:
+def test_the_map_names_equations_that_exist():
     for row in REGIMES:
         for identifier in row.equations:
             assert catalogue.equation(identifier).id == identifier

@@ -34,9 +34,7 @@ def measured(
     ("noise_mm", "rtol", "merged"),
     [(0.0, 1e-3, True), (0.0, 1e-5, True), (1e-6, 1e-3, True), (1e-5, 1e-5, False)],
 )
-def test_merging_stays_within_the_error_that_it_tells(
-    tmp_path: Path, name: str, noise_mm: float, rtol: float, merged: bool
-) -> None:
+def test_merging_stays_within_the_error_that_it_tells(tmp_path, name, noise_mm, rtol, merged):
     cycles = [1, 9000, 10**8]
     exact = wear.solve(measured(tmp_path, noise_mm, name, resample=False), cycles)
     scene = measured(tmp_path, noise_mm, name)
@@ -49,7 +47,7 @@ def test_merging_stays_within_the_error_that_it_tells(
     assert not [notice for notice in exact.notices if "rows of the load" in notice]
 
 
-def test_the_looser_the_fewer_and_the_mean_is_kept(tmp_path: Path) -> None:
+def test_the_looser_the_fewer_and_the_mean_is_kept(tmp_path):
     scene = measured(tmp_path, 1e-6)
     left = []
     for rtol in (1e-2, 1e-4, 1e-6):
@@ -61,7 +59,7 @@ def test_the_looser_the_fewer_and_the_mean_is_kept(tmp_path: Path) -> None:
     assert left[0] < 100 < left[-1]
 
 
-def test_unequal_steps_and_a_force_are_merged_too(tmp_path: Path) -> None:
+def test_unequal_steps_and_a_force_are_merged_too(tmp_path):
     times = np.append(0.0, np.cumsum(np.random.default_rng(1).uniform(0.5, 1.5, 400)))
     force = 1000.0 * (1.0 - np.cos(2 * np.pi * times / times[-1]))
     force[-1] = force[0]
@@ -77,12 +75,12 @@ def test_unequal_steps_and_a_force_are_merged_too(tmp_path: Path) -> None:
     assert abs(found.u_c[0] / exact.u_c[0] - 1.0) <= found.error[0] + exact.error[0]
 
 
-def test_nothing_is_merged_where_contact_is_lost(tmp_path: Path) -> None:
+def test_nothing_is_merged_where_contact_is_lost(tmp_path):
     scene = measured(tmp_path).with_({"contact.ends_at_3_sigma": True})
     assert resampled(scene, 1e-2).scene is scene
 
 
-def test_many_scenes_share_what_their_load_is_merged_to(tmp_path: Path) -> None:
+def test_many_scenes_share_what_their_load_is_merged_to(tmp_path):
     scene = measured(tmp_path)
     scenes = [scene.with_({"bearing.roughness_growth": f}) for f in (0.2, 0.25, 0.3)]
     loads = [resampled(each, 1e-3).scene.load for each in scenes]
@@ -93,7 +91,7 @@ def test_many_scenes_share_what_their_load_is_merged_to(tmp_path: Path) -> None:
     assert np.all((found.error > 1e-9) & (found.error <= 1e-4))
 
 
-def test_cycles_to_a_depth_are_counted_with_the_merged_rows(tmp_path: Path) -> None:
+def test_cycles_to_a_depth_are_counted_with_the_merged_rows(tmp_path):
     scene = measured(tmp_path)
     merged = resampled(scene, 1e-4).error
     exact = wear.cycles_until(scene.with_({"load.resample": False}), 1e-2, rtol=1e-8)
@@ -105,7 +103,7 @@ def test_cycles_to_a_depth_are_counted_with_the_merged_rows(tmp_path: Path) -> N
     assert abs(one.cycles[0] / exact.cycles[0] - 1.0) <= one.error[0] + exact.error[0]
 
 
-def test_spiky_rows_are_resolved_between_many_breakpoints() -> None:
+def test_spiky_rows_are_resolved_between_many_breakpoints():
     """Jumps of a roughness from row to row: eight nodes do not do there, and cutting cures it."""
     level = 4e-4 * np.random.default_rng(5).uniform(-1.0, 1.0, 150)
     level[-1] = level[0]
@@ -128,7 +126,7 @@ def test_spiky_rows_are_resolved_between_many_breakpoints() -> None:
     assert np.all(found.error < 1e-11)
 
 
-def test_blocks_of_several_records_follow_each_other(tmp_path: Path) -> None:
+def test_blocks_of_several_records_follow_each_other(tmp_path):
     one, two = measured(tmp_path).load, wear.Table((0.0, 0.02, 0.06), (0.0, 4e-4, 0.0))
     (tmp_path / "two.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.06,0\n")
     blocks = [

@@ -2,9 +2,7 @@
 
 import json
 import math
-import tomllib
-from dataclasses import FrozenInstanceError, replace
-from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,7 +14,6 @@ from wear.faults import SceneError, UsageError
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
 from wear.model import bind
 from wear.scene import (
-    SCENES,
     Bearing,
     Contact,
     Motion,
@@ -54,7 +51,7 @@ def section4() -> Scene:
     return load_scene("section4")
 
 
-def test_the_scene_of_section_4() -> None:
+def test_the_scene_of_section_4():
     scene = section4()
     assert scene.bearing == Bearing(200.0, 1e-6, 3.6e-4, 0.25)
     assert scene.contact == Contact(300.0, closure_mm=1.08e-3)
@@ -68,15 +65,10 @@ def _texts(scene: Scene) -> list[str]:
     return [f"title={scene.title}", f"description={json.dumps(scene.description)}"]
 
 
-def test_a_scene_is_frozen() -> None:
-    with pytest.raises(FrozenInstanceError):
-        section4().title = "another"  # type: ignore[misc]
-
-
 # What the solvers ask for
 
 
-def test_parameters_of_a_full_scene() -> None:
+def test_parameters_of_a_full_scene():
     scene = replace(
         load_scene("section3"),
         support=Support(1e5),
@@ -102,9 +94,7 @@ def test_parameters_of_a_full_scene() -> None:
     ],
 )
 @pytest.mark.parametrize("opening", [False, True])
-def test_a_pin_has_only_what_it_needs(
-    pin: Pin | None, state: str, symbols: set[str], opening: bool
-) -> None:
+def test_a_pin_has_only_what_it_needs(pin, state, symbols, opening):
     scene = section4()
     contact = replace(scene.contact, pin_wear_opens_gap=opening)
     with_pin = replace(scene, pin=pin, contact=contact)
@@ -113,7 +103,7 @@ def test_a_pin_has_only_what_it_needs(
     assert set(with_pin.parameters()) - set(scene.parameters()) == symbols
 
 
-def test_names_of_variants() -> None:
+def test_names_of_variants():
     assert VariantKey("tanh", "rigid", "bearing", True).name == "rigid_bearing_ends_at_3_sigma"
     scene = load_scene(
         "section3", ["support.stiffness_MPa_per_mm=1e5", "contact.ends_at_3_sigma=true"]
@@ -123,7 +113,7 @@ def test_names_of_variants() -> None:
     assert load_scene("section4", ["contact.law=exponential"]).variant.law == "exponential"
 
 
-def test_only_a_load_that_repeats_has_a_period(tmp_path: Path) -> None:
+def test_only_a_load_that_repeats_has_a_period(tmp_path):
     (tmp_path / "run.csv").write_text("t_s,U_a_mm\n0,0\n1,1e-4\n")
     scene = parse_scene(MINIMAL + 'kind = "history"\nfile = "run.csv"\n', folder=tmp_path)
     assert "T" not in scene.parameters()
@@ -135,7 +125,7 @@ def test_only_a_load_that_repeats_has_a_period(tmp_path: Path) -> None:
 # The few relations of the model that a scene needs are derive's
 
 
-def test_equivalent_roughness_is_equation_3() -> None:
+def test_equivalent_roughness_is_equation_3():
     scene = load_scene("section3")
     exact = Model().roughness.claim.rhs.subs(
         {sigma_a: sp.Rational("6.5e-5"), sigma_c: sp.Rational("3.6e-4")}
@@ -148,9 +138,7 @@ def test_equivalent_roughness_is_equation_3() -> None:
 @pytest.mark.parametrize("pin_kind", ["bearing", "rough", "worn", "worn_rough"])
 @pytest.mark.parametrize("opening", [False, True])
 @pytest.mark.parametrize("cutoff", [False, True])
-def test_every_variant_is_generated_and_gets_its_parameters(
-    support: Support | None, pin_kind: str, opening: bool, cutoff: bool
-) -> None:
+def test_every_variant_is_generated_and_gets_its_parameters(support, pin_kind, opening, cutoff):
     pins = {
         "bearing": None,
         "rough": replace(PIN, wear_coefficient=0.0),
@@ -168,18 +156,18 @@ def test_every_variant_is_generated_and_gets_its_parameters(
         assert float(model.margin(0.0, 0.0)) == pytest.approx(margin, rel=1e-14)
 
 
-def test_reach_of_contact_is_that_of_the_laws() -> None:
+def test_reach_of_contact_is_that_of_the_laws():
     assert {law.cutoff for law in LAWS.values()} == {CONTACT_REACH}
 
 
-def test_laws_are_those_of_derive() -> None:
+def test_laws_are_those_of_derive():
     assert set(contact_laws()) == set(LAWS)
 
 
 # Loads
 
 
-def test_all_kinds_of_load(tmp_path: Path) -> None:
+def test_all_kinds_of_load(tmp_path):
     (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,1e-4\n0.5,5e-4\n2.0,1e-4\n")
 
     def load(text: str) -> object:
@@ -205,7 +193,7 @@ def test_all_kinds_of_load(tmp_path: Path) -> None:
     assert blocks == Blocks((Block(Sine(1e-4, 1.0), 1_000_000), Block(table, 3)), 5)
 
 
-def test_a_seam_open_by_roundoff_is_closed(tmp_path: Path) -> None:
+def test_a_seam_open_by_roundoff_is_closed(tmp_path):
     rows = [(t, math.sin(2.0 * math.pi * t)) for t in np.linspace(0.0, 1.0, 101).tolist()]
     lines = "\n".join(f"{t!r},{u!r}" for t, u in rows)
     (tmp_path / "sine.csv").write_text("t_s,U_a_mm\n" + lines)
@@ -215,7 +203,7 @@ def test_a_seam_open_by_roundoff_is_closed(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("last", ["0.06", "0.060000000000000005", "0.05999999999999999"])
-def test_a_period_off_by_roundoff_is_the_period(last: str, tmp_path: Path) -> None:
+def test_a_period_off_by_roundoff_is_the_period(last, tmp_path):
     (tmp_path / "pin.csv").write_text(f"t_s,U_a_mm\n0,0\n0.03,1e-4\n{last},0\n")
     text = MINIMAL + 'kind = "table"\nfile = "pin.csv"\nperiod_s = 0.06'
     load = parse_scene(text, folder=tmp_path).load
@@ -223,7 +211,7 @@ def test_a_period_off_by_roundoff_is_the_period(last: str, tmp_path: Path) -> No
     assert load.times_s == (0.0, 0.03, 0.06)
 
 
-def test_a_checksum_pins_the_file(tmp_path: Path) -> None:
+def test_a_checksum_pins_the_file(tmp_path):
     file = tmp_path / "pin.csv"
     file.write_text("t_s,U_a_mm\n0,1e-4\n1,1e-4\n")
     scene = parse_scene(MINIMAL + 'kind = "table"\nfile = "pin.csv"', folder=tmp_path)
@@ -237,7 +225,7 @@ def test_a_checksum_pins_the_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", builtin_names())
-def test_to_toml_and_to_tables_read_back(name: str) -> None:
+def test_to_toml_and_to_tables_read_back(name):
     scene = load_scene(name)
     assert parse_scene(scene.to_toml()) == scene
     assert Scene.from_dict(scene.to_tables()) == scene
@@ -245,7 +233,7 @@ def test_to_toml_and_to_tables_read_back(name: str) -> None:
     assert parse_scene(scene.to_toml()).to_json() == scene.to_json()
 
 
-def test_every_part_of_a_scene_reads_back() -> None:
+def test_every_part_of_a_scene_reads_back():
     text = (
         'title = "a \\"quoted\\" title, \\\\ and é 𝜎"\ndescription = """two\nlines"""\n'
         + MINIMAL.replace(
@@ -262,7 +250,7 @@ def test_every_part_of_a_scene_reads_back() -> None:
 # Built-in scenes
 
 
-def test_the_scenes_of_the_contract_are_there() -> None:
+def test_the_scenes_of_the_contract_are_there():
     names = builtin_names()
     assert {"section3", "section4", "section5"} <= set(names)
     assert names.index("section5") < names.index("fast-wear")
@@ -271,14 +259,14 @@ def test_the_scenes_of_the_contract_are_there() -> None:
         assert load_scene(name).contact.closure_in_sigma == 3.0
 
 
-def test_every_builtin_scene_says_what_it_is() -> None:
+def test_every_builtin_scene_says_what_it_is():
     scenes = [load_scene(name) for name in builtin_names()]
     assert all(scene.title and scene.description.strip().endswith(".") for scene in scenes)
     assert len({scene.title for scene in scenes}) == len(scenes)
     assert len(hard_names()) >= 15
 
 
-def test_hard_scenes_are_what_their_names_say() -> None:
+def test_hard_scenes_are_what_their_names_say():
     def slope(name: str) -> float:
         return load_scene(name).bearing.roughness_growth
 
@@ -300,7 +288,7 @@ def test_hard_scenes_are_what_their_names_say() -> None:
 # Notices
 
 
-def test_notices_tell_what_may_not_be_meant() -> None:
+def test_notices_tell_what_may_not_be_meant():
     def told(*overrides: str, name: str = "section4") -> str:
         return " / ".join(load_scene(name, overrides).notices)
 
@@ -334,7 +322,7 @@ def test_notices_tell_what_may_not_be_meant() -> None:
 # Overrides
 
 
-def test_overrides_take_the_place_of_entries() -> None:
+def test_overrides_take_the_place_of_entries():
     scene = load_scene(
         "section4",
         [
@@ -355,14 +343,7 @@ def test_overrides_take_the_place_of_entries() -> None:
     assert scene.contact.ends_at_3_sigma
 
 
-def test_files_are_valid_toml_with_comments_kept_out() -> None:
-    for name in builtin_names():
-        tomllib.loads((SCENES / f"{name}.toml").read_text(encoding="utf-8"))
-
-
-def test_a_file_that_an_option_names_is_in_the_current_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_that_an_option_names_is_in_the_current_folder(tmp_path, monkeypatch):
     rows = "t_s,U_a_mm\n0,0\n1,{}\n2,0\n"
     beside, here = tmp_path / "scenes", tmp_path / "here"
     for folder, peak in ((beside, 1e-4), (here, 2e-4)):

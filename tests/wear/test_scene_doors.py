@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -41,29 +40,21 @@ def changed(table: str, key: str, value: object) -> tuple[Callable[[], object], 
     ("table", "key", "value", "problem"),
     [
         ("bearing", "wear_coefficient", -1e-6, "-1e-06 is negative"),
-        ("bearing", "hardness_MPa", 0, "is zero"),
         ("bearing", "hardness_MPa", math.nan, "nan is not a finite number"),
         ("bearing", "hardness_MPa", "200", "is text, not a number"),
         ("bearing", "hardness_MPa", True, "is true or false"),
-        ("bearing", "hardness_MPa", 1j, "give a number, in MPa"),
         ("bearing", "hardness", 200.0, "did you mean hardness_MPa?"),
-        ("bearing", "roughness_slope", 0.1, "renamed to roughness_growth"),
         ("bearing", "radius_mm", 1.0, "it belongs to [motion]"),
         ("contact", "law", "tan", "did you mean tanh?"),
-        ("contact", "closure_mm", -1.0, "-1.0 is negative"),
-        ("contact", "ends_at_3_sigma", 1, "is no flag"),
         ("contact", "width_mm", 1.0, "length_mm is missing"),
         ("motion", "speed_rpm", math.inf, "inf is not a finite number"),
-        ("motion", "radius_mm", 1e40, "out of range"),
         ("support", "stiffness_MPa_per_mm", 0.0, "is zero"),
         ("load", "period_s", -0.06, "-0.06 is negative"),
         ("load", "amplitude_mm", [5e-4], "is a list"),
         ("load", "value_mm", 1.0, 'it belongs to kind = "constant"'),
     ],
 )
-def test_a_wrong_entry_is_refused_at_every_door(
-    table: str, key: str, value: object, problem: str
-) -> None:
+def test_a_wrong_entry_is_refused_at_every_door(table, key, value, problem):
     for way in changed(table, key, value):
         with pytest.raises(SceneError) as caught:
             way()
@@ -71,7 +62,7 @@ def test_a_wrong_entry_is_refused_at_every_door(
         assert all(fault.remedy for fault in caught.value.faults)
 
 
-def test_all_faults_of_a_table_come_at_once() -> None:
+def test_all_faults_of_a_table_come_at_once():
     with pytest.raises(SceneError) as caught:
         Bearing(-200.0, "1e-6", math.nan, 1e99)  # type: ignore[arg-type]
     assert [(fault.table, fault.key) for fault in caught.value.faults] == [
@@ -120,13 +111,13 @@ def test_all_faults_of_a_table_come_at_once() -> None:
         (lambda: Blocks((Block(Sine(1e-4, 1.0), 10**9),), 10**9), "1e+18 cycles in all"),
     ],
 )
-def test_what_no_constructor_takes(make: Callable[[], object], problem: str) -> None:
+def test_what_no_constructor_takes(make, problem):
     with pytest.raises(SceneError) as caught:
         make()
     assert problem in str(caught.value)
 
 
-def test_changes_take_the_place_of_entries() -> None:
+def test_changes_take_the_place_of_entries():
     other = SECTION4.with_(
         {
             "bearing.roughness_growth": 0.3,
@@ -145,7 +136,7 @@ def test_changes_take_the_place_of_entries() -> None:
     assert SECTION4.bearing.roughness_growth == 0.25
 
 
-def test_rows_are_kept_unless_the_load_changes(tmp_path: Path) -> None:
+def test_rows_are_kept_unless_the_load_changes(tmp_path):
     (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.01,1e-4\n0.06,0\n")
     (tmp_path / "own.toml").write_text(
         SECTION4.to_toml().partition("[load]")[0] + '[load]\nkind = "table"\nfile = "pin.csv"\n'
@@ -157,13 +148,13 @@ def test_rows_are_kept_unless_the_load_changes(tmp_path: Path) -> None:
     assert longer.times_s == (0.0, 0.01, 0.06, 0.1)
 
 
-def test_numbers_of_other_kinds_are_numbers() -> None:
+def test_numbers_of_other_kinds_are_numbers():
     bearing = Bearing(np.float32(200), 1, np.float64(3.6e-4), np.int64(0))  # type: ignore[arg-type]
     assert bearing == Bearing(200.0, 1.0, 3.6e-4, 0.0)
     assert all(type(value) is float for value in vars(bearing).values())
     assert Table(np.array([0.0, 1.0]), np.zeros(2)) == Table((0.0, 1.0), (0.0, 0.0))  # type: ignore[arg-type]
 
 
-def test_pieces_may_be_given_as_tables() -> None:
+def test_pieces_may_be_given_as_tables():
     motion: Any = {"radius_mm": 22, "speed_rpm": 2000}
     assert replace(SECTION4, motion=motion).motion == Motion(22.0, 2000.0)

@@ -10,12 +10,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tests import independent_support
-from tests.wear.test_cycle_count import between, problem
+from tests.judges import honest, true_wear
+from tests.wear.test_cycle_count import between
 from tests.wear.test_cycle_cutoff import loads, supported, with_load
 from wear import cycles as count
 from wear.faults import AccuracyError
-from wear.load import Load, Sine, Table
+from wear.load import Sine, Table
 from wear.model import bind
 from wear.regime import asymptote
 from wear.scene import Scene
@@ -40,14 +40,14 @@ def scene_of(i: int) -> Scene:
 
 
 @pytest.mark.parametrize("i", [1, 2, 5, 7])
-def test_slow_wear_with_loss_of_contact_is_counted(i: int) -> None:
+def test_slow_wear_with_loss_of_contact_is_counted(i):
     found = solve(scene_of(i), CYCLES, rtol=RESOLVED)
     assert np.all(found.error <= RESOLVED)
     assert found.cost["cycles_integrated"] <= MOST_CYCLES_INTEGRATED
 
 
 @pytest.mark.parametrize(("i", "cycle"), [(0, 1456392), (3, 1855967), (6, 247238)])
-def test_the_cycle_of_arrest_is_known_to_analysis_and_to_numerics(i: int, cycle: int) -> None:
+def test_the_cycle_of_arrest_is_known_to_analysis_and_to_numerics(i, cycle):
     scene = scene_of(i)
     found = asymptote(scene)
     assert found.arrest_cycle == cycle
@@ -79,15 +79,13 @@ def agree(scene: Scene) -> None:
         assert abs(left) <= 1e3 * size**2 / wear[0] + 1e-14 * wear[0]
 
 
-def test_the_offset_is_read_once_contact_is_never_lost() -> None:
+def test_the_offset_is_read_once_contact_is_never_lost():
     agree(scene_of(5))
 
 
 @settings(max_examples=8)
 @given(loads(), between(-7.5, -4), between(-0.2, 1.0), st.booleans(), st.booleans())
-def test_analysis_and_numerics_agree_on_random_scenes(
-    load: Load, K: float, f_c: float, pin: bool, exponential: bool
-) -> None:
+def test_analysis_and_numerics_agree_on_random_scenes(load, K, f_c, pin, exponential):
     scene = with_load(load, 10**K, f_c, pin)
     if exponential:
         scene = scene.with_({"contact.law": "exponential"})
@@ -100,10 +98,8 @@ def test_analysis_and_numerics_agree_on_random_scenes(
 
 @settings(max_examples=4)
 @given(between(-8.5, -7.9), between(-0.2, 0.6), between(-4.3, -3.3))
-def test_two_rough_solids_on_a_nearly_rigid_support(K: float, f_c: float, swing: float) -> None:
+def test_two_rough_solids_on_a_nearly_rigid_support(K, f_c, swing):
     scene = supported(10**K, f_c, True, 5e10, Sine(10**swing, 0.06))
     assume(float(bind(scene).margin(0.0, scene.periodic_load.maximum)) > 1e-6)
     found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0, 2.0]), 1e-12)
-    true = independent_support.wear_after(problem(scene), [1, 2])
-    want = np.array([true[1], true[2]])
-    assert np.all(np.abs(found.u_c - want) <= (found.error + 3e-15) * want)
+    assert honest(found.u_c, found.error, true_wear(scene, [1, 2]))

@@ -40,13 +40,13 @@ def _scene(slope: float = 0.25, load: float = 0.0, stiffness: float | None = Non
         (_scene(stiffness=1e6), "finite_k(k=1e6MPa/mm,f=.25,Ua=0) tau(u=3e-4)"),
     ],
 )
-def test_cycles_to_a_wear(scene: Scene, key: str) -> None:
+def test_cycles_to_a_wear(scene, key):
     assert float(static_solution(scene).cycles(3e-4)) == pytest.approx(
         float(VALUES[key]), rel=40 * EPS
     )
 
 
-def test_wear_after_cycles() -> None:
+def test_wear_after_cycles():
     smooth = float(VALUES["u_f0(100 cycles,Ua=0)"])
     assert float(static_solution(_scene(0.0)).wear(100)) == pytest.approx(smooth, rel=8 * EPS)
     cycles = list(REFERENCE["S7"])
@@ -85,9 +85,7 @@ DATA = {"K_c": 1e-6, "H_c": 200.0, "p_max": 300.0, "R": 22.0, "n": 2000.0, "T": 
     log_wear=LOGS,
     log_rest=st.floats(-6.0, -0.02),
 )
-def test_error_is_a_few_units_times_the_condition(
-    slope: float, closure: float, load: float, log_wear: float, log_rest: float
-) -> None:
+def test_error_is_a_few_units_times_the_condition(slope, closure, load, log_wear, log_rest):
     """Up to a millionth short of the wear at which the roughness vanishes."""
     sigma = 3.6e-4
     data = {**DATA, "sigma_c0": sigma, "f_c": slope, "h_0": closure * sigma}
@@ -109,14 +107,14 @@ def test_error_is_a_few_units_times_the_condition(
 
 
 @pytest.mark.parametrize("slope", [-1e-12, 0.0, 1e-15, 1e-9])
-def test_nothing_happens_at_slope_zero(slope: float) -> None:
+def test_nothing_happens_at_slope_zero(slope):
     here, there = (static_solution(_scene(f)).cycles([1e-6, 3e-4]) for f in (0.0, slope))
     assert there == pytest.approx(here, rel=max(1e-14, 40 * abs(slope)))
 
 
 @pytest.mark.parametrize("slope", [0.25, -0.05, 0.0, 3.0, 0.02])
 @pytest.mark.parametrize("stiffness", [None, 1e4])
-def test_the_inverse_inverts_up_to_1e12_cycles(slope: float, stiffness: float | None) -> None:
+def test_the_inverse_inverts_up_to_1e12_cycles(slope, stiffness):
     solution = static_solution(_scene(slope, stiffness=stiffness))
     cycles = np.array([1e-3, 1.0, 9000.0, 1e6, 1e12])
     wear = solution.wear(cycles)
@@ -128,7 +126,7 @@ def test_the_inverse_inverts_up_to_1e12_cycles(slope: float, stiffness: float | 
 
 @pytest.mark.parametrize("slope", [0.25, 0.02, -0.05])
 @pytest.mark.parametrize("stiffness", [None, 1e5])
-def test_the_solver_agrees(slope: float, stiffness: float | None) -> None:
+def test_the_solver_agrees(slope, stiffness):
     """Two ways that share no more than the scene: closed form, and whole cycles counted."""
     scene = _scene(slope, 2e-4, stiffness)
     cycles = [1, 100, 10_000, 10**8]
@@ -136,23 +134,14 @@ def test_the_solver_agrees(slope: float, stiffness: float | None) -> None:
     assert static_solution(scene).wear(cycles) == pytest.approx(history.u_c, rel=1e-11)
 
 
-def test_a_stiffer_support_comes_nearer_to_a_rigid_one() -> None:
-    rigid = float(static_solution(_scene()).cycles(3e-4))
-    gaps = [
-        float(static_solution(_scene(stiffness=k)).cycles(3e-4)) / rigid - 1.0
-        for k in (1e5, 1e6, 1e7, 1e8)
-    ]
-    assert np.diff(np.log10(gaps)) == pytest.approx([-1.0] * 3, abs=0.06)
-
-
-def test_roughness_that_vanishes_ends_the_wear() -> None:
+def test_roughness_that_vanishes_ends_the_wear():
     """With the load pressed beyond the closure, sigma reaches 0 in finite time."""
     solution = static_solution(_scene(-0.05, load=9e-3))
     assert np.isfinite(solution.cycles(0.999999 * solution.limit))
     assert solution.cycles(2.0 * solution.limit) == np.inf
 
 
-def test_generated_exponent_is_that_of_the_pressure() -> None:
+def test_generated_exponent_is_that_of_the_pressure():
     scene = _scene(load=2e-4)
     pressure = bind(scene).fields(1e-4, 2e-4).p
     data = scene.parameters()
@@ -160,7 +149,7 @@ def test_generated_exponent_is_that_of_the_pressure() -> None:
     assert float(np.log(300.0 / pressure - 1.0)) == pytest.approx(found, rel=1e-14)
 
 
-def test_scenes_without_a_closed_solution_are_refused_with_every_reason() -> None:
+def test_scenes_without_a_closed_solution_are_refused_with_every_reason():
     with pytest.raises(UsageError, match=r"load varies.*pin"):
         static_solution(load_scene("section3"))
     with pytest.raises(UsageError, match="not negative"):

@@ -110,6 +110,31 @@ def add_rtol(
     parser.add_argument("--rtol", type=number(low, 0.1), default=default, help=about)
 
 
+def add_cycles(
+    parser: argparse.ArgumentParser, help: str, default: str | None = None, metavar: str = "N,..."
+) -> None:
+    """Declare numbers of cycles."""
+    parser.add_argument("--cycles", metavar=metavar, type=cycles, default=default, help=help)
+
+
+def add_depth(parser: argparse.ArgumentParser, help: str) -> None:
+    """Declare a wear depth in mm."""
+    parser.add_argument("--until-wear", metavar="MM", type=number(1e-30, 1e30), help=help)
+
+
+def add_file(
+    parser: argparse.ArgumentParser, suffixes: Sequence[str], help: str, *, required: bool = False
+) -> None:
+    """Declare the file to be written."""
+    read = file(*suffixes)
+    parser.add_argument("-o", "--output", metavar="FILE", type=read, help=help, required=required)
+
+
+def add_folder(parser: argparse.ArgumentParser, help: str, default: str | None = None) -> None:
+    """Declare the folder to be written to."""
+    parser.add_argument("-o", "--output", metavar="DIR", type=folder, help=help, default=default)
+
+
 def cycles(text: str) -> tuple[int, ...]:
     """Return numbers of cycles, 0 being the fresh state, from a list of numbers and ranges.
 
@@ -152,10 +177,6 @@ def number(low: float, high: float) -> Callable[[str], float]:
         return found
 
     return bounded
-
-
-depth = number(1e-30, 1e30)
-"""Read a wear depth in mm."""
 
 
 def file(*suffixes: str) -> Callable[[str], Path]:

@@ -42,13 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     effort.add_argument("--quick", action="store_true", help="one scene, short runs")
     effort.add_argument("--full", action="store_true", help="more scenes, long runs")
     parser.add_argument("--hard", action="store_true", help="the hard cases instead of speed")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=arguments.folder,
-        help="write tables, raw CSV, JSON and the figure there",
-    )
+    arguments.add_folder(parser, "write tables, raw CSV, JSON and the figure there")
 
 
 def execute(options: argparse.Namespace) -> Answer:

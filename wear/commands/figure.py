@@ -36,20 +36,10 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scenes, the file and the range of cycles."""
     arguments.add_scene(parser, several=True)
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        type=arguments.file(*arguments.PICTURES),
-        required=True,
-        help="a .pdf, .png or .svg file",
-    )
-    parser.add_argument(
-        "--cycles",
-        metavar="N",
-        type=arguments.cycles,
-        help=f"last cycle shown (default: that of the last reading, or {LAST})",
-    )
+    about = "a .pdf, .png or .svg file"
+    arguments.add_file(parser, arguments.PICTURES, about, required=True)
+    about = f"last cycle shown (default: that of the last reading, or {LAST})"
+    arguments.add_cycles(parser, about, metavar="N")
     arguments.add_choice(
         parser,
         "--axis",
@@ -65,12 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_readings(
         parser, "draw readings beside the wear: columns cycles, wear_mm or wear_um, and specimen"
     )
-    parser.add_argument(
-        "--until-wear",
-        metavar="MM",
-        type=arguments.depth,
-        help="draw this limit of the wear, and when it is reached",
-    )
+    arguments.add_depth(parser, "draw this limit of the wear, and when it is reached")
     parser.add_argument(
         "--inside",
         metavar="N,...",

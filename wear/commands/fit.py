@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
-from dataclasses import asdict, replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +13,7 @@ from derive.command_line import Answer
 from wear.commands import arguments
 
 if TYPE_CHECKING:
-    from wear.fitting.estimate import Fit
+    from wear.fitting.fit import Fit
     from wear.fitting.readings import FloatArray
 
 SUMMARY = "parameters of a scene from measured wear"
@@ -24,6 +23,7 @@ EXAMPLE = """\
       --free-each bearing.roughness_mm --ignore load_g --forecast 1e5,1e6 -o fitted
 """
 ERRORS = ("relative", "absolute")
+QUANTILES = (0.025, 0.5, 0.975)  # of the posterior
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -56,32 +56,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=arguments.cycles,
         help="the wear after these cycles, with band",
     )
-    parser.add_argument(
-        "--until-wear", metavar="MM", type=arguments.depth, help="cycles to a wear depth, with band"
-    )
+    arguments.add_depth(parser, "cycles to a wear depth, with band")
     parser.add_argument(
         "--posterior",
         type=arguments.number(10, 1e6),
         metavar="STEPS",
         help="also sample the posterior by emcee, so many steps for each walker",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=arguments.folder,
-        help="write fit.json, fitted.toml and the figures there",
-    )
+    arguments.add_folder(parser, "write fit.json, fitted.toml and the figures there")
 
 
 def execute(options: argparse.Namespace) -> Answer:
     """Fit."""
+    import numpy as np
+
     from wear.faults import UsageError
-    from wear.fitting.estimate import Fit, prepare
-    from wear.fitting.least_squares import estimate
+    from wear.fitting.fit import Fit
+    from wear.fitting.model import Model
     from wear.fitting.posterior import posterior
-    from wear.fitting.profiles import profiles
-    from wear.progress import Pace
 
     faults = arguments.read(options)
     cycles, wear = options.forecast or (), options.until_wear
@@ -93,70 +85,24 @@ def execute(options: argparse.Namespace) -> Answer:
     if options.scene is not None:
         asked = (options.free, options.free_each, options.error, options.ignore)
         try:
-            model = prepare(options.data, options.scene, *asked)
+            model = Model.of(options.data, options.scene, *asked)
         except UsageError as fault:
             faults.add(str(fault))
     faults.stop_if_any()
     assert model is not None
     with terminal.busy("fitting") as tell:
-        model = replace(model, pace=Pace(tell))
-        found = profiles(Fit(model, estimate(model)))
+        found = Fit.of(model, progress=tell)
         tell("sampling the posterior")
         samples = posterior(found, int(options.posterior)) if options.posterior else None
         tell("forecasting")
-        document = as_json(found, options.data, cycles, wear, samples)
+        document = {"scene": "", "data": options.data} | found.as_json(cycles, wear)
+    if samples is not None:
+        for row, ends in zip(document["parameters"], np.quantile(samples, QUANTILES, axis=0).T,
+                             strict=True):  # fmt: skip
+            row |= {"posterior_median": ends[1], "posterior_95": [ends[0], ends[2]]}
     if options.output is not None:
         _write(options.output, found, document, samples)
     return Answer(document, lambda: "\n".join(_lines(document)), document["notices"])
-
-
-def as_json(
-    found: Fit, data: str, cycles: tuple[int, ...], wear: float | None, samples: FloatArray | None
-) -> dict[str, Any]:
-    """Return the document of `wear fit --json`."""
-    import numpy as np
-
-    from wear.fitting import forecast
-    from wear.fitting.laws import alternatives
-
-    rows = zip(found.parameters, found.estimates, found.standard_errors, found.profiles,
-               strict=True)  # fmt: skip
-    parameters = [
-        {"key": p.key, "specimen": p.specimen or None, "estimate": estimate,
-         "standard_error": error, "interval_95": list(profile.interval)}
-        for p, estimate, error, profile in rows
-    ]  # fmt: skip
-    if samples is not None:
-        for row, ends in zip(parameters, np.quantile(samples, [0.025, 0.5, 0.975], axis=0).T,
-                             strict=True):  # fmt: skip
-            row |= {"posterior_median": ends[1], "posterior_95": [ends[0], ends[2]]}
-    others = alternatives(found.model.specimens, found.model.residuals.relative)
-    own_forecast = forecast.forecast_rms_from_first_half(found)
-    notices = [f"the {law.law} law describes these data better (AICc)"
-               for law in others if law.aicc < found.aicc]  # fmt: skip
-    notices += [f"the {law.law} law predicts the last readings better, from the first half"
-                for law in others if law.forecast_rms < own_forecast]  # fmt: skip
-    if found.degrees_of_freedom == 0 and not found.model.residuals.known:
-        notices.append("there are as many parameters as readings: the scatter is unknown")
-    return {
-        "scene": found.model.scene.title or found.model.scene.name,
-        "data": data,
-        "observations": len(found.residuals),
-        "specimens": len(found.model.specimens),
-        "parameters": parameters,
-        "correlation": found.correlation,
-        "rms": found.rms,
-        "chi_square": found.chi_square,
-        "degrees_of_freedom": found.degrees_of_freedom,
-        "aicc": found.aicc,
-        "forecast_rms": own_forecast,
-        "undetermined": [each._asdict() for each in forecast.undetermined(found)],
-        "forecast": [each._asdict() for each in forecast.forecast(found, cycles)] if cycles else [],
-        "cycles_to_wear": [each._asdict() for each in forecast.life(found, wear)] if wear else [],
-        "alternatives": [asdict(other) for other in others],
-        "next_reading": forecast.next_reading(found, max(cycles, default=None))._asdict(),
-        "notices": notices,
-    }
 
 
 def _lines(document: dict[str, Any]) -> Iterator[str]:
@@ -220,7 +166,7 @@ def _write(folder: Path, found: Fit, document: dict[str, Any], samples: FloatArr
         drawn["corner.svg"] = figures.corner(found, samples)
     with files.replacing_in(folder) as made:
         files.write_atomically(made / "fit.json", terminal.json_text(document))
-        scenes = found.model.scenes(found.theta)
+        scenes = found.scenes
         for place, (specimen, scene) in enumerate(zip(found.model.specimens, scenes, strict=True)):
             safe = "".join(c if c.isalnum() or c in "-_" else "_" for c in specimen.name)
             name = f"fitted-{safe or place + 1}.toml" if len(scenes) > 1 else "fitted.toml"

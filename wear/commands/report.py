@@ -24,9 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_readings(
         parser, "compare readings with the prediction: columns cycles, wear_mm or wear_um, specimen"
     )
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", type=arguments.folder, help="folder (default: NAME-report)"
-    )
+    arguments.add_folder(parser, "folder (default: NAME-report)")
 
 
 def execute(options: argparse.Namespace) -> Answer:

@@ -29,14 +29,7 @@ Progress = Callable[[str], None]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the folder."""
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=arguments.folder,
-        help="folder (default: %(default)s)",
-        default="report",
-    )
+    arguments.add_folder(parser, "folder (default: %(default)s)", "report")
 
 
 def execute(options: argparse.Namespace) -> Answer:

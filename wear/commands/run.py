@@ -27,14 +27,8 @@ EXAMPLE = """\
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_scene(parser)
-    parser.add_argument(
-        "--cycles",
-        metavar="N,...",
-        type=arguments.cycles,
-        default="1,10,100,1000,10000",
-        help="numbers of cycles, 0 for the fresh state; 0:9000 for all from 0 to 9000 "
-        "(default: %(default)s)",
-    )
+    about = "numbers of cycles, 0 for the fresh state; 0:9000 for all from 0 to 9000"
+    arguments.add_cycles(parser, f"{about} (default: %(default)s)", "1,10,100,1000,10000")
     arguments.add_rtol(parser, 1e-15, "1e-10", " of the bearing wear")
     arguments.add_choice(
         parser,
@@ -64,13 +58,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="write the state at M phases of the cycle that begins after each of the numbers of "
         "cycles, to a .nc or .csv file, a part at a time",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        type=arguments.file(*run_output.SUFFIXES),
-        help="write the states to a .csv, .nc or .tex file",
-    )
+    about = "write the states to a .csv, .nc or .tex file"
+    arguments.add_file(parser, run_output.SUFFIXES, about)
 
 
 def execute(options: argparse.Namespace) -> Answer:

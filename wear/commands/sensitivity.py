@@ -27,27 +27,12 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scene, the numbers of cycles and the file."""
     arguments.add_scene(parser)
-    parser.add_argument(
-        "--cycles",
-        metavar="N,...",
-        type=arguments.cycles,
-        default="1,9000,100000000",
-        help="numbers of cycles (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--until-wear",
-        metavar="MM",
-        type=arguments.depth,
-        help="also for the number of cycles to this depth of wear",
-    )
+    about = "numbers of cycles (default: %(default)s)"
+    arguments.add_cycles(parser, about, "1,9000,100000000")
+    arguments.add_depth(parser, "also for the number of cycles to this depth of wear")
     arguments.add_rtol(parser, 1e-13, "1e-10")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        type=arguments.file(".csv", *arguments.PICTURES),
-        help="write a .csv file, or draw a tornado diagram: .png, .svg, .pdf",
-    )
+    about = "write a .csv file, or draw a tornado diagram: .png, .svg, .pdf"
+    arguments.add_file(parser, (".csv", *arguments.PICTURES), about)
 
 
 def execute(options: argparse.Namespace) -> Answer:
@@ -79,19 +64,7 @@ def execute(options: argparse.Namespace) -> Answer:
 
 def _text(found: Sensitivities, depth: float | None) -> str:
     life = () if depth is None else _lines_of_life(found, depth)
-    return "\n".join([*_lines(found), *life])
-
-
-def _lines(found: Sensitivities) -> Iterator[str]:
-    """Yield the elasticities as a table, and what they are worth."""
-    width = max(len(key) for key in found.keys)
-    yield "change of the wear in % for 1 % more of each number (elasticity)"
-    yield f"{'cycles':{width}} {'':>12}" + "".join(f"{n:>14.6g}" for n in found.cycles)
-    yield f"{'bearing wear, mm':{width}} {'':>12}" + "".join(f"{u:>14.6e}" for u in found.wear_mm)
-    for key, value, row in zip(found.keys, found.values, found.elasticity, strict=True):
-        shown = "".join(f"{'-':>14}" if np.isnan(e) else f"{e:>14.6f}" for e in row)
-        yield f"{key:{width}} {value:>12.6g}{shown}"
-    yield f"largest estimated error: {np.nanmax(found.elasticity_error, initial=0.0):.0e}"
+    return "\n".join([repr(found), *life])
 
 
 def _lines_of_life(found: Sensitivities, depth: float) -> Iterator[str]:

@@ -50,13 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "KEY=a,b,c in a grid; KEY=uniform(a,b), loguniform(a,b), normal(mean,sd) or "
         "lognormal(median,factor) in samples; may be repeated",
     )
-    parser.add_argument(
-        "--cycles",
-        metavar="N,...",
-        type=arguments.cycles,
-        default="9000",
-        help="numbers of cycles (default: %(default)s)",
-    )
+    arguments.add_cycles(parser, "numbers of cycles (default: %(default)s)", "9000")
     design = parser.add_argument(
         "--design", default="grid", help=f"{', '.join(DESIGNS)} (default: %(default)s)"
     )
@@ -74,12 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="0",
         help="seed of the samples (default: %(default)s)",
     )
-    parser.add_argument(
-        "--until-wear",
-        metavar="MM",
-        type=arguments.depth,
-        help="also the number of cycles to this wear depth",
-    )
+    arguments.add_depth(parser, "also the number of cycles to this wear depth")
     arguments.add_rtol(parser, 1e-13, "1e-7", of="")
     parser.add_argument(
         "-o", "--output", metavar="OUT.zarr", required=True, help="folder of the results"
@@ -132,7 +121,7 @@ def execute(options: argparse.Namespace) -> Answer:
         f"{number} {name.replace('_', ' ')}" for name, number in counts.items() if number
     )
     document = {"output": options.output, "rows": counts}
-    return Answer(document, lambda: f"{options.output}: {done}")
+    return Answer(document, lambda: f"{options.output}: {done}", asked.scene.notices)
 
 
 def _dry_run(asked: Study, workers: int) -> Answer:

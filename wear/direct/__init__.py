@@ -17,7 +17,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.direct import cutoff
 from wear.direct.cutoff import Mode
@@ -31,6 +30,7 @@ from wear.direct.step import (
     leg,
 )
 from wear.load.spans import span
+from wear.numerics.gauss import FloatArray
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
 from wear.progress import Pace
@@ -41,7 +41,6 @@ if TYPE_CHECKING:
 
 __all__ = ["METHODS", "integrate"]
 
-FloatArray = NDArray[np.float64]
 FIRST_TOLERANCE = 0.1  # of the first run, over the requested one
 REFINEMENT = 0.01  # of the tolerance, from run to run
 SHORTENING = 0.8  # of the longest step, from run to run

@@ -24,6 +24,7 @@ import numpy as np
 
 from wear.direct.problem import EPS, Problem, Real, Setting, widest_step
 from wear.direct.step import EndOfModelError, Meter, first_zero, leg
+from wear.loss_of_contact.switching import turning_points
 
 if TYPE_CHECKING:
     from wear.load import Load
@@ -61,10 +62,9 @@ class Moment(NamedTuple):
 
 def pieces(load: Load) -> tuple[Piece, ...]:
     """Cut a cycle where the load turns or has a kink."""
-    cuts = sorted({0.0, 1.0, *load.kinks, *load.peaks, *_troughs(load)})
+    cuts = turning_points(load).tolist()
     ends = [cut for before, cut in pairwise(cuts) if cut - before > 4 * EPS]
-    starts = [0.0, *ends[:-1]]
-    return tuple(Piece(a, b, bool(load(b) >= load(a))) for a, b in zip(starts, ends, strict=True))
+    return tuple(Piece(a, b, bool(load(b) >= load(a))) for a, b in pairwise([0.0, *ends]))
 
 
 def first_mode(of: Problem, u: float) -> Mode:
@@ -242,20 +242,3 @@ def _threshold(of: Problem, u: float) -> float:
 def _slack(of: Problem, u: float) -> float:
     """Return the uncertainty of the margin over the cycle (mm)."""
     return max(float(roundoff(of.model, u, U_a)) for U_a in (of.load.minimum, of.load.maximum))
-
-
-def _troughs(load: Load) -> tuple[float, ...]:
-    """Return the lowest phase between each two neighbouring peaks, in [0, 1)."""
-    from scipy.optimize import minimize_scalar
-
-    if not load.peaks:
-        return ()
-    peaks = sorted(load.peaks)
-    found = []
-    for left, right in zip(peaks, [*peaks[1:], peaks[0] + 1.0], strict=True):
-        phases = np.linspace(left, right, 129)
-        lowest = int(np.argmin(load(phases)))
-        around = (float(phases[max(lowest - 1, 0)]), float(phases[min(lowest + 1, 128)]))
-        best = minimize_scalar(load, bounds=around, method="bounded", options={"xatol": 1e-12})
-        found.append(float(best.x) % 1.0)
-    return tuple(found)

@@ -1,58 +1,32 @@
-"""`fit`: the parameters of a scene from measured wear, and how certain they are.
+"""Parameters estimated by least squares, and what the linearised model says of them.
 
-Residuals are those of the logarithm of the wear, or of the wear; their scatter is given with the
-readings, or unknown. Intervals are profile likelihoods (W. Q. Meeker, L. A. Escobar, *Statistical
-Methods for Reliability Data*, Wiley 1998, chapter 8; D. M. Bates, D. G. Watts, *Nonlinear
-Regression Analysis*, Wiley 1988, chapter 6): an end that the data leave open is infinite.
+The scatter of the residuals is given with the readings, or unknown (D. M. Bates, D. G. Watts,
+*Nonlinear Regression Analysis*, Wiley 1988, chapter 2).
 """
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wear.faults import UsageError
-from wear.fitting import model as models
-from wear.fitting.least_squares import estimate
 from wear.fitting.model import RTOL, Model, Parameter
-from wear.fitting.readings import FloatArray, Specimen, read_readings
+from wear.fitting.readings import FloatArray
 from wear.fitting.residuals import rms
-from wear.progress import Pace
-
-if TYPE_CHECKING:
-    from wear.scene import Scene
 
 CONFIDENCE = 0.95
 FARTHEST = 7.0  # e-folds (a factor of a thousand), or multiples of its size, that it is followed
 LEAST = 1e-7  # singular value, of the largest: below are the errors of the derivatives
 
 
-class Profile(NamedTuple):
-    """Profile likelihood of one parameter: values (n,) ascending, the root of the deviance at each
-    in standard deviations (n,), and the interval in which it is below its 95 % quantile."""
-
-    values: FloatArray
-    roots: FloatArray
-    interval: tuple[float, float]
-
-
-@dataclass(frozen=True)
-class Fit:
-    """Parameters estimated from measured wear.
-
-    `theta` (p,) holds the estimates, in logarithms where positive; `profiles` is empty where
-    intervals were not asked for.
-    """
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """A model and the point `theta` (p,) of least squares: the estimates, in logarithms where only
+    positive numbers make a scene."""
 
     model: Model
     theta: FloatArray
-    profiles: tuple[Profile, ...] = ()
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -166,73 +140,3 @@ class Fit:
         covariance = self.unscaled_covariance
         errors = np.sqrt(np.diag(covariance))
         return np.asarray(covariance / np.outer(errors, errors))
-
-
-def fit(
-    data: str | os.PathLike[str] | Sequence[Specimen],
-    scene: Scene | str | os.PathLike[str],
-    free: Sequence[str] = (),
-    free_each: Sequence[str] = (),
-    *,
-    error: str = "relative",
-    ignore: Sequence[str] = (),
-    intervals: bool = True,
-    progress: Callable[[str], None] = lambda _: None,
-) -> Fit:
-    """Estimate entries of a scene from measured wear.
-
-    Parameters
-    ----------
-    data
-        A CSV file, see `read_readings`, or specimens.
-    scene
-        The scene, its name or path: all that is not free, and where the search starts.
-    free, free_each
-        Entries that are one value for all specimens, or one for each.
-    error
-        "relative": residuals of the logarithm; "absolute": of the wear.
-    ignore
-        Columns of the file to drop.
-    intervals
-        Whether to follow the profile likelihoods, which takes most of the time.
-    progress
-        Is told in words how far a fit is that takes more than two seconds.
-
-    Raises
-    ------
-    UsageError
-        with everything that is wrong with the request.
-    """
-    from wear.fitting.profiles import profiles
-    from wear.scene import as_scene
-
-    model = prepare(data, as_scene(scene), free, free_each, error, ignore)
-    model = replace(model, pace=Pace(progress))
-    found = Fit(model, estimate(model))
-    return profiles(found) if intervals else found
-
-
-def prepare(
-    data: str | os.PathLike[str] | Sequence[Specimen],
-    scene: Scene,
-    free: Sequence[str],
-    free_each: Sequence[str],
-    error: str,
-    ignore: Sequence[str],
-) -> Model:
-    """Return the model of a fit, or raise a `UsageError` with all that is wrong with it."""
-    faults: list[str] = []
-    specimens: tuple[Specimen, ...] = ()
-    try:
-        from_file = isinstance(data, (str, os.PathLike))
-        specimens = read_readings(Path(data), ignore) if from_file else tuple(data)  # type: ignore[arg-type]
-    except UsageError as fault:
-        faults.append(str(fault))
-    faults += models.faults(scene, specimens, free, free_each)
-    if error not in ("relative", "absolute"):
-        faults.append(f"error: {error!r} is neither relative nor absolute")
-    elif error == "relative" and any(np.any(s.wear_mm <= 0.0) for s in specimens):
-        faults.append("error: a wear of zero has no logarithm; leave it out, or take absolute")
-    if faults:
-        raise UsageError("\n".join(faults))
-    return Model.of(scene, specimens, free, free_each, error == "relative")

@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 
 from wear.checked import label_of
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, PAGE, canvas, stroke, styled
-from wear.fitting.estimate import Fit
-from wear.fitting.forecast import forecast
+from wear.fitting.fit import Fit
 from wear.fitting.model import Parameter
 from wear.fitting.profiles import moved
 from wear.fitting.readings import FloatArray
@@ -60,7 +59,7 @@ def data_and_band(fit: Fit) -> Figure:
 def _curves(fit: Fit, cycles: FloatArray) -> FloatArray:
     """Return the wear of each specimen after cycles (n,) and the ends of its band (s, 3, n), in
     micrometres."""
-    rows = [(each.bearing_wear_mm, *each.interval_95) for each in forecast(fit, cycles.tolist())]
+    rows = [(each.bearing_wear_mm, *each.interval_95) for each in fit.forecast(cycles.tolist())]
     curves = np.array(rows).reshape(-1, len(cycles), 3) * _MICROMETRES_PER_MM
     return np.swapaxes(curves, 1, 2)
 

@@ -6,7 +6,7 @@ Each has a scale for every specimen and, but for Archard's, one number that all 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,8 +25,7 @@ the power, or the logarithm of a rate."""
 LOST = 1e6  # residual of a law that overflows
 
 
-@dataclass(frozen=True)
-class Alternative:
+class Alternative(NamedTuple):
     """How a law does: root mean square of its residuals, AICc, and the root mean square error of
     ln(wear) where the first half of the readings of each specimen predicts the last."""
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import itertools
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wear.faults import UsageError
 from wear.fitting.model import LOST, Model
-from wear.fitting.readings import FloatArray
+from wear.fitting.readings import FloatArray, Specimen
 
 SEARCHED = 20.0  # e-folds, or multiples of a parameter's size, around the scene
-FACTORS = tuple(10.0**power for power in range(-2, 3))  # of wear coefficients, to start from
 GROWTHS = (0.08, 0.15, 0.25, 0.4)  # of roughness, to start from
+DECADES = np.geomspace(1.0, 1e12, 49)  # cycles after which a start is compared with the readings
 FOLLOWED = 4  # starts
 ROUGHLY, CLOSELY = 1e-4, 1e-6  # of the sum of squares: how closely its least is sought
 DAMPING, HOPELESS = 1e-3, 1e8  # of a Gauss-Newton step: first, and where none descends
@@ -26,6 +26,7 @@ def follow(
     box: tuple[FloatArray, FloatArray],
     accuracy: float,
     most: int,
+    say: Callable[[str], None] = lambda _: None,
 ) -> tuple[FloatArray, FloatArray]:
     """Return points (m, p) of least squares near each start and their sums of squares (m,),
     with the `fixed` (m, p) parameters held, in a box given by its centre and half widths (p,).
@@ -40,7 +41,7 @@ def follow(
     costs = np.sum(off**2, axis=1)
     damping, todo = np.full(len(points), DAMPING), np.arange(len(points))
     for _ in range(most):
-        model.pace.say(f"least sum of squares: {costs.min():.6g}, searches left: {len(todo)}")
+        say(f"least sum of squares: {costs.min():.6g}, searches left: {len(todo)}")
         J = np.where(fixed[todo, None], 0.0, slope[todo])
         normal = np.swapaxes(J, 1, 2) @ J
         diagonal = np.einsum("mii->mi", normal)  # a view
@@ -62,12 +63,12 @@ def follow(
     return points, costs
 
 
-def estimate(model: Model) -> FloatArray:
+def estimate(model: Model, say: Callable[[str], None]) -> FloatArray:
     """Return the point (p,) of least squares, from several starts.
 
-    Wear coefficients and roughness growths are tried on a grid, free roughnesses also as large
-    as the wear calls for, which grows in proportion to them. Raises `UsageError` where no start
-    has any wear, or a parameter no influence.
+    Each start has another roughness growth, where that is shared and free. What else is free of
+    wear coefficients and roughnesses then follows from the readings, see `_in_pace` and
+    `_in_proportion`. Raises `UsageError` where no start has any wear, or a parameter no influence.
     """
     starts = _starts(model)
     off, slope = model(starts)
@@ -78,30 +79,58 @@ def estimate(model: Model) -> FloatArray:
     if idle.any():
         names = [str(p) for p, none in zip(model.parameters, idle, strict=True) if none]
         raise UsageError("\n".join(f"free: {name}: has no influence" for name in names))
-    starts = np.concatenate([starts, _in_proportion(model, starts[fine])])
+    starts = np.concatenate(
+        [starts, _in_pace(model, starts[fine]), _in_proportion(model, starts[fine])]
+    )
     best = starts[np.argsort(model.cost(starts), kind="stable")[:FOLLOWED]]
     centre = model.start()
     box = centre, SEARCHED * model.scale(centre)
-    near, costs = follow(model, best, np.zeros(best.shape, dtype=bool), box, ROUGHLY, 30)
-    return settle(model, near[np.argmin(costs)], box)
+    near, costs = follow(model, best, np.zeros(best.shape, dtype=bool), box, ROUGHLY, 30, say)
+    return settle(model, near[np.argmin(costs)], box, say)
 
 
-def settle(model: Model, start: FloatArray, box: tuple[FloatArray, FloatArray]) -> FloatArray:
+def settle(
+    model: Model,
+    start: FloatArray,
+    box: tuple[FloatArray, FloatArray],
+    say: Callable[[str], None] = lambda _: None,
+) -> FloatArray:
     """Return the point (p,) of least squares next to a point."""
     none = np.zeros((1, len(start)), dtype=bool)
-    points, _ = follow(model, start[None], none, box, CLOSELY, 60)
+    points, _ = follow(model, start[None], none, box, CLOSELY, 60, say)
     return np.asarray(points[0])
 
 
 def _starts(model: Model) -> FloatArray:
-    """Return the scene's own point and, around it, a grid over what wear depends on most."""
-    choices = [[x] for x in model.start().tolist()]
-    for choice, p in zip(choices, model.parameters, strict=True):
-        if not p.specimen and p.key.endswith(".wear_coefficient"):
-            choice[:] = [choice[0] + np.log(factor) for factor in FACTORS]
-        elif not p.specimen and p.key.endswith(".roughness_growth"):
-            choice += GROWTHS
-    return np.array(list(itertools.product(*choices)))
+    """Return the scene's own point, and those with other roughness growths."""
+    own = model.start()
+    growths = [p.key.endswith(".roughness_growth") for p in model.parameters]
+    return np.unique([own, *(np.where(growths, growth, own) for growth in GROWTHS)], axis=0)
+
+
+def _in_pace(model: Model, starts: FloatArray) -> FloatArray:
+    """Return the starts with free wear coefficients as much larger as their wear is late.
+
+    Averaged over a cycle, wear depends on the product of wear coefficient and cycles alone (the
+    first order of the method of averaging), so that one count has all wear coefficients.
+    """
+    level, _ = model.log_wear(starts, [DECADES] * len(model.specimens))
+    level = level.reshape(len(starts), len(model.specimens), -1)
+    paced = starts.copy()
+    for start, curves in zip(paced, np.fmax.accumulate(level, axis=2), strict=True):
+        pairs = list(zip(model.specimens, curves, strict=True))
+        for i, p in enumerate(model.parameters):
+            if p.key.endswith(".wear_coefficient"):
+                start[i] += np.mean([_late(s, u) for s, u in pairs if p.specimen in ("", s.name)])
+    return paced[np.isfinite(paced).all(axis=1)]
+
+
+def _late(specimen: Specimen, log_wear: FloatArray) -> float:
+    """Return the mean logarithm of the cycles at which a curve over the DECADES has the wear that
+    was read, over the cycles at which it was."""
+    read = np.log(np.maximum(specimen.wear_mm, 1e-30))
+    there = np.interp(read, log_wear, np.log(DECADES))
+    return float(np.mean(there - np.log(specimen.cycles)))
 
 
 def _in_proportion(model: Model, starts: FloatArray) -> FloatArray:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from wear.faults import SceneError, UsageError
-from wear.fitting.readings import FloatArray, Specimen
+from wear.fitting.readings import FloatArray, Specimen, read_readings, readings_of
 from wear.fitting.residuals import Residuals
-from wear.progress import Pace
-
-if TYPE_CHECKING:
-    from wear.scene import Scene
+from wear.parameters import no_such_number, parameters_of
+from wear.scene import Scene, as_scene
+from wear.sensitivities import gradients
 
 RTOL = 1e-7  # of the wear: far below any scatter
 LOST = 1e3  # residual where a point has no scene or no wear
@@ -47,29 +47,44 @@ class Model:
     """Specimens, the scene they share, what is free in it, and how far it is from the readings.
 
     A point `theta` (p,) holds what is estimated of each parameter. Errors are `relative` to the
-    wear or absolute; `pace` is told how far a search is.
+    wear or absolute.
     """
 
     scene: Scene
     specimens: tuple[Specimen, ...]
     parameters: tuple[Parameter, ...]
     relative: bool
-    pace: Pace = field(default_factory=Pace, compare=False)
 
     @classmethod
     def of(
         cls,
-        scene: Scene,
-        specimens: tuple[Specimen, ...],
-        free: Sequence[str],
-        free_each: Sequence[str],
-        relative: bool,
+        data: str | os.PathLike[str] | Mapping[str, Any] | Sequence[Specimen],
+        scene: Scene | str | os.PathLike[str],
+        free: str | Sequence[str],
+        free_each: str | Sequence[str],
+        error: str,
+        ignore: Sequence[str],
     ) -> Model:
-        """Return the model in which some keys are free for all specimens, some for each."""
-        wanted = [(key, "") for key in free]
-        wanted += [(key, specimen.name) for key in free_each for specimen in specimens]
-        parameters = (Parameter(key, name, is_positive(scene, key)) for key, name in wanted)
-        return cls(scene, specimens, tuple(parameters), relative)
+        """Return the model of a request, see `wear.fit`, or raise a `UsageError` with all that is
+        wrong with it."""
+        base, faults = as_scene(scene), []
+        specimens: tuple[Specimen, ...] = ()
+        shared, own = ([keys] if isinstance(keys, str) else [*keys] for keys in (free, free_each))
+        try:
+            specimens = _specimens(data, ignore)
+        except UsageError as fault:
+            faults.append(str(fault))
+        faults += _faults(base, specimens, shared, own)
+        if error not in ("relative", "absolute"):
+            faults.append(f"error: {error!r} is neither relative nor absolute")
+        elif error == "relative" and any(np.any(s.wear_mm <= 0.0) for s in specimens):
+            faults.append("error: a wear of zero has no logarithm; leave it out, or take absolute")
+        if faults:
+            raise UsageError("\n".join(faults))
+        wanted = [(key, "") for key in shared]
+        wanted += [(key, specimen.name) for key in own for specimen in specimens]
+        parameters = (Parameter(key, name, is_positive(base, key)) for key, name in wanted)
+        return cls(base, specimens, tuple(parameters), error == "relative")
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return residuals (m, n) and their exact Jacobian (m, n, p) at points (m, p)."""
@@ -100,8 +115,6 @@ class Model:
 
     def start(self) -> FloatArray:
         """Return the point (p,) that the scene itself is."""
-        from wear.parameters import parameters_of
-
         numbers = parameters_of(self.scene)
         return np.array([p.theta(numbers[p.key]) for p in self.parameters])
 
@@ -173,8 +186,6 @@ def _gradients(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the wear (s, n) of scenes and its derivatives (s, k, n); a scene that is beyond the
     engine has neither, and does not spoil the others."""
-    from wear.sensitivities import gradients
-
     try:
         return gradients(scenes, keys, cycles, RTOL)[:2]
     except UsageError:
@@ -189,8 +200,6 @@ def _gradients(
 
 def is_positive(scene: Scene, key: str) -> bool:
     """Return whether only positive numbers make a scene: the sign is tried."""
-    from wear.parameters import parameters_of
-
     return not _may_change(scene, key, -abs(parameters_of(scene)[key] or 1.0))
 
 
@@ -202,12 +211,21 @@ def _may_change(scene: Scene, key: str, value: float) -> bool:
     return True
 
 
-def faults(
+def _specimens(data: Any, ignore: Sequence[str]) -> tuple[Specimen, ...]:
+    if isinstance(data, str | os.PathLike):
+        return read_readings(data, ignore)
+    if hasattr(data, "keys"):  # a dictionary of columns, or a DataFrame
+        return readings_of(data, ignore)
+    specimens = tuple(data) if isinstance(data, Sequence) else ()
+    if not all(isinstance(each, Specimen) for each in specimens) or not specimens:
+        raise UsageError("data: give a file, columns such as cycles and wear_mm, or specimens")
+    return specimens
+
+
+def _faults(
     scene: Scene, specimens: Sequence[Specimen], free: Sequence[str], free_each: Sequence[str]
 ) -> Iterator[str]:
     """Yield what is wrong with the choice of what is free."""
-    from wear.parameters import no_such_number, parameters_of
-
     keys, numbers = [*free, *free_each], parameters_of(scene)
     if not keys:
         yield f"free: name at least one of {', '.join(numbers)}"

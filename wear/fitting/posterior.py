@@ -7,7 +7,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from wear.faults import UsageError
-from wear.fitting.estimate import FARTHEST, Fit
+from wear.fitting.estimate import FARTHEST, Estimate
 from wear.fitting.readings import FloatArray
 
 WALKERS = 4  # a parameter, and no fewer than LEAST_WALKERS
@@ -16,7 +16,7 @@ BURN_IN = 0.3  # share of the steps that is dropped
 BEGIN = 0.3  # standard errors, and sizes at most, around the estimate where walkers begin
 
 
-def posterior(found: Fit, steps: int, seed: int = 0) -> FloatArray:
+def posterior(found: Estimate, steps: int, seed: int = 0) -> FloatArray:
     """Return samples (m, p) of the posterior, in the units of the keys.
 
     Priors are flat in what is estimated (logarithms of positive parameters) up to factors of e^7,
@@ -27,7 +27,7 @@ def posterior(found: Fit, steps: int, seed: int = 0) -> FloatArray:
     Parameters
     ----------
     found
-        The fit, which gives the walkers their beginnings.
+        The fit or estimate, which gives the walkers their beginnings.
     steps
         Steps of every walker; the first 30 % are dropped.
     seed

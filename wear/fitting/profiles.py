@@ -7,11 +7,13 @@ linearised model.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.estimate import FARTHEST, Fit, Profile
+from wear.fitting.estimate import FARTHEST, Estimate
 from wear.fitting.least_squares import ROUGHLY, follow, settle
 from wear.fitting.readings import FloatArray
 
@@ -21,6 +23,15 @@ FIRST, FARTHER = 1.0, 2.5  # e-folds, or sizes, of the first step; times as far 
 MOST_ROUNDS, MOST_STEPS = 8, 15
 MOST_DESCENTS = 3  # where a profile finds a better estimate
 BETTER = 0.5  # of the variance: worth another descent; less widens an interval by 6 % at most
+
+
+class Profile(NamedTuple):
+    """Profile likelihood of one parameter: values (n,) ascending, the root of the deviance at each
+    in standard deviations (n,), and the interval in which it is below its 95 % quantile."""
+
+    values: FloatArray
+    roots: FloatArray
+    interval: tuple[float, float]
 
 
 @dataclass
@@ -71,33 +82,30 @@ class _End:
         return (limit - self.below) / (min(self.above, 3.0 * limit) - self.below)
 
 
-def profiles(found: Fit) -> Fit:
-    """Return the fit with its profile likelihoods; where they come upon a better estimate, with
-    that."""
+def profiles(found: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tuple[Profile, ...]]:
+    """Return the profile likelihoods of an estimate, and the better estimate that they came upon,
+    or the same."""
     if not np.isfinite(found.scatter):
-        nothing = np.array([0.0])
-        opened = (
-            Profile(np.array([value]), nothing, (-np.inf, np.inf)) for value in found.estimates
-        )
-        return replace(found, profiles=tuple(opened))
+        nothing, opened = np.array([0.0]), (-np.inf, np.inf)
+        return found, tuple(Profile(np.array([x]), nothing, opened) for x in found.estimates)
     for _ in range(MOST_DESCENTS):
-        ends, best, cost = _followed(found)
+        ends, best, cost = _followed(found, say)
         if not cost < found.chi_square - BETTER * found.scatter**2:
             break
-        found = replace(found, theta=settle(found.model, best, _box(found)))
+        found = Estimate(found.model, settle(found.model, best, _box(found), say))
     made = {end.index: _profile(found, end, high)
             for end, high in zip(ends[::2], ends[1::2], strict=True)}  # fmt: skip
     indices = range(len(found.theta))
-    return replace(found, profiles=tuple(made.get(i) or _linear(found, i) for i in indices))
+    return found, tuple(made.get(i) or _linear(found, i) for i in indices)
 
 
-def moved(found: Fit) -> list[int]:
+def moved(found: Estimate) -> list[int]:
     """Return which parameters have a profile: the shared ones, or all if none is shared."""
     shared = [i for i, parameter in enumerate(found.parameters) if not parameter.specimen]
     return shared or list(range(len(found.parameters)))
 
 
-def _followed(found: Fit) -> tuple[list[_End], FloatArray, float]:
+def _followed(found: Estimate, say: Callable[[str], None]) -> tuple[list[_End], FloatArray, float]:
     """Return the ends, low and high in turn, and the best point seen with its sum of squares: of
     those that are not out at the bounds, where a valley that the data leave open has no end."""
     errors = found.spread(np.eye(len(found.theta)))
@@ -117,7 +125,7 @@ def _followed(found: Fit) -> tuple[list[_End], FloatArray, float]:
             break
         starts = np.array([found.theta + end.side * end.step * end.path for end in active])
         fixed = np.arange(len(found.theta)) == np.array([[end.index] for end in active])
-        points, costs = follow(found.model, starts, fixed, _box(found), ROUGHLY, MOST_STEPS)
+        points, costs = follow(found.model, starts, fixed, _box(found), ROUGHLY, MOST_STEPS, say)
         for end, point, cost in zip(active, points, costs.tolist(), strict=True):
             at_bound = np.abs(point - found.theta) > 0.999 * FARTHEST * found.scale
             if cost < least and not at_bound.any():
@@ -128,12 +136,12 @@ def _followed(found: Fit) -> tuple[list[_End], FloatArray, float]:
     return ends, best, least
 
 
-def _box(found: Fit) -> tuple[FloatArray, FloatArray]:
+def _box(found: Estimate) -> tuple[FloatArray, FloatArray]:
     """Return where the other parameters may follow."""
     return found.theta, FARTHEST * found.scale
 
 
-def _linear(found: Fit, index: int) -> Profile:
+def _linear(found: Estimate, index: int) -> Profile:
     """Return the profile of a parameter in the linearised model."""
     parameter, limit = found.parameters[index], found.quantile
     width = limit * float(found.spread(np.eye(len(found.theta))[index]))
@@ -144,7 +152,7 @@ def _linear(found: Fit, index: int) -> Profile:
     return Profile(values, np.abs(steps) * limit / width, ends)
 
 
-def _profile(found: Fit, low: _End, high: _End) -> Profile:
+def _profile(found: Estimate, low: _End, high: _End) -> Profile:
     """Return the profile of a parameter, in its own unit."""
     parameter, theta = found.parameters[low.index], found.theta[low.index]
     seen = {0.0: 0.0} | low.seen | high.seen

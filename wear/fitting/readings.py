@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,7 +64,10 @@ class Specimen:
         )
 
 
-def read_readings(path: str | Path, ignore: Sequence[str] = ()) -> tuple[Specimen, ...]:
+Specimens = tuple[Specimen, ...]
+
+
+def read_readings(path: str | os.PathLike[str], ignore: Sequence[str] = ()) -> Specimens:
     """Return the specimens of a CSV file.
 
     A line names the columns: `cycles`, `wear_mm` or `wear_um`, and if need be `standard_error_mm`
@@ -82,46 +87,74 @@ def read_readings(path: str | Path, ignore: Sequence[str] = ()) -> tuple[Specime
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = data.decode("latin-1")
-    delimiter, lines = _from_header(text.splitlines())
-    rows = [(number, cells) for number, line in lines if any(cells := _cells(line, delimiter))]
-    names = rows[0][1] if rows else []
-    faults = [*_faults_of_header(names, ignore)] + [
+    delimiter, rows = _from_header(text.splitlines())
+    if not rows:
+        raise UsageError(
+            f"{path}: there is no column cycles: name the columns in a line above the readings, "
+            "cycles and wear_mm or wear_um (a time over load.period_s is a number of cycles)"
+        )
+    (_, names), *body = rows
+    faults = [
         f"line {number}: {len(row)} entries, but the header has {len(names)}"
-        for number, row in rows[1:]
+        for number, row in body
         if len(row) != len(names)
     ]
+    if len(set(names)) < len(names):
+        faults.append("a column is named twice")
+    found: Specimens = ()
     if not faults:
-        columns = {name: [row[i] for _, row in rows[1:]] for i, name in enumerate(names)}
-        kept = {name: column for name, column in columns.items() if name not in ignore}
-        found, faults = _specimens(kept, [number for number, _ in rows[1:]], delimiter)
+        columns = {name: [row[i] for _, row in body] for i, name in enumerate(names)}
+        lines = [f"line {number}" for number, _ in body]
+        found, faults = _specimens(columns, ignore, lines, delimiter)
     if faults:
         raise UsageError("\n".join(f"{path}: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]))
     return found
 
 
-def _from_header(lines: Sequence[str]) -> tuple[str, list[tuple[int, str]]]:
-    """Return the delimiter, and the lines with their numbers from that which names the columns on;
-    where none has a column `cycles`, all of them."""
-    numbered = list(enumerate(lines, start=1))
+def readings_of(columns: Mapping[str, Iterable[Any]], ignore: Sequence[str]) -> Specimens:
+    """Return the specimens of columns by their names, as `read_readings` takes them from a file."""
+    try:
+        entries = {str(name): [*columns[name]] for name in columns}
+    except TypeError:
+        raise UsageError("data: every column must be a list of numbers") from None
+    most = max(map(len, entries.values()), default=0)
+    if any(len(column) != most for column in entries.values()):
+        raise UsageError("data: the columns are of different length")
+    rows = [f"row {number}" for number in range(1, most + 1)]
+    found, faults = _specimens(entries, ignore, rows)
+    if faults:
+        raise UsageError("\n".join(f"data: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]))
+    return found
+
+
+def _from_header(lines: Sequence[str]) -> tuple[str, list[tuple[int, list[str]]]]:
+    """Return the delimiter and the rows, each with the number of its line, from that on which names
+    a column `cycles`; none where no line does."""
     for place, line in enumerate(lines[:MOST_HEAD_LINES]):
         for delimiter in DELIMITERS:
-            if "cycles" in _cells(line, delimiter):
-                return delimiter, numbered[place:]
-    return DELIMITERS[0], numbered
+            names = [_name(cell) for cell in _cells(line, delimiter)]
+            if "cycles" in names:
+                rows = [_cells(each, delimiter) for each in lines[place + 1 :]]
+                numbered = enumerate([names, *rows], start=place + 1)
+                return delimiter, [(number, row) for number, row in numbered if any(row)]
+    return "", []
 
 
 def _cells(line: str, delimiter: str) -> list[str]:
     return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
 
 
-def _faults_of_header(names: Sequence[str], ignore: Sequence[str]) -> Iterator[str]:
+def _name(cell: str) -> str:
+    """Return the name of a column, whatever the case of its letters."""
+    return cell.lower() if cell.lower() in (*_CHECKS, "specimen") else cell
+
+
+def _faults_of_names(names: Sequence[str], ignore: Sequence[str]) -> Iterator[str]:
     """Yield what is wrong with the names of the columns."""
     if "cycles" not in names:
         yield "there is no column cycles"
     if sum(name in WEAR for name in names) != 1:
         yield f"give the wear in one column, {' or '.join(WEAR)}"
-    if len(set(names)) < len(names):
-        yield "a column is named twice"
     for name in names:
         if name not in (*_CHECKS, "specimen", *ignore) and "." not in name:
             yield (f"column {shown(name)}: unknown; name an entry of the scene, as in "
@@ -132,17 +165,21 @@ def _faults_of_header(names: Sequence[str], ignore: Sequence[str]) -> Iterator[s
 
 
 def _specimens(
-    columns: Mapping[str, Sequence[str]], lines: Sequence[int], delimiter: str
-) -> tuple[tuple[Specimen, ...], list[str]]:
+    entries: Mapping[str, Sequence[Any]],
+    ignore: Sequence[str],
+    rows: Sequence[str],
+    delimiter: str = ",",
+) -> tuple[Specimens, list[str]]:
     """Return the specimens of columns of equal length, and what is wrong with their entries."""
-    comma = "," if delimiter != "," else "."
-    numbers = {
-        name: np.array([_number(entry.replace(comma, ".")) for entry in column], dtype=float)
-        for name, column in columns.items()
-        if name != "specimen"
-    }
-    faults = [
-        f"line {lines[i]}: {name} {rule}"
+    if faults := [*_faults_of_names(list(entries), ignore)]:
+        return (), faults
+    columns = {name: column for name, column in entries.items() if name not in ignore}
+    names = [str(name) for name in columns.pop("specimen", [""] * len(rows))]
+    if delimiter != ",":
+        columns, faults = _with_points(columns, rows)
+    numbers = {name: np.array([*map(_number, column)]) for name, column in columns.items()}
+    faults += [
+        f"{rows[i]}: {name} {rule}"
         for name, (meets, rule) in _CHECKS.items()
         if name in numbers
         for i in np.flatnonzero(~meets(numbers[name])).tolist()
@@ -150,29 +187,43 @@ def _specimens(
     unit = next(name for name in WEAR if name in columns)
     wear, cycles = numbers.pop(unit) * WEAR[unit], numbers.pop("cycles")
     scatter = numbers.pop("standard_error_mm", None)
-    names = columns.get("specimen", [""] * len(cycles))
     if len(cycles) < 2:
         faults.append("one reading determines nothing; give two or more")
     made = []
     for name in dict.fromkeys(names):
-        rows = np.array([name == other for other in names])
+        own = np.array([name == other for other in names])
         of = f" of specimen {shown(name)}" if name else ""
-        if np.any(np.diff(cycles[rows]) < 0):
+        if np.any(np.diff(cycles[own]) < 0):
             faults.append(f"the cycles{of} must ascend")
-        changes = {key: values[rows] for key, values in numbers.items()}
+        changes = {key: values[own] for key, values in numbers.items()}
         faults += [
             f"{key}{of} must be one number"
             for key, values in changes.items()
             if not np.all(np.isfinite(values) & (values == values[0]))
         ]
-        error = None if scatter is None else scatter[rows]
-        own = {key: float(values[0]) for key, values in changes.items()}
-        made.append(Specimen(name, cycles[rows], wear[rows], error, own))
+        error = None if scatter is None else scatter[own]
+        entry = {key: float(values[0]) for key, values in changes.items()}
+        made.append(Specimen(name, cycles[own], wear[own], error, entry))
     return tuple(made), faults
 
 
-def _number(entry: str) -> float:
+def _with_points(
+    columns: Mapping[str, Sequence[str]], rows: Sequence[str]
+) -> tuple[dict[str, Sequence[str]], list[str]]:
+    """Return columns with points in the place of decimal commas, and which entries have a point
+    all the same: it may stand between thousands."""
+    commas = any("," in entry for column in columns.values() for entry in column)
+    faults = [
+        f"{row}: {shown(entry)} has a point, but other numbers a decimal comma; drop the point"
+        for column in columns.values()
+        for row, entry in zip(rows, column, strict=True)
+        if commas and "." in entry
+    ]
+    return {name: [x.replace(",", ".") for x in column] for name, column in columns.items()}, faults
+
+
+def _number(entry: Any) -> float:
     try:
         return float(entry)
-    except ValueError:
+    except (TypeError, ValueError):
         return np.nan

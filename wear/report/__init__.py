@@ -1,9 +1,9 @@
 """The report: a text in Markdown with computed values, written as a page and as LaTeX.
 
 Contents
-    paper.md, paper, values                    what the paper says, and its numbers
+    paper.md, paper; scene.md, own              what the reports say, and their numbers
     text, document, number                     Markdown with values, labels numbered
-    equations, derivations, markup             equations with titles, and how they follow
+    equations, markup                          equations with titles; plain text as Markdown
     writer, html, tex, templates, svg, mathml  the writer and its two forms
     typeset, publish, manifest                 the files of a report
     runs, claims, reconcile                    what is computed for it

@@ -135,6 +135,10 @@ class Document:
         """
         found = list(self._marks())
         marks = {mark.target: mark for mark in found}
+        for mark in found:
+            if mark.kind == "derivation":
+                derived = marks[f"eq:{mark.number}"]
+                marks[mark.target] = Mark(mark.kind, derived.number, mark.target)
         for equation in self.shown:
             for other in equation.also:
                 label = f"eq:{other}"

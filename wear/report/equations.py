@@ -41,13 +41,12 @@ def _content(equation: derived.Equation) -> Hashable:
 
 
 def _shown(equation: derived.Equation, same: Sequence[str]) -> Equation:
-    corrected = not equation.agrees or equation.refutation is not None
     return Equation(
         id=equation.id,
         latex=equation.latex,
         title=_title(equation),
         status=str(equation.status),
-        printed=equation.printed_latex if corrected else "",
+        printed="" if equation.agrees else equation.printed_latex,
         macro=macro_name(equation),
         also=tuple(identifier for identifier in same if identifier != equation.id),
     )

@@ -30,15 +30,24 @@ SMALL = ("sigma_c0", "sigma_a0", "h_0", "U")
 PLOTTED = 4e-3
 """Relative accuracy of the wear for which the rows of a measured load are merged: a quarter of it
 moves no pixel."""
-NOT_NEGATIVE = ("h_0",)
-"""What a scene file takes from zero on."""
-GROUPS: Mapping[str, tuple[str, ...]] = {
-    "Bearing": ("K_c", "H_c", "sigma_c0", "f_c"),
-    "Pin": ("K_a", "H_a", "sigma_a0", "f_a"),
-    "Contact": ("p_max", "h_0"),
-    "Support": ("k",),
-    "Load and motion": ("U", "T", "R", "n"),
+GROUPS: Mapping[str, Mapping[str, tuple[float, float]]] = {
+    "Bearing": {
+        "K_c": (1e-08, 0.0001),
+        "H_c": (50, 5000.0),
+        "sigma_c0": (0.0001, 0.001),
+        "f_c": (-0.05, 0.6),
+    },
+    "Pin": {
+        "K_a": (1e-08, 0.0001),
+        "H_a": (50, 5000.0),
+        "sigma_a0": (1e-05, 0.0005),
+        "f_a": (-0.05, 0.6),
+    },
+    "Contact": {"p_max": (10, 3000.0), "h_0": (0.0002, 0.002)},
+    "Support": {"k": (10000.0, 10000000.0)},
+    "Load and motion": {"U": (1e-05, 0.002), "T": (0.001, 1), "R": (1, 100), "n": (10, 10000.0)},
 }
+"""The parameters of the sliders, and between which values they move."""
 
 
 def opened(scene: Scene) -> Scene:

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 
 from derive.laws import LAWS, TANH
 from wear.report import mathml
-from wear.report.explorer_data import GROUPS, MICROMETRES, NOT_NEGATIVE, SMALL
+from wear.report.explorer_data import GROUPS, MICROMETRES, SMALL
 
 FILE = "explorer.derived.json"
 
@@ -177,12 +177,11 @@ def _without_comments(text: str) -> str:
 
 def parameter_rows() -> list[dict[str, Any]]:
     """Return name, range, scale and unit of every slider."""
-    from derive.symbols import QUANTITIES
+    from derive.symbols import POSITIVE, QUANTITIES, REAL
 
     rows = []
-    for name in (name for group in GROUPS.values() for name in group):
+    for name, (low, high) in (row for group in GROUPS.values() for row in group.items()):
         quantity = QUANTITIES[name]
-        domain = quantity.domain
         unit = "" if quantity.unit == "1" else quantity.unit
         rows.append(
             {
@@ -191,11 +190,11 @@ def parameter_rows() -> list[dict[str, Any]]:
                 "latex": quantity.latex,
                 "unit": "µm" if name in SMALL else unit,
                 "scale": MICROMETRES if name in SMALL else 1.0,
-                "low": domain.low,
-                "high": domain.high,
-                "logarithmic": domain.logarithmic,
-                "positive": domain.positive,
-                "negative": not domain.positive and name not in NOT_NEGATIVE,
+                "low": low,
+                "high": high,
+                "logarithmic": quantity.domain == POSITIVE,
+                "positive": quantity.domain == POSITIVE,
+                "negative": quantity.domain == REAL,
             }
         )
     return rows

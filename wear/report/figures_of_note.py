@@ -36,7 +36,7 @@ from wear.figure_style import (
     stroke,
     styled,
 )
-from wear.history import FloatArray
+from wear.numerics.gauss import FloatArray
 from wear.report import note
 from wear.report.runs import Approach, Runs
 from wear.scene import Scene

@@ -11,15 +11,24 @@ from collections.abc import Container
 
 from derive.typeset.reading import Part, read
 from wear.report.number import Number, grouped
-from wear.report.text import escaped
 
 _MARK = re.compile(
     r"``(?P<code>[^`]+)``"
     r"|(?:Eqs?\. |(?<![\w)]))\((?P<equation>\d+[a-g]?|[a-z]{3,}(?:-[a-z]+)*)\)"
     r"|\b(?P<claim>C\d+)\b"
 )
+_SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#])")
 #: The line that is meant where the number of a system is given.
 _MEANT = {"16": "16b", "17": "17b"}
+
+
+def escaped(text: str) -> str:
+    r"""Return plain words as Markdown.
+
+    >>> print(escaped("sigma_c0 * 2"))
+    sigma\_c0 \* 2
+    """
+    return _SPECIAL.sub(r"\\\1", text)
 
 
 def markup(text: str, labels: Container[str] = ()) -> str:

@@ -33,7 +33,7 @@ from wear.report.equations import shown
 from wear.report.explorer_derived import holding
 from wear.report.manifest import versions
 from wear.report.markup import markup, number
-from wear.report.number import Number, significant
+from wear.report.number import Number
 from wear.report.text import read
 from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
@@ -49,17 +49,6 @@ _EARLY = 1000  # cycles whose sensitivities stand beside those of the last
 _BARS = 15
 _EXACT = 1e6  # numbers of cycles below are shown in full
 _MICROMETRES = WEAR.scale
-_SOLVED = "solution of this scene"
-_CONSTANTS = {
-    "tanh_argument": ("Limit of the argument of $\\tanh$", ""),
-    "wear_per_cycle_mm": ("Wear per cycle", "mm"),
-    "pressure_MPa": ("Contact pressure", "MPa"),
-    "log_coefficient_mm": ("Coefficient $A$ of $\\ln N$", "mm"),
-    "offset_mm": ("Offset $B$", "mm"),
-    "saturation_wear_mm": ("Depth at which wear saturates", "mm"),
-    "arrest_wear_mm": ("Depth at which wear stops", "mm"),
-    "arrest_cycle": ("Cycle in which wear stops", ""),
-}
 
 
 def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Document:
@@ -72,32 +61,24 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     found = _sensitivities(
         scene, [n for n in (_EARLY, int(curve.cycles[-1])) if n <= curve.cycles[-1]]
     )
-    load = scene.load
     values = {
-        "title": scene.title or scene.name,
-        "description": scene.description,
-        "regime": limit.regime if limit else "",
         "scene": scene,
+        "limit": limit,
+        "curve": curve,
+        "quantities": QUANTITIES,
+        "mm": _MICROMETRES,
         "kind": scene.to_tables()["load"]["kind"],
-        "load": [number(f"{x:.5g}") for x in (load.minimum, load.maximum, load.mean)],
+        "written": number,
         "notices": _notices(scene, limit, curve),
-        "data": list(_data(scene)),
         "identifiers": list(equations),
-        "constants": list(_constants(limit)) if limit else [],
-        "states": list(_states(curve)),
+        "states": [n for n, cycle in enumerate(curve.cycles[:-1]) if _is_round(cycle)] + [-1],
         "life": list(_life(scene)) if obstacle(scene) is None else [],
-        "last": {
-            "cycle": Number(int(curve.cycles[-1]), "request", 1),
-            "wear": Number(float(curve.u_c[-1]) * _MICROMETRES, _SOLVED, 6, "µm"),
-            "error": Number(float(curve.error[-1]), _SOLVED, 1),
-        },
         "inside": pressed is not None,
         "loses_contact": bool(np.any(curve.pressures.contact_fraction < 1.0)),
         "sensitivities": found is not None,
         **_compared(specimens, predicted),
         "command": command,
-        "scene_file": scene.to_toml().strip(),
-        "versions": list(versions().items()),
+        "versions": versions(),
     }
     drawings = {
         "scene": drawing.of_scene(scene),
@@ -162,44 +143,6 @@ def _notices(scene: Scene, limit: Asymptote | None, curve: History) -> list[str]
     return [markup(said) for said in dict.fromkeys(found) if not said.startswith("auto: ")]
 
 
-def _data(scene: Scene) -> Iterator[tuple[str, str, Number]]:
-    for name, value in scene.parameters().items():
-        if name in QUANTITIES:
-            quantity = QUANTITIES[name]
-            unit = "" if quantity.unit == "1" else quantity.unit
-            shown = Number(value, f"scene {scene.name}", significant(value, 12), unit)
-            yield f"${quantity.latex}$", markup(quantity.meaning), shown
-
-
-def _constants(limit: Asymptote) -> Iterator[tuple[str, Number]]:
-    for name, (said, unit) in _CONSTANTS.items():
-        value = getattr(limit, name)
-        if value is not None:
-            yield said, Number(value, f"asymptote, {name}", 6, unit)
-
-
-def _states(history: History) -> Iterator[list[Number | str]]:
-    peak, mean, fraction = history.pressures
-    last = len(history.cycles) - 1
-    for place, cycle in enumerate(history.cycles.tolist()):
-        if not _is_round(cycle) and place != last:
-            continue
-        shown = (
-            (history.u_c[place] * _MICROMETRES, 6),
-            (history.error[place], 1),
-            (history.sigma_c[place] * _MICROMETRES, 5),
-            (history.h[place] * _MICROMETRES, 5),
-            (peak[place], 4),
-            (mean[place], 4),
-            (fraction[place], 3),
-        )
-        yield [Number(cycle, "request", 1), *(_known(float(v), digits) for v, digits in shown)]
-
-
-def _known(value: float, digits: int, source: str = _SOLVED) -> Number | str:
-    return Number(value, source, digits) if np.isfinite(value) else "–"
-
-
 def _life(scene: Scene) -> Iterator[tuple[Number, Number | str, Number | str]]:
     depths = [depth * scene.initial_roughness for depth in _DEPTHS]
     found = cycles_until(scene, depths, rtol=1e-8)
@@ -213,7 +156,7 @@ def _life(scene: Scene) -> Iterator[tuple[Number, Number | str, Number | str]]:
             Number(round(cycles) if cycles < _EXACT else cycles, "life of this scene", 5)
             if known
             else way.value,
-            _known(hours, 4, "life of this scene"),
+            Number(hours, "life of this scene", 4) if np.isfinite(hours) else "–",
         )
 
 

@@ -1,43 +1,114 @@
-"""The paper: its text (``paper.md``) with the values, equations and figures of a run."""
+"""The paper: its text (``paper.md``) with the results, equations and figures of a run.
+
+The text takes its numbers from the results where it needs them. What stands here is that which
+takes more than an expression.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+import sys
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from wear.benchmark.results import DIGITS, READER, committed, curves_by_cycles
+import numpy as np
+
+from derive.kernel import listed
+from derive.reasons import table
+from derive.results.regime_map import REGIMES
+from derive.results.validity import RESOLUTIONS
+from derive.symbols import QUANTITIES
+from derive.typeset.derivation import Derivations
+from derive.typeset.display import inline
+from derive.typeset.nomenclature import occurring, unit
+from derive.typeset.present import presentable
+from wear.benchmark.machine import footer
+from wear.benchmark.methods import cases
+from wear.benchmark.results import (
+    DIGITS,
+    READER,
+    committed,
+    curves_by_cycles,
+    sentences,
+    speed_table,
+)
 from wear.figures import speed_against_cycles
+from wear.generated import asymptotics
 from wear.report import drawing, figures_of_note, note
 from wear.report.document import Document, Figure, drawn
-from wear.report.equations import shown
+from wear.report.document import Equation as Shown
+from wear.report.equations import capital, shown
+from wear.report.manifest import versions
+from wear.report.runs import STATIC_CYCLES
 from wear.report.text import parsed
-from wear.report.values import Material, values
 
 if TYPE_CHECKING:
-    from derive import equations as derived
+    import sympy as sp
+
+    from derive.equations import Equation
     from derive.verification import Verification
     from wear.report.claims import Entry
     from wear.report.runs import Runs
 
+ROUNDOFF = sys.float_info.epsilon
+"""The relative resolution of a double: a smaller error cannot be seen."""
+
+#: The quantities of the model, in the order of the table: fields, then data.
+_MODEL = (
+    "t", "h", "U_a", "U_c", "u_a", "u_c", "sigma_a", "sigma_c", "sigma", "p", "R_a",
+    "h_0", "sigma_a0", "sigma_c0", "f_a", "f_c", "f_aa", "f_ac", "f_cc", "f_ca", "K_a", "K_c",
+    "H_a", "H_c", "p_max", "k", "b", "L", "R", "omega", "V", "U", "T",
+)  # fmt: skip
 _EQUATIONS = re.compile(r"^```equations\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 def paper(
-    equations: Sequence[derived.Equation],
+    equations: Sequence[Equation],
     verification: Verification,
     runs: Runs,
     ledger: Sequence[Entry],
     figures: Mapping[str, Figure],
 ) -> Document:
     """Return the paper. Equations that its text does not name stand in the appendix."""
-    material = Material(equations, shown(equations), verification, runs, ledger)
+    displayed, derivations = shown(equations), Derivations(equations)
     template = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
     text = template.partition("{#app:")[0]
-    named = [name for names in _EQUATIONS.findall(text) for name in names.split()]
-    found = parsed(template, {**values(material), "in_text": named})
-    return Document(found, material.shown, figures)
+    values = {
+        "runs": runs,
+        "note": note,
+        "formula": asymptotics,
+        "quantities": QUANTITIES,
+        "roundoff": ROUNDOFF,
+        "verified": verification,
+        "ledger": ledger,
+        "verdicts": Counter(str(entry.finding.verdict) for entry in ledger),
+        "labels": {f"eq:{e.id}" for e in equations} | {f"claim:{e.claim.id}" for e in ledger},
+        "section": _section,
+        "capital": capital,
+        "conditions": [row for row in table() if row.model],
+        "examples": [runs.cases[name].scene for name in note.EXAMPLES],
+        "static_cycles": float(STATIC_CYCLES[-1]),
+        "drift_distance": _drift_distance(runs),
+        "elasticity": _elasticity(equations, runs),
+        "resolutions": RESOLUTIONS,
+        "regimes": list(_regimes()),
+        "hard": list(_hard(runs)),
+        "speed": _speed(),
+        "symbols": [_symbol(name) for name in _MODEL],
+        "further_symbols": [_symbol(name) for name in _further(equations)],
+        "versions": versions(),
+        "derivations": derivations,
+        "origins": {
+            e.id: listed(f"[(eq:{name})]" for name in found)
+            for e in equations
+            if (found := derivations.origins(e.id))
+        },
+        "sections": _by_section(equations, displayed),
+        "in_text": [name for names in _EQUATIONS.findall(text) for name in names.split()],
+    }
+    return Document(parsed(template, values), displayed, figures)
 
 
 def drawings(runs: Runs) -> Mapping[str, Figure]:
@@ -57,3 +128,113 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
             "figure-3b": figures_of_note.wear_coefficients(runs),
         }
     )
+
+
+def _drift_distance(runs: Runs) -> float:
+    """Relative difference of the wear from its asymptotic law at the last cycle solved."""
+    limit = runs.asymptote("section4")
+    cycle, wear = float(runs.approach.cycles[-1]), float(runs.approach.wear[-1])
+    law = note.required(limit.wear_per_cycle_mm) * cycle + note.required(limit.offset_mm)
+    law += note.required(limit.log_coefficient_mm) * float(np.log(cycle))
+    return abs(law / wear - 1.0)
+
+
+def _elasticity(equations: Sequence[Equation], runs: Runs) -> float:
+    """Return the elasticity of the wear per cycle in f_c, by its equation."""
+    limit, scene = runs.asymptote("section4"), runs.cases["section4"].scene
+    data = {
+        "f_c": scene.bearing.roughness_growth,
+        "p_inf": note.required(limit.pressure_MPa),
+        "p_max": scene.contact.max_pressure_MPa,
+    }
+    found = next(e for e in equations if e.id == "elasticity-slope").relation.rhs
+    return float(found.subs({symbol: data[symbol.name] for symbol in found.free_symbols}))
+
+
+def _speed() -> dict[str, Any]:
+    """Return the benchmark as the documentation has it."""
+    measured, digits = committed(), DIGITS[0]
+    return {
+        "digits": digits,
+        "table": speed_table(measured.runs, READER, digits),
+        "sentences": sentences(measured.runs, READER, digits),
+        "machine": footer(measured.facts),
+    }
+
+
+def _regimes() -> Iterator[tuple[str, str, str, str]]:
+    """Yield the rows of the map by which the software decides."""
+    for regime in REGIMES:
+        where = listed([f"${_hypothesis(c.relation)}$" for c in regime.conditions])
+        equations = listed([f"[(eq:{name})]" for name in regime.equations])
+        yield "with" if regime.cutoff else "without", where, regime.name, equations
+
+
+def _hypothesis(relation: sp.Basic) -> str:
+    """Return a hypothesis of the map, with the gap at the vanishing roughness by its name."""
+    import sympy as sp
+
+    from derive.results.regime_map import OPEN
+
+    gap = sp.Symbol("h_star", real=True)  # of either sign here
+    return inline(presentable(relation.xreplace({OPEN.relation.lhs: gap})))
+
+
+def _hard(runs: Runs) -> Iterator[dict[str, Any]]:
+    """Yield the stress tests: history, wear (mm), and its true relative error."""
+    names, cycles = [each.definition.name for each in runs.hard], int(runs.hard[0].cycles[-1])
+    true = {case.name: case.wear for case in cases("hard", names, (cycles,))}
+    for name, found in zip(names, runs.hard, strict=True):
+        wear = float(found.u_c[-1])
+        error = max(abs(wear / true[name] - 1.0), ROUNDOFF)
+        yield {"name": name, "found": found, "wear": wear, "error": error}
+
+
+def _symbol(name: str) -> tuple[str, str, str]:
+    """Return the LaTeX, the meaning and the unit of a quantity."""
+    quantity = QUANTITIES[name]
+    return quantity.latex, quantity.meaning, unit(quantity)
+
+
+def _further(equations: Sequence[Equation]) -> list[str]:
+    """Return the symbols that the results add to those of the model."""
+    names = [quantity.name for quantity in occurring(_expressions(equations))]
+    return [name for name in names if name not in _MODEL]
+
+
+def _expressions(equations: Sequence[Equation]) -> Iterator[sp.Basic]:
+    """Yield what the paper shows: equations, the printed forms of those corrected, hypotheses,
+    steps."""
+    for equation in equations:
+        yield from (*equation.shown, *equation.where)
+        if not equation.agrees:
+            yield from equation.printed
+        yield from (condition.relation for condition in equation.conditions)
+        yield from (step.relation for step in equation.steps)
+
+
+def _section(where: str) -> str:
+    """Return where a claim stands in the note; a section is called one.
+
+    >>> _section("2.5, (6)"), _section("3, 5"), _section("after (21)")
+    ('section 2.5, (6)', 'sections 3, 5', 'after (21)')
+    """
+    if not where[0].isdigit():
+        return where
+    several = all(part.strip().replace(".", "").isdigit() for part in where.split(",")) and (
+        "," in where
+    )
+    return f"{'sections' if several else 'section'} {where}"
+
+
+def _by_section(
+    equations: Sequence[Equation], displayed: Mapping[str, Shown]
+) -> dict[str, list[str]]:
+    """Return the ids of the equations by section of the catalogue, each that says the same once."""
+    found: dict[str, list[str]] = {}
+    seen: set[str] = set()
+    for equation in equations:
+        if equation.id not in seen:
+            found.setdefault(equation.section, []).append(equation.id)
+        seen |= {equation.id, *displayed[equation.id].also}
+    return found

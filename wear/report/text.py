@@ -5,7 +5,9 @@ Overview
     tokens of markdown-it, with what a writer needs to know of their neighbours; `wear.report.html`
     and `wear.report.tex` make a page and LaTeX of them.
 Marks, besides those of Markdown
-    {{ wear.to(5) }}        a `Number`, shown to five digits
+    {{ u | number("scene 4", 5, "mm") }}
+                            a `Number` by its source, shown to five digits, with its unit
+    {{ text | plain }}      words as they are; ``markup`` also sets formulas and references
     $u_c$                   a formula
     [eq:21], [(eq:18)]      a reference by kind and number, or by the number alone; ``sec: app: fig:
                             tab: claim: der: ref:`` likewise
@@ -35,7 +37,8 @@ from markdown_it.rules_core import StateCore
 from markdown_it.rules_inline import StateInline
 from markdown_it.token import Token
 
-from wear.report.number import Number
+from wear.report.markup import escaped, markup
+from wear.report.number import Number, significant
 
 _LABEL = r"(?:eq|sec|app|fig|tab|claim|der|ref):[A-Za-z0-9.\-]+"
 _MARK = re.compile(
@@ -48,7 +51,6 @@ _NAMED = re.compile(rf"\s*\{{#(?P<label>{_LABEL})\}}$")
 _CAPTION = "Table: "
 _CLOSING = tuple(".,;:)?")
 _FIGURES = re.compile(r"(?:\s*!\[(?:[^\]]|\[[^\]]*\])*\]\(fig:[^)]*\))+\s*", re.DOTALL)
-_SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#])")
 
 
 Tokens = tuple[Token, ...]
@@ -87,18 +89,17 @@ def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
         finalize=shown, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
         keep_trailing_newline=True, autoescape=False, comment_start_string="{##",
     )  # fmt: skip
-    environment.filters["plain"] = escaped
+    environment.filters |= {"plain": escaped, "markup": markup, "number": _number}
+    environment.filters["cell"] = lambda text: text.replace("|", r"\|")
     source = environment.from_string(template).render(values)
     return tuple(MARKDOWN.parse(source, {"numbers": numbers}))
 
 
-def escaped(text: str) -> str:
-    r"""Return plain words as Markdown.
-
-    >>> print(escaped("sigma_c0 * 2"))
-    sigma\_c0 \* 2
-    """
-    return _SPECIAL.sub(r"\\\1", text)
+def _number(
+    value: float, source: str, digits: int = 12, unit: str = "", most: int | None = None
+) -> Number:
+    """Return a number of the run; a datum with as many digits as it has, `most` at most."""
+    return Number(value, source, digits if most is None else significant(value, most), unit)
 
 
 def line(text: str) -> Sequence[Token]:

@@ -9,6 +9,7 @@ of `wear.load`; the validation and the reference page of the documentation both 
 from __future__ import annotations
 
 import dataclasses
+import html
 import json
 import math
 import os
@@ -408,6 +409,13 @@ class Scene(SceneTable):
     def to_json(self) -> str:
         """Return `to_tables` in one line, the same for equal scenes, as result files keep it."""
         return json.dumps(self.to_tables(), allow_nan=False)
+
+    def __repr__(self) -> str:
+        return f"<Scene {self.title or self.name!r}: {self.variant.name}, {self.load!r}>"
+
+    def _repr_html_(self) -> str:
+        """Return the scene file that a notebook shows."""
+        return f"<pre>{html.escape(self.to_toml())}</pre>"
 
     def to_toml(self) -> str:
         """Return a scene file that reads back to an equal scene; CSV files are only named."""

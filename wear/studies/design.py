@@ -152,12 +152,15 @@ def _faults(design: Design) -> Iterator[str]:
         if not isinstance(vary, needed):
             yield f"vary: {vary.key}: a design {design.kind} takes {form}"
             return
+    for name in ("samples", "seed"):
+        given = getattr(design, name)
+        if not isinstance(given, int | np.integer) or given < 0:
+            yield f"{name}: {given!r} is no whole number from 0 on"
+            return
     if design.kind != "grid" and design.samples < 1:
         yield f"samples: a design {design.kind} needs a number of samples"
     if design.kind == "grid" and design.samples:
         yield "samples: a grid has as many rows as its values make; drop samples"
-    if design.seed < 0:
-        yield "seed: give a whole number that is not negative"
     if design.rows > MOST_ROWS:
         yield f"vary: {design.rows:.3g} scenes are more than {MOST_ROWS:.0e}"
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ import numpy as np
 from wear.faults import UsageError
 from wear.studies.design import ROWS
 from wear.studies.rows import Status, Study, solve_rows
-from wear.studies.run import prepare
+from wear.studies.run import check_executor, prepare
 from wear.studies.vary import Distribution, FloatArray, Vary
 
 if TYPE_CHECKING:
@@ -26,8 +26,8 @@ RESAMPLES = 200
 
 def sobol_indices(
     scene: Scene | str | os.PathLike[str],
-    vary: Sequence[str | Vary],
-    cycles: Sequence[int],
+    vary: str | Sequence[str | Vary],
+    cycles: float | Iterable[float],
     *,
     samples: int = 1024,
     seed: int = 0,
@@ -61,9 +61,10 @@ def sobol_indices(
     import xarray
     from scipy import stats
 
+    check_executor(executor)
+    asked = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
     if samples < 2 or samples & (samples - 1):
         raise UsageError(f"samples: {samples} is no power of two")
-    asked = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
     keys = [each.key for each in asked.design.vary]
 
     def wear(points: FloatArray) -> FloatArray:

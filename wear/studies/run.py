@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
@@ -21,7 +21,7 @@ from wear.faults import UsageError, WorkersLost
 from wear.progress import Pace
 from wear.studies.design import Chunk, Design
 from wear.studies.rows import Answers, Study, solve_chunk
-from wear.studies.vary import Vary, parse
+from wear.studies.vary import Distribution, Levels, Vary, parse
 
 if TYPE_CHECKING:
     import xarray
@@ -38,9 +38,9 @@ IN_FLIGHT = 64  # chunks handed over at once: enough for a cluster, few enough f
 
 def study(
     scene: Scene | str | os.PathLike[str],
-    vary: Sequence[str | Vary],
-    cycles: Sequence[int],
-    output: str | Path,
+    vary: str | Sequence[str | Vary],
+    cycles: float | Iterable[float],
+    output: str | os.PathLike[str],
     *,
     design: str = "grid",
     samples: int = 0,
@@ -61,7 +61,7 @@ def study(
         `KEY=uniform(low,high)`, `loguniform(low,high)`, `normal(mean,sd)` or
         `lognormal(median,factor)`. Or `Levels` and `Distribution`.
     cycles
-        Numbers of cycles after which the wear is wanted.
+        Whole numbers of cycles after which the wear is wanted, or one.
     output
         Zarr folder of the results.
     design, samples, seed
@@ -90,19 +90,22 @@ def study(
         if the executor lost its workers; the same call goes on.
     """
     asked = prepare(scene, vary, cycles, design, samples, seed, until_wear, rtol)
-    return run(asked, Path(output), executor, progress).dataset()
+    return run(asked, output, executor, progress).dataset()
 
 
 def run(
     asked: Study,
-    output: Path,
+    output: str | os.PathLike[str],
     executor: Executor | None,
     progress: Callable[[str], None],
 ) -> Store:
     """Solve the chunks that are missing at `output` and return the store of all, see `study`."""
     from wear.studies.store import Store
 
-    store = Store(output, asked)
+    if not isinstance(output, str | os.PathLike):
+        raise UsageError(f"output: {output!r} is no name of a folder")
+    check_executor(executor)
+    store = Store(Path(output), asked)
     left = list(store.missing())
     pace, done = Pace(progress), 0
     pace.begin("scene", sum(map(_rows, left)))
@@ -115,8 +118,8 @@ def run(
 
 def prepare(
     scene: Scene | str | os.PathLike[str],
-    vary: Sequence[str | Vary],
-    cycles: Sequence[int],
+    vary: str | Sequence[str | Vary],
+    cycles: float | Iterable[float],
     design: str,
     samples: int,
     seed: int,
@@ -124,14 +127,18 @@ def prepare(
     rtol: float,
 ) -> Study:
     """Return what is to be solved, or raise all that is wrong with it."""
+    from wear.parameters import no_such_number, parameters_of
     from wear.scene import as_scene
+    from wear.solver import is_number, whole_cycles
 
     base = as_scene(scene)
     faults: list[str] = []
     parsed: list[Vary] = []
-    for entry in vary:
+    for entry in [vary] if isinstance(vary, str) else vary:
         try:
-            parsed.append(parse(entry) if isinstance(entry, str) else entry)
+            parsed.append(entry if isinstance(entry, Levels | Distribution) else parse(entry))
+            if "." not in parsed[-1].key:
+                raise UsageError(no_such_number(parsed[-1].key, parameters_of(base)))
             base.with_({parsed[-1].key: parsed[-1].example})
         except ValueError as fault:
             faults.append(str(fault))
@@ -140,17 +147,24 @@ def prepare(
         plan = Design(design, tuple(parsed), samples, seed)
     except UsageError as fault:
         faults += [] if faults and not parsed else [str(fault)]
-    if not cycles or any(n != int(n) or not 1 <= n <= 10**12 for n in cycles):
-        faults.append("cycles: give whole numbers from 1 to 1e12")
-    elif len(set(cycles)) < len(cycles):
+    wanted = whole_cycles(cycles, faults, least=1)
+    if len(set(wanted)) < len(wanted):
         faults.append("cycles: a number is given twice")
-    if until_wear is not None and not 0.0 < until_wear < 1e30:
+    if until_wear is not None and not (is_number(until_wear) and 0.0 < until_wear < 1e30):
         faults.append(f"until_wear: {until_wear!r} is no positive number of mm")
-    if not 1e-13 <= rtol <= 0.1:
+    if not (is_number(rtol) and 1e-13 <= rtol <= 0.1):
         faults.append(f"rtol: {rtol!r} is not between 1e-13 and 0.1")
     if faults or plan is None:
         raise UsageError("\n".join(faults))
-    return Study(base, plan, tuple(int(n) for n in cycles), until_wear, rtol)
+    return Study(base, plan, wanted, until_wear, rtol)
+
+
+def check_executor(executor: object) -> None:
+    """Raise a `UsageError` for what is no executor; a client of Dask has one."""
+    if hasattr(executor, "get_executor"):
+        raise UsageError("executor: this is a client; give client.get_executor()")
+    if executor is not None and not hasattr(executor, "submit"):
+        raise UsageError(f"executor: {executor!r} has no method submit; give an Executor")
 
 
 def _rows(chunk: Chunk) -> int:

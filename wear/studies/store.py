@@ -10,6 +10,7 @@ import json
 import math
 import shutil
 import tempfile
+import warnings
 from collections.abc import Iterator
 from dataclasses import asdict
 from importlib.metadata import version
@@ -105,7 +106,7 @@ class Store:
         """Return the results as a labelled dataset, read from disk as they are used."""
         import xarray
 
-        results: xarray.Dataset = xarray.open_zarr(self.path, consolidated=False, chunks=None)
+        results: xarray.Dataset = xarray.open_zarr(self.path, chunks=None)
         return results
 
     def _opened(self) -> Any:
@@ -156,6 +157,9 @@ class Store:
                     group[vary.key][:] = np.array(vary.values)
             group.attrs["study"] = json.dumps(self._identity)
             group.attrs["scene"] = self.study.scene.to_toml()
+            with warnings.catch_warnings():  # that Zarr's format 3 leaves this to its writers
+                warnings.simplefilter("ignore")
+                zarr.consolidate_metadata(folder)
             folder.chmod(0o755)
             folder.rename(self.path)
         except BaseException:

@@ -101,6 +101,8 @@ def parse(text: str) -> Vary:
     >>> parse("bearing.wear_coefficient=loguniform(1e-8,1e-5)").parameters
     (1e-08, 1e-05)
     """
+    if not isinstance(text, str):
+        raise UsageError(f"vary: {text!r} is no text such as bearing.hardness_MPa=100:300:21")
     key, equals, value = (part.strip() for part in text.partition("="))
     if not equals or not key:
         raise UsageError(f"{text!r}: write KEY=VALUES, as in bearing.hardness_MPa=100:300:21")

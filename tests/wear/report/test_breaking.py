@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -43,13 +41,13 @@ def _names(latex: str) -> list[str]:
 
 
 @pytest.mark.parametrize("latex", LONG.values(), ids=LONG.keys())
-def test_nothing_is_lost(latex: str) -> None:
+def test_nothing_is_lost(latex):
     before, after = _names(latex), _names(broken(latex))
     assert [name for name in after if name != "1"] == [name for name in before if name != "1"]
 
 
 @pytest.mark.parametrize("latex", LONG.values(), ids=LONG.keys())
-def test_every_line_fits(latex: str) -> None:
+def test_every_line_fits(latex):
     assert width(latex) > LIMIT
     body = re.sub(
         r"^(\\left\\\{)?\\begin\{aligned\}|\\end\{aligned\}(\\right\.)?$", "", broken(latex)
@@ -61,7 +59,7 @@ def test_every_line_fits(latex: str) -> None:
 
 
 @pytest.mark.parametrize("align", ["", "&"])
-def test_a_line_starts_at_the_relation_rather_than_inside_brackets(align: str) -> None:
+def test_a_line_starts_at_the_relation_rather_than_inside_brackets(align):
     right = rf"\frac{{u_c \left(4 f_c {S} - f_c \left({LATER} - 2 U_a\right)\right)}}{{{S}}}"
     shown = broken(rf"\begin{{aligned}}{ARGUMENT} - u_c {align}= {right}\end{{aligned}}")
     assert len(re.findall(r"\\\\", shown)) == 1
@@ -69,11 +67,11 @@ def test_a_line_starts_at_the_relation_rather_than_inside_brackets(align: str) -
 
 
 @pytest.mark.parametrize("latex", LONG.values(), ids=LONG.keys())
-def test_the_page_shows_it(latex: str) -> None:
+def test_the_page_shows_it(latex):
     assert mathml.block(latex).count("<mtr>") >= 2
 
 
-def test_tex_agrees_that_every_line_fits(tmp_path: Path, need_tool: Callable[..., str]) -> None:
+def test_tex_agrees_that_every_line_fits(tmp_path, need_tool):
     need_tool("pdflatex")
     shown = "".join(
         f"\\begin{{equation}}{broken(latex)}\\tag{{D.10}}\\end{{equation}}\n"
@@ -98,7 +96,7 @@ def test_tex_agrees_that_every_line_fits(tmp_path: Path, need_tool: Callable[...
         r"\begin{aligned} a &= b \\ c &= d \end{aligned}",
     ],
 )
-def test_what_fits_is_left_alone(latex: str) -> None:
+def test_what_fits_is_left_alone(latex):
     assert re.sub(r"\s", "", broken(latex)) == re.sub(r"\s", "", latex)
 
 
@@ -119,12 +117,12 @@ def _formulas(draw: st.DrawFn, depth: int = 3) -> str:
 
 
 @given(_formulas())
-def test_pieces_are_the_formula_again(latex: str) -> None:
+def test_pieces_are_the_formula_again(latex):
     assert source(parse(latex)) == latex
 
 
 @given(_formulas(), st.floats(5.0, 40.0))
-def test_any_formula_keeps_its_names(latex: str, limit: float) -> None:
+def test_any_formula_keeps_its_names(latex, limit):
     after = broken(f"y = {latex}", limit)
     kept = [name for name in _names(after) if name != "1"]
     assert kept == [name for name in _names(f"y = {latex}") if name != "1"]

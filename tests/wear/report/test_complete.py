@@ -47,6 +47,15 @@ def test_every_figure_and_table_is_mentioned_in_the_text(paper: Document) -> Non
     assert floats - mentioned == set()
 
 
+def test_every_claim_has_its_row(paper: Document) -> None:
+    assert {f"claim:{claim}" for claim in quick.CLAIMS} <= paper.marks.keys()
+
+
+def test_no_formula_is_cut_into_words(paper: Document) -> None:
+    words = "".join(piece.content for piece in inline(paper.tokens) if piece.type == "text")
+    assert not re.search(r"[\\$].{0,40}", words)
+
+
 def test_every_claim_is_linked_to_an_equation_or_mentioned_in_the_text(paper: Document) -> None:
     mentioned = {piece.content for piece in inline(paper.tokens) if piece.type == "reference"}
     linked = {claim for sources in paper.mentions.values() for claim in sources}

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from tests.wear.report.conftest import document
 from wear.report.document import Document
+from wear.report.markup import escaped
 from wear.report.number import Number
-from wear.report.text import escaped, line, parsed
+from wear.report.text import line, parsed
 
 
 def test_every_label_has_the_number_of_its_place(sample: Document) -> None:
@@ -34,6 +35,7 @@ def test_every_label_has_the_number_of_its_place(sample: Document) -> None:
         "claim:C24": "claim C24",
         "claim:C29": "claim C29",
         "der:8": "derivation of (8)",
+        "der:cases": "derivation of (D.1)",
         "ref:kuczma1990": "[1]",
         "ref:filippov1988": "[2]",
     }
@@ -46,7 +48,7 @@ def test_an_equation_that_says_the_same_leads_to_the_one_that_is_shown(sample: D
 def test_links_back_come_from_derivations_and_claims(sample: Document) -> None:
     assert sample.mentions == {
         "eq:8": ("der:8",),  # not from the table, nor from the derivation of others
-        "eq:cases": ("claim:C24",),
+        "eq:cases": ("der:cases", "claim:C24"),
         "eq:21": ("claim:C29",),
     }
 

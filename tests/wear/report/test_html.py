@@ -7,15 +7,12 @@ import re
 from collections import Counter
 from html.parser import HTMLParser
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.browser import Page
 from tests.wear.report.conftest import document
 from wear.report import html, mathml, svg
-from wear.report.document import Document
 from wear.report.number import Number
 
 _VOID = {"meta", "link", "br", "img", "hr", "mspace", "path", "use", "rect", "stop", "circle"}
@@ -48,23 +45,23 @@ class Outline(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def page(sample: Document) -> str:
+def page(sample):
     return html.page(sample)
 
 
 @pytest.fixture(scope="module")
-def outline(page: str) -> Outline:
+def outline(page):
     return Outline(page)
 
 
-def test_the_page_needs_nothing_but_itself(page: str, outline: Outline) -> None:
+def test_the_page_needs_nothing_but_itself(page, outline):
     assert not outline.of("link", "img", "iframe", "object")
     assert outline.of("script") == [{}]  # one, in the file itself, allowed by its hash
     assert not re.search(r"url\((?!data:|#)|@import|javascript:|\son\w+=", page)
     assert "default-src 'none'" in page
 
 
-def test_ids_are_unique_and_every_link_arrives(outline: Outline) -> None:
+def test_ids_are_unique_and_every_link_arrives(outline):
     ids = Counter(a["id"] for _, a in outline.tags if "id" in a)
     assert [i for i, times in ids.items() if times > 1] == []
     inner = {a[k][1:] for _, a in outline.tags for k in ("href", "xlink:href")
@@ -72,7 +69,7 @@ def test_ids_are_unique_and_every_link_arrives(outline: Outline) -> None:
     assert inner - set(ids) == set()
 
 
-def test_every_label_is_on_the_page_under_its_number(sample: Document, page: str) -> None:
+def test_every_label_is_on_the_page_under_its_number(sample, page):
     for mark in sample.marks.values():
         after = page.split(f'id="{mark.target}"', 1)[1]
         shown = {
@@ -88,14 +85,14 @@ def test_every_label_is_on_the_page_under_its_number(sample: Document, page: str
         assert shown in after, mark
 
 
-def test_equations_link_to_their_derivations_and_claims(sample: Document, page: str) -> None:
+def test_equations_link_to_their_derivations_and_claims(sample, page):
     for label, sources in sample.mentions.items():
         own = page.split(f'id="{label}"', 1)[1]
         for source in sources:
             assert f'href="#{source}"' in own
 
 
-def test_screen_readers_find_their_way(outline: Outline) -> None:
+def test_screen_readers_find_their_way(outline):
     assert outline.of("html")[0]["lang"] == "en"
     assert all(len(outline.of(landmark)) == 1 for landmark in ("nav", "main"))
     assert next(a for a in outline.of("a"))["href"] == "#content"
@@ -107,37 +104,37 @@ def test_screen_readers_find_their_way(outline: Outline) -> None:
     assert all(a["role"] == "img" and a["aria-label"] for a in outline.of("svg"))
 
 
-def test_figures_follow_the_colours_of_the_page(page: str) -> None:
+def test_figures_follow_the_colours_of_the_page(page):
     for figure in re.findall(r"<svg.*?</svg>", page, flags=re.DOTALL):
         assert "currentColor" in figure
         assert not re.search("#000000|#ffffff|<style|<metadata", figure)
 
 
-def test_formulas_have_no_errors_and_text_is_escaped(page: str) -> None:
+def test_formulas_have_no_errors_and_text_is_escaped(page):
     assert page.count("<math") == page.count("</math>") == 12
     assert "merror" not in page
     assert "bearing &amp; its limit" in page
     assert "&lt; its verdict &gt;" in page
 
 
-def test_latex_outside_the_subset_is_named() -> None:
+def test_latex_outside_the_subset_is_named():
     with pytest.raises(ValueError, match=r"\\unheard"):
         mathml.inline(r"\unheard{x}")
 
 
-def test_punctuation_stays_with_its_formula() -> None:
+def test_punctuation_stays_with_its_formula():
     shown = html.page(document("# T\n\n$u$; next $v$ more"))
     assert re.search(r'class="kept"><math>.*?</math>;</span> next', shown)
     assert shown.count('class="kept"') == 1
 
 
-def test_numbers_of_numpy_are_numbers() -> None:
+def test_numbers_of_numpy_are_numbers():
     values = {"a": Number(np.float64(0.5), "a", 2), "b": Number(np.int64(7), "b")}
     shown = html.page(document("# T\n\n{{ a }} {{ b }}", **values))
     assert re.findall(r'value="(.*?)".*?>(.*?)<', shown) == [("0.5", "0.50"), ("7", "7")]
 
 
-def test_two_figures_with_the_same_ids_do_not_meet() -> None:
+def test_two_figures_with_the_same_ids_do_not_meet():
     drawing = '<svg viewBox="0 0 1 1"><defs><g id="a"/></defs><use xlink:href="#a"/></svg>'
     first, second = svg.inline(drawing, "fig:1", "one"), svg.inline(drawing, "fig:2", "two")
     assert 'id="fig-1-a"' in first
@@ -158,7 +155,7 @@ document.fonts.load('16px "STIX Two Math"', 'σ').then(fonts => {
 
 
 @pytest.mark.parametrize("width", [1280, 768, 500])
-def test_nothing_runs_out_of_the_page(page: str, width: int, tmp_path: Path, window: Page) -> None:
+def test_nothing_runs_out_of_the_page(page, width, tmp_path, window):
     file = tmp_path / "page.html"
     file.write_text(page, encoding="utf-8")
     window.size(width, 900)
@@ -168,7 +165,7 @@ def test_nothing_runs_out_of_the_page(page: str, width: int, tmp_path: Path, win
     assert json.loads(window.run("document.title")) == {"fonts": 1, "page": 0, "wide": []}
 
 
-def test_the_section_that_is_read_is_marked(page: str, tmp_path: Path, window: Page) -> None:
+def test_the_section_that_is_read_is_marked(page, tmp_path, window):
     """And the list of contents is folded where it would stand in the way."""
     file = tmp_path / "page.html"
     file.write_text(page, encoding="utf-8")

@@ -8,7 +8,7 @@ import dataclasses
 import json
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from importlib.resources import files
 from itertools import pairwise
@@ -23,7 +23,6 @@ from derive.catalogue import equations
 from derive.check import Check
 from derive.files import write_atomically
 from derive.verification import Verification, checked, parts, verified
-from tests.browser import Page
 from tests.wear.report import quick
 from tests.wear.report.test_html import Outline
 from wear.report import claims, reconcile
@@ -32,7 +31,6 @@ from wear.report.html import page
 from wear.report.note import CUTOFF, required
 from wear.report.number import Number
 from wear.report.paper import paper as written
-from wear.report.runs import Runs
 from wear.report.tex import report
 from wear.report.text import inline
 from wear.report.typeset import typeset
@@ -55,16 +53,16 @@ _NUMBER_WORD = re.compile(
 
 
 @pytest.fixture(scope="module")
-def runs() -> Runs:
+def runs():
     return quick.runs()
 
 
 @pytest.fixture(scope="module")
-def paper() -> Document:
+def paper():
     return quick.paper()
 
 
-def test_no_number_in_the_text_is_typed() -> None:
+def test_no_number_in_the_text_is_typed():
     """Digits stand in formulas (small ones), in quoted equation numbers, and nowhere else."""
     words = _NOT_WORDS.sub(" ", _TEXT)
     assert [found for found in _FORMULA.findall(words) if _RESULT.search(found)] == []
@@ -73,11 +71,11 @@ def test_no_number_in_the_text_is_typed() -> None:
     assert _NUMBER_WORD.findall(plain) == []
 
 
-def test_the_paper_holds_together(paper: Document) -> None:
+def test_the_paper_holds_together(paper):
     assert len(paper.marks) > len(equations())
 
 
-def test_every_equation_stands_in_it_once(paper: Document) -> None:
+def test_every_equation_stands_in_it_once(paper):
     """Those that say the same stand there under the number of the first."""
     shown = Counter(equation.id for equation in paper.shown)
     assert max(shown.values()) == 1
@@ -86,32 +84,32 @@ def test_every_equation_stands_in_it_once(paper: Document) -> None:
     assert [formula for formula, times in formulas.items() if times > 1] == []
 
 
-def test_the_text_has_at_most_fifty_equations() -> None:
+def test_the_text_has_at_most_fifty_equations():
     text = _TEXT.partition("{#app:")[0]
     named = re.findall(r"^```equations\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     assert sum(len(names.split()) for names in named) <= 50
 
 
-def test_works_are_numbered_in_the_order_in_which_the_text_cites_them(paper: Document) -> None:
+def test_works_are_numbered_in_the_order_in_which_the_text_cites_them(paper):
     assert [paper.marks[f"ref:{key}"].number for key in paper.works] == [
         str(n + 1) for n in range(len(paper.works))
     ]
     assert {"note", "archard1953", "kuczma1990", "filippov1988"} <= set(paper.works)
 
 
-def test_equations_of_the_note_have_its_numbers(paper: Document) -> None:
+def test_equations_of_the_note_have_its_numbers(paper):
     for equation in equations():
         if re.fullmatch(r"\d+[a-g]?", equation.id):
             assert paper.marks[f"eq:{equation.id}"].number == equation.id
 
 
-def test_corrected_equations_show_the_printed_form_beside(paper: Document) -> None:
+def test_corrected_equations_show_the_printed_form_beside(paper):
     agrees = {equation.id: equation.agrees for equation in equations()}
     for equation in paper.shown:
         assert bool(equation.printed) == (not agrees[equation.id])
 
 
-def test_every_step_stands_once(paper: Document) -> None:
+def test_every_step_stands_once(paper):
     """A step with a formula is not repeated, and none refers to one that comes later."""
     tokens = paper.tokens
     formulas = Counter(t.content for t in tokens if t.type == "fence" and t.info == "math")
@@ -123,11 +121,11 @@ def test_every_step_stands_once(paper: Document) -> None:
         assert all(int(n) < place for n in own), token.content
 
 
-def test_the_four_figures_of_the_note_are_files(paper: Document) -> None:
+def test_the_four_figures_of_the_note_are_files(paper):
     assert {f"fig:figure-{name}" for name in ("2a", "2b", "3a", "3b")} <= set(paper.figures)
 
 
-def test_every_claim_decided_is_in_the_ledger(paper: Document) -> None:
+def test_every_claim_decided_is_in_the_ledger(paper):
     claims = [t.content for t in inline(paper.tokens) if t.type == "target"]
     verdicts = [t.content for t in inline(paper.tokens) if t.type == "verdict"]
     decided = quick.few_claims()
@@ -135,7 +133,7 @@ def test_every_claim_decided_is_in_the_ledger(paper: Document) -> None:
     assert verdicts == [str(entry.finding.verdict) for entry in decided]
 
 
-def test_both_writers_take_it(paper: Document) -> None:
+def test_both_writers_take_it(paper):
     assert "<h1>" in page(paper)
     sources = report(paper)
     assert all(f"Eq{name}}}" in sources["equations.tex"] for name in ("WearPerCycle", "ContactLaw"))
@@ -146,7 +144,7 @@ def numbers(paper: Document) -> list[Number]:
     return [t.meta["number"] for t in inline(paper.tokens) if t.type == "number"]
 
 
-def test_the_findings_have_the_numbers_of_the_run(paper: Document, runs: Runs) -> None:
+def test_the_findings_have_the_numbers_of_the_run(paper, runs):
     values = {number.value for number in numbers(paper)}
     assert required(runs.asymptote("section4").wear_per_cycle_mm) in values
     assert required(runs.asymptote("section4" + CUTOFF).arrest_cycle) in values
@@ -160,7 +158,7 @@ _CONSTANT = re.compile(
 )
 
 
-def test_a_changed_run_changes_every_number(paper: Document) -> None:
+def test_a_changed_run_changes_every_number(paper):
     found = equations()
     trusted = quick.trusted(found)
     checks = tuple(Check(kind, False, "") for kind in ("proof", "falsifier", "coq", "dimensions"))
@@ -202,7 +200,7 @@ def _changed(value: Any, random: np.random.Generator) -> Any:
             return value
 
 
-def test_the_evidence_for_a_claim_has_no_typed_result() -> None:
+def test_the_evidence_for_a_claim_has_no_typed_result():
     typed = re.compile(r"\d\.\d|\d[eE]-?\d|\d{3}")
     for module in (claims, reconcile, derive.note.claim_checks):
         for node in ast.walk(ast.parse(Path(module.__file__).read_text(encoding="utf-8"))):
@@ -211,12 +209,12 @@ def test_the_evidence_for_a_claim_has_no_typed_result() -> None:
                 assert not typed.search(words), f"{module.__name__}, line {node.lineno}: {words}"
 
 
-def test_a_constant_that_the_regime_lacks_is_an_error() -> None:
+def test_a_constant_that_the_regime_lacks_is_an_error():
     with pytest.raises(ValueError, match="does not have"):
         required(None)
 
 
-def test_the_verification_finds_a_wrong_step() -> None:
+def test_the_verification_finds_a_wrong_step():
     """A judgement whose claim was changed fails, and is named."""
     (good,) = (e for e in equations() if e.id == "7c")
     (judgement,) = good.statements
@@ -229,12 +227,12 @@ def test_the_verification_finds_a_wrong_step() -> None:
     assert {identifier for identifier, _ in outcome.failures} == {"7c"}
 
 
-def test_steps_that_are_the_same_are_checked_once() -> None:
+def test_steps_that_are_the_same_are_checked_once():
     (closure, again) = (e for e in equations() if e.id in ("1", "7a"))
     assert verified([closure, again]).steps == 1
 
 
-def test_parts_that_were_checked_elsewhere_are_put_together() -> None:
+def test_parts_that_were_checked_elsewhere_are_put_together():
     chosen = [e for e in equations() if e.id in ("1", "7a", "7c")]
     answers = [partial(checked, part) for part in parts(chosen)]
     assert verified(chosen, answers) == verified(chosen)
@@ -243,7 +241,7 @@ def test_parts_that_were_checked_elsewhere_are_put_together() -> None:
 # Analysis and numerics: what the tables of the paper say
 
 
-def test_the_approach_follows_the_predicted_law(runs: Runs) -> None:
+def test_the_approach_follows_the_predicted_law(runs):
     """Excess of wear per cycle and pressure over their limits: A/(N u_cum), ever more closely."""
     for excess in (runs.approach.excess, runs.approach.pressure_excess):
         off = np.abs(excess / runs.approach.predicted - 1.0)[5:]
@@ -252,22 +250,22 @@ def test_the_approach_follows_the_predicted_law(runs: Runs) -> None:
     assert runs.threshold_excess == pytest.approx(1e-6, rel=1e-4)
 
 
-def test_the_closed_solution_is_the_solver_s(runs: Runs) -> None:
+def test_the_closed_solution_is_the_solver_s(runs):
     assert runs.static_distance < 1e-12
 
 
-def test_two_solvers_agree(runs: Runs) -> None:
+def test_two_solvers_agree(runs):
     assert set(runs.integrated) == {"section4", "section3" + CUTOFF}
     assert max(runs.integrated.values()) < 2e-9
 
 
-def test_bounds_contain_the_wear_and_each_other(runs: Runs) -> None:
+def test_bounds_contain_the_wear_and_each_other(runs):
     wear = float(runs.history("section4").u_c[-1])
     tight, loose = runs.wear_bounds, runs.static_bounds
     assert loose.low < tight.low < wear < tight.high < loose.high
 
 
-def test_arrest_is_where_the_formula_says(runs: Runs) -> None:
+def test_arrest_is_where_the_formula_says(runs):
     stopped = [case for name, case in runs.cases.items() if name.endswith(CUTOFF)]
     assert len(stopped) == 6
     for case in stopped:
@@ -276,18 +274,16 @@ def test_arrest_is_where_the_formula_says(runs: Runs) -> None:
         )
 
 
-def test_the_rate_is_at_its_limit_at_two_phases_of_every_cycle(runs: Runs) -> None:
+def test_the_rate_is_at_its_limit_at_two_phases_of_every_cycle(runs):
     assert runs.phases.distance < 1e-13
     assert np.all((runs.phases.phases > 0.5) & (runs.phases.phases < 1.0))
 
 
-def test_runs_have_a_place_in_json(runs: Runs) -> None:
+def test_runs_have_a_place_in_json(runs):
     assert json.dumps({name: case.scene.to_tables() for name, case in runs.cases.items()})
 
 
-def test_the_paper_compiles_and_numbers_as_the_page_does(
-    paper: Document, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_the_paper_compiles_and_numbers_as_the_page_does(paper, tmp_path, need_tool):
     """No warning: references undefined, boxes too wide. Equations, figures, tables, sections."""
     need_tool("pdflatex")
     for name, content in report(paper).items():
@@ -304,7 +300,7 @@ def test_the_paper_compiles_and_numbers_as_the_page_does(
     }
 
 
-def test_screen_readers_find_their_way_in_it(paper: Document) -> None:
+def test_screen_readers_find_their_way_in_it(paper):
     outline = Outline(page(paper))
     levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h[1-6]", tag)]
     assert levels[0] == 1
@@ -315,14 +311,12 @@ def test_screen_readers_find_their_way_in_it(paper: Document) -> None:
     assert len(set(described)) == len(described)
 
 
-def test_links_have_names(paper: Document) -> None:
+def test_links_have_names(paper):
     links = re.findall(r"<a\b[^>]*>(.*?)</a>", page(paper), flags=re.DOTALL)
     assert all(re.sub(r"<[^>]*>", "", name).strip() for name in links)
 
 
-def test_on_a_phone_captions_are_read_without_scrolling(
-    paper: Document, tmp_path: Path, window: Page
-) -> None:
+def test_on_a_phone_captions_are_read_without_scrolling(paper, tmp_path, window):
     """Tables and figures may be wider, in boxes of their own; letters are not made too small."""
     file = tmp_path / "report.html"
     file.write_text(page(paper), encoding="utf-8")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from tests.wear.report.conftest import document
 from wear.report import tex
 from wear.report.document import Document, Equation
 from wear.report.tex_text import escape, verbatim
-from wear.report.typeset import Typeset, typeset, warnings
+from wear.report.typeset import typeset, warnings
 
 
 def _write(folder: Path, sources: Mapping[str, str | bytes]) -> Path:
@@ -24,15 +24,13 @@ def _write(folder: Path, sources: Mapping[str, str | bytes]) -> Path:
 
 
 @pytest.fixture(scope="module")
-def compiled(
-    sample: Document, tmp_path_factory: pytest.TempPathFactory, need_tool: Callable[..., str]
-) -> tuple[Path, Typeset]:
+def compiled(sample, tmp_path_factory, need_tool):
     need_tool("pdflatex")
     report = _write(tmp_path_factory.mktemp("tex"), tex.report(sample))
     return report, typeset(report)
 
 
-def test_the_report_compiles_without_a_warning(compiled: tuple[Path, Typeset]) -> None:
+def test_the_report_compiles_without_a_warning(compiled):
     report, outcome = compiled
     assert outcome.notice == ""
     assert outcome.warnings == ()
@@ -40,9 +38,7 @@ def test_the_report_compiles_without_a_warning(compiled: tuple[Path, Typeset]) -
     assert outcome.pdf.startswith(b"%PDF")
 
 
-def test_the_pdf_is_the_same_in_every_run(
-    sample: Document, compiled: tuple[Path, Typeset], tmp_path: Path
-) -> None:
+def test_the_pdf_is_the_same_in_every_run(sample, compiled, tmp_path):
     again = typeset(_write(tmp_path, tex.report(sample))).pdf
     first = compiled[1].pdf
     assert first is not None
@@ -50,9 +46,7 @@ def test_the_pdf_is_the_same_in_every_run(
     assert again == first
 
 
-def test_tex_numbers_every_label_as_the_page_does(
-    sample: Document, compiled: tuple[Path, Typeset]
-) -> None:
+def test_tex_numbers_every_label_as_the_page_does(sample, compiled):
     auxiliary = compiled[0].with_suffix(".aux").read_text(encoding="utf-8")
     numbers = dict(re.findall(r"\\newlabel\{([^}@]+)\}\{\{\{?([^}]*)\}", auxiliary))
     named = ("claim", "derivation", "work")  # these have names, not numbers
@@ -63,9 +57,7 @@ def test_tex_numbers_every_label_as_the_page_does(
     }
 
 
-def test_equations_can_be_put_into_another_report(
-    sample: Document, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_equations_can_be_put_into_another_report(sample, tmp_path, need_tool):
     need_tool("pdflatex")
     (tmp_path / "equations.tex").write_text(tex.equations(sample), encoding="utf-8")
     other = tmp_path / "other.tex"
@@ -79,7 +71,7 @@ def test_equations_can_be_put_into_another_report(
     assert (outcome.notice, outcome.warnings) == ("", ())
 
 
-def test_a_failing_run_is_a_notice(tmp_path: Path, need_tool: Callable[..., str]) -> None:
+def test_a_failing_run_is_a_notice(tmp_path, need_tool):
     need_tool("pdflatex")
     source = tmp_path / "broken.tex"
     source.write_text("\\documentclass{article}\\begin{document}\\nonsense\\end{document}")
@@ -89,9 +81,7 @@ def test_a_failing_run_is_a_notice(tmp_path: Path, need_tool: Callable[..., str]
     assert "\n" not in outcome.notice
 
 
-def test_without_an_engine_one_line_says_how_to_get_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_an_engine_one_line_says_how_to_get_it(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     outcome = typeset(tmp_path / "report.tex")
     assert outcome.pdf is None
@@ -99,7 +89,7 @@ def test_without_an_engine_one_line_says_how_to_get_it(
     assert "\n" not in outcome.notice
 
 
-def test_every_special_compiles(tmp_path: Path, need_tool: Callable[..., str]) -> None:
+def test_every_special_compiles(tmp_path, need_tool):
     need_tool("pdflatex")
     text = "\\ { } $ & # % _ ^ ~ < > | \" ' ` é ü Ł ő – — “ ” ‘ ’ … − · × ± ° µ → ≤ ≥ ≈ ∞ ² ³"
     code = "a" * 250 + "\n\\%{}_^"
@@ -110,9 +100,7 @@ def test_every_special_compiles(tmp_path: Path, need_tool: Callable[..., str]) -
     assert (outcome.notice, outcome.warnings) == ("", ())
 
 
-def test_a_caption_may_name_anything(
-    sample: Document, tmp_path: Path, need_tool: Callable[..., str]
-) -> None:
+def test_a_caption_may_name_anything(sample, tmp_path, need_tool):
     need_tool("pdflatex")
     named = " ".join(f"[{label}] [({label})]" for label in sample.marks)
     table = f"\n\nTable: Seen in {named}. {{#tab:one}}\n\n| a | b |\n| :-- | --- |\n| c | d |\n"
@@ -121,19 +109,19 @@ def test_a_caption_may_name_anything(
     assert (outcome.notice, outcome.warnings) == ("", ())
 
 
-def test_a_character_without_a_form_is_named() -> None:
+def test_a_character_without_a_form_is_named():
     with pytest.raises(ValueError, match=r"U\+03C3"):
         escape("roughness σ")
 
 
-def test_a_listing_loses_no_character() -> None:
+def test_a_listing_loses_no_character():
     code = "short\n" + "x" * 205
     shown = verbatim(code, 96)
     assert max(len(line) for line in shown.split("\n")) <= 96
     assert shown.replace("\n    ", "") == code
 
 
-def test_a_macro_has_letters_only() -> None:
+def test_a_macro_has_letters_only():
     wrong = {"21": Equation("21", "a", macro="Eq21")}
     tokens = document("```equations\n21\n```\n").tokens
     with pytest.raises(ValueError, match="Eq21"):
@@ -152,5 +140,5 @@ def test_a_macro_has_letters_only() -> None:
         ("Package: infwarerr 2019/12/03 v1.5 Providing info/warning messages", False),
     ],
 )
-def test_which_lines_of_a_log_matter(line: str, matters: bool) -> None:
+def test_which_lines_of_a_log_matter(line, matters):
     assert bool(warnings(f"before\n{line}\nafter")) == matters

@@ -1,0 +1,106 @@
+"""What tests of the rules share: judgements to start from, and what is often made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+from derive.claims import Drift, Term
+from derive.hypotheses import Hypothesis, Kind
+from derive.kernel import Judgement
+from derive.results.expansion import Expansion
+from derive.results.steady_state import BOUNDED_LOAD, steady_state
+from derive.rules.algebra import Insert, Solve, discharge, forget
+from derive.rules.assumption import assume, defined
+from derive.rules.averages import OFFSET, SATURATION, term_of
+from derive.rules.calculus import SPRINGS
+from derive.rules.drift import MEAN
+from derive.rules.inequalities import Arithmetic
+from derive.rules.limits import forever
+from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC, SINE
+from derive.rules.solutions import Solution
+from derive.symbols import initial, rate, symbol, symbols, t
+
+u_c, U_a, U_c, h, p, G = symbols("u_c U_a U_c h p G")
+C, f_c, h_0, k, theta, u_cum = symbols("C f_c h_0 k theta u_cum")
+
+
+def given(relation: sp.Basic, text: str = "known") -> Judgement:
+    return assume(Hypothesis(text, relation, kind=Kind.STATE))
+
+
+def stated(relation: type[Relational]) -> Callable[..., Judgement]:
+    return lambda left, right, evaluate=True: given(relation(left, right, evaluate=evaluate))
+
+
+eq, ne, ge, gt, le, lt = map(stated, (sp.Eq, sp.Ne, sp.Ge, sp.Gt, sp.Le, sp.Lt))
+
+
+def equal(left: sp.Expr, right: sp.Expr) -> sp.Equality:
+    """Return an equality as it is written."""
+    return sp.Eq(left, right, evaluate=False)
+
+
+def end(expr: sp.Expr, value: sp.Expr) -> sp.Equality:
+    return sp.Eq(forever(expr), value)
+
+
+def tends(expr: sp.Expr, value: sp.Expr, point: sp.Expr = sp.oo) -> Judgement:
+    return given(equal(sp.Limit(expr, t, point), value))
+
+
+START, PIN_START = eq(initial("u_c"), 0), eq(initial("u_a"), 0)
+BOUNDED = assume(BOUNDED_LOAD)
+DEEP = tends(u_c, sp.oo)
+ROUGHENS = gt(f_c, 0)
+RATE = eq(rate("u_c"), C)
+CONSTANTLY = assume(CONSTANT)
+SLOPE = sp.Derivative(u_cum, f_c, evaluate=False)
+GROWING = defined(u_cum, h_0 * f_c)
+APPROACH = t * (rate("u_c") - C) - f_c * U_a
+FIRST_DRIFT = 2 * (1 - theta) * symbol("b_0")
+
+
+def supposed(relation: sp.Basic, kind: Kind = Kind.STATE) -> Hypothesis:
+    return Hypothesis("supposed", relation, kind=kind)
+
+
+def forgotten(relation: sp.Equality, claim: sp.Basic) -> Judgement:
+    """Drop the value of a symbol after something was made of it."""
+    return forget(Arithmetic(claim)(assume(supposed(relation))), supposed(relation))
+
+
+def discharged(met: sp.Basic, claim: sp.Basic, *known: Judgement) -> Judgement:
+    return discharge(Arithmetic(claim)(assume(supposed(met))), supposed(met), *known)
+
+
+def integral(body: sp.Expr, low: int = -1) -> Judgement:
+    return eq(G, sp.Integral(body, (theta, low, 2)))
+
+
+def timed(time: sp.Expr, speed: sp.Expr, start: Judgement, *facts: Judgement) -> Judgement:
+    return Solution(sp.Eq(t, time))(eq(rate("u_c"), speed), start, CONSTANTLY, *facts)
+
+
+def opened(*facts: Judgement) -> Judgement:
+    """Return the closure over a support of stiffness k."""
+    closure = eq(h, h_0 + U_c - U_a)
+    return Insert(sp.Eq(h, h_0 + p / k - U_a))(closure, Solve(U_c)(assume(SPRINGS)), *facts)
+
+
+def drift_premises(approach: sp.Expr = APPROACH) -> tuple[Judgement, ...]:
+    mean = defined(MEAN.lhs, MEAN.rhs)
+    return tends(approach, sp.S.Zero), assume(PERIODIC), assume(CONTINUOUS), mean
+
+
+def expansion_premises(name: str, kind: type[Term] = Drift, n: int = 1) -> tuple[Judgement, ...]:
+    """Return the pressure, the load, b_0, theta and a name for a coefficient of the expansion."""
+    pressure = steady_state().pressure_at_wear
+    named = defined(symbol(name), term_of(kind, n, pressure.claim.rhs))
+    return pressure, assume(SINE), defined(*OFFSET.args), defined(*SATURATION.args), named
+
+
+def slow_time() -> Judgement:
+    return Expansion().slow_time

@@ -1,0 +1,520 @@
+"""What a second hostile reading got through the public rules, and a true neighbour of each.
+
+Every false statement follows a comment with the model in which it fails, or what is wrong with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+import sympy as sp
+from sympy.core.function import AppliedUndef, UndefinedFunction
+
+from derive.claims import Drift, Equality, FirstZero
+from derive.hypotheses import Hypothesis, Kind
+from derive.kernel import Judgement, RuleError, infer, replayed
+from derive.rules.algebra import (
+    Consequence,
+    Discharge,
+    Identity,
+    Insert,
+    Multiply,
+    discharge,
+    forget,
+    substitute,
+)
+from derive.rules.assumption import assume, defined
+from derive.rules.averages import Averaging, SlowTime, term_of
+from derive.rules.calculus import (
+    DIFFERENTIABLE,
+    ParameterLimit,
+    change_clock,
+    differentiate,
+    grows,
+    integrate,
+)
+from derive.rules.data import Differentiated
+from derive.rules.drift import logarithmic_drift
+from derive.rules.inequalities import Arithmetic, Lipschitz, Monotone
+from derive.rules.limits import (
+    AtInfinity,
+    Diverges,
+    accumulates,
+    forever,
+    intermittent,
+    one_period_later,
+    unbounded,
+    vanishes,
+)
+from derive.rules.reading import CONTINUOUS, PERIODIC
+from derive.rules.solutions import Parametric
+from derive.symbols import initial, rate, symbol, symbols, t
+from tests.derive.judgements import (
+    BOUNDED,
+    CONSTANTLY,
+    DEEP,
+    ROUGHENS,
+    START,
+    drift_premises,
+    equal,
+    expansion_premises,
+    given,
+    slow_time,
+    supposed,
+    tends,
+    timed,
+)
+
+u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
+h_0, f_c, C, T, N, q, b_0, d, M = symbols("h_0 f_c C T N q b_0 d M")
+theta, u_cum, U_mean, tau, u_stop, c_1, m = symbols("theta u_cum U_mean tau u_stop c_1 m")
+x, y = sp.symbols("x y", real=True)
+v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
+du, CLOCK = rate("u_c"), defined(t, T * tau)
+FALLING, STEADY = C / (1 + tau) ** 2, C / (1 + f_c**2) ** 2
+
+
+def integral(body: sp.Expr, low: sp.Expr, high: sp.Expr) -> sp.Integral:
+    return sp.Integral(body, (q, low, high))
+
+
+def squeezed(bound: sp.Expr) -> Judgement:
+    return vanishes(given(sp.And(sp.Le(G, bound / u_c), sp.Ge(G, -bound / u_c))), DEEP)
+
+
+def at_times(level: sp.Expr, on: sp.Expr = C) -> Judgement:
+    """Wear at a rate ``on`` while the load is above a level."""
+    touching = sp.Ge(U_a, level)
+    law = given(sp.Eq(du, sp.Piecewise((on, touching), (0, True))))
+    part = sp.Integral(sp.Piecewise((1, touching), (0, True)), (t, 0, T)) / T
+    loads = assume(PERIODIC), assume(CONTINUOUS), BOUNDED
+    return intermittent(law, defined(d, part), given(sp.Ge(u_c, 0)), *loads)
+
+
+def drifting(approach: sp.Expr) -> Judgement:
+    return logarithmic_drift(*drift_premises(approach=approach))
+
+
+def scaled(value: sp.Expr) -> Judgement:
+    return change_clock(given(equal(u_c, value)), CLOCK)
+
+
+def sloped(value: sp.Expr, slope: sp.Expr) -> Judgement:
+    claim = equal(sp.Derivative(u_cum, h_0, evaluate=False), slope)
+    return Differentiated(claim, h_0)(defined(u_cum, value))
+
+
+def by_value(first: sp.Expr, claim: sp.Expr, value: sp.Expr) -> Judgement:
+    """Write ``lim first = 0`` for M -> oo with another form of ``first``, for f_c = value."""
+    known = ParameterLimit(first, M)(), given(equal(f_c, value))
+    return Consequence(equal(sp.Limit(claim, M, sp.oo), 0))(*known)
+
+
+def by_pressure(field: sp.Expr, size: sp.Expr) -> Judgement:
+    """The time at which a field has a value, where wear is a multiple of its size."""
+    wear = h_0 * (size - size.subs(t, 0))
+    law, start = given(equal(du, C)), given(equal(u_c, wear))
+    return Parametric(equal(t, h_0 * (field - field.subs(t, 0)) / C))(law, start, START, CONSTANTLY)
+
+
+def averaged(factor: sp.Expr) -> Judgement:
+    """The first drift under a pressure that is a multiple of the note's."""
+    known, sine, *constants, _ = expansion_premises("c_1")
+    pressure = known.claim.rhs * factor
+    name = defined(c_1, term_of(Drift, 1, pressure))
+    facts = given(equal(p, pressure)), sine, *constants, name, ROUGHENS
+    return Averaging(equal(c_1, 2 * (1 - theta) * b_0))(*facts)
+
+
+def slow(added: sp.Expr) -> Judgement:
+    """The slow time, with something added to the function of m."""
+    known = slow_time()
+    claim = equal(known.claim.lhs, known.claim.rhs + added)
+    return SlowTime(claim)(*known.parents)
+
+
+def lying(**methods: object) -> sp.Expr:
+    """Return an unspecified function of y with methods of its own."""
+    kind = type("Lying", (AppliedUndef,), methods)
+    return UndefinedFunction("lie", bases=(kind,), real=True)(y)
+
+
+def falling(function: sp.Expr) -> Judgement:
+    return infer(Lipschitz(sp.Lambda(y, function), theta, q, sp.S.One))
+
+
+class Positive(sp.Symbol):  # type: ignore[misc]
+    """A symbol that says it is positive, and f_c."""
+
+    is_positive = True
+
+    def __eq__(self, other: object) -> bool:
+        return True
+
+    def __hash__(self) -> int:
+        return hash(f_c)
+
+
+class Between(sp.Expr):  # type: ignore[misc]
+    """Something that says it is SymPy's."""
+
+    is_commutative = is_real = is_zero = True
+    __module__ = "sympy.core.numbers"
+
+
+class Same(Hypothesis):
+    """A hypothesis that says it is another."""
+
+    def __eq__(self, other: object) -> bool:
+        return True
+
+    def __hash__(self) -> int:
+        return hash(ROUGHENS.hypotheses[0])
+
+
+class Turning:
+    """A function that is another one once it has been judged."""
+
+    def __call__(self, at: sp.Expr) -> sp.Expr:
+        return at if isinstance(at, sp.Dummy) else -at
+
+
+def named(name: str) -> sp.Symbol:
+    return sp.Symbol(name, positive=True)
+
+
+def drawn(kind: object, relation: sp.Basic) -> Judgement:
+    return assume(Hypothesis("drawn", relation, kind=kind))  # type: ignore[arg-type]
+
+
+SMOOTH = assume(DIFFERENTIABLE)
+HEIGHT = initial("h")
+OPEN = given(sp.Ge(h, u_a))
+TWINS = sp.Dummy("x", real=True), sp.Dummy("x", real=True)
+MATRICES = sp.MatrixSymbol("A", 2, 2), sp.MatrixSymbol("B", 2, 2)
+Case = tuple[Callable[[], Judgement], Callable[[], Judgement], str]
+
+CASES: dict[str, Case] = {
+    # ---- another clock held fixed: tau = t/T, N = t/T, m grows with them
+    "integrated, with a factor v(tau)": (  # v = tau: u_c = int tau du_a
+        lambda: integrate(
+            given(equal(du, v * rate("u_a"))), START, given(equal(u_a.subs(t, 0), 0))
+        ),
+        lambda: integrate(
+            given(equal(du, q * rate("u_a"))), START, given(equal(u_a.subs(t, 0), 0))
+        ),
+        "is constant",
+    ),
+    "a bound v(tau) of the rate": (  # v = e^-tau
+        lambda: grows(given(sp.Ge(du, C * v)), START),
+        lambda: grows(given(sp.Ge(du, C * b_0)), START),
+        "is constant",
+    ),
+    "the rate of v(tau) is not zero": (
+        lambda: differentiate(given(equal(u_c, h_0 * v))),
+        lambda: differentiate(given(equal(u_c, h_0 * b_0))),
+        "is differentiable",
+    ),
+    "a constant that is v(tau)": (
+        lambda: defined(b_0, v),
+        lambda: defined(b_0, v.subs(tau, 1)),
+        "is constant",
+    ),
+    "growth times v(tau)": (  # v = e^-tau
+        lambda: Diverges(w * u_c)(given(sp.Ge(u_c, C * t))),
+        lambda: Diverges(q * u_c)(given(sp.Ge(u_c, C * t))),
+        "is linear in what grows",
+    ),
+    "a rate that fades with tau": (  # u_c < C T
+        lambda: unbounded(given(equal(du, FALLING))),
+        lambda: unbounded(given(equal(du, STEADY))),
+        "positive and continuous",
+    ),
+    "a rate that fades with w(tau)": (
+        lambda: unbounded(given(equal(du, C * w))),
+        lambda: unbounded(given(equal(du, C * q))),
+        "positive and continuous",
+    ),
+    "a squeeze that widens": (  # w = 1 + tau = u_c/h_0, G = 1
+        lambda: squeezed(w),
+        lambda: squeezed(h_0),
+        "is a constant over",
+    ),
+    "a limit that is v(tau)": (
+        lambda: accumulates(tends(du, C * v)),
+        lambda: accumulates(tends(du, C * b_0)),
+        "is finite",
+    ),
+    "v(tau) over what grows": (  # v = u_c/h_0
+        lambda: AtInfinity(equal(forever(h_0 * v / u_c), 0), 1 / u_c)(DEEP),
+        lambda: AtInfinity(equal(forever(h_0 * b_0 / u_c), 0), 1 / u_c)(DEEP),
+        "bounded fields alone",
+    ),
+    "the time of a rate with w(tau)": (  # u_c = int C w
+        lambda: timed(u_c / (C * w), C * w, START),
+        lambda: timed(u_c / (C * b_0), C * b_0, START, given(sp.Gt(b_0, 0))),
+        "of the wear alone",
+    ),
+    "a drift that grows with N": (  # u_c - C t ~ int U_a/T
+        lambda: drifting(t * (du - C) - N * U_a),
+        lambda: drifting(t * (du - C) - f_c * U_a),
+        "linear in the load",
+    ),
+    "a drift from a speed that grows": (
+        lambda: drifting(t * (du - C * N) - U_a),
+        lambda: drifting(t * (du - C * q) - U_a),
+        "linear in the load",
+    ),
+    "time in periods, with a factor N": (  # u_c = h_0 tau v
+        lambda: scaled(N * h_0 * v),
+        lambda: scaled(h_0 * v),
+        "is constant",
+    ),
+    "contact while the load exceeds what grows": (  # never after t = T U/h_0
+        lambda: at_times(h_0 * t / T),
+        lambda: at_times(b_0),
+        "the load alone",
+    ),
+    "a rate in contact that fades": (  # u_c < C T
+        lambda: at_times(b_0, C / (1 + N) ** 2),
+        lambda: at_times(b_0, C / (1 + q) ** 2),
+        "positive and continuous",
+    ),
+    "a fraction that depends on the cycle": (
+        lambda: at_times(b_0 * N),
+        lambda: at_times(b_0 * q),
+        "is constant",
+    ),
+    # ---- one period later
+    "u_c = C t, one period later": (  # C (t + T)
+        lambda: one_period_later(given(equal(u_c, C * t))),
+        lambda: one_period_later(given(equal(u_c, C * b_0))),
+        "at one time",
+    ),
+    "a mean over the first period": (  # U_a = t
+        lambda: one_period_later(defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)),
+        lambda: one_period_later(given(equal(h, h_0 - U_a))),
+        "at one time",
+    ),
+    "a limit at the start": (  # G = t: lim_{t->0} G(t + T) = T
+        lambda: one_period_later(tends(G, theta, sp.S.Zero)),
+        lambda: one_period_later(given(equal(G, theta))),
+        "at one time",
+    ),
+    # ---- what only words say
+    "a continuous load, met by nothing": (
+        lambda: discharge(logarithmic_drift(*drift_premises()), CONTINUOUS, START),
+        lambda: logarithmic_drift(*drift_premises()),
+        "only words say",
+    ),
+    "a differentiable load, forgotten": (  # a square load
+        lambda: forget(differentiate(given(equal(h, h_0 - U_a)), SMOOTH), DIFFERENTIABLE),
+        lambda: differentiate(given(equal(h, h_0 - U_a)), SMOOTH),
+        "the value of a symbol",
+    ),
+    # ---- initial values depend on data
+    "h(0) held fixed while h_0 grows": (  # h(0) = h_0: the limit is 1
+        lambda: ParameterLimit(HEIGHT / h_0, h_0)(),
+        lambda: ParameterLimit(q.subs(q, f_c) / h_0, h_0)(),
+        "data alone",
+    ),
+    "h(0) held fixed as h_0 varies": (  # h(0) = h_0: the slope is f_c
+        lambda: sloped(HEIGHT * f_c, sp.S.Zero),
+        lambda: sloped(h_0 * f_c, f_c),
+        "data alone",
+    ),
+    # ---- bound variables
+    "capture by the limit of another form": (  # lim M/M = 1
+        lambda: by_value(f_c / M, sp.S.One, M),
+        lambda: by_value(f_c / M, h_0 / M, h_0),
+        "for every M",
+    ),
+    "and its hypothesis forgotten": (
+        lambda: forget(by_value(f_c / M, sp.S.One, M), given(equal(f_c, M)).hypotheses[0]),
+        lambda: forget(by_value(f_c / M, h_0 / M, h_0), given(equal(f_c, h_0)).hypotheses[0]),
+        "for every M",
+    ),
+    "a limit inserted under an integral": (  # theta = 1: 1/2, not 1/3
+        lambda: Insert(
+            equal(
+                sp.Integral(theta * forever(G), (theta, 0, 1)), sp.Integral(theta**2, (theta, 0, 1))
+            )
+        )(tends(G, theta)),
+        lambda: Insert(equal(theta * forever(G), theta * b_0))(tends(G, b_0)),
+        "for every|no identity|zoo",
+    ),
+    # ---- what has no value
+    "a logarithm of what is negative, integrated": (
+        lambda: Identity(equal(integral(sp.log(q**2), -2, -1), integral(2 * sp.log(q), -2, -1)))(),
+        lambda: Identity(equal(integral(sp.log(q**2), 1, 2), integral(2 * sp.log(q), 1, 2)))(),
+        "False",
+    ),
+    "a factor that is an infinite integral": (
+        lambda: Multiply(integral(1 / q, 0, 1))(given(equal(h, u_a))),
+        lambda: Multiply(integral(1 / q, 1, 2))(given(equal(h, u_a))),
+        "False",
+    ),
+    "a factor that is no limit": (
+        lambda: Multiply(sp.Limit(sp.sin(y), y, sp.oo))(given(equal(h, u_a))),
+        lambda: Multiply(forever(G))(given(equal(h, u_a)), tends(G, theta)),
+        "zoo",
+    ),
+    "a factor that is no zero": (
+        lambda: Multiply(FirstZero(y**2 + 1, y))(given(equal(h, u_a))),
+        lambda: Multiply(u_stop)(given(equal(h, u_a))),
+        "zoo",
+    ),
+    "a Bessel function of half an order": (  # y = -1: imaginary
+        lambda: Identity(equal(sp.besseli(sp.S.Half, y) + 0, sp.besseli(sp.S.Half, y)))(),
+        lambda: Identity(equal(sp.besseli(0, y) + 0, sp.besseli(0, y)))(),
+        "zoo",
+    ),
+    "infinity, a factor": (  # h = u_a = 0
+        lambda: Multiply(sp.oo)(given(equal(h, u_a))),
+        lambda: Multiply(sp.S(10) ** 9)(given(equal(h, u_a))),
+        "of no kind",
+    ),
+    # ---- two wears at one pressure
+    "a field of either sign, for a pressure": (  # G = -sqrt(C t/h_0) from some time on
+        lambda: by_pressure(G, sp.sqrt(G**2)),
+        lambda: by_pressure(p, sp.sqrt(p**2)),
+        "functions of the pressure",
+    ),
+    # ---- averages
+    "the average of a pressure that varies with the phase": (
+        lambda: averaged(1 + sp.sin(2 * sp.pi * tau) / 2),
+        lambda: averaged(1 + q),
+        "at given wear and load",
+    ),
+    "another constant of integration": (  # s_0 is one of them
+        lambda: slow(h_0),
+        lambda: slow(h_0**6 / m**5),
+        "a function of m",
+    ),
+    "the slow time, with a wear that goes like m": (  # h_0^3 u_c/m^4 is no o(m^-3)
+        lambda: slow(h_0**4 * u_c / m**4),
+        lambda: slow(h_0**5 / m**4),
+        "a function of m",
+    ),
+    # ---- definitions that hide a condition
+    "two squares, called a definition": (  # f_c = 1
+        lambda: assume(supposed(equal(f_c**2 + b_0**2, 0), Kind.DEFINITION)),
+        lambda: assume(supposed(equal(f_c**2 + b_0, 0), Kind.DEFINITION)),
+        "is a new name",
+    ),
+    "an exponential, called a definition": (  # f_c = -1
+        lambda: assume(supposed(equal(sp.exp(b_0), f_c), Kind.DEFINITION)),
+        lambda: defined(b_0, sp.exp(f_c)),
+        "is a new name",
+    ),
+    # ---- what is no real number
+    "two orders are not one": (  # h = 0, u_c = t, u_a = 2 t
+        lambda: Arithmetic(equal(u_c, u_a))(
+            given(equal(u_c, h + sp.Order(t))), given(equal(u_a, h + sp.Order(t)))
+        ),
+        lambda: Arithmetic(equal(u_c, u_a))(given(equal(u_c, h + q)), given(equal(u_a, h + q))),
+        "of no kind",
+    ),
+    "matrices that do not commute": (
+        lambda: Arithmetic(equal(MATRICES[0] * MATRICES[1], MATRICES[1] * MATRICES[0]))(),
+        lambda: Arithmetic(equal(x * y, y * x))(),
+        "of no kind",
+    ),
+    "a class that says it is SymPy's": (
+        lambda: Identity(equal(h_0, h_0 + Between()))(),
+        lambda: Identity(equal(h_0, h_0 + 0 * y))(),
+        "of no kind",
+    ),
+    "a symbol that says it is f_c": (
+        lambda: Arithmetic(sp.Gt(Positive("f_c", real=True), 0, evaluate=False))(),
+        lambda: Arithmetic(sp.Gt(f_c, 0))(ROUGHENS),
+        "of no kind",
+    ),
+    "a function with a slope of its own": (  # lie = e^y
+        lambda: falling(lying(fdiff=lambda *_: -sp.S.Half)),
+        lambda: falling(-y / 2),
+        "of no kind",
+    ),
+    # ---- names that look alike
+    "a blank after a name": (
+        lambda: Arithmetic(sp.Gt(named("f_c "), 0, evaluate=False))(),
+        lambda: Arithmetic(sp.Gt(named("f_x"), 0, evaluate=False))(),
+        "no real quantity",
+    ),
+    "a constant that reads like the load": (  # U_a = sin t
+        lambda: grows(given(sp.Ge(du, C * named("U_a(t)"))), START),
+        lambda: grows(given(sp.Ge(du, C * named("U_x"))), START),
+        "no real quantity",
+    ),
+    "two dummies of one name": (  # "x > 1 and x < 1 give x > x"
+        lambda: Arithmetic(sp.Gt(*TWINS))(given(sp.Gt(TWINS[0], 1)), given(sp.Lt(TWINS[1], 1))),
+        lambda: Arithmetic(sp.Gt(x, y))(given(sp.Gt(x, 1)), given(sp.Lt(y, 1))),
+        "a name that others may have",
+    ),
+    # ---- forgeries
+    "a kind of one's own, which nobody is shown": (  # f_c = -1
+        lambda: drawn("odd", sp.Gt(f_c, 0)),
+        lambda: drawn(Kind.STATE, sp.Gt(f_c, 0)),
+        "nor a hypothesis",
+    ),
+    "the name of a kind": (  # f_c = 1
+        lambda: drawn("model", equal(f_c, 5)),
+        lambda: drawn(Kind.STATE, equal(f_c, 5)),
+        "nor a hypothesis",
+    ),
+    "a hypothesis that says it is another": (  # f_c = -1
+        lambda: Discharge(Same("any", sp.Gt(q, 0)))(Arithmetic(sp.Gt(f_c**3, 0))(ROUGHENS)),
+        lambda: Discharge(ROUGHENS.hypotheses[0])(
+            Arithmetic(sp.Gt(f_c**3, 0))(ROUGHENS), given(equal(f_c, 1))
+        ),
+        "nor a hypothesis",
+    ),
+    "a function that turns": (  # h = 1, u_a = 0
+        lambda: Monotone(Turning())(OPEN),
+        lambda: Monotone(sp.Lambda(y, -y))(OPEN),
+        "nor a hypothesis",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_what_got_through_is_refused_and_its_true_neighbour_is_not(name: str) -> None:
+    false, true, said = CASES[name]
+    with pytest.raises(RuleError, match=said):
+        false()
+    assert replayed(true()) is None
+
+
+class Hiding(tuple):  # type: ignore[type-arg]
+    """A tuple whose parts only some see."""
+
+    def __iter__(self) -> Iterator[object]:
+        return iter(())
+
+    def __eq__(self, other: object) -> bool:
+        return True
+
+    __hash__ = tuple.__hash__
+
+
+@pytest.mark.parametrize("field", ["parents", "hypotheses"])
+def test_parts_that_hide_are_found(field: str) -> None:
+    made = substitute(given(equal(h, h_0)), given(equal(h_0, q)))
+    object.__setattr__(made, field, Hiding())
+    assert replayed(made)
+
+
+def test_a_side_that_says_it_is_another_is_found() -> None:
+    made = given(equal(h, f_c))
+    assert isinstance(made.claim, Equality)
+    object.__setattr__(made.claim, "rhs", Positive("theta", real=True))
+    assert "of no kind" in str(replayed(made))
+
+
+def test_an_expression_that_was_changed_in_place_is_found() -> None:
+    """The relation that the rule was asked for is the one that the claim shows."""
+    relation = sp.Gt(q + symbol("L"), 0, evaluate=False)
+    made = Arithmetic(relation)()
+    relation._args = (f_c + 7, sp.S.Zero)
+    assert replayed(made) == "what it rests on was changed"

@@ -1,0 +1,36 @@
+"""Equations as an author writes them, read from text."""
+
+import pytest
+import sympy as sp
+
+from derive.symbols import rate, symbols, t
+from derive.typeset.display import latex
+from derive.written import evaluated, read
+
+h_0, u_c, U_a, f_c, T = symbols("h_0 u_c U_a f_c T")
+
+
+@pytest.mark.parametrize(
+    ("text", "meaning"),
+    [
+        ("2 (h_0 - U_a)/f_c", 2 * (h_0 - U_a) / f_c),
+        ("h_0^-3 - f_c u_c", h_0**-3 - f_c * u_c),
+        ("du_c/dt = f_c", sp.Eq(rate("u_c"), f_c)),
+        ("u_c(t + T) - u_c", u_c.subs(t, t + T) - u_c),
+        ("lim(u_c/t)", sp.Limit(u_c / t, t, sp.oo)),
+        ("0 < f_c <= 1/3", sp.And(sp.Lt(0, f_c), sp.Le(f_c, sp.Rational(1, 3)))),
+        ("sqrt(f_c) tanh(ln(f_c))", sp.sqrt(f_c) * sp.tanh(sp.log(f_c))),
+    ],
+)
+def test_text_means_what_it_says(text: str, meaning: sp.Basic) -> None:
+    assert evaluated(read(text)) == meaning
+
+
+def test_nothing_is_moved() -> None:
+    assert latex(read("u_c - h_0 + 4 - 2 U_a/f_c")) == r"u_c - h_0 + 4 - \frac{2 U_a}{f_c}"
+
+
+@pytest.mark.parametrize("text", ["[h_0]", "h_0.args", "lambda x: x", "h_0 if f_c else T", "'h_0'"])
+def test_what_is_no_formula_is_refused(text: str) -> None:
+    with pytest.raises((ValueError, SyntaxError)):
+        read(text)

@@ -1,0 +1,68 @@
+"""Which judge a scene needs, what it finds, and what it says of an estimate."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tests.independent import Judge, Problem, wear_after
+from tests.independent_cutoff import CutoffJudge
+from tests.independent_support import SupportJudge
+from wear.load import Harmonics, Sine, Table
+from wear.numerics.gauss import FloatArray
+from wear.scene import Scene
+
+ROUNDING = 3e-15  # below, an error needs no estimate
+
+
+def problem(scene: Scene) -> Problem:
+    """The same scene, for the independent integrator."""
+    p = scene.parameters()
+    speed = math.pi * p["R"] * p["n"] / 30
+    load = scene.periodic_load
+    rows: tuple[tuple[float, float], ...] = ()
+    mean, cosine, sine = 0.0, (), ()
+    if isinstance(load, Table):
+        rows = tuple(
+            (t / load.period, U) for t, U in zip(load.times_s, load.values_mm, strict=True)
+        )
+    elif isinstance(load, Harmonics):
+        mean, cosine, sine = load.mean_mm, load.cosine_mm, load.sine_mm
+    elif isinstance(load, Sine):
+        sine = (load.amplitude_mm,)
+    else:
+        mean = load.mean
+    pin = "K_a" in p
+    return Problem(
+        wear_rate=p["K_c"] * speed * p["p_max"] / (3 * p["H_c"]),
+        roughness=p["sigma_c0"],
+        slope=p["f_c"],
+        closure=p["h_0"],
+        period=load.period,
+        mean=mean,
+        cosine=cosine,
+        sine=sine,
+        pin_roughness=p.get("sigma_a0", 0.0),
+        pin_slope=p.get("f_a", 0.0),
+        kappa=p["K_a"] * p["H_c"] / (p["K_c"] * p["H_a"]) if pin else 0.0,
+        sign=1 if scene.contact.pin_wear_opens_gap else -1,
+        deflection=p["p_max"] / p["k"] if "k" in p else 0.0,
+        exponential=scene.contact.law == "exponential",
+        rows=rows,
+    )
+
+
+def true_wear(scene: Scene, cycles: Sequence[int]) -> FloatArray:
+    """The wear (mm) after some cycles, by the judge that the scene needs."""
+    of: type[Judge] = Judge
+    if scene.contact.ends_at_3_sigma:
+        of = CutoffJudge if scene.support is None else SupportJudge
+    found = wear_after(of(problem(scene)), cycles)
+    return np.array([found[cycle] for cycle in cycles])
+
+
+def honest(wear: FloatArray, error: FloatArray, want: FloatArray, missed: Any = 0.0) -> bool:
+    """Whether relative errors are within estimates, what the reference misses, or rounding."""
+    true = np.abs(wear / want - 1)
+    return bool(np.all((true <= error + missed) | (true < ROUNDING)))

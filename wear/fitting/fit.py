@@ -1,0 +1,271 @@
+"""`fit`: the parameters of a scene from measured wear, how certain they are, and what follows.
+
+Residuals are those of the logarithm of the wear, or of the wear; their scatter is given with the
+readings, or unknown. Intervals are profile likelihoods (W. Q. Meeker, L. A. Escobar, *Statistical
+Methods for Reliability Data*, Wiley 1998, chapter 8; D. M. Bates, D. G. Watts, *Nonlinear
+Regression Analysis*, Wiley 1988, chapter 6): an end that the data leave open is infinite. Bands of
+forecasts are those of the linearised model: they hold where the wear, not the parameters, is
+determined.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from wear.fitting import laws, openness
+from wear.fitting.estimate import FARTHEST, Estimate
+from wear.fitting.least_squares import estimate, settle
+from wear.fitting.model import Model
+from wear.fitting.profiles import Profile, profiles
+from wear.fitting.readings import Specimen
+from wear.model import bind
+from wear.progress import Pace
+from wear.states import fields_at, result_notices
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from wear.scene import Scene
+
+CANDIDATES = 25  # numbers of cycles at which a further reading is tried
+AHEAD = 10.0  # times the cycles of the last reading: what is predicted if nothing is asked for
+
+
+class Forecast(NamedTuple):
+    """Wear (mm) of a specimen and number of cycles to it, with the 95 % band of whichever was not
+    given."""
+
+    specimen: str
+    cycles: float
+    bearing_wear_mm: float
+    interval_95: tuple[float, float]
+
+
+class NextReading(NamedTuple):
+    """The further reading that narrows the forecast of all specimens most, and the factor by which
+    it does."""
+
+    specimen: str
+    cycles: float
+    band_of_forecast_times: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit(Estimate):
+    """Parameters estimated from measured wear, how certain they are, and what follows.
+
+    `profiles` has one for each parameter; it is empty where intervals were not asked for.
+    """
+
+    profiles: tuple[Profile, ...] = ()
+
+    @classmethod
+    def of(
+        cls, model: Model, intervals: bool = True, progress: Callable[[str], None] = lambda _: None
+    ) -> Fit:
+        """Return the fit of a model; `progress` is told how far it is after two seconds."""
+        say = Pace(progress).say
+        found = Estimate(model, estimate(model, say))
+        if not intervals:
+            return cls(model, found.theta)
+        best, followed = profiles(found, say)
+        return cls(model, best.theta, followed)
+
+    @property
+    def scenes(self) -> list[Scene]:
+        """Return the scene of every specimen with the estimates."""
+        return self.model.scenes(self.theta)
+
+    def undetermined(self) -> list[openness.Open]:
+        """Return every combination of parameters that the data leave open.
+
+        That is a direction of the parameters, each relative to its size, whose standard error is as
+        large as a factor e; or a parameter whose interval has an open end beside them.
+        """
+        return list(openness.undetermined(self, self.profiles))
+
+    def forecast(self, cycles: Sequence[float]) -> list[Forecast]:
+        """Return the wear of every specimen after numbers of cycles, with its 95 % band."""
+        specimens, wanted = self.model.specimens, np.array(cycles, dtype=float)
+        level, slope = self.model.log_wear(self.theta[None], [wanted] * len(specimens))
+        width = self.quantile * self.spread(slope[0])
+        rows = zip(level[0].tolist(), width.tolist(), strict=True)
+        return [
+            Forecast(each.name, number, float(np.exp(wear)), _band(wear, half))
+            for each in specimens
+            for number, (wear, half) in zip(wanted.tolist(), rows, strict=False)
+        ]
+
+    def life(self, wear_mm: float) -> list[Forecast]:
+        """Return the number of cycles to a wear depth of every specimen, with its 95 % band;
+        infinite where the depth is not reached within 1e12 cycles.
+
+        The logarithm of the number has the standard error of that of the wear, over the slope of
+        the one against the other.
+        """
+        from wear.cycles import cycles_to_depth
+
+        specimens, count = self.model.specimens, len(self.model.specimens)
+        numbers = cycles_to_depth(self.scenes, np.array([wear_mm])).cycles[:, 0]
+        near = np.where(np.isfinite(numbers), numbers, 1.0)
+        around = [np.array([n, n + max(1.0, np.rint(n / 50.0))]) for n in near]
+        level, slope = self.model.log_wear(self.theta[None], around)
+        level, slope = level.reshape(count, 2), slope.reshape(count, 2, -1)[:, 0]
+        steepness = np.diff(level)[:, 0] / np.diff(np.log(around))[:, 0]
+        with np.errstate(all="ignore"):
+            width = self.quantile * self.spread(slope) / steepness
+        rows = zip(specimens, numbers.tolist(), width.tolist(), strict=True)
+        return [Forecast(s.name, n, wear_mm, _band(float(np.log(n)), half)) for s, n, half in rows]
+
+    def next_reading(self, cycles: float | None = None) -> NextReading:
+        """Return the one further reading, of any specimen within the cycles read so far, that
+        narrows the forecast of all specimens after `cycles` most (default: ten times as many as
+        were read)."""
+        specimens = self.model.specimens
+        last = max(float(specimen.cycles[-1]) for specimen in specimens)
+        tried = np.unique(np.rint(np.geomspace(1.0, last, CANDIDATES)))
+        slots = [np.append(tried, cycles or min(AHEAD * last, 1e12))] * len(specimens)
+        level, slope = self.model.log_wear(self.theta[None], slots)
+        residuals = self.model.residuals
+        weight = replace(residuals, weight=np.median(residuals.weight, keepdims=True)).slope(level)
+        shape = (len(specimens), len(tried) + 1, -1)
+        target = slope.reshape(shape)[:, -1]
+        read = (slope * np.reshape(weight, (-1, 1))).reshape(shape)[:, :-1]
+        read = read.reshape(-1, slope.shape[-1])
+        covariance = self.unscaled_covariance
+        shared = target @ covariance @ read.T
+        own = 1.0 + np.einsum("ij,jk,ik->i", read, covariance, read)
+        before = float(np.einsum("ij,jk,ik->", target, covariance, target))
+        gain = np.sum(shared**2, axis=0) / own
+        best = int(np.argmax(gain))
+        factor = float(np.sqrt(max(0.0, 1.0 - gain[best] / before)))
+        name = specimens[best // len(tried)].name
+        return NextReading(name, float(tried[best % len(tried)]), factor)
+
+    def alternatives(self) -> list[laws.Alternative]:
+        """Return how simpler laws do on the same readings."""
+        return laws.alternatives(self.model.specimens, self.model.relative)
+
+    @property
+    def forecast_rms(self) -> float:
+        """Return the root mean square error of ln(wear) where the first half of the readings of
+        each specimen predicts the last; no number where they are fewer than the parameters."""
+        model = self.model
+        early = replace(model, specimens=tuple(laws.first_half(model.specimens)))
+        if len(early.residuals.observed) < len(self.theta):
+            return float(np.nan)
+        theta = settle(early, self.theta, (self.theta, FARTHEST * self.scale))
+        level, _ = model.log_wear(theta[None], [s.cycles[-1:] for s in model.specimens])
+        return laws.forecast_rms(model.specimens, level[0])
+
+    def as_json(self, cycles: Sequence[float] = (), wear_mm: float | None = None) -> dict[str, Any]:
+        """Return the document of `wear fit --json`, with forecasts for numbers of `cycles` and the
+        life to a wear depth."""
+        others, own_forecast = self.alternatives(), self.forecast_rms
+        return {
+            "scene": self.model.scene.title or self.model.scene.name,
+            "observations": len(self.residuals),
+            "specimens": len(self.model.specimens),
+            "parameters": self._rows(),
+            "correlation": self.correlation,
+            "rms": self.rms,
+            "chi_square": self.chi_square,
+            "degrees_of_freedom": self.degrees_of_freedom,
+            "aicc": self.aicc,
+            "forecast_rms": own_forecast,
+            "undetermined": [each._asdict() for each in self.undetermined()],
+            "forecast": [each._asdict() for each in self.forecast(cycles)] if cycles else [],
+            "cycles_to_wear": [each._asdict() for each in self.life(wear_mm)] if wear_mm else [],
+            "alternatives": [each._asdict() for each in others],
+            "next_reading": self.next_reading(max(cycles, default=None))._asdict(),
+            "notices": self._notices(others, own_forecast),
+        }
+
+    def _rows(self) -> list[dict[str, Any]]:
+        ends: list[list[float] | None] = [list(each.interval) for each in self.profiles]
+        names = ("key", "specimen", "estimate", "standard_error", "interval_95")
+        rows = zip(self.parameters, self.estimates, self.standard_errors,
+                   ends or [None] * len(self.theta), strict=True)  # fmt: skip
+        return [dict(zip(names, (p.key, p.specimen or None, *row), strict=True))
+                for p, *row in rows]  # fmt: skip
+
+    def _notices(self, others: Sequence[laws.Alternative], own_forecast: float) -> list[str]:
+        """Return where a simpler law does better, and what is hardly meant."""
+        notices = [f"the {law.law} law describes these data better (AICc)"
+                   for law in others if law.aicc < self.aicc]  # fmt: skip
+        notices += [f"the {law.law} law predicts the last readings better, from the first half"
+                    for law in others if law.forecast_rms < own_forecast]  # fmt: skip
+        if self.degrees_of_freedom == 0 and not self.model.residuals.known:
+            notices.append("there are as many parameters as readings: the scatter is unknown")
+        for specimen, scene in zip(self.model.specimens, self.scenes, strict=True):
+            notices += scene.notices
+            model, cycles, u = bind(scene), specimen.cycles.tolist(), specimen.wear_mm
+            fields = fields_at(model, scene, cycles, u)
+            notices += result_notices(model, scene, fields, cycles, u)
+        return list(dict.fromkeys(notices))
+
+    def plot(self) -> Figure:
+        """Return a Matplotlib figure of the readings with the fitted wear and its 95 % band, and of
+        the residuals."""
+        from wear.fitting.figures import data_and_band
+
+        return data_and_band(self)
+
+    def __repr__(self) -> str:
+        rows = [f"{p} = {value:.4g} ± {error:.2g}" for p, value, error in zip(
+            self.parameters, self.estimates, self.standard_errors, strict=True)]  # fmt: skip
+        return f"<Fit to {len(self.residuals)} readings: {', '.join(rows)}; rms {self.rms:.3g}>"
+
+
+def _band(level: float, width: float) -> tuple[float, float]:
+    """Return the ends of a band of this half width around `level`, all three of logarithms."""
+    with np.errstate(over="ignore"):
+        return float(np.exp(level - width)), float(np.exp(level + width))
+
+
+def fit(
+    data: str | os.PathLike[str] | Mapping[str, Any] | Sequence[Specimen],
+    scene: Scene | str | os.PathLike[str],
+    free: str | Sequence[str] = (),
+    free_each: str | Sequence[str] = (),
+    *,
+    error: str = "relative",
+    ignore: Sequence[str] = (),
+    intervals: bool = True,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Fit:
+    """Estimate entries of a scene from measured wear.
+
+    Parameters
+    ----------
+    data
+        A CSV file, see `read_readings`; its columns as a dictionary or a pandas DataFrame; or
+        specimens.
+    scene
+        The scene, its name or path: all that is not free, and where the search starts.
+    free, free_each
+        Entries that are one value for all specimens, or one for each.
+    error
+        "relative": residuals of the logarithm; "absolute": of the wear.
+    ignore
+        Columns of the data to drop.
+    intervals
+        Whether to follow the profile likelihoods, which takes most of the time.
+    progress
+        Is told in words how far a fit is that takes more than two seconds.
+
+    Raises
+    ------
+    UsageError
+        with everything that is wrong with the request.
+
+    >>> data = {"cycles": [10, 100, 1000], "wear_um": [0.22, 0.93, 2.1]}
+    >>> fit(data, "section4", "bearing.wear_coefficient", intervals=False)
+    <Fit to 3 readings: ...>
+    """
+    return Fit.of(Model.of(data, scene, free, free_each, error, ignore), intervals, progress)
