@@ -1,9 +1,11 @@
 """The cycle count with loss of contact: from one grazing wear to the next, and to the last.
 
 Between two grazing wears (`wear.loss_of_contact.grazing`) the increments of a cycle are series
-(`wear.loss_of_contact.increments`), of which Abel's equation makes the count where cycles are many;
-the few cycles next to a grazing wear are taken one by one, from the series as long as they do not
-pass it. Only the cycle that passes is integrated by itself, and the last ones before wear stops.
+(`wear.loss_of_contact.increments`), of which Abel's equation makes the count where cycles are many
+(`wear.loss_of_contact.stretch`); the few cycles next to a grazing wear are taken one by one, from
+the series as long as they do not pass it. The cycles that pass, and the last ones before wear
+stops, are integrated by themselves: where they begin is guessed for the whole way ahead, so that
+all are integrated at once, and the next guess is better as in Newton's method.
 """
 
 from __future__ import annotations
@@ -247,8 +249,8 @@ class _Way:
         run = yield Request(COARSE, np.concatenate([wear, wear + apart]))
         self.cost = self.cost.plus(2 * len(wear), run.evaluations)
         added, beside = np.split(run.increment, 2)
-        sound = np.all(np.split(run.converged, 2), axis=0)
-        self.samples.add(wear, added, (beside - added) / apart, sound)
+        slope, sound = (beside - added) / apart, run.converged[: len(wear)]
+        self.samples.add(wear, added, slope, sound)
 
     def _append(self, part: OnPanels | Unresolved, ran: float, wear: float) -> None:
         self.parts.append(part)
