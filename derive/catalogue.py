@@ -11,51 +11,33 @@ import difflib
 import re
 from collections.abc import Iterator
 from functools import cache
-from types import ModuleType
+from importlib import import_module
 
-from .equations import Equation, numbered
-from .note import condensed, governing, problems, stabilised
+from .equations import TEXTS, Equation, numbered
+from .note import condensed, governing, stabilised
 from .note.governing import Model
-from .results import (
-    comparison,
-    compliant,
-    cutoff,
-    cutoff_two_solids,
-    dimensionless,
-    expansion,
-    first_integral,
-    monotonicity,
-    pressure_root,
-    regimes,
-    sensitivities,
-    static_compliant,
-    static_scaled,
-    static_solution,
-    steady_state,
-    two_solids,
-    validity,
-)
 
 _BEYOND = (
-    problems,
-    pressure_root,
-    steady_state,
-    validity,
-    two_solids,
-    regimes,
-    cutoff,
-    cutoff_two_solids,
-    comparison,
-    first_integral,
-    static_solution,
-    static_scaled,
-    static_compliant,
-    expansion,
-    compliant,
-    sensitivities,
-    monotonicity,
-    dimensionless,
+    "note.problems",
+    "results.pressure_root",
+    "results.steady_state",
+    "results.validity",
+    "results.two_solids",
+    "results.regimes",
+    "results.cutoff",
+    "results.cutoff_two_solids",
+    "results.comparison",
+    "results.first_integral",
+    "results.static_solution",
+    "results.static_scaled",
+    "results.static_compliant",
+    "results.expansion",
+    "results.compliant",
+    "results.sensitivities",
+    "results.monotonicity",
+    "results.dimensionless",
 )
+"""The modules with results beyond the note, imported when they are asked for."""
 
 
 class UnknownEquationError(KeyError):
@@ -85,8 +67,8 @@ def _of_the_note() -> tuple[Equation, ...]:
 
 
 @cache
-def _beyond(module: ModuleType) -> tuple[Equation, ...]:
-    return numbered(module.results())
+def _beyond(module: str) -> tuple[Equation, ...]:
+    return numbered(import_module(f".{module}", __package__).results())
 
 
 def _place(found: Equation) -> tuple[int, str]:
@@ -110,10 +92,8 @@ def equation(identifier: str) -> Equation:
     >>> equation("7c").relation
     Eq(U_c(t), p(t)/k)
     """
-    for found in _in_order():
-        if found.id == identifier:
-            return found
-    known = [found.id for found in _in_order()]
-    near = difflib.get_close_matches(identifier, known, n=3, cutoff=0.5)
+    if identifier in TEXTS:
+        return next(found for found in _in_order() if found.id == identifier)
+    near = difflib.get_close_matches(identifier, TEXTS, n=3, cutoff=0.5)
     hint = f"; did you mean {' or '.join(near)}?" if near else "; see `derive list`"
     raise UnknownEquationError(f"{identifier}: there is no such equation{hint}")

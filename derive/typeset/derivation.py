@@ -121,8 +121,8 @@ class Derivations:
 def _assumed(hypothesis: Judgement) -> str:
     """Return how a step refers to a hypothesis that no equation shows: by its formula, if any."""
     relation, said = hypothesis.relation, hypothesis.hypotheses[-1]
-    names = relation is sp.true or relation.lhs.is_Symbol
-    if said.kind is Kind.DEFINITION and names:
+    names = isinstance(relation, sp.Equality) and relation.lhs.is_Symbol
+    if said.kind is Kind.DEFINITION and (names or relation is sp.true):
         return "the definitions"
     return said.text if relation is sp.true else f"${inline(presentable(relation))}$"
 

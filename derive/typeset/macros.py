@@ -23,24 +23,6 @@ _NUMBER = 4.5
 _POINTS = {"pt": 1.0, "mm": 72.27 / 25.4, "cm": 72.27 / 2.54, "in": 72.27}
 _LENGTH = re.compile(r"(\d+(?:\.\d+)?)\s*(pt|mm|cm|in)")
 
-NAMES = {
-    "1": "Closure",
-    "2a": "PinEquilibrium",
-    "2b": "BearingEquilibrium",
-    "3": "EquivalentRoughness",
-    "4": "ContactLaw",
-    "5": "WearLaws",
-    "6": "InitialConditions",
-    "8": "CondensedProblem",
-    "9": "ImplicitProblem",
-    "10": "RigidProblem",
-    "13": "BearingOnly",
-    "18": "WearRate",
-    "21": "WearPerCycle",
-    "22": "AsymptoticPressure",
-}
-"""Names of the note's equations that are quoted most; others are named by their number."""
-
 
 def macro_name(equation: Equation) -> str:
     """Return the name of an equation's macro, letters only.
@@ -49,8 +31,8 @@ def macro_name(equation: Equation) -> str:
     >>> [macro_name(derive.equation(id)) for id in ("21", "7c", "static-solution")]
     ['EqWearPerCycle', 'EqSevenC', 'EqStaticSolution']
     """
-    if equation.id in NAMES:
-        return "Eq" + NAMES[equation.id]
+    if name := equation.texts.get("macro"):
+        return f"Eq{name}"
     parts = re.findall(r"[a-z]+|\d", equation.id)
     return "Eq" + "".join(_DIGITS[int(p)] if p.isdigit() else p.capitalize() for p in parts)
 

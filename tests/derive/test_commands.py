@@ -156,3 +156,8 @@ def test_lists_end_with_a_sum(capsys):
     assert main(["verify", "21"]) == 0
     *_, last = capsys.readouterr().out.splitlines()
     assert re.fullmatch(r"1 equation, \d+ checks: all hold", last)
+
+
+def test_a_derivation_names_a_hypothesis_of_two_relations(capsys):
+    assert main(["latex", "problem-i", "--derivation"]) == 0
+    assert "0 < R_a" in capsys.readouterr().out

@@ -3,6 +3,7 @@
 import pytest
 import sympy as sp
 
+from derive.equations import TEXTS
 from derive.symbols import rate, symbols, t
 from derive.typeset.display import latex
 from derive.written import evaluated, read
@@ -22,15 +23,20 @@ h_0, u_c, U_a, f_c, T = symbols("h_0 u_c U_a f_c T")
         ("sqrt(f_c) tanh(ln(f_c))", sp.sqrt(f_c) * sp.tanh(sp.log(f_c))),
     ],
 )
-def test_text_means_what_it_says(text: str, meaning: sp.Basic) -> None:
+def test_text_means_what_it_says(text: str, meaning: sp.Basic):
     assert evaluated(read(text)) == meaning
 
 
-def test_nothing_is_moved() -> None:
+def test_nothing_is_moved():
     assert latex(read("u_c - h_0 + 4 - 2 U_a/f_c")) == r"u_c - h_0 + 4 - \frac{2 U_a}{f_c}"
 
 
 @pytest.mark.parametrize("text", ["[h_0]", "h_0.args", "lambda x: x", "h_0 if f_c else T", "'h_0'"])
-def test_what_is_no_formula_is_refused(text: str) -> None:
+def test_what_is_no_formula_is_refused(text: str):
     with pytest.raises((ValueError, SyntaxError)):
         read(text)
+
+
+def test_texts_of_equations_have_no_keys_that_nobody_reads():
+    known = {"section", "title", "remark", "macro", "printed", "shown", "where"}
+    assert set().union(*TEXTS.values()) == known

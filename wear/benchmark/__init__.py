@@ -105,15 +105,20 @@ class Job:
         self.seconds.append(time.process_time() - start)
 
     def measured(self) -> Measurement:
-        """The median; of several runs the first one, which warms up, does not count."""
+        """Return what came of it; of several runs the first one, which warms up, does not count."""
         counted = self.seconds[1:] or self.seconds
-        error = self.answer.wear / self.case.wear - 1.0
-        status, remark = judge(error, self.tolerance, self.answer)
-        return Measurement(
-            self.method.name, self.case.name, self.case.cycles, self.tolerance,
-            statistics.median(counted), len(counted), error, self.answer.estimate,
-            self.answer.evaluations, status, remark,
-        )  # fmt: skip
+        return measurement(self.method.name, self.case, self.tolerance, counted, self.answer)
+
+
+def measurement(
+    method: str, case: Case, tolerance: float, seconds: Sequence[float], answer: Answer
+) -> Measurement:
+    """Return what came of runs that took so many seconds, their median."""
+    error = answer.wear / case.wear - 1.0
+    return Measurement(
+        method, case.name, case.cycles, tolerance, statistics.median(seconds), len(seconds), error,
+        answer.estimate, answer.evaluations, *judge(error, tolerance, answer),
+    )  # fmt: skip
 
 
 Outcome = Job | Measurement | StartUp

@@ -11,11 +11,12 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
-from wear.benchmark import NO_ANSWER, Measurement, Status, judge
+from wear.benchmark import Measurement, Status, measurement
 from wear.benchmark.methods import (
     DEFAULT_TOLERANCE,
     SCIPY,
     WITH_DEFAULTS,
+    Answer,
     Case,
     UnsuitableError,
     cases,
@@ -56,15 +57,9 @@ def attempt(case: Case, method: str, tolerance: float, time_limit: float) -> Mea
     start = time.process_time()
     try:
         answer = made(case.scene, plain)(case.cycles, tolerance)
-        error = answer.wear / case.wear - 1.0
-        status, remark = judge(error, tolerance, answer)
     except (UnsuitableError, ArithmeticError, ValueError) as fault:
-        answer, error, status, remark = NO_ANSWER, math.nan, Status.REPORTED, str(fault)
-    seconds = time.process_time() - start
-    return Measurement(
-        method, case.name, case.cycles, tolerance, seconds, 1, error, answer.estimate,
-        answer.evaluations, status, remark,
-    )  # fmt: skip
+        answer = Answer(math.nan, complaint=str(fault))
+    return measurement(method, case, tolerance, [time.process_time() - start], answer)
 
 
 def hard_cases(

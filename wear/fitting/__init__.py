@@ -5,9 +5,11 @@ Contents
     residuals      how far a law is from the readings
     model          the scenes of the specimens as a function of the free parameters
     least_squares  the nearest parameters
-    estimate       a fit: estimates, covariance
+    estimate       these, with their covariance and the directions in which the data see them
     profiles       profile likelihoods and the intervals that they give
-    forecast       what is left open, forecasts, lives, the next reading
+    openness       what the data leave open, in words
     laws           simpler laws that the same data are held against
+    fit            a fit: all of these, with forecasts, lives and the next reading
     posterior      samples by an ensemble of walkers
+    figures        readings with the fitted wear, profiles, corner of two parameters
 """

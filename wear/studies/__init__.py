@@ -10,4 +10,6 @@ Contents
     rows      the rows of one chunk, solved together
     store     the results on disk: whole chunks or none
     run       the chunks through any executor
+    indices   Sobol' indices
+    figures   pictures of the answers
 """
