@@ -16,7 +16,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -48,13 +48,17 @@ From Coquelicot Require Import Coquelicot.
 From Wear Require Import {" ".join(THEOREMS)}.
 """
 
+MAKEFILE = """\
+%.vo: %.v
+\t@coqc -q -w none -Q . Wear $< > $*.log 2>&1 || (cat $*.log; exit 1)
+.depend: $(wildcard *.v)
+\t@coqdep -Q . Wear $^ > $@
+-include .depend
+"""
+
 
 class MissingError(OSError):
     """Coq or a library of it is not installed; the message says how to install it."""
-
-
-Files = dict[str, tuple[str, list[str]]]
-"""The text of each file, with the names of others that it needs."""
 
 
 @dataclass(frozen=True)
@@ -131,22 +135,19 @@ class Export:
         return f"{HEAD}Open Scope R_scope.\n\n{world(relations)}"
 
     @cached_property
-    def files(self) -> Files:
-        """Return the exported files, with the others that each needs."""
+    def files(self) -> dict[str, str]:
+        """Return the exported files by name, each after those that it needs."""
         home = {name: group for group, names in self.groups.items() for name in names}
-        files: Files = {"World": (self.world, [])}
+        files = {"World": self.world}
         for group, names in self.groups.items():
             text = "\n".join(self.lemmas[name] for name in names)
             cited = {home[name] for name in re.findall(r"step_\w+", text)} - {group}
-            needs = ["World", *(g for g in self.groups if g in cited)]
-            head = f"{HEAD}From Wear Require Import {' '.join(needs)}.\nOpen Scope R_scope.\n\n"
-            files[group] = head + text, needs
+            files[group] = _importing(("World", *(g for g in self.groups if g in cited))) + text
         if refuting := self.refuting:
-            needs = list(dict.fromkeys(("World", *(home[s.name] for s in refuting.values()))))
-            head = f"From Interval Require Import Tactic.\n{HEAD}"
-            head += f"From Wear Require Import {' '.join(needs)}.\nOpen Scope R_scope.\n\n"
-            files["Refutations"] = head + refutations.text(refuting), needs
-        files["Assumptions"] = self._assumptions(list(files)), list(files)
+            homes = dict.fromkeys(home[step.name] for step in refuting.values())
+            head = "From Interval Require Import Tactic.\n" + _importing(("World", *homes))
+            files["Refutations"] = head + refutations.text(refuting)
+        files["Assumptions"] = self._assumptions(files)
         return files
 
     @property
@@ -156,7 +157,7 @@ class Export:
         found = {i: s for i, k in wanted.items() if (s := self._stated[0][k]).closed}
         return found if len(found) == len(refutations.NEEDS) else {}
 
-    def _assumptions(self, files: list[str]) -> str:
+    def _assumptions(self, files: Iterable[str]) -> str:
         """Return the file that prints what all theorems together rest on."""
         proved = [name for name, text in self.lemmas.items() if "\nLemma " in text]
         proved += refutations.NAMES.values() if self.refuting else ()
@@ -166,25 +167,21 @@ class Export:
             f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
         )
 
-    def write(self, folder: Path, files: Files | None = None) -> None:
+    def write(self, folder: Path, files: Mapping[str, str] | None = None) -> None:
         """Write library, files (all of them, if none are named) and a Makefile for them."""
         files = self.files if files is None else files
         folder.mkdir(parents=True, exist_ok=True)
         for name in THEOREMS:
             _update(folder / f"{name}.v", (LIBRARY / f"{name}.v").read_text(encoding="utf-8"))
-        rules = [
-            f"{b}.vo: {' '.join(f'{a}.vo' for a in THEOREMS[:i])}" for i, b in enumerate(THEOREMS)
-        ]
-        for name, (text, needs) in files.items():
+        for name, text in files.items():
             _update(folder / f"{name}.v", text)
-            rules.append(f"{name}.vo: {' '.join(f'{n}.vo' for n in (*THEOREMS, *needs))}")
         targets = " ".join(f"{name}.vo" for name in files)
-        lines = [
-            f"all: {targets}",
-            "%.vo: %.v\n\t@coqc -q -w none -Q . Wear $< > $*.log 2>&1 || (cat $*.log; exit 1)",
-            *rules,
-        ]
-        _update(folder / "Makefile", "\n".join(lines) + "\n")
+        _update(folder / "Makefile", f"all: {targets}\n{MAKEFILE}")
+
+
+def _importing(files: Iterable[str]) -> str:
+    """Return the first lines of a file that rests on others."""
+    return f"{HEAD}From Wear Require Import {' '.join(files)}.\nOpen Scope R_scope.\n\n"
 
 
 def _update(path: Path, text: str) -> None:

@@ -13,13 +13,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
+from ..rules.limits import in_terms_of, later
 from ..symbols import symbol, t
 from .printer import field, term
 from .steps import Step
 
-_LOAD = symbol("U_a").func
 _T = symbol("T")
 
 
@@ -101,30 +100,25 @@ def _known(step: Step) -> list[str]:
     moves = step.relation.has(t + _T)
     for i, limit in enumerate(step.limits):
         inside, value = limit.relation.lhs.args[0], limit.relation.rhs
-        later = term(one_period_later(inside))
+        moved = term(later(inside))
         if not isinstance(limit.relation.lhs, sp.Limit):
             continue
         if value == sp.oo:
             lines.append(
                 f"pose proof (tends_inv_diverges _ ({step.cited(limit)})) as L{i}; cbv beta in L{i}."
             )
-            later, value = f"/ ({later})", sp.S.Zero
+            moved, value = f"/ ({moved})", sp.S.Zero
         else:
             lines.append(f"pose proof ({step.cited(limit)}) as L{i}.")
         if moves:
             proof = f"generalize (later _ _ T L{i}); apply tends_ext; intros; rewrite ?derive_later; first [reflexivity | replace (2 * T + t) with (T + (T + t)) by ring; reflexivity]"
-            lines.append(f"assert (M{i} : tends (fun t => {later}) ({term(value)})) by ({proof}).")
+            lines.append(f"assert (M{i} : tends (fun t => {moved}) ({term(value)})) by ({proof}).")
     return lines
-
-
-def one_period_later(expr: sp.Expr) -> sp.Expr:
-    """Return an expression at T + t."""
-    return expr.xreplace({f: f.subs(t, t + _T) for f in expr.atoms(AppliedUndef) if f.has(t)})
 
 
 def _passes(step: Step, inside: sp.Expr) -> list[str]:
     """Write the expression with what has a limit, and let the limit pass through it."""
-    from .proofs import divisors, stated
+    from .proofs import signs_at, stated
 
     found, _ = _composed(step, inside)
     equations = [
@@ -132,13 +126,12 @@ def _passes(step: Step, inside: sp.Expr) -> list[str]:
         for s in step.frontier
         if isinstance(s.relation, sp.Equality) and not s.relation.has(sp.Limit)
     ]
-    text, named = stated(step, [s for s in equations if s.timed])
     lines = [f"apply (tends_ext (fun t => {found})).", "{ intros t Ht."]
-    lines += divisors(step)
+    lines += signs_at(step)
     if inside.has(t + _T):
-        lines += ["assert (HT : 0 <= T + t) by lra.", *divisors(step, "T + t", "HT")]
-    rewrites = "".join(f"rewrite ?{label}; " for label, e in named if inside.has(e.lhs))
-    return [*lines, f"{text}{rewrites}identity. }}", "limit."]
+        lines += ["assert (HT : 0 <= T + t) by lra.", *signs_at(step, "T + t", "HT")]
+    timed = stated(step, [s for s in equations if s.timed])
+    return [*lines, f"{timed}insert; identity. }}", "limit."]
 
 
 def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
@@ -152,7 +145,7 @@ def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
     for now in (True, False):
         for i, limit in enumerate(sorted(step.limits, key=lambda s: s.relation.rhs == sp.oo)):
             quantity, value = limit.relation.lhs.args[0], limit.relation.rhs
-            quantity = quantity if now else one_period_later(quantity)
+            quantity = quantity if now else later(quantity)
             stand_in = sp.Symbol(f"known{i}{'now' if now else 'later'}", positive=True)
             infinite = value == sp.oo
             text = f"(/ ({term(quantity)}))" if infinite else f"({term(quantity)})"
@@ -167,28 +160,6 @@ def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
     for name, text in texts.items():
         found = found.replace(name, text)
     return found, inside.xreplace(values)
-
-
-def in_terms_of(expr: sp.Expr, quantity: sp.Expr, stand_in: sp.Expr) -> sp.Expr:
-    """Write an expression with a name for a quantity, by eliminating the load or a field."""
-    expr = expr.subs(quantity, stand_in)
-    fields = [f for f in quantity.atoms(AppliedUndef) if expr.has(f)]
-    if any(f.func == _LOAD and not expr.has(f) for f in quantity.atoms(AppliedUndef)):
-        return expr
-    for each in sorted(fields, key=lambda f: (f.func != _LOAD, str(f))):
-        flat = sp.Symbol("unknown")
-        solutions = sp.solve(quantity.xreplace({each: flat}) - stand_in, flat)
-        if len(solutions) == 1:
-            return _cancelled(expr.subs(each, solutions[0]))
-    return expr
-
-
-def _cancelled(expr: sp.Expr) -> sp.Expr:
-    """Cancel common factors, inside the arguments of functions too."""
-    if not expr.args or isinstance(expr, (sp.Derivative, sp.Subs)):
-        return expr
-    inner = expr.func(*map(_cancelled, expr.args))
-    return inner if isinstance(inner, sp.Function) else sp.cancel(inner)
 
 
 def _exists(step: Step, left: sp.Expr, right: sp.Expr) -> list[str]:

@@ -11,11 +11,11 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.printing.str import StrPrinter
 
 from ..symbols import QUANTITIES, symbol, t
 
@@ -61,144 +61,93 @@ def term(expr: sp.Expr) -> str:
     """Return an expression as a Coq term.
 
     >>> term(2 - sp.tanh(sp.Symbol("x")) / sp.Symbol("y", positive=True))
-    '2 - tanh x / y'
+    '2 - (tanh x/y)'
     """
-    for kind, write in _WRITERS.items():
-        if isinstance(expr, kind):
-            return write(expr)
-    raise UntranslatableError(f"Coq's library has no {type(expr).__name__}")
+    return _Printer().doprint(expr)
 
 
 def _inner(expr: sp.Expr) -> str:
     """Return a term that may stand as an argument."""
     text = term(expr)
-    return text if text.replace("_", "").isalnum() or (expr.is_Number and expr < 0) else f"({text})"
+    return text if text.replace("_", "").isalnum() else f"({text})"
 
 
-def _number(value: sp.Rational) -> str:
-    if value < 0:
-        return f"(- {_number(-value)})"
-    return str(value) if value.q == 1 else f"{value.p} / {value.q}"
+class _Printer(StrPrinter):
+    """Terms as SymPy writes them, but for functions, powers and what is bound."""
+
+    def _print(self, expr: sp.Expr, **_: object) -> str:
+        if not isinstance(expr, _HEADS):
+            raise UntranslatableError(f"Coq's library has no {type(expr).__name__}")
+        return str(super()._print(expr))
+
+    def _print_Symbol(self, expr: sp.Symbol) -> str:
+        return binder(expr)
+
+    _print_Dummy = _print_Symbol
+
+    def _print_Pi(self, _: sp.Expr) -> str:
+        return "PI"
+
+    def _print_Exp1(self, _: sp.Expr) -> str:
+        return "exp 1"
+
+    def _print_Mul(self, expr: sp.Mul) -> str:
+        negative = expr.as_coeff_Mul()[0] < 0
+        return f"-({self._print(-expr)})" if negative else str(super()._print_Mul(expr))
+
+    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        base, exponent = expr.args
+        if not (2 * exponent).is_Integer:
+            return f"Rpower {_inner(base)} {_inner(exponent)}"
+        if exponent < 0:
+            return f"(/ {_inner(1 / expr)})"
+        power = exponent if exponent.is_Integer else 2 * exponent
+        if exponent.is_Integer:
+            return f"{_inner(base)}^{power}"
+        return f"sqrt {_inner(base)}" if power == 1 else f"(sqrt {_inner(base)})^{power}"
+
+    def _print_Function(self, expr: sp.Function) -> str:
+        if tau in expr.args:
+            raise UntranslatableError("a claim in scaled time")
+        if isinstance(expr, AppliedUndef):
+            head = field(expr)
+        elif expr.func in _FUNCTIONS:
+            head = _FUNCTIONS[expr.func]
+        else:
+            raise UntranslatableError(f"Coq's library has no {expr.func.__name__}")
+        return " ".join((head, *map(_inner, expr.args)))
+
+    def _print_Derivative(self, expr: sp.Derivative) -> str:
+        inner, (variable, count) = expr.args
+        if count != 1:
+            raise UntranslatableError("a derivative of higher order")
+        bare = isinstance(inner, AppliedUndef) and inner.args == (variable,)
+        function = field(inner) if bare else f"(fun {binder(variable)} => {term(inner)})"
+        return f"Derive {function} {binder(variable)}"
+
+    def _print_Subs(self, expr: sp.Subs) -> str:
+        inner, variables, (point,) = expr.args
+        if not isinstance(inner, sp.Derivative) or inner.args[0].args != tuple(variables):
+            raise UntranslatableError("a substitution")
+        return f"Derive {field(inner.args[0])} {_inner(point)}"
+
+    def _print_Piecewise(self, expr: sp.Piecewise) -> str:
+        (first, condition), (second, otherwise) = expr.args
+        if otherwise != sp.true or not isinstance(condition, sp.LessThan):
+            raise UntranslatableError("a function of several pieces")
+        less = f"Rle_dec {_inner(condition.lhs)} {_inner(condition.rhs)}"
+        return f"(if {less} then {term(first)} else {term(second)})"
+
+    def _print_Integral(self, expr: sp.Integral) -> str:
+        inner, (variable, low, high) = expr.args
+        return f"RInt (fun {binder(variable)} => {term(inner)}) {_inner(low)} {_inner(high)}"
 
 
-def _sum(expr: sp.Add) -> str:
-    text = ""
-    for part in expr.as_ordered_terms():
-        negative = part.could_extract_minus_sign() and not isinstance(part, sp.Add)
-        size = _factor(-part if negative else part)
-        text += f" - {size}" if negative and text else f"- {size}" if negative else f" + {size}"
-    return text.removeprefix(" + ")
-
-
-def _product(expr: sp.Mul) -> str:
-    """Return numerator over denominator; a sign stands in front."""
-    coefficient, factors = expr.as_coeff_Mul()
-    above: list[sp.Expr] = []
-    below: list[sp.Expr] = []
-    for factor in factors.as_ordered_factors() if factors != 1 else ():
-        power = factor.as_base_exp()[1] if isinstance(factor, sp.Pow) else sp.S.One
-        (below if power.is_Rational and power < 0 else above).append(factor)
-    numerator = [_factor(f) for f in above]
-    denominator = [_divisor(1 / f) for f in below]
-    if abs(coefficient.p) != 1 or not numerator:
-        numerator.insert(0, str(abs(coefficient.p)))
-    if coefficient.q != 1:
-        denominator.insert(0, str(coefficient.q))
-    text = " * ".join(numerator)
-    if denominator:
-        joined = " * ".join(denominator)
-        text += f" / ({joined})" if len(denominator) > 1 else f" / {joined}"
-    return f"- ({text})" if coefficient < 0 else text
-
-
-def _factor(expr: sp.Expr) -> str:
-    """Return a term that may stand in a sum, or over a denominator."""
-    text = term(expr)
-    bare = not isinstance(expr, (sp.Add, sp.Piecewise)) and not text.startswith(("-", "/"))
-    return text if bare else f"({text})"
-
-
-def _divisor(expr: sp.Expr) -> str:
-    """Return a term that may stand under a fraction."""
-    return f"({term(expr)})" if isinstance(expr, (sp.Add, sp.Mul, sp.Rational)) else _factor(expr)
-
-
-def _power(expr: sp.Pow) -> str:
-    base, exponent = expr.args
-    if exponent.is_Integer and exponent > 0:
-        return f"{_inner(base)} ^ {exponent}"
-    if exponent.is_Integer:
-        return f"/ {_inner(base)}" if exponent == -1 else f"/ ({_inner(base)} ^ {-exponent})"
-    if exponent == sp.Rational(1, 2):
-        return f"sqrt {_inner(base)}"
-    if exponent.is_Rational and exponent.q == 2:
-        root, size = f"sqrt {_inner(base)}", abs(exponent.p)
-        power = root if size == 1 else f"({root}) ^ {size}"
-        return power if exponent > 0 else f"/ ({power})"
-    return f"Rpower {_inner(base)} {_inner(exponent)}"
-
-
-def _call(expr: sp.Function) -> str:
-    if tau in expr.args:
-        raise UntranslatableError("a claim in scaled time")
-    head = _FUNCTIONS.get(expr.func)
-    if head is None and isinstance(expr, AppliedUndef):
-        head = field(expr)
-    if head is None:
-        raise UntranslatableError(f"Coq's library has no {expr.func.__name__}")
-    text = _inner(expr.args[-1])
-    for argument in reversed(expr.args[:-1]):
-        text = (
-            f"{_inner(argument)} {text if text.startswith('(') or ' ' not in text else f'({text})'}"
-        )
-    return f"{head} {text}"
-
-
-def _derivative(expr: sp.Derivative) -> str:
-    inner, (variable, count) = expr.args
-    if count != 1:
-        raise UntranslatableError("a derivative of higher order")
-    bare = isinstance(inner, AppliedUndef) and inner.args == (variable,)
-    function = term(inner).split(" ")[0] if bare else f"(fun {binder(variable)} => {term(inner)})"
-    return f"Derive {function} {binder(variable)}"
-
-
-def _at(expr: sp.Subs) -> str:
-    """Return a derivative at a point: phi' there."""
-    inner, variables, points = expr.args
-    if not isinstance(inner, sp.Derivative) or inner.args[0].args != tuple(variables):
-        raise UntranslatableError("a substitution")
-    head = term(inner.args[0]).split(" ")[0]
-    return f"Derive {head} {_inner(points[0])}"
-
-
-def _piecewise(expr: sp.Piecewise) -> str:
-    (first, condition), (second, otherwise) = expr.args
-    if otherwise != sp.true or not isinstance(condition, sp.LessThan):
-        raise UntranslatableError("a function of several pieces")
-    less = f"Rle_dec {_inner(condition.lhs)} {_inner(condition.rhs)}"
-    return f"(if {less} then {term(first)} else {term(second)})"
-
-
-def _integral(expr: sp.Integral) -> str:
-    inner, (variable, low, high) = expr.args
-    return f"RInt (fun {binder(variable)} => {term(inner)}) {_inner(low)} {_inner(high)}"
-
-
-_WRITERS: dict[type, Callable[[sp.Expr], str]] = {
-    sp.Rational: _number,
-    sp.Symbol: lambda e: "t" if e == t else name(str(e)),
-    sp.Add: _sum,
-    sp.Mul: _product,
-    sp.Pow: _power,
-    sp.Derivative: _derivative,
-    sp.Subs: _at,
-    sp.Piecewise: _piecewise,
-    sp.Integral: _integral,
-    sp.Function: _call,
-    type(sp.pi): lambda _: "PI",
-    type(sp.E): lambda _: "exp 1",
-}  # Piecewise, Subs and Integral come before the heads that contain them
+_HEADS = (
+    *(sp.Rational, sp.Symbol, sp.Add, sp.Mul, sp.Pow, sp.Function, sp.Derivative, sp.Subs),
+    *(sp.Integral, type(sp.pi), type(sp.E)),
+)
+"""What the printer has a term for; a piecewise expression is a function."""
 
 
 def proposition(relation: sp.Basic) -> str:
@@ -225,7 +174,7 @@ def _equation(left: sp.Expr, right: sp.Expr) -> str:
             return limit(one, _inner(other) if other != sp.oo else None)
     product = left.as_independent(sp.Limit) if left.has(sp.Limit) else None
     if product is not None and isinstance(product[1], sp.Limit) and right == 0:
-        return f"exists l, {limit(product[1], 'l')} /\\ {_factor(product[0])} * l = 0"
+        return f"exists l, {limit(product[1], 'l')} /\\ {_inner(product[0])} * l = 0"
     return f"{term(left)} = {term(right)}"
 
 

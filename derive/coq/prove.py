@@ -68,7 +68,7 @@ def _lemma(made: Export, step: Step, row: Row) -> str:
 
 def _session(made: Export, lemmas: str) -> str:
     """Return what Coq says of lemmas; a failure ends one of them, not the session."""
-    made.write(_FOLDER, {"World": (made.world, [])})
+    made.write(_FOLDER, {"World": made.world})
     if fault := compiled(_FOLDER, ("World.vo",)):
         sys.exit(fault)
     done = subprocess.run(

@@ -37,7 +37,7 @@ NEEDS = ("19", "18", "closure-ratio", "21")
 
 (_EQ_16B,), (_EQ_19,), (_EQ_21,) = (written("printed", TEXTS[each]) for each in ("16b", "19", "21"))
 
-RELATIONS = (_EQ_16B, _EQ_19, _EQ_21, sp.Gt(M, 0), sp.Eq(h_0, sigma_c0))
+RELATIONS = (_EQ_16B, _EQ_19, _EQ_21, sp.Gt(M, 0, evaluate=False), sp.Eq(h_0, sigma_c0))
 """What speaks of all quantities that the refutations do."""
 
 _SECTION_4 = (sp.Eq(f_c, sp.Rational(1, 4)), sp.Eq(h_0, sp.Rational(27, 25000)))

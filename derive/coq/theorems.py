@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ..rules.limits import in_terms_of
 from ..symbols import symbol, t
-from .limits import in_terms_of
 from .printer import binder, field, term
 from .steps import Step
 
@@ -76,8 +76,8 @@ def _same_rate(step: Step) -> Iterator[str]:
         slopes = [term(sp.diff(side, t)) for side in given.relation.args]
         for label, rate, slope in zip("AB", rates, slopes, strict=True):
             yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; derived)."
-        yield f"intros t Ht; pose proof (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) as P0."
-        yield "from_equation P0 1."
+        yield "intros t Ht."
+        yield f"multiple (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) 1."
 
 
 def _grows(step: Step) -> Iterator[str]:
@@ -187,7 +187,7 @@ def _bounded_load(step: Step) -> Iterator[str]:
 
 def _first_order(step: Step) -> Iterator[str]:
     """The rate to first order in 1/t, from that of h/sigma."""
-    from .proofs import divisors
+    from .proofs import signs_at
 
     if step.rule != "FirstOrder":
         return
@@ -199,17 +199,17 @@ def _first_order(step: Step) -> Iterator[str]:
         return
     slope = sp.diff(function, _RATIO).subs(_RATIO, end).doit()
     speed, made, at = limit.relation.rhs, f"(fun ratio => {term(function)})", term(quantity)
-    known = list(divisors(step))
+    signs = signs_at(step)
     yield f"assert (D : is_derive {made} ({term(end)}) ({term(slope)})) by derived."
     yield f"assert (W : forall t, 0 <= t -> Derive u_c t = {made} ({at}))."
     yield from (
         "{ intros t Ht.",
-        *known,
+        *signs,
         f"rewrite ({step.cited(law)} t Ht); cbv beta; identity. }}",
     )
     yield f"assert (E : tends (fun t => u_c t * ({at} - {term(end)}) - {affine}) 0)."
     yield f"{{ generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht."
-    yield from (*known, "field; positive. }")
+    yield from (*signs, "field; positive. }")
     yield f"assert (N : {term(speed)} <> 0) by (apply Rgt_not_eq, Rlt_gt; positive)."
     yield f"assert (L : {made} ({term(end)}) = {term(speed)}) by (cbv beta; identity)."
     yield from _bounded(step, affine)

@@ -101,7 +101,8 @@ def life(results: xarray.Dataset) -> Figure:
         _band(top, results)
         look = stroke(1)
         bottom.step(count[finite], share[finite], where="post", color=look.colour)
-        bottom.set_xscale("log")
+        if finite.any():
+            _scale(bottom, "x", count[finite])
         bottom.set_ylim(0.0, 1.0)
         bottom.set_xlabel("Cycles to the wear depth")
         bottom.set_ylabel("Share of contacts")
@@ -109,7 +110,7 @@ def life(results: xarray.Dataset) -> Figure:
             ten = ten_percent_life(results)
             bottom.plot([ten], [_FAILED], "x", color=look.colour)
             note = f"10 % life: {_number(ten)} cycles"
-            bottom.annotate(note, (ten, _FAILED), (6, -3), textcoords="offset points")
+            bottom.annotate(note, (ten, _FAILED), (6, -2), textcoords="offset points", va="top")
     return figure
 
 

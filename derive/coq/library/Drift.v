@@ -62,28 +62,6 @@ Proof.
   rewrite Hr, <- Hl by lra; rewrite E; field; repeat split; rewrite ?Hl; lra.
 Qed.
 
-(** The case of one solid: [q = l - e/s] with [s = s0 + f u]. *)
-Lemma linear_approach (u q e F : R -> R) (l d r s0 f B : R) :
-  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> Derive u t = F (q t)) ->
-  is_derive F l d -> F l = r -> r <> 0 -> (forall t, 0 <= t -> Rabs (e t) <= B) ->
-  0 < f -> (forall t, 0 <= t -> 0 < s0 + f * u t) -> diverges (fun t => s0 + f * u t) ->
-  (forall t, 0 <= t -> q t = l - e t / (s0 + f * u t)) ->
-  tends q l -> tends (Derive u) r ->
-  tends (fun t => t * (Derive u t - r) + d / r * (e t / f)) 0.
-Proof.
-  intros Hu Hr Hd Hl Hr0 He Hf Hs Hdiv E Hq Hr'.
-  assert (Ha : forall t, 0 <= t -> Rabs (- (e t / f)) <= B / f).
-  { intros t Ht; unfold Rdiv; rewrite Rabs_Ropp, Rabs_mult, (Rabs_pos_eq (/ f))
-      by (left; apply Rinv_0_lt_compat; lra).
-    apply Rmult_le_compat_r; [left; apply Rinv_0_lt_compat; lra | auto]. }
-  apply tends_ext with (f := fun t => t * (Derive u t - r) - d / r * (- (e t / f))).
-  { intros; ring. }
-  apply (first_order u q _ F l d r (B / f)); trivial.
-  pose proof (tends_scal (s0 / f) _ _ (tends_inv_diverges _ Hdiv)) as Hz; rewrite Rmult_0_r in Hz.
-  generalize (bounded_vanishes e _ B He Hz); apply tends_ext; intros t Ht.
-  rewrite E by assumption; specialize (Hs t Ht); field; lra.
-Qed.
-
 (** ** The logarithm *)
 
 (** Cesaro on the logarithmic scale: [t v' -> m] gives [v / ln t -> m]. *)

@@ -42,12 +42,6 @@ Proof.
   intros H H'; apply is_lim_unique in H; apply is_lim_unique in H'; congruence.
 Qed.
 
-(** What diverges has no limit. *)
-Lemma diverges_no_limit f l : diverges f -> ~ tends f l.
-Proof.
-  intros H H'; apply is_lim_unique in H; apply is_lim_unique in H'; congruence.
-Qed.
-
 (** ** Passage to the limit *)
 
 Lemma tends_const c : tends (fun _ => c) c.
@@ -87,12 +81,6 @@ Qed.
 
 Lemma derive_later (u : R -> R) T t : Derive (fun t => u (T + t)) t = Derive u (T + t).
 Proof. unfold Derive; f_equal; apply Lim_ext; intros; rewrite Rplus_assoc; reflexivity. Qed.
-
-Lemma diverges_later f T : diverges f -> diverges (fun t => f (T + t)).
-Proof.
-  rewrite !diverges_iff; intros H m; destruct (H m) as [t0 Ht0].
-  exists (t0 - T); intros t Ht; apply Ht0; lra.
-Qed.
 
 (** One over what diverges tends to 0. *)
 Lemma tends_inv_diverges s : diverges s -> tends (fun t => / s t) 0.
@@ -230,19 +218,6 @@ Proof.
   unfold Rdiv; rewrite Rabs_mult, (Rabs_pos_eq (/ t)) by (left; apply Rinv_0_lt_compat; lra).
   apply Rlt_div_l; [lra |]; eapply Rle_lt_trans; [apply Rabs_triang |].
   fold b; rewrite Rabs_mult, (Rabs_pos_eq (t - a)) by lra; nra.
-Qed.
-
-(** Comparison: where one rate never exceeds the other's, wear does not overtake. *)
-Lemma comparison (u v : R -> R) : (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> ex_derive v t) ->
-  (forall t, 0 <= t -> Derive u t <= Derive v t) -> u 0 <= v 0 ->
-  forall t, 0 <= t -> u t <= v t.
-Proof.
-  intros Hu Hv Hr H0 t Ht; set (d := fun t => v t - u t).
-  assert (E : forall s, 0 <= s -> is_derive d s (Derive v s - Derive u s)).
-  { intros s Hs; apply (is_derive_minus v u); apply Derive_correct; auto. }
-  assert (d 0 <= d t); [| unfold d in *; lra].
-  apply increases; [| | lra]; intros s Hs; [eexists; apply E, Hs |].
-  rewrite (is_derive_unique _ _ _ (E s Hs)); specialize (Hr s Hs); lra.
 Qed.
 
 (** What is equal at every time has equal rates. *)

@@ -56,6 +56,9 @@ Proof.
   pose proof (pow2_ge_0 y); pose proof (pow2_gt_0 z Hz); lra.
 Qed.
 
+Lemma sign_of {x e : R} : 0 < x -> x = e -> 0 < e.
+Proof. intros H <-; exact H. Qed.
+
 (** ** Signs *)
 
 (** A goal [0 < e], [0 <= e] or [e <> 0] by the signs of the parts of e. *)
@@ -206,12 +209,38 @@ Ltac derived :=
 (** [ln x = y] from [x = exp y]. *)
 Ltac logarithm := match goal with |- ln ?x = ?y => replace x with (exp y); [apply ln_exp | identity] end.
 
-(** The goal is c times the equation H, up to the form of arguments. *)
-Ltac from_equation H c :=
-  apply Rminus_diag_uniq; apply Rminus_diag_eq in H; revert H; same_functions;
-  match goal with |- ?e = 0 -> ?g = 0 =>
-    let E := fresh in intro E; replace g with (c * e);
-    [rewrite E; ring | first [ring | field; positive | same_exponentials; field; positive]] end.
+(** ** What a claim rests on *)
+
+(** An equation that is to be inserted. *)
+Definition to_insert (P : Prop) := P.
+
+Ltac given F := let P := fresh "P" in pose proof F as P; sorted P
+with sorted P :=
+  lazymatch type of P with
+  | _ /\ _ => let Q := fresh "P" in destruct P as [P Q]; sorted P; sorted Q
+  | ?x = ?e => change (to_insert (x = e)) in P
+  | _ => idtac
+  end.
+
+(** Insert the given equations for single quantities everywhere. *)
+Ltac insert :=
+  repeat match goal with E : to_insert (?x = ?e) |- _ => unfold to_insert in E;
+    lazymatch x with
+    | _ + _ => idtac | _ - _ => idtac | _ * _ => idtac | _ / _ => idtac | - _ => idtac | _ ^ _ => idtac
+    | _ => lazymatch e with context [x] => idtac | _ => try rewrite E in *; clear E end
+    end end.
+
+Lemma multiple_of (c l r a b : R) : l = r -> a - b = c * (l - r) -> a = b.
+Proof. intros -> H; apply Rminus_diag_uniq; rewrite H; ring. Qed.
+
+(** The goal is c times the equation F, or that equation, where others are inserted; those that
+    are implicit are inserted into F, once. *)
+Ltac multiple F c :=
+  let P := fresh "P" in pose proof F as P;
+  repeat match goal with E : to_insert (?x = ?e) |- _ =>
+    lazymatch e with context [x] => unfold to_insert in E; try rewrite E in P; clear E end end;
+  let by_factor k := apply (multiple_of k _ _ _ _ P); insert; identity in
+  first [by_factor c | by_factor 1 | by_factor (-1)].
 
 (** ** Inequalities *)
 
@@ -235,6 +264,12 @@ Ltac from_inequality H c :=
 
 (** The same inequality up to form. *)
 Ltac same_inequality H := revert H; same_functions; intro H; arithmetic.
+
+Ltac same_as_known :=
+  match goal with
+  | H : _ <= _ |- _ => solve [same_inequality H]
+  | H : _ < _ |- _ => solve [same_inequality H]
+  end.
 
 (** The goal by the order of [f a] and [f b], where e is the difference of its sides. *)
 Ltac ordered a b e :=
