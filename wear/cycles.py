@@ -207,13 +207,18 @@ def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> 
         cost = cost.plus(*part.found.cost)
         reached, own = part.until(wear)
         certain = part.until(wear + part.inherited)[0] if part.inherited else reached
+        if isinstance(load, Blocks) and part.ends < most_cycles(load):
+            end, missed = part.after(np.array([part.ends]))
+            certain = np.where(wear > end - missed, np.inf, certain)  # perhaps in another block
         new = np.isinf(count) & np.isfinite(reached)
         count[new], error[new] = reached[new], own[new]
         some = doubtful | new
-        error[some] = np.maximum(error[some], certain[some] - count[some])
-        doubtful = some & np.isinf(certain)
+        known = some & np.isfinite(certain)
+        error[known] = np.maximum(error[known], certain[known] - count[known])
+        doubtful = some & ~known
         if np.isfinite(count).all() and not doubtful.any():
             break
+    error[doubtful] = np.inf
     return Cycles(count, error / np.maximum(count, 1.0), cost)
 
 

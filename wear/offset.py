@@ -19,7 +19,7 @@ from wear.cycles import count_cycles
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.model import bind
 from wear.orbit.infinity import SteadyState, steady_state
-from wear.orbit.iterates import Iterates
+from wear.orbit.iterates import Iterates, cells
 from wear.scene import Scene
 
 FARTHEST = 1e12  # cycles that are counted at most
@@ -56,7 +56,9 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
     if not _contact_lasts(scene, float(panel.frame.starts[0])):
         return None
     size = len(table.cells.u) // len(table.panels.series)  # cells of a panel
-    before = float(segment.begins[0]) + float(table.cells.cycles[-size])
+    # The count may begin within the panel.
+    within = float(cells(panel).cycles_until(table.cells.u[[-size]])[0])
+    before = float(segment.begins[0]) + float(table.cells.cycles[-size]) - within
     missed = float(segment.blur[0]) + float(table.count_error[0][-size - 1])
     with np.errstate(all="ignore"):  # a panel that ends before the steady state does
         found = steady_state(panel, before)

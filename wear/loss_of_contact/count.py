@@ -1,15 +1,18 @@
 """The cycle count with loss of contact: from one grazing wear to the next, and to the last.
 
 Between two grazing wears (`wear.loss_of_contact.grazing`) the increments of a cycle are series
-(`wear.loss_of_contact.increments`), of which Abel's equation makes the count where cycles are many;
-the few cycles next to a grazing wear are taken one by one, from the series as long as they do not
-pass it. Only the cycle that passes is integrated by itself, and the last ones before wear stops.
+(`wear.loss_of_contact.increments`), of which Abel's equation makes the count where cycles are many
+(`wear.loss_of_contact.stretch`); the few cycles next to a grazing wear are taken one by one, from
+the series as long as they do not pass it. The cycles that pass, and the last ones before wear
+stops, are integrated by themselves: where they begin is guessed for the whole way ahead, so that
+all are integrated at once, and the next guess is better as in Newton's method.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from copy import copy
 from typing import NamedTuple
 
 import numpy as np
@@ -18,8 +21,8 @@ from wear.counted import FADES, STOPS, Counted, End
 from wear.load import Load
 from wear.loss_of_contact.arrest import TO_ROUNDOFF, TabulatedCount, Unresolved
 from wear.loss_of_contact.grazing import limit_wear_of
-from wear.loss_of_contact.increments import Increments, Span, fitted, frame_of
-from wear.loss_of_contact.parts import ENOUGH, OneByOne, OnPanels, on_a_line, solved, walked
+from wear.loss_of_contact.increments import fitted
+from wear.loss_of_contact.parts import OneByOne, OnPanels, walked
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
 from wear.loss_of_contact.requests import (
@@ -30,25 +33,25 @@ from wear.loss_of_contact.requests import (
     answered,
     without_feedback,
 )
+from wear.loss_of_contact.samples import Samples
+from wear.loss_of_contact.stretch import Stretch, stretch
 from wear.loss_of_contact.switching import Edge, edge_of_contact
 from wear.model import Model
 from wear.numerics.tolerances import ROUNDOFF, TINY
-from wear.orbit.iterates import Iterates, cells
+from wear.orbit.iterates import Iterates
 from wear.orbit.period_map import settings
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, Segment
 
 FEW = 4.0  # cycles to the next grazing wear: they are integrated
-CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
-MOST_WALKED = 250  # cycles on a series that are taken one by one
-LOOKS = 65  # at a series, for how many cycles it takes
 KEPT = 5  # cycles integrated one by one even when there is no time left
 MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: increments that have no series
 JUDGED = 1e-2  # of the tolerance of a cycle: that of the cycle that judges it
-MOST_POOR = 8  # times that panels may hold too few cycles
+MOST_GUESSES = 10  # one after the other
+MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
 
@@ -85,63 +88,169 @@ def counted_stages(
 def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[Counted]:
     problem = yield from problem_of(wanted.model, wanted.load, edge, rtol, deadline)
     way = _Way(problem, wanted.start)
-    while not way.over and (way.done < wanted.cycles or not way.parts):
+    while way.goes_on(wanted.cycles):
         yield from way.go(max(wanted.cycles - way.done, 1.0))
     return (yield from _judged(problem, way, wanted.start_error, wanted.cycles))
 
 
 class _Way:
     """The way of a count: `parts`, one after the other, `done` cycles in all, and the `wear` (mm)
-    so far."""
+    so far. It goes along `stretches` on which the increments are known, and between them by
+    `samples`: those are asked for where the way is likely to lead, all at once."""
 
     def __init__(self, problem: Problem, start: float) -> None:
-        self.problem, self.wear, self.done, self.over = problem, start, 0.0, False
+        self.problem, self.wear, self.done = problem, start, 0.0
+        self.over = self.arrested = self.fades = False
         self.parts: list[OneByOne | OnPanels | Unresolved] = []
-        self.known: list[tuple[Span, Increments]] = []
-        self.problem_of = start
-        self.singles = self.poor = 0
-        self.arrested = self.fades = False
+        self.stretches: list[Stretch] = []
+        self.planned_to = start
+        self.samples = Samples()
+        self.last_added = 0.0
+        self.singles = 0
+        self.ahead_of: list[float] | None = None
         self.cost = Cost(0, 0)
+
+    def goes_on(self, cycles: float) -> bool:
+        """Return whether some of so many cycles are still wanted."""
+        return not self.over and (self.done < cycles or not self.parts)
 
     def go(self, cycles: float) -> Asking[None]:
         """Go on for so many `cycles`, or less."""
+        if self._lacks_a_plan(cycles):
+            yield from self._plan(cycles)
+        elif self._along(cycles) or (yield from self._to_the_grazing_wear()) or self._cycle():
+            return
+        else:
+            yield from self._ask(cycles)
+
+    def _lacks_a_plan(self, cycles: float) -> bool:
         in_time = time.monotonic() <= self.problem.deadline
-        if self.wear >= self.problem_of and cycles > FEW and in_time:
-            yield from self._prepare(cycles)
-            return
-        for span, series in self.known:
-            if span.start <= self.wear < span.end:
-                yield from self._along(span, series, cycles)
-                return
-        ahead = min(self._ahead(), default=np.inf)
-        if ahead - self.wear <= 2 * GRAIN * ROUNDOFF * ahead:
-            # Contact shrinks like the root of what is left: twice the cycles at the present pace.
-            rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
-            left = 2 * (ahead - self.wear) / rate
-            if FEW < left < np.inf:
-                left = np.floor(left)
-                part = np.array([[self.wear], [ahead], [left], [ahead - self.wear]])
-                self._append(Unresolved(*part), float(left), ahead)
-                return
-        yield from self._single()
+        return self.wear >= self.planned_to and cycles > FEW and in_time
 
-    def _ahead(self) -> list[float]:
-        return [stop.at for stop in self.problem.stops if stop.at > self.wear * (1 + 8 * ROUNDOFF)]
-
-    def _prepare(self, cycles: float) -> Asking[None]:
+    def _plan(self, cycles: float) -> Asking[None]:
+        problem = self.problem
         added = yield from without_feedback(np.array([self.wear]))
-        if added[0] > VIOLENT * (SHIFT * self.problem.scale + self.wear):
-            yield from self._single()
+        if added[0] > VIOLENT * (SHIFT * problem.scale + self.wear):
+            self.stretches, self.planned_to = [], np.nextafter(self.wear, np.inf)
             return
-        spans, self.problem_of = yield from planned(self.problem, self.wear, cycles)
-        number = COEFFICIENTS if self.problem.rtol < 1e-8 else FEWER_COEFFICIENTS
-        tolerance = self.problem.size.residual_tolerance / 2
-        self.known, cost = yield from fitted(spans, number, tolerance)
+        spans, self.planned_to = yield from planned(problem, self.wear, cycles)
+        number = COEFFICIENTS if problem.rtol < 1e-8 else FEWER_COEFFICIENTS
+        known, cost = yield from fitted(spans, number, problem.size.residual_tolerance / 2)
         self.cost = self.cost.plus(*cost)
-        if self.known and self.known[-1][0].tends:
-            (span, series), limit = self.known[-1], spans[-1].coordinate.origin
+        if known and known[-1][0].tends:
+            (span, series), limit = known[-1], spans[-1].coordinate.origin
             width = -np.log(TO_ROUNDOFF * limit * series.end)
-            self.known[-1] = span._replace(end=limit), series.on_a_line(float(width))
+            known[-1] = span._replace(end=limit), series.on_a_line(float(width))
+        self.stretches = [stretch(span, series, problem) for span, series in known]
+
+    def _along(self, cycles: float) -> bool:
+        """Go along a stretch on which the increments are known, if this is one."""
+        for here in self.stretches:
+            if here.span.start <= self.wear < here.span.end:
+                z = float(here.span.coordinate.at(np.array(self.wear)))
+                counted = here.counted
+                if counted is not None and z < counted.first:
+                    return self._walk(here, counted.first, cycles)
+                some = counted is not None and z < counted.last and self._count(here, counted, z)
+                return some or self._walk(here, here.end, cycles)
+        return False
+
+    def _count(self, here: Stretch, counted: OnPanels, z: float) -> bool:
+        """Count by Abel's equation from z to the end of the panels, if there is a cycle to it."""
+        limit_wear, part = counted.limit_wear, None
+        ran, z_after = counted.passed(z)
+        if self.ahead_of is None and (ran >= 1.0 or limit_wear):
+            part = counted.beginning_at(z)
+            ran, z_after = part.ran, float(part.table.state_after(np.array([part.ran]))[0][0])
+        if ran < 1.0 and not limit_wear:
+            return False
+        self.parts += [part] if part else []
+        wear = float(here.span.coordinate.wear(np.array(z_after)))
+        self.wear, self.done = limit_wear.wear if limit_wear else wear, self.done + ran
+        self.over = self.arrested = self.fades = limit_wear is not None
+        return True
+
+    def _walk(self, here: Stretch, end: float, cycles: float) -> bool:
+        """Go on cycle by cycle until z passes `end`."""
+        most = min(cycles, MOST_AT_ONCE)
+        if self.ahead_of is not None and not here.span.tends:
+            *before, last = here.series.walk(self.wear, end, most)
+            if before:
+                self.wear, self.done = last, self.done + len(before)
+                self.last_added = last - before[-1]
+            return bool(before)
+        found = walked(here.series, self.wear, end, most)
+        if not found.added:
+            return False
+        if here.span.tends and end == here.series.end and len(found.wear) <= most:
+            rest = here.span.end - found.wear[-1]
+            found.wear.extend([here.span.end, here.span.end])
+            found.added.extend([rest, 0.0])
+            found.missed.extend([0.0, 0.0])
+            found.growth.extend([0.0, 1.0])
+            self.over = self.arrested = self.fades = True
+        self._append_cycles(found)
+        return True
+
+    def _to_the_grazing_wear(self) -> Asking[bool]:
+        """Pass cycles that double precision does not resolve, next to a grazing wear."""
+        ahead = self._grazing_wear()
+        if ahead - self.wear > 2 * GRAIN * ROUNDOFF * ahead:
+            return False
+        # Contact shrinks like the root of what is left: twice the cycles at the present pace.
+        rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
+        left = np.floor(2 * (ahead - self.wear) / rate)
+        if not FEW <= left < np.inf:
+            return False
+        part = np.array([[self.wear], [ahead], [left], [ahead - self.wear]])
+        self._append(Unresolved(*part), float(left), ahead)
+        return True
+
+    def _grazing_wear(self) -> float:
+        """Return the next one (mm), infinite if there is none."""
+        behind = self.wear * (1 + 8 * ROUNDOFF)
+        return min((stop.at for stop in self.problem.stops if stop.at > behind), default=np.inf)
+
+    def _cycle(self) -> bool:
+        """Add one cycle, if a sample is so near that it is known."""
+        sample, limit = self.samples.at(self.wear, self.last_added), self.problem.limit_wear
+        known = sample.off <= self.problem.size.endpoint_tolerance
+        if self.ahead_of is None and not known:
+            return False
+        if self.ahead_of is not None and not known:
+            self.ahead_of.append(self.wear)
+        added = sample.added
+        if not added > 0.0 and limit is not None and self.wear < limit.wear:
+            added = limit.wear - self.wear  # nearer than rounding resolves
+        self.singles += 1
+        cycle = [self.wear, self.wear + added], [added], [np.nan], [abs(1.0 + sample.slope)]
+        self._append_cycles(OneByOne(*cycle))
+        self.arrested = not added > 0.0
+        self.fades = self.arrested and limit is not None
+        late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
+        failed = not sample.sound or not self.wear < self.problem.end
+        self.over = self.arrested or failed or late or self.singles >= MOST_SINGLE
+        return True
+
+    def _ask(self, cycles: float) -> Asking[None]:
+        """Integrate cycles here, and wherever the way may lead between stretches, twice each."""
+        ahead = copy(self)
+        ahead.parts, ahead.done, ahead.ahead_of = [], 0.0, []
+        in_a_row = 0
+        while ahead.goes_on(cycles) and len(ahead.ahead_of) < MOST_SAMPLES:
+            left = cycles - ahead.done
+            if ahead._lacks_a_plan(left) or in_a_row == MOST_GUESSES:
+                break
+            in_a_row = 0 if ahead._along(left) else in_a_row + 1
+            if in_a_row:
+                ahead._cycle()
+        wear = np.array(ahead.ahead_of)
+        apart = APART * (4 * self.problem.scale + wear)
+        run = yield Request(COARSE, np.concatenate([wear, wear + apart]))
+        self.cost = self.cost.plus(2 * len(wear), run.evaluations)
+        added, beside = np.split(run.increment, 2)
+        slope, sound = (beside - added) / apart, run.converged[: len(wear)]
+        self.samples.add(wear, added, slope, sound)
 
     def _append(self, part: OnPanels | Unresolved, ran: float, wear: float) -> None:
         self.parts.append(part)
@@ -155,95 +264,12 @@ class _Way:
         else:
             self.parts.append(cycles)
         self.wear, self.done = cycles.wear[-1], self.done + len(cycles.added)
-
-    def _single(self) -> Asking[None]:
-        """Integrate one cycle."""
-        run = yield Request(COARSE, np.array([self.wear]))
-        self.cost = self.cost.plus(1, run.evaluations)
-        self.singles += 1
-        added = float(run.increment[0])
-        if (
-            not added > 0.0
-            and self.problem.limit_wear is not None
-            and self.wear < self.problem.limit_wear.wear
-        ):
-            added = self.problem.limit_wear.wear - self.wear  # nearer than rounding resolves
-        unknown = [np.nan]
-        cycle = OneByOne([self.wear, self.wear + added], [added], unknown.copy(), unknown.copy())
-        self._append_cycles(cycle)
-        self.arrested = not added > 0.0
-        self.fades = self.arrested and self.problem.limit_wear is not None
-        late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
-        failed = not run.converged.all() or not self.wear < self.problem.end
-        self.over = self.arrested or failed or late or self.singles >= MOST_SINGLE
-
-    def _along(self, span: Span, series: Increments, cycles: float) -> Asking[None]:
-        """Count along a span on which the increments are known."""
-        coordinate = span.coordinate
-        begin = float(coordinate.at(np.array(self.wear)))
-        end = series.end if span.tends else float(coordinate.at(np.array(span.end)))
-        width = np.log([(end + coordinate.shift) / (begin + coordinate.shift)])
-        whole = frame_of(coordinate, np.array([begin]), width)
-        looks = whole.states(np.linspace(-1.0, 1.0, LOOKS))[0]
-        lasts = (looks + coordinate.shift) / coordinate.step(looks, series.at(looks))
-        gains = (lasts[1:] + lasts[:-1]) / 2 * np.diff(np.log(looks + coordinate.shift))
-        calm = np.flatnonzero(lasts >= CALM)
-        number = float(np.sum(gains[calm[0] : calm[-1]])) if len(calm) else 0.0
-        if np.sum(gains) < MOST_WALKED or number < 2 * ENOUGH * self.problem.size.panel_nodes:
-            yield from self._walk(span, series, end, cycles)
-        elif calm[0] > 0:
-            yield from self._walk(span, series, float(looks[calm[0]]), cycles)
-        else:
-            before = float(np.sum(gains[looks[1:] <= series.frame.starts[-1]]))
-            line = before > ENOUGH * self.problem.size.panel_nodes
-            yield from self._count(span, series, begin, float(looks[calm[-1]]), line)
-
-    def _count(
-        self, span: Span, series: Increments, begin: float, end: float, line: bool
-    ) -> Asking[None]:
-        """Count by Abel's equation from one z to another, on a line at last if that is to be."""
-        limit_wear = (
-            self.problem.limit_wear if span.tends and end >= series.end * (1 - 1e-9) else None
-        )
-        line &= limit_wear is not None
-        end = float(series.frame.starts[-1]) if line else end
-        panels, residual, poor = solved(series, begin, end, self.problem.size)
-        if poor and self.poor < MOST_POOR:  # panels of too few cycles: some more one by one
-            self.poor += 1
-            yield from self._walk(span, series, end, MOST_WALKED)
-            return
-        if line:
-            panels, residual = on_a_line(panels, residual, series)
-        part = OnPanels(cells(panels), panels, residual, series, limit_wear, line)
-        if limit_wear is not None:
-            self._append(part, part.ran, limit_wear.wear)
-            self.over = self.arrested = self.fades = True
-        elif part.ran < 1.0:
-            yield from self._single()
-        else:
-            z, _ = part.table.state_after(np.array([part.ran]))
-            self._append(part, part.ran, float(span.coordinate.wear(z)[0]))
-
-    def _walk(self, span: Span, series: Increments, end: float, cycles: float) -> Asking[None]:
-        """Go on cycle by cycle until z passes `end`."""
-        most = min(cycles, MOST_AT_ONCE)
-        cycles_on = walked(series, self.wear, end, most)
-        if not cycles_on.added:
-            yield from self._single()
-            return
-        if span.tends and end == series.end and len(cycles_on.wear) <= most:
-            rest = span.end - cycles_on.wear[-1]
-            cycles_on.wear.extend([span.end, span.end])
-            cycles_on.added.extend([rest, 0.0])
-            cycles_on.missed.extend([0.0, 0.0])
-            cycles_on.growth.extend([0.0, 1.0])
-            self.over = self.arrested = self.fades = True
-        self._append_cycles(cycles_on)
+        self.last_added = cycles.added[-1]
 
 
 def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> Asking[Counted]:
     """Return the parts of the way as segments, each with its estimate of error."""
-    yield from _judge(problem, way)
+    yield from _judge(way)
     segments: list[Segment] = []
     begins, drift, one = 0.0, 0.0, np.zeros(1)
     inherited = one + begun_with
@@ -263,8 +289,8 @@ def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> As
     return Counted(Orbit(1, tuple(segments), way.cost), end_of_wear)
 
 
-def _judge(problem: Problem, way: _Way) -> Asking[None]:
-    """Judge the cycles that were integrated, by another map and from beside."""
+def _judge(way: _Way) -> Asking[None]:
+    """Judge the cycles that were integrated by another map."""
     todo = [
         (part, k)
         for part in way.parts
@@ -276,14 +302,10 @@ def _judge(problem: Problem, way: _Way) -> Asking[None]:
         return
     at, added = np.array([(part.wear[k], part.added[k]) for part, k in todo]).T
     fine = yield Request(FINE, at)
-    apart = APART * (4 * problem.scale + at)
-    beside = yield Request(COARSE, at + apart)
     missed = np.abs(fine.increment - added) if fine.converged.all() else np.full(len(at), np.inf)
-    growth = np.abs(1 + (beside.increment - added) / apart)
-    for (part, k), *found in zip(todo, missed.tolist(), growth.tolist(), strict=True):
-        part.missed[k], part.growth[k] = found
-    evaluations = fine.evaluations + beside.evaluations
-    way.cost = way.cost.plus(2 * len(at), evaluations)
+    for (part, k), found in zip(todo, missed.tolist(), strict=True):
+        part.missed[k] = found
+    way.cost = way.cost.plus(len(at), fine.evaluations)
 
 
 def _end(problem: Problem, segments: list[Segment], fades: bool) -> End | None:

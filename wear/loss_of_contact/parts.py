@@ -14,7 +14,7 @@ from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
-from wear.orbit.iterates import Cells, Iterates
+from wear.orbit.iterates import Cells, Iterates, cells
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import Settings
 from wear.orbit.transient import SAFETY
@@ -74,6 +74,27 @@ class OnPanels(NamedTuple):
         """Return how many whole cycles."""
         last = self.table.last_cycles
         return float(np.ceil(last) if self.limit_wear else np.floor(last))
+
+    @property
+    def first(self) -> float:
+        """Return the z at which it begins."""
+        return float(self.panels.frame.starts[0])
+
+    @property
+    def last(self) -> float:
+        """Return the z at which it ends."""
+        return float(self.table.ends[-1])
+
+    def beginning_at(self, z: float) -> OnPanels:
+        """Return the count from z on."""
+        return self._replace(table=cells(self.panels, start=z))
+
+    def passed(self, z: float) -> tuple[float, float]:
+        """Return how many whole cycles it counts from z on, and the z after them."""
+        begin = self.table.cycles_until(np.array([z]))
+        ran = np.floor(self.table.last_cycles - begin)
+        after, _ = self.table.state_after(begin + ran)
+        return float(ran[0]), float(after[0])
 
     def judged(self, problem: Problem) -> TabulatedCount:
         """Return the count with its estimated error: of the increments, of Abel's equation, at

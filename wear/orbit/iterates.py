@@ -102,11 +102,15 @@ class Cells(NamedTuple):
         return result
 
 
-def cells(panels: Panels, first: float = 0.0, scenes: int = 1) -> Cells:
+def cells(panels: Panels, first: float = 0.0, scenes: int = 1, start: float | None = None) -> Cells:
     """Integrate the density; n is `first` at the start of the first panel of each of the scenes,
-    which have as many panels each. Every panel has as many cells."""
+    which have as many panels each, or, of one scene, at a state `start` on it. Every panel has as
+    many cells."""
     frame = panels.frame
     rule, edges = gauss(NODES), _cell_edges(panels)
+    if start is not None:
+        begin = np.log1p((start - frame.starts[0]) / (frame.starts[0] + frame.c[0]))
+        edges[0] = begin + edges[0] * (1.0 - begin / frame.widths[0])
     length = np.diff(edges, axis=1)
     y = (edges[:, :-1, None] + length[..., None] * rule.nodes).reshape(len(edges), -1)
     t = 2 * frame.x_of(y) / frame.x_ends[:, None] - 1
