@@ -119,12 +119,13 @@ class Derivations:
 
 
 def _assumed(hypothesis: Judgement) -> str:
-    """Return how a step refers to a hypothesis that no equation shows: by its formula, if any."""
+    """Return how a step refers to a hypothesis that no equation shows: by a short formula."""
     relation, said = hypothesis.relation, hypothesis.hypotheses[-1]
     names = isinstance(relation, sp.Equality) and relation.lhs.is_Symbol
     if said.kind is Kind.DEFINITION and (names or relation is sp.true):
         return "the definitions"
-    return said.text if relation is sp.true else f"${inline(presentable(relation))}$"
+    in_words = relation is sp.true or len(str(relation)) > _SHORT
+    return said.text if in_words else f"${inline(presentable(relation))}$"
 
 
 def is_hypothesis(statement: Judgement) -> bool:
@@ -132,6 +133,8 @@ def is_hypothesis(statement: Judgement) -> bool:
     return type(statement.rule).__name__ == "Assume"
 
 
+#: Characters up to which a formula stands in a sentence.
+_SHORT = 60
 _REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
 
 
@@ -148,6 +151,7 @@ def prose(equations: Sequence[Equation], width: float) -> str:
     lines = [
         f"% How ({target.id}) follows: {target.title}.",
         macros([by_id[name] for name in shown], width).rstrip(),
+        r"\begin{sloppypar}",
         rf"\paragraph{{Derivation of ({target.id}).}}",
     ]
     told: set[str] = set()
@@ -157,7 +161,7 @@ def prose(equations: Sequence[Equation], width: float) -> str:
         said = _REFERENCE.sub(r"(\1)", step.sentence)
         lines.append(rf"\par\noindent\textit{{Step {place}.}} {said}")
         lines += _formula(step, by_id, told, width)
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, r"\end{sloppypar}"]) + "\n"
 
 
 def _formula(

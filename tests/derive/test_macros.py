@@ -91,7 +91,9 @@ def test_every_equation_fits_a_column(width, tmp_path, need_tool):
     assert [float(too_wide) for too_wide in _WIDE.findall(log)] == []
 
 
-@pytest.mark.parametrize("identifier", ["7c", "8", "first-integral"])
+@pytest.mark.parametrize(
+    "identifier", ["7c", "8", "first-integral", "static-solution-compliant-smooth"]
+)
 def test_a_derivation_fits_a_column(identifier, tmp_path, need_tool):
     """Prose with equations: starting points, every step, the equation with its number."""
     engine = need_tool("pdflatex")
