@@ -28,7 +28,7 @@ from .hypotheses import Hypothesis, Kind
 from .kernel import Judgement, chain, domain
 from .language import names
 from .rules.assumption import Assume
-from .rules.proving import holds
+from .rules.proving import holds, needs
 from .symbols import CLOCKS, QUANTITIES, t
 from .typeset.display import latex
 from .typeset.present import presentable
@@ -161,12 +161,17 @@ class Equation:
     def conditions(self) -> tuple[Hypothesis, ...]:
         """Return what a reader needs to know beside the equation of when it holds.
 
-        A name may be positive by the vocabulary: what it is defined as then has to be.
+        A name may be positive by the vocabulary: what it is defined as then has to be, and it has
+        to have a value.
         """
         shown = tuple(h for h in self.hypotheses if h.shown)
-        names = (h.relation for h in self.hypotheses if h.kind is Kind.DEFINITION)
-        signs = dict.fromkeys(s for n in names if n not in self.claims and (s := _sign(n)))
-        return (*shown, *(sign for sign in signs if not self._follows(sign)))
+        defined = (h.relation for h in self.hypotheses if h.kind is Kind.DEFINITION)
+        names = tuple(r for r in defined if isinstance(r, sp.Equality) and r not in self.claims)
+        signs = (sign for name in names if (sign := _sign(name)) and not self._follows(sign))
+        given = frozenset(h.relation for h in self.hypotheses)
+        values = (goal for name in names for goal in needs(name.rhs) if not holds(goal, given))
+        hidden = (*signs, *(Hypothesis(str(goal), goal) for goal in values))
+        return tuple(dict.fromkeys((*shown, *hidden)))
 
     def _follows(self, sign: Hypothesis) -> bool:
         """Return whether the sign of a name follows from what is derived of it, and else holds."""

@@ -12,13 +12,14 @@ from ..claims import Equality, Limit, Property, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, plain
 from ..note.model import FIELDS, belongs
-from ..symbols import CLOCKS, DATA, t
+from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .reading import at_an_instant, clocks, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
+_TIMES = (t, symbol("tau"), symbol("N"))
 
 
 @dataclass(frozen=True)
@@ -55,21 +56,30 @@ def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> Non
     """Refuse to define what is given, or a constant by what varies."""
     name, value = relation.lhs, at_an_instant(relation.rhs)
     found = {field.func for field in functions(relation)}
-    if not name.is_Symbol and (found - FIELDS or (not found and _linear(relation))):
-        return  # an equation for a field of one's own, or for a name
+    if not name.is_Symbol and _solvable(relation):
+        return
     if not name.is_Symbol or name.name in DATA or value.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
+    if name in _TIMES and found:
+        raise RuleError(f"missing premise: {name} is a multiple of another time")
     rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
     change = inserted(sp.Add(*rates), premises).doit()
     if not clocks(name) and (clocks(relation.rhs) or not is_zero(change)):
         raise RuleError(f"missing premise: {value} is constant")
 
 
-def _linear(relation: sp.Equality) -> bool:
-    """Return whether an equation is linear in a name, and so has a solution for most data."""
-    names = (s for s in relation.free_symbols if s.name not in DATA | CLOCKS)
-    slopes = ((name, sp.diff(relation.lhs - relation.rhs, name)) for name in names)
-    return any(not slope.has(name) and not is_zero(slope) for name, slope in slopes)
+def _solvable(relation: sp.Equality) -> bool:
+    """Return whether an equation, or what tends to a limit by one, is linear in fields of one's
+    own, or in names, with a factor that is never zero: of data and other fields it says nothing."""
+    tends = isinstance(relation.lhs, sp.Limit)
+    whole = relation.lhs.args[0] if tends else relation.lhs - relation.rhs
+    fields = {f for f in functions(whole) if f.func not in FIELDS}
+    rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
+    free = () if functions(whole) else whole.free_symbols
+    names = {s for s in free if s.name not in DATA | CLOCKS}
+    own = {part: sp.Dummy(real=True) for part in (*rates, *fields, *names)}
+    slopes = [sp.diff(whole.xreplace(own), name) for name in own.values()]
+    return not any(s.has(*own.values()) for s in slopes) and any(s.is_nonzero for s in slopes)
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:

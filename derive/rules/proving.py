@@ -11,6 +11,7 @@ Key results
     sign(expr, facts)        1, -1 or None
     require                  RuleError unless a relation follows from premises
     require_defined          RuleError unless every part of an expression has a value
+    needs                    the relations where an expression has a value
     continuous               whether an expression is continuous at a point
 References
     de Moura, Bjorner, Z3: an efficient SMT solver, TACAS 2008; Jovanovic, de Moura, Solving
@@ -240,6 +241,16 @@ def require_defined(expr: sp.Basic, *premises: Judgement) -> None:
     for goal in _needed(expr, _parts(premises)):
         if not holds(goal, facts):
             raise RuleError(f"missing premise: {goal}")
+
+
+def needs(expr: sp.Basic) -> set[sp.Basic]:
+    """Return the relations where an expression has a value, but for limits and integrals in it.
+
+    >>> f_c = sp.Symbol("f_c", real=True)
+    >>> needs(1 + sp.sqrt(f_c)), needs(sp.tanh(f_c))
+    ({f_c >= 0}, set())
+    """
+    return {need for part in certain(expr) for need in _need(part) if not need.has(sp.zoo)}
 
 
 def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:

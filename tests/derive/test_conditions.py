@@ -9,11 +9,14 @@ import sympy as sp
 
 from derive import catalogue
 from derive.claims import Asymptotic, Equality, Limit
+from derive.equations import Equation
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import RuleError
 from derive.results import validity
-from derive.rules.assumption import assume
+from derive.rules.assumption import assume, defined
+from derive.rules.inequalities import Arithmetic
 from derive.rules.reading import CONSTANT, PERIODIC
+from derive.symbols import symbols
 from derive.typeset.mathml import mathml
 
 
@@ -35,6 +38,17 @@ def test_a_value_that_meets_a_condition_leaves_none() -> None:
 def test_what_cannot_be_is_no_hypothesis() -> None:
     with pytest.raises(RuleError, match="cannot be assumed"):
         assume(Hypothesis("nothing", sp.Gt(sp.Integer(0), 1)))
+
+
+def test_a_name_has_a_value_under_the_conditions_that_are_shown() -> None:
+    """b_0 = sqrt(f_c) and b_0 = 1/f_c hide a condition on f_c from who sees b_0 alone."""
+    b_0, f_c = symbols("b_0 f_c")
+    for value, condition in ((sp.sqrt(f_c), sp.Ge(f_c, 0)), (1 / f_c, sp.Ne(f_c, 0))):
+        claim = Arithmetic(condition)(defined(b_0, value))
+        (shown,) = Equation("own", "", "", (claim,)).conditions
+        assert shown.relation == condition
+        growing = Arithmetic(sp.Gt(f_c**3, 0))(claim, assume(Hypothesis("grows", sp.Gt(f_c, 0))))
+        assert [h.text for h in Equation("own", "", "", (growing,)).conditions] == ["grows"]
 
 
 def test_every_equation_of_section_4_says_what_it_needs() -> None:

@@ -368,7 +368,7 @@ CASES: dict[str, Case] = {
     ),
     "a relation between data, called a definition": (  # f_c = 1
         lambda: assume(supposed(sp.Eq(f_c * h_0, 3), Kind.DEFINITION)),
-        lambda: assume(supposed(sp.Eq(f_c * b_0, 3), Kind.DEFINITION)),
+        lambda: assume(supposed(sp.Eq(T * b_0, 3), Kind.DEFINITION)),
         "is a new name",
     ),
     "two definitions of one name": (  # h_0 = 1

@@ -71,6 +71,7 @@ h_0, f_c, C, T, N, q, b_0, d, M = symbols("h_0 f_c C T N q b_0 d M")
 theta, u_cum, U_mean, tau, u_stop, c_1, m = symbols("theta u_cum U_mean tau u_stop c_1 m")
 x, y = sp.symbols("x y", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
+WIGGLE = sp.Function("wiggle", real=True)(t)
 du, CLOCK = rate("u_c"), defined(t, T * tau)
 FALLING, STEADY = C / (1 + tau) ** 2, C / (1 + f_c**2) ** 2
 
@@ -407,6 +408,26 @@ CASES: dict[str, Case] = {
         lambda: assume(supposed(equal(sp.exp(b_0), f_c), Kind.DEFINITION)),
         lambda: defined(b_0, sp.exp(f_c)),
         "is a new name",
+    ),
+    "a square, called a definition of a field": (  # f_c = 1
+        lambda: assume(supposed(equal(WIGGLE**2, -f_c), Kind.DEFINITION)),
+        lambda: assume(supposed(equal(WIGGLE * q, -f_c), Kind.DEFINITION)),
+        "is a new name",
+    ),
+    "a product, called a definition": (  # f_c = 0
+        lambda: assume(supposed(equal(f_c * b_0, 3), Kind.DEFINITION)),
+        lambda: assume(supposed(equal(T * b_0, 3), Kind.DEFINITION)),
+        "is a new name",
+    ),
+    "a limit that is one where wear begins": (  # u_c = 0
+        lambda: assume(supposed(equal(forever(WIGGLE * u_c), 1), Kind.DEFINITION)),
+        lambda: assume(supposed(equal(forever(WIGGLE - u_c), 1), Kind.DEFINITION)),
+        "is a new name",
+    ),
+    "cycles that wear counts": (  # u_c = -h_0 t/T
+        lambda: defined(N, u_c / h_0),
+        lambda: defined(N, t / T),
+        "another time",
     ),
     # ---- what is no real number
     "two orders are not one": (  # h = 0, u_c = t, u_a = 2 t

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import copy
 import json
-import pickle
 from pathlib import Path
 
 import numpy as np
@@ -300,7 +300,7 @@ def test_columns_of_a_notebook_are_readings(found, far_off):
     fits = [wear.fit(data, far_off, K, intervals=False) for data in (columns, frame, [readings])]
     assert fits[0].estimates == fits[1].estimates
     assert fits[0].estimates == pytest.approx(fits[2].estimates, rel=1e-9)
-    again = pickle.loads(pickle.dumps(found))
+    again = copy.deepcopy(found)
     assert again.as_json()["parameters"] == found.as_json()["parameters"]
     assert repr(found).startswith(f"<Fit to 9 readings: {K} = 1.0")
     assert len(found.plot().axes) == 2

@@ -42,9 +42,14 @@ def _sentences(paper: Document) -> Iterator[Token]:
 
 
 def test_every_figure_and_table_is_mentioned_in_the_text(paper: Document) -> None:
-    mentioned = {piece.content for piece in _sentences(paper) if piece.type == "reference"}
-    floats = {label for label, m in paper.marks.items() if m.kind in ("figure", "table")}
+    mentioned = {_series(p.content) for p in _sentences(paper) if p.type == "reference"}
+    floats = {_series(label) for label, m in paper.marks.items() if m.kind in ("figure", "table")}
     assert floats - mentioned == set()
+
+
+def _series(label: str) -> str:
+    """The label without the number of a table in a series."""
+    return re.sub(r"-\d+$", "", label)
 
 
 def test_every_claim_has_its_row(paper: Document) -> None:
