@@ -46,3 +46,12 @@ def test_beyond_the_limit_nothing_is_known() -> None:
     )
     assert found.error[0] <= 1e-10
     assert found.error[1] == np.inf
+
+
+def test_states_that_rounding_keeps_from_their_limit_are_given_up():
+    """Near u = 1 the rate 1 - u is but rounding: what it adds cannot be resolved, and is not."""
+    found = count_cycles(
+        lambda u, t: (1 - u) + 0 * t, [20, 30], period=1.0, start=0.0, scale=1.0, limit=1.0
+    )
+    assert np.all(np.abs(found.u + np.expm1(-np.array([20.0, 30.0]))) <= found.error + 3e-16)
+    assert found.cost.rhs_evaluations < 5_000_000

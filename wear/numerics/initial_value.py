@@ -29,7 +29,8 @@ SAFETY = 3.0  # on measured discrepancies
 
 
 class StoppedError(Exception):
-    """The integration ends at a `state`: intervals cannot be cut any shorter there."""
+    """The integration ends at a `state`: intervals cannot be cut any shorter there, or it takes too
+    many."""
 
     def __init__(self, state: float) -> None:
         super().__init__(f"the state could not be followed beyond {state:.6g}")
@@ -119,15 +120,18 @@ def integrate(
     roundoff: Callable[[float], float] = lambda _: 0.0,
     limit: float = np.inf,
     deadline: float = np.inf,
+    most: float = np.inf,
 ) -> Iterator[Reached]:
     """Integrate from the state `start` over intervals between `edges` (q + 1,), part after part.
 
-    `roundoff` is the relative error of the rate by rounding from a state on, at most.
+    `roundoff` is the relative error of the rate by rounding from a state on, at most; `most` are
+    the evaluations of the rate from one state that is asked for to the next.
 
     Raises
     ------
     StoppedError
-        where the intervals cannot be cut any shorter, or the state would pass the `limit`.
+        where the intervals cannot be cut any shorter, or take too many evaluations, or the state
+        would pass the `limit`.
     TimeoutError
         after the deadline (`time.monotonic()`).
     """
@@ -144,6 +148,8 @@ def integrate(
             todo.append(rest)
         attempt = _attempt(sampled, now, state, rules, roundoff(state), limit)
         evaluations += attempt.evaluations
+        if evaluations > most:
+            raise StoppedError(state)
         if attempt.part is None:
             size = max(1, len(now.asked) // 2)
             if len(now.asked) == 1:

@@ -36,6 +36,7 @@ MOST_INTERVALS = 256  # of one cycle; or so many for each that its breakpoints m
 MOST_CUTS = 8
 FEW_NODES = 8
 MANY_BREAKPOINTS = 128  # of one cycle: between as many the rate changes little, few nodes do
+MOST_VIOLENT = 1_000_000  # evaluations of the rate, for an interval of a violent cycle
 NUMBERS = (1, 2, 3, 6, 12, 24, 48, 96, 192)  # of intervals, of many scenes: few different ones
 IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
 # Of `truncation_error`: in 99 of 100 random scenes the error is less than three times that.
@@ -224,8 +225,9 @@ class PeriodMap(NamedTuple):
 
         rules = Rules(size.phase_nodes, size.finer_nodes, size.endpoint_tolerance)
         evaluations, found = 0, [0.0, np.inf, 1.0, 0.0]
+        edges = self.over.edges.ravel()
         try:
-            for last in integrate(sampled, self.over.edges.ravel(), start, rules, limit=limit):
+            for last in integrate(sampled, edges, start, rules, limit=limit, most=MOST_VIOLENT):
                 evaluations += last.evaluations
                 found = [float(array[-1]) for array in last[:4]]
         except StoppedError as end:
