@@ -99,7 +99,8 @@ def count_cycles(
         The change of the state that changes the rate by a factor of order one, roughly: it says how
         panels are laid out, and no result depends on it.
     breakpoints
-        Times in (0, period) at which f is not smooth in t.
+        Times in (0, period) at which f is not smooth in t. A pulse that is shorter than a hundredth
+        of the period is sure to be seen only between two of them.
     rtol
         Requested relative error of the states; where it is missed the estimated error says so.
     limit
