@@ -162,7 +162,7 @@ def panels_of(
 
 def _curves(history: History, quantity: Quantity) -> Iterator[tuple[Curve, FloatArray]]:
     """Yield the columns that the variant has, contact only where it is lost."""
-    columns = {column.name: column.values for column in history.columns()}
+    columns = history.columns()
     trivial = 1.0 if quantity is CONTACT else 0.0
     for place, curve in enumerate(quantity.curves):
         values = columns.get(curve.column, np.array([np.nan]))

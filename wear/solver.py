@@ -19,7 +19,7 @@ from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
-from wear.states import displacement_of, fields_at, reaction_of, result_notices
+from wear.states import fields_at, result_notices
 
 if TYPE_CHECKING:
     from wear.model import Model
@@ -253,6 +253,7 @@ def _history(
     u, error = wear.u[order], wear.error[order]
     fields = fields_at(model, scene, cycles, u)
     return History(
+        definition=scene,
         cycles=np.array(cycles, dtype=np.int64),
         u_c=u,
         u_a=getattr(fields, "u_a", None),
@@ -260,14 +261,8 @@ def _history(
         sigma_a=getattr(fields, "sigma_a", None),
         h=fields.h,
         p=fields.p,
-        error=error,
         U_c=getattr(fields, "U_c", None),
-        R_a=reaction_of(scene, fields.p),
-        U_a=displacement_of(model, scene, u),
-        scene=scene.title or scene.name,
-        definition=scene,
-        variant=scene.variant.name,
-        operations=model.operations,
+        error=error,
         method=wear.method,
         rtol=rtol,
         cost=wear.cost._asdict(),

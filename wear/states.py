@@ -11,6 +11,7 @@ from wear.direct.cutoff import pressure_share, roundoff
 from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.load.spans import span
+from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.scene.plausibility import implausible_results
 
@@ -39,8 +40,9 @@ def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatA
     return fields._replace(p=closed * pressure_share(model, u, U_a, rise))
 
 
-def displacement_of(model: Model, scene: Scene, u: FloatArray) -> FloatArray | None:
+def displacement_of(scene: Scene, u: FloatArray) -> FloatArray | None:
     """The displacement of the pin in mm at the ends of cycles, where the load is a force."""
+    model = bind(scene)
     if not isinstance(model, GivenLoad):
         return None
     return np.asarray(model.displacement(u, np.full(u.shape, float(scene.periodic_load(0.0)))))
