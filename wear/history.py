@@ -14,19 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear import history_files
+from wear.cycle_pressures import CyclePressures, cycle_pressures
 from wear.history_files import States
 from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.quantities import COLUMNS, columns_of, unit_of
+from wear.scene import Scene
 from wear.states import displacement_of, friction_work, reaction_of, sliding_distance
 
 if TYPE_CHECKING:
     import pandas
     import xarray
     from matplotlib.figure import Figure
-
-    from wear.cycle_pressures import CyclePressures
-    from wear.scene import Scene
 
 MOST_SHOWN = 50  # rows in a notebook
 ALWAYS = tuple(COLUMNS)[1:5]
@@ -112,8 +111,6 @@ class History:
         Computed when asked for; no numbers where they could not be found: before the first cycle,
         under a load that does not repeat, of a run that was stopped.
         """
-        from wear.cycle_pressures import CyclePressures, cycle_pressures
-
         nothing = CyclePressures(*np.full((3, len(self.cycles)), np.nan))
         if self.stopped:
             return nothing

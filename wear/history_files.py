@@ -6,17 +6,15 @@ import csv
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from derive import files
 from wear.faults import UsageError
+from wear.inside import Inside
 from wear.quantities import COLUMNS, columns_of, unit_of
-
-if TYPE_CHECKING:
-    from wear.inside import Inside
 
 Attributes = Mapping[str, str]
 """What describes a result, each in one line and none empty."""

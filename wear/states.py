@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,13 +10,10 @@ from wear.direct.cutoff import pressure_share, roundoff
 from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.load.spans import span
-from wear.model import bind
+from wear.model import Fields, Model, bind
 from wear.numerics.gauss import FloatArray
+from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
-
-if TYPE_CHECKING:
-    from wear.model import Fields, Model
-    from wear.scene import Scene
 
 
 def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) -> Fields:
