@@ -155,7 +155,7 @@ class Parametric(Rule):
 
 
 def _require_root(pressure: Judgement, u: sp.Expr, *premises: Judgement) -> None:
-    """Refuse unless the pressure is the one root of ``p = R(p, u, load)``, so follows u and load."""
+    """Refuse unless the pressure is the one root of ``p = R(p, u, load)``, so that it follows u."""
     given, p = equality(pressure), sp.Dummy("p", positive=True)
     value = given.rhs.xreplace({PRESSURE: p})
     moving = {unknown: unknown for unknown in (p, u, LOAD)}

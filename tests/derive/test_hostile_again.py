@@ -69,7 +69,8 @@ from tests.derive.judgements import (
 
 u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, f_c, C, T, N, q, b_0, d, M = symbols("h_0 f_c C T N q b_0 d M")
-p_max, theta, u_cum, U_mean, tau, u_stop, c_1, m = symbols("p_max theta u_cum U_mean tau u_stop c_1 m")
+p_max, theta, u_cum, U_mean, tau = symbols("p_max theta u_cum U_mean tau")
+u_stop, c_1, m = symbols("u_stop c_1 m")
 x, y = sp.symbols("x y", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 WIGGLE = sp.Function("wiggle", real=True)(t)
