@@ -281,7 +281,7 @@ def _smooth(
     multiplier, weights = _weights(cycle.rule, part.length[:, None], slope)
     by_parameters = _along(equation, gradient, u, phases, U_a, load.period * weights)
     by_wear = np.sum(weights * slope, axis=1, keepdims=True)
-    return multiplier[:, None] * tangent + np.column_stack([by_wear, by_parameters])
+    return np.asarray(multiplier[:, None] * tangent + np.column_stack([by_wear, by_parameters]))
 
 
 def _weights(rule: Gauss, length: FloatArray, slope: FloatArray) -> tuple[FloatArray, FloatArray]:
