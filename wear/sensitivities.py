@@ -159,7 +159,7 @@ def _of_one_variant(
             part = Tangents(*map(np.concatenate, zip(*rows, strict=True)))
         else:
             equation = parametrised(scenes, acting, keys)
-            counted = orbit(equation, wanted[:, -1], rtol, start, missed)
+            counted = orbit(equation, wanted[:, -1], rtol, start, missed, keep=True)
             part = tangents(equation, counted, wanted, rtol, slope, slope_error)
         for whole, values in zip(found, part, strict=True):
             whole[..., here] = values[..., :-1]

@@ -49,7 +49,7 @@ def result_notices(
 ) -> tuple[str, ...]:
     """Return what is worth knowing of results: where the model ends, and what is hardly meant."""
     rough = [getattr(fields, name) for name in ("sigma_c", "sigma_a") if name in fields._fields]
-    results = implausible_results(scene, np.array(cycles), u, *rough)
+    results = implausible_results(scene, cycles, u, *rough)
     return (*negative_roughness(model, fields, u), *results)
 
 

@@ -71,7 +71,8 @@ def execute(options: argparse.Namespace) -> Answer:
     """Run a study, or say what it takes."""
     from wear.studies.run import prepare, run
 
-    arguments.read(options).stop_if_any()
+    faults = arguments.read(options)
+    faults.stop_if_any()
     workers = int(options.workers or processes.cores())
     request = (
         options.design, int(options.samples), int(options.seed), options.until_wear, options.rtol,
@@ -81,18 +82,23 @@ def execute(options: argparse.Namespace) -> Answer:
         return _dry_run(asked, workers)
     with _executor(options.scheduler, workers) as executor, terminal.busy("solving") as tell:
         store = run(asked, Path(options.output), executor, tell)
+    results = store.dataset()
+    notices = results.attrs["notices"]
+    if options.strict:
+        faults.refuse_implausible(notices)
+        faults.stop_if_any()
     if options.figure is not None:
         from wear.figure_style import encoded
         from wear.studies.figures import picture
 
-        drawn = encoded(picture(store.dataset()), options.figure.suffix)
+        drawn = encoded(picture(results), options.figure.suffix)
         files.write_atomically(options.figure, drawn)
     counts = store.counts()
     done = ", ".join(
         f"{number} {name.replace('_', ' ')}" for name, number in counts.items() if number
     )
-    document = {"output": options.output, "rows": counts}
-    return Answer(document, lambda: f"{options.output}: {done}", asked.scene.notices)
+    document = {"output": options.output, "rows": counts, "notices": notices}
+    return Answer(document, lambda: f"{options.output}: {done}", notices)
 
 
 def _dry_run(asked: Study, workers: int) -> Answer:

@@ -80,7 +80,8 @@ def study(
     -------
     xarray.Dataset
         `bearing_wear_mm`, `error_estimate`, `cycles_to_wear`, `status` and `reason`, with a
-        dimension for each key of a grid or one of samples, and one of cycles.
+        dimension for each key of a grid or one of samples, and one of cycles. The attribute
+        `notices` says what is hardly meant in how many rows, and in which most.
 
     Raises
     ------
@@ -113,6 +114,7 @@ def run(
         store.write(chunk, answers)
         done += _rows(chunk)
         pace.at(done)
+    store.judge()
     return store
 
 
