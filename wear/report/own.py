@@ -102,7 +102,9 @@ def _solved(scene: Scene) -> History:
     meant = [
         int(found.cycles[n - 1])
         for n in ends
-        if not any(implausible_results(scene, found.cycles[:n], found.u_c[:n], found.sigma_c[:n]))
+        if not any(
+            implausible_results(scene, found.cycles[:n].tolist(), found.u_c[:n], found.sigma_c[:n])
+        )
     ]
     if not meant or len(meant) == len(ends):
         return found
