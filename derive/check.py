@@ -5,7 +5,6 @@ Models are drawn by the falsifier, which shares nothing with the rules; none may
 
 from __future__ import annotations
 
-from functools import cache
 from typing import NamedTuple
 
 import sympy as sp
@@ -25,7 +24,6 @@ class Check(NamedTuple):
     detail: str
 
 
-@cache
 def checks(judgement: Judgement) -> tuple[Check, ...]:
     """Return what comes of checking one step; its parents are steps of their own."""
     fault, refusal = homogeneous(judgement.relation), replayed(judgement)

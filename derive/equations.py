@@ -101,6 +101,10 @@ class Equation:
     remark: str = ""
     texts: Mapping[str, str] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        if not self.statements or any(type(s) is not Judgement for s in self.statements):
+            raise TypeError("an equation states judgements")
+
     def __repr__(self) -> str:
         return f"<Equation {self.id}: {self.title}>"
 
@@ -169,14 +173,15 @@ class Equation:
         names = tuple(r for r in defined if isinstance(r, sp.Equality) and r not in self.claims)
         signs = (sign for name in names if (sign := _sign(name)) and not self._follows(sign))
         given = frozenset(h.relation for h in self.hypotheses)
-        values = (goal for name in names for goal in needs(name.rhs) if not holds(goal, given))
+        values = (goal for name in names for goal in needs(name) if not holds(goal, given))
         hidden = (*signs, *(Hypothesis(str(goal), goal) for goal in values))
         return tuple(dict.fromkeys((*shown, *hidden)))
 
     def _follows(self, sign: Hypothesis) -> bool:
         """Return whether the sign of a name follows from what is derived of it, and else holds."""
         name, given = sign.relation.args[0], set(self.hypotheses)
-        derived = (s.relation for s in self.steps if given.issuperset(s.hypotheses))
+        apart = (s for s in self.steps if given.issuperset(s.hypotheses) and not _used(name, s))
+        derived = (s.relation for s in apart)
         values = (r for r in derived if isinstance(r, sp.Equality) and r.lhs == name)
         said = (r for r in (*values, *(h.relation for h in given)) if not r.has(t))
         known = frozenset(r.xreplace({name: _ANY}) for r in said)
@@ -213,6 +218,14 @@ class Equation:
 
 
 _ANY = sp.Symbol("value", real=True)
+
+
+def _used(name: sp.Symbol, step: Judgement) -> bool:
+    """Return whether another name is defined by one: so its sign may have gone into a step."""
+    return any(
+        h.kind is Kind.DEFINITION and isinstance(h.relation, sp.Equality) and h.relation.rhs.has(name)
+        for h in step.hypotheses
+    )
 
 
 def _sign(definition: sp.Basic) -> Hypothesis | None:

@@ -28,7 +28,7 @@ import sympy as sp
 
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
-from .language import fault, names
+from .language import defined_by, fault, names
 from .symbols import QUANTITIES
 from .time_limit import time_limit
 
@@ -139,14 +139,13 @@ class Judgement:
 @cache
 def _domains(relation: sp.Basic) -> tuple[Hypothesis, ...]:
     """Return the domains of the quantities that a relation speaks of."""
-    found = map(domain, relation.atoms(sp.Symbol, sp.Function))
+    atoms = relation.atoms(sp.Symbol, sp.Function)
+    found = (domain(a) for a in atoms if not QUANTITIES.keys().isdisjoint((str(a), str(a.func))))
     return tuple(known for known in found if known is not None)
 
 
 def domain(atom: sp.Expr) -> Hypothesis | None:
-    """Return the domain of a quantity of the vocabulary, where it is not all reals."""
-    if (atom.name if atom.is_Symbol else atom.func.__name__) not in QUANTITIES:
-        return None
+    """Return the domain of a quantity, where it is not all reals."""
     for holds, relation in ((atom.is_positive, sp.Gt), (atom.is_nonnegative, sp.Ge)):
         if holds:
             written = relation(atom, 0, evaluate=False)
@@ -213,9 +212,10 @@ def _require_names(hypotheses: tuple[Hypothesis, ...]) -> None:
     """Refuse a name that is defined twice, or by itself: no reader sees what that says."""
     relations = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
     values = [r.args for r in relations if isinstance(r, sp.Equality)]
-    names = {name for name, _ in values}
-    if len(names) < len(values):
+    subjects = [subject for relation in relations for subject in defined_by(relation)]
+    if len(set(subjects)) < len(subjects):
         raise RuleError("two definitions of one name")
+    names = {name for name, _ in values}
     while names:
         done = {name for name, value in values if name in names and not value.has(*names)}
         if not done:
@@ -244,6 +244,7 @@ def replayed(judgement: Judgement) -> str | None:
     if {type(judgement.hypotheses), type(judgement.parents)} != {tuple}:
         return "its hypotheses or parents are no tuple"
     try:
+        chain(judgement)
         _require_language(judgement.claim.relation, *judgement.hypotheses)
         hypotheses, claim = _followed(judgement.rule, judgement.parents)
     except (RuleError, ValueError, TypeError, AttributeError, KeyError) as refusal:
@@ -256,12 +257,19 @@ def replayed(judgement: Judgement) -> str | None:
 
 
 def chain(*judgements: Judgement) -> tuple[Judgement, ...]:
-    """Return the judgements and all that they rest on, each once, premises first."""
+    """Return the judgements and all that they rest on, each once, premises first.
+
+    RuleError if one rests on itself.
+    """
     seen: dict[int, Judgement] = {}
+    begun: set[int] = set()
 
     def visit(judgement: Judgement) -> None:
         if id(judgement) in seen:
             return
+        if id(judgement) in begun:
+            raise RuleError(f"{judgement.relation} rests on itself")
+        begun.add(id(judgement))
         for parent in judgement.parents:
             visit(parent)
         seen[id(judgement)] = judgement

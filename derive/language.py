@@ -7,6 +7,7 @@ Overview
 Key results
     fault(expr)    why an expression is not of the language, or None
     names(expr)    the names in an expression, each with what bears it
+    defined_by     the names that a definition gives a meaning
     bound(expr)    the variables that one node binds: of an integral, a limit, a derivative
     certain(expr)  the parts that have a value wherever the whole has one
 """
@@ -24,7 +25,8 @@ from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
 from .claims import Drift, FirstZero, Oscillation, Term
-from .symbols import QUANTITIES, symbol, t
+from .note.model import FIELDS
+from .symbols import CLOCKS, DATA, QUANTITIES, symbol, t
 
 _HEADS = frozenset(
     (
@@ -36,10 +38,13 @@ _HEADS = frozenset(
         *(sp.Integer, sp.Rational, FirstZero, Drift, Oscillation),
     )
 )
-_NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
-_DOMAINS = [
-    sp.Dummy(**{domain: True}).assumptions0 for domain in ("real", "positive", "nonnegative")
-]
+_MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS
+_FACES = frozenset(quantity.latex.replace(" ", "") for quantity in QUANTITIES.values())
+_WORDS = frozenset(head.__name__ for head in _HEADS) | {"pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln"}
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
+_SIGNS = [{domain: True} for domain in ("real", "positive", "nonnegative")]
+_DOMAINS = [sp.Dummy(**domain).assumptions0 for domain in _SIGNS]
+_RANGES = [sp.Function("any", **domain)._kwargs for domain in _SIGNS]
 
 
 def fault(expr: sp.Basic) -> str | None:
@@ -71,14 +76,35 @@ def _nodes(expr: sp.Basic) -> Iterator[sp.Basic]:
 
 def _fault(node: sp.Basic) -> str | None:
     kind = type(node)
-    if isinstance(kind, UndefinedFunction) and _plain(kind):
+    if isinstance(kind, UndefinedFunction) and _plain(kind) and len(node.args) == 1:
         return _fault_of_name(node, kind.__name__)
     if kind in (sp.Symbol, sp.Dummy):
         return _fault_of_name(node, node.name)
     if kind not in _HEADS:
         return f"{kind.__name__} is of no kind that a claim may hold"
-    if kind is sp.Limit and node != sp.Limit(*node.args[:3]):
-        return f"{node} is no limit from above"
+    if kind is sp.Limit:
+        return _fault_of_limit(*node.args[:3], whole=node)
+    if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _varies(node.rhs, node.lhs.args[1]):
+        return f"{node.rhs} is no limit: it varies with {node.lhs.args[1]}"
+    if isinstance(node, Relational) and not all(isinstance(side, sp.Expr) for side in node.args):
+        return f"{node} is no relation between numbers"
+    return None
+
+
+def _varies(value: sp.Expr, variable: sp.Symbol) -> bool:
+    clocks = CLOCKS if variable == t else {variable.name}
+    return not clocks.isdisjoint(s.name for s in value.free_symbols)
+
+
+def _fault_of_limit(
+    expr: sp.Expr, variable: sp.Symbol, point: sp.Expr, whole: sp.Limit
+) -> str | None:
+    """Return what is wrong with a limit: in a datum, only data may stay as they are."""
+    if whole != sp.Limit(expr, variable, point):
+        return f"{whole} is no limit from above"
+    others = {s.name for s in expr.free_symbols - {variable}} - DATA
+    if variable != t and (expr.has(AppliedUndef) or (others and variable.name in DATA)):
+        return f"{whole} is no limit of a function of data alone"
     return None
 
 
@@ -114,11 +140,15 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
         known = symbol(name)
         same = node.func == known.func if node.args else node == known
         return None if same else f"{name} is not the {name} of the vocabulary"
-    # Of a function only the domain counts.
-    fits = node.assumptions0 in _DOMAINS if node.is_Symbol else node.is_real
-    if not fits or node.is_zero or not _NAME.fullmatch(name):
+    fits = node.assumptions0 in _DOMAINS if node.is_Symbol else node.func._kwargs in _RANGES
+    if not fits or name in _WORDS or _face(name) in _FACES or not _NAME.fullmatch(name):
         return f"{name} is no real quantity"
     return None
+
+
+@cache
+def _face(name: str) -> str:
+    return str(sp.latex(sp.Symbol(name))).replace(" ", "")
 
 
 def _name(node: sp.Basic) -> str:
@@ -134,6 +164,13 @@ def names(expr: sp.Basic) -> frozenset[tuple[str, object]]:
     return frozenset(
         (name, bearer) for name, bearer in found if name and not isinstance(bearer, sp.Dummy)
     )
+
+
+def defined_by(relation: sp.Basic) -> frozenset[str]:
+    """Return the names that a definition gives a meaning: a symbol, or all that are its own."""
+    if isinstance(relation, sp.Equality) and isinstance(relation.lhs, sp.Symbol):
+        return frozenset([relation.lhs.name])
+    return frozenset(name for name, _ in names(relation)) - _MODEL
 
 
 def bound(node: sp.Basic) -> frozenset[sp.Basic]:

@@ -111,6 +111,7 @@ def own_law(text: str) -> tuple[ComputedLaw, float]:
 
     from .generate import faults_of
     from .laws import r
+    from .rules.proving import smooth
     from .stable import ComputedLaw, Stable, share
     from .time_limit import TimeLimitError, time_limit
     from .written import evaluated, read
@@ -121,6 +122,8 @@ def own_law(text: str) -> tuple[ComputedLaw, float]:
             phi = evaluated(read(text))
             if r not in phi.free_symbols or phi.has(sp.zoo, sp.nan, sp.I):
                 raise UsageError(f"phi = {text} is no function of r = h/sigma")
+            if not smooth(phi):
+                raise UsageError(f"phi = {text} has a kink")
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))
             row = Stable(((share, value),), share, slope, DOMAIN, value, slope / value)
             law = ComputedLaw(NAME, phi, _inflection(phi), f"phi = {text}", row=row)

@@ -12,6 +12,7 @@ Key results
     START               (6)
     SLIP                section 2.4
     belongs             whether a relation is one of them
+    law_of              the law in (4)
     FIELDS              the functions of time in (1) to (5)
 """
 
@@ -73,14 +74,13 @@ def belongs(kind: Kind, relation: sp.Basic) -> bool:
     if kind is Kind.INITIAL:
         return relation in START
     of_the_model = (*CLOSURE.values(), REACTION, SUPPORT, ROUGHNESS, *ARCHARD, *SLIP)
-    return kind is not Kind.MODEL or relation in of_the_model or _is_contact(relation)
+    return kind is not Kind.MODEL or relation in of_the_model or law_of(relation) is not None
 
 
-def _is_contact(relation: sp.Basic) -> bool:
-    """Return whether a relation is (4) for some law of h/sigma alone."""
+def law_of(relation: sp.Basic) -> sp.Expr | None:
+    """Return phi(r) where a relation is (4) for some law of r = h/sigma alone."""
     for part in relation.atoms(sp.Piecewise):
-        (pressure, touching), *_ = part.args
-        share, cutoff = pressure.subs(h, r * sigma) / p_max, touching.rhs / sigma
-        law = ContactLaw("", share, sp.S.Zero, "", cutoff)
-        return bool(share.free_symbols <= {r} and cutoff.is_number and relation == contact(law))
-    return False
+        share = part.args[0].expr.subs(h, r * sigma) / p_max
+        if share.free_symbols <= {r} and relation == contact(ContactLaw("", share, sp.S.Zero, "")):
+            return share
+    return None

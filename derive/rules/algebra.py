@@ -20,7 +20,7 @@ from ..language import bound_in
 from ..symbols import t
 from ..zero import is_zero
 from .proving import holds, require, require_defined, smooth
-from .reading import constant, equality, replaced
+from .reading import clocks, constant, equality, replaced
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Substitute(Rule):
             known = equality(definition)
             if not claim.relation.has(known.lhs):
                 raise RuleError(f"{known.lhs} does not occur in {claim.relation}")
-            if known.lhs in bound_in(claim.relation):
+            if known.lhs in bound_in(claim.relation) | {getattr(claim, "variable", None)}:
                 raise RuleError(f"missing premise: {known.lhs} may take every value")
             claim = _put(claim, known)
         return Conclusion(claim)
@@ -104,7 +104,10 @@ class Restrict(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, condition = premises
         relation = condition.relation
-        if taken := (bound_in(first.relation) - {t}) & relation.free_symbols:
+        taken = bound_in(first.relation) & relation.free_symbols
+        if not clocks(relation) - {t}:
+            taken -= {t}
+        if taken:
             raise RuleError(f"missing premise: {relation} for every {sp.Tuple(*taken)}")
         written = (relation, getattr(relation, "reversed", relation))
         claim = first.claim.map(

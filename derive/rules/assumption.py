@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -11,11 +12,13 @@ from sympy.core.function import AppliedUndef
 from ..claims import Equality, Limit, Property, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, plain
-from ..note.model import FIELDS, belongs
+from ..laws import r
+from ..note.model import FIELDS, belongs, law_of
 from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
-from .reading import at_an_instant, clocks, fields, functions
+from .proving import sign, smooth
+from .reading import at_an_instant, clocks, constant, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
@@ -41,6 +44,9 @@ class Assume(Rule):
             raise RuleError(f"{said.text}: cannot be assumed")
         if not belongs(kind, relation):
             raise RuleError(f"{said.text}: no equation of the model")
+        law = law_of(relation) if kind is Kind.MODEL else None
+        if law is not None and not _falls(law):
+            raise RuleError(f"missing premise: {law} is positive and smooth and decreases")
         claim = Property(said.text) if relation is sp.true else claim_of(relation)
         if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
             raise RuleError(f"{said.text}: no equation")
@@ -52,34 +58,55 @@ class Assume(Rule):
         return f"Hypothesis: {self.hypothesis.text}."
 
 
+@cache
+def _falls(law: sp.Expr) -> bool:
+    return smooth(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
+
+
 def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:
     """Refuse to define what is given, or a constant by what varies."""
     name, value = relation.lhs, at_an_instant(relation.rhs)
-    found = {field.func for field in functions(relation)}
     if not name.is_Symbol and _solvable(relation):
         return
     if not name.is_Symbol or name.name in DATA or value.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
-    if name in _TIMES and found:
+    if name in _TIMES and (value == 0 or not any(constant(value / time) for time in _TIMES)):
         raise RuleError(f"missing premise: {name} is a multiple of another time")
     rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
     change = inserted(sp.Add(*rates), premises).doit()
-    if not clocks(name) and (clocks(relation.rhs) or not is_zero(change)):
+    varies = clocks(relation.rhs) or any(d.has(t) for d in value.atoms(sp.Derivative))
+    if not clocks(name) and (varies or not is_zero(change)):
         raise RuleError(f"missing premise: {value} is constant")
 
 
 def _solvable(relation: sp.Equality) -> bool:
-    """Return whether an equation, or what tends to a limit by one, is linear in fields of one's
-    own, or in names, with a factor that is never zero: of data and other fields it says nothing."""
+    """Return whether an equation, or what tends to a limit by one, has a solution whatever the
+    data and the other fields: of these it says nothing.
+
+    It is linear in fields of one's own, or in names.  Either zero solves it, or one of them, of
+    any sign, has a factor that is never zero, and the equation has it at no other time.
+    """
     tends = isinstance(relation.lhs, sp.Limit)
-    whole = relation.lhs.args[0] if tends else relation.lhs - relation.rhs
+    if tends and relation.lhs.args[1:3] != (t, sp.oo):
+        return False
+    whole = relation.lhs.args[0] - relation.rhs if tends else relation.lhs - relation.rhs
     fields = {f for f in functions(whole) if f.func not in FIELDS}
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
-    free = () if functions(whole) else whole.free_symbols
+    free = () if functions(whole) or tends else whole.free_symbols
     names = {s for s in free if s.name not in DATA | CLOCKS}
-    own = {part: sp.Dummy(real=True) for part in (*rates, *fields, *names)}
-    slopes = [sp.diff(whole.xreplace(own), name) for name in own.values()]
-    return not any(s.has(*own.values()) for s in slopes) and any(s.is_nonzero for s in slopes)
+    own = {part: sp.Dummy(real=True) for part in (*rates, *fields - {d.expr for d in rates}, *names)}
+    flat = whole.xreplace(own)
+    slopes = {part: sp.diff(flat, name) for part, name in own.items()}
+    if any(slope.has(*own.values()) for slope in slopes.values()):
+        return False
+    heads = [getattr(part, "expr", part).func for part in own]
+    return flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0 or any(
+        slope.is_nonzero
+        and (part.is_Symbol or heads.count(getattr(part, "expr", part).func) == 1)
+        and getattr(part, "expr", part).args in ((), (t,), (symbol("tau"),))
+        and not part.is_nonnegative
+        for part, slope in slopes.items()
+    )
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:

@@ -26,6 +26,7 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
+from .proving import require_defined
 from .reading import LOAD, SINE, T, clocks, constant, equality, fields, require_hypothesis
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
@@ -116,6 +117,7 @@ class Averaging(Rule):
             known[term_of(Oscillation, n, given.rhs)] = at(solved.oscillation[n], tau)
         if meaning not in known:
             raise RuleError(f"missing premise: {name} is c_1 to c_4, w_1 or w_2 of this pressure")
+        require_defined(self.claim.rhs, *premises)
         if not is_zero(sp.expand_trig(self.claim.rhs) - sp.expand_trig(known[meaning])):
             raise RuleError(f"missing premise: {name} = {known[meaning]}")
         return Conclusion(Equality(name, self.claim.rhs))
@@ -150,6 +152,7 @@ class SlowTime(Rule):
             names = listed(map(str, drifts))
             raise RuleError(f"missing premise: {names} are the drifts of the expansion")
         require_hypothesis(EXPANSION, *premises)
+        require_defined(self.claim.rhs, *premises)
         small = sp.Dummy("1/m", positive=True)
         speed = 1 + sum((c * small**n for n, c in enumerate(drifts, 1)), sp.S.Zero)
         slope = sp.diff(self.claim.rhs, m).subs(m, 1 / small)

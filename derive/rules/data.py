@@ -15,12 +15,13 @@ from sympy.core.function import AppliedUndef
 from ..claims import Equality, Inequality
 from ..hypotheses import Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..symbols import DATA
+from ..symbols import DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
 from .proving import facts_of, holds, require_defined, smooth
-from .reading import equality, functions
+from .reading import LOAD, equality, functions
 
+PRESSURE, PRESSURE_MAX = symbols("p p_max")
 _OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)
 
 
@@ -33,8 +34,18 @@ def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
         relation, kind = hypothesis.relation, hypothesis.kind
         of_data = not relation.atoms(AppliedUndef) and kind is not Kind.DEFINITION
         kept = relation.has(parameter) and (of_data or kind in (Kind.PARAMETER, Kind.STATE))
-        if kept and not isinstance(relation, _OPEN):
+        if (kept or _ties(relation, kind)) and not isinstance(relation, _OPEN):
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
+
+
+def _ties(relation: sp.Basic, kind: Kind) -> bool:
+    """Return whether a relation gives a field a value by data, so that two may tie these."""
+    if kind in (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION) or not functions(relation):
+        return False
+    bounds_load = isinstance(relation, sp.LessThan) and relation.lhs == sp.Abs(LOAD)
+    law = isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
+    rest = relation.rhs / PRESSURE_MAX if law else relation
+    return not bounds_load and any(s.name in DATA for s in rest.free_symbols)
 
 
 @dataclass(frozen=True)

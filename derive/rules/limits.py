@@ -25,9 +25,10 @@ from sympy.core.relational import Relational
 
 from ..claims import Equality, Limit
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..language import bound
 from ..symbols import t
 from ..zero import is_zero
-from .proving import LAW, continuity, continuous, facts_of, holds, require
+from .proving import LAW, continuity, continuous, facts_of, holds, require, require_defined
 from .reading import (
     CONTINUOUS,
     LOAD,
@@ -77,12 +78,16 @@ class OnePeriodLater(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = premises[0].claim
-        if clocks(claim.relation) or claim.relation.has(sp.Integral, sp.Limit):
+        if clocks(claim.relation) or any(map(_binds_time, sp.preorder_traversal(claim.relation))):
             raise RuleError(f"missing premise: {claim.relation} is about fields at one time")
         return Conclusion(claim.map(later))
 
 
 one_period_later = OnePeriodLater()
+
+
+def _binds_time(node: sp.Basic) -> bool:
+    return t in bound(node) and not isinstance(node, sp.Derivative)
 
 
 @dataclass(frozen=True)
@@ -162,7 +167,8 @@ class Unbounded(Rule):
         law, *facts = premises
         u, function = rate_law(law)
         closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
-        anywhere = [f.relation for f in facts if all(_fixed(h.relation) for h in f.hypotheses)]
+        always = (f for f in facts if all(_fixed(h.relation) for h in f.hypotheses))
+        anywhere = [f.relation for f in always if fields(f.relation) <= {u}]
         _require_positive(function, (*closed, *anywhere), *premises)
         return Conclusion(in_time(u, sp.oo))
 
@@ -231,6 +237,7 @@ class AtInfinity(Rule):
             if not is_zero(_taylor(smooth, z, n)):
                 raise RuleError(f"missing premise: {inside} is bounded")
         value = sp.powsimp(_taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
+        require_defined(sp.Tuple(value, self.claim.rhs), *premises)
         if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
             raise RuleError(f"missing premise: the limit is {value}")
         return Conclusion(in_time(inside, self.claim.rhs))
@@ -303,7 +310,7 @@ class Passes(Rule):
                 part, end = 1 / part, sp.S.Zero
             elif given.value.is_finite is False:
                 raise RuleError(f"missing premise: the limit of {given.expr} is finite")
-            for quantity in (part, later(part)):
+            for quantity in (part,) if clocks(part) else (part, later(part)):
                 stand_in = sp.Dummy(real=True)
                 expr = in_terms_of(expr, quantity, stand_in)
                 ends[stand_in], meaning[stand_in] = end, quantity
@@ -314,6 +321,7 @@ class Passes(Rule):
             raise RuleError(f"missing premise: the limit of all that varies in {whole}")
         if not continuous(expr, ends, *premises):
             raise RuleError(f"missing premise: {whole} is continuous at {(*ends.values(),)}")
+        require_defined(self.claim.rhs, *premises)
         if not is_zero(expr.subs(ends) - self.claim.rhs):
             raise RuleError(f"missing premise: the limit of {whole} is {expr.subs(ends)}")
         return Conclusion(in_time(whole, self.claim.rhs))
@@ -383,7 +391,8 @@ class Intermittent(Rule):
             raise RuleError("missing premise: a rate that is 0 out of contact")
         room = sp.expand(contact.gts - contact.lts)
         level = room.subs(LOAD, 0)
-        if fields(room) != {LOAD} or not _fixed(level) or not isinstance(contact, (sp.Le, sp.Ge)):
+        slope = sp.cancel((room - level) / LOAD)
+        if not _fixed(sp.Tuple(level, slope)) or slope == 0 or not isinstance(contact, (sp.Le, sp.Ge)):
             raise RuleError("missing premise: contact depends on the load alone")
         shares = (
             sp.Integral(sp.Piecewise((1, c), (0, True)), (t, 0, T)) / T
@@ -392,7 +401,8 @@ class Intermittent(Rule):
         )
         if meaning.rhs not in shares or not meaning.lhs.is_positive:
             raise RuleError("missing premise: the fraction of the period in contact")
-        _require_positive(on, (*bounds(LOAD, *premises), sp.Ge(u, least.lesser)), *premises)
+        closed = [r for f in {LOAD, *fields(on)} - {u} for r in bounds(f, *premises)]
+        _require_positive(on, (*closed, sp.Ge(u, least.lesser)), *premises)
         z = sp.Dummy("z", positive=True)
         order, smooth = expanded(on.subs(u, 1 / z), z)
         value = smooth.subs(z, 0)

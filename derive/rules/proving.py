@@ -29,12 +29,12 @@ import z3
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ..claims import Asymptotic, FirstZero, Limit, Property
+from ..claims import Asymptotic, FirstZero, Limit, Property, Term, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, RuleError
-from ..language import certain
+from ..language import bound, certain
 from ..laws import GENERAL
-from ..symbols import rate, symbols, t
+from ..symbols import rate, symbol, symbols, t
 
 LAW = GENERAL.phi.func
 """The unspecified contact law: positive, continuously differentiable, of negative slope."""
@@ -42,6 +42,8 @@ LAW = GENERAL.phi.func
 WEARING = symbols("u_a u_c sigma_a sigma_c")
 """Fields that have rates, by Archard's law; others where a premise says so."""
 _RATE_OF_LOAD = rate("U_a")
+_PRESSURE = symbol("p_s")
+"""The pressure over which is integrated: what is said of it holds over the whole integral."""
 DIFFERENTIABLE = Hypothesis(
     "differentiable load",
     sp.Eq(_RATE_OF_LOAD, _RATE_OF_LOAD, evaluate=False),
@@ -271,6 +273,8 @@ def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:
     if expr in known:
         return []
     parts = () if isinstance(expr, sp.Derivative) else expr.args
+    if hidden := {x: sp.Dummy(**x.assumptions0) for x in bound(expr) - {t, _PRESSURE}}:
+        parts = tuple(part.xreplace(hidden) for part in parts)  # of these no premise speaks
     return [*(goal for part in parts for goal in _needed(part, known)), *_need(expr)]
 
 
@@ -279,8 +283,10 @@ def _need(expr: sp.Basic) -> list[sp.Basic]:
     if expr in (sp.zoo, sp.nan):
         return [sp.false]
     unknown = sp.Ne(expr, sp.zoo, evaluate=False)
-    if isinstance(expr, (sp.Limit, FirstZero)):
+    if isinstance(expr, (sp.Limit, FirstZero, Term, landau_o)):
         return [unknown]
+    if isinstance(expr, sp.Piecewise) and expr.args[-1].cond is not sp.true:
+        return [expr.args[0].cond if len(expr.args) == 1 else unknown]
     if isinstance(expr, sp.Derivative):
         rated = expr.expr in WEARING and expr.variables == (t,)
         return [] if rated or is_slope_of_law(expr) else [unknown]

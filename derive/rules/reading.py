@@ -120,8 +120,9 @@ def _by_clock(expr: sp.Expr) -> bool:
 
 
 def at_an_instant(expr: sp.Basic) -> sp.Basic:
-    """Return an expression with a constant for each integral and limit in it."""
-    return expr.xreplace({whole: sp.Dummy() for whole in expr.atoms(sp.Integral, sp.Limit, Drift)})
+    """Return an expression with a constant for each integral over time and limit in it."""
+    found = expr.atoms(sp.Integral, sp.Limit, Drift)
+    return expr.xreplace({e: sp.Dummy() for e in found if t not in e.free_symbols})
 
 
 def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
@@ -130,8 +131,11 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
     RuleError where that part stands below a variable that is bound there and occurs in either,
     or below the derivative with respect to a datum: of that the equality says nothing.
     """
-    touched = [node for node in sp.preorder_traversal(expr) if bound(node) and node.has(old)]
-    taken = {v for node in touched for v in bound(node)} - {t}
+    found = (node for node in sp.preorder_traversal(expr) if node.has(old) and node != old)
+    touched = [node for node in found if bound(node)]
+    taken = {v for node in touched for v in bound(node)}
+    if not (clocks(old) | clocks(new)) - {t}:
+        taken -= {t}
     of_data = any(isinstance(node, sp.Derivative) and bound(node) != {t} for node in touched)
     if of_data or taken & (old.free_symbols | new.free_symbols):
         raise RuleError(f"missing premise: {old} = {new} for every {sp.Tuple(*taken)}")

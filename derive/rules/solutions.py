@@ -105,6 +105,8 @@ def _resolved(expr: sp.Expr) -> sp.Expr:
     w = sp.Dummy(positive=True)
     expr = expr.subs(found, w)
     exponents = {e: sp.expand(e.exp) for e in expr.atoms(sp.exp) if e.has(w)}
+    if any(sp.diff(inside, w, 2) != 0 for inside in exponents.values()):
+        return expr
     powers = {
         e: sp.exp(inside.coeff(w, 0)) * (w / found.args[0]) ** -inside.coeff(w, 1)
         for e, inside in exponents.items()
@@ -133,6 +135,7 @@ class Parametric(Rule):
             raise RuleError("missing premise: rate and wear are of the same quantity, from 0 on")
         require_defined(self.claim.rhs, *premises)
         _require_root(pressure, u, *premises)
+        require(sp.Ne(rate, 0), *premises)
         p = sp.Dummy("p", positive=True)
         first, load = sp.Dummy("p_0", positive=True), sp.Dummy("U", real=True)
         plain = {PRESSURE: p, PRESSURE.subs(t, 0): first, LOAD: load, LOAD.subs(t, 0): load}
