@@ -37,7 +37,6 @@ from derive.rules.algebra import (
 from derive.rules.assumption import assume, defined
 from derive.rules.averages import EXPANSION, Averaging, SlowTime, term_of
 from derive.rules.calculus import (
-    DIFFERENTIABLE,
     ParameterLimit,
     change_clock,
     differentiate,
@@ -57,6 +56,7 @@ from derive.rules.limits import (
     unbounded,
     vanishes,
 )
+from derive.rules.proving import DIFFERENTIABLE
 from derive.rules.reading import CONTINUOUS, PERIODIC, SINE
 from derive.rules.solutions import FirstRoot, Inverted, Parametric, Solution
 from derive.symbols import initial, rate, symbol, symbols, t
@@ -139,8 +139,8 @@ def some_of_the_time(
 
 def by_pressure(time: sp.Expr = TIME, wear: sp.Expr = U_a - h_0 * p / p_max) -> Judgement:
     """Apply Parametric, with one thing wrong."""
-    law = eq(rate("u_c"), C * p / p_max)
-    return Parametric(sp.Eq(t, time))(law, eq(u_c, wear), START, CONSTANTLY)
+    law, pressure = eq(rate("u_c"), C * p / p_max), eq(p, p_max * (U_a - u_c) / h_0)
+    return Parametric(sp.Eq(t, time))(law, eq(u_c, wear), START, pressure, CONSTANTLY)
 
 
 def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Judgement:

@@ -337,7 +337,11 @@ CASES: dict[str, Case] = {
     ),
     "the rate of one solid and the wear of the other": (
         lambda: Parametric(sp.Eq(t, (p - initial("p")) * h_0 / (C * p_max)))(
-            eq(rate("u_a"), C), eq(u_c, h_0 * (p - initial("p")) / p_max), START, CONSTANTLY
+            eq(rate("u_a"), C),
+            eq(u_c, h_0 * (p - initial("p")) / p_max),
+            START,
+            eq(p, p_max * u_c / h_0 + initial("p")),
+            CONSTANTLY,
         ),
         lambda: Solution(sp.Eq(t, u_c / C))(eq(rate("u_c"), C), START, CONSTANTLY),
     ),
