@@ -262,17 +262,11 @@ def sweep(
     >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
     ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
     """
-    from wear.scene import as_scene
-    from wear.solver import is_number, whole_cycles
+    from wear.solver import whole_cycles
 
     faults: list[str] = []
     numbers = np.array(whole_cycles(cycles, faults), dtype=float)
-    if not is_number(rtol) or not 0.0 < rtol <= 0.1:
-        faults.append(f"rtol: {rtol!r} is not between 0 and 0.1")
-    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
-        faults.append("scenes: give a list of them")
-    if faults:
-        raise UsageError("\n".join(faults))
+    wanted = checked_scenes(scenes, rtol, faults)
     last = float(np.max(numbers, initial=0.0))
 
     def together(some: Sequence[Scene]) -> Answer:
@@ -281,7 +275,7 @@ def sweep(
     def alone(scene: Scene) -> Answer:
         return wear_after(bind(scene), scene.load, numbers, rtol)[:2]
 
-    fewer = [resampled(as_scene(scene), rtol) for scene in scenes]
+    fewer = [resampled(scene, rtol) for scene in wanted]
     some = [each.scene for each in fewer]
     u, error = _each(some, len(numbers), together, alone, Pace(progress))
     for row, each in enumerate(fewer):
@@ -289,30 +283,49 @@ def sweep(
     return Sweep(u, error)
 
 
+def checked_scenes(
+    scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: list[str]
+) -> list[Scene]:
+    """Return the scenes of a request, or raise its `faults` and those found here."""
+    from wear.scene import as_scene
+    from wear.solver import is_number
+
+    if not is_number(rtol) or not 0.0 < rtol <= 0.1:
+        faults.append(f"rtol: {rtol!r} is not between 0 and 0.1")
+    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
+        faults.append("scenes: give a list of them")
+    if faults:
+        raise UsageError("\n".join(faults))
+    return [as_scene(scene) for scene in scenes]
+
+
 def cycles_to_depth(
-    scenes: Sequence[Scene],
-    wear: FloatArray,
+    scenes: Sequence[Scene | str | os.PathLike[str]],
+    wear: FloatArray | Iterable[float] | float,
     rtol: float = 1e-7,
     progress: Callable[[str], None] = lambda _: None,
 ) -> CyclesToDepth:
-    """Return the whole cycles after which each of many scenes first reaches each wear (n,), mm.
+    """Return the whole cycles after which each of many scenes, or their names, first reaches each
+    wear (n,), mm.
 
     After two seconds `progress` is told now and then how many scenes are done.
 
-    >>> from wear.scene import load_scene
-    >>> scenes = [load_scene("section4"), load_scene("section5")]
-    >>> cycles_to_depth(scenes, np.array([1e-3])).cycles.tolist()
+    >>> cycles_to_depth(["section4", "section5"], 1e-3).cycles.tolist()
     [[140.0], [484.0]]
     """
-    wear = np.asarray(wear, dtype=float)
+    from wear.solver import wear_depths
+
+    faults: list[str] = []
+    depths = np.array(wear_depths(wear, faults))
+    wanted = checked_scenes(scenes, rtol, faults)
 
     def together(some: Sequence[Scene]) -> Answer:
-        count, error = np.full((2, len(some), len(wear)), np.inf)
+        count, error = np.full((2, len(some), len(depths)), np.inf)
         todo, reach = np.arange(len(some)), LEAST
         while len(todo):
             reach = min(reach * FARTHER, MOST_CYCLES)
             found = _orbit([some[i] for i in todo.tolist()], reach, rtol)
-            cycles, missed = found.until(np.broadcast_to(wear, (len(todo), len(wear))))
+            cycles, missed = found.until(np.broadcast_to(depths, (len(todo), len(depths))))
             cycles[cycles > reach] = np.inf
             count[todo], error[todo] = cycles, missed / np.maximum(cycles, 1.0)
             more = np.isinf(cycles).any(axis=1) & ~found.at_rest
@@ -320,11 +333,11 @@ def cycles_to_depth(
         return count, np.where(np.isinf(count), 0.0, error)
 
     def alone(scene: Scene) -> Answer:
-        return cycles_until(bind(scene), scene.load, wear, rtol)[:2]
+        return cycles_until(bind(scene), scene.load, depths, rtol)[:2]
 
-    fewer = [resampled(scene, rtol) for scene in scenes]
+    fewer = [resampled(scene, rtol) for scene in wanted]
     some = [each.scene for each in fewer]
-    count, error = _each(some, len(wear), together, alone, Pace(progress))
+    count, error = _each(some, len(depths), together, alone, Pace(progress))
     return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))
 
 

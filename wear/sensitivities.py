@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.cycles import groups
+from wear.cycles import checked_scenes, groups
 from wear.faults import UsageError
 from wear.load import Constant
 from wear.load.spans import span
@@ -75,7 +75,9 @@ def gradients(
     >>> f"{found.derivative[0, 0, 0]:.4f}"
     '1698.1082'
     """
-    cycles = np.asarray(cycles, dtype=float)
+    given = np.asarray(cycles)
+    faults = [] if given.dtype.kind in "iuf" else [f"cycles: {cycles!r} are no numbers"]
+    scenes, cycles = checked_scenes(scenes, rtol, faults), given.astype(float)
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
     found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))

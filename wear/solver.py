@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import numbers
 import os
 import time
@@ -127,14 +128,19 @@ def whole_cycles(
     cycles: float | Iterable[float], faults: list[str], least: int = 0
 ) -> tuple[int, ...]:
     """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
-    given: Any = cycles.tolist() if isinstance(cycles, np.ndarray | np.generic) else cycles
-    if hasattr(given, "to_numpy"):  # of pandas and xarray
-        given = given.to_numpy().tolist()
-    several = given if isinstance(given, Iterable) and not isinstance(given, str) else [given]
-    wanted = tuple(_whole(number, faults, least) for number in several)
+    wanted = tuple(_whole(number, faults, least) for number in _several(cycles))
     if not wanted:
         faults.append("cycles: give at least one number of cycles")
     return wanted
+
+
+def _several(given: Any) -> Iterable[Any]:
+    """Return the numbers of a list, an array, a series of pandas or xarray, or one as a list."""
+    if hasattr(given, "to_numpy"):
+        given = given.to_numpy()
+    if isinstance(given, np.ndarray | np.generic):
+        given = given.tolist()
+    return given if isinstance(given, Iterable) and not isinstance(given, str | bytes) else [given]
 
 
 def is_number(given: object) -> bool:
@@ -147,6 +153,17 @@ def _whole(number: float, faults: list[str], least: int) -> int:
         faults.append(f"cycles: {number!r} is no whole number from {least} to 1e12")
         return least
     return int(number)
+
+
+def wear_depths(wear_mm: float | Iterable[float], faults: list[str]) -> tuple[float, ...]:
+    """Return depths of wear in mm, or one; what is none of them is among the `faults`."""
+    depths = tuple(_several(wear_mm))
+    faults += [
+        f"wear: {depth!r} is no depth in mm; give a number >= 0"
+        for depth in depths
+        if not (is_number(depth) and 0.0 <= depth < math.inf)
+    ]
+    return depths
 
 
 def obstacle(scene: Scene) -> str | None:

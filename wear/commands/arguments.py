@@ -12,7 +12,7 @@ import re
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from derive import completion, files
 
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 MOST_IN_RANGE = 1_000_000  # numbers of cycles
 PICTURES = (".pdf", ".png", ".svg")
-_THOUSANDS = re.compile(r"0\d+")  # what a comma leaves of 9,000: not to be read as 9 and 0
+_THOUSANDS = re.compile(r"0\d+|\d{1,3}(\.\d{3})+")
+"""What a comma leaves of 9,000, and 9.000: not to be read as 9 and 0, or as 9."""
 
 
 def add_scene(
@@ -123,11 +124,11 @@ def add_depth(parser: argparse.ArgumentParser, help: str) -> None:
 
 
 def add_file(
-    parser: argparse.ArgumentParser, suffixes: Sequence[str], help: str, *, required: bool = False
+    parser: argparse.ArgumentParser, suffixes: Sequence[str], help: str, **about: Any
 ) -> None:
     """Declare the file to be written."""
     read = file(*suffixes)
-    parser.add_argument("-o", "--output", metavar="FILE", type=read, help=help, required=required)
+    parser.add_argument("-o", "--output", metavar="FILE", type=read, help=help, **about)
 
 
 def add_folder(parser: argparse.ArgumentParser, help: str, default: str | None = None) -> None:
