@@ -15,13 +15,13 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from wear.checked import MOST_CYCLES
 from wear.counted import IDLES, Counted, End
-from wear.equation import WearEquation, equation_of
-from wear.faults import UsageError
+from wear.equation import WearEquation, equation_of, growth
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
@@ -32,17 +32,13 @@ from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
+from wear.request import checked_scenes, wear_depths, whole_cycles
 from wear.resampling import resampled
+from wear.scene import Scene
 
-if TYPE_CHECKING:
-    from wear.scene import Scene
-
-
-MOST_CYCLES = 1e12
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
 TOGETHER = 1024  # scenes in one set of arrays
 KINKS = 16  # of a load: fewer scenes with more go together, for arrays of the same size
-PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 
 
 class Wear(NamedTuple):
@@ -227,7 +223,7 @@ def _as_far_as_needed(
 ) -> Iterator[Stretch]:
     """Yield the blocks of a load, or one stretch of a load that repeats, ever longer till it has
     the deepest wear (mm)."""
-    most = min(MOST_CYCLES, float(most_cycles(load)))
+    most = float(min(MOST_CYCLES, most_cycles(load)))
     if isinstance(load, Blocks):
         yield from stretches(model, load, most, rtol)
         return
@@ -238,13 +234,6 @@ def _as_far_as_needed(
             break
         reach = min(reach * FARTHER, most)
     yield part._replace(ends=most)
-
-
-def growth(model: Model, load: Load, start: float, end: float) -> float:
-    """Return by how much a small difference in wear grows between `start` and `end`; at least 1."""
-    U_a = load(PHASES)
-    before, after = (float(np.mean(model.rate(u, U_a))) for u in (start, end))
-    return max(1.0, after / before) if before > 0.0 else 1.0
 
 
 def sweep(
@@ -262,8 +251,6 @@ def sweep(
     >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
     ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
     """
-    from wear.solver import whole_cycles
-
     faults: list[str] = []
     numbers = np.array(whole_cycles(cycles, faults), dtype=float)
     wanted = checked_scenes(scenes, rtol, faults)
@@ -283,22 +270,6 @@ def sweep(
     return Sweep(u, error)
 
 
-def checked_scenes(
-    scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: list[str]
-) -> list[Scene]:
-    """Return the scenes of a request, or raise its `faults` and those found here."""
-    from wear.scene import as_scene
-    from wear.solver import is_number
-
-    if not is_number(rtol) or not 0.0 < rtol <= 0.1:
-        faults.append(f"rtol: {rtol!r} is not between 0 and 0.1")
-    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
-        faults.append("scenes: give a list of them")
-    if faults:
-        raise UsageError("\n".join(faults))
-    return [as_scene(scene) for scene in scenes]
-
-
 def cycles_to_depth(
     scenes: Sequence[Scene | str | os.PathLike[str]],
     wear: FloatArray | Iterable[float] | float,
@@ -313,8 +284,6 @@ def cycles_to_depth(
     >>> cycles_to_depth(["section4", "section5"], 1e-3).cycles.tolist()
     [[140.0], [484.0]]
     """
-    from wear.solver import wear_depths
-
     faults: list[str] = []
     depths = np.array(wear_depths(wear, faults))
     wanted = checked_scenes(scenes, rtol, faults)
@@ -323,7 +292,7 @@ def cycles_to_depth(
         count, error = np.full((2, len(some), len(depths)), np.inf)
         todo, reach = np.arange(len(some)), LEAST
         while len(todo):
-            reach = min(reach * FARTHER, MOST_CYCLES)
+            reach = min(reach * FARTHER, float(MOST_CYCLES))
             found = _orbit([some[i] for i in todo.tolist()], reach, rtol)
             cycles, missed = found.until(np.broadcast_to(depths, (len(todo), len(depths))))
             cycles[cycles > reach] = np.inf

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments
 
 SUMMARY = "an interactive page: the wear follows the parameters"
@@ -20,7 +20,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_scene(parser, default="section4")
     arguments.add_readings(parser, "show readings: columns cycles, wear_mm or wear_um")
     about = "the page to write (default: %(default)s)"
-    arguments.add_file(parser, (".html",), about, default="explorer.html")
+    declare(
+        parser, "-o, --output FILE", about, default="explorer.html", type=arguments.file(".html")
+    )
 
 
 def execute(options: argparse.Namespace) -> Answer:
