@@ -223,7 +223,9 @@ _ANY = sp.Symbol("value", real=True)
 def _used(name: sp.Symbol, step: Judgement) -> bool:
     """Return whether another name is defined by one: so its sign may have gone into a step."""
     return any(
-        h.kind is Kind.DEFINITION and isinstance(h.relation, sp.Equality) and h.relation.rhs.has(name)
+        h.kind is Kind.DEFINITION
+        and isinstance(h.relation, sp.Equality)
+        and h.relation.rhs.has(name)
         for h in step.hypotheses
     )
 

@@ -40,7 +40,16 @@ _HEADS = frozenset(
 )
 _MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS
 _FACES = frozenset(quantity.latex.replace(" ", "") for quantity in QUANTITIES.values())
-_WORDS = frozenset(head.__name__ for head in _HEADS) | {"pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln"}
+_WORDS = frozenset(head.__name__ for head in _HEADS) | {
+    "pi",
+    "oo",
+    "zoo",
+    "nan",
+    "I",
+    "sqrt",
+    "lim",
+    "ln",
+}
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 _SIGNS = [{domain: True} for domain in ("real", "positive", "nonnegative")]
 _DOMAINS = [sp.Dummy(**domain).assumptions0 for domain in _SIGNS]
@@ -83,9 +92,9 @@ def _fault(node: sp.Basic) -> str | None:
     if kind not in _HEADS:
         return f"{kind.__name__} is of no kind that a claim may hold"
     if kind is sp.Limit:
-        return _fault_of_limit(*node.args[:3], whole=node)
+        return _fault_of_limit(node)
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _varies(node.rhs, node.lhs.args[1]):
-        return f"{node.rhs} is no limit: it varies with {node.lhs.args[1]}"
+        return f"{node.rhs} cannot be a limit: it varies with {node.lhs.args[1]}"
     if isinstance(node, Relational) and not all(isinstance(side, sp.Expr) for side in node.args):
         return f"{node} is no relation between numbers"
     return None
@@ -96,10 +105,9 @@ def _varies(value: sp.Expr, variable: sp.Symbol) -> bool:
     return not clocks.isdisjoint(s.name for s in value.free_symbols)
 
 
-def _fault_of_limit(
-    expr: sp.Expr, variable: sp.Symbol, point: sp.Expr, whole: sp.Limit
-) -> str | None:
+def _fault_of_limit(whole: sp.Limit) -> str | None:
     """Return what is wrong with a limit: in a datum, only data may stay as they are."""
+    expr, variable, point = whole.args[:3]
     if whole != sp.Limit(expr, variable, point):
         return f"{whole} is no limit from above"
     others = {s.name for s in expr.free_symbols - {variable}} - DATA

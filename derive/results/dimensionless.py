@@ -36,7 +36,8 @@ sigma_a0, sigma_c0, kappa, tau = symbols("sigma_a0 sigma_c0 kappa tau")
 v, a, q = (sp.Function(name, real=True)(tau) for name in ("v", "a", "y"))
 """Wear in initial roughnesses, load in amplitudes, pressure in largest pressures."""
 
-mu, eta, nu, zeta, lamda = sp.symbols("mu eta nu zeta lambda", positive=True)
+mu, nu, zeta, lamda = sp.symbols("mu nu zeta lambda", positive=True)
+eta = sp.Symbol("eta", nonnegative=True)
 """The groups: M, h_0, U and sigma_a0 over sigma_c0, and p_max/(k sigma_c0)."""
 
 SCALES = tuple(

@@ -94,7 +94,9 @@ def _solvable(relation: sp.Equality) -> bool:
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
     free = () if functions(whole) or tends else whole.free_symbols
     names = {s for s in free if s.name not in DATA | CLOCKS}
-    own = {part: sp.Dummy(real=True) for part in (*rates, *fields - {d.expr for d in rates}, *names)}
+    own = {
+        part: sp.Dummy(real=True) for part in (*rates, *fields - {d.expr for d in rates}, *names)
+    }
     flat = whole.xreplace(own)
     slopes = {part: sp.diff(flat, name) for part, name in own.items()}
     if any(slope.has(*own.values()) for slope in slopes.values()):

@@ -237,9 +237,9 @@ class AtInfinity(Rule):
             if not is_zero(_taylor(smooth, z, n)):
                 raise RuleError(f"missing premise: {inside} is bounded")
         value = sp.powsimp(_taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
-        require_defined(sp.Tuple(value, self.claim.rhs), *premises)
         if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
             raise RuleError(f"missing premise: the limit is {value}")
+        require_defined(sp.Tuple(value, self.claim.rhs), *premises)
         return Conclusion(in_time(inside, self.claim.rhs))
 
     def _deep(self, u: sp.Expr, z: sp.Symbol, premises: tuple[Judgement, ...]) -> sp.Expr:
@@ -392,7 +392,11 @@ class Intermittent(Rule):
         room = sp.expand(contact.gts - contact.lts)
         level = room.subs(LOAD, 0)
         slope = sp.cancel((room - level) / LOAD)
-        if not _fixed(sp.Tuple(level, slope)) or slope == 0 or not isinstance(contact, (sp.Le, sp.Ge)):
+        if (
+            not _fixed(sp.Tuple(level, slope))
+            or slope == 0
+            or not isinstance(contact, (sp.Le, sp.Ge))
+        ):
             raise RuleError("missing premise: contact depends on the load alone")
         shares = (
             sp.Integral(sp.Piecewise((1, c), (0, True)), (t, 0, T)) / T

@@ -194,7 +194,7 @@ CASES: dict[str, Case] = {
     "a limit that is v(tau)": (
         lambda: accumulates(tends(du, C * v)),
         lambda: accumulates(tends(du, C * b_0)),
-        "is finite",
+        "cannot be a limit",
     ),
     "v(tau) over what grows": (  # v = u_c/h_0
         lambda: AtInfinity(equal(forever(h_0 * v / u_c), 0), 1 / u_c)(DEEP),

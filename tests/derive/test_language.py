@@ -12,11 +12,12 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from derive.claims import landau_o
 from derive.hypotheses import Kind
 from derive.kernel import RuleError, replayed
-from derive.laws import TANH
+from derive.laws import TANH, ContactLaw, r
+from derive.note.model import contact
 from derive.rules.algebra import Identity
 from derive.rules.assumption import assume
 from derive.rules.limits import forever
-from derive.symbols import initial, symbols, t
+from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import end, equal, supposed
 
 u_c, U_a, U_c, h, p, sigma = symbols("u_c U_a U_c h p sigma")
@@ -86,6 +87,15 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Symbol("U_a(t)", positive=True), "no real quantity"),
     (sp.Dummy("x", real=True), "a name that others may have"),
     (x + sp.Symbol("x", positive=True), "one name"),
+    (sp.Symbol("pi", positive=True), "no real quantity"),
+    (sp.Symbol("oo", real=True), "no real quantity"),
+    (sp.Symbol("f_c_", positive=True), "no real quantity"),  # looks like f_c
+    (sp.Symbol("sigmabar", real=True), "no real quantity"),  # looks like sigma
+    (sp.Function("exp", real=True)(t), "no real quantity"),
+    (sp.Function("count", integer=True)(t), "no real quantity"),  # 1/2
+    (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
+    (sp.Function("u_c", real=True)(t, x), "of no kind"),
+    (sp.Limit(u_c / k, k, sp.oo), "data alone"),
 )
 SPEAKABLE: tuple[sp.Expr, ...] = (
     2 - 1 / k,
@@ -117,6 +127,11 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.MODEL, sp.Le(sp.Abs(U_a), U), "no equation of the model"),  # under no k as U_a + p/k
     (Kind.MODEL, sp.Eq(f_c, 5), "no equation of the model"),  # f_c = 1
     (Kind.MODEL, touching(1 + f_c), "no equation of the model"),  # f_c = 1
+    (Kind.STATE, equal(forever(u_c), C * t), "cannot be a limit"),
+    (Kind.STATE, sp.Eq(f_c > 0, sp.true, evaluate=False), "no relation between numbers"),
+    (Kind.MODEL, touching(-sp.S.One), "no equation of the model"),  # p > 0
+    (Kind.MODEL, contact(ContactLaw("", sp.exp(r), sp.S.Zero, "")), "decreases"),
+    (Kind.MODEL, contact(ContactLaw("", sp.exp(-r - sp.Abs(r) / 2), sp.S.Zero, "")), "smooth"),
     (Kind.INITIAL, sp.Eq(initial("u_c"), h_0), "no equation of the model"),  # u_c(0) = 0
     (Kind.DEFINITION, sp.Gt(f_c, 0), "no equation"),  # f_c = -1
     (Kind.DEFINITION, sp.Eq(u_c, h_0), "is a new name"),  # u_c = 1
@@ -130,6 +145,14 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, end(u_c, sp.oo), "is a new name"),  # u_c = h_0
     (Kind.DEFINITION, equal(forever(WIGGLE * u_c), 1), "is a new name"),  # u_c = 0
     (Kind.DEFINITION, equal(b_0, PHASED), "is constant"),
+    (Kind.DEFINITION, equal(b_0, T * rate("u_c")), "is constant"),  # u_c = t^2
+    (Kind.DEFINITION, equal(b_0, sp.Integral(x * u_c, (x, 0, 1))), "is constant"),  # u_c/2
+    (Kind.DEFINITION, equal(WIGGLE.subs(t, 0), u_c), "is a new name"),  # u_c = t
+    (Kind.DEFINITION, equal(WIGGLE.subs(t, 2 * t) - WIGGLE, h_0), "is a new name"),  # t = 0
+    (Kind.DEFINITION, equal(sp.Limit(WIGGLE, t, 0), 1), "is a new name"),
+    (Kind.DEFINITION, equal(2 * C, f_c * h_0), "is a new name"),  # f_c = -1
+    (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
+    (Kind.DEFINITION, equal(t, 5), "another time"),  # t = 4
     (Kind.DEFINITION, equal(N, u_c / h_0), "another time"),  # u_c = -h_0 t/T
 )
 CALLED: tuple[tuple[Kind, sp.Basic], ...] = (

@@ -62,7 +62,13 @@ from derive.rules.proving import DIFFERENTIABLE
 from derive.rules.reading import CONTINUOUS, PERIODIC, SINE
 from derive.rules.solutions import FirstRoot, Inverted, Parametric, Solution
 from derive.symbols import initial, rate, symbol, symbols, t
-from tests.derive import test_hostile, test_hostile_again, test_language, test_rules
+from tests.derive import (
+    test_hostile,
+    test_hostile_again,
+    test_hostile_third,
+    test_language,
+    test_rules,
+)
 from tests.derive.judgements import (
     APPROACH,
     BOUNDED,
@@ -395,7 +401,9 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
 
 
 CASES = tuple(
-    case for room in (test_rules, test_hostile, test_hostile_again) for case in room.CASES.values()
+    case
+    for room in (test_rules, test_hostile, test_hostile_again, test_hostile_third)
+    for case in room.CASES.values()
 )
 
 
