@@ -126,11 +126,13 @@ class ContactPart(NamedTuple):
 
 
 class ContactResult(NamedTuple):
-    """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is `sound`
-    (k,); the number of right-hand sides evaluated; its `parts` in order; and which wears, in
-    `slid`, have ended by sliding along the edge."""
+    """What contact adds to each wear (k,), mm, and what the nodes have `missed` of that, by
+    estimate, over its `length` (k,); whether that is `sound` (k,); the number of right-hand sides
+    evaluated; its `parts` in order; and which wears, in `slid`, have ended by sliding along the
+    edge."""
 
     added: FloatArray
+    missed: FloatArray
     length: FloatArray
     sound: BoolArray
     evaluations: int
@@ -142,12 +144,13 @@ class ContactResult(NamedTuple):
         nothing."""
         if len(rows) == number:
             return self
-        added, length = np.zeros((2, number))
-        added[rows], length[rows] = self.added, self.length
+        added, missed, length = np.zeros((3, number))
+        added[rows], missed[rows], length[rows] = self.added, self.missed, self.length
         sound = np.full(number, True)
         sound[rows] = self.sound
         parts = tuple(part._replace(rows=rows[part.rows]) for part in self.parts)
-        return ContactResult(added, length, sound, self.evaluations, parts, rows[self.slid])
+        slid = rows[self.slid]
+        return ContactResult(added, missed, length, sound, self.evaluations, parts, slid)
 
 
 def wear_in_contact(
@@ -164,7 +167,7 @@ def wear_in_contact(
     Each stretch is taken in steps, as long as the rate on them is resolved to `tolerance` of what
     the cycle adds; all wears take a step at once, each its own.
     """
-    added, length, step = np.zeros(len(u)), np.zeros(len(u)), over.whole.copy()
+    (added, lost, length), step = np.zeros((3, len(u))), over.whole.copy()
     going, sound = np.full((2, len(u)), True)
     evaluations, parts = 0, list[ContactPart]()
     rows = np.arange(len(u))
@@ -197,10 +200,11 @@ def wear_in_contact(
             )
         )
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
+        lost[some] += (missed * tolerance * (np.maximum(earlier + part.added, 0.0)))[fine]
         length[some] += part.length[fine]
         going[some] = (steps[fine] > 1.0) & ~ended
         rows = np.flatnonzero(going)
-    return ContactResult(added, length, sound, evaluations, tuple(parts))
+    return ContactResult(added, lost, length, sound, evaluations, tuple(parts))
 
 
 class _Part(NamedTuple):
