@@ -49,6 +49,23 @@ def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
     assert honest(found.u_c, found.error, true_wear(scene, cycles))
 
 
+@pytest.mark.parametrize("scene", ["section4-cutoff", "section5-cutoff"])
+@pytest.mark.parametrize(("nodes", "tolerance"), [(6, 1e-3), (8, 1e-5)])
+def test_a_cycle_knows_what_its_nodes_miss(scene, nodes, tolerance):
+    """Rates on few nodes: the map with many is exact beside it."""
+    made = load_scene(scene)
+    model, load = bind(made), made.periodic_load
+    of_scene = [model], [load], [edge_of_contact(model, load)]
+    wear, which = 1e-4 * np.geomspace(0.1, 5.0, 12), np.zeros(12, dtype=int)
+    few, many = (
+        switched_period_map(*of_scene, number, accuracy).advance(wear, which)
+        for number, accuracy in ((nodes, tolerance), (30, 1e-14))
+    )
+    off = np.abs(few.increment - many.increment)
+    assert np.max(off / many.increment) > 1e-12
+    assert np.all(off <= 3 * few.missed + 1e-13 * many.increment)
+
+
 @pytest.mark.parametrize("kind", ["harmonics", "table"])
 @pytest.mark.parametrize(("K", "f_c"), [(3e-4, 0.0), (5e-3, 0.0), (3e-3, 0.5)])
 def test_contact_lost_and_found_again_on_one_rise(kind, K, f_c):

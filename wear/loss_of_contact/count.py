@@ -25,7 +25,14 @@ from wear.loss_of_contact.increments import fitted
 from wear.loss_of_contact.parts import OneByOne, OnPanels, walked
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
-from wear.loss_of_contact.requests import Asking, Request, answered, without_feedback
+from wear.loss_of_contact.requests import (
+    COARSE,
+    FINE,
+    Asking,
+    Request,
+    answered,
+    without_feedback,
+)
 from wear.loss_of_contact.samples import Samples
 from wear.loss_of_contact.stretch import Stretch, stretch
 from wear.loss_of_contact.switching import Edge, edge_of_contact
@@ -42,6 +49,7 @@ MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: increments that have no series
+JUDGED = 1e-2  # of the tolerance of a cycle: that of the cycle that judges it
 MOST_GUESSES = 10  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
@@ -70,9 +78,11 @@ def counted_stages(
     models, loads = [each.model for each in wanted], [each.load for each in wanted]
     edges = [edge_of_contact(*pair) for pair in zip(models, loads, strict=True)]
     size = settings(rtol)
-    maps = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
+    coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
+    finer = max(ROUNDOFF, JUDGED * size.endpoint_tolerance)
+    fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(*each, rtol, deadline) for each in zip(wanted, edges, strict=True)]
-    return answered(counts, maps)
+    return answered(counts, [coarse, fine])
 
 
 def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[Counted]:
@@ -80,7 +90,7 @@ def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[C
     way = _Way(problem, wanted.start)
     while way.goes_on(wanted.cycles):
         yield from way.go(max(wanted.cycles - way.done, 1.0))
-    return _judged(problem, way, wanted.start_error, wanted.cycles)
+    return (yield from _judged(problem, way, wanted.start_error, wanted.cycles))
 
 
 class _Way:
@@ -213,8 +223,7 @@ class _Way:
         if not added > 0.0 and limit is not None and self.wear < limit.wear:
             added = limit.wear - self.wear  # nearer than rounding resolves
         self.singles += 1
-        missed = sample.missed if sample.sound else np.inf
-        cycle = [self.wear, self.wear + added], [added], [missed], [abs(1.0 + sample.slope)]
+        cycle = [self.wear, self.wear + added], [added], [np.nan], [abs(1.0 + sample.slope)]
         self._append_cycles(OneByOne(*cycle))
         self.arrested = not added > 0.0
         self.fades = self.arrested and limit is not None
@@ -237,11 +246,11 @@ class _Way:
                 ahead._cycle()
         wear = np.array(ahead.ahead_of)
         apart = APART * (4 * self.problem.scale + wear)
-        run = yield Request(np.concatenate([wear, wear + apart]))
+        run = yield Request(COARSE, np.concatenate([wear, wear + apart]))
         self.cost = self.cost.plus(2 * len(wear), run.evaluations)
         added, beside = np.split(run.increment, 2)
-        missed, sound = run.missed[: len(wear)], run.converged[: len(wear)]
-        self.samples.add(wear, added, missed, (beside - added) / apart, sound)
+        slope, sound = (beside - added) / apart, run.converged[: len(wear)]
+        self.samples.add(wear, added, slope, sound)
 
     def _append(self, part: OnPanels | Unresolved, ran: float, wear: float) -> None:
         self.parts.append(part)
@@ -258,8 +267,9 @@ class _Way:
         self.last_added = cycles.added[-1]
 
 
-def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> Counted:
+def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> Asking[Counted]:
     """Return the parts of the way as segments, each with its estimate of error."""
+    yield from _judge(way)
     segments: list[Segment] = []
     begins, drift, one = 0.0, 0.0, np.zeros(1)
     inherited = one + begun_with
@@ -277,6 +287,25 @@ def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> Co
         rest = end_of_wear and _rest(problem, segments, end_of_wear)
         segments += [rest] if rest else []
     return Counted(Orbit(1, tuple(segments), way.cost), end_of_wear)
+
+
+def _judge(way: _Way) -> Asking[None]:
+    """Judge the cycles that were integrated by another map."""
+    todo = [
+        (part, k)
+        for part in way.parts
+        if isinstance(part, OneByOne)
+        for k, missed in enumerate(part.missed)
+        if np.isnan(missed)
+    ]
+    if not todo:
+        return
+    at, added = np.array([(part.wear[k], part.added[k]) for part, k in todo]).T
+    fine = yield Request(FINE, at)
+    missed = np.abs(fine.increment - added) if fine.converged.all() else np.full(len(at), np.inf)
+    for (part, k), found in zip(todo, missed.tolist(), strict=True):
+        part.missed[k] = found
+    way.cost = way.cost.plus(len(at), fine.evaluations)
 
 
 def _end(problem: Problem, segments: list[Segment], fades: bool) -> End | None:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.requests import Asking, Request
+from wear.loss_of_contact.requests import COARSE, Asking, Request
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.abel import Frame
@@ -202,7 +202,7 @@ def fitted(
         shift = np.array([task.span.coordinate.shift for task in todo])
         widths = np.log((ends + shift) / (starts + shift))
         wear = _wear(todo, widths, np.append(nodes, CHECKS))
-        run = yield Request(wear.ravel())
+        run = yield Request(COARSE, wear.ravel())
         increment, checks = np.hsplit(run.increment.reshape(wear.shape), [number])
         cost = cost.plus(wear.size, run.evaluations)
         level = increment[:, number // 2]

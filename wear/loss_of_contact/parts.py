@@ -25,7 +25,7 @@ ENOUGH = 1.5  # cycles per coefficient of a panel
 
 class OneByOne(NamedTuple):
     """Cycles one by one: the `wear` (mm) before and after each, what each has `added` and may have
-    `missed` (mm), and its derivative `growth`, dP/du."""
+    `missed` (mm), and its derivative `growth`, dP/du; no number where those are not known yet."""
 
     wear: list[float]
     added: list[float]

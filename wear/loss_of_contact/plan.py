@@ -15,7 +15,7 @@ from wear.load import Load
 from wear.loss_of_contact.arrest import LimitWear
 from wear.loss_of_contact.grazing import fades, grazing_wears, limit_wear_of
 from wear.loss_of_contact.increments import Coordinate, Span
-from wear.loss_of_contact.requests import Asking, Request, without_feedback
+from wear.loss_of_contact.requests import FROZEN, Asking, Request, without_feedback
 from wear.loss_of_contact.switching import Edge
 from wear.model import Model
 from wear.numerics.gauss import FloatArray
@@ -75,7 +75,7 @@ def problem_of(
     # Contact grazes when the pieces before have added their part: the map has its branch point
     # where a cycle starts that much earlier.
     wear = np.array([each.wear for each in grazing])
-    run = yield Request(wear, frozen=True)
+    run = yield Request(FROZEN, wear)
     slope = np.abs(model.margin_slope(wear, load.maximum)) + TINY
     uncertainty = ROUNDOFF * model.margin_terms(wear, load.maximum + 0.0 * wear) / slope
     stops = []

@@ -15,13 +15,14 @@ import numpy as np
 from wear.loss_of_contact.period_map import Advanced, SwitchedPeriodMap
 from wear.numerics.gauss import FloatArray
 
+COARSE, FINE, FROZEN = range(3)  # maps: for the result, to judge it, and as if no rate felt it
 
 
 class Request(NamedTuple):
-    """A wish for cycles from each `wear` (k,), mm; `frozen` as if no rate felt what they add."""
+    """A wish for cycles from each `wear` (k,), mm, by one of the maps."""
 
+    map: int
     wear: FloatArray
-    frozen: bool = False
 
 
 T = TypeVar("T")
@@ -30,12 +31,13 @@ Asking = Generator[Request, Advanced, T]
 
 def without_feedback(wear: FloatArray) -> Asking[FloatArray]:
     """Return the wear added by one cycle if the rate did not feel it, any shape."""
-    run = yield Request(wear.ravel(), frozen=True)
+    run = yield Request(FROZEN, wear.ravel())
     return np.asarray(np.sum(run.increment, axis=1).reshape(wear.shape))
 
 
-def answered(counts: Sequence[Asking[T]], maps: SwitchedPeriodMap) -> list[T]:
-    """Return what each of the counts returns, scene by scene, by the map of all scenes."""
+def answered(counts: Sequence[Asking[T]], maps: Sequence[SwitchedPeriodMap]) -> list[T]:
+    """Return what each of the counts returns, scene by scene, by two maps of all scenes: for the
+    result, and to judge it."""
     results: dict[int, T] = {}
     asked: dict[int, Request] = {}
 
@@ -48,30 +50,33 @@ def answered(counts: Sequence[Asking[T]], maps: SwitchedPeriodMap) -> list[T]:
     for scene in range(len(counts)):
         go_on(scene, None)
     while asked:
-        frozen = all(request.frozen for request in asked.values())
-        some = [scene for scene, request in asked.items() if request.frozen == frozen]
+        kind = min(request.map for request in asked.values())
+        some = [scene for scene, request in asked.items() if request.map == kind]
         wear = [asked.pop(scene).wear for scene in some]
-        for scene, answer in zip(some, _together(frozen, some, wear, maps), strict=True):
+        for scene, answer in zip(some, _together(kind, some, wear, maps), strict=True):
             go_on(scene, answer)
     return [results[scene] for scene in range(len(counts))]
 
 
 def _together(
-    frozen: bool, scenes: list[int], wear: list[FloatArray], maps: SwitchedPeriodMap
+    kind: int, scenes: list[int], wear: list[FloatArray], maps: Sequence[SwitchedPeriodMap]
 ) -> list[Advanced]:
-    """Return the answers to requests, all frozen or none."""
+    """Return the answers to requests for one map."""
     lengths = [len(part) for part in wear]
     ends, which = np.cumsum(lengths)[:-1], np.repeat(scenes, lengths)
-    if frozen:
-        pieces = np.diff(maps.first)
-        added = maps.each_without_feedback(np.concatenate(wear), which)
+    if kind == FROZEN:
+        pieces = np.diff(maps[0].first)
+        added = maps[0].each_without_feedback(np.concatenate(wear), which)
         parts = np.split(added, np.cumsum(lengths * pieces[scenes])[:-1])
         sound = np.array([True])
         return [
             Advanced(part.reshape(length, pieces[scene]), part, sound, 0)
             for part, length, scene in zip(parts, lengths, scenes, strict=True)
         ]
-    run = maps.advance(np.concatenate(wear), which)
+    run = maps[kind].advance(np.concatenate(wear), which)
     share = run.evaluations / max(len(which), 1)
-    each = zip(*(np.split(array, ends) for array in run[:3]), strict=True)
-    return [Advanced(*arrays, round(share * len(arrays[0]))) for arrays in each]
+    arrays = (run.increment, run.missed, run.converged)
+    each = zip(*(np.split(array, ends) for array in arrays), strict=True)
+    return [
+        Advanced(added, missed, sound, round(share * len(added))) for added, missed, sound in each
+    ]

@@ -13,13 +13,11 @@ BEND = 10.0  # relative change of the slope over a wear as large as what the cyc
 
 
 class Cycle(NamedTuple):
-    """A cycle from a `wear` (mm), what it has `added` and may have `missed` (mm), and the `slope`
-    of that; whether it is `sound`; and by how much, relatively, that may be `off`, infinite for a
-    guess."""
+    """A cycle from a `wear` (mm), what it has `added` (mm), and the `slope` of that; whether it is
+    `sound`; and by how much, relatively, that may be `off`, infinite for a guess."""
 
     wear: float
     added: float
-    missed: float = 0.0
     slope: float = 0.0
     sound: bool = True
     off: float = 0.0
@@ -31,16 +29,9 @@ class Samples:
     def __init__(self) -> None:
         self.cycles: list[Cycle] = []
 
-    def add(
-        self,
-        wear: FloatArray,
-        added: FloatArray,
-        missed: FloatArray,
-        slope: FloatArray,
-        sound: BoolArray,
-    ) -> None:
+    def add(self, wear: FloatArray, added: FloatArray, slope: FloatArray, sound: BoolArray) -> None:
         """Take up some cycles (k,)."""
-        for row in zip(*map(np.ndarray.tolist, (wear, added, missed, slope, sound)), strict=True):
+        for row in zip(*map(np.ndarray.tolist, (wear, added, slope, sound)), strict=True):
             insort(self.cycles, Cycle(*row))
 
     def at(self, wear: float, guess: float) -> Cycle:
@@ -55,5 +46,4 @@ class Samples:
             return near
         part = abs(wear - near.wear) / near.added
         added = max(near.added + near.slope * (wear - near.wear), 0.0)
-        off = BEND * abs(near.slope) * part**2
-        return Cycle(wear, added, near.missed + off * added, near.slope, near.sound, off)
+        return Cycle(wear, added, near.slope, near.sound, BEND * abs(near.slope) * part**2)
