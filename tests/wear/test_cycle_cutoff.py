@@ -311,3 +311,11 @@ def test_a_phase_that_is_rounded_under_a_steep_load_is_no_lack_of_nodes():
     load = Table(times, (0.0, 7.6e-4, -7.1e-4, 8e-5, 8.6e-4, 0.0))
     scene = with_load(load, 2.8e-3, 0.013, closure=9.577e-4)
     agrees_with_the_judge(scene, [1, 10], 1e-7)
+
+
+def test_wear_that_hardly_changes_itself_is_counted_to_a_depth():
+    """All the panels together are narrower than rounding."""
+    numbers = {"bearing.wear_coefficient": 1e-30, "bearing.roughness_growth": 1e5}
+    scene = load_scene("section4-cutoff").with_(numbers)
+    found = count.cycles_until(bind(scene), scene.periodic_load, np.array([1e-24, 1.0]), 1e-7)
+    assert_allclose(found.cycles, [32221, np.inf], atol=1)

@@ -200,7 +200,7 @@ def fitted(
             np.array(column) for column in zip(*(task[1:] for task in todo), strict=True)
         )
         shift = np.array([task.span.coordinate.shift for task in todo])
-        widths = np.log((ends + shift) / (starts + shift))
+        widths = np.log1p((ends - starts) / (starts + shift))
         wear = _wear(todo, widths, np.append(nodes, CHECKS))
         run = yield Request(COARSE, wear.ravel())
         increment, checks = np.hsplit(run.increment.reshape(wear.shape), [number])
