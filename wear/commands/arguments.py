@@ -203,28 +203,21 @@ def _quoted(text: str) -> str:
     return f'"{shown(text)}"'
 
 
-class Faults:
+class Faults(list[str]):
     """The faults of a command line, gathered until `stop_if_any`."""
-
-    def __init__(self, messages: Sequence[str]) -> None:
-        self._messages = list(messages)
-
-    def add(self, message: str) -> None:
-        """Remember one more fault."""
-        self._messages.append(message)
 
     def refuse_implausible(self, notices: Sequence[str]) -> None:
         """Make faults of the notices about magnitudes that are hardly meant."""
         from wear.scene.plausibility import WORD
 
-        self._messages += [notice for notice in notices if notice.startswith(WORD)]
+        self += [notice for notice in notices if notice.startswith(WORD)]
 
     def stop_if_any(self) -> None:
         """Raise a `UsageError` with all of them, a line each."""
         from wear.faults import UsageError
 
-        if self._messages:
-            raise UsageError("\n".join(self._messages))
+        if self:
+            raise UsageError("\n".join(self))
 
 
 def read(options: argparse.Namespace) -> Faults:
@@ -251,7 +244,7 @@ def _scene(name: str, options: argparse.Namespace, faults: Faults) -> Scene | No
     try:
         scene = load_scene(name, options.overrides)
     except SceneError as fault:
-        faults.add(str(fault))
+        faults.append(str(fault))
         return None
     if options.strict:
         faults.refuse_implausible(scene.notices)
@@ -270,6 +263,6 @@ def _readings(file: str, scenes: Sequence[Scene], faults: Faults) -> tuple[Speci
             for each in found:
                 scene.with_(each.changes)
     except WearError as fault:
-        faults.add(f"--data: {fault}")
+        faults.append(f"--data: {fault}")
         return ()
     return found
