@@ -130,13 +130,13 @@ def load_peers(name: str) -> ModuleType:
 def _figures(result: Result) -> dict[str, bytes]:
     """Return the figures by name of the file: time against the number of cycles, and against true
     error for the numbers of cycles worth a figure."""
-    from wear.benchmark.results import DIGITS, READER, at, curves, curves_by_cycles, figure_cycles
+    from wear.benchmark.results import DIGITS, READER, comparable, curves, curves_by_cycles
     from wear.figure_style import encoded
     from wear.figures import speed_against_cycles, speed_against_error
 
     drawn = {
-        f"speed-{cycles}": speed_against_error(curves(at(result.runs, READER, cycles)))
-        for cycles in figure_cycles(result.runs, READER)
+        f"speed-{cycles}": speed_against_error(curves(runs))
+        for cycles, runs in comparable(result.runs, READER).items()
     }
     if by_cycles := curves_by_cycles(result.runs, READER, DIGITS[0]):
         drawn["speed-cycles"] = speed_against_cycles(by_cycles)
