@@ -27,7 +27,7 @@ from wear.scene import Scene, load_scene
 def test_counted_cycles_are_integrated_ones(slope):
     """f above and below 1/3: direct integration with events shares no code with the map."""
     scene = Scene.from_dict(tables(f_c=slope, cutoff=True), "cutoff")
-    agrees_with_direct_integration(scene, [1, 2, 7, 40], 1e-10)
+    agrees_with_direct_integration(scene, [1, 2, 12], 1e-10)
 
 
 UNEVEN = {  # rise slowly, then fast, and slowly again
@@ -235,7 +235,7 @@ def agrees_with_direct_integration(scene: Scene, cycles: list[int], rtol: float)
     ],
 )
 def test_on_a_compliant_support_counted_cycles_are_integrated_ones(K, f_c, pin, k):
-    agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 9], 1e-11)
+    agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 5], 1e-11)
 
 
 @settings(max_examples=5)
