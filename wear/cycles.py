@@ -19,7 +19,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.checked import MOST_CYCLES
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of, growth
 from wear.faults import UsageError
@@ -33,6 +32,7 @@ from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
+from wear.quantities import MOST_CYCLES
 from wear.request import check_rtol, whole_cycles
 from wear.resampling import resampled
 from wear.scene import Scene, as_scene

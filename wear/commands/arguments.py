@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from derive import files
 from derive.command_line import declare
+from wear.quantities import MOST_CYCLES
+from wear.words import did_you_mean, shown
 
 if TYPE_CHECKING:
     from wear.fitting.readings import Specimen
@@ -68,8 +70,6 @@ def one_of(choices: Callable[[], Sequence[str]]) -> Callable[[str], str]:
     """Return what reads one of some words, whatever the case of its letters."""
 
     def chosen(text: str) -> str:
-        from wear.checked import did_you_mean
-
         exact = {choice.lower(): choice for choice in choices()}
         if text.lower() in exact:
             return exact[text.lower()]
@@ -128,8 +128,6 @@ def cycles(text: str) -> tuple[int, ...]:
     >>> cycles("1, 10:13,1e8")
     (1, 10, 11, 12, 13, 100000000)
     """
-    from wear.checked import MOST_CYCLES
-
     parts = text.split(",")
     ends = [tuple(map(_number, entry.split(":"))) for entry in parts]
     wrong = [
@@ -198,8 +196,6 @@ def _number(text: str) -> float:
 
 
 def _quoted(text: str) -> str:
-    from wear.checked import shown
-
     return f'"{shown(text)}"'
 
 
