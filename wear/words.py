@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import os
 from collections.abc import Iterable, Mapping
 
 from wear.quantities import LARGEST, SMALLEST
@@ -17,6 +18,11 @@ def shown(text: str, most: int = 60) -> str:
     """
     cut = text if len(text) <= most else text[: most - 3] + "..."
     return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in cut)
+
+
+def is_path(given: object) -> bool:
+    """Return whether something can be the name of a file."""
+    return isinstance(given, str | os.PathLike)
 
 
 def did_you_mean(word: str, candidates: Iterable[str]) -> str:

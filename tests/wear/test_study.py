@@ -214,6 +214,24 @@ def test_a_study_larger_than_the_disk_is_refused(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.usefixtures("small_chunks")
+def test_a_scene_that_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
+    from wear import cycles
+
+    solved = cycles.sweep
+
+    def fails(scenes: Any, *more: Any) -> Any:
+        if any(scene.bearing.hardness_MPa == 150.0 for scene in scenes):
+            raise ZeroDivisionError("division by zero")
+        return solved(scenes, *more)
+
+    monkeypatch.setattr(cycles, "sweep", fails)
+    found = study("section4", [f"{HARDNESS}=100,150,200,250,300"], [10], tmp_path / "a.zarr")
+    assert found["status"].values.tolist() == [0, Status.FAILED, 0, 0, 0]
+    assert str(found["reason"].values[1]) == "ZeroDivisionError: division by zero"
+    assert np.isnan(found["bearing_wear_mm"].values[:, 0]).tolist() == [False, True] + [False] * 3
+
+
 # What is hardly meant
 
 

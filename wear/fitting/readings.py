@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from wear.faults import MOST_FAULTS_SHOWN, UsageError
 from wear.load.rows import read_bytes
 from wear.quantities import MOST_CYCLES
-from wear.words import shown
+from wear.words import is_path, shown
 
 FloatArray = NDArray[np.float64]
 MOST_BYTES = 16 * 1024 * 1024
@@ -81,6 +81,8 @@ def read_readings(path: str | os.PathLike[str], ignore: Sequence[str] = ()) -> S
     UsageError
         with everything that is wrong with the file.
     """
+    if not is_path(path):
+        raise UsageError(f"readings: {path!r} is no name of a file")
     data = read_bytes(Path(path), MOST_BYTES)
     if isinstance(data, tuple):
         raise UsageError(f"{path}: {'; '.join(data)}")

@@ -22,6 +22,7 @@ from wear.progress import Pace
 from wear.studies.design import Chunk, Design
 from wear.studies.rows import Answers, Study, solve_chunk
 from wear.studies.vary import Distribution, Levels, Vary, parse
+from wear.words import is_path
 
 if TYPE_CHECKING:
     import xarray
@@ -103,7 +104,7 @@ def run(
     """Solve the chunks that are missing at `output` and return the store of all, see `study`."""
     from wear.studies.store import Store
 
-    if not isinstance(output, str | os.PathLike):
+    if not is_path(output):
         raise UsageError(f"output: {output!r} is no name of a folder")
     check_executor(executor)
     store = Store(Path(output), asked)
