@@ -270,6 +270,11 @@ CASES: dict[str, Case] = {
         "phi",
     ),
     # ---- 0/0 where h_0 = L
+    "a limit that is not reached": (
+        lambda: ends(sp.S.One),
+        lambda: ends(sp.S.Zero),
+        "the limit is 0",
+    ),
     "a limit with 0/0": (lambda: ends(GAP), lambda: ends(sp.S.Zero), "Ne"),
     "a limit that passes, with 0/0": (
         lambda: passing(2 * G, 2 * theta + GAP / L, tends(G, theta)),
