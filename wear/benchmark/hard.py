@@ -24,7 +24,8 @@ from wear.benchmark.methods import (
     solver,
     with_defaults,
 )
-from wear.benchmark.results import Table, cycle_count, magnitude, markdown_table, unique
+from wear.benchmark.results import Table, magnitude, markdown_table, unique
+from wear.quantities import in_short
 
 LEGEND = (
     "Largest true relative error over the numbers of cycles tried. reported: the method "
@@ -132,7 +133,7 @@ def failures(found: Sequence[Measurement]) -> Table:
         for method in unique(entry.method for entry in found):
             entry = worst(found, scene, method)
             if entry is not None and (entry.status is not Status.MET or not entry.honest):
-                rows.append((scene, cycle_count(entry.cycles), method, _how(entry)))
+                rows.append((scene, in_short(entry.cycles, 5), method, _how(entry)))
     return Table("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
 
 

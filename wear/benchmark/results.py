@@ -16,6 +16,7 @@ import numpy as np
 from wear.benchmark import Measurement, StartUp, Status
 from wear.benchmark.machine import footer
 from wear.figure_data import Method
+from wear.quantities import in_short
 
 COMMITTED = files("wear").joinpath("data", "speed.json")
 READER = "section4"
@@ -100,15 +101,6 @@ def magnitude(error: float) -> str:
     return f"{abs(error):.0e}".replace("e-0", "e-")
 
 
-def cycle_count(cycles: int) -> str:
-    """A number of cycles, short.
-
-    >>> cycle_count(9000), cycle_count(10**8)
-    ('9000', '1e8')
-    """
-    return str(cycles) if cycles < 10**5 else f"{cycles:.3g}".replace("e+0", "e")
-
-
 def _rounded(number: float) -> str:
     return f"{number:.2g}" if number < 99.5 else f"{number:.0f}"
 
@@ -120,12 +112,12 @@ def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple
         ranking = best(at(runs, scene, cycles), digits)
         if not ranking:
             found.append(
-                f"{cycle_count(cycles)} cycles, {digits} digits: nothing that was tried gets there."
+                f"{in_short(cycles, 5)} cycles, {digits} digits: nothing that was tried gets there."
             )
             continue
         first, *others = ranking
         text = (
-            f"For {digits} digits of the wear after {cycle_count(cycles)} "
+            f"For {digits} digits of the wear after {in_short(cycles, 5)} "
             f"{'cycle' if cycles == 1 else 'cycles'} use {first.method}: "
             f"it takes {duration(first.seconds)}"
         )
@@ -233,7 +225,7 @@ def speed_table(runs: Sequence[Measurement], scene: str, digits: int) -> Table:
         (method, *(cell(at(here, scene, n), method, digits) for n in counts))
         for method in unique(run.method for run in here)
     ]
-    header = ("method", *(f"N = {cycle_count(n)}" for n in counts))
+    header = ("method", *(f"N = {in_short(n, 5)}" for n in counts))
     return Table(f"{scene}, {digits} digits", header, tuple(rows))
 
 
@@ -252,7 +244,7 @@ def start_table(result: Result) -> Table:
 def failure_table(runs: Sequence[Measurement]) -> Table:
     """Return the answers that were silently wrong."""
     rows = [
-        (run.method, run.scene, cycle_count(run.cycles), f"{run.tolerance:g}", f"{run.error:+.0%}")
+        (run.method, run.scene, in_short(run.cycles, 5), f"{run.tolerance:g}", f"{run.error:+.0%}")
         for run in silent_failures(runs)
     ]
     header = ("method", "scene", "cycles", "tolerance", "true error")
