@@ -2,6 +2,7 @@
 
 Key results
     COLUMNS     what a result has along its cycles
+    SMALLEST, LARGEST, MOST_CYCLES     bounds of all numbers
     in_short    a number with few digits
     unit_of     the unit of a name
     words_of    a name in words, `label_of` with its unit
@@ -11,6 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple
+
+# Magnitudes are bounded so that no product of a scene's numbers can overflow or underflow.
+SMALLEST = 1e-30
+LARGEST = 1e30
+MOST_CYCLES = 10**12
 
 _UNITS = {
     "MPa_per_mm": "MPa/mm", "mJ_per_mm2": "mJ/mm^2", "MPa": "MPa", "mJ": "mJ", "mm": "mm",

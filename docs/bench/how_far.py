@@ -16,8 +16,7 @@ import numpy as np
 from jumps import Cycles, cycles_of, extrapolated
 
 from wear.benchmark.methods import Case, cases
-from wear.benchmark.results import Table, markdown_table
-from wear.quantities import in_short
+from wear.benchmark.results import Table, cycle_count, markdown_table
 
 HERE = Path(__file__).resolve().parent
 SCENE, CYCLES = "section4", (9000, 10**6)
@@ -93,7 +92,7 @@ def table(rows: list[Row]) -> Table:
         "How far",
         header,
         tuple(
-            (in_short(row.cycles, 5), _jump(row), str(row.integrated), *map(_percent, row[4:]))
+            (cycle_count(row.cycles), _jump(row), str(row.integrated), *map(_percent, row[4:]))
             for row in rows
         ),
     )
@@ -122,7 +121,7 @@ def figure(rows: list[Row]) -> bytes:
                 [row.error for row in own],
                 look.marker,
                 color=look.colour,
-                label=f"{kind}, {in_short(number, 5)} cycles",
+                label=f"{kind}, {cycle_count(number)} cycles",
             )
             axes.loglog(x, [row.predicted for row in own], "-", color=look.colour, linewidth=0.8)
         axes.set(xlabel="Cycles integrated", ylabel="Relative error of the wear")

@@ -49,7 +49,7 @@ def execute(options: argparse.Namespace) -> Answer:
 
         life = cycles_until(scene, depth, rtol)
         if life.reached[0].value != "counted":
-            faults.add(f"--until-wear: {depth:g} mm: {life.reached[0].value}, no derivative")
+            faults.append(f"--until-wear: {depth:g} mm: {life.reached[0].value}, no derivative")
             faults.stop_if_any()
         cycles = (*cycles, int(life.cycles[0]))
     with terminal.busy("counting cycles") as tell:
