@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
 from ..symbols import symbol, t
 from .printer import binder, field, term
@@ -27,6 +28,7 @@ def proof(step: Step) -> list[str]:
     for way in (
         _later,
         _same_rate,
+        _threshold,
         _discharges,
         _grows,
         _integrates,
@@ -35,6 +37,7 @@ def proof(step: Step) -> list[str]:
         _drift,
         _derivative,
         _lipschitz,
+        _logarithmic_slope,
     ):
         if lines := list(way(step)):
             return lines
@@ -288,3 +291,26 @@ def _lipschitz(step: Step) -> Iterator[str]:
     left = sp.expand(high.args[0] - low.args[0]) - high + low
     forms = (factor * (high - low if part.lts == 0 else left) for part in step.relation.args)
     yield f"split; [{' | '.join(f'manifest ({term(form)})' for form in forms)}]."
+
+
+def _logarithmic_slope(step: Step) -> Iterator[str]:
+    """The change of the logarithm of a function, whose slope is bounded by a multiple of it."""
+    rule = step.judgement.rule
+    if isinstance(rule, LogarithmicSlope):
+        function = rule.function(_RATIO)
+        value, slope, bound = map(term, (function, sp.diff(function, _RATIO), rule.bound))
+        made, a, b = f"(fun ratio => {value})", term(rule.a), term(rule.b)
+        yield f"assert (A : forall ratio, 0 < {value}) by (intro; arithmetic)."
+        yield f"assert (B : forall ratio, is_derive {made} ratio ({slope})) by (intro; derived)."
+        yield f"assert (C : forall ratio, Rabs ({slope}) <= {bound} * ({value})) by (intro; arithmetic)."
+        yield f"intros t Ht; pose proof (log_slope _ _ _ ({a}) ({b}) A B C) as P0; cbv beta in P0; same_inequality P0."
+
+
+def _threshold(step: Step) -> Iterator[str]:
+    """A level that an increasing function exceeds beyond one point, and not before."""
+    if isinstance(step.relation, sp.Equivalent):
+        point, level = step.relation.args
+        if isinstance(point, sp.Gt) and point.gts.is_Symbol and level.gts.has(point.gts):
+            yield from (f"pose proof ({step.cited(s)})." for s in step.ancestors if not s.timed)
+            yield f"apply (threshold (fun {term(point.gts)} => {term(level.gts)}))."
+            yield "all: cbv beta; first [intros; increasing | positive | bounds; identity]."
