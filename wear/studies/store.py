@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wear.checked import unit_of
 from wear.faults import UsageError
+from wear.quantities import unit_of
 from wear.studies.design import Chunk
 from wear.studies.notices import Tally
 from wear.studies.rows import Answers, Status, Study
