@@ -203,7 +203,7 @@ CASES: dict[str, Case] = {
     "the rate of w(tau) = q v(tau), with time held": (  # the left side is 0 to SymPy
         lambda: change_clock(given(equal(w, q * v)), CLOCK),
         lambda: change_clock(given(equal(u_c, q * v)), CLOCK),
-        "is constant",
+        "Derivative",
     ),
     # ---- ranges that are not closed, fields that are not bounded
     "a rate that goes with a roughness that fades": (  # sigma = h_0 e^(-t/T)
