@@ -303,7 +303,6 @@ CASES: dict[str, Case] = {
         lambda: sloped(),
         "may vary",
     ),
-    # ---- forgeries
 }
 
 
