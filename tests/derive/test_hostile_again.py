@@ -48,7 +48,7 @@ from derive.rules.limits import (
     vanishes,
 )
 from derive.rules.reading import CONTINUOUS, PERIODIC
-from derive.rules.solutions import Parametric
+from derive.rules.solutions import Separate
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
     BOUNDED,
@@ -114,9 +114,9 @@ def by_value(first: sp.Expr, claim: sp.Expr, value: sp.Expr) -> Judgement:
 
 def by_pressure(field: sp.Expr, size: sp.Expr) -> Judgement:
     """The time at which a field has a value, where wear is a multiple of its size."""
-    wear = h_0 * (size - size.subs(t, 0))
-    law, start = given(equal(du, C)), given(equal(u_c, wear))
-    return Parametric(equal(t, h_0 * (field - field.subs(t, 0)) / C))(law, start, START, CONSTANTLY)
+    law, wear = given(equal(du, C)), given(equal(u_c, h_0 * size))
+    claim = equal(t, sp.Integral(h_0 / C, (symbol("p_s"), field.subs(t, 0), field)))
+    return Separate(claim)(law, wear, CONSTANTLY)
 
 
 def averaged(factor: sp.Expr) -> Judgement:
@@ -253,9 +253,9 @@ CASES: dict[str, Case] = {
         "bounded fields alone",
     ),
     "the time of a rate with w(tau)": (  # u_c = int C w
-        lambda: timed(u_c / (C * w), C * w, START),
-        lambda: timed(u_c / (C * b_0), C * b_0, START, given(sp.Gt(b_0, 0))),
-        "of the wear alone",
+        lambda: timed(1 / (C * w), C * w, START),
+        lambda: timed(1 / (C * b_0), C * b_0, START, given(sp.Gt(b_0, 0))),
+        r"of u_c\(t\) alone",
     ),
     "a drift that grows with N": (  # u_c - C t ~ int U_a/T
         lambda: drifting(t * (du - C) - N * U_a),
@@ -380,7 +380,7 @@ CASES: dict[str, Case] = {
     "a field of either sign, for a pressure": (  # G = -sqrt(C t/h_0) from some time on
         lambda: by_pressure(G, sp.sqrt(G**2)),
         lambda: by_pressure(p, sp.sqrt(p**2)),
-        "functions of the pressure",
+        "of what moves",
     ),
     # ---- averages
     "the average of a pressure that varies with the phase": (
