@@ -101,7 +101,7 @@ _TABLE = (
     Quantity("ell", r"\ell", "mm", "sigma_c0/8 exp(4 (h_0 - U_a)/sigma_c0 - 8)", POSITIVE),
     Quantity("p_s", "p'", "MPa", "pressure, as variable of integration", POSITIVE),
     Quantity("u_s", "u'", "mm", "wear, as variable of integration", REAL),
-    Quantity("sigma_s", r"\sigma'", "mm", "roughness, as variable of integration", POSITIVE),
+    Quantity("sigma_s", r"\sigma'", "mm", "roughness, as variable of integration", NONNEGATIVE),
     # long-time expansion
     Quantity("tau", r"\tau", "1", "time in cycles, t/T", NONNEGATIVE),
     Quantity("s_0", "s_0", "mm", "what the roughness remembers of its start", REAL),

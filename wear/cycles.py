@@ -15,12 +15,13 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from wear.checked import MOST_CYCLES
 from wear.counted import IDLES, Counted, End
-from wear.equation import WearEquation, equation_of
+from wear.equation import WearEquation, equation_of, growth
 from wear.faults import UsageError
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
@@ -32,17 +33,13 @@ from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
+from wear.request import check_rtol, whole_cycles
 from wear.resampling import resampled
+from wear.scene import Scene, as_scene
 
-if TYPE_CHECKING:
-    from wear.scene import Scene
-
-
-MOST_CYCLES = 1e12
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
 TOGETHER = 1024  # scenes in one set of arrays
 KINKS = 16  # of a load: fewer scenes with more go together, for arrays of the same size
-PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 
 
 class Wear(NamedTuple):
@@ -227,7 +224,7 @@ def _as_far_as_needed(
 ) -> Iterator[Stretch]:
     """Yield the blocks of a load, or one stretch of a load that repeats, ever longer till it has
     the deepest wear (mm)."""
-    most = min(MOST_CYCLES, float(most_cycles(load)))
+    most = float(min(MOST_CYCLES, most_cycles(load)))
     if isinstance(load, Blocks):
         yield from stretches(model, load, most, rtol)
         return
@@ -238,13 +235,6 @@ def _as_far_as_needed(
             break
         reach = min(reach * FARTHER, most)
     yield part._replace(ends=most)
-
-
-def growth(model: Model, load: Load, start: float, end: float) -> float:
-    """Return by how much a small difference in wear grows between `start` and `end`; at least 1."""
-    U_a = load(PHASES)
-    before, after = (float(np.mean(model.rate(u, U_a))) for u in (start, end))
-    return max(1.0, after / before) if before > 0.0 else 1.0
 
 
 def sweep(
@@ -262,13 +252,9 @@ def sweep(
     >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
     ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
     """
-    from wear.scene import as_scene
-    from wear.solver import is_number, whole_cycles
-
     faults: list[str] = []
     numbers = np.array(whole_cycles(cycles, faults), dtype=float)
-    if not is_number(rtol) or not 0.0 < rtol <= 0.1:
-        faults.append(f"rtol: {rtol!r} is not between 0 and 0.1")
+    check_rtol(rtol, faults)
     if isinstance(scenes, str) or not isinstance(scenes, Sequence):
         faults.append("scenes: give a list of them")
     if faults:
@@ -310,7 +296,7 @@ def cycles_to_depth(
         count, error = np.full((2, len(some), len(wear)), np.inf)
         todo, reach = np.arange(len(some)), LEAST
         while len(todo):
-            reach = min(reach * FARTHER, MOST_CYCLES)
+            reach = min(reach * FARTHER, float(MOST_CYCLES))
             found = _orbit([some[i] for i in todo.tolist()], reach, rtol)
             cycles, missed = found.until(np.broadcast_to(wear, (len(todo), len(wear))))
             cycles[cycles > reach] = np.inf

@@ -17,13 +17,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear import cycles as engine
+from wear.checked import MOST_CYCLES
 from wear.faults import AccuracyError, UsageError
 from wear.history import History
 from wear.load import Blocks
 from wear.load.spans import most_cycles
+from wear.model import bind
 from wear.regime import Asymptote, asymptote
+from wear.request import check_rtol, is_number, obstacle
+from wear.resampling import resampled
 from wear.scene import Scene, as_scene
-from wear.solver import LARGEST_RTOL, LEAST_RTOL, MOST_CYCLES, is_number, obstacle, solve
+from wear.solver import solve
 
 MOST_ITERATIONS = 50
 LARGEST_ERROR = 1e-3  # of an extrapolation that is worth a number
@@ -72,14 +77,10 @@ def cycles_until(
     >>> [f"{cycles:.4e}" for cycles in life.cycles], [way.value for way in life.reached]
     (['1.4000e+02', '1.0786e+12'], ['counted', 'extrapolated'])
     """
-    from wear.cycles import cycles_until as count_until
-    from wear.model import bind
-    from wear.resampling import resampled
-
     scene = as_scene(scene)
     depths = _checked(scene, wear_mm, rtol)
     fewer = resampled(scene, rtol)
-    found = count_until(bind(scene), fewer.scene.load, np.array(depths), rtol - fewer.error)
+    found = engine.cycles_until(bind(scene), fewer.scene.load, np.array(depths), rtol - fewer.error)
     cycles, error = found.cycles.copy(), found.error + fewer.error
     known = np.isfinite(cycles) & np.isfinite(error)
     reached = [Reached.COUNTED] * len(depths)
@@ -97,8 +98,7 @@ def _checked(scene: Scene, wear_mm: float | Iterable[float], rtol: float) -> tup
         for depth in depths
         if not (is_number(depth) and 0.0 <= depth < math.inf)
     ]
-    if not (is_number(rtol) and LEAST_RTOL <= rtol <= LARGEST_RTOL):
-        faults.append(f"rtol: {rtol!r} is not between {LEAST_RTOL:g} and {LARGEST_RTOL:g}")
+    check_rtol(rtol, faults)
     if (against := obstacle(scene)) is not None:
         faults.append(f"cycles cannot be counted: {against}")
     if faults:

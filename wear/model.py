@@ -180,20 +180,22 @@ class Model:
         p = self._limited(np.inf, 1.0) * self.margin(u, U_a)
         return self.module.rate(p, self.constants), self._edge_slope(u) + np.zeros_like(U_a)
 
-    def edge_rate_gradient(self, u: Real, U_a: Real) -> dict[str, Real]:
+    def edge_rate_gradient(self, u: Real, U_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
         """Return the derivatives of the wear rate while a compliant support keeps h at 3 sigma,
-        with respect to the load and to every physical parameter, by symbol."""
+        with respect to the load and to every physical parameter, by symbol; those with respect to
+        parameters `summed`."""
         rate, _ = self.edge_rate_and_slope(u, U_a)
         per_margin = self.module.rate(self._limited(np.inf, 1.0), self.constants)
         by_constants = dict.fromkeys(self.constants._fields, 0.0 * rate)
         # The pressure there is the margin over the compliance.
         by_constants["wear_per_pressure"] = rate / self.module.rate(1.0, self.constants)
         by_constants["compliance"] = -rate / self.constants.compliance
-        by_rate = self.bound.gradient(type(self.constants)(**by_constants))
-        by_margin = self.margin_gradient(u, U_a)
+        parts = {name: summed(part) for name, part in by_constants.items()}
+        by_rate = self.bound.gradient(type(self.constants)(**parts))
+        by_load, by_margin = per_margin + 0.0 * rate, self.margin_gradient(u, U_a, summed)
         return {
-            symbol: by_rate.get(symbol, 0.0) + per_margin * by_margin.get(symbol, 0.0)
-            for symbol in ("U_a", *by_rate)
+            "U_a": by_load,
+            **{key: own + per_margin * by_margin.get(key, 0.0) for key, own in by_rate.items()},
         }
 
     @property
@@ -217,11 +219,12 @@ class Model:
         """Return the derivative of the margin with respect to u_c; with respect to U_a it is 1."""
         return self._loss.module.margin_slope(u, self._loss.constants) + np.zeros_like(U_a)
 
-    def margin_gradient(self, u: Real, U_a: Real) -> dict[str, Real]:
+    def margin_gradient(self, u: Real, U_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
         """Return the derivatives of the margin with respect to `U_a` and to every physical
-        parameter that it depends on, by symbol."""
+        parameter that it depends on, by symbol; those with respect to parameters `summed`."""
         found = self._loss.module.margin_gradient(u, U_a, self._loss.constants)
-        return {"U_a": 1.0 + 0.0 * u, **self._loss.gradient(found)}
+        parts = type(found)._make(summed(part + 0.0 * u) for part in found)
+        return {"U_a": 1.0 + 0.0 * u, **self._loss.gradient(parts)}
 
     def margin_terms(self, u: Real, U_a: Real) -> Real:
         """Return the sum of the absolute terms of the margin, in mm: its rounding error is at most

@@ -9,7 +9,7 @@ Key results
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -20,11 +20,12 @@ from wear.checked import did_you_mean
 from wear.equation import WearEquation
 from wear.load import Blocks, Load
 from wear.load.spans import Span
-from wear.model import bind, bind_many
+from wear.model import Real, Summed, bind, bind_many
 from wear.scene import KEYS, Scene
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
+Gradient = Callable[[Real, Real, Summed], dict[str, Real]]
 
 AREA = {"b": ("contact", "width_mm"), "L": ("contact", "length_mm")}
 MOST_ROWS = 100  # of a table: each is a parameter
@@ -109,9 +110,10 @@ def _entry(load: Load, key: str) -> float:
 @dataclass(frozen=True)
 class ParametrisedEquation(WearEquation):
     """The wear of scenes with its derivatives with respect to numbers of the scene: `chain`
-    (scenes, symbols, parameters) leads from the parameters of the model to these, and `of_load`
-    has the place among these of numbers of the load."""
+    (scenes, symbols, parameters) leads from the parameters of the model, by their `symbols`, to
+    these, and `of_load` has the place among these of numbers of the load."""
 
+    symbols: Sequence[str]
     chain: FloatArray
     of_load: Mapping[str, int]
 
@@ -127,31 +129,32 @@ class ParametrisedEquation(WearEquation):
         some = super().take(rows)
         return dataclasses.replace(self, model=some.model, loads=some.loads, chain=self.chain[rows])
 
-    def along(self, gradient: Mapping[str, FloatArray], phases: FloatArray) -> FloatArray:
-        """Return derivatives (k, m, parameters) of what has a `gradient` by symbol of the model,
-        (k, m) each, at the phases (k, m); of one scene."""
-        symbols = self.model.module.Parameters._fields
-        found = np.zeros((*phases.shape, self.parameters))
-        for row, symbol in zip(self.chain[0], symbols, strict=False):
-            if symbol in gradient and row.any():
-                found += np.asarray(gradient[symbol])[..., None] * row
-        if self.of_load:
-            waves = self.loads[0].gradient(phases)
-            for key, place in self.of_load.items():
-                found[..., place] += gradient["U_a"] * waves[key]
-        return found
-
     def by_parameters(
         self, u: FloatArray, phases: FloatArray, forcing: FloatArray, weights: FloatArray
     ) -> FloatArray:
         """Return the sum over all nodes of weights times the derivative of the wear per cycle."""
-        weights = weights * self._period
-        by_load, *by_symbol = self._model.rate_gradient(
+        return self.along(self._model.rate_gradient, u, phases, forcing, weights * self._period)
+
+    def along(
+        self,
+        gradient: Gradient,
+        u: FloatArray,
+        phases: FloatArray,
+        forcing: FloatArray,
+        weights: FloatArray,
+    ) -> FloatArray:
+        """Return the sum (scenes, starts, parameters) over all nodes of `weights` times the
+        derivatives of what has a `gradient` by symbol of the model; of one scene each row may have
+        phases of its own."""
+        by_symbol = gradient(
             u, forcing, lambda values: np.sum(weights * values, axis=(2, 3), keepdims=True)
-        ).values()
-        found = np.stack(by_symbol, axis=-1)[:, :, 0, 0] @ self.chain
+        )
+        by_load = by_symbol.pop("U_a")
+        rows = [self.symbols.index(symbol) for symbol in by_symbol]
+        sums = np.stack([*by_symbol.values()], axis=-1)[:, :, 0, 0]
+        found = sums @ self.chain[:, rows]
         if self.of_load:
-            flat = (weights * by_load).reshape(*u.shape[:2], -1)
+            flat = (weights * by_load).reshape(*u.shape[:2], phases[0].size)
             found[..., list(self.of_load.values())] = flat @ self._load_gradient(phases)
         return np.asarray(found)
 
@@ -186,4 +189,4 @@ def parametrised(
     of_load = {
         key: column[f"{place}.{key}"] for key in numbers_of(loads[0]) if f"{place}.{key}" in column
     }
-    return ParametrisedEquation(model, loads, chain, of_load)
+    return ParametrisedEquation(model, loads, symbols, chain, of_load)

@@ -31,8 +31,8 @@ from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import no_such_number, parameters_of, parametrised
 from wear.progress import Pace
+from wear.request import checked_request, obstacle
 from wear.scene import Scene, as_scene
-from wear.solver import checked_request, obstacle
 from wear.states import fields_at, result_notices
 
 FloatArray = NDArray[np.float64]
@@ -159,7 +159,7 @@ def _of_one_variant(
             part = Tangents(*map(np.concatenate, zip(*rows, strict=True)))
         else:
             equation = parametrised(scenes, acting, keys)
-            counted = orbit(equation, wanted[:, -1], rtol, start, missed)
+            counted = orbit(equation, wanted[:, -1], rtol, start, missed, keep=True)
             part = tangents(equation, counted, wanted, rtol, slope, slope_error)
         for whole, values in zip(found, part, strict=True):
             whole[..., here] = values[..., :-1]
@@ -279,7 +279,7 @@ def sensitivity(
     scene = as_scene(scene)
     if (against := obstacle(scene)) is not None:
         raise UsageError(f"cycles cannot be counted: {against}")
-    wanted = checked_request(scene, cycles, rtol, "abel", None)
+    wanted = checked_request(scene, cycles, rtol)
     numbers = parameters_of(scene)
     counted = np.array(wanted, dtype=float)
     found = _of_one_variant([scene], list(numbers), counted, rtol, Pace(progress).say)

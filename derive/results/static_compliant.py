@@ -109,7 +109,8 @@ class StaticCompliant:
         known = {sp.diff(logarithm, p_s): p_max / (p_s * (p_max - p_s)), logarithm: log_odds}
         slope = p_max / p_s * sp.diff(worn, p_s).subs(known).subs(p, p_s)
         claim = sp.Eq(2 * C * t, sp.Integral(slope, (p_s, p_start, p)))
-        time = Separate(claim)(self.rate, wear, assume(CONSTANT), *below, *facts)
+        root = bearing_only().pressure_of_bearing_wear, self.model.roughness_at_wear
+        time = Separate(claim)(self.rate, wear, *root, assume(CONSTANT), *below, *facts)
         return Integrated(primitive, rest)(time, *below, *facts, name="time")
 
 

@@ -18,8 +18,7 @@ from ..claims import Equality, FirstZero
 from ..kernel import Conclusion, Judgement, Rule, RuleError, plain
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .calculus import WEARING
-from .proving import require, require_defined, smooth
+from .proving import WEARING, continuous, facts_of, require, require_defined, sign, smooth
 from .reading import (
     CONSTANT,
     LOAD,
@@ -40,13 +39,13 @@ class Separate(Rule):
     """``du/dt = Q(y)`` and ``u = G(y)`` give ``c t = int g(s) ds`` from y(0) to y, ``g Q = c G'``.
 
     Premises: the rate, then u in terms of y, unless y is u, and y(0), unless the integral begins
-    with this name.  y is a wear or a roughness, which has a rate, or the pressure, which is
-    continuous as the load is constant.
+    with this name.  y is a wear or a roughness, which has a rate, or the pressure: a premise says
+    that it is the one root of ``p = R(p, u)``, where ``p - R`` increases, so it is continuous.
     """
 
     claim: sp.Equality
     words = "Separate the variables of {0} and integrate from the start on, with {others}."
-    source = "chain rule; fundamental theorem of calculus"
+    source = "chain rule; implicit function theorem"
     asks = ("the rate",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -58,6 +57,8 @@ class Separate(Rule):
         start = y.subs(t, 0)
         if y not in (*WEARING, PRESSURE) or known.get(start, start) != first:
             raise RuleError(f"missing premise: {start} = {first}, of what moves")
+        if y == PRESSURE:
+            _require_root(known.get(y, y), u, *premises)
         require_defined(self.claim, *premises)
         moving, load = sp.Dummy(**s.assumptions0), sp.Dummy(real=True)
         rate, wear = (e.xreplace({y: moving, LOAD: load}) for e in (rate, wear))
@@ -69,6 +70,18 @@ class Separate(Rule):
         if not is_zero(g * rate - pace * sp.diff(wear, moving)):
             raise RuleError(f"missing premise: {law.relation} separates into {self.claim}")
         return Conclusion(Equality(*self.claim.args))
+
+
+def _require_root(value: sp.Expr, u: sp.Expr, *premises: Judgement) -> None:
+    """Refuse unless the pressure is the one root of ``p = R(p, u, load)``, so that it follows u."""
+    p = sp.Dummy("p", positive=True)
+    value = value.xreplace({PRESSURE: p})
+    moving = {unknown: unknown for unknown in (p, u, LOAD)}
+    fixed = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
+    known = constant(fixed) and not fields(fixed) and smooth(value, p)
+    increases = known and sign(1 - sp.diff(value, p), facts_of(premises)) == 1
+    if not increases or not continuous(value, moving, *premises):
+        raise RuleError(f"missing premise: {PRESSURE} is the one root of an equation")
 
 
 @dataclass(frozen=True)

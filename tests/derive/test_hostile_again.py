@@ -22,12 +22,12 @@ from derive.rules.algebra import (
     Multiply,
     discharge,
     forget,
+    restrict,
     substitute,
 )
 from derive.rules.assumption import assume, defined
 from derive.rules.averages import Averaging, SlowTime, term_of
 from derive.rules.calculus import (
-    DIFFERENTIABLE,
     ParameterLimit,
     change_clock,
     differentiate,
@@ -47,6 +47,7 @@ from derive.rules.limits import (
     unbounded,
     vanishes,
 )
+from derive.rules.proving import DIFFERENTIABLE
 from derive.rules.reading import CONTINUOUS, PERIODIC
 from derive.rules.solutions import Separate
 from derive.symbols import initial, rate, symbol, symbols, t
@@ -68,7 +69,8 @@ from tests.derive.judgements import (
 
 u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, f_c, C, T, N, q, b_0, d, M = symbols("h_0 f_c C T N q b_0 d M")
-theta, u_cum, U_mean, tau, u_stop, c_1, m = symbols("theta u_cum U_mean tau u_stop c_1 m")
+p_max, theta, u_cum, U_mean, tau = symbols("p_max theta u_cum U_mean tau")
+u_stop, c_1, m, p_s = symbols("u_stop c_1 m p_s")
 x, y = sp.symbols("x y", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 WIGGLE = sp.Function("wiggle", real=True)(t)
@@ -114,9 +116,26 @@ def by_value(first: sp.Expr, claim: sp.Expr, value: sp.Expr) -> Judgement:
 
 def by_pressure(field: sp.Expr, size: sp.Expr) -> Judgement:
     """The time at which a field has a value, where wear is a multiple of its size."""
-    law, wear = given(equal(du, C)), given(equal(u_c, h_0 * size))
-    claim = equal(t, sp.Integral(h_0 / C, (symbol("p_s"), field.subs(t, 0), field)))
-    return Separate(claim)(law, wear, CONSTANTLY)
+    root = given(equal(p, p_max * u_c / h_0)) if field == p else START
+    law, wear = given(equal(du, C)), given(equal(u_c, h_0 * size / p_max))
+    claim = equal(t, sp.Integral(h_0 / (C * p_max), (p_s, field.subs(t, 0), field)))
+    return Separate(claim)(law, wear, root, CONSTANTLY)
+
+
+def bent(bend: int) -> Judgement:
+    """The time at which the pressure has a value, where wear bends as it grows."""
+    s, first = p / p_max, initial("p") / p_max
+    begin = first + bend * first**2
+    wear, root = h_0 * (s + bend * s**2 - begin), p_max * (u_c / h_0 + begin - bend * s**2)
+    known = given(equal(du, C * s)), given(equal(u_c, wear)), given(equal(p, root))
+    slope = h_0 / (C * p_s) * (1 + 2 * bend * p_s / p_max)
+    return Separate(equal(t, sp.Integral(slope, (p_s, initial("p"), p))))(*known, CONSTANTLY)
+
+
+def within(low: sp.Expr, level: sp.Expr) -> Judgement:
+    """The fraction of a period in which a wear is below a level that it never falls below."""
+    share = sp.Integral(sp.Piecewise((1, u_a >= level), (0, True)), (t, low, T))
+    return restrict(given(equal(theta, share / T)), given(sp.Ge(u_a, level)))
 
 
 def averaged(factor: sp.Expr) -> Judgement:
@@ -349,12 +368,12 @@ CASES: dict[str, Case] = {
     "a logarithm of what is negative, integrated": (
         lambda: Identity(equal(integral(sp.log(q**2), -2, -1), integral(2 * sp.log(q), -2, -1)))(),
         lambda: Identity(equal(integral(sp.log(q**2), 1, 2), integral(2 * sp.log(q), 1, 2)))(),
-        "False",
+        "q is never",
     ),
     "a factor that is an infinite integral": (
         lambda: Multiply(integral(1 / q, 0, 1))(given(equal(h, u_a))),
         lambda: Multiply(integral(1 / q, 1, 2))(given(equal(h, u_a))),
-        "False",
+        "q is never",
     ),
     "a factor that is no limit": (
         lambda: Multiply(sp.Limit(sp.sin(y), y, sp.oo))(given(equal(h, u_a))),
@@ -380,7 +399,38 @@ CASES: dict[str, Case] = {
     "a field of either sign, for a pressure": (  # G = -sqrt(C t/h_0) from some time on
         lambda: by_pressure(G, sp.sqrt(G**2)),
         lambda: by_pressure(p, sp.sqrt(p**2)),
-        "of what moves",
+        "p_s is never",
+    ),
+    "a pressure that may jump": (  # from p to p_max - p, where the wear is the same
+        lambda: bent(-1),
+        lambda: bent(1),
+        "the one root",
+    ),
+    # ---- rates that do not exist, times before 0
+    "the square of a rate": (  # a square load
+        lambda: Arithmetic(sp.Ge(rate("U_a") ** 2, 0))(),
+        lambda: Arithmetic(sp.Ge(rate("U_a") ** 2, 0))(SMOOTH),
+        "Derivative",
+    ),
+    "a factor that is a rate": (  # h jumps
+        lambda: Multiply(rate("h"))(given(equal(u_a, q))),
+        lambda: Multiply(rate("u_c"))(given(equal(u_a, q))),
+        "Derivative",
+    ),
+    "a branch before the start": (  # u_a < h_0 for t < 0
+        lambda: within(-T, h_0),
+        lambda: within(sp.S.Zero, h_0),
+        "t is never -T",
+    ),
+    "a load before the start": (  # U_a = e^-t: nobody says what it was
+        lambda: given(equal(U_a.subs(t, t - T), U_a)),
+        lambda: given(equal(U_a.subs(t, t + T), U_a)),
+        "t is never -T",
+    ),
+    "a rate before the start": (
+        lambda: given(equal(sp.Subs(rate("U_a"), t, -T), C)),
+        lambda: given(equal(sp.Subs(rate("U_a"), t, T), C)),
+        "t is never -T",
     ),
     # ---- averages
     "the average of a pressure that varies with the phase": (

@@ -37,7 +37,6 @@ from derive.rules.algebra import (
 from derive.rules.assumption import assume, defined
 from derive.rules.averages import EXPANSION, Averaging, SlowTime, term_of
 from derive.rules.calculus import (
-    DIFFERENTIABLE,
     ParameterLimit,
     change_clock,
     differentiate,
@@ -57,6 +56,7 @@ from derive.rules.limits import (
     unbounded,
     vanishes,
 )
+from derive.rules.proving import DIFFERENTIABLE
 from derive.rules.reading import CONTINUOUS, PERIODIC, SINE
 from derive.rules.solutions import FirstRoot, Integrated, Lambert, Separate
 from derive.symbols import initial, rate, symbol, symbols, t
@@ -136,12 +136,11 @@ def some_of_the_time(
     return intermittent(law, defined(d, share), above, *loads)
 
 
-def by_pressure(
-    g: sp.Expr = -h_0 / (C * p_s), wear: sp.Expr = U_a - h_0 * p / p_max, field: sp.Expr = p
-) -> Judgement:
+def by_pressure(g: sp.Expr = -h_0 / (C * p_s), wear: sp.Expr = U_a - h_0 * p / p_max) -> Judgement:
     """Separate the variables in terms of the pressure, with one thing wrong."""
-    law, claim = eq(rate("u_c"), C * p / p_max), sp.Integral(g, (p_s, field.subs(t, 0), field))
-    return Separate(equal(t, claim))(law, eq(u_c, wear), CONSTANTLY)
+    law, claim = eq(rate("u_c"), C * p / p_max), sp.Integral(g, (p_s, initial("p"), p))
+    root = eq(p, p_max * (U_a - u_c) / h_0)
+    return Separate(equal(t, claim))(law, eq(u_c, wear), root, CONSTANTLY)
 
 
 def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Judgement:
@@ -343,7 +342,6 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("Ne", lambda: timed(1 / f_c, f_c, START)),
     ("separates", lambda: timed(2 / C, C, START)),
     ("of what moves", lambda: timed(1 / C, C, eq(initial("u_c"), 1))),
-    ("of what moves", lambda: by_pressure(field=G)),
     ("smooth functions", lambda: by_pressure(wear=U_a - sp.Abs(b_0 - p))),
     ("separates", lambda: by_pressure(-2 * h_0 / (C * p_s))),
     ("Ne", lambda: Integrated(1 / b_0)(eq(G, sp.Integral(p_s, (p_s, 1, 2))))),

@@ -81,7 +81,8 @@ WORN = equal(t, sp.Integral(1 / C, (u_s, 0, u_c)))
 def by_pressure(law: Judgement) -> Judgement:
     """Separate the variables where wear is proportional to the pressure."""
     claim = equal(t, sp.Integral(h_0 / (C * p_max), (p_s, initial("p"), p)))
-    return Separate(claim)(law, eq(u_c, h_0 * p / p_max), CONSTANTLY)
+    wear, root = eq(u_c, h_0 * p / p_max), eq(p, p_max * u_c / h_0)
+    return Separate(claim)(law, wear, root, CONSTANTLY)
 
 
 def integral_over(body: sp.Expr, s: sp.Symbol, low: int = 1) -> Judgement:

@@ -51,6 +51,13 @@ def test_bounds_under_a_constant_load_close_as_the_wear_slows_down():
     assert late.high / late.low < early.high / early.low < 1.1
 
 
+def test_bounds_contain_what_equidistant_phases_miss():
+    """Hardly any wear, under a load so large that 64 phases resolve its pulse to 6e-4 only."""
+    made = replace(scene(K=1e-9, f_c=0.05), load=Sine(3e-3, 0.06))
+    (bounds,) = wear_bounds(made, [1])
+    assert contains(bounds, float(solve(made, [1], rtol=1e-10).u_c[0]))
+
+
 def test_static_bounds_are_looser():
     cycles = [1, 50]
     for tight, loose in zip(

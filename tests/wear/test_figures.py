@@ -108,6 +108,14 @@ def test_width_is_the_width_of_a_column(written):
         assert float(width[1]) == pytest.approx(millimetres / 25.4 * 72.0, rel=1e-5)
 
 
+@pytest.mark.usefixtures("written")
+def test_nothing_sticks_out_of_a_figure_that_was_laid_out(drawn):
+    for figure in drawn.values():
+        (left, low), (right, high) = figure.get_tightbbox().get_points()
+        width, height = figure.get_size_inches()
+        assert min(left, low, width - right, height - high) > 0.0
+
+
 def test_curves_are_the_data_in_micrometres(drawn):
     curves = [line for line in drawn["wear"].axes[0].lines if len(line.get_xdata()) == 201]
     for curve, line in zip(curves, _lines(), strict=True):

@@ -214,6 +214,38 @@ def test_a_study_larger_than_the_disk_is_refused(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+# What is hardly meant
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_what_is_hardly_meant_is_said_once_a_kind_with_the_count_and_the_worst_row(tmp_path):
+    vary = ["bearing.roughness_mm=0.36,0.00036", "motion.radius_mm=1:22:9", f"{HARDNESS}=200,-1"]
+    found = study("section4", vary, [10, 10**8], tmp_path / "a.zarr").attrs["notices"]
+    entry, depth, rough = found
+    assert "[bearing] roughness_mm = 0.36 is outside" in entry
+    assert "um typed as mm? (9 of 36 rows;" in entry
+    rows = {
+        (roughness, radius): wear.solve(wear.load_scene("section4").with_(
+            {"bearing.roughness_mm": roughness, "motion.radius_mm": radius}), [10**8])
+        for roughness in (0.36, 0.00036) for radius in np.linspace(1, 22, 9)
+    }  # fmt: skip
+    for text, words in ((depth, "% of the radius"), (rough, "ISO 1302")):
+        alone = [name for name, row in rows.items() if any(words in n for n in row.notices)]
+        assert words in text
+        assert f"({len(alone)} of 36 rows; the worst has bearing.roughness_mm = " in text
+    roughness, radius = max(rows, key=lambda name: rows[name].u_c[0] / name[1])
+    assert f"bearing.roughness_mm = {roughness:g}, motion.radius_mm = {radius:g}, " in depth
+
+
+def test_strict_refuses_a_study_whose_rows_are_implausible(call, tmp_path):
+    words = ["section4", "--vary", f"{HARDNESS}=200,2e8", "--cycles", "9", "--workers", "1"]
+    words += ["-o", str(tmp_path / "a.zarr")]
+    status, _, messages = call("study", *words)
+    assert (status, "Pa typed as MPa? (1 of 2 rows; the worst has" in messages) == (0, True)
+    status, shown, messages = call("study", *words, "--strict")
+    assert (status, shown, "Pa typed as MPa?" in messages) == (2, "", True)
+
+
 # Workers
 
 

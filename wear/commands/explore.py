@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments
 
 SUMMARY = "an interactive page: the wear follows the parameters"
@@ -20,13 +20,8 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_scene(parser, default="section4")
     arguments.add_readings(parser, "show readings: columns cycles, wear_mm or wear_um")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        default="explorer.html",
-        help="the page to write (default: %(default)s)",
-    )
+    about = "the page to write (default: %(default)s)"
+    declare(parser, "-o, --output FILE", about, default="explorer.html")
 
 
 def execute(options: argparse.Namespace) -> Answer:

@@ -1,10 +1,10 @@
 """Derivatives of the wear with respect to parameters, where contact is lost.
 
-Within a stretch of contact the wear rate is smooth, and the equation linearised there has the
-matrix of the collocation. On a rigid support the rate jumps where contact begins and ends: the
-phases at which it does so change with the parameter, and with them the wear, by the rate times that
-change. While the solids slide along the edge the wear is a function of the load alone. Where
-contact grazes a turning point of the load the derivatives are those from one side.
+Within a stretch of contact the wear rate is smooth, and the equation linearised there is solved by
+weights: one set for all parameters. On a rigid support the rate jumps where contact begins and
+ends: the phases at which it does so change with the parameter, and with them the wear, by the rate
+times that change. While the solids slide along the edge the wear is a function of the load alone.
+Where contact grazes a turning point of the load the derivatives are those from one side.
 
 References
     M. di Bernardo, C. J. Budd, A. R. Champneys, P. Kowalczyk, *Piecewise-smooth Dynamical Systems*,
@@ -20,20 +20,22 @@ import numpy as np
 from wear.counted import Counted
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.loss_of_contact.contact import ContactPart
-from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
+from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap, switched_period_map
 from wear.loss_of_contact.switching import Piece, edge_of_contact
 from wear.numerics.chebyshev import chebyshev_nodes
-from wear.numerics.gauss import FloatArray
+from wear.numerics.gauss import BoolArray, FloatArray, Gauss
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.iterates import Iterates
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import settings
+from wear.orbit.segments import Counted as SegmentCount
 from wear.orbit.tangent import Added, Tangents, after_on_cells, sums_on_cells
 from wear.orbit.transient import SAFETY
-from wear.parameters import ParametrisedEquation
+from wear.parameters import Gradient, ParametrisedEquation
 
 LEFT = 1e12  # digits of the derivative of a limit, which follows from the margin alone
+STIFF = 10.0  # decay over a part, as an exponent: then a system of equations is solved
 
 
 @np.errstate(all="ignore")
@@ -47,26 +49,34 @@ def stage_tangents(
 ) -> Tangents:
     """Return the derivatives of the wear of one scene after `cycles` (1, n), as the count `found`
     has it to `rtol`, if the first wear has the derivative `start` (1, parameters), known up to
-    `start_error`."""
-    size = settings(rtol)
+    `start_error`.
+
+    The cycles of all segments are linearised at once.
+    """
+    size, counts = settings(rtol), [segment.counted for segment in found.orbit.segments]
     scene = [equation.model], equation.loads, [edge_of_contact(equation.model, equation.loads[0])]
-    both = _Maps(
+    maps = (
         switched_period_map(*scene, size.phase_nodes, size.endpoint_tolerance),
         switched_period_map(*scene, size.finer_nodes),
+    )
+    begun = zip(*map(_starts, counts), strict=True)
+    coarse, fine = (
+        _of_each(cycle, equation, each) for cycle, each in zip(maps, begun, strict=True)
     )
     u, error = (values[None] for values in found.after(cycles[0]))
     derivative, missed = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
     increment = np.zeros(cycles.shape)
     now, now_error = start[0], start_error[0]
-    for segment in found.orbit.segments:
+    for segment, result, judge in zip(found.orbit.segments, coarse, fine, strict=True):
         begins, counted = segment.begins, segment.counted
         here = cycles[0] >= begins
         last = counted.whole_cycles
         wanted = np.append(np.minimum(cycles[0, here] - begins, last), last)
         if isinstance(counted, Iterates):
-            part = _one_by_one(both, equation, counted, wanted, now, now_error)
+            part = _one_by_one(counted, judge, result, wanted, now, now_error)
         elif isinstance(counted, TabulatedCount):
-            part = _tabulated(both, equation, counted, wanted, now, now_error)
+            limit = _limit_of(equation, counted)
+            part = _tabulated(counted, result, judge, limit, wanted, now, now_error)
         elif counted.at_rest[0]:
             limit = np.tile(_limit(equation, found.last_wear), (len(wanted), 1))
             part = _Part(limit, np.abs(limit) / LEFT, np.zeros_like(wanted))
@@ -80,11 +90,16 @@ def stage_tangents(
     return Tangents(u, error, derivative, missed, increment)
 
 
-class _Maps(NamedTuple):
-    """The one-cycle map twice: `coarse` gives the result, `fine` judges it."""
+class Linearised(NamedTuple):
+    """Cycles from some starts (k,): the `increment` (k,), mm, and `tangent` (k, 1 + parameters),
+    its derivatives with respect to the wear before the cycle, and to parameters.
 
-    coarse: SwitchedPeriodMap
-    fine: SwitchedPeriodMap
+    Near a limit wear that of the increment is small: from the derivative of the wear, one more, it
+    would be lost to cancellation.
+    """
+
+    increment: FloatArray
+    tangent: FloatArray
 
 
 class _Part(NamedTuple):
@@ -96,21 +111,41 @@ class _Part(NamedTuple):
     increment: FloatArray
 
 
+def _starts(counted: SegmentCount) -> tuple[FloatArray, FloatArray]:
+    """Return the wears (mm) from which cycles of a segment are linearised, with the coarse map and
+    with the fine one."""
+    if isinstance(counted, Iterates):
+        wear, uncertain = counted.transient[0, :-1], counted.transient_error[0, :-1]
+        # Beside the start by its error: near a grazing wear that may be the larger part.
+        return wear + uncertain, wear
+    if isinstance(counted, TabulatedCount):
+        nodes = chebyshev_nodes(counted.panels.series.shape[1])
+        coarse, fine = (
+            counted.coordinate.wear(_resolved(counted, t)).ravel() for t in (nodes, CHECKS)
+        )
+        return coarse, fine
+    return np.empty(0), np.empty(0)
+
+
+def _resolved(counted: TabulatedCount, t: FloatArray) -> FloatArray:
+    """Return z (panels, n) at the positions `t` (n,) of panels, no nearer to the limit wear than
+    rounding permits."""
+    z = counted.panels.frame.states(t)
+    limit_wear = counted.limit_wear
+    return z if limit_wear is None else np.minimum(z, 1.0 / limit_wear.nearest)
+
+
 def _one_by_one(
-    both: _Maps,
-    equation: ParametrisedEquation,
     counted: Iterates,
+    cycle: Linearised,
+    judge: Linearised,
     cycles: FloatArray,
     start: FloatArray,
     start_error: FloatArray,
 ) -> _Part:
     """Return the derivatives after `cycles` (n,) that were taken one by one."""
-    wear, uncertain = counted.transient[0], counted.transient_error[0]
-    fine = linearised(both.fine, equation, wear[:-1]).tangent
-    # Beside the start by its error: near a grazing wear that may be the larger part.
-    judge = linearised(both.coarse, equation, wear[:-1] + uncertain[:-1]).tangent
     values, errors = [start], [start_error]
-    for own, other in zip(fine, judge, strict=True):
+    for own, other in zip(cycle.tangent, judge.tangent, strict=True):
         multiplier = 1.0 + own[0]
         by_start, apart = multiplier * values[-1], np.abs(own - other)
         by_parameters = apart[0] * np.abs(values[-1]) + apart[1:]
@@ -119,33 +154,28 @@ def _one_by_one(
         values.append(by_start + own[1:])
         errors.append(error + SAFETY * rounding)
     index = cycles.astype(int)
-    added = np.concatenate([[0.0], np.diff(wear)])
+    added = np.concatenate([[0.0], np.diff(counted.transient[0])])
     return _Part(np.array(values)[index], np.array(errors)[index], added[index])
 
 
 def _tabulated(
-    both: _Maps,
-    equation: ParametrisedEquation,
     counted: TabulatedCount,
+    cycle: Linearised,
+    judge: Linearised,
+    limit: FloatArray,
     cycles: FloatArray,
     start: FloatArray,
     start_error: FloatArray,
 ) -> _Part:
     """Return the derivatives after `cycles` (n,) that were counted between two grazing wears.
 
-    Where wear tends to a limit the derivative tends to that of the limit: the sums are those of the
-    difference, which the last cycles before rounding hardly change.
+    Where wear tends to a limit the derivative tends to `limit` (parameters,): the sums are those of
+    the difference, which the last cycles before rounding hardly change.
     """
-    limit_wear, z = counted.limit_wear, counted.coordinate
-    limit = (
-        np.zeros(equation.parameters) if limit_wear is None else _limit(equation, limit_wear.wear)
-    )
-    count, panels = counted.in_z, counted.panels
-    t = chebyshev_nodes(panels.series.shape[1])
-    nodes = _added(both.coarse, equation, counted, t, limit)
-    checks = _added(both.fine, equation, counted, CHECKS, limit)
-    first = counted.table.u[:1]
-    into_z = 1.0 / z.rate(first, np.ones(1))
+    count, z = counted.in_z, counted.coordinate
+    nodes = _added(counted, chebyshev_nodes(counted.panels.series.shape[1]), cycle, limit)
+    checks = _added(counted, CHECKS, judge, limit)
+    into_z = 1.0 / z.rate(counted.table.u[:1], np.ones(1))
     sums = sums_on_cells(
         count, nodes, checks, (into_z * (start - limit))[None], (into_z * start_error)[None]
     )
@@ -157,31 +187,26 @@ def _tabulated(
     return _Part(derivative, error, pace[:, 0] * rate)
 
 
-def _added(
-    cycle: SwitchedPeriodMap,
-    equation: ParametrisedEquation,
-    counted: TabulatedCount,
-    t: FloatArray,
-    limit: FloatArray,
-) -> Added:
+def _added(counted: TabulatedCount, t: FloatArray, cycle: Linearised, limit: FloatArray) -> Added:
     """Return what cycles from the positions `t` (n,) of each panel add to z, and to the sum of
     (dn/dz) (dz/dp), less what it would be if du/dp were `limit` (parameters,) all along."""
     panels, coordinate = counted.panels, counted.coordinate
-    z = panels.frame.states(t)
-    near = np.ones(z.shape)
-    at = z
-    if counted.limit_wear is not None:
-        # Nearer to the limit than rounding permits, the difference shrinks with the distance.
-        at = np.minimum(z, 1.0 / counted.limit_wear.nearest)
-        near = at / z
-    run = linearised(cycle, equation, coordinate.wear(at).ravel())
-    increment = coordinate.step(at, run.increment.reshape(z.shape))
-    tangent = run.tangent.reshape(*z.shape, -1)
+    z, at = panels.frame.states(t), _resolved(counted, t)
+    near = np.where(at < z, at / z, 1.0)  # nearer the difference shrinks with the distance
+    increment = coordinate.step(at, cycle.increment.reshape(z.shape))
+    tangent = cycle.tangent.reshape(*z.shape, -1)
     change = tangent[..., 1:] + limit * tangent[..., :1]
     increment = np.where(near < 1.0, increment / near, increment)
     density = abel.density_after(panels, t, increment)
     into_z = near / coordinate.rate(z + increment, np.ones(1))
     return Added(increment, (density * into_z)[..., None] * change)
+
+
+def _limit_of(equation: ParametrisedEquation, counted: TabulatedCount) -> FloatArray:
+    """Return the derivatives (parameters,) of the wear to which a count tends; zero if to none."""
+    if counted.limit_wear is None:
+        return np.zeros(equation.parameters)
+    return _limit(equation, counted.limit_wear.wear)
 
 
 def _limit(equation: ParametrisedEquation, wear: float) -> FloatArray:
@@ -194,16 +219,17 @@ def _limit(equation: ParametrisedEquation, wear: float) -> FloatArray:
     return np.asarray(-change[0, 1:] / slope[0])
 
 
-class Linearised(NamedTuple):
-    """Cycles from some starts (k,): the `increment` (k,), mm, and `tangent` (k, 1 + parameters),
-    its derivatives with respect to the wear before the cycle, and to parameters.
-
-    Near a limit wear that of the increment is small: from the derivative of the wear, one more, it
-    would be lost to cancellation.
-    """
-
-    increment: FloatArray
-    tangent: FloatArray
+def _of_each(
+    cycle: SwitchedPeriodMap, equation: ParametrisedEquation, starts: tuple[FloatArray, ...]
+) -> list[Linearised]:
+    """Return the cycles from the starts (mm) of each segment, all of them at once."""
+    wear, few = np.concatenate(starts), AT_ONCE // len(cycle.rule.nodes)
+    runs = [
+        linearised(cycle, equation, wear[at : at + few]) for at in range(0, max(len(wear), 1), few)
+    ]
+    ends = np.cumsum([len(each) for each in starts])[:-1]
+    arrays = (np.split(np.concatenate(parts), ends) for parts in zip(*runs, strict=True))
+    return [Linearised(*each) for each in zip(*arrays, strict=True)]
 
 
 def linearised(
@@ -230,40 +256,53 @@ def _through(
 ) -> None:
     """Carry the `tangent` (k, 1 + parameters) of the increment through the parts of contact on a
     piece."""
-    fresh = np.full(len(tangent), True)
-    for part in parts:
-        rows, first = part.rows, fresh[part.rows]
+    fresh, rigid = np.full(len(tangent), True), not equation.model.compliant
+    for part in (part for part in parts if len(part.rows)):
+        rows, last = part.rows, part.start + part.inside[-1]
+        opens = rigid & fresh[rows] & (part.begin > piece.begin[rows])
+        ends = rigid & part.ended
         fresh[rows] = False
-        if not equation.model.compliant:
-            opens = first & (part.begin > piece.begin[rows])
-            tangent[rows[opens]] += _jump(
-                equation, part.start[opens], part.begin[opens], tangent[rows[opens]], closed=False
-            )
+        tangent[rows] += _jump(equation, part.start, part.begin, tangent[rows], opens, False)
         tangent[rows] = _smooth(cycle, equation, part, tangent[rows])
-        if not equation.model.compliant:
-            ended, end = part.ended, part.begin + part.length
-            last = part.start + part.inside[-1]
-            tangent[rows[ended]] -= _jump(
-                equation, last[ended], end[ended], tangent[rows[ended]], closed=True
-            )
+        end = part.begin + part.length
+        tangent[rows] -= _jump(equation, last, end, tangent[rows], ends, True)
 
 
 def _smooth(
     cycle: SwitchedPeriodMap, equation: ParametrisedEquation, part: ContactPart, tangent: FloatArray
 ) -> FloatArray:
-    """Return the tangent (k, 1 + parameters) at the end of a part: the collocation, linearised."""
-    (load,), model, rule = equation.loads, equation.model, cycle.rule
-    phases = part.begin[:, None] + part.length[:, None] * rule.nodes
+    """Return the tangent (k, 1 + parameters) at the end of a part."""
+    (load,), model = equation.loads, equation.model
+    phases = part.begin[:, None] + part.length[:, None] * cycle.rule.nodes
     u, U_a = part.start[:, None] + part.inside.T, load(phases)
     rates = model.law_rate_and_slope if part.by_law else model.edge_rate_and_slope
-    slope = load.period * rates(u, U_a)[1]
     gradient = model.rate_gradient if part.by_law else model.edge_rate_gradient
-    by_parameters = load.period * equation.along(gradient(u, U_a), phases)
-    changes = np.concatenate([slope[..., None], by_parameters], axis=-1)
-    integrate = part.length[:, None, None] * rule.integrate
-    matrix = np.eye(len(rule.nodes)) - integrate * slope[:, None, :]
-    right = tangent[:, None] + integrate @ changes
-    return np.asarray(np.linalg.solve(matrix, right)[:, -1])  # Radau's last node is the end
+    slope = load.period * rates(u, U_a)[1]
+    multiplier, weights = _weights(cycle.rule, part.length[:, None], slope)
+    by_parameters = _along(equation, gradient, u, phases, U_a, load.period * weights)
+    by_wear = np.sum(weights * slope, axis=1, keepdims=True)
+    return np.asarray(multiplier[:, None] * tangent + np.column_stack([by_wear, by_parameters]))
+
+
+def _weights(rule: Gauss, length: FloatArray, slope: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the solution at the end of x' = slope x + change over a `length` (k, 1), whose `slope`
+    (k, m) is known at the nodes: how often it is the x of the start (k,), and the weights (k, m) of
+    the changes.
+
+    These are the exponential of the integral of the slope up to the end; where much decays they
+    solve the transposed equations of the collocation. Radau's last node is the end.
+    """
+    decay = length * slope @ rule.integrate.T
+    ahead = decay[:, -1:] - decay
+    weights, multiplier = length * rule.weights * np.exp(ahead), np.exp(decay[:, -1])
+    stiff = ~(np.max(np.abs(decay), axis=1) < STIFF)
+    if stiff.any():
+        transposed = np.eye(len(rule.nodes)) - (length * slope)[stiff, :, None] * rule.integrate.T
+        last = np.eye(len(rule.nodes))[:, -1:]
+        adjoint = np.linalg.solve(transposed, last[None])[..., 0]
+        weights[stiff] = length[stiff] * (adjoint @ rule.integrate)
+        multiplier[stiff] = np.sum(adjoint, axis=1)
+    return multiplier, weights
 
 
 def _jump(
@@ -271,15 +310,20 @@ def _jump(
     u: FloatArray,
     phase: FloatArray,
     tangent: FloatArray,
+    which: BoolArray,
     closed: bool,
 ) -> FloatArray:
     """Return the wear rate times the advance of the phase at which contact begins, or, if it was
-    `closed`, ends: (k, 1 + parameters)."""
-    (load,), model = equation.loads, equation.model
-    slope, change = _margin(equation, u, phase)
-    rate = load.period * model.law_rate(u, load(phase))
-    pull = load.slope(phase) + (slope * rate if closed else 0.0)
-    return np.asarray((rate / pull)[:, None] * (slope[:, None] * tangent + change))
+    `closed`, ends: (k, 1 + parameters); zero but for `which` (k,)."""
+    found = np.zeros_like(tangent)
+    if which.any():
+        (load,), model = equation.loads, equation.model
+        u, phase = u[which], phase[which]
+        slope, change = _margin(equation, u, phase)
+        rate = load.period * model.law_rate(u, load(phase))
+        pull = load.slope(phase) + (slope * rate if closed else 0.0)
+        found[which] = (rate / pull)[:, None] * (slope[:, None] * tangent[which] + change)
+    return found
 
 
 def _margin(
@@ -288,7 +332,14 @@ def _margin(
     """Return the derivative (k,) of the margin of contact with respect to the wear, and those
     (k, 1 + parameters) with respect to the wear and to parameters, at the same phase."""
     (load,), model = equation.loads, equation.model
-    U_a = load(phase)
-    gradient = {symbol: each[:, None] for symbol, each in model.margin_gradient(u, U_a).items()}
-    slope, by_parameters = model.margin_slope(u, U_a), equation.along(gradient, phase[:, None])
-    return slope, np.column_stack([slope, by_parameters[:, 0]])
+    U_a, at = load(phase), phase[:, None]
+    one = np.ones(at.shape)
+    by_parameters = _along(equation, model.margin_gradient, u[:, None], at, U_a[:, None], one)
+    slope = model.margin_slope(u, U_a)
+    return slope, np.column_stack([slope, by_parameters])
+
+
+def _along(equation: ParametrisedEquation, gradient: Gradient, *each: FloatArray) -> FloatArray:
+    """Return the sums (k, parameters) of derivatives over nodes (k, m), see
+    `ParametrisedEquation.along`."""
+    return equation.along(gradient, *(values[:, None, None] for values in each))[:, 0]

@@ -21,6 +21,7 @@ from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, gauss
 from wear.numerics.tolerances import TINY
 from wear.orbit.abel import Panels, level_and_shape
+from wear.orbit.panels import PanelCycles
 
 NODES = 16  # on each cell
 SERIES = 4  # coefficients of the panel's series to each cell, at most
@@ -199,7 +200,8 @@ class Iterates(NamedTuple):
     `transient_error` their estimated errors; the cells of all scenes, one after the other, count
     beyond, and `count_error` (s, cells + 1) is the estimated error of n where each cell starts and
     where the last one ends. Without cells the state stays as it is. States from `limit` (s,) on
-    have no meaning. The mesh of phase on which all this was found has `edges` (s, q + 1).
+    have no meaning. The mesh of phase on which all this was found has `edges` (s, q + 1), and
+    `cycles` are those from the nodes of panels and from the CHECKS, if they were kept.
     """
 
     transient: FloatArray
@@ -209,18 +211,28 @@ class Iterates(NamedTuple):
     count_error: FloatArray
     limit: FloatArray
     edges: FloatArray
+    cycles: tuple[PanelCycles, ...] = ()
 
     def take(self, rows: IntArray) -> Iterates:
         """Return some of the scenes."""
-        table, panels, missed = self.cells, self.panels, self.count_error[rows]
+        table, panels, cycles = self.cells, self.panels, self.cycles
         if table is not None and panels is not None:
             of_scene = len(table.u) // len(self.transient)
             chosen = (rows[:, None] * of_scene + np.arange(of_scene)).ravel()
             table = Cells(*(array[..., chosen] for array in table))
             each = len(panels.series) // len(self.transient)
-            panels = panels.take((rows[:, None] * each + np.arange(each)).ravel())
-        transient, error = self.transient[rows], self.transient_error[rows]
-        return Iterates(transient, error, table, panels, missed, self.limit[rows], self.edges[rows])
+            mine = (rows[:, None] * each + np.arange(each)).ravel()
+            panels, cycles = panels.take(mine), tuple(part.take(mine) for part in cycles)
+        return Iterates(
+            self.transient[rows],
+            self.transient_error[rows],
+            table,
+            panels,
+            self.count_error[rows],
+            self.limit[rows],
+            self.edges[rows],
+            cycles,
+        )
 
     @property
     def integrated_cycles(self) -> int:

@@ -79,8 +79,8 @@ class Job(NamedTuple):
 class Jobs:
     """The counts of one segment of some scenes, found in jobs of scenes that go together."""
 
-    def __init__(self, problem: Problem, request: Request, rtol: float) -> None:
-        self.problem, self.request, self.rtol = problem, request, rtol
+    def __init__(self, problem: Problem, request: Request, rtol: float, keep: bool) -> None:
+        self.problem, self.request, self.rtol, self.keep = problem, request, rtol, keep
         self.size = size = settings(rtol, problem.breakpoints)
         self.cost = Cost(0, 0)
         self.scale, self.limit = problem.scale, problem.limit
@@ -171,7 +171,7 @@ class Jobs:
         widest = np.inf if number else FAR_TOO_WIDE
         assert job.layout is not None
         fine, (scene, frame) = job.maps.finer(self.size), job.layout
-        filled = fill(job.maps, fine, scene, frame, self.size, tolerance, widest)
+        filled = fill(job.maps, fine, scene, frame, self.size, tolerance, widest, self.keep)
         self.cost = self.cost.plus(filled.increments, filled.evaluations)
         spent = job.spent + filled.evaluations / len(which)
         scene, residual = filled.panels.scene, filled.panels.residual
@@ -278,6 +278,7 @@ class Jobs:
                 missed,
                 self.limit[which],
                 _edges(job.maps, rows),
+                some.cycles,
             )
             yield rows, counted
 

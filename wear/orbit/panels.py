@@ -26,20 +26,38 @@ MOST_ROUNDS = 12  # of refinement
 MOST_PANELS = 200  # of a scene
 
 
+class PanelCycles(NamedTuple):
+    """Cycles from some positions of panels: the `increment` (panels, k), and what has been added
+    `inside` (panels, k, q, m), at the nodes of phase."""
+
+    increment: FloatArray
+    inside: FloatArray
+
+    def take(self, which: slice | BoolArray | IntArray) -> PanelCycles:
+        """Return those of some of the panels."""
+        return PanelCycles(self.increment[which], self.inside[which])
+
+
 class SolvedPanels(NamedTuple):
     """Panels of many scenes, in rising order scene by scene: the `scene` (panels,) of each, its
     density, the greatest `residual` (panels,) off the nodes, and whether it is `short` (panels,):
-    cut in two it would hold too few cycles, and might hide an oscillation."""
+    cut in two it would hold too few cycles, and might hide an oscillation. If they are kept, the
+    `cycles` from the nodes, and those from the CHECKS that judge them."""
 
     scene: IntArray
     density: abel.Panels
     residual: FloatArray
     short: BoolArray
+    cycles: tuple[PanelCycles, ...] = ()
 
     def take(self, which: BoolArray | IntArray) -> SolvedPanels:
         """Return some of the panels."""
         return SolvedPanels(
-            self.scene[which], self.density.take(which), self.residual[which], self.short[which]
+            self.scene[which],
+            self.density.take(which),
+            self.residual[which],
+            self.short[which],
+            tuple(each.take(which) for each in self.cycles),
         )
 
 
@@ -72,15 +90,16 @@ def fill(
     size: Settings,
     tolerance: FloatArray,
     widest: float,
+    keep: bool,
 ) -> Filled:
     """Solve Abel's equation on panels, each of a `scene` (panels,), and cut those with a residual
     above the `tolerance` (scenes,). Faults of a panel with a residual above `widest` say nothing
-    about the phase."""
+    about the phase. The cycles of panels are kept if that is asked for."""
     done: list[SolvedPanels] = []
     marked = np.zeros((len(tolerance), coarse.over.lengths.shape[-1]), dtype=bool)
     evaluations = increments = 0
     for rounds in range(MOST_ROUNDS):
-        judged = _judged(coarse, fine, scene, frame, size, tolerance, widest)
+        judged = _judged(coarse, fine, scene, frame, size, tolerance, widest, keep)
         fresh = judged.panels
         evaluations += judged.evaluations
         increments += judged.increments
@@ -115,6 +134,10 @@ def _in_order(parts: list[SolvedPanels]) -> SolvedPanels:
         ),
         np.concatenate([part.residual for part in parts]),
         np.concatenate([part.short for part in parts]),
+        tuple(
+            PanelCycles(*(np.concatenate(arrays) for arrays in zip(*each, strict=True)))
+            for each in zip(*(part.cycles for part in parts), strict=True)
+        ),
     )
     return joined.take(np.lexsort((joined.density.frame.starts, joined.scene)))
 
@@ -127,6 +150,7 @@ def _judged(
     size: Settings,
     tolerance: FloatArray,
     widest: float,
+    keep: bool,
 ) -> Judged:
     """Solve Abel's equation with the coarse map, and test it off the nodes with the fine one."""
     coarse, fine, allowed = coarse.take(scene), fine.take(scene), tolerance[scene]
@@ -163,7 +187,8 @@ def _judged(
         rough = at_fault & some.unresolved_phase(again.rate, size.phase_tolerance)
         marked[worst] |= rough
         marked[worst] |= at_fault & ~marked[worst].any(axis=1)[:, None]
-    panels = SolvedPanels(scene, density, residual, short)
+    kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()
+    panels = SolvedPanels(scene, density, residual, short, kept)
     return Judged(panels, share, marked, evaluations, increments)
 
 

@@ -135,9 +135,11 @@ def orbit(
     start: FloatArray,
     start_error: FloatArray,
     deadline: float = np.inf,
+    keep: bool = False,
 ) -> Orbit:
     """Count the `cycles` (s,) of each scene from its state `start` (s,), known up to `start_error`
-    (s,), to the relative accuracy `rtol`, or until states end."""
+    (s,), to the relative accuracy `rtol`, or until states end; `keep` the cycles of panels, for
+    derivatives."""
     cost = Cost(0, 0)
     todo = [(np.arange(problem.scenes), Request(cycles, start, start_error, deadline))]
     found: list[Segment] = []
@@ -145,7 +147,7 @@ def orbit(
     for _ in range(MOST_SEGMENTS):
         following = []
         for which, request in todo:
-            work = Jobs(problem.take(which), request, rtol)
+            work = Jobs(problem.take(which), request, rtol, keep)
             for rows, counted in work.counts():
                 mine, asked = which[rows], request.take(rows)
                 begins = cycles[mine] - asked.cycles
@@ -174,9 +176,8 @@ def orbit(
     # Where the rate rises steeply, a small error of the count is a large one of the state.
     again = np.unique(np.concatenate(lost)) if lost else np.empty(0, dtype=np.intp)
     if len(again) and rtol > TIGHT:
-        tight = orbit(
-            problem.take(again), cycles[again], TIGHT, start[again], start_error[again], deadline
-        )
+        own = cycles[again], TIGHT, start[again], start_error[again], deadline, keep
+        tight = orbit(problem.take(again), *own)
         found = [part for part in (_without(segment, again) for segment in found) if part]
         found += [segment._replace(which=again[segment.which]) for segment in tight.segments]
         cost = cost.plus(*tight.cost)

@@ -26,7 +26,7 @@ from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_i
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
-from wear.orbit.panels import CHECKS, at_checks
+from wear.orbit.panels import CHECKS, PanelCycles
 from wear.orbit.period_map import PeriodMap, Rows, Settings, period_map, settings
 from wear.orbit.problem import Problem
 from wear.orbit.segments import Orbit
@@ -72,7 +72,7 @@ class Linearised(NamedTuple):
     by_parameters: FloatArray
 
 
-def linearised(maps: PeriodMap, starts: FloatArray, run: CycleSolution) -> Linearised:
+def linearised(maps: PeriodMap, starts: FloatArray, run: CycleSolution | PanelCycles) -> Linearised:
     """Return the derivatives of the period map, from the cycles `run` from the `starts`.
 
     A change of the rate at a phase is carried to the end of the cycle by the exponential of the
@@ -105,9 +105,9 @@ def tangents(
     start: FloatArray,
     start_error: FloatArray,
 ) -> Tangents:
-    """Return the derivatives of the states that the orbit `found`, counted to `rtol`, has after
-    `cycles` (s, c), if the first state has the derivative `start` (s, parameters), known up to
-    `start_error`."""
+    """Return the derivatives of the states that the orbit `found`, counted to `rtol` with its
+    cycles kept, has after `cycles` (s, c), if the first state has the derivative `start`
+    (s, parameters), known up to `start_error`."""
     u, error = found.after(cycles)
     shape = (found.scenes, problem.parameters, cycles.shape[1])
     derivative, missed = np.full(shape, np.nan), np.full(shape, np.inf)
@@ -218,10 +218,11 @@ def _on_panels(
     assert panels is not None
     scenes = len(start)
     some = maps.take(np.repeat(np.arange(scenes), len(panels.series) // scenes))
-    t, fine = chebyshev_nodes(panels.series.shape[1]), some.finer(size)
-    run = some.advance(panels.frame.states(t))
-    judge = fine.advance(panels.frame.states(CHECKS), at_checks(run, size.finer_nodes))
-    nodes, checks = _added(some, panels, t, run), _added(fine, panels, CHECKS, judge)
+    at = chebyshev_nodes(panels.series.shape[1]), CHECKS
+    nodes, checks = (
+        _added(each, panels, t, run)
+        for each, t, run in zip((some, some.finer(size)), at, counted.cycles, strict=True)
+    )
     return sums_on_cells(counted, nodes, checks, start, start_error)
 
 
@@ -259,7 +260,7 @@ def sums_on_cells(
     return Sums(sums[:, :-1], errors.cumsum(axis=1), series)
 
 
-def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: CycleSolution) -> Added:
+def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: PanelCycles) -> Added:
     """Return what the cycles `run` from the positions `t` (n,) of each panel add."""
     by_parameters = linearised(maps, panels.frame.states(t), run).by_parameters
     density = abel.density_after(panels, t, run.increment)

@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
-from wear.checked import label_of
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, canvas, stroke, styled
+from wear.quantities import label_of
 from wear.studies.vary import FloatArray
 
 if TYPE_CHECKING:

@@ -80,7 +80,8 @@ def study(
     -------
     xarray.Dataset
         `bearing_wear_mm`, `error_estimate`, `cycles_to_wear`, `status` and `reason`, with a
-        dimension for each key of a grid or one of samples, and one of cycles.
+        dimension for each key of a grid or one of samples, and one of cycles. The attribute
+        `notices` says what is hardly meant in how many rows, and in which most.
 
     Raises
     ------
@@ -113,6 +114,7 @@ def run(
         store.write(chunk, answers)
         done += _rows(chunk)
         pace.at(done)
+    store.judge()
     return store
 
 
@@ -128,8 +130,8 @@ def prepare(
 ) -> Study:
     """Return what is to be solved, or raise all that is wrong with it."""
     from wear.parameters import no_such_number, parameters_of
+    from wear.request import check_rtol, is_number, whole_cycles
     from wear.scene import as_scene
-    from wear.solver import is_number, whole_cycles
 
     base = as_scene(scene)
     faults: list[str] = []
@@ -152,8 +154,7 @@ def prepare(
         faults.append("cycles: a number is given twice")
     if until_wear is not None and not (is_number(until_wear) and 0.0 < until_wear < 1e30):
         faults.append(f"until_wear: {until_wear!r} is no positive number of mm")
-    if not (is_number(rtol) and 1e-13 <= rtol <= 0.1):
-        faults.append(f"rtol: {rtol!r} is not between 1e-13 and 0.1")
+    check_rtol(rtol, faults, least=1e-13)
     if faults or plan is None:
         raise UsageError("\n".join(faults))
     return Study(base, plan, wanted, until_wear, rtol)

@@ -1,0 +1,91 @@
+"""What may be asked of a solver: every fault of a request becomes a sentence among its `faults`."""
+
+from __future__ import annotations
+
+import numbers
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from wear import direct
+from wear.checked import MOST_CYCLES
+from wear.faults import UsageError
+from wear.load import HistoryLoad
+from wear.load.spans import most_cycles
+from wear.scene import Scene
+
+METHODS = ("auto", "abel", "collocation", *direct.METHODS)
+LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
+
+
+def is_number(given: object) -> bool:
+    """Return whether something is a real number and no truth value."""
+    return isinstance(given, numbers.Real) and not isinstance(given, bool)
+
+
+def whole_cycles(
+    cycles: float | Iterable[float], faults: list[str], least: int = 0
+) -> tuple[int, ...]:
+    """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
+    given: Any = cycles.tolist() if isinstance(cycles, np.ndarray | np.generic) else cycles
+    if hasattr(given, "to_numpy"):  # of pandas and xarray
+        given = given.to_numpy().tolist()
+    several = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
+    wanted = []
+    for n in several:
+        if is_number(n) and least <= n <= MOST_CYCLES and n == int(n):
+            wanted.append(int(n))
+        else:
+            faults.append(f"cycles: {n!r} is no whole number from {least} to 1e12")
+    if not several:
+        faults.append("cycles: give at least one number of cycles")
+    return tuple(wanted)
+
+
+def check_rtol(rtol: float, faults: list[str], least: float = LEAST_RTOL) -> None:
+    """Check a requested relative accuracy."""
+    if not is_number(rtol) or not least <= rtol <= LARGEST_RTOL:
+        faults.append(f"rtol: {rtol!r} is not between {least:g} and {LARGEST_RTOL:g}")
+
+
+def obstacle(scene: Scene) -> str | None:
+    """Return why cycles of this scene cannot be counted, None if they can."""
+    return "the load does not repeat" if isinstance(scene.load, HistoryLoad) else None
+
+
+def is_smooth_history(scene: Scene) -> bool:
+    """Return whether the load is a measured history, and contact does not jump."""
+    return isinstance(scene.load, HistoryLoad) and not scene.contact.ends_at_3_sigma
+
+
+def checked_request(
+    scene: Scene,
+    cycles: float | Iterable[float],
+    rtol: float,
+    method: str = "abel",
+    time_limit: float | None = None,
+) -> tuple[int, ...]:
+    """Return the numbers of cycles as integers.
+
+    Raises
+    ------
+    UsageError
+        that says everything that is wrong with the request.
+    """
+    faults: list[str] = []
+    wanted = whole_cycles(cycles, faults)
+    check_rtol(rtol, faults)
+    if method not in METHODS:
+        faults.append(f"method: {method!r} is none of {', '.join(METHODS)}")
+    elif method == "abel" and obstacle(scene) is not None:
+        faults.append(f"method: abel is not for this scene: {obstacle(scene)}; take auto")
+    elif method == "collocation" and not is_smooth_history(scene):
+        faults.append("method: collocation is for a measured history without cutoff; take auto")
+    if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
+        faults.append(f"time_limit: {time_limit!r} is no positive number of seconds")
+    if max(wanted, default=0) > most_cycles(scene.load):
+        faults.append(f"cycles: the load ends after {most_cycles(scene.load)} whole cycles")
+    if faults:
+        raise UsageError("\n".join(faults))
+    return wanted
