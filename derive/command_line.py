@@ -201,7 +201,16 @@ def _parsed(whole: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Na
         wrong = [word for word in left if word.startswith("-")] or left
         hints = (f"{word}: not understood{_meant(word, _options(branch))}" for word in wrong)
         branch.error("\n".join(hints))
+    branch = branches[name_of(options.command)]
+    if twice := [name for action in branch._actions if (name := _repeated(action, words))]:
+        branch.error("\n".join(f"{name}: given more than once; keep one" for name in twice))
     return options
+
+
+def _repeated(action: argparse.Action, words: Sequence[str]) -> str:
+    """Return the name of an option of one value if it stands several times among the words."""
+    given = [word for word in words if word.partition("=")[0] in action.option_strings]
+    return given[-1] if type(action) is argparse._StoreAction and len(given) > 1 else ""
 
 
 def _options(parser: argparse.ArgumentParser) -> list[str]:

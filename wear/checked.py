@@ -17,6 +17,7 @@ import dataclasses
 import difflib
 import functools
 import math
+import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, dataclass_transform, get_args
 
@@ -59,6 +60,11 @@ def shown(text: str, most: int = 60) -> str:
     """
     cut = text if len(text) <= most else text[: most - 3] + "..."
     return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in cut)
+
+
+def is_path(given: object) -> bool:
+    """Return whether something can be the name of a file."""
+    return isinstance(given, str | os.PathLike)
 
 
 def did_you_mean(word: str, candidates: Iterable[str]) -> str:

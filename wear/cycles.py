@@ -22,7 +22,6 @@ import numpy as np
 from wear.checked import MOST_CYCLES
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of, growth
-from wear.faults import UsageError
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
@@ -33,9 +32,9 @@ from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
-from wear.request import check_rtol, whole_cycles
+from wear.request import checked_scenes, wear_depths, whole_cycles
 from wear.resampling import resampled
-from wear.scene import Scene, as_scene
+from wear.scene import Scene
 
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
 TOGETHER = 1024  # scenes in one set of arrays
@@ -254,11 +253,7 @@ def sweep(
     """
     faults: list[str] = []
     numbers = np.array(whole_cycles(cycles, faults), dtype=float)
-    check_rtol(rtol, faults)
-    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
-        faults.append("scenes: give a list of them")
-    if faults:
-        raise UsageError("\n".join(faults))
+    wanted = checked_scenes(scenes, rtol, faults)
     last = float(np.max(numbers, initial=0.0))
 
     def together(some: Sequence[Scene]) -> Answer:
@@ -267,7 +262,7 @@ def sweep(
     def alone(scene: Scene) -> Answer:
         return wear_after(bind(scene), scene.load, numbers, rtol)[:2]
 
-    fewer = [resampled(as_scene(scene), rtol) for scene in scenes]
+    fewer = [resampled(scene, rtol) for scene in wanted]
     some = [each.scene for each in fewer]
     u, error = _each(some, len(numbers), together, alone, Pace(progress))
     for row, each in enumerate(fewer):
@@ -276,29 +271,30 @@ def sweep(
 
 
 def cycles_to_depth(
-    scenes: Sequence[Scene],
-    wear: FloatArray,
+    scenes: Sequence[Scene | str | os.PathLike[str]],
+    wear: FloatArray | Iterable[float] | float,
     rtol: float = 1e-7,
     progress: Callable[[str], None] = lambda _: None,
 ) -> CyclesToDepth:
-    """Return the whole cycles after which each of many scenes first reaches each wear (n,), mm.
+    """Return the whole cycles after which each of many scenes, or their names, first reaches each
+    wear (n,), mm.
 
     After two seconds `progress` is told now and then how many scenes are done.
 
-    >>> from wear.scene import load_scene
-    >>> scenes = [load_scene("section4"), load_scene("section5")]
-    >>> cycles_to_depth(scenes, np.array([1e-3])).cycles.tolist()
+    >>> cycles_to_depth(["section4", "section5"], 1e-3).cycles.tolist()
     [[140.0], [484.0]]
     """
-    wear = np.asarray(wear, dtype=float)
+    faults: list[str] = []
+    depths = np.array(wear_depths(wear, faults))
+    wanted = checked_scenes(scenes, rtol, faults)
 
     def together(some: Sequence[Scene]) -> Answer:
-        count, error = np.full((2, len(some), len(wear)), np.inf)
+        count, error = np.full((2, len(some), len(depths)), np.inf)
         todo, reach = np.arange(len(some)), LEAST
         while len(todo):
             reach = min(reach * FARTHER, float(MOST_CYCLES))
             found = _orbit([some[i] for i in todo.tolist()], reach, rtol)
-            cycles, missed = found.until(np.broadcast_to(wear, (len(todo), len(wear))))
+            cycles, missed = found.until(np.broadcast_to(depths, (len(todo), len(depths))))
             cycles[cycles > reach] = np.inf
             count[todo], error[todo] = cycles, missed / np.maximum(cycles, 1.0)
             more = np.isinf(cycles).any(axis=1) & ~found.at_rest
@@ -306,11 +302,11 @@ def cycles_to_depth(
         return count, np.where(np.isinf(count), 0.0, error)
 
     def alone(scene: Scene) -> Answer:
-        return cycles_until(bind(scene), scene.load, wear, rtol)[:2]
+        return cycles_until(bind(scene), scene.load, depths, rtol)[:2]
 
-    fewer = [resampled(scene, rtol) for scene in scenes]
+    fewer = [resampled(scene, rtol) for scene in wanted]
     some = [each.scene for each in fewer]
-    count, error = _each(some, len(wear), together, alone, Pace(progress))
+    count, error = _each(some, len(depths), together, alone, Pace(progress))
     return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))
 
 

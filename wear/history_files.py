@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derive import files
+from wear.checked import is_path
 from wear.faults import UsageError
 from wear.inside import Inside
 from wear.quantities import COLUMNS, columns_of, unit_of
@@ -67,7 +68,7 @@ def write(parts: Iterable[States], path: str | os.PathLike[str], attributes: Att
         if the file cannot be written.
     """
     writers = {".csv": _write_lines, ".nc": _write_records}
-    suffix = Path(path).suffix
+    suffix = Path(path).suffix if is_path(path) else ""
     if suffix not in writers:
         raise UsageError(f"{path}: the name of a result ends in {' or '.join(writers)}")
     with files.replacing(path) as draft:

@@ -66,6 +66,12 @@ class Asymptote:
     cycles_to_stabilise: dict[str, float | None] = field(default_factory=dict)
     notices: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        ends = ("wear_per_cycle_mm", "saturation_wear_mm", "arrest_wear_mm", "arrest_cycle")
+        values = {name: getattr(self, name) for name in ends}
+        known = [f"{name} = {value:.6g}" for name, value in values.items() if value is not None]
+        return f"<Asymptote of {self.scene!r}: {', '.join([self.regime, *known])}>"
+
 
 class _Case:
     """A scene's numbers as the formulas take them: exactly the doubles that the scene has."""

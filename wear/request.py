@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import numbers
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +15,7 @@ from wear.checked import MOST_CYCLES
 from wear.faults import UsageError
 from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
-from wear.scene import Scene
+from wear.scene import Scene, as_scene
 
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)
 LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
@@ -28,10 +30,7 @@ def whole_cycles(
     cycles: float | Iterable[float], faults: list[str], least: int = 0
 ) -> tuple[int, ...]:
     """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
-    given: Any = cycles.tolist() if isinstance(cycles, np.ndarray | np.generic) else cycles
-    if hasattr(given, "to_numpy"):  # of pandas and xarray
-        given = given.to_numpy().tolist()
-    several = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
+    several = _several(cycles)
     wanted = []
     for n in several:
         if is_number(n) and least <= n <= MOST_CYCLES and n == int(n):
@@ -43,10 +42,46 @@ def whole_cycles(
     return tuple(wanted)
 
 
+def wear_depths(wear_mm: float | Iterable[float], faults: list[str]) -> tuple[float, ...]:
+    """Return depths of wear in mm, or one; what is none of them is among the `faults`."""
+    depths = _several(wear_mm)
+    faults += [
+        f"wear: {depth!r} is no depth in mm; give a number >= 0"
+        for depth in depths
+        if not (is_number(depth) and 0.0 <= depth < math.inf)
+    ]
+    return tuple(depths)
+
+
+def _several(given: Any) -> list[Any]:
+    """Return the numbers of a list, an array, a series of pandas or xarray, or one as a list."""
+    if hasattr(given, "to_numpy"):
+        given = given.to_numpy()
+    if isinstance(given, np.ndarray | np.generic):
+        given = given.tolist()
+    return (
+        list(given)
+        if isinstance(given, Iterable) and not isinstance(given, str | bytes)
+        else [given]
+    )
+
+
 def check_rtol(rtol: float, faults: list[str], least: float = LEAST_RTOL) -> None:
     """Check a requested relative accuracy."""
     if not is_number(rtol) or not least <= rtol <= LARGEST_RTOL:
         faults.append(f"rtol: {rtol!r} is not between {least:g} and {LARGEST_RTOL:g}")
+
+
+def checked_scenes(
+    scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: list[str]
+) -> list[Scene]:
+    """Return the scenes of a request for many, or raise its `faults` and those found here."""
+    check_rtol(rtol, faults)
+    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
+        faults.append("scenes: give a list of them")
+    if faults:
+        raise UsageError("\n".join(faults))
+    return [as_scene(scene) for scene in scenes]
 
 
 def obstacle(scene: Scene) -> str | None:

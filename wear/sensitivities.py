@@ -31,7 +31,7 @@ from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import no_such_number, parameters_of, parametrised
 from wear.progress import Pace
-from wear.request import checked_request, obstacle
+from wear.request import checked_request, checked_scenes, obstacle
 from wear.scene import Scene, as_scene
 from wear.states import fields_at, result_notices
 
@@ -75,7 +75,9 @@ def gradients(
     >>> f"{found.derivative[0, 0, 0]:.4f}"
     '1698.1082'
     """
-    cycles = np.asarray(cycles, dtype=float)
+    given = np.asarray(cycles)
+    faults = [] if given.dtype.kind in "iuf" else [f"cycles: {cycles!r} are no numbers"]
+    scenes, cycles = checked_scenes(scenes, rtol, faults), given.astype(float)
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
     found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))

@@ -214,6 +214,24 @@ def test_a_study_larger_than_the_disk_is_refused(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.usefixtures("small_chunks")
+def test_a_scene_that_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
+    from wear import cycles
+
+    solved = cycles.sweep
+
+    def fails(scenes: Any, *more: Any) -> Any:
+        if any(scene.bearing.hardness_MPa == 150.0 for scene in scenes):
+            raise ZeroDivisionError("division by zero")
+        return solved(scenes, *more)
+
+    monkeypatch.setattr(cycles, "sweep", fails)
+    found = study("section4", [f"{HARDNESS}=100,150,200,250,300"], [10], tmp_path / "a.zarr")
+    assert found["status"].values.tolist() == [0, Status.FAILED, 0, 0, 0]
+    assert str(found["reason"].values[1]) == "ZeroDivisionError: division by zero"
+    assert np.isnan(found["bearing_wear_mm"].values[:, 0]).tolist() == [False, True] + [False] * 3
+
+
 # What is hardly meant
 
 
@@ -302,28 +320,45 @@ def test_a_study_killed_at_random_moments_ends_with_the_same_bits(tmp_path):
     assert same(xarray.open_zarr(part, consolidated=False), whole)
 
 
-@pytest.mark.usefixtures("small_chunks")
-def test_a_worker_of_a_cluster_is_killed_and_nothing_is_lost(tmp_path):
+def _cluster(workers: int):
+    """Return workers and their scheduler, all on this machine."""
     from distributed import LocalCluster
 
-    vary = f"{GROWTH}=0.1:0.3:400"
+    return LocalCluster(
+        n_workers=workers, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
+    )
+
+
+def _begun_on(cluster, out, vary: str) -> subprocess.Popen[str]:
+    """Return a study that runs on a cluster and has finished its first chunk."""
+    words = ["section4", "--vary", vary, "--cycles", "9000", "-o", str(out)]
+    command = _command(*words, "--scheduler", cluster.scheduler_address)
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    while not (out / "status" / "c" / "0").exists() and process.poll() is None:
+        time.sleep(0.01)
+    return process
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_a_worker_of_a_cluster_is_killed_and_nothing_is_lost(tmp_path):
+    vary, out = f"{GROWTH}=0.1:0.3:240", tmp_path / "c.zarr"
     whole = study("section4", [vary], [9000], tmp_path / "whole.zarr")
-    words = ["section4", "--vary", vary, "--cycles", "9000"]
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
-    ) as cluster:
-        process = subprocess.Popen(
-            _command(
-                *words, "--scheduler", cluster.scheduler_address, "-o", str(tmp_path / "c.zarr")
-            )
-        )
-        first = tmp_path / "c.zarr" / "status" / "c" / "0"
-        while not first.exists() and process.poll() is None:
-            time.sleep(0.01)
-        victim = next(iter(cluster.workers.values()))
-        os.kill(victim.pid, signal.SIGKILL)
-        assert process.wait(timeout=120) == 0
-    assert same(xarray.open_zarr(tmp_path / "c.zarr", consolidated=False), whole)
+    with _cluster(2) as cluster:
+        process = _begun_on(cluster, out, vary)
+        os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
+        _, complaint = process.communicate(timeout=120)
+    assert process.returncode == 0, complaint
+    assert same(xarray.open_zarr(out, consolidated=False), whole)
+
+
+def test_a_scheduler_that_goes_away_is_a_clear_error(tmp_path):
+    cluster = _cluster(1)
+    process = _begun_on(cluster, tmp_path / "c.zarr", f"{GROWTH}=0.1:0.3:4000")
+    cluster.close()
+    _, complaint = process.communicate(timeout=120)
+    assert process.returncode == 130, complaint
+    assert "the same command goes on" in complaint
+    assert "Traceback" not in complaint
 
 
 def test_a_full_disk_keeps_what_is_finished(tmp_path, monkeypatch):
@@ -345,28 +380,6 @@ def test_a_full_disk_keeps_what_is_finished(tmp_path, monkeypatch):
     monkeypatch.setattr(designs, "ROWS", 1024)
     found = study("section4", [vary], [9000], out)
     assert bool((found["status"] == Status.DONE).all())
-
-
-def test_a_scheduler_that_goes_away_is_a_clear_error(tmp_path):
-    from distributed import LocalCluster
-
-    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:4000", "--cycles", "9000"]
-    cluster = LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
-    )
-    out = tmp_path / "c.zarr"
-    process = subprocess.Popen(
-        _command(*words, "--scheduler", cluster.scheduler_address, "-o", str(out)),
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    while not (out / "status" / "c" / "0").exists() and process.poll() is None:
-        time.sleep(0.01)
-    cluster.close()
-    _, complaint = process.communicate(timeout=120)
-    assert process.returncode == 130, complaint
-    assert "the same command goes on" in complaint
-    assert "Traceback" not in complaint
 
 
 def test_a_scheduler_that_is_not_there_is_a_clear_error(call, monkeypatch):

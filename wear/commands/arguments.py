@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 MOST_IN_RANGE = 1_000_000  # numbers of cycles
 PICTURES = (".pdf", ".png", ".svg")
-_THOUSANDS = re.compile(r"0\d+")  # what a comma leaves of 9,000: not to be read as 9 and 0
+_THOUSANDS = re.compile(r"0\d+|\d{1,3}(\.\d{3})+")
+"""What a comma leaves of 9,000, and 9.000: not to be read as 9 and 0, or as 9."""
 
 
 def add_scene(

@@ -12,7 +12,7 @@ from derive.command_line import Answer, declare
 from wear.commands import arguments, run_inside, run_output
 
 if TYPE_CHECKING:
-    from wear.scene import Scene
+    from wear.life import Life
 
 SUMMARY = "the state of a scene after given numbers of cycles"
 EXAMPLE = """\
@@ -51,6 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> Answer:
     from wear.faults import AccuracyError, Interrupted
+    from wear.life import cycles_until
     from wear.request import obstacle
     from wear.solver import solve
 
@@ -76,10 +77,16 @@ def execute(options: argparse.Namespace) -> Answer:
         if miss.best is None:
             raise
         history, status, faulty = miss.best, terminal.INACCURATE, [str(miss)]
+    until, notices = dict[str, Any](), [*run_output.worth_telling(history), *faulty]
+    if wears is not None:
+        with terminal.busy("counting cycles to the wear"):
+            life = cycles_until(scene, wears, rtol)
+        more = [text for text in life.notices if text not in history.notices]
+        until = _cycles_until(life) | {"notices": [*history.notices, *more]}
+        notices += more
     if options.strict:
-        faults.refuse_implausible(history.notices)
+        faults.refuse_implausible(notices)
         faults.stop_if_any()
-    until = {} if wears is None else _cycles_until(scene, wears, rtol)
     if output is not None:
         run_output.write(history, output)
 
@@ -89,7 +96,6 @@ def execute(options: argparse.Namespace) -> Answer:
             parts.append(f"\n{run_output.until_text(until)}")
         return "\n".join(parts)
 
-    notices = (*run_output.worth_telling(history), *faulty)
     return Answer(history.as_json() | until, text, notices, status)
 
 
@@ -97,15 +103,11 @@ def _depths(text: str) -> tuple[float, ...]:
     return tuple(map(arguments.number(0.0, 1e300), text.split(",")))
 
 
-def _cycles_until(scene: Scene, wears: Sequence[float], rtol: float) -> dict[str, Any]:
-    """The part of the JSON with the cycles after which wears are reached, null where unknown."""
-    from wear.life import cycles_until
-
-    with terminal.busy("counting cycles to the wear"):
-        found = cycles_until(scene, wears, rtol)
+def _cycles_until(found: Life) -> dict[str, Any]:
+    """Return the part of the JSON with the cycles to depths of wear, null where unknown."""
     return {
         "cycles_until": {
-            "bearing_wear_mm": list(wears),
+            "bearing_wear_mm": list(found.wear_mm),
             "cycles": [None if math.isnan(cycles) else int(cycles) for cycles in found.cycles],
             "error_estimate": found.error,
             "reached": [way.value for way in found.reached],

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from wear.scene import Scene
 
 FloatArray = NDArray[np.float64]
+Cycles = Sequence[int] | NDArray[np.int64]
 Real = Any  # a float, or an array along rows
 WORD = "implausible"
 ROUGHEST = 0.05  # mm, class N12 of ISO 1302
@@ -120,10 +121,7 @@ def doubts_of_entries(entries: Mapping[str, Real]) -> Iterator[Doubt]:
 
 
 def implausible_results(
-    scene: Scene,
-    cycles: Sequence[int],
-    u_c: FloatArray,
-    *roughness: FloatArray,
+    scene: Scene, cycles: Cycles, u_c: FloatArray, *roughness: FloatArray
 ) -> Iterator[str]:
     """Yield a sentence for each result of a scene that lies outside what the model is meant for;
     `u_c` and each `roughness` are in mm, along `cycles`."""
@@ -133,7 +131,7 @@ def implausible_results(
 
 
 def doubts_of_results(
-    radius: Real, fresh: Real, cycles: Sequence[int], u_c: FloatArray, *roughness: FloatArray
+    radius: Real, fresh: Real, cycles: Cycles, u_c: FloatArray, *roughness: FloatArray
 ) -> Iterator[Doubt]:
     """Yield the doubts about wear and roughnesses (..., cycles) where the radius and the initial
     roughness are these, all in mm."""
@@ -144,7 +142,7 @@ def doubts_of_results(
         f"{100.0 * DEEPEST:g} % the geometry is another",
         (deepest, 100.0 * deepest / radius),
     )
-    roughest = np.max(roughness, axis=(0, -1))
+    roughest = np.max(np.broadcast_arrays(u_c, *roughness)[1:], axis=(0, -1))
     yield Doubt(
         roughest / np.maximum(ROUGHEST, fresh),
         f"{WORD}: the roughness of {{:.4g}} mm is beyond {ROUGHEST:g} mm, "

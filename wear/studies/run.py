@@ -17,6 +17,7 @@ from concurrent.futures import (
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from wear.checked import is_path
 from wear.faults import UsageError, WorkersLost
 from wear.progress import Pace
 from wear.studies.design import Chunk, Design
@@ -103,7 +104,7 @@ def run(
     """Solve the chunks that are missing at `output` and return the store of all, see `study`."""
     from wear.studies.store import Store
 
-    if not isinstance(output, str | os.PathLike):
+    if not is_path(output):
         raise UsageError(f"output: {output!r} is no name of a folder")
     check_executor(executor)
     store = Store(Path(output), asked)
