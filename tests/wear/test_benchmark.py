@@ -4,14 +4,13 @@ import csv
 import io
 import json
 import math
-import subprocess
-import sys
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from tests.programs import python
 from tests.wear.reference_scenes import REFERENCE
 from wear import benchmark, cli
 from wear.benchmark import Effort, Status, judge, results
@@ -235,8 +234,7 @@ for peer in load_peers("peers").PEERS:
         assert abs(wear / REFERENCE["S2"][10] - 1) < 1e-5, peer.name
 """
     if not all(map(missing, peers.PEERS)):
-        root = Path(__file__).parents[2]
-        subprocess.run([sys.executable, "-c", code], check=True, cwd=root)
+        python(code, cwd=Path(__file__).parents[2])
 
 
 @pytest.fixture(scope="module")

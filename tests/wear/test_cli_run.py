@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests import programs
 from tests.wear.test_history import CONTRACT
 from wear import cli
 from wear.commands.run_output import latex_number, text
@@ -108,9 +109,8 @@ def test_the_latex_table_compiles(run, need_tool, tmp_path):
         "\\documentclass{article}\\usepackage{booktabs}\\usepackage[landscape]{geometry}\n"
         "\\begin{document}\\small\\input{wear}\\end{document}\n"
     )
-    command = ["latexmk", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "main.tex"]
-    compiled = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert compiled.returncode == 0, compiled.stdout[-2000:]
+    command = ("latexmk", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "main.tex")
+    programs.run(*command, cwd=tmp_path)
     assert "Overfull" not in (tmp_path / "main.log").read_text()
 
 
