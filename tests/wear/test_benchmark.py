@@ -129,12 +129,12 @@ def result(clock):
 
 
 def test_times_are_compared_at_equal_true_error(result):
-    here = results.at(result.runs, "made", 100)
+    here = results.grouped(result.runs, "cycles")[100]
     assert [entry.method for entry in results.best(here, 6)] == ["quick", "slow"]
     assert [entry.method for entry in results.best(here, 3)] == ["off", "quick", "slow"]
     cells = [results.cell(here, name, 6) for name in ("quick", "slow", "off", "wrong")]
     assert cells == ["2 ms", "2 s (1000x)", "off by 1e-4", "off by 40 %"]
-    assert results.cell(results.at(result.runs, "made", 9000), "slow", 6) == "~ 3 min"
+    assert results.cell(results.grouped(result.runs, "cycles")[9000], "slow", 6) == "~ 3 min"
 
 
 def test_the_sentence_names_the_fastest_and_the_ratio(result):

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from derive.command_line import name_of
 from tests.programs import run
 from wear import cli
 from wear.cite import REFERENCES
@@ -18,7 +17,7 @@ from wear.faults import Interrupted
 from wear.scene import builtin_names, load_scene, parse_scene
 
 ROOT = Path(__file__).parents[2]
-COMMANDS = [name_of(command) for command in cli.COMMANDS]
+COMMANDS = cli.COMMANDS.split()
 
 
 @pytest.mark.parametrize("name", COMMANDS)
