@@ -301,7 +301,6 @@ CASES: dict[str, Case] = {
         lambda: sloped(),
         "may vary",
     ),
-    # ---- forgeries
 }
 
 

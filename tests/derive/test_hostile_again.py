@@ -369,10 +369,6 @@ CASES: dict[str, Case] = {
         lambda: slow(h_0**5 / m**4),
         "a function of m",
     ),
-    # ---- definitions that hide a condition
-    # ---- what is no real number
-    # ---- names that look alike
-    # ---- forgeries
 }
 
 

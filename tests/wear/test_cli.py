@@ -172,7 +172,7 @@ def test_cite_gives_every_entry_once(call):
 
 
 def test_cite_has_this_version_and_every_method():
-    from wear.solver import METHODS
+    from wear.request import METHODS
 
     version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
     assert REFERENCES["derive-wear"].fields["note"] == f"Version {version}"

@@ -21,8 +21,9 @@ from wear import cli
 from wear.commands.run_output import latex_number, text
 from wear.faults import AccuracyError, Interrupted
 from wear.load.spans import most_cycles
+from wear.request import METHODS
 from wear.scene import load_scene
-from wear.solver import METHODS, solve
+from wear.solver import solve
 
 
 @pytest.fixture

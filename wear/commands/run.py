@@ -116,6 +116,6 @@ def _cycles_until(found: Life) -> dict[str, Any]:
 
 
 def _methods() -> Sequence[str]:
-    from wear.solver import METHODS
+    from wear.request import METHODS
 
     return METHODS
