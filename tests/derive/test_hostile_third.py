@@ -35,15 +35,12 @@ from derive.rules.limits import (
 )
 from derive.rules.proving import LAW
 from derive.rules.reading import CONTINUOUS, PERIODIC, SINE
-from derive.rules.solutions import Inverted, Parametric
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
     BOUNDED,
-    CONSTANTLY,
     DEEP,
     FIRST_DRIFT,
     ROUGHENS,
-    START,
     equal,
     expansion_premises,
     given,
@@ -92,21 +89,6 @@ def faded(field: sp.Expr, *facts: Judgement) -> Judgement:
     """Wear at a rate that depends on another field."""
     on = C * (2 + sp.tanh(field * q / (u_c**2 + q**2)))
     return at_times(sp.Ge(U_a, h_0), on, *facts)
-
-
-def lambert(added: sp.Expr) -> Judgement:
-    inverse = equal(u_c, q * sp.LambertW(t / T))
-    return Inverted(inverse)(given(equal(t, T * u_c / q * sp.exp(u_c / q + added))))
-
-
-def risen(power: sp.Expr, fact: Judgement) -> Judgement:
-    """The time of a rate that is a power of the pressure above the first one."""
-    start = p.subs(t, 0)
-    ratio = p / start - 1
-    premises = (given(equal(du, C * ratio**power)), given(equal(u_c, h_0 * ratio)), START)
-    pressure = given(equal(p, start * (1 + u_c / h_0)))
-    claim = equal(t, h_0 / C * ratio ** (1 - power) / (1 - power))
-    return Parametric(claim)(*premises, pressure, CONSTANTLY, fact)
 
 
 def tied(low: Judgement, high: Judgement) -> Judgement:
@@ -251,17 +233,6 @@ CASES: dict[str, Case] = {
         lambda: multiplied(sp.Piecewise((1, f_c > 0))),
         lambda: multiplied(sp.Piecewise((1, f_c > 0)), ROUGHENS),
         "f_c > 0",
-    ),
-    # ---- solutions
-    "t = x e^(x + x^2), solved by W(t)": (
-        lambda: lambert(u_c**2 / q**2),
-        lambda: Inverted(equal(u_c, q * t / T))(given(equal(t, T * u_c / q))),
-        "gives back the time",
-    ),
-    "a rate that vanishes at the start": (  # p = p(0) for ever
-        lambda: risen(sp.S.Half, given(sp.Ge(p, p.subs(t, 0)))),
-        lambda: risen(sp.S.Half, given(sp.Gt(p, p.subs(t, 0)))),
-        "Ne",
     ),
     # ---- a law that is differentiable once
     "the second slope of a law": (  # phi has none at 0
