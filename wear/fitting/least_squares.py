@@ -5,54 +5,60 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.faults import UsageError
 from wear.fitting.model import LOST, Model
 from wear.fitting.readings import FloatArray, Specimen
+from wear.numerics.tolerances import TINY
+from wear.regime import fresh_wear_per_cycle, steady_wear_per_cycle
 
 SEARCHED = 20.0  # e-folds, or multiples of a parameter's size, around the scene
-GROWTHS = (0.08, 0.15, 0.25, 0.4)  # of roughness, to start from
+GROWTHS, NEARLY = (0.02, 1.0), 0.01  # of roughness: where a start is sought, and how closely
+SLOWEST = 1e-3  # of the mean wear per cycle: what the last readings may add
 DECADES = np.geomspace(1.0, 1e12, 49)  # cycles after which a start is compared with the readings
-FOLLOWED = 4  # starts
-ROUGHLY, CLOSELY = 1e-4, 1e-6  # of the sum of squares: how closely its least is sought
+FOLLOWED = 3  # starts
+ACCURACY = 1e-3  # of the variance: how closely the least sum of squares is sought
+MOST_STEPS = 60
 DAMPING, HOPELESS = 1e-3, 1e8  # of a Gauss-Newton step: first, and where none descends
 
 
-def follow(
+def descend(
     model: Model,
     starts: FloatArray,
-    fixed: NDArray[np.bool_],
     box: tuple[FloatArray, FloatArray],
-    accuracy: float,
-    most: int,
     say: Callable[[str], None] = lambda _: None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return points (m, p) of least squares near each start and their sums of squares (m,),
-    with the `fixed` (m, p) parameters held, in a box given by its centre and half widths (p,).
+    """Return points (m, p) of least squares near each start and their sums of squares (m,), in a
+    box given by its centre and half widths (p,).
 
-    Levenberg and Marquardt's method (J. Nocedal, S. J. Wright, *Numerical Optimization*,
-    Springer 2006, section 10.3) with a damping for every start: each round is one batch of
-    scenes, of those that still descend by more than the `accuracy` of their sum of squares.
+    Levenberg and Marquardt's method (J. Nocedal, S. J. Wright, *Numerical Optimization*, Springer
+    2006, section 10.3) with a damping for every start: each round is one batch of scenes, of those
+    that still descend.
     """
     low, high = box[0] - box[1], box[0] + box[1]
-    points = np.where(fixed, starts, np.clip(starts, low, high))
+    points = np.clip(starts, low, high)
     off, slope = model(points)
     costs = np.sum(off**2, axis=1)
     damping, todo = np.full(len(points), DAMPING), np.arange(len(points))
-    for _ in range(most):
+    for _ in range(MOST_STEPS):
         say(f"least sum of squares: {costs.min():.6g}, searches left: {len(todo)}")
-        J = np.where(fixed[todo, None], 0.0, slope[todo])
+        J = slope[todo]
         normal = np.swapaxes(J, 1, 2) @ J
         diagonal = np.einsum("mii->mi", normal)  # a view
         diagonal += damping[todo, None] * diagonal + np.where(diagonal > 0.0, 0.0, 1.0)
         step = np.linalg.solve(normal, -np.einsum("mnp,mn->mp", J, off[todo])[..., None])
         trial = np.clip(points[todo] + step[..., 0], low, high)
-        trial = np.where(fixed[todo], points[todo], trial)
         trial_off, trial_slope = model(trial)
         trial_costs = np.sum(trial_off**2, axis=1)
+        worse = np.flatnonzero(~(trial_costs < costs[todo]))
+        if len(worse):  # the valley bends: the step is corrected for that
+            missed = trial_off - off[todo] - (J @ step)[..., 0]
+            step = step - np.linalg.solve(normal, np.einsum("mnp,mn->mp", J, missed)[..., None])
+            trial[worse] = np.clip(points[todo] + step[..., 0], low, high)[worse]
+            trial_off[worse], trial_slope[worse] = model(trial[worse])
+            trial_costs = np.sum(trial_off**2, axis=1)
         better = trial_costs < costs[todo]
-        little = np.abs(costs[todo] - trial_costs) <= accuracy * costs[todo]
+        little = np.abs(costs[todo] - trial_costs) <= ACCURACY * costs[todo] / off.shape[1]
         won = todo[better]
         points[won], costs[won] = trial[better], trial_costs[better]
         off[won], slope[won] = trial_off[better], trial_slope[better]
@@ -66,11 +72,14 @@ def follow(
 def estimate(model: Model, say: Callable[[str], None]) -> FloatArray:
     """Return the point (p,) of least squares, from several starts.
 
-    Each start has another roughness growth, where that is shared and free. What else is free of
-    wear coefficients and roughnesses then follows from the readings, see `_in_pace` and
-    `_in_proportion`. Raises `UsageError` where no start has any wear, or a parameter no influence.
+    They are the scene itself, and that with the roughness growth of `_growth`, if it is shared and
+    free. What else is free of wear coefficients and roughnesses follows from the readings, see
+    `_in_pace` and `_in_proportion`. Raises `UsageError` where no start has any wear, or a parameter
+    no influence.
     """
-    starts = _starts(model)
+    own = model.start()
+    growths = np.array([p.key.endswith(".roughness_growth") for p in model.parameters])
+    starts = np.array([own, np.where(growths, _growth(model), own)])[: 1 + growths.any()]
     off, slope = model(starts)
     fine = np.all(np.abs(off) < LOST, axis=1)
     if not fine.any():
@@ -83,29 +92,34 @@ def estimate(model: Model, say: Callable[[str], None]) -> FloatArray:
         [starts, _in_pace(model, starts[fine]), _in_proportion(model, starts[fine])]
     )
     best = starts[np.argsort(model.cost(starts), kind="stable")[:FOLLOWED]]
-    centre = model.start()
-    box = centre, SEARCHED * model.scale(centre)
-    near, costs = follow(model, best, np.zeros(best.shape, dtype=bool), box, ROUGHLY, 30, say)
-    return settle(model, near[np.argmin(costs)], box, say)
+    points, costs = descend(model, best, (own, SEARCHED * model.scale(own)), say)
+    return np.asarray(points[np.argmin(costs)])
 
 
-def settle(
-    model: Model,
-    start: FloatArray,
-    box: tuple[FloatArray, FloatArray],
-    say: Callable[[str], None] = lambda _: None,
-) -> FloatArray:
-    """Return the point (p,) of least squares next to a point."""
-    none = np.zeros((1, len(start)), dtype=bool)
-    points, _ = follow(model, start[None], none, box, CLOSELY, 60, say)
-    return np.asarray(points[0])
+def _growth(model: Model) -> float:
+    """Return the roughness growth with which the wear of a cycle falls by as much, from the fresh
+    scene to the steady state of (21), as it does in the readings.
 
+    Readings that begin late or end early see less of the fall: then the growth is too large.
+    """
+    specimen, scene = model.specimens[0], model.scenes(model.start())[0]
+    keys = {p.key for p in model.parameters if p.key.endswith(".roughness_growth")}
+    cycles, wear = specimen.cycles, np.maximum(specimen.wear_mm, TINY)
+    half = len(wear) // 2
+    late = (wear[-1] - wear[half - 1]) / (cycles[-1] - cycles[half - 1])
+    fall = max(late, SLOWEST * wear[-1] / cycles[-1]) * cycles[0] / wear[0]
+    fresh = fresh_wear_per_cycle(scene)
 
-def _starts(model: Model) -> FloatArray:
-    """Return the scene's own point, and those with other roughness growths."""
-    own = model.start()
-    growths = [p.key.endswith(".roughness_growth") for p in model.parameters]
-    return np.unique([own, *(np.where(growths, growth, own) for growth in GROWTHS)], axis=0)
+    def excess(growth: float) -> float:
+        changed = scene.with_(dict.fromkeys(keys, growth))
+        return steady_wear_per_cycle(changed) - fall * fresh
+
+    from scipy.optimize import brentq
+
+    low, high = GROWTHS
+    if not excess(low) < 0.0 < excess(high):
+        return low if excess(low) >= 0.0 else high
+    return float(brentq(excess, low, high, rtol=NEARLY))
 
 
 def _in_pace(model: Model, starts: FloatArray) -> FloatArray:

@@ -17,6 +17,7 @@ from wear.faults import MOST_FAULTS_SHOWN, UsageError
 from wear.load.rows import read_bytes
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
 MOST_BYTES = 16 * 1024 * 1024
 WEAR = {"wear_mm": 1.0, "wear_um": 1e-3}  # column: mm a unit
 DELIMITERS = (",", ";", "\t")  # the decimal sign may be a comma where the first is not
