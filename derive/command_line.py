@@ -4,6 +4,7 @@ Key results
     Command    a module with one command
     Answer     what a command has to say
     Parser     gathers the faults of arguments
+    declare    an argument, as its usage shows it
     parser     the parser of a program with commands
     main       parse and execute
 """
@@ -13,6 +14,7 @@ from __future__ import annotations
 import argparse
 import difflib
 import os
+import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -91,6 +93,36 @@ class Parser(argparse.ArgumentParser):
             return None
 
 
+def declare(
+    to: argparse._ActionsContainer,
+    usage: str,
+    help: str,
+    words: Callable[[], Sequence[str]] | None = None,
+    **about: Any,
+) -> None:
+    """Declare an argument as its usage shows it: `--strict`, `-o, --output FILE`, `[ID ...]`.
+
+    An option without a value is a flag. Brackets and dots say how many values there are, braces
+    which; `words` are offered for completion. The rest is for `argparse`.
+    """
+    flags = re.findall(r"(?:^|, )(-[\w-]+)", usage)
+    value = usage[len(", ".join(flags)) :].strip()
+    shown = value.strip("[]").removesuffix(" ...")
+    if shown.startswith("{"):
+        about["choices"] = shown.strip("{}").split(",")
+    elif shown:
+        about["metavar"] = shown
+    else:
+        about["action"] = "store_true"
+    if value.strip("[]").endswith(" ..."):
+        about["nargs"] = "*" if value.startswith("[") else "+"
+    elif value.startswith("["):
+        about["nargs"] = "?"
+    action = to.add_argument(*(flags or [about.pop("dest", shown.lower())]), help=help, **about)
+    if words is not None:
+        completion.suggest(action, words)
+
+
 def parser(
     program: str, description: str, examples: str, commands: Sequence[Command]
 ) -> argparse.ArgumentParser:
@@ -114,7 +146,7 @@ def parser(
             allow_abbrev=False,
         )
         command.add_arguments(branch)
-        branch.add_argument("--json", action="store_true", help="print one JSON document")
+        declare(branch, "--json", "print one JSON document")
         branch.set_defaults(command=command)
     return whole
 
@@ -169,7 +201,16 @@ def _parsed(whole: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Na
         wrong = [word for word in left if word.startswith("-")] or left
         hints = (f"{word}: not understood{_meant(word, _options(branch))}" for word in wrong)
         branch.error("\n".join(hints))
+    branch = branches[name_of(options.command)]
+    if twice := [name for action in branch._actions if (name := _repeated(action, words))]:
+        branch.error("\n".join(f"{name}: given more than once; keep one" for name in twice))
     return options
+
+
+def _repeated(action: argparse.Action, words: Sequence[str]) -> str:
+    """Return the name of an option of one value if it stands several times among the words."""
+    given = [word for word in words if word.partition("=")[0] in action.option_strings]
+    return given[-1] if type(action) is argparse._StoreAction and len(given) > 1 else ""
 
 
 def _options(parser: argparse.ArgumentParser) -> list[str]:

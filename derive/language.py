@@ -24,7 +24,7 @@ from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
 from .claims import Drift, FirstZero, Oscillation, Term
-from .symbols import QUANTITIES, symbol
+from .symbols import QUANTITIES, symbol, t
 
 _HEADS = frozenset(
     (
@@ -51,6 +51,7 @@ def fault(expr: sp.Basic) -> str | None:
     (None, 'f_c is not the f_c of the vocabulary')
     """
     found = next(filter(None, map(_fault, _nodes(expr))), None)
+    found = found or next(filter(None, map(_leaves_domain, _nodes(expr))), None)
     if not found and any(isinstance(free, sp.Dummy) for free in expr.free_symbols):
         return f"{expr} has a name that others may have"
     return found
@@ -79,6 +80,27 @@ def _fault(node: sp.Basic) -> str | None:
     if kind is sp.Limit and node != sp.Limit(*node.args[:3]):
         return f"{node} is no limit from above"
     return None
+
+
+def _leaves_domain(node: sp.Basic) -> str | None:
+    """Return which variable takes a value outside of its domain, such as a time before 0."""
+    for name, value in _taken(node):
+        inside = value.is_positive or isinstance(node, sp.Limit) or not name.is_positive
+        if name.is_nonnegative and not (inside and value.is_extended_nonnegative):
+            return f"{name} is never {value}"
+    return None
+
+
+def _taken(node: sp.Basic) -> Iterator[tuple[sp.Basic, sp.Expr]]:
+    """Return the variables that take a value in a node, each with its value."""
+    if isinstance(node, AppliedUndef) and node.func.__name__ in QUANTITIES:
+        yield t, node.args[0]
+    elif isinstance(node, sp.Integral):
+        yield from ((name, end) for name, *ends in node.limits for end in ends)
+    elif isinstance(node, sp.Subs):
+        yield from zip(node.variables, node.point, strict=True)
+    elif isinstance(node, sp.Limit):
+        yield node.args[1:3]
 
 
 def _plain(function: type) -> bool:

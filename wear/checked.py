@@ -17,6 +17,7 @@ import dataclasses
 import difflib
 import functools
 import math
+import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, dataclass_transform, get_args
 
@@ -32,6 +33,7 @@ from pydantic.dataclasses import dataclass
 from pydantic_core import ArgsKwargs, InitErrorDetails, PydanticCustomError, core_schema
 
 from wear.faults import Fault, SceneError
+from wear.quantities import unit_of
 
 # Magnitudes are bounded so that no product of a scene's numbers can overflow or underflow.
 SMALLEST = 1e-30
@@ -42,45 +44,12 @@ MOST_UNKNOWN_KEYS = 20
 # Keys of versions before the first release, each with its name of today.
 RENAMED = {"roughness_slope": "roughness_growth", "cutoff": "ends_at_3_sigma"}
 
-_UNITS = {"MPa_per_mm": "MPa/mm", "MPa": "MPa", "mm": "mm", "rpm": "rpm", "s": "s", "N": "N"}
-
 T = TypeVar("T")
 Path = tuple[str | int, ...]
 """Where a value stands: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
 
 Finding = tuple[str | Path, str, str]
 """A path, which may be dotted, the problem there, and its remedy."""
-
-
-def unit_of(key: str) -> str:
-    """Return the unit that the name of a key ends in, '' if none.
-
-    >>> unit_of("stiffness_MPa_per_mm"), unit_of("radius_mm"), unit_of("roughness_growth")
-    ('MPa/mm', 'mm', '')
-    """
-    return next((unit for end, unit in _UNITS.items() if key.endswith(f"_{end}")), "")
-
-
-def words_of(key: str) -> str:
-    """Return a key of the scene file in words, without its unit.
-
-    >>> words_of("bearing.roughness_growth"), words_of("load.values_mm[2]")
-    ('bearing: roughness growth', 'load: values[2]')
-    """
-    place, _, name = key.rpartition(".")
-    name, bracket, rest = name.partition("[")
-    unit = next((end for end in _UNITS if name.endswith(f"_{end}")), "")
-    return f"{place}: {name.removesuffix(f'_{unit}').replace('_', ' ')}{bracket}{rest}"
-
-
-def label_of(key: str) -> str:
-    """Return a key of the scene file in words, with its unit, for an axis.
-
-    >>> label_of("motion.radius_mm"), label_of("bearing.roughness_growth")
-    ('motion: radius (mm)', 'bearing: roughness growth')
-    """
-    unit = unit_of(key)
-    return f"{words_of(key)} ({unit})" if unit else words_of(key)
 
 
 def shown(text: str, most: int = 60) -> str:
@@ -91,6 +60,11 @@ def shown(text: str, most: int = 60) -> str:
     """
     cut = text if len(text) <= most else text[: most - 3] + "..."
     return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in cut)
+
+
+def is_path(given: object) -> bool:
+    """Return whether something can be the name of a file."""
+    return isinstance(given, str | os.PathLike)
 
 
 def did_you_mean(word: str, candidates: Iterable[str]) -> str:

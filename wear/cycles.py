@@ -15,13 +15,13 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from wear.checked import MOST_CYCLES
 from wear.counted import IDLES, Counted, End
-from wear.equation import WearEquation, equation_of
-from wear.faults import UsageError
+from wear.equation import WearEquation, equation_of, growth
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
@@ -32,17 +32,13 @@ from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
+from wear.request import checked_scenes, wear_depths, whole_cycles
 from wear.resampling import resampled
+from wear.scene import Scene
 
-if TYPE_CHECKING:
-    from wear.scene import Scene
-
-
-MOST_CYCLES = 1e12
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
 TOGETHER = 1024  # scenes in one set of arrays
 KINKS = 16  # of a load: fewer scenes with more go together, for arrays of the same size
-PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 
 
 class Wear(NamedTuple):
@@ -227,7 +223,7 @@ def _as_far_as_needed(
 ) -> Iterator[Stretch]:
     """Yield the blocks of a load, or one stretch of a load that repeats, ever longer till it has
     the deepest wear (mm)."""
-    most = min(MOST_CYCLES, float(most_cycles(load)))
+    most = float(min(MOST_CYCLES, most_cycles(load)))
     if isinstance(load, Blocks):
         yield from stretches(model, load, most, rtol)
         return
@@ -238,13 +234,6 @@ def _as_far_as_needed(
             break
         reach = min(reach * FARTHER, most)
     yield part._replace(ends=most)
-
-
-def growth(model: Model, load: Load, start: float, end: float) -> float:
-    """Return by how much a small difference in wear grows between `start` and `end`; at least 1."""
-    U_a = load(PHASES)
-    before, after = (float(np.mean(model.rate(u, U_a))) for u in (start, end))
-    return max(1.0, after / before) if before > 0.0 else 1.0
 
 
 def sweep(
@@ -262,17 +251,9 @@ def sweep(
     >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
     ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
     """
-    from wear.scene import as_scene
-    from wear.solver import is_number, whole_cycles
-
     faults: list[str] = []
     numbers = np.array(whole_cycles(cycles, faults), dtype=float)
-    if not is_number(rtol) or not 0.0 < rtol <= 0.1:
-        faults.append(f"rtol: {rtol!r} is not between 0 and 0.1")
-    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
-        faults.append("scenes: give a list of them")
-    if faults:
-        raise UsageError("\n".join(faults))
+    wanted = checked_scenes(scenes, rtol, faults)
     last = float(np.max(numbers, initial=0.0))
 
     def together(some: Sequence[Scene]) -> Answer:
@@ -281,7 +262,7 @@ def sweep(
     def alone(scene: Scene) -> Answer:
         return wear_after(bind(scene), scene.load, numbers, rtol)[:2]
 
-    fewer = [resampled(as_scene(scene), rtol) for scene in scenes]
+    fewer = [resampled(scene, rtol) for scene in wanted]
     some = [each.scene for each in fewer]
     u, error = _each(some, len(numbers), together, alone, Pace(progress))
     for row, each in enumerate(fewer):
@@ -290,29 +271,30 @@ def sweep(
 
 
 def cycles_to_depth(
-    scenes: Sequence[Scene],
-    wear: FloatArray,
+    scenes: Sequence[Scene | str | os.PathLike[str]],
+    wear: FloatArray | Iterable[float] | float,
     rtol: float = 1e-7,
     progress: Callable[[str], None] = lambda _: None,
 ) -> CyclesToDepth:
-    """Return the whole cycles after which each of many scenes first reaches each wear (n,), mm.
+    """Return the whole cycles after which each of many scenes, or their names, first reaches each
+    wear (n,), mm.
 
     After two seconds `progress` is told now and then how many scenes are done.
 
-    >>> from wear.scene import load_scene
-    >>> scenes = [load_scene("section4"), load_scene("section5")]
-    >>> cycles_to_depth(scenes, np.array([1e-3])).cycles.tolist()
+    >>> cycles_to_depth(["section4", "section5"], 1e-3).cycles.tolist()
     [[140.0], [484.0]]
     """
-    wear = np.asarray(wear, dtype=float)
+    faults: list[str] = []
+    depths = np.array(wear_depths(wear, faults))
+    wanted = checked_scenes(scenes, rtol, faults)
 
     def together(some: Sequence[Scene]) -> Answer:
-        count, error = np.full((2, len(some), len(wear)), np.inf)
+        count, error = np.full((2, len(some), len(depths)), np.inf)
         todo, reach = np.arange(len(some)), LEAST
         while len(todo):
-            reach = min(reach * FARTHER, MOST_CYCLES)
+            reach = min(reach * FARTHER, float(MOST_CYCLES))
             found = _orbit([some[i] for i in todo.tolist()], reach, rtol)
-            cycles, missed = found.until(np.broadcast_to(wear, (len(todo), len(wear))))
+            cycles, missed = found.until(np.broadcast_to(depths, (len(todo), len(depths))))
             cycles[cycles > reach] = np.inf
             count[todo], error[todo] = cycles, missed / np.maximum(cycles, 1.0)
             more = np.isinf(cycles).any(axis=1) & ~found.at_rest
@@ -320,11 +302,11 @@ def cycles_to_depth(
         return count, np.where(np.isinf(count), 0.0, error)
 
     def alone(scene: Scene) -> Answer:
-        return cycles_until(bind(scene), scene.load, wear, rtol)[:2]
+        return cycles_until(bind(scene), scene.load, depths, rtol)[:2]
 
-    fewer = [resampled(scene, rtol) for scene in scenes]
+    fewer = [resampled(scene, rtol) for scene in wanted]
     some = [each.scene for each in fewer]
-    count, error = _each(some, len(wear), together, alone, Pace(progress))
+    count, error = _each(some, len(depths), together, alone, Pace(progress))
     return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))
 
 

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,14 +17,12 @@ from wear.load import Load, sampled
 from wear.model import Model, bind, bind_many
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import ROUNDOFF, SMALLEST, TINY
-
-if TYPE_CHECKING:
-    from wear.scene import Scene
-
+from wear.scene import Scene
 
 FAR = 1e12  # roughnesses of wear: further than any count goes
 APART = 1e-4  # of the roughness: displacements between which the rate's steepness is taken
 NEARLY = 0.99  # of the wear at which the roughness vanishes
+PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 
 
 @dataclass(frozen=True)
@@ -132,6 +129,13 @@ def breakpoints(load: Load) -> FloatArray:
             quarter = (after - peak) / 4
             inner |= {(peak + quarter) % 1.0, (after - quarter) % 1.0}
     return np.array([0.0, *sorted(x for x in inner if 1e-9 < x < 1.0 - 1e-9), 1.0])
+
+
+def growth(model: Model, load: Load, start: float, end: float) -> float:
+    """Return by how much a small difference in wear grows between `start` and `end`; at least 1."""
+    U_a = load(PHASES)
+    before, after = (float(np.mean(model.rate(u, U_a))) for u in (start, end))
+    return max(1.0, after / before) if before > 0.0 else 1.0
 
 
 def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatArray:

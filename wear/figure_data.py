@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.fitting.readings import Specimen
 from wear.generated import reaction
+from wear.history import History
+from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad
+from wear.model import bind
 from wear.numerics.gauss import FloatArray
-
-if TYPE_CHECKING:
-    from wear.fitting.readings import Specimen
-    from wear.history import History
-    from wear.scene import Scene
+from wear.scene import Scene
 
 PHASES = 800  # of a cycle, besides the peaks of the load
 _SECONDS_PER_HOUR = 3600.0
@@ -162,7 +162,7 @@ def panels_of(
 
 def _curves(history: History, quantity: Quantity) -> Iterator[tuple[Curve, FloatArray]]:
     """Yield the columns that the variant has, contact only where it is lost."""
-    columns = {column.name: column.values for column in history.columns()}
+    columns = history.columns()
     trivial = 1.0 if quantity is CONTACT else 0.0
     for place, curve in enumerate(quantity.curves):
         values = columns.get(curve.column, np.array([np.nan]))
@@ -203,9 +203,6 @@ def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> 
     UsageError
         if the load does not repeat, or the scene's cycles cannot be counted.
     """
-    from wear.inside import fields_inside
-    from wear.model import bind
-
     load = scene.periodic_load
     phases = np.union1d(np.linspace(0.0, 1.0, PHASES + 1), load.peaks)
     rows = [

@@ -171,8 +171,8 @@ def _settle(figure: Figure) -> None:
 
     With ``"none"`` a place holder would stay, for which every file is drawn twice.
     """
-    if figure.get_layout_engine() is not None:
-        figure.draw_without_rendering()
+    if (layout := figure.get_layout_engine()) is not None:
+        layout.execute(figure)
         with mpl.rc_context({"figure.constrained_layout.use": False}):
             figure.set_layout_engine(None)
 

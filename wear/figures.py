@@ -21,7 +21,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from wear.checked import words_of
 from wear.figure_data import (
     PRESSURE,
     Abscissa,
@@ -46,6 +45,7 @@ from wear.figure_style import (
     styled,
 )
 from wear.numerics.gauss import FloatArray
+from wear.quantities import words_of
 
 #: Distance of a line's markers, in diagonals of the axes.
 _MARK_EVERY = 0.14

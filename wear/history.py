@@ -14,18 +14,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear import history_files
-from wear.history_files import Column, States, columns_of, error_column
+from wear.cycle_pressures import CyclePressures, cycle_pressures
+from wear.history_files import States
+from wear.model import bind
 from wear.numerics.gauss import FloatArray
+from wear.quantities import COLUMNS, columns_of, unit_of
+from wear.scene import Scene
+from wear.states import displacement_of, friction_work, reaction_of, sliding_distance
 
 if TYPE_CHECKING:
     import pandas
     import xarray
     from matplotlib.figure import Figure
 
-    from wear.cycle_pressures import CyclePressures
-    from wear.scene import Scene
-
 MOST_SHOWN = 50  # rows in a notebook
+ALWAYS = tuple(COLUMNS)[1:5]
+"""Wear and roughness, which JSON has also of a pin that does not wear, or is smooth."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -34,6 +38,8 @@ class History:
 
     Attributes
     ----------
+    definition
+        The scene.
     cycles
         Numbers of cycles in the order of the request (of a run that was stopped: those reached).
     u_c, u_a, sigma_c, sigma_a, h
@@ -41,18 +47,10 @@ class History:
         the pin does not wear, or is smooth.
     p
         Contact pressure in MPa; zero out of contact.
-    error
-        Estimated relative error of `u_c`; NaN where there is no estimate.
     U_c
         Displacement of the bearing in mm, None with a rigid support.
-    R_a
-        Reaction force on the pin in N, None unless the scene has the contact's width and length.
-    U_a
-        Displacement of the pin in mm where the load is a force; None where it is given itself.
-    scene, definition
-        Its title, and the whole of it.
-    variant, operations
-        The generated module that ran and the arithmetic operations of its functions.
+    error
+        Estimated relative error of `u_c`; NaN where there is no estimate.
     method, rtol, seconds
         How it was solved, to what requested relative accuracy, and how long that took.
     cost
@@ -63,6 +61,7 @@ class History:
         Whether the run ended before its last cycle.
     """
 
+    definition: Scene
     cycles: NDArray[np.int64]
     u_c: FloatArray
     u_a: FloatArray | None
@@ -70,20 +69,40 @@ class History:
     sigma_a: FloatArray | None
     h: FloatArray
     p: FloatArray
-    error: FloatArray
     U_c: FloatArray | None
-    R_a: FloatArray | None
-    U_a: FloatArray | None
-    scene: str
-    definition: Scene
-    variant: str
-    operations: Mapping[str, int]
+    error: FloatArray
     method: str
     rtol: float
     cost: Mapping[str, int]
     seconds: float
     notices: tuple[str, ...]
     stopped: bool = False
+
+    @property
+    def scene(self) -> str:
+        """Return the title of the scene, or its name."""
+        return self.definition.title or self.definition.name
+
+    @property
+    def variant(self) -> str:
+        """Return the name of the generated module that ran."""
+        return self.definition.variant.name
+
+    @property
+    def operations(self) -> Mapping[str, int]:
+        """Return the arithmetic operations of its functions."""
+        return bind(self.definition).operations
+
+    @property
+    def R_a(self) -> FloatArray | None:
+        """Return the reaction force on the pin in N, None unless the scene has the contact's width
+        and length."""
+        return reaction_of(self.definition, self.p)
+
+    @cached_property
+    def U_a(self) -> FloatArray | None:
+        """Return the displacement of the pin in mm where the load is a force, else None."""
+        return displacement_of(self.definition, self.u_c)
 
     @cached_property
     def pressures(self) -> CyclePressures:
@@ -92,8 +111,6 @@ class History:
         Computed when asked for; no numbers where they could not be found: before the first cycle,
         under a load that does not repeat, of a run that was stopped.
         """
-        from wear.cycle_pressures import CyclePressures, cycle_pressures
-
         nothing = CyclePressures(*np.full((3, len(self.cycles)), np.nan))
         if self.stopped:
             return nothing
@@ -102,53 +119,37 @@ class History:
         except (ArithmeticError, ValueError):
             return nothing
 
-    def columns(self) -> tuple[Column, ...]:
-        """Return the quantities along `cycles`, as they are named in files and JSON."""
+    def columns(self) -> dict[str, FloatArray]:
+        """Return the quantities along `cycles` by their names in files and JSON, in that order."""
         peak, mean, fraction = self.pressures
-        columns = [
-            *columns_of(self.u_c, self),
-            Column("peak_pressure_MPa", "MPa", "largest pressure in the cycle", peak),
-            Column("mean_pressure_MPa", "MPa", "mean pressure over the cycle", mean),
-            Column("contact_fraction", "1", "share of the cycle in contact", fraction),
-        ]
-        return (*columns, *self._forces(peak, mean), error_column(self.error))
-
-    def _forces(self, peak: FloatArray, mean: FloatArray) -> list[Column]:
-        from wear.states import friction_work, reaction_of, sliding_distance
-
-        scene, columns = self.definition, []
-        if self.R_a is not None:
-            columns.append(Column("pin_reaction_N", "N", "reaction force on the pin", self.R_a))
-            for word, pressure in (("peak", peak), ("mean", mean)):
-                force = reaction_of(scene, pressure)
-                assert force is not None
-                name, meaning = f"{word}_pin_reaction_N", f"{word} reaction force over the cycle"
-                columns.append(Column(name, "N", meaning, force))
-        work = friction_work(scene, self.cycles.tolist(), mean)
-        if work is not None:
-            way = sliding_distance(scene, self.cycles.tolist())
-            name, meaning = "friction_work_mJ_per_mm2", "work of friction per area in the cycle"
-            columns.append(Column("sliding_distance_mm", "mm", "way slid in the cycle", way))
-            columns.append(Column(name, "mJ/mm^2", meaning, work))
-            if (of_all := reaction_of(scene, work)) is not None:
-                columns.append(Column("friction_work_mJ", "mJ", "work of friction", of_all))
-        return columns
+        scene, cycles = self.definition, self.cycles.tolist()
+        work = friction_work(scene, cycles, mean)
+        found = columns_of(self) | {
+            "peak_pressure_MPa": peak,
+            "mean_pressure_MPa": mean,
+            "contact_fraction": fraction,
+            "peak_pin_reaction_N": reaction_of(scene, peak),
+            "mean_pin_reaction_N": reaction_of(scene, mean),
+            "sliding_distance_mm": None if work is None else sliding_distance(scene, cycles),
+            "friction_work_mJ_per_mm2": work,
+            "friction_work_mJ": None if work is None else reaction_of(scene, work),
+        }
+        return {name: found[name] for name in COLUMNS if found.get(name) is not None}
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a row a number of cycles, with the columns of the files; needs pandas."""
         import pandas
 
-        columns = {column.name: column.values for column in self.columns()}
-        return pandas.DataFrame(columns, index=pandas.Index(self.cycles, name="cycle"))
+        return pandas.DataFrame(self.columns(), index=pandas.Index(self.cycles, name="cycle"))
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the columns along `cycle`, with units and meanings; needs xarray."""
         import xarray
 
         made = xarray.Dataset(coords={"cycle": self.cycles}, attrs=dict(self._attributes()))
-        for column in self.columns():
-            about = {"units": column.unit, "long_name": column.meaning}
-            made[column.name] = ("cycle", column.values, about)
+        for name, values in self.columns().items():
+            about = {"units": unit_of(name) or "1", "long_name": COLUMNS[name].meaning}
+            made[name] = ("cycle", values, about)
         return made
 
     def plot(self, *, logarithmic: bool = True) -> Figure:
@@ -168,10 +169,10 @@ class History:
     def _repr_html_(self) -> str:
         """Return the table that a notebook shows."""
         columns = self.columns()
-        heads = "".join(f"<th>{column.name}</th>" for column in columns)
+        heads = "".join(f"<th>{name}</th>" for name in columns)
         rows = "".join(
             f"<tr><th>{cycle}</th>"
-            + "".join(f"<td>{column.values[row]:.6g}</td>" for column in columns)
+            + "".join(f"<td>{values[row]:.6g}</td>" for values in columns.values())
             + "</tr>"
             for row, cycle in enumerate(self.cycles[:MOST_SHOWN].tolist())
         )
@@ -190,8 +191,8 @@ class History:
             "rtol": self.rtol,
             "cycles": self.cycles.tolist(),
         }
-        lists = dict.fromkeys(history_files.WEAR_AND_ROUGHNESS, [None] * len(self.cycles)) | {
-            column.name: _finite(column.values) for column in self.columns()
+        lists = dict.fromkeys(ALWAYS, [None] * len(self.cycles)) | {
+            name: _finite(values) for name, values in self.columns().items()
         }
         tail = {"cost": dict(self.cost), "seconds": self.seconds, "notices": list(self.notices)}
         return head | lists | tail

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from derive import files
+from wear.checked import is_path
 from wear.faults import UsageError
-
-if TYPE_CHECKING:
-    from wear.inside import Inside
+from wear.inside import Inside
+from wear.quantities import COLUMNS, columns_of, unit_of
 
 Attributes = Mapping[str, str]
 """What describes a result, each in one line and none empty."""
@@ -23,21 +23,12 @@ Attributes = Mapping[str, str]
 _NUMBER_OF_RECORDS = 4  # where it stands in a NetCDF-3 file, behind "CDF" and the version
 
 
-class Column(NamedTuple):
-    """One quantity of a result: its name in files (with the unit), unit, meaning, and values: one
-    a cycle (n,), or at phases of each (n, m)."""
-
-    name: str
-    unit: str
-    meaning: str
-    values: NDArray[Any]
-
-
 class States(NamedTuple):
-    """A part of a result: columns along whole `cycles` (n,) and, if any, `phases` (m,) of each."""
+    """A part of a result: `columns` by name, (n,) or (n, m), along whole `cycles` (n,) and, if any,
+    `phases` (m,) of each."""
 
     cycles: NDArray[Any]
-    columns: Sequence[Column]
+    columns: Mapping[str, NDArray[Any]]
     phases: NDArray[np.float64] | None = None
 
     def by_name(self) -> dict[str, list[Any]]:
@@ -46,43 +37,11 @@ class States(NamedTuple):
         if self.phases is not None:
             found["phase"] = self.phases[None]
         found |= {
-            each.name: each.values if each.values.ndim == 2 else each.values[:, None]
-            for each in self.columns
+            name: values if values.ndim == 2 else values[:, None]
+            for name, values in self.columns.items()
         }
         whole = np.broadcast_arrays(*found.values())
         return {name: values.ravel().tolist() for name, values in zip(found, whole, strict=True)}
-
-
-_FIELDS = (  # symbol, name in files, unit, meaning
-    ("u_a", "pin_wear_mm", "mm", "wear of the pin"),
-    ("sigma_c", "bearing_roughness_mm", "mm", "roughness of the bearing"),
-    ("sigma_a", "pin_roughness_mm", "mm", "roughness of the pin"),
-    ("h", "closure_mm", "mm", "closure of the mean surfaces"),
-    ("p", "pressure_at_start_MPa", "MPa", "contact pressure"),
-    ("U_c", "bearing_displacement_mm", "mm", "displacement of the bearing"),
-    ("U_a", "pin_displacement_mm", "mm", "displacement of the pin"),
-)
-WEAR_AND_ROUGHNESS = (
-    "bearing_wear_mm", "pin_wear_mm", "bearing_roughness_mm", "pin_roughness_mm",
-)  # fmt: skip
-"""Keys that JSON has in this order also of a pin that does not wear, or is smooth."""
-
-
-def columns_of(wear: NDArray[Any], fields: object) -> tuple[Column, ...]:
-    """Return the wear (mm) of the bearing and the fields that there are, by symbol."""
-    return (
-        Column("bearing_wear_mm", "mm", "wear of the bearing", wear),
-        *(
-            Column(name, unit, meaning, getattr(fields, symbol))
-            for symbol, name, unit, meaning in _FIELDS
-            if getattr(fields, symbol, None) is not None
-        ),
-    )
-
-
-def error_column(error: NDArray[Any]) -> Column:
-    """Return the estimated relative error (n,) of the wear."""
-    return Column("error_estimate", "1", "estimated relative error of the bearing wear", error)
 
 
 def write_inside(
@@ -92,8 +51,8 @@ def write_inside(
     time, as `write` does."""
 
     def states(part: Inside) -> States:
-        columns = *columns_of(part.u, part.fields), error_column(part.error)
-        return States(part.cycles, columns, part.phases)
+        wear, error = {"bearing_wear_mm": part.u}, {"error_estimate": part.error}
+        return States(part.cycles, wear | columns_of(part.fields) | error, part.phases)
 
     write(map(states, parts), path, attributes)
 
@@ -109,7 +68,7 @@ def write(parts: Iterable[States], path: str | os.PathLike[str], attributes: Att
         if the file cannot be written.
     """
     writers = {".csv": _write_lines, ".nc": _write_records}
-    suffix = Path(path).suffix
+    suffix = Path(path).suffix if is_path(path) else ""
     if suffix not in writers:
         raise UsageError(f"{path}: the name of a result ends in {' or '.join(writers)}")
     with files.replacing(path) as draft:
@@ -137,7 +96,7 @@ def _write_records(parts: Iterable[States], path: Path, attributes: Attributes) 
     """
     rows = 0
     for number, part in enumerate(parts):
-        records = np.column_stack([part.cycles, *(each.values for each in part.columns)])
+        records = np.column_stack([part.cycles, *part.columns.values()])
         if number == 0:
             _write_header(part, path, attributes)
             os.truncate(path, path.stat().st_size - 8 * records.shape[1])
@@ -153,7 +112,6 @@ def _write_header(part: States, path: Path, attributes: Attributes) -> None:
     """Write what describes a result, and one record of zeros."""
     from scipy.io import netcdf_file
 
-    cycles = Column("cycle", "1", "number of load cycles that lie behind", part.cycles)
     with netcdf_file(path, "w", version=2) as file:  # offsets of 64 bits: files of any size
         for key, value in attributes.items():
             setattr(file, key, value)
@@ -163,7 +121,7 @@ def _write_header(part: States, path: Path, attributes: Attributes) -> None:
             phase = file.createVariable("phase", "d", ("phase",))
             phase[:] = part.phases
             phase.units, phase.long_name = "1", "time since the end of the cycle, in periods"
-        for name, unit, meaning, values in (cycles, *part.columns):
+        for name, values in {"cycle": part.cycles, **part.columns}.items():
             variable = file.createVariable(name, "d", ("cycle", "phase")[: values.ndim])
             variable[0] = 0.0
-            variable.units, variable.long_name = unit, meaning
+            variable.units, variable.long_name = unit_of(name) or "1", COLUMNS[name].meaning

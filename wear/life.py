@@ -17,15 +17,22 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear import cycles as engine
+from wear.checked import MOST_CYCLES
 from wear.faults import AccuracyError, UsageError
 from wear.history import History
 from wear.load import Blocks
 from wear.load.spans import most_cycles
+from wear.model import bind
 from wear.regime import Asymptote, asymptote
+from wear.request import check_rtol, obstacle, wear_depths
+from wear.resampling import resampled
 from wear.scene import Scene, as_scene
-from wear.solver import LARGEST_RTOL, LEAST_RTOL, MOST_CYCLES, is_number, obstacle, solve
+from wear.solver import solve
+from wear.states import fields_at, result_notices
 
 MOST_ITERATIONS = 50
+MOST_SHOWN = 5  # depths, where a life is shown in a line
 LARGEST_ERROR = 1e-3  # of an extrapolation that is worth a number
 
 
@@ -41,12 +48,23 @@ class Reached(Enum):
 
 class Life(NamedTuple):
     """After how many whole `cycles` (n,) each `wear_mm` (n,) is reached, no number where that is
-    not known; the estimated relative `error` (n,) of the numbers; and how each was found."""
+    not known; the estimated relative `error` (n,) of the numbers; how each was found; and what is
+    worth knowing of them."""
 
     wear_mm: tuple[float, ...]
     cycles: NDArray[np.float64]
     error: NDArray[np.float64]
     reached: tuple[Reached, ...]
+    notices: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        told = [
+            f"{wear:.6g} mm after {cycles:.6g} cycles" if cycles == cycles
+            else f"{wear:.6g} mm: {way.value}"
+            for wear, cycles, way in zip(self.wear_mm, self.cycles, self.reached, strict=True)
+        ]  # fmt: skip
+        rest = [f"{len(told) - MOST_SHOWN} more"] if len(told) > MOST_SHOWN else []
+        return f"<Life: {'; '.join(told[:MOST_SHOWN] + rest)}>"
 
 
 def cycles_until(
@@ -72,14 +90,10 @@ def cycles_until(
     >>> [f"{cycles:.4e}" for cycles in life.cycles], [way.value for way in life.reached]
     (['1.4000e+02', '1.0786e+12'], ['counted', 'extrapolated'])
     """
-    from wear.cycles import cycles_until as count_until
-    from wear.model import bind
-    from wear.resampling import resampled
-
     scene = as_scene(scene)
     depths = _checked(scene, wear_mm, rtol)
-    fewer = resampled(scene, rtol)
-    found = count_until(bind(scene), fewer.scene.load, np.array(depths), rtol - fewer.error)
+    fewer, model = resampled(scene, rtol), bind(scene)
+    found = engine.cycles_until(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
     cycles, error = found.cycles.copy(), found.error + fewer.error
     known = np.isfinite(cycles) & np.isfinite(error)
     reached = [Reached.COUNTED] * len(depths)
@@ -87,18 +101,17 @@ def cycles_until(
         beyond = _Beyond(scene, rtol)
         for place in np.flatnonzero(~known):
             cycles[place], error[place], reached[place] = beyond(depths[place])
-    return Life(depths, cycles, error, tuple(reached))
+    ends = [depth for depth, count in zip(depths, cycles, strict=True) if math.isfinite(count)]
+    u = np.array(ends)
+    fields = fields_at(model, scene, [0] * len(ends), u)
+    judged = result_notices(model, scene, fields, cycles[np.isfinite(cycles)].tolist(), u)
+    return Life(depths, cycles, error, tuple(reached), (*scene.notices, *judged))
 
 
 def _checked(scene: Scene, wear_mm: float | Iterable[float], rtol: float) -> tuple[float, ...]:
-    depths = tuple(wear_mm if isinstance(wear_mm, Iterable) else (wear_mm,))
-    faults = [
-        f"wear: {depth!r} is no depth in mm; give a number >= 0"
-        for depth in depths
-        if not (is_number(depth) and 0.0 <= depth < math.inf)
-    ]
-    if not (is_number(rtol) and LEAST_RTOL <= rtol <= LARGEST_RTOL):
-        faults.append(f"rtol: {rtol!r} is not between {LEAST_RTOL:g} and {LARGEST_RTOL:g}")
+    faults: list[str] = []
+    depths = wear_depths(wear_mm, faults)
+    check_rtol(rtol, faults)
     if (against := obstacle(scene)) is not None:
         faults.append(f"cycles cannot be counted: {against}")
     if faults:

@@ -7,6 +7,7 @@ ends at h = 3 sigma the margin of contact.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -18,7 +19,7 @@ import numpy as np
 
 from wear import own_laws, pressure_root
 from wear.faults import UsageError
-from wear.scene import Scene, VariantKey
+from wear.scene import Scene, VariantKey, as_scene
 
 Real = Any  # a float or an array of floats
 Fields = Any  # the named tuple of a generated module: the fields that its variant has, mm and MPa
@@ -280,8 +281,9 @@ def _bind(key: VariantKey, numbers: Mapping[str, Real], pin_wear_sign: Real) -> 
     return Model(bound(generated(key), numbers, pin_wear_sign), loss)
 
 
-def bind(scene: Scene) -> Model:
-    """Return the model of one scene."""
+def bind(scene: Scene | str | os.PathLike[str]) -> Model:
+    """Return the model of one scene, or of its name or path."""
+    scene = as_scene(scene)
     return _bind(scene.variant, scene.parameters(), scene.pin_wear_sign)
 
 

@@ -20,22 +20,21 @@ import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from wear import own_laws
+from wear.checked import MOST_CYCLES
 from wear.counted import FADES
-from wear.cycles import MOST_CYCLES, count_cycles
+from wear.cycles import count_cycles
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
+from wear.load import Load
 from wear.model import bind
 from wear.offset import offset
+from wear.scene import Scene, as_scene
 from wear.solver import solve
-
-if TYPE_CHECKING:
-    from wear.load import Load
-    from wear.scene import Scene
 
 TOLERANCE = Decimal("1e-6")
 """The note's criterion: relative distance of the wear rate from its limit."""
@@ -66,6 +65,12 @@ class Asymptote:
     arrest_cycle: int | None = None
     cycles_to_stabilise: dict[str, float | None] = field(default_factory=dict)
     notices: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        ends = ("wear_per_cycle_mm", "saturation_wear_mm", "arrest_wear_mm", "arrest_cycle")
+        values = {name: getattr(self, name) for name in ends}
+        known = [f"{name} = {value:.6g}" for name, value in values.items() if value is not None]
+        return f"<Asymptote of {self.scene!r}: {', '.join([self.regime, *known])}>"
 
 
 class _Case:
@@ -136,8 +141,6 @@ def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
     >>> found.regime, f"{found.wear_per_cycle_mm:.10e}"
     ('steady', '4.6355474275e-08')
     """
-    from wear.scene import as_scene
-
     scene = as_scene(scene)
     with decimal.localcontext(_DIGITS):
         case = _Case(scene)
@@ -339,7 +342,7 @@ def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
         return None, (str(end),)
     if end is not None:
         return end.cycle, (str(end),) if end.uncertain else ()
-    _, error = found.after(np.array([MOST_CYCLES]))
+    _, error = found.after(np.array([float(MOST_CYCLES)]))
     if np.isfinite(error).all():
         return None, (f"wear goes on for more than {MOST_CYCLES:.0e} cycles",)
     return None, ("the cycle in which wear stops cannot be counted",)

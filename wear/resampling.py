@@ -10,18 +10,16 @@ from __future__ import annotations
 
 import dataclasses
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from wear.equation import WearEquation
+from wear.equation import WearEquation, growth
 from wear.load import ForceTable, Table
 from wear.model import Model, bind
 from wear.numerics.gauss import FloatArray, Mesh, mesh
 from wear.numerics.tolerances import TINY
-
-if TYPE_CHECKING:
-    from wear.scene import Scene
+from wear.scene import Scene
 
 Rows = Table | ForceTable
 
@@ -41,8 +39,6 @@ class Resampled(NamedTuple):
 
     def missed(self, wear: FloatArray) -> FloatArray:
         """Return the relative error of wears (n,), more where the wear accelerates."""
-        from wear.cycles import growth
-
         if not self.error:
             return np.zeros(wear.shape)
         model, load = bind(self.scene), self.scene.periodic_load

@@ -31,8 +31,8 @@ from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import no_such_number, parameters_of, parametrised
 from wear.progress import Pace
+from wear.request import checked_request, checked_scenes, obstacle
 from wear.scene import Scene, as_scene
-from wear.solver import checked_request, obstacle
 from wear.states import fields_at, result_notices
 
 FloatArray = NDArray[np.float64]
@@ -75,7 +75,9 @@ def gradients(
     >>> f"{found.derivative[0, 0, 0]:.4f}"
     '1698.1082'
     """
-    cycles = np.asarray(cycles, dtype=float)
+    given = np.asarray(cycles)
+    faults = [] if given.dtype.kind in "iuf" else [f"cycles: {cycles!r} are no numbers"]
+    scenes, cycles = checked_scenes(scenes, rtol, faults), given.astype(float)
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
     found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
@@ -279,7 +281,7 @@ def sensitivity(
     scene = as_scene(scene)
     if (against := obstacle(scene)) is not None:
         raise UsageError(f"cycles cannot be counted: {against}")
-    wanted = checked_request(scene, cycles, rtol, "abel", None)
+    wanted = checked_request(scene, cycles, rtol)
     numbers = parameters_of(scene)
     counted = np.array(wanted, dtype=float)
     found = _of_one_variant([scene], list(numbers), counted, rtol, Pace(progress).say)

@@ -2,33 +2,29 @@
 
 from __future__ import annotations
 
-import numbers
 import os
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wear import direct, records
 from wear.checked import MOST_CYCLES
-from wear.faults import AccuracyError, Interrupted, UsageError
+from wear.cycles import wear_after
+from wear.faults import AccuracyError, Interrupted
 from wear.history import History
 from wear.load import HistoryLoad
-from wear.load.spans import most_cycles
+from wear.model import Model, bind
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
-from wear.states import displacement_of, fields_at, reaction_of, result_notices
-
-if TYPE_CHECKING:
-    from wear.model import Model
-    from wear.scene import Scene
+from wear.request import METHODS, checked_request, is_smooth_history, obstacle
+from wear.resampling import resampled
+from wear.scene import Scene, as_scene
+from wear.states import fields_at, result_notices
 
 __all__ = ["METHODS", "MOST_CYCLES", "solve"]
 
-METHODS = ("auto", "abel", "collocation", *direct.METHODS)
-LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
 
@@ -73,10 +69,6 @@ def solve(
     >>> [f"{wear:.4e}" for wear in history.u_c]
     ['3.0253e-05', '2.3692e-04']
     """
-    from wear.model import bind
-    from wear.resampling import resampled
-    from wear.scene import as_scene
-
     start = time.monotonic()
     scene = as_scene(scene)
     wanted = checked_request(scene, cycles, rtol, method, time_limit)
@@ -96,71 +88,6 @@ def solve(
     return history
 
 
-def checked_request(
-    scene: Scene,
-    cycles: float | Iterable[float],
-    rtol: float,
-    method: str,
-    time_limit: float | None,
-) -> tuple[int, ...]:
-    """The numbers of cycles as integers; everything that is wrong with the request at once."""
-    faults: list[str] = []
-    wanted = whole_cycles(cycles, faults)
-    if not is_number(rtol) or not LEAST_RTOL <= rtol <= LARGEST_RTOL:
-        faults.append(f"rtol: {rtol!r} is not between 1e-15 and 0.1")
-    if method not in METHODS:
-        faults.append(f"method: {method!r} is none of {', '.join(METHODS)}")
-    elif method == "abel" and obstacle(scene) is not None:
-        faults.append(f"method: abel is not for this scene: {obstacle(scene)}; take auto")
-    elif method == "collocation" and not _is_smooth_history(scene):
-        faults.append("method: collocation is for a measured history without cutoff; take auto")
-    if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
-        faults.append(f"time_limit: {time_limit!r} is no positive number of seconds")
-    if max(wanted, default=0) > most_cycles(scene.load):
-        faults.append(f"cycles: the load ends after {most_cycles(scene.load)} whole cycles")
-    if faults:
-        raise UsageError("\n".join(faults))
-    return wanted
-
-
-def whole_cycles(
-    cycles: float | Iterable[float], faults: list[str], least: int = 0
-) -> tuple[int, ...]:
-    """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
-    given: Any = cycles.tolist() if isinstance(cycles, np.ndarray | np.generic) else cycles
-    if hasattr(given, "to_numpy"):  # of pandas and xarray
-        given = given.to_numpy().tolist()
-    several = given if isinstance(given, Iterable) and not isinstance(given, str) else [given]
-    wanted = tuple(_whole(number, faults, least) for number in several)
-    if not wanted:
-        faults.append("cycles: give at least one number of cycles")
-    return wanted
-
-
-def is_number(given: object) -> bool:
-    """Return whether something is a real number and no truth value."""
-    return isinstance(given, numbers.Real) and not isinstance(given, bool)
-
-
-def _whole(number: float, faults: list[str], least: int) -> int:
-    if not is_number(number) or not least <= number <= MOST_CYCLES or number != int(number):
-        faults.append(f"cycles: {number!r} is no whole number from {least} to 1e12")
-        return least
-    return int(number)
-
-
-def obstacle(scene: Scene) -> str | None:
-    """Why cycles of this scene cannot be counted, None if they can."""
-    if isinstance(scene.load, HistoryLoad):
-        return "the load does not repeat"
-    return None
-
-
-def _is_smooth_history(scene: Scene) -> bool:
-    """Whether the load is a measured history, and contact does not jump."""
-    return isinstance(scene.load, HistoryLoad) and not scene.contact.ends_at_3_sigma
-
-
 def _methods(
     scene: Scene, method: str, wanted: tuple[int, ...], rtol: float
 ) -> tuple[tuple[str, str], ...]:
@@ -169,7 +96,7 @@ def _methods(
         return ((method, ""),)
     against = obstacle(scene)
     if against is not None:
-        return (("collocation" if _is_smooth_history(scene) else "DOP853", against),)
+        return (("collocation" if is_smooth_history(scene) else "DOP853", against),)
     first = ("abel", "the load repeats")
     if max(wanted) > AFFORDABLE_CYCLES or rtol < DIRECT_LIMIT:
         return (first,)
@@ -211,8 +138,6 @@ def _worst(wear: Outcome) -> float:
 def _by_abel(
     model: Model, scene: Scene, wanted: tuple[int, ...], rtol: float, deadline: float
 ) -> Outcome:
-    from wear.cycles import wear_after
-
     cycles = tuple(sorted(set(wanted)))
     nothing = Outcome("abel", (), np.empty(0), np.empty(0), Cost(0, 0))
     try:
@@ -253,6 +178,7 @@ def _history(
     u, error = wear.u[order], wear.error[order]
     fields = fields_at(model, scene, cycles, u)
     return History(
+        definition=scene,
         cycles=np.array(cycles, dtype=np.int64),
         u_c=u,
         u_a=getattr(fields, "u_a", None),
@@ -260,14 +186,8 @@ def _history(
         sigma_a=getattr(fields, "sigma_a", None),
         h=fields.h,
         p=fields.p,
-        error=error,
         U_c=getattr(fields, "U_c", None),
-        R_a=reaction_of(scene, fields.p),
-        U_a=displacement_of(model, scene, u),
-        scene=scene.title or scene.name,
-        definition=scene,
-        variant=scene.variant.name,
-        operations=model.operations,
+        error=error,
         method=wear.method,
         rtol=rtol,
         cost=wear.cost._asdict(),

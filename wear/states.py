@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,12 +10,10 @@ from wear.direct.cutoff import pressure_share, roundoff
 from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.load.spans import span
+from wear.model import Fields, Model, bind
 from wear.numerics.gauss import FloatArray
+from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
-
-if TYPE_CHECKING:
-    from wear.model import Fields, Model
-    from wear.scene import Scene
 
 
 def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) -> Fields:
@@ -39,8 +36,9 @@ def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatA
     return fields._replace(p=closed * pressure_share(model, u, U_a, rise))
 
 
-def displacement_of(model: Model, scene: Scene, u: FloatArray) -> FloatArray | None:
+def displacement_of(scene: Scene, u: FloatArray) -> FloatArray | None:
     """The displacement of the pin in mm at the ends of cycles, where the load is a force."""
+    model = bind(scene)
     if not isinstance(model, GivenLoad):
         return None
     return np.asarray(model.displacement(u, np.full(u.shape, float(scene.periodic_load(0.0)))))
@@ -51,7 +49,7 @@ def result_notices(
 ) -> tuple[str, ...]:
     """Return what is worth knowing of results: where the model ends, and what is hardly meant."""
     rough = [getattr(fields, name) for name in ("sigma_c", "sigma_a") if name in fields._fields]
-    results = implausible_results(scene, np.array(cycles), u, *rough)
+    results = implausible_results(scene, cycles, u, *rough)
     return (*negative_roughness(model, fields, u), *results)
 
 

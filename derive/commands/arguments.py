@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from derive import files
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from derive.faults import UsageError
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def add_ids(parser: argparse.ArgumentParser) -> None:
     """Declare any number of ids; none means all equations."""
-    parser.add_argument("ids", metavar="ID", nargs="*", help="an equation (default: all)")
+    declare(parser, "[ID ...]", "an equation (default: all)", dest="ids")
 
 
 def equations(ids: list[str]) -> tuple[Equation, ...]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 import difflib
 
-from derive import completion
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from derive.commands import arguments
 from derive.faults import UsageError
 
@@ -23,21 +22,12 @@ EXAMPLE = """\
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the variant and the language."""
-    variant = parser.add_argument(
-        "variant",
-        metavar="VARIANT",
-        nargs="?",
-        help="a variant (--list names them), or LAW/VARIANT (default law: tanh)",
-    )
-    completion.suggest(variant, _short_names)
-    parser.add_argument(
-        "--target",
-        choices=TARGETS,
-        default="numpy",
-        help="language, or the header of the C source (default: %(default)s)",
-    )
-    parser.add_argument("--list", action="store_true", help="list the variants and stop")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write to a file")
+    about = "a variant (--list names them), or LAW/VARIANT (default law: tanh)"
+    declare(parser, "[VARIANT]", about, _short_names)
+    about = "language, or the header of the C source (default: %(default)s)"
+    declare(parser, f"--target {{{','.join(TARGETS)}}}", about, default="numpy")
+    declare(parser, "--list", "list the variants and stop")
+    declare(parser, "-o, --output FILE", "write to a file")
 
 
 def variant_names() -> tuple[str, ...]:

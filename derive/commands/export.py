@@ -6,11 +6,9 @@ import argparse
 from pathlib import Path
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from derive.commands import arguments
 from derive.faults import UsageError
-
-TARGETS = ("coq",)
 
 SUMMARY = "the steps as lemmas for a proof assistant"
 EXAMPLE = """\
@@ -22,13 +20,10 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare target, folder and --check."""
     arguments.add_ids(parser)
-    parser.add_argument(
-        "--target", choices=TARGETS, default="coq", help="proof assistant (default: %(default)s)"
-    )
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the files")
-    parser.add_argument(
-        "--check", action="store_true", help="compile the files and compare with the record"
-    )
+    about = "proof assistant (default: %(default)s)"
+    declare(parser, "--target {coq}", about, default="coq")
+    declare(parser, "-o, --output DIR", "folder of the files", required=True)
+    declare(parser, "--check", "compile the files and compare with the record")
 
 
 def execute(options: argparse.Namespace) -> Answer:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 
 SUMMARY = "write the generated modules of wear"
 EXAMPLE = """\
@@ -17,9 +17,7 @@ EXAMPLE = """\
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare --check."""
-    parser.add_argument(
-        "--check", action="store_true", help="write nothing; status 1 when out of date"
-    )
+    declare(parser, "--check", "write nothing; status 1 when out of date")
 
 
 def folder() -> Path:

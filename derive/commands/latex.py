@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from derive.commands import arguments
 from derive.faults import UsageError
 
@@ -26,20 +26,12 @@ EXAMPLE = r"""
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare ids and the file."""
     arguments.add_ids(parser)
-    parser.add_argument("-o", "--output", metavar="FILE", help="write to a file")
-    parser.add_argument(
-        "--derivation", action="store_true", help="the chain of steps to one equation, as prose"
-    )
-    parser.add_argument(
-        "--width",
-        metavar="LENGTH",
-        help="of a line, in pt, mm, cm or in (default: that of article)",
-    )
-    parser.add_argument(
-        "--law",
-        metavar="FORMULA",
-        help="instead of ids: the equations of a bearing with this contact law, phi of r = h/sigma",
-    )
+    declare(parser, "-o, --output FILE", "write to a file")
+    declare(parser, "--derivation", "the chain of steps to one equation, as prose")
+    about = "of a line, in pt, mm, cm or in (default: that of article)"
+    declare(parser, "--width LENGTH", about)
+    about = "instead of ids: the equations of a bearing with this contact law, phi of r = h/sigma"
+    declare(parser, "--law FORMULA", about)
 
 
 def execute(options: argparse.Namespace) -> Answer:

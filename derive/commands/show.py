@@ -7,13 +7,11 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from derive.commands import arguments
 
 if TYPE_CHECKING:
     from derive.equations import Equation
-
-FORMS = ("text", "latex", "srepr", "mathml", "json")
 
 SUMMARY = "one equation, with its conditions"
 EXAMPLE = """\
@@ -25,10 +23,9 @@ EXAMPLE = """\
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the id and the form."""
-    parser.add_argument("id", metavar="ID", help="an equation, as `derive list` names it")
-    parser.add_argument(
-        "--as", dest="form", choices=FORMS, default="text", help="form (default: %(default)s)"
-    )
+    declare(parser, "ID", "an equation, as `derive list` names it")
+    forms, about = ",".join(_WRITERS), "form (default: %(default)s)"
+    declare(parser, f"--as {{{forms}}}", about, dest="form", default="text")
 
 
 def document(found: Equation) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from derive.commands import arguments
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ EXAMPLE = """\
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the id."""
-    parser.add_argument("id", metavar="ID", help="an equation, as `derive list` names it")
+    declare(parser, "ID", "an equation, as `derive list` names it")
 
 
 def execute(options: argparse.Namespace) -> Answer:

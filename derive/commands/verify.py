@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from derive.commands import arguments
 
 if TYPE_CHECKING:
@@ -24,9 +24,7 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare ids, and whether hypotheses are dropped."""
     arguments.add_ids(parser)
-    parser.add_argument(
-        "--deep", action="store_true", help="drop each hypothesis in turn, too (minutes)"
-    )
+    declare(parser, "--deep", "drop each hypothesis in turn, too (minutes)")
 
 
 def execute(options: argparse.Namespace) -> Answer:

@@ -42,9 +42,10 @@ from ..note.governing import ROUGH_BEARING, Model
 from ..note.stabilised import named_limit
 from ..rules.algebra import Alike, Consequence, Identity, Insert, Solve, discharge, substitute
 from ..rules.assumption import assume
-from ..rules.calculus import DIFFERENTIABLE, RIGID, differentiate
+from ..rules.calculus import RIGID, differentiate
 from ..rules.inequalities import Arithmetic, Monotone
 from ..rules.limits import intermittent
+from ..rules.proving import DIFFERENTIABLE
 from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols, t
 from .steady_state import BOUNDED_LOAD, closure, roughness, wear_rate, worn
@@ -125,7 +126,7 @@ class Cutoff:
     def margin_rate(self) -> Judgement:
         """How the margin changes: wear lowers it, a rising load raises it."""
         (claim,) = stated("margin-rate")
-        return Identity(claim)(name="rate of the margin")
+        return Identity(claim)(assume(DIFFERENTIABLE), name="rate of the margin")
 
     @cached_property
     def in_wear(self) -> Judgement:

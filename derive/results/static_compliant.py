@@ -93,7 +93,8 @@ class StaticCompliant:
 
     def _time(self, claim: sp.Basic, wear: Judgement, *facts: Judgement) -> Judgement:
         law, start = self.model.wear_laws[2], self.model.start[1]
-        parents = (law, wear, start, half_rate, assume(CONSTANT), *facts)
+        pressure, rough = bearing_only().pressure_of_bearing_wear, self.model.roughness_at_wear
+        parents = (law, wear, start, pressure, rough, half_rate, assume(CONSTANT), *facts)
         return Parametric(claim)(*parents, name="time")
 
 

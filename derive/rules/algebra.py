@@ -272,14 +272,15 @@ class Forget(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
-        if not isinstance(self.hypothesis.relation, sp.Equality):
+        said = self.hypothesis.relation
+        if not isinstance(said, sp.Equality) or not said.lhs.is_Symbol:
             raise RuleError(f"missing premise: {self.hypothesis.text} is the value of a symbol")
-        name, value = self.hypothesis.relation.args
+        name, value = said.args
         others = [h.relation for h in first.hypotheses if h != self.hypothesis]
         if not constant(sp.Tuple(name, value)):
             raise RuleError(f"missing premise: {name} and {value} are constant")
         require_defined(value)
-        if not name.is_Symbol or sp.Tuple(value, first.relation, *others).has(name):
+        if sp.Tuple(value, first.relation, *others).has(name):
             raise RuleError(f"missing premise: {name} occurs nowhere else")
         possible = name.is_real and (not name.is_nonnegative or holds(sp.Ge(value, 0)))
         if not possible or (name.is_positive and not holds(sp.Gt(value, 0))):

@@ -56,9 +56,9 @@ class Differentiated(Rule):
         _free(self.parameter, result.rhs, *premises)
         slope = sp.diff(result.rhs, self.parameter)
         of_result = sp.Derivative(result.lhs, self.parameter, evaluate=False)
-        require_defined(self.claim, *premises)
-        rest = (self.claim.lhs - self.claim.rhs).xreplace({of_result: slope})
-        if not smooth(result.rhs) or not is_zero(inserted(rest, premises)):
+        left, right = (side.xreplace({of_result: slope}) for side in self.claim.args)
+        require_defined(sp.Tuple(left, right), *premises)
+        if not smooth(result.rhs) or not is_zero(inserted(left - right, premises)):
             raise RuleError(f"missing premise: the derivative is {slope}")
         return Conclusion(Equality(*self.claim.args))
 

@@ -30,12 +30,25 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from ..claims import Asymptotic, FirstZero, Limit, Property
+from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, RuleError
 from ..language import certain
 from ..laws import GENERAL
+from ..symbols import rate, symbols, t
 
 LAW = GENERAL.phi.func
 """The unspecified contact law: positive, continuously differentiable, of negative slope."""
+
+WEARING = symbols("u_a u_c sigma_a sigma_c")
+"""Fields that have rates, by Archard's law; others where a premise says so."""
+_RATE_OF_LOAD = rate("U_a")
+DIFFERENTIABLE = Hypothesis(
+    "differentiable load",
+    sp.Eq(_RATE_OF_LOAD, _RATE_OF_LOAD, evaluate=False),
+    r"\text{differentiable load}",
+    Kind.LOAD,
+)
+"""It says that the rate has a value."""
 
 EFFORT = 3_000_000
 """Steps of z3 after which a side condition counts as not proved; no matter of time."""
@@ -255,9 +268,10 @@ def needs(expr: sp.Basic) -> set[sp.Basic]:
 
 def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:
     """Return the relations that give every part of an expression a value."""
-    if expr in known or isinstance(expr, sp.Derivative):
+    if expr in known:
         return []
-    return [*(goal for part in expr.args for goal in _needed(part, known)), *_need(expr)]
+    parts = () if isinstance(expr, sp.Derivative) else expr.args
+    return [*(goal for part in parts for goal in _needed(part, known)), *_need(expr)]
 
 
 def _need(expr: sp.Basic) -> list[sp.Basic]:
@@ -267,13 +281,9 @@ def _need(expr: sp.Basic) -> list[sp.Basic]:
     unknown = sp.Ne(expr, sp.zoo, evaluate=False)
     if isinstance(expr, (sp.Limit, FirstZero)):
         return [unknown]
-    if isinstance(expr, sp.Integral):
-        ranges = (
-            (ends, sp.Gt if x.is_positive else sp.Ge)
-            for x, *ends in expr.limits
-            if x.is_nonnegative
-        )
-        return [relation(end, 0) for ends, relation in ranges for end in ends]
+    if isinstance(expr, sp.Derivative):
+        rated = expr.expr in WEARING and expr.variables == (t,)
+        return [] if rated or is_slope_of_law(expr) else [unknown]
     if isinstance(expr, sp.Pow):
         base, exponent = expr.args
         if exponent.is_Integer:

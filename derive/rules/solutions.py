@@ -18,7 +18,7 @@ from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import symbol, t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import require, require_defined, sign, smooth
+from .proving import continuous, facts_of, require, require_defined, sign, smooth
 from .reading import (
     CONSTANT,
     LOAD,
@@ -116,22 +116,23 @@ def _resolved(expr: sp.Expr) -> sp.Expr:
 class Parametric(Rule):
     """``t = F(p)`` where ``du/dt = Q(p)`` and ``u = G(p)``: ``F' = G'/Q``, F = 0 at p(0).
 
-    Premises: rate, wear, u(0), then names of constants.  The load is constant, so the pressure p,
-    which is positive, is continuous.
+    Premises: rate, wear, u(0), the pressure, then names of constants.  The load is constant and
+    the pressure is the one root of ``p = R(p, u)``, where ``p - R`` increases: it is continuous.
     """
 
     claim: sp.Equality
     words = "Wear and rate are known at a pressure, {0} and {1}; integrate over it."
-    source = "chain rule"
-    asks = ("the rate", "the wear", "u(0)")
+    source = "chain rule; implicit function theorem"
+    asks = ("the rate", "the wear", "u(0)", "the pressure")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        law, wear, start, *names = premises
+        law, wear, start, pressure, *names = premises
         (u, rate), worn = rate_law(law), equality(wear)
         require_hypothesis(CONSTANT.relation, *premises)
         if worn.lhs != u or self.claim.lhs != t or initial_value(start, u) != 0:
             raise RuleError("missing premise: rate and wear are of the same quantity, from 0 on")
         require_defined(self.claim.rhs, *premises)
+        _require_root(pressure, u, *premises)
         p = sp.Dummy("p", positive=True)
         first, load = sp.Dummy("p_0", positive=True), sp.Dummy("U", real=True)
         plain = {PRESSURE: p, PRESSURE.subs(t, 0): first, LOAD: load, LOAD.subs(t, 0): load}
@@ -151,6 +152,18 @@ class Parametric(Rule):
         if not is_zero(f):
             raise RuleError("missing premise: it begins at 0")
         return Conclusion(Equality(t, self.claim.rhs))
+
+
+def _require_root(pressure: Judgement, u: sp.Expr, *premises: Judgement) -> None:
+    """Refuse unless the pressure is the one root of ``p = R(p, u, load)``, so that it follows u."""
+    given, p = equality(pressure), sp.Dummy("p", positive=True)
+    value = given.rhs.xreplace({PRESSURE: p})
+    moving = {unknown: unknown for unknown in (p, u, LOAD)}
+    fixed = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
+    known = given.lhs == PRESSURE and constant(fixed) and not fields(fixed) and smooth(value, p)
+    increases = known and sign(1 - sp.diff(value, p), facts_of(premises)) == 1
+    if not increases or not continuous(value, moving, *premises):
+        raise RuleError(f"missing premise: {PRESSURE} is the one root of an equation")
 
 
 @dataclass(frozen=True)

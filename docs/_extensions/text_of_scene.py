@@ -6,9 +6,10 @@ import re
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
-from wear.checked import TABLES, OneOf, SceneTable, domain_of, unit_of
+from wear.checked import TABLES, OneOf, SceneTable, domain_of
 from wear.load.blocks import Block, BlockCycles
 from wear.load.tables import KINDS, PERIODIC
+from wear.quantities import unit_of
 from wear.scene import Scene
 
 _SYMBOL = re.compile(r"\b(sigma|phi|[UHKfhpRu])_(\w+)\b|\b(sigma|phi)\b")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 
@@ -12,7 +13,7 @@ from derive import catalogue
 from derive.check import checks, on_models
 from derive.equations import TEXTS, Equation, Status, numbered
 from derive.hypotheses import Kind
-from derive.kernel import Judgement, chain, infer, replayed
+from derive.kernel import Judgement, RuleError, chain, infer, replayed
 from derive.laws import EXPONENTIAL, GENERAL, LAWS, TANH
 from derive.note import condensed, governing
 from derive.note.governing import Model, Pin
@@ -121,13 +122,11 @@ def _with_wrong(name: str, place: int | None, what: int) -> Model:
 @pytest.mark.parametrize(("name", "place"), HYPOTHESES)
 @pytest.mark.parametrize("what", [0, 1])
 def test_a_wrong_hypothesis_shows_in_sections_2_and_3(name, place, what):
-    """What follows from a wrong hypothesis is not what the note prints, or does not follow."""
-    model = _with_wrong(name, place, what)
-    try:
-        made = _sections_2_and_3(model)
-    except (ValueError, AttributeError):
-        return  # the derivation does not even go through
-    assert not all(equation.agrees for equation in made)
+    """What follows from a wrong hypothesis is not what the note prints, or nothing follows."""
+    model, as_printed = _with_wrong(name, place, what), False
+    with suppress(RuleError):
+        as_printed = all(equation.agrees for equation in _sections_2_and_3(model))
+    assert not as_printed
 
 
 def test_printed_forms_of_sections_2_and_3_follow():
@@ -142,11 +141,10 @@ def test_a_physical_sign_is_told_from_the_printed_one():
 
 
 @pytest.mark.parametrize("law", [TANH, EXPONENTIAL, GENERAL], ids=lambda law: law.name)
-@pytest.mark.parametrize("pin", list(Pin))
-@pytest.mark.parametrize("opening", [False, True])
+@pytest.mark.parametrize(
+    ("pin", "opening"), [(pin, opening) for pin in Pin for opening in sorted({False, pin.wears})]
+)
 def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening):
-    if opening and not pin.wears:
-        return
     problem = condensed.Condensed(Model(law, opening, pin))
     for step in chain(problem.scalar, problem.rigid):
         assert replayed(step) is None, step.relation

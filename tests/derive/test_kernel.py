@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable, Iterator
 
 import pytest
 import sympy as sp
@@ -10,13 +11,15 @@ import sympy as sp
 from derive.claims import Equality, Inequality
 from derive.hypotheses import Hypothesis
 from derive.kernel import Conclusion, Judgement, Rule, RuleError, infer, replayed
-from derive.rules.algebra import Identity
-from derive.rules.assumption import assume
-from derive.rules.inequalities import Arithmetic
+from derive.rules.algebra import Discharge, Identity, substitute
+from derive.rules.assumption import Assume, assume
+from derive.rules.inequalities import Arithmetic, Monotone
 from derive.symbols import symbols
 from derive.time_limit import TimeLimitError, time_limit
+from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, supposed
+from tests.derive.test_language import Positive
 
-f_c, h_0 = symbols("f_c h_0")
+h, f_c, h_0, q, L = symbols("h f_c h_0 q L")
 FALSE = Equality(h_0, 2 * h_0)
 
 
@@ -69,11 +72,94 @@ def test_what_was_changed_inside_a_claim_is_found() -> None:
     assert Arithmetic(relation)().relation == relation
 
 
-def test_a_look_alike_is_found() -> None:
-    class Forged:
-        claim, hypotheses, parents, rule = FALSE, (), (), Identity(sp.Eq(h_0, h_0))
+class Forged:
+    """What looks like a judgement."""
 
+    claim, hypotheses, parents, rule = FALSE, (), (), Identity(sp.Eq(h_0, h_0))
+
+
+class Changing(Hypothesis):
+    pass
+
+
+class Same(Hypothesis):
+    """A hypothesis that says it is another."""
+
+    def __eq__(self, other: object) -> bool:
+        return True
+
+    def __hash__(self) -> int:
+        return hash(ROUGHENS.hypotheses[0])
+
+
+class Turning:
+    """A function that is another one once it has been judged."""
+
+    def __call__(self, at: sp.Expr) -> sp.Expr:
+        return at if isinstance(at, sp.Dummy) else -at
+
+
+def with_a_conclusion_of_its_own() -> Judgement:
+    rule = Identity(sp.Eq(h_0, h_0))
+    object.__setattr__(rule, "conclude", lambda: Conclusion(FALSE))
+    return infer(rule)
+
+
+CUBE = Arithmetic(sp.Gt(f_c**3, 0))(ROUGHENS)
+FORGERIES: tuple[tuple[Callable[[], object], str], ...] = (
+    (with_a_conclusion_of_its_own, "fields that are not its own"),
+    (lambda: substitute(eq(h, h_0), Forged()), "a judgement"),  # type: ignore[arg-type]
+    (lambda: infer(Assume(supposed(sp.Gt(f_c, 0))), START), "cannot be assumed"),
+    (lambda: assume(Changing("rough", sp.Gt(f_c, 0))), "nor a hypothesis"),
+    (lambda: assume(supposed(sp.Gt(f_c, 0), "odd")), "nor a hypothesis"),  # type: ignore[arg-type]
+    (lambda: assume(supposed(equal(f_c, 5), "model")), "nor a hypothesis"),  # type: ignore[arg-type]
+    (lambda: Discharge(Same("any", sp.Gt(q, 0)))(CUBE), "nor a hypothesis"),
+    (lambda: Monotone(Turning())(ge(h, h_0)), "nor a hypothesis"),
+)
+
+
+@pytest.mark.parametrize(("forged", "said"), FORGERIES)
+def test_what_is_forged_is_refused(forged: Callable[[], object], said: str) -> None:
+    with pytest.raises(RuleError, match=said):
+        forged()
+
+
+def test_a_look_alike_is_found() -> None:
     assert replayed(Forged()) == "it is no judgement"  # type: ignore[arg-type]
+
+
+class Hiding(tuple):  # type: ignore[type-arg]
+    """A tuple whose parts only some see."""
+
+    def __iter__(self) -> Iterator[object]:
+        return iter(())
+
+    def __eq__(self, other: object) -> bool:
+        return True
+
+    __hash__ = tuple.__hash__
+
+
+@pytest.mark.parametrize("field", ["parents", "hypotheses"])
+def test_parts_that_hide_are_found(field: str) -> None:
+    made = substitute(eq(h, h_0), eq(h_0, q))
+    object.__setattr__(made, field, Hiding())
+    assert replayed(made)
+
+
+def test_a_side_that_says_it_is_another_is_found() -> None:
+    made = eq(h, f_c)
+    assert isinstance(made.claim, Equality)
+    object.__setattr__(made.claim, "rhs", Positive("theta", real=True))
+    assert "of no kind" in str(replayed(made))
+
+
+def test_an_expression_that_was_changed_in_place_is_found() -> None:
+    """The relation that the rule was asked for is the one that the claim shows."""
+    relation = sp.Gt(q + L, 0, evaluate=False)
+    made = Arithmetic(relation)()
+    relation._args = (f_c + 7, sp.S.Zero)
+    assert replayed(made) == "what it rests on was changed"
 
 
 def test_a_step_that_takes_too_long_is_given_up() -> None:

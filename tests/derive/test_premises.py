@@ -11,7 +11,7 @@ import ast
 import inspect
 import traceback
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
@@ -30,6 +30,7 @@ from derive.rules.algebra import (
     Multiply,
     Solve,
     Substitute,
+    discharge,
     forget,
     restrict,
     substitute,
@@ -37,7 +38,6 @@ from derive.rules.algebra import (
 from derive.rules.assumption import assume, defined
 from derive.rules.averages import EXPANSION, Averaging, SlowTime, term_of
 from derive.rules.calculus import (
-    DIFFERENTIABLE,
     ParameterLimit,
     change_clock,
     differentiate,
@@ -52,16 +52,19 @@ from derive.rules.limits import (
     Diverges,
     Passes,
     accumulates,
+    forever,
     intermittent,
     one_period_later,
     unbounded,
     vanishes,
 )
+from derive.rules.proving import DIFFERENTIABLE
 from derive.rules.reading import CONTINUOUS, PERIODIC, SINE
 from derive.rules.solutions import FirstRoot, Inverted, Parametric, Solution
 from derive.symbols import initial, rate, symbol, symbols, t
-from tests.derive import test_hostile, test_hostile_again, test_rules
+from tests.derive import test_hostile, test_hostile_again, test_language, test_rules
 from tests.derive.judgements import (
+    APPROACH,
     BOUNDED,
     CONSTANTLY,
     DEEP,
@@ -93,12 +96,10 @@ from tests.derive.judgements import (
 
 ROOM = Path(inspect.getfile(rules)).parent
 
-u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
+u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, sigma_c0, sigma_c, f_c, C, T, N, q, k, b_0 = symbols("h_0 sigma_c0 sigma_c f_c C T N q k b_0")
 U_max, L = symbols("U_max L")
-U, u_cum, theta, x_inf, tau, h_star, epsilon, d, M = symbols(
-    "U u_cum theta x_inf tau h_star epsilon d M"
-)
+U, u_cum, theta, tau, h_star, epsilon, d, M = symbols("U u_cum theta tau h_star epsilon d M")
 p_max, u_stop, c_1, m = symbols("p_max u_stop c_1 m")
 x = sp.Symbol("x", positive=True)
 y = sp.Symbol("y", real=True)
@@ -139,8 +140,8 @@ def some_of_the_time(
 
 def by_pressure(time: sp.Expr = TIME, wear: sp.Expr = U_a - h_0 * p / p_max) -> Judgement:
     """Apply Parametric, with one thing wrong."""
-    law = eq(rate("u_c"), C * p / p_max)
-    return Parametric(sp.Eq(t, time))(law, eq(u_c, wear), START, CONSTANTLY)
+    law, pressure = eq(rate("u_c"), C * p / p_max), eq(p, p_max * (U_a - u_c) / h_0)
+    return Parametric(sp.Eq(t, time))(law, eq(u_c, wear), START, pressure, CONSTANTLY)
 
 
 def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Judgement:
@@ -282,6 +283,12 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     # data
     ("one of the data", lambda: sloped(equal(sp.Derivative(u_cum, b_0), 0), b_0)),
     ("Ne", lambda: sloped(equal(SLOPE / (f_c - 1), h_0 / (f_c - 1)))),
+    (  # d(2 f_c)/d f_c at f_c = 1
+        "may vary",
+        lambda: infer(
+            Differentiated(equal(SLOPE, 0), f_c), substitute(defined(u_cum, f_c * h_0), eq(f_c, 1))
+        ),
+    ),
     ("the derivative is", lambda: sloped(equal(SLOPE, 2 * h_0))),
     ("Ne|> 0", lambda: OneSign(h_0)(eq(G, sp.sqrt(h_0)))),
     # drift
@@ -328,6 +335,9 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ),
     ("the limit of", lambda: Passes(end(2 * G, theta))(tends(G, theta))),
     ("is finite", lambda: accumulates(tends(rate("u_c"), sp.oo))),
+    ("no limit for t", lambda: accumulates(tends(rate("u_c"), C, sp.S.Zero))),
+    ("is no limit", lambda: AtInfinity(end(U_a / u_c, 0), 1 / u_c)(le(forever(u_c), h_0), BOUNDED)),
+    ("only words say", lambda: discharge(drifting(APPROACH), CONTINUOUS, START)),
     ("-> oo", lambda: AtInfinity(end(1 / u_c, 0), 1 / u_c)(tends(u_c, h_0))),
     ("is finite", lambda: Passes(end(2 * G, -sp.oo))(tends(G, -sp.oo))),
     ("solved for the rate", lambda: unbounded(eq(rate("u_c"), C + rate("u_a")))),
@@ -338,6 +348,16 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("positive and continuous", lambda: some_of_the_time(on=C * f_c)),
     ("rate in contact", lambda: some_of_the_time(on=C * (1 + U_a**2 / U**2))),
     # solutions
+    (
+        "is no equality",
+        lambda: Solution(sp.Eq(t, u_c / C))(ge(rate("u_c"), C), START, CONSTANTLY),
+    ),
+    (
+        "the same quantity",
+        lambda: Parametric(sp.Eq(t, (p - initial("p")) * h_0 / (C * p_max)))(
+            eq(rate("u_a"), C), eq(u_c, h_0 * (p - initial("p")) / p_max), START, CONSTANTLY
+        ),
+    ),
     ("gives the time", lambda: Solution(sp.Eq(u_a, u_c))(RATE, START, CONSTANTLY)),
     ("Ne", lambda: timed(u_c / f_c, f_c, START)),
     ("f_c > 0", lambda: timed(u_c / f_c, f_c, START, ne(f_c, 0))),
@@ -380,14 +400,7 @@ CASES = tuple(
 
 
 def applications() -> Iterator[Callable[[], Judgement]]:
-    yield from (
-        case[1]
-        for case in (
-            *test_rules.CASES.values(),
-            *test_hostile.CASES.values(),
-            *test_hostile_again.CASES.values(),
-        )
-    )
+    yield from (true for _, true, *_ in CASES)
     yield from NEEDED.values()
 
 
@@ -459,6 +472,10 @@ def test_every_refusal_of_the_rules_is_brought_about() -> None:
     known = [judgement for of_a_rule in made().values() for judgement in of_a_rule]
     errors = [error for one in known for error in dropped(one) if isinstance(error, RuleError)]
     errors += [refusal(false) for false in (*(c[0] for c in CASES), *(f for _, f in REFUSED))]
+    errors += [
+        refusal(partial(assume, supposed(relation, kind)))
+        for kind, relation, _ in test_language.MISCALLED
+    ]
     hit = {
         (Path(frame.filename).name, frame.lineno)
         for error in errors

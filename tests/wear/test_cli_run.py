@@ -54,8 +54,8 @@ def test_json_has_the_keys_of_the_contract_and_the_numbers_of_the_history(run):
     assert set(document["model"]) >= {"variant", "operations"}
     assert set(document["cost"]) == {"cycles_integrated", "rhs_evaluations"}
     assert document["cycles"] == [1, 10]
-    for column in history.columns():
-        assert document[column.name] == column.values.tolist()
+    for name, values in history.columns().items():
+        assert document[name] == values.tolist()
 
 
 def test_the_table_names_quantities_with_units(run):

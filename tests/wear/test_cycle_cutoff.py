@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
@@ -27,7 +27,7 @@ from wear.scene import Scene, load_scene
 def test_counted_cycles_are_integrated_ones(slope):
     """f above and below 1/3: direct integration with events shares no code with the map."""
     scene = Scene.from_dict(tables(f_c=slope, cutoff=True), "cutoff")
-    agrees_with_direct_integration(scene, [1, 2, 7, 40], 1e-10)
+    agrees_with_direct_integration(scene, [1, 2, 12], 1e-10)
 
 
 UNEVEN = {  # rise slowly, then fast, and slowly again
@@ -67,12 +67,12 @@ def loads(draw: st.DrawFn) -> Load:
     return Table(tuple(times), (*np.repeat(heights, 2), heights[0]))
 
 
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(loads(), between(-8, -1), between(-0.2, 1.0), st.booleans())
 def test_drawn_scenes_agree_with_the_judge(load, K, f_c, pin):
     scene = with_load(load, 10**K, f_c, pin)
-    if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
-        agrees_with_the_judge(scene, [1, 2], 1e-9)
+    assume(float(bind(scene).margin(0.0, load.maximum)) > 1e-6)
+    agrees_with_the_judge(scene, [1, 2], 1e-9)
 
 
 def test_in_permanent_contact_the_cutoff_changes_nothing():
@@ -235,15 +235,15 @@ def agrees_with_direct_integration(scene: Scene, cycles: list[int], rtol: float)
     ],
 )
 def test_on_a_compliant_support_counted_cycles_are_integrated_ones(K, f_c, pin, k):
-    agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 9], 1e-11)
+    agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 5], 1e-11)
 
 
-@settings(max_examples=5)
+@settings(max_examples=3)
 @given(loads(), between(-7, -3), between(-0.2, 1.0), st.booleans(), between(3, 6))
 def test_drawn_compliant_supports_agree_with_direct_integration(load, K, f_c, pin, k):
     scene = supported(10**K, f_c, pin, 10**k, load)
-    if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
-        agrees_with_direct_integration(scene, [1, 2], 1e-9)
+    assume(float(bind(scene).margin(0.0, load.maximum)) > 1e-6)
+    agrees_with_direct_integration(scene, [1, 2], 1e-9)
 
 
 @pytest.mark.parametrize("load", [None, Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))])

@@ -39,13 +39,13 @@ def test_the_count_agrees_with_the_judge(load, K, f_c, k):
     agrees_with_the_judge(supported(K, f_c, False, k, load), [1, 3], 1e-8)
 
 
-@settings(max_examples=5)
+@settings(max_examples=3)
 @given(loads(), between(-8, -1), between(-0.2, 1.0), st.booleans(), between(2, 9))
 def test_drawn_scenes_agree_with_the_judge(load, K, f_c, pin, k):
     assume(not pin or K + k < 3)  # the judge takes small steps there
     scene = supported(10**K, f_c, pin, 10**k, load)
-    if float(bind(scene).margin(0.0, load.maximum)) > 1e-6:
-        agrees_with_the_judge(scene, [1, 2], 1e-7)
+    assume(float(bind(scene).margin(0.0, load.maximum)) > 1e-6)
+    agrees_with_the_judge(scene, [1, 2], 1e-7)
 
 
 def test_two_rough_solids_on_a_very_stiff_support():

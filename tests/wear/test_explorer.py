@@ -245,37 +245,24 @@ def test_page_agrees_with_python_when_it_loads(page):
 WORN = ["section3", "section4", "section5", "soft-support", "section4-cutoff", "fast-wear"]
 
 
-@pytest.mark.parametrize(("name", "power"), [*((name, 2) for name in WORN), ("section4", 8)])
-def test_wear_is_that_of_the_solver(page, name, power):
-    put(page, "scene", name)
-    put(page, "cycles", str(power))
-    expected = wear.solve(load_scene(name), [10**power], rtol=1e-8).u_c[0]
-    assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
-    assert text(page, "notices") == ""
+def test_wear_is_that_of_the_solver(page):
+    for name, power in [*((name, 2) for name in WORN), ("section4", 8)]:
+        put(page, "scene", name)
+        put(page, "cycles", str(power))
+        expected = wear.solve(load_scene(name), [10**power], rtol=1e-8).u_c[0]
+        assert number(text(page, "value-wear-now")) == pytest.approx(expected, rel=1e-4), name
+        assert text(page, "notices") == "", name
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "section3",
-        "section3-physical",
-        "section4",
-        "section5",
-        "soft-support",
-        "equal-wear",
-        "f-zero",
-        "section3-cutoff",
-        "section4-cutoff",
-        "roughness-vanishing",
-    ],
-)
-def test_asymptotic_values_are_those_of_python(page, name):
-    put(page, "scene", name)
-    found = wear.asymptote(load_scene(name))
-    says(page, found)
-    if found.regime == "steady":
-        drift = number(text(page, "value-limit-drift"))
-        assert drift == pytest.approx(found.log_coefficient_mm, rel=1e-4, abs=1e-12)
+def test_asymptotic_values_are_those_of_python(page):
+    others = ("section3-physical", "equal-wear", "f-zero", "section3-cutoff", "roughness-vanishing")
+    for name in ("section3", "section4", "section5", "soft-support", "section4-cutoff", *others):
+        put(page, "scene", name)
+        found = wear.asymptote(load_scene(name))
+        says(page, found)
+        if found.regime == "steady":
+            drift = number(text(page, "value-limit-drift"))
+            assert drift == pytest.approx(found.log_coefficient_mm, rel=1e-4, abs=1e-12), name
 
 
 def test_arrest_is_found_in_its_cycle(page):
@@ -404,23 +391,20 @@ def test_regimes_at_the_edges_are_those_of_python(page, name):
 def test_on_a_phone_the_plot_stays_in_sight(page):
     """One plot at a time, chosen by name, above whatever is scrolled to."""
     page.size(390, 844)
-    try:
-        for name in ("wear", "roughness", "pressure", "inside"):
-            page.run(f"document.getElementById('show-{name}').click()")
-            page.run("document.getElementById('slider-n').scrollIntoView()")
-            place = (
-                "(({ top, bottom, width }) => [top, bottom, width])"
-                f"(document.getElementById('plot-{name}').getBoundingClientRect())"
-            )
-            top, bottom, width = page.run(place)
-            assert 0 <= top < bottom < 422
-            assert width > 300
-            shown = "[...document.querySelectorAll('.plots figure')].filter((f) => f.offsetWidth)"
-            assert page.run(f"{shown}.length") == 1
-            slider = "document.getElementById('slider-n').getBoundingClientRect().top"
-            assert page.run(slider) > bottom
-    finally:
-        page.size(1280, 1000)
+    for name in ("wear", "roughness", "pressure", "inside"):
+        page.run(f"document.getElementById('show-{name}').click()")
+        page.run("document.getElementById('slider-n').scrollIntoView()")
+        place = (
+            "(({ top, bottom, width }) => [top, bottom, width])"
+            f"(document.getElementById('plot-{name}').getBoundingClientRect())"
+        )
+        top, bottom, width = page.run(place)
+        assert 0 <= top < bottom < 422
+        assert width > 300
+        shown = "[...document.querySelectorAll('.plots figure')].filter((f) => f.offsetWidth)"
+        assert page.run(f"{shown}.length") == 1
+        slider = "document.getElementById('slider-n').getBoundingClientRect().top"
+        assert page.run(slider) > bottom
 
 
 def test_page_says_when_it_does_not_carry_so_far(page):
@@ -434,15 +418,13 @@ def test_page_says_when_it_does_not_carry_so_far(page):
     assert f"Carried to {reached} cycles only. There the roughness vanishes" in said
 
 
-@pytest.mark.parametrize(
-    "name", ["section3", "section3-cutoff", "section4", "soft-support", "section3-physical"]
-)
-def test_the_scene_file_is_the_scene(page, name):
-    put(page, "scene", name)
-    scene = load_scene(name)
-    shown = parse_scene(text(page, "scene-file"))
-    assert (shown.variant, shown.load) == (scene.variant, scene.load)
-    assert shown.parameters() == pytest.approx(scene.parameters(), rel=1e-15)
+def test_the_scene_file_is_the_scene(page):
+    for name in ("section3", "section3-cutoff", "section4", "soft-support", "section3-physical"):
+        put(page, "scene", name)
+        scene = load_scene(name)
+        shown = parse_scene(text(page, "scene-file"))
+        assert (shown.variant, shown.load) == (scene.variant, scene.load)
+        assert shown.parameters() == pytest.approx(scene.parameters(), rel=1e-15)
 
 
 @pytest.mark.parametrize("pin", ["bearing", "rough", "worn", "worn_rough"])
@@ -485,25 +467,19 @@ def test_the_scene_file_has_any_load(kind, window, tmp_path):
 
 def test_a_printed_page_says_what_it_shows(page):
     page.command("Emulation.setEmulatedMedia", media="print")
-    try:
-        shown = "document.getElementById({!r}).offsetHeight > 0"
-        assert page.run(shown.format("scene-file"))
-        assert not page.run(shown.format("slider-f_c"))
-    finally:
-        page.command("Emulation.setEmulatedMedia", media="")
+    shown = "document.getElementById({!r}).offsetHeight > 0"
+    assert page.run(shown.format("scene-file"))
+    assert not page.run(shown.format("slider-f_c"))
 
 
 def test_on_a_tablet_four_plots_stay_in_sight(page):
     page.size(768, 1024)
-    try:
-        page.run("document.getElementById('slider-n').focus()")
-        place = "document.getElementById({!r}).getBoundingClientRect()"
-        lowest = page.run(place.format("legend-inside") + ".bottom")
-        slider = page.run(place.format("slider-n") + ".top")
-        assert 0 < lowest < slider < 1024
-        assert page.run("document.documentElement.scrollWidth") <= 768
-    finally:
-        page.size(1280, 1000)
+    page.run("document.getElementById('slider-n').focus()")
+    place = "document.getElementById({!r}).getBoundingClientRect()"
+    lowest = page.run(place.format("legend-inside") + ".bottom")
+    slider = page.run(place.format("slider-n") + ".top")
+    assert 0 < lowest < slider < 1024
+    assert page.run("document.documentElement.scrollWidth") <= 768
 
 
 def test_indices_are_lowered_and_names_are_not(page):
@@ -548,19 +524,15 @@ def test_keyboard_moves_a_slider(page):
     assert text(page, "value-limit-cycle") != before
 
 
-@pytest.mark.parametrize("width", [390, 768, 1280])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_nothing_runs_out_of_the_page(page, width, scheme):
+def test_nothing_runs_out_of_the_page(page, scheme):
     page.media(prefers_color_scheme=scheme, prefers_reduced_motion="reduce")
-    page.size(width, 900)
-    try:
+    dark = page.run("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
+    assert dark == (scheme == "dark")
+    assert not page.run("matchMedia('(prefers-reduced-motion: no-preference)').matches")
+    for width in (390, 768, 1280):
+        page.size(width, 900)
         assert page.run("document.documentElement.scrollWidth") <= width
-        dark = page.run("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
-        assert dark == (scheme == "dark")
-        assert not page.run("matchMedia('(prefers-reduced-motion: no-preference)').matches")
-    finally:
-        page.size(1280, 1000)
-        page.media()
 
 
 def test_script_outside_the_policy_does_not_run(window, page_file):

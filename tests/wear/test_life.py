@@ -1,6 +1,7 @@
 """The number of cycles to a wear depth: counted, extrapolated, or never."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -31,6 +32,18 @@ def test_the_extrapolation_goes_on_where_the_count_ends() -> None:
     assert_allclose(life.cycles[:2], [1e12 * (1.0 - 1e-6), 1e12 * (1.0 + 1e-6)], rtol=1e-9)
     assert life.cycles[2] == pytest.approx(5e4 / 4.6355474275e-8, rel=1e-4)  # issue: 1.08e12
     assert np.all(life.error < 1e-6)
+
+
+def test_lives_that_are_hardly_meant_are_said(call: Any) -> None:
+    assert not cycles_until("section4", 1e-3).notices
+    life = cycles_until("section4", [1e-3, 5e4])
+    for words in ("5e+04 mm is 2.27e+05 % of the radius", "wear beyond 1e+09 cycles"):
+        assert any(words in text for text in life.notices)
+    assert repr(life) == "<Life: 0.001 mm after 140 cycles; 50000 mm after 1.07862e+12 cycles>"
+    line = ("run", "section4", "--cycles", "9", "--until-wear", "5e4")
+    status, _, messages = call(*line)
+    assert (status, "% of the radius" in messages) == (0, True)
+    assert call(*line, "--strict")[0] == 2
 
 
 def test_never_is_said_where_wear_ends_below() -> None:

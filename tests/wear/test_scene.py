@@ -10,6 +10,7 @@ import sympy as sp
 
 from derive.laws import LAWS
 from derive.note.governing import Model, sigma_a, sigma_c
+from tests.wear.test_scene_faults import GOOD
 from wear.faults import SceneError, UsageError
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
 from wear.model import bind
@@ -29,20 +30,7 @@ from wear.scene import (
 )
 from wear.scene.notices import CONTACT_REACH
 
-MINIMAL = """
-[bearing]
-hardness_MPa = 200
-wear_coefficient = 1e-6
-roughness_mm = 3.6e-4
-roughness_growth = 0.25
-[contact]
-max_pressure_MPa = 300.0
-closure_mm = 1.08e-3
-[motion]
-radius_mm = 22.0
-speed_rpm = 2000
-[load]
-"""
+MINIMAL = GOOD.partition("\n")[2].partition("kind")[0]  # neither title nor load
 SINE = 'kind = "sine"\namplitude_mm = 5e-4\nperiod_s = 0.06\n'
 PIN = Pin(600.0, 1e-6, 6.5e-5, 0.05)
 

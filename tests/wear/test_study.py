@@ -214,6 +214,56 @@ def test_a_study_larger_than_the_disk_is_refused(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.usefixtures("small_chunks")
+def test_a_scene_that_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
+    from wear import cycles
+
+    solved = cycles.sweep
+
+    def fails(scenes: Any, *more: Any) -> Any:
+        if any(scene.bearing.hardness_MPa == 150.0 for scene in scenes):
+            raise ZeroDivisionError("division by zero")
+        return solved(scenes, *more)
+
+    monkeypatch.setattr(cycles, "sweep", fails)
+    found = study("section4", [f"{HARDNESS}=100,150,200,250,300"], [10], tmp_path / "a.zarr")
+    assert found["status"].values.tolist() == [0, Status.FAILED, 0, 0, 0]
+    assert str(found["reason"].values[1]) == "ZeroDivisionError: division by zero"
+    assert np.isnan(found["bearing_wear_mm"].values[:, 0]).tolist() == [False, True] + [False] * 3
+
+
+# What is hardly meant
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_what_is_hardly_meant_is_said_once_a_kind_with_the_count_and_the_worst_row(tmp_path):
+    vary = ["bearing.roughness_mm=0.36,0.00036", "motion.radius_mm=1:22:9", f"{HARDNESS}=200,-1"]
+    found = study("section4", vary, [10, 10**8], tmp_path / "a.zarr").attrs["notices"]
+    entry, depth, rough = found
+    assert "[bearing] roughness_mm = 0.36 is outside" in entry
+    assert "um typed as mm? (9 of 36 rows;" in entry
+    rows = {
+        (roughness, radius): wear.solve(wear.load_scene("section4").with_(
+            {"bearing.roughness_mm": roughness, "motion.radius_mm": radius}), [10**8])
+        for roughness in (0.36, 0.00036) for radius in np.linspace(1, 22, 9)
+    }  # fmt: skip
+    for text, words in ((depth, "% of the radius"), (rough, "ISO 1302")):
+        alone = [name for name, row in rows.items() if any(words in n for n in row.notices)]
+        assert words in text
+        assert f"({len(alone)} of 36 rows; the worst has bearing.roughness_mm = " in text
+    roughness, radius = max(rows, key=lambda name: rows[name].u_c[0] / name[1])
+    assert f"bearing.roughness_mm = {roughness:g}, motion.radius_mm = {radius:g}, " in depth
+
+
+def test_strict_refuses_a_study_whose_rows_are_implausible(call, tmp_path):
+    words = ["section4", "--vary", f"{HARDNESS}=200,2e8", "--cycles", "9", "--workers", "1"]
+    words += ["-o", str(tmp_path / "a.zarr")]
+    status, _, messages = call("study", *words)
+    assert (status, "Pa typed as MPa? (1 of 2 rows; the worst has" in messages) == (0, True)
+    status, shown, messages = call("study", *words, "--strict")
+    assert (status, shown, "Pa typed as MPa?" in messages) == (2, "", True)
+
+
 # Workers
 
 
@@ -270,28 +320,45 @@ def test_a_study_killed_at_random_moments_ends_with_the_same_bits(tmp_path):
     assert same(xarray.open_zarr(part, consolidated=False), whole)
 
 
-@pytest.mark.usefixtures("small_chunks")
-def test_a_worker_of_a_cluster_is_killed_and_nothing_is_lost(tmp_path):
+def _cluster(workers: int):
+    """Return workers and their scheduler, all on this machine."""
     from distributed import LocalCluster
 
-    vary = f"{GROWTH}=0.1:0.3:400"
+    return LocalCluster(
+        n_workers=workers, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
+    )
+
+
+def _begun_on(cluster, out, vary: str) -> subprocess.Popen[str]:
+    """Return a study that runs on a cluster and has finished its first chunk."""
+    words = ["section4", "--vary", vary, "--cycles", "9000", "-o", str(out)]
+    command = _command(*words, "--scheduler", cluster.scheduler_address)
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    while not (out / "status" / "c" / "0").exists() and process.poll() is None:
+        time.sleep(0.01)
+    return process
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_a_worker_of_a_cluster_is_killed_and_nothing_is_lost(tmp_path):
+    vary, out = f"{GROWTH}=0.1:0.3:240", tmp_path / "c.zarr"
     whole = study("section4", [vary], [9000], tmp_path / "whole.zarr")
-    words = ["section4", "--vary", vary, "--cycles", "9000"]
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
-    ) as cluster:
-        process = subprocess.Popen(
-            _command(
-                *words, "--scheduler", cluster.scheduler_address, "-o", str(tmp_path / "c.zarr")
-            )
-        )
-        first = tmp_path / "c.zarr" / "status" / "c" / "0"
-        while not first.exists() and process.poll() is None:
-            time.sleep(0.01)
-        victim = next(iter(cluster.workers.values()))
-        os.kill(victim.pid, signal.SIGKILL)
-        assert process.wait(timeout=120) == 0
-    assert same(xarray.open_zarr(tmp_path / "c.zarr", consolidated=False), whole)
+    with _cluster(2) as cluster:
+        process = _begun_on(cluster, out, vary)
+        os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
+        _, complaint = process.communicate(timeout=120)
+    assert process.returncode == 0, complaint
+    assert same(xarray.open_zarr(out, consolidated=False), whole)
+
+
+def test_a_scheduler_that_goes_away_is_a_clear_error(tmp_path):
+    cluster = _cluster(1)
+    process = _begun_on(cluster, tmp_path / "c.zarr", f"{GROWTH}=0.1:0.3:4000")
+    cluster.close()
+    _, complaint = process.communicate(timeout=120)
+    assert process.returncode == 130, complaint
+    assert "the same command goes on" in complaint
+    assert "Traceback" not in complaint
 
 
 def test_a_full_disk_keeps_what_is_finished(tmp_path, monkeypatch):
@@ -313,28 +380,6 @@ def test_a_full_disk_keeps_what_is_finished(tmp_path, monkeypatch):
     monkeypatch.setattr(designs, "ROWS", 1024)
     found = study("section4", [vary], [9000], out)
     assert bool((found["status"] == Status.DONE).all())
-
-
-def test_a_scheduler_that_goes_away_is_a_clear_error(tmp_path):
-    from distributed import LocalCluster
-
-    words = ["section4", "--vary", f"{GROWTH}=0.1:0.3:4000", "--cycles", "9000"]
-    cluster = LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL"
-    )
-    out = tmp_path / "c.zarr"
-    process = subprocess.Popen(
-        _command(*words, "--scheduler", cluster.scheduler_address, "-o", str(out)),
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    while not (out / "status" / "c" / "0").exists() and process.poll() is None:
-        time.sleep(0.01)
-    cluster.close()
-    _, complaint = process.communicate(timeout=120)
-    assert process.returncode == 130, complaint
-    assert "the same command goes on" in complaint
-    assert "Traceback" not in complaint
 
 
 def test_a_scheduler_that_is_not_there_is_a_clear_error(call, monkeypatch):

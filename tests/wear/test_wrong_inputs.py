@@ -94,6 +94,23 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.sweep(["section4"], None),
         lambda: OPEN.sweep(["section4"], [1], rtol="1e-7"),
         lambda: OPEN.sensitivity("section4", "9000"),
+        lambda: OPEN.solve("section4", b"9000"),
+        lambda: OPEN.load_scene(3),
+        lambda: OPEN.bind(None),
+        lambda: SECTION4.with_(None),  # type: ignore[arg-type]
+        lambda: SECTION4.with_([("bearing.hardness_MPa", 1)]),  # type: ignore[arg-type]
+        lambda: OPEN.cycles_to_depth("section4", 1e-3),
+        lambda: OPEN.cycles_to_depth(["section4"], "a"),
+        lambda: OPEN.cycles_to_depth(["section4"], [NAN]),
+        lambda: OPEN.cycles_to_depth(["section4"], [-1e-3]),
+        lambda: OPEN.cycles_to_depth(["section4"], [1e-3], rtol=-1),
+        lambda: OPEN.cycles_to_depth([3], [1e-3]),
+        lambda: OPEN.gradients("section4", [K], [1]),
+        lambda: OPEN.gradients(["section4"], [K], ["1"]),
+        lambda: OPEN.read_readings(3),
+        lambda: OPEN.solve("section4", 1).write(3),
+        lambda: OPEN.picture(3),
+        lambda: OPEN.ten_percent_life({}),
     ],
 )
 def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call):
@@ -130,6 +147,10 @@ def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call):
         "figure section4 -o a.svg --cycles 0",
         "figure section4 -o a.svg --inside x",
         "explore nowhere",
+        "explore section4 -o page.txt",
+        "run section4 --cycles 9.000",
+        "run section4 --cycles 5 --cycles 6",
+        "run section4 --rtol 1e-3 --rtol=1e-4",
         "scenes nowhere",
     ],
 )

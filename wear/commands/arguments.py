@@ -12,9 +12,10 @@ import re
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from derive import completion, files
+from derive import files
+from derive.command_line import declare
 
 if TYPE_CHECKING:
     from wear.fitting.readings import Specimen
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
 
 MOST_IN_RANGE = 1_000_000  # numbers of cycles
 PICTURES = (".pdf", ".png", ".svg")
-_THOUSANDS = re.compile(r"0\d+")  # what a comma leaves of 9,000: not to be read as 9 and 0
+_THOUSANDS = re.compile(r"0\d+|\d{1,3}(\.\d{3})+")
+"""What a comma leaves of 9,000, and 9.000: not to be read as 9 and 0, or as 9."""
 
 
 def add_scene(
@@ -31,28 +33,15 @@ def add_scene(
 ) -> None:
     """Declare the scene or scenes, which may be left out if there is a default, and `--set`."""
     about = "a built-in scene (wear scenes lists them) or a TOML file"
-    scene = parser.add_argument(
-        "scene",
-        metavar="SCENE",
-        nargs="+" if several else None if default is None else "?",
-        default=default,
-        help=about if default is None else f"{about} (default: {default})",
-    )
-    completion.suggest(scene, built_in_names)
-    overrides = parser.add_argument(
-        "--set",
-        metavar="TABLE.KEY=VALUE",
-        action="append",
-        default=[],
-        dest="overrides",
-        help="override one entry of the scene, as in bearing.hardness_MPa=200; may be repeated",
-    )
-    completion.suggest(overrides, _entries)
-    parser.add_argument(
-        "--strict",
-        action="store_true",
-        help="refuse what is legal but implausible (a notice otherwise), with status 2",
-    )
+    if default is not None:
+        about += f" (default: {default})"
+    usage = "SCENE ..." if several else "SCENE" if default is None else "[SCENE]"
+    declare(parser, usage, about, built_in_names, default=default)
+    about = "override one entry of the scene, as in bearing.hardness_MPa=200; may be repeated"
+    kept: dict[str, Any] = {"action": "append", "default": [], "dest": "overrides"}
+    declare(parser, "--set TABLE.KEY=VALUE", about, _entries, **kept)
+    about = "refuse what is legal but implausible (a notice otherwise), with status 2"
+    declare(parser, "--strict", about)
 
 
 def built_in_names() -> Sequence[str]:
@@ -73,17 +62,11 @@ def _entries() -> Sequence[str]:
 def add_readings(parser: argparse.ArgumentParser, help: str) -> None:
     """Declare a file of readings of the scene, of which `read` makes `options.readings`."""
     parser.set_defaults(readings=())
-    parser.add_argument("--data", metavar="FILE.csv", help=help)
+    declare(parser, "--data FILE.csv", help)
 
 
-def add_choice(
-    parser: argparse.ArgumentParser,
-    name: str,
-    choices: Callable[[], Sequence[str]],
-    help: str,
-    **about: str,
-) -> None:
-    """Declare a choice among words, whatever the case of their letters; completion offers them."""
+def one_of(choices: Callable[[], Sequence[str]]) -> Callable[[str], str]:
+    """Return what reads one of some words, whatever the case of its letters."""
 
     def chosen(text: str) -> str:
         from wear.checked import did_you_mean
@@ -98,8 +81,18 @@ def add_choice(
             f"{_quoted(text)} is unknown{f'{hint} ({known})' if hint else f'; {known}'}"
         )
 
-    action = parser.add_argument(name, type=chosen, help=help, **about)  # type: ignore[arg-type]
-    completion.suggest(action, choices)
+    return chosen
+
+
+def add_choice(
+    parser: argparse.ArgumentParser,
+    usage: str,
+    choices: Callable[[], Sequence[str]],
+    help: str,
+    **about: Any,
+) -> None:
+    """Declare a choice among words, which are completed."""
+    declare(parser, usage, help, choices, type=one_of(choices), **about)
 
 
 def add_rtol(
@@ -107,32 +100,27 @@ def add_rtol(
 ) -> None:
     """Declare the requested accuracy, down to the lowest that can be asked for."""
     about = f"requested relative accuracy{of} (default: %(default)s)"
-    parser.add_argument("--rtol", type=number(low, 0.1), default=default, help=about)
+    declare(parser, "--rtol RTOL", about, type=number(low, 0.1), default=default)
 
 
 def add_cycles(
-    parser: argparse.ArgumentParser, help: str, default: str | None = None, metavar: str = "N,..."
+    parser: argparse.ArgumentParser,
+    help: str,
+    default: str | None = None,
+    usage: str = "--cycles N,...",
 ) -> None:
     """Declare numbers of cycles."""
-    parser.add_argument("--cycles", metavar=metavar, type=cycles, default=default, help=help)
+    declare(parser, usage, help, type=cycles, default=default)
 
 
 def add_depth(parser: argparse.ArgumentParser, help: str) -> None:
     """Declare a wear depth in mm."""
-    parser.add_argument("--until-wear", metavar="MM", type=number(1e-30, 1e30), help=help)
-
-
-def add_file(
-    parser: argparse.ArgumentParser, suffixes: Sequence[str], help: str, *, required: bool = False
-) -> None:
-    """Declare the file to be written."""
-    read = file(*suffixes)
-    parser.add_argument("-o", "--output", metavar="FILE", type=read, help=help, required=required)
+    declare(parser, "--until-wear MM", help, type=number(1e-30, 1e30))
 
 
 def add_folder(parser: argparse.ArgumentParser, help: str, default: str | None = None) -> None:
     """Declare the folder to be written to."""
-    parser.add_argument("-o", "--output", metavar="DIR", type=folder, help=help, default=default)
+    declare(parser, "-o, --output DIR", help, type=folder, default=default)
 
 
 def cycles(text: str) -> tuple[int, ...]:
@@ -141,7 +129,7 @@ def cycles(text: str) -> tuple[int, ...]:
     >>> cycles("1, 10:13,1e8")
     (1, 10, 11, 12, 13, 100000000)
     """
-    from wear.solver import MOST_CYCLES
+    from wear.checked import MOST_CYCLES
 
     parts = text.split(",")
     ends = [tuple(map(_number, entry.split(":"))) for entry in parts]

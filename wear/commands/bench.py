@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments
 from wear.faults import UsageError
 
@@ -32,16 +32,15 @@ EXAMPLE = """\
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what to measure and how long."""
-    parser.add_argument(
-        "--peers",
-        action="store_true",
-        help="also cycle jumps and averaging, and what is installed of heyoka, diffrax, JiTCODE, "
-        "SUNDIALS, numba (pip install 'derive-wear[peers]'); in a checkout of the source",
+    about = (
+        "also cycle jumps and averaging, and what is installed of heyoka, diffrax, JiTCODE, "
+        "SUNDIALS, numba (pip install 'derive-wear[peers]'); in a checkout of the source"
     )
+    declare(parser, "--peers", about)
     effort = parser.add_mutually_exclusive_group()
-    effort.add_argument("--quick", action="store_true", help="one scene, short runs")
-    effort.add_argument("--full", action="store_true", help="more scenes, long runs")
-    parser.add_argument("--hard", action="store_true", help="the hard cases instead of speed")
+    declare(effort, "--quick", "one scene, short runs")
+    declare(effort, "--full", "more scenes, long runs")
+    declare(parser, "--hard", "the hard cases instead of speed")
     arguments.add_folder(parser, "write tables, raw CSV, JSON and the figure there")
 
 

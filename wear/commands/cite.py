@@ -16,14 +16,8 @@ EXAMPLE = """\
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    arguments.add_choice(
-        parser,
-        "references",
-        lambda: tuple(REFERENCES),
-        metavar="KEY",
-        nargs="*",
-        help=f"one of {', '.join(REFERENCES)} (default: all)",
-    )
+    known, about = tuple(REFERENCES), f"one of {', '.join(REFERENCES)} (default: all)"
+    arguments.add_choice(parser, "[KEY ...]", lambda: known, about, dest="references")
 
 
 def execute(options: argparse.Namespace) -> Answer:

@@ -26,9 +26,8 @@ _WIDTH, _INDENT = 96, " " * 5
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the ids of claims."""
-    arguments.add_choice(
-        parser, "ids", _known, metavar="ID", nargs="*", help="a claim, C1 to C41 (default: all)"
-    )
+    about = "a claim, C1 to C41 (default: all)"
+    arguments.add_choice(parser, "[ID ...]", _known, about, dest="ids")
 
 
 def execute(options: argparse.Namespace) -> Answer:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments
 
 SUMMARY = "an interactive page: the wear follows the parameters"
@@ -20,12 +19,9 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_scene(parser, default="section4")
     arguments.add_readings(parser, "show readings: columns cycles, wear_mm or wear_um")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        default="explorer.html",
-        help="the page to write (default: %(default)s)",
+    about = "the page to write (default: %(default)s)"
+    declare(
+        parser, "-o, --output FILE", about, default="explorer.html", type=arguments.file(".html")
     )
 
 
@@ -36,14 +32,12 @@ def execute(options: argparse.Namespace) -> Answer:
     specimens = options.readings
     if any(each.changes for each in specimens):
         faults.add(f"--data: {options.data}: the page has one scene; leave its entries out")
-    if problem := files.obstacle(options.output):
-        faults.add(f"--output: {problem}")
     faults.stop_if_any()
     with terminal.busy("solving the scenes that the page checks itself against"):
         text = page(options.scene, specimens)
     files.write_atomically(options.output, text)
-    place = Path(options.output).resolve().as_uri()
+    place = options.output.resolve().as_uri()
     return Answer(
-        {"page": options.output, "bytes": len(text.encode())},
+        {"page": str(options.output), "bytes": len(text.encode())},
         lambda: f"{options.output}: open it in a browser ({place})",
     )

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments, run_output
 
 if TYPE_CHECKING:
@@ -37,32 +37,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scenes, the file and the range of cycles."""
     arguments.add_scene(parser, several=True)
     about = "a .pdf, .png or .svg file"
-    arguments.add_file(parser, arguments.PICTURES, about, required=True)
+    pictures = arguments.file(*arguments.PICTURES)
+    declare(parser, "-o, --output FILE", about, type=pictures, required=True)
     about = f"last cycle shown (default: that of the last reading, or {LAST})"
-    arguments.add_cycles(parser, about, metavar="N")
-    arguments.add_choice(
-        parser,
-        "--axis",
-        lambda: ABSCISSAE,
-        default="cycles",
-        help="cycles, hours, or sliding distance (default: cycles)",
-    )
-    parser.add_argument(
-        "--log",
-        action="store_true",
-        help="logarithmic axes: of cycles, and of wear or roughness that span decades",
-    )
-    arguments.add_readings(
-        parser, "draw readings beside the wear: columns cycles, wear_mm or wear_um, and specimen"
-    )
+    arguments.add_cycles(parser, about, usage="--cycles N")
+    about = "cycles, hours, or sliding distance (default: cycles)"
+    arguments.add_choice(parser, "--axis AXIS", lambda: ABSCISSAE, about, default="cycles")
+    about = "logarithmic axes: of cycles, and of wear or roughness that span decades"
+    declare(parser, "--log", about)
+    about = "draw readings beside the wear: columns cycles, wear_mm or wear_um, and specimen"
+    arguments.add_readings(parser, about)
     arguments.add_depth(parser, "draw this limit of the wear, and when it is reached")
-    parser.add_argument(
-        "--inside",
-        metavar="N,...",
-        type=arguments.cycles,
-        help="instead: the contact pressure within the cycles that begin after these numbers of "
-        "cycles, 0 for the first",
+    about = (
+        "instead: the contact pressure within the cycles that begin after these numbers of "
+        "cycles, 0 for the first"
     )
+    arguments.add_cycles(parser, about, usage="--inside N,...")
 
 
 def execute(options: argparse.Namespace) -> Answer:
@@ -140,7 +130,7 @@ def _write(drawn: object, output: Path) -> None:
 
 def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: arguments.Faults) -> None:
     from wear.load import Blocks
-    from wear.solver import obstacle
+    from wear.request import obstacle
 
     if len(inside) > MOST_AT_ONCE:
         faults.add(f"--inside: {len(inside)} cycles in one figure; name up to {MOST_AT_ONCE}")

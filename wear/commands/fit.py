@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments
 
 if TYPE_CHECKING:
@@ -28,41 +28,23 @@ QUANTILES = (0.025, 0.5, 0.975)  # of the posterior
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare data, scene, what is free and what is asked."""
-    parser.add_argument(
-        "data",
-        metavar="DATA.csv",
-        help="columns cycles and wear_mm or wear_um; if need be standard_error_mm, specimen, and "
-        "entries of the scene such as load.value_mm",
+    about = (
+        "columns cycles and wear_mm or wear_um; if need be standard_error_mm, specimen, and "
+        "entries of the scene such as load.value_mm"
     )
+    declare(parser, "DATA.csv", about, dest="data")
     arguments.add_scene(parser)
-    several: dict[str, Any] = {"nargs": "+", "default": [], "action": "extend"}
-    parser.add_argument(
-        "--free", metavar="KEY", help="estimate one value for all specimens", **several
-    )
-    parser.add_argument(
-        "--free-each", metavar="KEY", help="estimate one value for each specimen", **several
-    )
-    parser.add_argument("--ignore", metavar="COLUMN", help="columns of the data to drop", **several)
-    arguments.add_choice(
-        parser,
-        "--error",
-        lambda: ERRORS,
-        default=ERRORS[0],
-        help="which error of a reading scatters: relative (default) or absolute",
-    )
-    parser.add_argument(
-        "--forecast",
-        metavar="N,...",
-        type=arguments.cycles,
-        help="the wear after these cycles, with band",
-    )
+    kept: dict[str, Any] = {"action": "extend", "default": []}
+    declare(parser, "--free KEY ...", "estimate one value for all specimens", **kept)
+    declare(parser, "--free-each KEY ...", "estimate one value for each specimen", **kept)
+    declare(parser, "--ignore COLUMN ...", "columns of the data to drop", **kept)
+    about = "which error of a reading scatters: relative (default) or absolute"
+    arguments.add_choice(parser, "--error ERROR", lambda: ERRORS, about, default=ERRORS[0])
+    about = "the wear after these cycles, with band"
+    arguments.add_cycles(parser, about, usage="--forecast N,...")
     arguments.add_depth(parser, "cycles to a wear depth, with band")
-    parser.add_argument(
-        "--posterior",
-        type=arguments.number(10, 1e6),
-        metavar="STEPS",
-        help="also sample the posterior by emcee, so many steps for each walker",
-    )
+    about = "also sample the posterior by emcee, so many steps for each walker"
+    declare(parser, "--posterior STEPS", about, type=arguments.number(10, 1e6))
     arguments.add_folder(parser, "write fit.json, fitted.toml and the figures there")
 
 

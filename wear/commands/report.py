@@ -21,9 +21,8 @@ EXAMPLE = """\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the scene and the folder."""
     arguments.add_scene(parser)
-    arguments.add_readings(
-        parser, "compare readings with the prediction: columns cycles, wear_mm or wear_um, specimen"
-    )
+    about = "compare readings with the prediction: columns cycles, wear_mm or wear_um, specimen"
+    arguments.add_readings(parser, about)
     arguments.add_folder(parser, "folder (default: NAME-report)")
 
 

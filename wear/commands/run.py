@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments, run_inside, run_output
 
 if TYPE_CHECKING:
-    from wear.scene import Scene
+    from wear.life import Life
 
 SUMMARY = "the state of a scene after given numbers of cycles"
 EXAMPLE = """\
@@ -30,41 +30,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     about = "numbers of cycles, 0 for the fresh state; 0:9000 for all from 0 to 9000"
     arguments.add_cycles(parser, f"{about} (default: %(default)s)", "1,10,100,1000,10000")
     arguments.add_rtol(parser, 1e-15, "1e-10", " of the bearing wear")
-    arguments.add_choice(
-        parser,
-        "--method",
-        _methods,
-        default="auto",
-        help="auto, abel, collocation (of a measured history), or an integrator of SciPy "
+    about = (
+        "auto, abel, collocation (of a measured history), or an integrator of SciPy "
         "that goes through every cycle: DOP853, RK45, RK23, Radau, BDF, LSODA (default: "
-        "%(default)s)",
+        "%(default)s)"
     )
-    parser.add_argument(
-        "--until-wear",
-        metavar="MM,...",
-        type=_depths,
-        help="also print the number of cycles to these depths of wear",
+    arguments.add_choice(parser, "--method METHOD", _methods, about, default="auto")
+    about = "also print the number of cycles to these depths of wear"
+    declare(parser, "--until-wear MM,...", about, type=_depths)
+    about = "stop after this time and keep what was computed"
+    declare(parser, "--time-limit SECONDS", about, type=arguments.number(1e-3, 1e9))
+    about = (
+        "write the state at M phases of the cycle that begins after each of the numbers of "
+        "cycles, to a .nc or .csv file, a part at a time"
     )
-    parser.add_argument(
-        "--time-limit",
-        type=arguments.number(1e-3, 1e9),
-        metavar="SECONDS",
-        help="stop after this time and keep what was computed",
-    )
-    parser.add_argument(
-        "--phases",
-        metavar="M",
-        type=arguments.number(1, 1e6),
-        help="write the state at M phases of the cycle that begins after each of the numbers of "
-        "cycles, to a .nc or .csv file, a part at a time",
-    )
+    declare(parser, "--phases M", about, type=arguments.number(1, 1e6))
     about = "write the states to a .csv, .nc or .tex file"
-    arguments.add_file(parser, run_output.SUFFIXES, about)
+    declare(parser, "-o, --output FILE", about, type=arguments.file(*run_output.SUFFIXES))
 
 
 def execute(options: argparse.Namespace) -> Answer:
     from wear.faults import AccuracyError, Interrupted
-    from wear.solver import obstacle, solve
+    from wear.life import cycles_until
+    from wear.request import obstacle
+    from wear.solver import solve
 
     faults = arguments.read(options)
     if options.until_wear and options.scene and (against := obstacle(options.scene)):
@@ -88,10 +77,16 @@ def execute(options: argparse.Namespace) -> Answer:
         if miss.best is None:
             raise
         history, status, faulty = miss.best, terminal.INACCURATE, [str(miss)]
+    until, notices = dict[str, Any](), [*run_output.worth_telling(history), *faulty]
+    if wears is not None:
+        with terminal.busy("counting cycles to the wear"):
+            life = cycles_until(scene, wears, rtol)
+        more = [text for text in life.notices if text not in history.notices]
+        until = _cycles_until(life) | {"notices": [*history.notices, *more]}
+        notices += more
     if options.strict:
-        faults.refuse_implausible(history.notices)
+        faults.refuse_implausible(notices)
         faults.stop_if_any()
-    until = {} if wears is None else _cycles_until(scene, wears, rtol)
     if output is not None:
         run_output.write(history, output)
 
@@ -101,7 +96,6 @@ def execute(options: argparse.Namespace) -> Answer:
             parts.append(f"\n{run_output.until_text(until)}")
         return "\n".join(parts)
 
-    notices = (*run_output.worth_telling(history), *faulty)
     return Answer(history.as_json() | until, text, notices, status)
 
 
@@ -109,15 +103,11 @@ def _depths(text: str) -> tuple[float, ...]:
     return tuple(map(arguments.number(0.0, 1e300), text.split(",")))
 
 
-def _cycles_until(scene: Scene, wears: Sequence[float], rtol: float) -> dict[str, Any]:
-    """The part of the JSON with the cycles after which wears are reached, null where unknown."""
-    from wear.life import cycles_until
-
-    with terminal.busy("counting cycles to the wear"):
-        found = cycles_until(scene, wears, rtol)
+def _cycles_until(found: Life) -> dict[str, Any]:
+    """Return the part of the JSON with the cycles to depths of wear, null where unknown."""
     return {
         "cycles_until": {
-            "bearing_wear_mm": list(wears),
+            "bearing_wear_mm": list(found.wear_mm),
             "cycles": [None if math.isnan(cycles) else int(cycles) for cycles in found.cycles],
             "error_estimate": found.error,
             "reached": [way.value for way in found.reached],

@@ -21,7 +21,7 @@ SUFFIXES = (".csv", ".nc")
 def check(options: argparse.Namespace, faults: arguments.Faults) -> None:
     """Add what stands against states inside the cycles."""
     from wear.load.spans import most_cycles
-    from wear.solver import obstacle
+    from wear.request import obstacle
 
     if not options.phases.is_integer():
         faults.add(f"--phases: {options.phases:g} is no whole number")

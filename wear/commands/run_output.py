@@ -3,37 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
+from wear.quantities import COLUMNS, unit_of, words_of
 
 if TYPE_CHECKING:
     from wear.history import History
-    from wear.history_files import Column
+    from wear.numerics.gauss import FloatArray
 
 SUFFIXES = (".csv", ".nc", ".tex")
-SYMBOLS = {  # of the columns for which a page is wide enough
-    "bearing_wear_mm": "u_c",
-    "pin_wear_mm": "u_a",
-    "bearing_roughness_mm": r"\sigma_c",
-    "pin_roughness_mm": r"\sigma_a",
-    "closure_mm": "h",
-    "pressure_at_start_MPa": "p",
-    "bearing_displacement_mm": "U_c",
-    "pin_reaction_N": "R_a",
-}
 
 
 def text(history: History) -> str:
     """Return a table for the eye, with what it took."""
     quantities = _modelled(history)
-    header = ["cycle", *(_heading(column) for column in quantities), "relative\nerror"]
+    header = ["cycle", *map(_heading, quantities), "relative\nerror"]
     rows = [
         [
             str(cycle),
-            *(_shown(float(column.values[row])) for column in quantities),
+            *(_shown(float(values[row])) for values in quantities.values()),
             f"{history.error[row]:.1e}",
         ]
         for row, cycle in enumerate(history.cycles.tolist())
@@ -77,12 +68,12 @@ def until_text(until: Mapping[str, Any]) -> str:
 
 def latex(history: History) -> str:
     r"""Return a `tabular` to `\input` into a document that loads booktabs."""
-    quantities = [column for column in _modelled(history) if column.name in SYMBOLS]
-    symbols = ["$N$", *(f"${SYMBOLS[column.name]}$" for column in quantities)]
-    units = ["", *(rf"\textnormal{{{column.unit}}}" for column in quantities)]
+    quantities = {name: each for name, each in _modelled(history).items() if COLUMNS[name].latex}
+    symbols = ["$N$", *(f"${COLUMNS[name].latex}$" for name in quantities)]
+    units = ["", *(rf"\textnormal{{{unit_of(name)}}}" for name in quantities)]
     rows = [
         [f"${latex_number(cycle, 15)}$", *(f"${latex_number(x, 8)}$" for x in state)]
-        for cycle, *state in zip(history.cycles, *(c.values for c in quantities), strict=True)
+        for cycle, *state in zip(history.cycles, *quantities.values(), strict=True)
     ]
     title = " ".join(history.scene.split())
     return "\n".join(
@@ -124,21 +115,20 @@ def write(history: History, path: Path) -> None:
         history.write(path)
 
 
-def _modelled(history: History) -> Sequence[Column]:
+def _modelled(history: History) -> dict[str, FloatArray]:
     """Return the physical columns that say something: not those of contact that is never lost or of
     cycles whose pressures are unknown."""
     import numpy as np
 
-    return [
-        column
-        for column in history.columns()
-        if column.name != "error_estimate"
-        and not np.isnan(column.values).all()
-        and (column.name != "contact_fraction" or np.any(column.values < 1.0))
-    ]
+    return {
+        name: values
+        for name, values in history.columns().items()
+        if name != "error_estimate"
+        and not np.isnan(values).all()
+        and (name != "contact_fraction" or np.any(values < 1.0))
+    }
 
 
-def _heading(column: Column) -> str:
-    unit = column.unit.replace("/", "_per_").replace("^", "")
-    words = column.name.removesuffix(f"_{unit}").split("_")
-    return "\n".join(words if column.unit == "1" else [*words, f"({column.unit})"])
+def _heading(name: str) -> str:
+    unit = unit_of(name)
+    return "\n".join([*words_of(name).split(), *([f"({unit})"] if unit else [])])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments
 
 SUMMARY = "the built-in scenes"
@@ -16,15 +16,9 @@ EXAMPLE = """\
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    arguments.add_choice(
-        parser,
-        "names",
-        arguments.built_in_names,
-        metavar="SCENE",
-        nargs="*",
-        help="a built-in scene (default: all)",
-    )
-    parser.add_argument("--describe", action="store_true", help="show each as a scene file")
+    names, about = arguments.built_in_names, "a built-in scene (default: all)"
+    arguments.add_choice(parser, "[SCENE ...]", names, about, dest="names")
+    declare(parser, "--describe", "show each as a scene file")
 
 
 def execute(options: argparse.Namespace) -> Answer:

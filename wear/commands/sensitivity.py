@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, declare
 from wear.commands import arguments
 
 if TYPE_CHECKING:
@@ -32,7 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_depth(parser, "also for the number of cycles to this depth of wear")
     arguments.add_rtol(parser, 1e-13, "1e-10")
     about = "write a .csv file, or draw a tornado diagram: .png, .svg, .pdf"
-    arguments.add_file(parser, (".csv", *arguments.PICTURES), about)
+    written = arguments.file(".csv", *arguments.PICTURES)
+    declare(parser, "-o, --output FILE", about, type=written)
 
 
 def execute(options: argparse.Namespace) -> Answer:

@@ -11,8 +11,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive import completion, files, terminal
-from derive.command_line import Answer
+from derive import files, terminal
+from derive.command_line import Answer, declare
 from wear import processes
 from wear.commands import arguments
 
@@ -41,66 +41,38 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from wear.studies.design import DESIGNS
 
     arguments.add_scene(parser)
-    parser.add_argument(
-        "--vary",
-        metavar="KEY=VALUES",
-        action="append",
-        default=[],
-        help="a number of the scene that varies: KEY=low:high:count, KEY=low:high:count:log or "
+    about = (
+        "a number of the scene that varies: KEY=low:high:count, KEY=low:high:count:log or "
         "KEY=a,b,c in a grid; KEY=uniform(a,b), loguniform(a,b), normal(mean,sd) or "
-        "lognormal(median,factor) in samples; may be repeated",
+        "lognormal(median,factor) in samples; may be repeated"
     )
+    declare(parser, "--vary KEY=VALUES", about, action="append", default=[])
     arguments.add_cycles(parser, "numbers of cycles (default: %(default)s)", "9000")
-    design = parser.add_argument(
-        "--design", default="grid", help=f"{', '.join(DESIGNS)} (default: %(default)s)"
-    )
-    completion.suggest(design, lambda: DESIGNS)
-    parser.add_argument(
-        "--samples",
-        type=arguments.number(0, 1e9),
-        default="0",
-        metavar="N",
-        help="number of samples",
-    )
-    parser.add_argument(
-        "--seed",
-        type=arguments.number(0, 2**63),
-        default="0",
-        help="seed of the samples (default: %(default)s)",
-    )
+    about = f"{', '.join(DESIGNS)} (default: %(default)s)"
+    declare(parser, "--design DESIGN", about, lambda: DESIGNS, default="grid")
+    samples, seeds = arguments.number(0, 1e9), arguments.number(0, 2**63)
+    declare(parser, "--samples N", "number of samples", type=samples, default="0")
+    about = "seed of the samples (default: %(default)s)"
+    declare(parser, "--seed SEED", about, type=seeds, default="0")
     arguments.add_depth(parser, "also the number of cycles to this wear depth")
     arguments.add_rtol(parser, 1e-13, "1e-7", of="")
-    parser.add_argument(
-        "-o", "--output", metavar="OUT.zarr", required=True, help="folder of the results"
-    )
+    declare(parser, "-o, --output OUT.zarr", "folder of the results", required=True)
     where = parser.add_mutually_exclusive_group()
-    where.add_argument(
-        "--workers",
-        metavar="N",
-        type=arguments.number(1, 1024),
-        help="processes on this machine (default: one for each core)",
-    )
-    where.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="use the workers of the Dask scheduler that runs there",
-    )
-    parser.add_argument(
-        "--dry-run", action="store_true", help="say how many scenes, how long, how much disk"
-    )
-    parser.add_argument(
-        "--figure",
-        metavar="FILE",
-        type=arguments.file(*arguments.PICTURES),
-        help="also draw the answers: .png, .svg, .pdf",
-    )
+    about = "processes on this machine (default: one for each core)"
+    declare(where, "--workers N", about, type=arguments.number(1, 1024))
+    about = "use the workers of the Dask scheduler that runs there"
+    declare(where, "--scheduler ADDRESS", about)
+    declare(parser, "--dry-run", "say how many scenes, how long, how much disk")
+    about = "also draw the answers: .png, .svg, .pdf"
+    declare(parser, "--figure FILE", about, type=arguments.file(*arguments.PICTURES))
 
 
 def execute(options: argparse.Namespace) -> Answer:
     """Run a study, or say what it takes."""
     from wear.studies.run import prepare, run
 
-    arguments.read(options).stop_if_any()
+    faults = arguments.read(options)
+    faults.stop_if_any()
     workers = int(options.workers or processes.cores())
     request = (
         options.design, int(options.samples), int(options.seed), options.until_wear, options.rtol,
@@ -110,18 +82,23 @@ def execute(options: argparse.Namespace) -> Answer:
         return _dry_run(asked, workers)
     with _executor(options.scheduler, workers) as executor, terminal.busy("solving") as tell:
         store = run(asked, Path(options.output), executor, tell)
+    results = store.dataset()
+    notices = results.attrs["notices"]
+    if options.strict:
+        faults.refuse_implausible(notices)
+        faults.stop_if_any()
     if options.figure is not None:
         from wear.figure_style import encoded
         from wear.studies.figures import picture
 
-        drawn = encoded(picture(store.dataset()), options.figure.suffix)
+        drawn = encoded(picture(results), options.figure.suffix)
         files.write_atomically(options.figure, drawn)
     counts = store.counts()
     done = ", ".join(
         f"{number} {name.replace('_', ' ')}" for name, number in counts.items() if number
     )
-    document = {"output": options.output, "rows": counts}
-    return Answer(document, lambda: f"{options.output}: {done}", asked.scene.notices)
+    document = {"output": options.output, "rows": counts, "notices": notices}
+    return Answer(document, lambda: f"{options.output}: {done}", notices)
 
 
 def _dry_run(asked: Study, workers: int) -> Answer:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,15 +29,13 @@ from wear.direct.step import (
     OutOfTimeError,
     leg,
 )
+from wear.load import Loading
 from wear.load.spans import span
+from wear.model import Model
 from wear.numerics.gauss import FloatArray
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
 from wear.progress import Pace
-
-if TYPE_CHECKING:
-    from wear.load import Loading
-    from wear.model import Model
 
 __all__ = ["METHODS", "integrate"]
 

@@ -18,17 +18,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from enum import Enum
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from wear.direct.problem import EPS, Problem, Real, Setting, widest_step
 from wear.direct.step import EndOfModelError, Meter, first_zero, leg
+from wear.load import Load
 from wear.loss_of_contact.switching import turning_points
-
-if TYPE_CHECKING:
-    from wear.load import Load
-    from wear.model import Model
+from wear.model import Model
 
 TINY = float(np.finfo(float).tiny)
 SLIDING_LOOKS = 64  # phases of a piece at which the end of sliding is looked for

@@ -8,13 +8,12 @@ cycle, so that after any number of cycles the load is evaluated with a small arg
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from wear.load import Load
-    from wear.model import Model
+from wear.load import Load
+from wear.model import Model
 
 Real = Any  # a float or an array of floats: loads and models broadcast
 EPS = float(np.finfo(float).eps)

@@ -8,12 +8,12 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
-from wear.checked import label_of
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, PAGE, canvas, stroke, styled
 from wear.fitting.fit import Fit
 from wear.fitting.model import Parameter
 from wear.fitting.profiles import moved
 from wear.fitting.readings import FloatArray
+from wear.quantities import label_of
 
 _MICROMETRES_PER_MM = 1e3
 _POINTS = 40  # of a curve

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.checked import MOST_CYCLES, shown
+from wear.checked import MOST_CYCLES, is_path, shown
 from wear.faults import MOST_FAULTS_SHOWN, UsageError
 from wear.load.rows import read_bytes
 
@@ -81,6 +81,8 @@ def read_readings(path: str | os.PathLike[str], ignore: Sequence[str] = ()) -> S
     UsageError
         with everything that is wrong with the file.
     """
+    if not is_path(path):
+        raise UsageError(f"readings: {path!r} is no name of a file")
     data = read_bytes(Path(path), MOST_BYTES)
     if isinstance(data, tuple):
         raise UsageError(f"{path}: {'; '.join(data)}")

@@ -35,10 +35,11 @@ from wear.report.manifest import versions
 from wear.report.markup import markup, number
 from wear.report.number import Number
 from wear.report.text import read
+from wear.request import obstacle
 from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
 from wear.sensitivities import Sensitivities, sensitivity
-from wear.solver import obstacle, solve
+from wear.solver import solve
 
 #: Depths whose life is reported, in initial roughnesses, and cycles whose pressure is drawn.
 _DEPTHS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
@@ -101,7 +102,9 @@ def _solved(scene: Scene) -> History:
     meant = [
         int(found.cycles[n - 1])
         for n in ends
-        if not any(implausible_results(scene, found.cycles[:n], found.u_c[:n], found.sigma_c[:n]))
+        if not any(
+            implausible_results(scene, found.cycles[:n].tolist(), found.u_c[:n], found.sigma_c[:n])
+        )
     ]
     if not meant or len(meant) == len(ends):
         return found

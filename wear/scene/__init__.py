@@ -33,6 +33,7 @@ from wear.checked import (
     all_wrong,
     choice,
     did_you_mean,
+    is_path,
     problems,
     shown,
     table,
@@ -275,7 +276,11 @@ class Scene(SceneTable):
         >>> load_scene("section4").with_({"bearing.roughness_growth": 0.3}).bearing.roughness_growth
         0.3
         """
-        named = {entry.partition(".")[0] for entry in changes}
+        try:
+            named = {entry.partition(".")[0] for entry in changes.keys()}  # noqa: SIM118
+        except (AttributeError, TypeError):
+            form = "{'bearing.roughness_growth': 0.3}"
+            raise UsageError(f"changes: give a mapping such as {form}") from None
         from_file = "load.file" in changes or getattr(self.load, "source", None) is not None
         if not named <= TABLE_NAMES or ("load" in named and (from_file or "load" in changes)):
             tables = self.to_tables() | ({} if "load" in named else {"load": self.load})
@@ -445,6 +450,9 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     >>> load_scene("section4", ["bearing.wear_coefficient=1e-3"]).bearing.wear_coefficient
     0.001
     """
+    if not is_path(path_or_name):
+        kind = type(path_or_name).__name__
+        raise UsageError(f"a {kind} is no scene; give a Scene, a built-in name or a path")
     name = os.fspath(path_or_name)
     if isinstance(path_or_name, str) and name in builtin_names():
         file = SCENES / f"{name}.toml"
@@ -453,7 +461,8 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     data = read_bytes(file, MOST_BYTES)
     if isinstance(data, tuple):
         problem, remedy = data
-        if meant := did_you_mean(file.name, [each.name for each in file.parent.glob("*.toml")]):
+        others = [each.name for each in file.parent.glob("*.toml") if each != file]
+        if meant := did_you_mean(file.name, others):
             remedy = f"did you mean {meant}?"
         elif meant := did_you_mean(name, builtin_names()):
             remedy = f"did you mean the built-in scene {meant}?"
@@ -463,14 +472,9 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     return parse_scene(data, name, file.parent, overrides)
 
 
-def as_scene(scene: object) -> Scene:
+def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:
     """Return a scene as it is, or that of a built-in name or a file."""
-    if isinstance(scene, Scene):
-        return scene
-    if isinstance(scene, str | os.PathLike):
-        return load_scene(scene)
-    kind = type(scene).__name__
-    raise UsageError(f"a {kind} is no scene; give a Scene, a built-in name or a path")
+    return scene if isinstance(scene, Scene) else load_scene(scene)
 
 
 def parse_scene(

@@ -12,8 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
-from wear.checked import label_of
+from wear.faults import UsageError
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, canvas, stroke, styled
+from wear.quantities import label_of
 from wear.studies.vary import FloatArray
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ def picture(results: xarray.Dataset) -> Figure:
     over the first two, at the last number of cycles and the first value of the others. Samples give
     a band over cycles and, where a wear depth was asked for, the distribution of the life.
     """
+    _require(results, "bearing_wear_mm")
     if "sample" in results.dims:
         return life(results) if "cycles_to_wear" in results else band(results)
     keys = [str(name) for name in results["bearing_wear_mm"].dims if name != "cycle"]
@@ -135,8 +137,14 @@ def indices(found: xarray.Dataset) -> Figure:
 
 def ten_percent_life(results: xarray.Dataset) -> float:
     """Return the number of cycles by which 10 % of the contacts have reached the wear depth."""
+    _require(results, "cycles_to_wear")
     count = results["cycles_to_wear"].values[results["status"].values == 0]
     return float(np.quantile(count, _FAILED, method="higher"))
+
+
+def _require(results: xarray.Dataset, name: str) -> None:
+    if name not in getattr(results, "data_vars", ()):
+        raise UsageError(f"results: {name} is missing; give the results of a study that has it")
 
 
 def _band(axes: Axes, results: xarray.Dataset) -> None:

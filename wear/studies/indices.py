@@ -11,6 +11,7 @@ import numpy as np
 
 from wear.faults import UsageError
 from wear.studies.design import ROWS
+from wear.studies.notices import Tally
 from wear.studies.rows import Status, Study, solve_rows
 from wear.studies.run import check_executor, prepare
 from wear.studies.vary import Distribution, FloatArray, Vary
@@ -51,7 +52,8 @@ def sobol_indices(
     Returns
     -------
     xarray.Dataset
-        `first_order` and `total_order` (key, cycle), each with `_low` and `_high`.
+        `first_order` and `total_order` (key, cycle), each with `_low` and `_high`; the attribute
+        `notices` says what is hardly meant in the scenes drawn.
 
     Raises
     ------
@@ -65,10 +67,13 @@ def sobol_indices(
     asked = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
     if samples < 2 or samples & (samples - 1):
         raise UsageError(f"samples: {samples} is no power of two")
-    keys = [each.key for each in asked.design.vary]
+    keys, tally = [each.key for each in asked.design.vary], Tally(asked)
 
     def wear(points: FloatArray) -> FloatArray:
-        return _wear(asked, dict(zip(keys, points, strict=True)), executor)
+        columns = dict(zip(keys, points, strict=True))
+        u_c = _wear(asked, columns, executor)
+        tally.add(columns, u_c.T)
+        return u_c
 
     laws = [each.frozen for each in asked.design.vary if isinstance(each, Distribution)]
     found = stats.sobol_indices(func=wear, n=samples, dists=laws, rng=np.random.default_rng(seed))
@@ -79,7 +84,8 @@ def sobol_indices(
         for end, values in (("", getattr(found, name)), ("_low", interval.low),
                             ("_high", interval.high)):  # fmt: skip
             arrays[name + end] = (("key", "cycle"), np.atleast_2d(values).T)
-    return xarray.Dataset(arrays, {"key": keys, "cycle": list(asked.cycles)})
+    coordinates = {"key": keys, "cycle": list(asked.cycles)}
+    return xarray.Dataset(arrays, coordinates, {"notices": list(tally.notices)})
 
 
 def _wear(asked: Study, columns: dict[str, FloatArray], executor: Executor | None) -> FloatArray:

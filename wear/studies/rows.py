@@ -92,18 +92,31 @@ def _fail(answers: Answers, row: int, status: Status, reason: str) -> None:
 
 
 def _solve(study: Study, scenes: Mapping[int, Scene], answers: Answers) -> None:
-    """Fill in the answers of the rows whose scenes are valid."""
+    """Fill in the answers of rows with valid scenes; one that fails is sought by halves."""
+    try:
+        _fill_in(study, scenes, answers)
+    except Exception as fault:  # whatever it is, the other rows have answers
+        rows, half = list(scenes), len(scenes) // 2
+        if not half:
+            _fail(answers, rows[0], Status.FAILED, f"{type(fault).__name__}: {fault}")
+            return
+        for part in (rows[:half], rows[half:]):
+            _solve(study, {row: scenes[row] for row in part}, answers)
+
+
+def _fill_in(study: Study, scenes: Mapping[int, Scene], answers: Answers) -> None:
+    """Solve the rows together, and fill in their answers."""
     from wear.cycles import cycles_to_depth, sweep
 
     places = np.array(list(scenes))
-    found = sweep(list(scenes.values()), np.array(study.cycles, dtype=float), study.rtol)
+    some = list(scenes.values())
+    found = sweep(some, study.cycles, study.rtol)
+    if study.until_wear is not None:
+        reached = cycles_to_depth(some, study.until_wear, study.rtol)
+        answers.cycles_to_wear[places] = reached.cycles[:, 0]
     answers.bearing_wear_mm[places] = found.u_c
     answers.error_estimate[places] = found.error
     for row, error in zip(places.tolist(), found.error.max(axis=1).tolist(), strict=True):
         if not error <= study.rtol:
             reason = f"the estimated error is {error:.1e}, {study.rtol:.1e} was requested"
             _fail(answers, row, Status.ACCURACY_MISSED, reason)
-    if study.until_wear is not None:
-        depth = np.array([study.until_wear])
-        reached = cycles_to_depth(list(scenes.values()), depth, study.rtol)
-        answers.cycles_to_wear[places] = reached.cycles[:, 0]

@@ -17,6 +17,7 @@ from concurrent.futures import (
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from wear.checked import is_path
 from wear.faults import UsageError, WorkersLost
 from wear.progress import Pace
 from wear.studies.design import Chunk, Design
@@ -80,7 +81,8 @@ def study(
     -------
     xarray.Dataset
         `bearing_wear_mm`, `error_estimate`, `cycles_to_wear`, `status` and `reason`, with a
-        dimension for each key of a grid or one of samples, and one of cycles.
+        dimension for each key of a grid or one of samples, and one of cycles. The attribute
+        `notices` says what is hardly meant in how many rows, and in which most.
 
     Raises
     ------
@@ -102,7 +104,7 @@ def run(
     """Solve the chunks that are missing at `output` and return the store of all, see `study`."""
     from wear.studies.store import Store
 
-    if not isinstance(output, str | os.PathLike):
+    if not is_path(output):
         raise UsageError(f"output: {output!r} is no name of a folder")
     check_executor(executor)
     store = Store(Path(output), asked)
@@ -113,6 +115,7 @@ def run(
         store.write(chunk, answers)
         done += _rows(chunk)
         pace.at(done)
+    store.judge()
     return store
 
 
@@ -128,8 +131,8 @@ def prepare(
 ) -> Study:
     """Return what is to be solved, or raise all that is wrong with it."""
     from wear.parameters import no_such_number, parameters_of
+    from wear.request import check_rtol, is_number, whole_cycles
     from wear.scene import as_scene
-    from wear.solver import is_number, whole_cycles
 
     base = as_scene(scene)
     faults: list[str] = []
@@ -152,8 +155,7 @@ def prepare(
         faults.append("cycles: a number is given twice")
     if until_wear is not None and not (is_number(until_wear) and 0.0 < until_wear < 1e30):
         faults.append(f"until_wear: {until_wear!r} is no positive number of mm")
-    if not (is_number(rtol) and 1e-13 <= rtol <= 0.1):
-        faults.append(f"rtol: {rtol!r} is not between 1e-13 and 0.1")
+    check_rtol(rtol, faults, least=1e-13)
     if faults or plan is None:
         raise UsageError("\n".join(faults))
     return Study(base, plan, wanted, until_wear, rtol)

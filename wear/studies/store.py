@@ -20,9 +20,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wear.checked import unit_of
 from wear.faults import UsageError
+from wear.quantities import unit_of
 from wear.studies.design import Chunk
+from wear.studies.notices import Tally
 from wear.studies.rows import Answers, Status, Study
 from wear.studies.vary import Levels
 
@@ -101,6 +102,14 @@ class Store:
             for status in Status:
                 totals[status] += int(np.count_nonzero(found == status))
         return {status.name.lower(): number for status, number in totals.items()}
+
+    def judge(self) -> None:
+        """Note what is hardly meant in the rows: the attribute `notices` of the results."""
+        tally = Tally(self.study)
+        for chunk in self.design.chunks():
+            wear = np.asarray(self._group["bearing_wear_mm"][*chunk, :])
+            tally.add(self.design.columns(chunk), wear.reshape(-1, len(self.study.cycles)))
+        self._group.attrs["notices"] = list(tally.notices)
 
     def dataset(self) -> xarray.Dataset:
         """Return the results as a labelled dataset, read from disk as they are used."""

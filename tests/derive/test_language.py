@@ -1,0 +1,161 @@
+"""What may be said at all: in expressions, by names, as a definition or an equation of the model.
+
+A comment names the model in which what is refused would be false.
+"""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+from sympy.core.function import AppliedUndef, UndefinedFunction
+
+from derive.claims import landau_o
+from derive.hypotheses import Kind
+from derive.kernel import RuleError, replayed
+from derive.laws import TANH
+from derive.rules.algebra import Identity
+from derive.rules.assumption import assume
+from derive.rules.limits import forever
+from derive.symbols import initial, symbols, t
+from tests.derive.judgements import end, equal, supposed
+
+u_c, U_a, U_c, h, p, sigma = symbols("u_c U_a U_c h p sigma")
+h_0, f_c, C, T, N, q, k, b_0, U = symbols("h_0 f_c C T N q k b_0 U")
+theta, kappa, tau, p_max = symbols("theta kappa tau p_max")
+x, y = sp.symbols("x y", real=True)
+WIGGLE = sp.Function("wiggle", real=True)(t)
+PHASED = sp.Function("v", real=True)(tau)
+
+
+class Lie(sp.Expr):  # type: ignore[misc]
+    """Something that says it is zero."""
+
+    is_zero = is_commutative = True
+
+
+class Between(sp.Expr):  # type: ignore[misc]
+    """Something that says it is SymPy's."""
+
+    is_commutative = is_real = is_zero = True
+    __module__ = "sympy.core.numbers"
+
+
+class Positive(sp.Symbol):  # type: ignore[misc]
+    """A symbol that says it is positive, and f_c."""
+
+    is_positive = True
+
+    def __eq__(self, other: object) -> bool:
+        return True
+
+    def __hash__(self) -> int:
+        return hash(f_c)
+
+
+def with_a_slope_of_its_own() -> sp.Expr:
+    """Return an unspecified function of y that is said to fall."""
+    kind = type("Lying", (AppliedUndef,), {"fdiff": lambda *_: -sp.S.Half})
+    return UndefinedFunction("lie", bases=(kind,), real=True)(y)
+
+
+def touching(factor: sp.Expr) -> sp.Basic:
+    """Return the contact law with its cutoff, times a factor."""
+    law = factor * p_max * TANH.ratio(h / sigma)
+    return sp.Eq(p, sp.Piecewise((law, sp.Le(h, 3 * sigma)), (0, True)))
+
+
+UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
+    (sp.floor(2 - 1 / N), "of no kind"),
+    (sp.tan(y), "of no kind"),
+    (sp.asin(kappa - 1), "of no kind"),  # of the sine of 2 it is pi - 2
+    (sp.atan(sp.tan(theta)), "of no kind"),
+    (sp.oo, "of no kind"),  # 0 times oo
+    (sp.Float(1e-20), "of no kind"),  # 1 + 1e-20
+    (sp.Order(t), "of no kind"),  # t and 2 t
+    (sp.MatrixSymbol("A", 2, 2) * sp.MatrixSymbol("B", 2, 2), "of no kind"),
+    (h_0 + Lie(), "of no kind"),
+    (h_0 + Between(), "of no kind"),
+    (Positive("f_c", real=True), "of no kind"),
+    (with_a_slope_of_its_own(), "of no kind"),
+    (sp.Limit(sp.sign(theta), theta, 0, "-"), "no limit from above"),
+    (sp.Symbol("f_c", positive=True), "not the f_c of the vocabulary"),
+    (sp.Function("u_c", positive=True)(t), "not the u_c of the vocabulary"),
+    (sp.Symbol("x") ** 2, "no real quantity"),  # i
+    (sp.Symbol("x", zero=True), "no real quantity"),
+    (sp.Symbol("f_c ", positive=True), "no real quantity"),
+    (sp.Symbol("U_a(t)", positive=True), "no real quantity"),
+    (sp.Dummy("x", real=True), "a name that others may have"),
+    (x + sp.Symbol("x", positive=True), "one name"),
+)
+SPEAKABLE: tuple[sp.Expr, ...] = (
+    2 - 1 / k,
+    sp.tanh(y),
+    sp.log(1 + kappa),
+    sp.Rational(1, 10**20),
+    sp.Limit(sp.sign(theta), theta, 0),
+    sp.Symbol("f_x", positive=True) + sp.Symbol("U_x", positive=True),
+    x * y,
+)
+
+
+@pytest.mark.parametrize(("expr", "said"), UNSPEAKABLE, ids=lambda part: str(part))
+def test_what_is_not_of_the_language_is_refused(expr: sp.Expr, said: str) -> None:
+    claim = equal(expr, h_0)
+    for door in (Identity(claim), lambda: assume(supposed(claim))):
+        with pytest.raises(RuleError, match=said):
+            door()
+
+
+@pytest.mark.parametrize("expr", SPEAKABLE, ids=str)
+def test_what_is_of_the_language_can_be_said(expr: sp.Expr) -> None:
+    assert replayed(assume(supposed(equal(expr, h_0)))) is None
+
+
+MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
+    (Kind.STATE, sp.Eq(t, 5), "cannot be assumed"),  # t = 4
+    (Kind.STATE, sp.Eq(u_c, h + landau_o(sp.S.One)), "cannot be assumed"),  # 1/t and 2/t
+    (Kind.MODEL, sp.Le(sp.Abs(U_a), U), "no equation of the model"),  # under no k as U_a + p/k
+    (Kind.MODEL, sp.Eq(f_c, 5), "no equation of the model"),  # f_c = 1
+    (Kind.MODEL, touching(1 + f_c), "no equation of the model"),  # f_c = 1
+    (Kind.INITIAL, sp.Eq(initial("u_c"), h_0), "no equation of the model"),  # u_c(0) = 0
+    (Kind.DEFINITION, sp.Gt(f_c, 0), "no equation"),  # f_c = -1
+    (Kind.DEFINITION, sp.Eq(u_c, h_0), "is a new name"),  # u_c = 1
+    (Kind.DEFINITION, sp.Eq(f_c, 5), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, sp.Eq(f_c * h_0, 3), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, sp.Eq(f_c * b_0, 3), "is a new name"),  # f_c = 0
+    (Kind.DEFINITION, equal(b_0, b_0 + 1), "is a new name"),
+    (Kind.DEFINITION, equal(f_c**2 + b_0**2, 0), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, equal(sp.exp(b_0), f_c), "is a new name"),  # f_c = -1
+    (Kind.DEFINITION, equal(WIGGLE**2, -f_c), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, end(u_c, sp.oo), "is a new name"),  # u_c = h_0
+    (Kind.DEFINITION, equal(forever(WIGGLE * u_c), 1), "is a new name"),  # u_c = 0
+    (Kind.DEFINITION, equal(b_0, PHASED), "is constant"),
+    (Kind.DEFINITION, equal(N, u_c / h_0), "another time"),  # u_c = -h_0 t/T
+)
+CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
+    (Kind.STATE, sp.Eq(u_c, C * t)),
+    (Kind.STATE, end(u_c, sp.oo)),
+    (Kind.MODEL, sp.Eq(k * U_c - p, 0)),
+    (Kind.MODEL, touching(sp.S.One)),
+    (Kind.INITIAL, sp.Eq(initial("u_c"), 0)),
+    (Kind.DEFINITION, sp.Eq(T * b_0, 3)),
+    (Kind.DEFINITION, equal(f_c**2 + b_0, 0)),
+    (Kind.DEFINITION, equal(b_0, sp.exp(f_c))),
+    (Kind.DEFINITION, equal(WIGGLE * q, -f_c)),
+    (Kind.DEFINITION, equal(forever(WIGGLE - u_c), 1)),
+    (Kind.DEFINITION, equal(b_0, PHASED.subs(tau, 1))),
+    (Kind.DEFINITION, equal(N, t / T)),
+)
+
+
+@pytest.mark.parametrize(("kind", "relation", "said"), MISCALLED, ids=str)
+def test_a_hypothesis_is_of_the_kind_that_it_is_called(
+    kind: Kind, relation: sp.Basic, said: str
+) -> None:
+    with pytest.raises(RuleError, match=said):
+        assume(supposed(relation, kind))
+
+
+@pytest.mark.parametrize(("kind", "relation"), CALLED, ids=str)
+def test_what_is_called_by_its_kind_can_be_assumed(kind: Kind, relation: sp.Basic) -> None:
+    assert replayed(assume(supposed(relation, kind))) is None

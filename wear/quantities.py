@@ -1,0 +1,93 @@
+"""The quantities of scenes and results by their names in files, which end in the unit.
+
+Key results
+    COLUMNS     what a result has along its cycles
+    unit_of     the unit of a name
+    words_of    a name in words, `label_of` with its unit
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+_UNITS = {
+    "MPa_per_mm": "MPa/mm", "mJ_per_mm2": "mJ/mm^2", "MPa": "MPa", "mJ": "mJ", "mm": "mm",
+    "rpm": "rpm", "s": "s", "N": "N",
+}  # fmt: skip
+
+
+def _ending(name: str) -> str:
+    return next((f"_{end}" for end in _UNITS if name.endswith(f"_{end}")), "")
+
+
+def unit_of(name: str) -> str:
+    """Return the unit that a name ends in, '' if none.
+
+    >>> unit_of("stiffness_MPa_per_mm"), unit_of("radius_mm"), unit_of("roughness_growth")
+    ('MPa/mm', 'mm', '')
+    """
+    return _UNITS.get(_ending(name)[1:], "")
+
+
+def words_of(key: str) -> str:
+    """Return a name, or a key of the scene file, in words without its unit.
+
+    >>> words_of("closure_mm"), words_of("bearing.roughness_growth"), words_of("load.values_mm[2]")
+    ('closure', 'bearing: roughness growth', 'load: values[2]')
+    """
+    place, dot, name = key.rpartition(".")
+    name, bracket, rest = name.partition("[")
+    words = name.removesuffix(_ending(name)).replace("_", " ")
+    return f"{place}{': ' if dot else ''}{words}{bracket}{rest}"
+
+
+def label_of(key: str) -> str:
+    """Return a key of the scene file in words, with its unit, for an axis.
+
+    >>> label_of("motion.radius_mm"), label_of("bearing.roughness_growth")
+    ('motion: radius (mm)', 'bearing: roughness growth')
+    """
+    unit = unit_of(key)
+    return f"{words_of(key)} ({unit})" if unit else words_of(key)
+
+
+class Column(NamedTuple):
+    """What a column of a result holds; the `symbol` by which a `History` has it, or the fields of a
+    model; and that symbol in LaTeX, if a printed table has room for the column."""
+
+    meaning: str
+    symbol: str = ""
+    latex: str = ""
+
+
+COLUMNS: Mapping[str, Column] = {
+    "cycle": Column("number of load cycles that lie behind"),
+    "bearing_wear_mm": Column("wear of the bearing", "u_c", "u_c"),
+    "pin_wear_mm": Column("wear of the pin", "u_a", "u_a"),
+    "bearing_roughness_mm": Column("roughness of the bearing", "sigma_c", r"\sigma_c"),
+    "pin_roughness_mm": Column("roughness of the pin", "sigma_a", r"\sigma_a"),
+    "closure_mm": Column("closure of the mean surfaces", "h", "h"),
+    "pressure_at_start_MPa": Column("contact pressure", "p", "p"),
+    "bearing_displacement_mm": Column("displacement of the bearing", "U_c", "U_c"),
+    "pin_displacement_mm": Column("displacement of the pin", "U_a"),
+    "peak_pressure_MPa": Column("largest pressure in the cycle"),
+    "mean_pressure_MPa": Column("mean pressure over the cycle"),
+    "contact_fraction": Column("share of the cycle in contact"),
+    "pin_reaction_N": Column("reaction force on the pin", "R_a", "R_a"),
+    "peak_pin_reaction_N": Column("peak reaction force over the cycle"),
+    "mean_pin_reaction_N": Column("mean reaction force over the cycle"),
+    "sliding_distance_mm": Column("way slid in the cycle"),
+    "friction_work_mJ_per_mm2": Column("work of friction per area in the cycle"),
+    "friction_work_mJ": Column("work of friction"),
+    "error_estimate": Column("estimated relative error of the bearing wear", "error"),
+}
+"""The columns of results, in the order of files and tables."""
+
+
+def columns_of(found: object) -> dict[str, Any]:
+    """Return the columns that something has under their symbols, by name."""
+    values = {
+        name: getattr(found, each.symbol, None) for name, each in COLUMNS.items() if each.symbol
+    }
+    return {name: each for name, each in values.items() if each is not None}

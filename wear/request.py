@@ -1,0 +1,126 @@
+"""What may be asked of a solver: every fault of a request becomes a sentence among its `faults`."""
+
+from __future__ import annotations
+
+import math
+import numbers
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from wear import direct
+from wear.checked import MOST_CYCLES
+from wear.faults import UsageError
+from wear.load import HistoryLoad
+from wear.load.spans import most_cycles
+from wear.scene import Scene, as_scene
+
+METHODS = ("auto", "abel", "collocation", *direct.METHODS)
+LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
+
+
+def is_number(given: object) -> bool:
+    """Return whether something is a real number and no truth value."""
+    return isinstance(given, numbers.Real) and not isinstance(given, bool)
+
+
+def whole_cycles(
+    cycles: float | Iterable[float], faults: list[str], least: int = 0
+) -> tuple[int, ...]:
+    """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
+    several = _several(cycles)
+    wanted = []
+    for n in several:
+        if is_number(n) and least <= n <= MOST_CYCLES and n == int(n):
+            wanted.append(int(n))
+        else:
+            faults.append(f"cycles: {n!r} is no whole number from {least} to 1e12")
+    if not several:
+        faults.append("cycles: give at least one number of cycles")
+    return tuple(wanted)
+
+
+def wear_depths(wear_mm: float | Iterable[float], faults: list[str]) -> tuple[float, ...]:
+    """Return depths of wear in mm, or one; what is none of them is among the `faults`."""
+    depths = _several(wear_mm)
+    faults += [
+        f"wear: {depth!r} is no depth in mm; give a number >= 0"
+        for depth in depths
+        if not (is_number(depth) and 0.0 <= depth < math.inf)
+    ]
+    return tuple(depths)
+
+
+def _several(given: Any) -> list[Any]:
+    """Return the numbers of a list, an array, a series of pandas or xarray, or one as a list."""
+    if hasattr(given, "to_numpy"):
+        given = given.to_numpy()
+    if isinstance(given, np.ndarray | np.generic):
+        given = given.tolist()
+    return (
+        list(given)
+        if isinstance(given, Iterable) and not isinstance(given, str | bytes)
+        else [given]
+    )
+
+
+def check_rtol(rtol: float, faults: list[str], least: float = LEAST_RTOL) -> None:
+    """Check a requested relative accuracy."""
+    if not is_number(rtol) or not least <= rtol <= LARGEST_RTOL:
+        faults.append(f"rtol: {rtol!r} is not between {least:g} and {LARGEST_RTOL:g}")
+
+
+def checked_scenes(
+    scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: list[str]
+) -> list[Scene]:
+    """Return the scenes of a request for many, or raise its `faults` and those found here."""
+    check_rtol(rtol, faults)
+    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
+        faults.append("scenes: give a list of them")
+    if faults:
+        raise UsageError("\n".join(faults))
+    return [as_scene(scene) for scene in scenes]
+
+
+def obstacle(scene: Scene) -> str | None:
+    """Return why cycles of this scene cannot be counted, None if they can."""
+    return "the load does not repeat" if isinstance(scene.load, HistoryLoad) else None
+
+
+def is_smooth_history(scene: Scene) -> bool:
+    """Return whether the load is a measured history, and contact does not jump."""
+    return isinstance(scene.load, HistoryLoad) and not scene.contact.ends_at_3_sigma
+
+
+def checked_request(
+    scene: Scene,
+    cycles: float | Iterable[float],
+    rtol: float,
+    method: str = "abel",
+    time_limit: float | None = None,
+) -> tuple[int, ...]:
+    """Return the numbers of cycles as integers.
+
+    Raises
+    ------
+    UsageError
+        that says everything that is wrong with the request.
+    """
+    faults: list[str] = []
+    wanted = whole_cycles(cycles, faults)
+    check_rtol(rtol, faults)
+    if method not in METHODS:
+        faults.append(f"method: {method!r} is none of {', '.join(METHODS)}")
+    elif method == "abel" and obstacle(scene) is not None:
+        faults.append(f"method: abel is not for this scene: {obstacle(scene)}; take auto")
+    elif method == "collocation" and not is_smooth_history(scene):
+        faults.append("method: collocation is for a measured history without cutoff; take auto")
+    if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
+        faults.append(f"time_limit: {time_limit!r} is no positive number of seconds")
+    if max(wanted, default=0) > most_cycles(scene.load):
+        faults.append(f"cycles: the load ends after {most_cycles(scene.load)} whole cycles")
+    if faults:
+        raise UsageError("\n".join(faults))
+    return wanted

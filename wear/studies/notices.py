@@ -1,0 +1,101 @@
+"""What is hardly meant in the rows of a study: a sentence a kind, with its count and worst row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from wear.model import bound, generated
+from wear.scene import KEYS, VariantKey
+from wear.scene.plausibility import (
+    WORD,
+    Doubt,
+    Real,
+    doubts_of_entries,
+    doubts_of_results,
+    entries_of,
+)
+from wear.studies.vary import FloatArray
+
+if TYPE_CHECKING:
+    from wear.studies.rows import Study
+
+
+class Worst(NamedTuple):
+    """How many rows exceed a limit, and of the worst: its ratio to the limit, the sentence about
+    it, and its numbers in words."""
+
+    rows: int
+    ratio: float
+    sentence: str
+    place: str
+
+
+class Tally:
+    """The implausible rows of a study, counted chunk by chunk."""
+
+    def __init__(self, study: Study) -> None:
+        self._study, self._rows = study, 0
+        self._found: dict[str, Worst] = {}  # by the words of the sentence
+
+    def add(self, columns: Mapping[str, FloatArray], u_c: FloatArray) -> None:
+        """Count rows in which each key takes the values (rows,) of its column, with their wear
+        (rows, cycles) in mm; NaN, where there is no answer, counts for nothing."""
+        self._rows += len(u_c)
+        answered = np.isfinite(u_c).all(axis=1)
+        if not answered.any():
+            return
+        columns = {key: column[answered] for key, column in columns.items()}
+        for doubt in _doubts(self._study, columns, u_c[answered]):
+            if (rows := int(np.count_nonzero(doubt.ratio > 1.0))) == 0:
+                continue
+            at = int(np.argmax(doubt.ratio))
+            place = ", ".join(f"{key} = {column[at]:.4g}" for key, column in columns.items())
+            worst = Worst(rows, float(doubt.ratio[at]), doubt.sentence(at), place)
+            if before := self._found.get(doubt.words):
+                worse = max(before, worst, key=lambda each: each.ratio)
+                worst = worse._replace(rows=before.rows + rows)
+            self._found[doubt.words] = worst
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """Return those of the scene that is varied, and a sentence for each kind of excess."""
+        of_scene = (text for text in self._study.scene.notices if not text.startswith(WORD))
+        of_rows = (
+            f"{worst.sentence} ({worst.rows} of {self._rows} rows; the worst has {worst.place})"
+            for worst in self._found.values()
+        )
+        return (*of_scene, *of_rows)
+
+
+def _doubts(study: Study, columns: Mapping[str, FloatArray], u_c: FloatArray) -> Iterator[Doubt]:
+    """Yield the doubts about rows, each with a ratio (rows,)."""
+    entries = {**entries_of(study.scene), **columns}
+    fresh, *worn = _roughness(entries, u_c)
+    radius = entries["motion.radius_mm"]
+    for doubt in (
+        *doubts_of_entries(entries),
+        *doubts_of_results(radius, fresh, study.cycles, u_c, *worn),
+    ):
+        yield doubt._replace(ratio=np.broadcast_to(doubt.ratio, len(u_c)))
+
+
+def _roughness(entries: Mapping[str, Real], u_c: FloatArray) -> Iterator[FloatArray]:
+    """Yield the equivalent roughness (rows,) before any wear, and that of each solid (rows, cycles)
+    after the wear; they are the same for all contact laws and supports."""
+    pin: Literal["worn_rough", "bearing"] = (
+        "worn_rough" if "pin.hardness_MPa" in entries else "bearing"
+    )
+    module = generated(VariantKey("tanh", "rigid", pin, ends_at_3_sigma=False))
+    numbers = {
+        symbol: np.reshape(entries.get(".".join(entry), 0.0), (-1, 1))
+        for symbol, entry in KEYS.items()
+    }
+    constants = bound(module, numbers, 1.0).constants
+    yield module.fields(0.0, 0.0, constants).sigma[:, 0]
+    worn = module.fields(u_c, 0.0, constants)
+    for name in ("sigma_c", "sigma_a"):
+        if name in worn._fields:
+            yield getattr(worn, name)
