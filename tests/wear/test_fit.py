@@ -163,6 +163,16 @@ def test_the_estimate_is_that_of_scipys_least_squares(found):
     np.testing.assert_allclose(found.correlation[0, 1], found.correlation[1, 0])
 
 
+def test_readings_under_blocks_are_fitted():
+    """A start is not counted beyond the readings: blocks go one by one."""
+    scene = load_scene(str(EXAMPLES / "blocks.toml"))
+    cycles = np.array([1.0, 4.0, 20.0])
+    truth = scene.with_({K: 2e-6})
+    wear_mm = wear.solve(truth, cycles.astype(int), rtol=1e-8).u_c
+    found = wear.fit([Specimen("", cycles, wear_mm, None, {})], scene, [K], intervals=False)
+    assert found.estimates == pytest.approx([2e-6], rel=1e-3)
+
+
 def test_the_jacobian_is_that_of_differences(found):
     slope = found.model(found.theta[None])[1][0]
     for place, step in enumerate(1e-3 * np.eye(2)):

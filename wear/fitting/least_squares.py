@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from wear.faults import UsageError
 from wear.fitting.model import LOST, Model
 from wear.fitting.readings import FloatArray, Specimen
+from wear.load import Blocks
+from wear.load.spans import span
 from wear.numerics.tolerances import TINY
 from wear.regime import fresh_wear_per_cycle, steady_wear_per_cycle
 
 SEARCHED = 20.0  # e-folds, or multiples of a parameter's size, around the scene
 GROWTHS, NEARLY = (0.02, 1.0), 0.01  # of roughness: where a start is sought, and how closely
 SLOWEST = 1e-3  # of the mean wear per cycle: what the last readings may add
-DECADES = np.geomspace(1.0, 1e12, 49)  # cycles after which a start is compared with the readings
+LOOKS = 49  # at the wear of a start, to be compared with the readings
 FOLLOWED = 3  # starts
 ACCURACY = 1e-3  # of the variance: how closely the least sum of squares is sought
 MOST_STEPS = 60
@@ -50,13 +53,6 @@ def descend(
         trial = np.clip(points[todo] + step[..., 0], low, high)
         trial_off, trial_slope = model(trial)
         trial_costs = np.sum(trial_off**2, axis=1)
-        worse = np.flatnonzero(~(trial_costs < costs[todo]))
-        if len(worse):  # the valley bends: the step is corrected for that
-            missed = trial_off - off[todo] - (J @ step)[..., 0]
-            step = step - np.linalg.solve(normal, np.einsum("mnp,mn->mp", J, missed)[..., None])
-            trial[worse] = np.clip(points[todo] + step[..., 0], low, high)[worse]
-            trial_off[worse], trial_slope[worse] = model(trial[worse])
-            trial_costs = np.sum(trial_off**2, axis=1)
         better = trial_costs < costs[todo]
         little = np.abs(costs[todo] - trial_costs) <= ACCURACY * costs[todo] / off.shape[1]
         won = todo[better]
@@ -72,14 +68,15 @@ def descend(
 def estimate(model: Model, say: Callable[[str], None]) -> FloatArray:
     """Return the point (p,) of least squares, from several starts.
 
-    They are the scene itself, and that with the roughness growth of `_growth`, if it is shared and
-    free. What else is free of wear coefficients and roughnesses follows from the readings, see
-    `_in_pace` and `_in_proportion`. Raises `UsageError` where no start has any wear, or a parameter
-    no influence.
+    They are the scene itself, that with the roughness growth of `_growth`, if this is free, and
+    both with wear coefficients by `_in_pace`. Raises `UsageError` where no start has any wear, or a
+    parameter no influence.
     """
     own = model.start()
     growths = np.array([p.key.endswith(".roughness_growth") for p in model.parameters])
-    starts = np.array([own, np.where(growths, _growth(model), own)])[: 1 + growths.any()]
+    starts = own[None]
+    if growths.any():
+        starts = np.array([own, np.where(growths, _growth(model), own)])
     off, slope = model(starts)
     fine = np.all(np.abs(off) < LOST, axis=1)
     if not fine.any():
@@ -88,9 +85,7 @@ def estimate(model: Model, say: Callable[[str], None]) -> FloatArray:
     if idle.any():
         names = [str(p) for p, none in zip(model.parameters, idle, strict=True) if none]
         raise UsageError("\n".join(f"free: {name}: has no influence" for name in names))
-    starts = np.concatenate(
-        [starts, _in_pace(model, starts[fine]), _in_proportion(model, starts[fine])]
-    )
+    starts = np.concatenate([starts, _in_pace(model, starts[fine])])
     best = starts[np.argsort(model.cost(starts), kind="stable")[:FOLLOWED]]
     points, costs = descend(model, best, (own, SEARCHED * model.scale(own)), say)
     return np.asarray(points[np.argmin(costs)])
@@ -102,19 +97,20 @@ def _growth(model: Model) -> float:
 
     Readings that begin late or end early see less of the fall: then the growth is too large.
     """
+    from scipy.optimize import brentq
+
     specimen, scene = model.specimens[0], model.scenes(model.start())[0]
+    scene = replace(scene, load=span(scene.load, 0).load)
     keys = {p.key for p in model.parameters if p.key.endswith(".roughness_growth")}
     cycles, wear = specimen.cycles, np.maximum(specimen.wear_mm, TINY)
-    half = len(wear) // 2
-    late = (wear[-1] - wear[half - 1]) / (cycles[-1] - cycles[half - 1])
+    middle = (len(wear) - 1) // 2
+    late = (wear[-1] - wear[middle]) / max(cycles[-1] - cycles[middle], 1.0)
     fall = max(late, SLOWEST * wear[-1] / cycles[-1]) * cycles[0] / wear[0]
     fresh = fresh_wear_per_cycle(scene)
 
     def excess(growth: float) -> float:
         changed = scene.with_(dict.fromkeys(keys, growth))
-        return steady_wear_per_cycle(changed) - fall * fresh
-
-    from scipy.optimize import brentq
+        return float(steady_wear_per_cycle(changed) - fall * fresh)
 
     low, high = GROWTHS
     if not excess(low) < 0.0 < excess(high):
@@ -128,33 +124,26 @@ def _in_pace(model: Model, starts: FloatArray) -> FloatArray:
     Averaged over a cycle, wear depends on the product of wear coefficient and cycles alone (the
     first order of the method of averaging), so that one count has all wear coefficients.
     """
-    level, _ = model.log_wear(starts, [DECADES] * len(model.specimens))
+    last = max(s.cycles[-1] for s in model.specimens)
+    # Blocks are counted one by one: no farther than they were read.
+    whole = 1e12 if not isinstance(model.scene.load, Blocks) else last
+    decades = np.rint(np.geomspace(1.0, whole, LOOKS))
+    level, _ = model.log_wear(starts, [decades] * len(model.specimens))
     level = level.reshape(len(starts), len(model.specimens), -1)
     paced = starts.copy()
     for start, curves in zip(paced, np.fmax.accumulate(level, axis=2), strict=True):
         pairs = list(zip(model.specimens, curves, strict=True))
         for i, p in enumerate(model.parameters):
             if p.key.endswith(".wear_coefficient"):
-                start[i] += np.mean([_late(s, u) for s, u in pairs if p.specimen in ("", s.name)])
+                start[i] += np.mean(
+                    [_late(s, decades, u) for s, u in pairs if p.specimen in ("", s.name)]
+                )
     return paced[np.isfinite(paced).all(axis=1)]
 
 
-def _late(specimen: Specimen, log_wear: FloatArray) -> float:
-    """Return the mean logarithm of the cycles at which a curve over the DECADES has the wear that
+def _late(specimen: Specimen, decades: FloatArray, log_wear: FloatArray) -> float:
+    """Return the mean logarithm of the cycles at which a curve over the `decades` has the wear that
     was read, over the cycles at which it was."""
     read = np.log(np.maximum(specimen.wear_mm, 1e-30))
-    there = np.interp(read, log_wear, np.log(DECADES))
+    there = np.interp(read, log_wear, np.log(decades))
     return float(np.mean(there - np.log(specimen.cycles)))
-
-
-def _in_proportion(model: Model, starts: FloatArray) -> FloatArray:
-    """Return the starts with free roughnesses as much larger as the last wear read is."""
-    level, _ = model.log_wear(starts, [s.cycles[-1:] for s in model.specimens])
-    wear = np.array([max(s.wear_mm[-1], 1e-30) for s in model.specimens])
-    off = np.log(wear) - level
-    scaled = starts.copy()
-    for i, p in enumerate(model.parameters):
-        if p.key.endswith(".roughness_mm"):
-            own = [p.specimen in ("", s.name) for s in model.specimens]
-            scaled[:, i] += off[:, own].mean(axis=1)
-    return scaled

@@ -129,7 +129,7 @@ class _Ends:
 
     def _root(self, off: FloatArray) -> FloatArray:
         deviance = np.sum(off**2, axis=1) - self.found.chi_square
-        return np.sqrt(np.maximum(deviance, 0.0))
+        return np.asarray(np.sqrt(np.maximum(deviance, 0.0)))
 
     def _remember(self, points: FloatArray, off: FloatArray) -> None:
         for point, cost in zip(points, np.sum(off**2, axis=1).tolist(), strict=True):
