@@ -6,19 +6,9 @@ import argparse
 from collections.abc import Sequence
 
 from derive import command_line, terminal
-from derive.commands import code, export, generate, latex, list_, show, steps, verify
 from derive.faults import UsageError
 
-COMMANDS = (
-    list_,
-    show,
-    steps,
-    verify,
-    latex,
-    code,
-    generate,
-    export,
-)
+COMMANDS = "list_ show steps verify latex code generate export"
 
 EXAMPLES = """\
 examples:

@@ -18,6 +18,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any, Protocol
 
 from derive import completion, terminal
@@ -123,10 +124,9 @@ def declare(
         completion.suggest(action, words)
 
 
-def parser(
-    program: str, description: str, examples: str, commands: Sequence[Command]
-) -> argparse.ArgumentParser:
-    """Return the parser of a whole command line."""
+def parser(program: str, description: str, examples: str, names: str) -> argparse.ArgumentParser:
+    """Return the parser of a whole command line, of the commands with these `names` in the modules
+    of `program.commands`."""
     whole = Parser(
         prog=program,
         description=description,
@@ -136,7 +136,8 @@ def parser(
     )
     terminal.add_common_options(whole)
     branches = whole.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in commands:
+    for name in names.split():
+        command: Any = import_module(f"{program}.commands.{name}")
         branch = branches.add_parser(
             name_of(command),
             help=command.SUMMARY,

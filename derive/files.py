@@ -10,7 +10,7 @@ import os
 import secrets
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -89,6 +89,13 @@ def replacing_in(folder: str | os.PathLike[str]) -> Iterator[Path]:
             raise
     except OSError as fault:
         raise _named(fault, target) from fault
+
+
+def write_all(folder: str | os.PathLike[str], contents: Mapping[str, str | bytes]) -> None:
+    """Write files by their names into a folder, as `replacing_in` does."""
+    with replacing_in(folder) as draft:
+        for name, content in contents.items():
+            write_atomically(draft / name, content)
 
 
 def obstacle(path: str | os.PathLike[str]) -> str | None:

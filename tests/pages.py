@@ -16,7 +16,6 @@ import io
 import os
 import re
 import shlex
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stderr, redirect_stdout
@@ -25,6 +24,7 @@ from typing import NamedTuple
 
 import derive.cli
 import wear.cli
+from tests.programs import ended
 
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 _SET_UP = re.compile(
@@ -110,13 +110,7 @@ def in_process(line: str) -> tuple[str, int]:
 def by_shell(line: str) -> tuple[str, int]:
     """Run a command line by the shell, with the programs of this environment first."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    run = subprocess.run(
-        ["sh", "-c", line],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "PATH": path},
-        check=False,
-    )
+    run = ended("sh", "-c", line, env={**os.environ, "PATH": path})
     return run.stdout + (run.stderr if run.returncode else ""), run.returncode
 
 

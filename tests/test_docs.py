@@ -8,7 +8,6 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import warnings
 from collections import Counter
@@ -22,6 +21,7 @@ import pytest
 from derive.note.claims import Verdict
 from tests import pages
 from tests.derive import test_claims as symbolic
+from tests.programs import ended
 from tests.wear.report import test_claims as simulated
 
 ROOT = Path(__file__).parents[1]
@@ -78,27 +78,24 @@ def test_what_a_page_says_is_what_happens(page, need_tool):
 
 
 def test_another_contact_law_is_one_entry(workplace):
-    """The page on contact laws, followed in a copy of the packages by a process of its own."""
+    """The page on contact laws: behind its first command, which needs no more than a scene, in a
+    copy of the packages by a process of its own."""
     for package in ("derive", "wear"):
         shutil.copytree(ROOT / package, workplace / package)
     with (workplace / "derive" / "laws.py").open("a", encoding="utf-8") as laws:
         laws.write((workplace / "gentle_law.txt").read_text(encoding="utf-8"))
     text = LAW_PAGE.read_text(encoding="utf-8")
     consoles = [block.body for block in pages.blocks(text) if block.language == "console"]
-    commands = [command for body in consoles for command in pages.commands(body)]
+    own, *entry = [command for body in consoles for command in pages.commands(body)]
     code = f"""
 from tests.pages import Command, difference, in_process
-for command in {[tuple(command) for command in commands]!r}:
+for command in {[tuple(command) for command in entry]!r}:
     print(difference(Command(*command), in_process))
 """
-    run = subprocess.run(
-        [sys.executable, "-c", code],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (workplace, ROOT)))},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    report("\n".join([run.stdout.strip(), run.stderr, pages.session(text, LAW_PAGE.name)]))
+    path = os.pathsep.join(map(str, (workplace, ROOT)))
+    run = ended(sys.executable, "-c", code, env={**os.environ, "PYTHONPATH": path})
+    first = pages.difference(own, pages.in_process)
+    report("\n".join([first, run.stdout.strip(), run.stderr, pages.session(text, LAW_PAGE.name)]))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)

@@ -2,13 +2,14 @@
 
 import ast
 import re
-import subprocess
 import sys
 import tomllib
 from itertools import chain
 from pathlib import Path
 
 import pytest
+
+from tests.programs import ended, python
 
 ROOT = Path(__file__).resolve().parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
@@ -17,24 +18,13 @@ HEAVY = {"sympy", "mpmath", "flint", "matplotlib", "scipy.integrate", "pandas"}
 
 def imported_by(code: str) -> set[str]:
     """Return the modules that a fresh interpreter has loaded after running `code`."""
-    run = subprocess.run(
-        [sys.executable, "-c", f"{code}\nimport sys\nprint('\\n', *sys.modules)"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return set(run.stdout.splitlines()[-1].split())
+    shown = python(f"{code}\nimport sys\nprint('\\n', *sys.modules)")
+    return set(shown.splitlines()[-1].split())
 
 
 def tracked(pattern: str) -> list[Path]:
     """Return the project's own files, without what was built or installed."""
-    listing = subprocess.run(
-        ["git", "ls-files", "-z", "--", pattern],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    listing = ended("git", "ls-files", "-z", "--", pattern, cwd=ROOT)
     if listing.returncode:
         pytest.skip("an unpacked archive does not know which files are the project's own")
     names = filter(None, listing.stdout.split("\0"))
@@ -57,12 +47,8 @@ def test_an_interrupt_while_a_command_is_imported_is_silent(script, tmp_path):
     (tmp_path / "argparse.py").write_text("raise KeyboardInterrupt")
     module, function = script.split(":")
     code = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import {module} as start"
-    run = subprocess.run(
-        [sys.executable, "-c", f"{code}; sys.exit(start.{function}())"],
-        capture_output=True,
-        check=False,
-    )
-    assert (run.returncode, run.stdout, run.stderr) == (130, b"", b"")
+    done = ended(sys.executable, "-c", f"{code}; sys.exit(start.{function}())")
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
 
 
 def test_another_distribution_of_the_same_name_is_named(tmp_path):
@@ -80,13 +66,11 @@ except ImportError as fault:
     print(fault)
 sys.exit(start.main())
 """
-    run = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path
-    )
-    assert run.returncode == 2
-    assert "another distribution's" in run.stdout
-    assert "another distribution's" in run.stderr
-    assert "Traceback" not in run.stderr
+    done = ended(sys.executable, "-c", code, cwd=tmp_path)
+    assert done.returncode == 2
+    assert "another distribution's" in done.stdout
+    assert "another distribution's" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def test_without_the_report_s_packages_the_core_runs_and_the_rest_names_them(tmp_path):
@@ -101,13 +85,11 @@ for arguments in (["report", "section4"], ["reproduce"]):
     except SystemExit as stop:
         assert stop.code == 2
 """
-    run = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path
-    )
-    assert run.returncode == 0, run.stderr
+    done = ended(sys.executable, "-c", code, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
     needed = "needs the package matplotlib: pip install 'derive-wear[report]'"
-    assert run.stderr.count(needed) == 2
-    assert "Traceback" not in run.stderr
+    assert done.stderr.count(needed) == 2
+    assert "Traceback" not in done.stderr
 
 
 def test_commands_without_mathematics_import_none():
@@ -132,8 +114,7 @@ for package in (derive, wear):
             importlib.import_module(package.__name__ + "." + name)
     assert not [n for n in offered if isinstance(getattr(package, n), types.ModuleType)]
 """
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert run.returncode == 0, run.stderr
+    python(code)
 
 
 def test_no_file_names_a_place_of_one_machine(need_tool):

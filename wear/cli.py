@@ -6,39 +6,12 @@ import argparse
 from collections.abc import Sequence
 
 from derive import command_line, terminal
-from wear.commands import (
-    asymptote,
-    bench,
-    cite,
-    claims,
-    explore,
-    figure,
-    fit,
-    report,
-    reproduce,
-    run,
-    scenes,
-    sensitivity,
-    study,
-)
 from wear.faults import AccuracyError, Interrupted, SceneError, UsageError, WorkersLost
 
 # In the order in which a newcomer needs them.
-COMMANDS = (
-    scenes,
-    run,
-    asymptote,
-    figure,
-    sensitivity,
-    fit,
-    study,
-    explore,
-    report,
-    reproduce,
-    claims,
-    bench,
-    cite,
-)
+COMMANDS = """
+    scenes run asymptote figure sensitivity fit study explore report reproduce claims bench cite
+"""
 
 EXAMPLES = """\
 examples:

@@ -19,7 +19,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.checked import MOST_CYCLES
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of, growth
 from wear.load import Blocks, Constant, Load, Loading, Table
@@ -32,6 +31,7 @@ from wear.orbit.plan import LEAST
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
+from wear.quantities import MOST_CYCLES
 from wear.request import checked_scenes, wear_depths, whole_cycles
 from wear.resampling import resampled
 from wear.scene import Scene

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derive import files
-from wear.checked import is_path
 from wear.faults import UsageError
 from wear.inside import Inside
 from wear.quantities import COLUMNS, columns_of, unit_of
+from wear.words import is_path
 
 Attributes = Mapping[str, str]
 """What describes a result, each in one line and none empty."""

@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear import cycles as engine
-from wear.checked import MOST_CYCLES
 from wear.faults import AccuracyError, UsageError
 from wear.history import History
 from wear.load import Blocks
 from wear.load.spans import most_cycles
 from wear.model import bind
+from wear.quantities import MOST_CYCLES
 from wear.regime import Asymptote, asymptote
 from wear.request import check_rtol, obstacle, wear_depths
 from wear.resampling import resampled

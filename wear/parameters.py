@@ -16,12 +16,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.checked import did_you_mean
 from wear.equation import WearEquation
 from wear.load import Blocks, Load
 from wear.load.spans import Span
 from wear.model import Real, Summed, bind, bind_many
 from wear.scene import KEYS, Scene
+from wear.words import did_you_mean
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]

@@ -2,6 +2,8 @@
 
 Key results
     COLUMNS     what a result has along its cycles
+    SMALLEST, LARGEST, MOST_CYCLES     bounds of all numbers
+    in_short    a number with few digits
     unit_of     the unit of a name
     words_of    a name in words, `label_of` with its unit
 """
@@ -11,6 +13,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+# Magnitudes are bounded so that no product of a scene's numbers can overflow or underflow.
+SMALLEST = 1e-30
+LARGEST = 1e30
+MOST_CYCLES = 10**12
+
 _UNITS = {
     "MPa_per_mm": "MPa/mm", "mJ_per_mm2": "mJ/mm^2", "MPa": "MPa", "mJ": "mJ", "mm": "mm",
     "rpm": "rpm", "s": "s", "N": "N",
@@ -19,6 +26,15 @@ _UNITS = {
 
 def _ending(name: str) -> str:
     return next((f"_{end}" for end in _UNITS if name.endswith(f"_{end}")), "")
+
+
+def in_short(number: float, digits: int = 4) -> str:
+    """Return a number with so many digits, the exponent as people write it.
+
+    >>> in_short(9000.0), in_short(1e6), in_short(1.25e-7)
+    ('9000', '1e6', '1.25e-7')
+    """
+    return f"{number:.{digits}g}".replace("e+", "e").replace("e0", "e").replace("e-0", "e-")
 
 
 def unit_of(name: str) -> str:

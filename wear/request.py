@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from wear import direct
-from wear.checked import MOST_CYCLES
 from wear.faults import UsageError
 from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
+from wear.quantities import MOST_CYCLES
 from wear.scene import Scene, as_scene
 
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 
 from wear import direct, records
-from wear.checked import MOST_CYCLES
 from wear.cycles import wear_after
 from wear.faults import AccuracyError, Interrupted
 from wear.history import History
@@ -18,12 +17,10 @@ from wear.load import HistoryLoad
 from wear.model import Model, bind
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
-from wear.request import METHODS, checked_request, is_smooth_history, obstacle
+from wear.request import checked_request, is_smooth_history, obstacle
 from wear.resampling import resampled
 from wear.scene import Scene, as_scene
 from wear.states import fields_at, result_notices
-
-__all__ = ["METHODS", "MOST_CYCLES", "solve"]
 
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach

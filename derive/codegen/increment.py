@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..program.function import Assignment, Function
+from ..program.function import Assignment, Function, made
 from ..program.rate import law, p_max
 from ..program.symbols import h, ratio, sigma
 from ..symbols import rate, symbols
@@ -78,10 +78,5 @@ def contact(variant: Variant) -> Function:
     (p_max*share, -4*p_max*spread/sigma)
     """
     names, value, slope = law(variant)
-    return Function.made(
-        "contact_pressure",
-        (h, sigma, p_max),
-        ((ratio, h / sigma), *names),
-        (p_max * value, p_max * slope / sigma),
-        "contact pressure in MPa at a closure and roughness in mm, and its derivative dp/dh",
-    )
+    assignments, results = ((ratio, h / sigma), *names), (p_max * value, p_max * slope / sigma)
+    return made("contact_pressure", (h, sigma, p_max), assignments, *results)

@@ -118,8 +118,6 @@ def _known(step: Step) -> list[str]:
 
 def _passes(step: Step, inside: sp.Expr) -> list[str]:
     """Write the expression with what has a limit, and let the limit pass through it."""
-    from .proofs import signs_at, stated
-
     found, _ = _composed(step, inside)
     equations = [
         s
@@ -127,10 +125,10 @@ def _passes(step: Step, inside: sp.Expr) -> list[str]:
         if isinstance(s.relation, sp.Equality) and not s.relation.has(sp.Limit)
     ]
     lines = [f"apply (tends_ext (fun t => {found})).", "{ intros t Ht."]
-    lines += signs_at(step)
+    lines += step.signs()
     if inside.has(t + _T):
-        lines += ["assert (HT : 0 <= T + t) by lra.", *signs_at(step, "T + t", "HT")]
-    timed = stated(step, [s for s in equations if s.timed])
+        lines += ["assert (HT : 0 <= T + t) by lra.", *step.signs("(T + t)", "HT")]
+    timed = step.stated([s for s in equations if s.timed])
     return [*lines, f"{timed}insert; identity. }}", "limit."]
 
 

@@ -29,12 +29,12 @@ _ATOMS = (sp.Symbol, AppliedUndef, sp.Derivative, sp.log)
 
 def script(step: Step, way: int | None = None) -> str:
     """Return the proof of a step; by one of its ways, or by the first that succeeds."""
-    cited = theorems.proof(step) or (
-        limits.proof(step) if step.limits or step.relation.has(sp.Limit) else []
-    )
+    cited = theorems.proof(step) or (list(_discharged(step)) if step.rule == "Discharge" else [])
+    if not cited and (step.limits or step.relation.has(sp.Limit)):
+        cited = limits.proof(step)
     if cited:
         return "\n".join((step.introduction, *cited))
-    start = ["intros t Ht.", *signs_at(step)] if step.timed else []
+    start = ["intros t Ht.", *step.signs()] if step.timed else []
     ways = _equation if isinstance(step.relation, sp.Equality) else inequality
     found = dict.fromkeys(ways(step, step.relation))
     if way is not None:
@@ -43,22 +43,16 @@ def script(step: Step, way: int | None = None) -> str:
     return "\n".join((step.introduction, *start, "first [\n  " + "\n| ".join(tried) + "]."))
 
 
-def signs_at(step: Step, time: str = "t", proof: str = "Ht") -> list[str]:
-    """State what is known of signs at a time: inequalities, and positive names of other things."""
-
-    def at(other: Step) -> str:
-        return f"({step.cited(other)} ({time}) {proof})" if other.timed else step.cited(other)
-
-    lines = []
-    rests_on = [s for s in (*step.hypotheses, *step.ancestors) if not s.relation.has(sp.Limit)]
-    signs = {s.relation.args: s for s in step.hypotheses if isinstance(s.relation, sp.Gt)}
-    for other in rests_on:
-        if isinstance(other.relation, (Inequality, sp.Ne)):
-            lines.append(f"pose proof ({at(other)}).")
-        elif isinstance(other.relation, sp.Equality) and (other.relation.lhs, 0) in signs:
-            sign = signs[other.relation.lhs, sp.S.Zero]
-            lines.append(f"pose proof (sign_of ({at(sign)}) ({at(other)})).")
-    return list(dict.fromkeys(lines))
+def _discharged(step: Step) -> Iterator[str]:
+    """Cite the first parent; the hypothesis that it has more follows from the other parents."""
+    (first, premises), *_ = step.missing
+    for premise in premises:
+        ways = " | ".join(f"solve [{way}]" for way in inequality(step, premise.relation))
+        fixed = "intros t Ht; " if premise.timed else ""
+        yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}first [{ways}])."
+    labels = step.labels | {p.said: f"{p.label}_met" for p in premises}
+    cited = (labels[p.said] for p in first.statement.premises)
+    yield f"exact ({' '.join((first.name, *cited))})."
 
 
 def _sources(step: Step) -> Iterator[list[Step]]:
@@ -70,15 +64,6 @@ def _sources(step: Step) -> Iterator[list[Step]]:
         yield [s for s in usable.values() if not s.relation.has(sp.Limit)]
 
 
-def stated(step: Step, steps: Sequence[Step]) -> str:
-    """Return the tactic that states the claims of other steps, equations to be inserted."""
-    return "".join(f"given ({_now(step, other)}); " for other in steps)
-
-
-def _now(step: Step, other: Step) -> str:
-    return f"{step.cited(other)}{' t Ht' if other.timed else ''}"
-
-
 def _equation(step: Step, goal: sp.Equality) -> Iterator[str]:
     """Return the ways in which an equation may follow, likely ones first."""
     for steps in _sources(step):
@@ -86,9 +71,9 @@ def _equation(step: Step, goal: sp.Equality) -> Iterator[str]:
         if equations:
             first, *others = equations
             factor = term(_factor(step, first.relation))
-            yield f"{stated(step, others)}multiple ({_now(step, first)}) ({factor})"
+            yield f"{step.stated(others)}multiple ({step.now(first)}) ({factor})"
         end = "logarithm" if isinstance(goal.lhs, sp.log) else "identity"
-        yield f"{stated(step, steps)}insert; {end}"
+        yield f"{step.stated(steps)}insert; {end}"
 
 
 def _factor(step: Step, given: sp.Equality) -> sp.Expr:
@@ -125,7 +110,7 @@ def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
         at_all_times = (s for s in step.hypotheses if s.timed)
         facts = [bound for s in (*steps, *at_all_times) for bound in _bounds(s.relation)]
         goal = _inserted(claim, [s.relation for s in steps if isinstance(s.relation, sp.Equality)])
-        start = f"{stated(step, steps)}insert; "
+        start = f"{step.stated(steps)}insert; "
         if isinstance(goal, sp.And):
             parts = (f"first [{' | '.join(_ways(part, facts))}]" for part in goal.args)
             yield f"{start}split; [{' | '.join(parts)}]"

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import sympy as sp
+from sympy.core.relational import _Inequality as Inequality
 
 from ..kernel import Judgement
 from .printer import UntranslatableError
@@ -72,6 +73,29 @@ class Step:
         if other.statement.conclusion in self.labels:
             return self.labels[other.statement.conclusion]
         return " ".join((other.name, *(self.labels[p.said] for p in other.statement.premises)))
+
+    def now(self, other: Step, time: str = "t", proof: str = "Ht") -> str:
+        """Return the proof term of what another step says of a time."""
+        return f"{self.cited(other)} {time} {proof}" if other.timed else self.cited(other)
+
+    def stated(self, steps: Iterable[Step]) -> str:
+        """Return the tactic that states the claims of other steps, equations to be inserted."""
+        return "".join(f"given ({self.now(other)}); " for other in steps)
+
+    def signs(self, time: str = "t", proof: str = "Ht") -> list[str]:
+        """State what is known of signs at a time: inequalities, and positive names of other
+        things."""
+        lines = []
+        rests_on = [s for s in (*self.hypotheses, *self.ancestors) if not s.relation.has(sp.Limit)]
+        signs = {s.relation.args: s for s in self.hypotheses if isinstance(s.relation, sp.Gt)}
+        for other in rests_on:
+            known = self.now(other, time, proof)
+            if isinstance(other.relation, (Inequality, sp.Ne)):
+                lines.append(f"pose proof ({known}).")
+            elif isinstance(other.relation, sp.Equality) and (other.relation.lhs, 0) in signs:
+                sign = signs[other.relation.lhs, sp.S.Zero]
+                lines.append(f"pose proof (sign_of ({self.now(sign, time, proof)}) ({known})).")
+        return list(dict.fromkeys(lines))
 
     @cached_property
     def frontier(self) -> list[Step]:

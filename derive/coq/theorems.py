@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
 from ..symbols import symbol, t
 from .printer import binder, field, term
@@ -27,7 +28,7 @@ def proof(step: Step) -> list[str]:
     for way in (
         _later,
         _same_rate,
-        _discharges,
+        _threshold,
         _grows,
         _integrates,
         _bounded_load,
@@ -35,29 +36,11 @@ def proof(step: Step) -> list[str]:
         _drift,
         _derivative,
         _lipschitz,
+        _logarithmic_slope,
     ):
         if lines := list(way(step)):
             return lines
     return []
-
-
-def _discharges(step: Step) -> Iterator[str]:
-    """A hypothesis of the first parent that the others imply."""
-    from .proofs import inequality
-
-    if step.rule != "Discharge":
-        return
-    (first, premises), *_ = step.missing
-    for premise in premises:
-        ways = " | ".join(f"solve [{way}]" for way in inequality(step, premise.relation))
-        fixed = "intros t Ht; " if premise.timed else ""
-        yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}first [{ways}])."
-    labels = step.labels | {p.said: f"{p.label}_met" for p in premises}
-    yield (
-        "exact ("
-        + " ".join((first.name, *(labels[p.said] for p in first.statement.premises)))
-        + ")."
-    )
 
 
 def _later(step: Step) -> Iterator[str]:
@@ -155,11 +138,8 @@ def _bounded(step: Step, affine: _Affine) -> Iterator[str]:
     yield f"assert (B : exists b, forall t, 0 <= t -> Rabs ({affine.load}) <= b)."
     bound = "U" if affine.load == "U_a t" else "(U + p_max / k)"
     yield f"{{ exists {bound}; intros t Ht."
-    yield from (
-        f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''})."
-        for s in step.ancestors
-        if not isinstance(s.relation, sp.Equality)
-    )
+    facts = (s for s in step.ancestors if not isinstance(s.relation, sp.Equality))
+    yield from (f"pose proof ({step.now(s)})." for s in facts)
     yield "arithmetic. }"
     yield "destruct B as [b B]."
 
@@ -181,14 +161,12 @@ def _bounded_load(step: Step) -> Iterator[str]:
     yield from _bounded(step, affine)
     yield f"generalize (vanishes_affine {affine.function} _ b ({affine.c0}) ({affine.c1}) B S); apply tends_ext; intros t Ht."
     facts = [s for s in step.frontier if not isinstance(s.relation, sp.Equality)]
-    yield from (f"pose proof ({step.cited(s)}{' t Ht' if s.timed else ''})." for s in facts)
+    yield from (f"pose proof ({step.now(s)})." for s in facts)
     yield f"assert (0 < {term(size)}) by positive; identity."
 
 
 def _first_order(step: Step) -> Iterator[str]:
     """The rate to first order in 1/t, from that of h/sigma."""
-    from .proofs import signs_at
-
     if step.rule != "FirstOrder":
         return
     law, deviation, ratio, limit = step.parents[:4]
@@ -199,7 +177,7 @@ def _first_order(step: Step) -> Iterator[str]:
         return
     slope = sp.diff(function, _RATIO).subs(_RATIO, end).doit()
     speed, made, at = limit.relation.rhs, f"(fun ratio => {term(function)})", term(quantity)
-    signs = signs_at(step)
+    signs = step.signs()
     yield f"assert (D : is_derive {made} ({term(end)}) ({term(slope)})) by derived."
     yield f"assert (W : forall t, 0 <= t -> Derive u_c t = {made} ({at}))."
     yield from (
@@ -230,16 +208,8 @@ def _drift(step: Step) -> Iterator[str]:
     if affine is None:
         return
     speed = sp.expand(now - sp.diff(flat, t))
-    mean = next(
-        p
-        for p in step.statement.premises
-        if isinstance(p.relation, sp.Equality) and p.relation.lhs == symbol("U_mean")
-    )
-    periodic = next(
-        p
-        for p in step.statement.premises
-        if isinstance(p.relation, sp.Equality) and p.relation.rhs == _LOAD
-    )
+    said = {part: p for p in step.statement.premises for part in p.relation.args}
+    mean, periodic = said[symbol("U_mean")], said[_LOAD]
     smooth = next(p for p in step.statement.premises if p.said.endswith("continuous U_a t"))
     yield f"assert (M : RInt U_a 0 T = U_mean * T) by (rewrite {mean.label}; exact (mean_times _ T domain_T))."
     yield f"assert (E : tends (fun t => t * (Derive u_c t - ({term(speed)})) - {affine}) 0) by (generalize ({step.cited(approach)}); apply tends_ext; intros t Ht; field; positive)."
@@ -288,3 +258,26 @@ def _lipschitz(step: Step) -> Iterator[str]:
     left = sp.expand(high.args[0] - low.args[0]) - high + low
     forms = (factor * (high - low if part.lts == 0 else left) for part in step.relation.args)
     yield f"split; [{' | '.join(f'manifest ({term(form)})' for form in forms)}]."
+
+
+def _logarithmic_slope(step: Step) -> Iterator[str]:
+    """The change of the logarithm of a function, whose slope is bounded by a multiple of it."""
+    rule = step.judgement.rule
+    if isinstance(rule, LogarithmicSlope):
+        function = rule.function(_RATIO)
+        value, slope, bound = map(term, (function, sp.diff(function, _RATIO), rule.bound))
+        made, a, b = f"(fun ratio => {value})", term(rule.a), term(rule.b)
+        yield f"assert (A : forall ratio, 0 < {value}) by (intro; arithmetic)."
+        yield f"assert (B : forall ratio, is_derive {made} ratio ({slope})) by (intro; derived)."
+        yield f"assert (C : forall ratio, Rabs ({slope}) <= {bound} * ({value})) by (intro; arithmetic)."
+        yield f"intros t Ht; pose proof (log_slope _ _ _ ({a}) ({b}) A B C) as P0; cbv beta in P0; same_inequality P0."
+
+
+def _threshold(step: Step) -> Iterator[str]:
+    """A level that an increasing function exceeds beyond one point, and not before."""
+    if isinstance(step.relation, sp.Equivalent):
+        point, level = step.relation.args
+        if isinstance(point, sp.Gt) and point.gts.is_Symbol and level.gts.has(point.gts):
+            yield from (f"pose proof ({step.cited(s)})." for s in step.ancestors if not s.timed)
+            yield f"apply (threshold (fun {term(point.gts)} => {term(level.gts)}))."
+            yield "all: cbv beta; first [intros; increasing | positive | bounds; identity]."

@@ -145,19 +145,14 @@ _FUNCTIONS: dict[type, Callable[..., Number]] = {
     sp.exp: _exact_at(0, 1, arb.exp),
     sp.log: _exact_at(1, 0, _log),
     sp.tanh: _exact_at(0, 0, arb.tanh),
-    sp.coth: lambda x: _divided(fmpq(1), arb(x).tanh()),
-    sp.sinh: _exact_at(0, 0, arb.sinh),
-    sp.cosh: _exact_at(0, 1, arb.cosh),
     sp.sin: _exact_at(0, 0, arb.sin),
     sp.cos: _exact_at(0, 1, arb.cos),
     sp.tan: lambda x: _divided(arb(x).sin(), arb(x).cos()),
     sp.atan: _exact_at(0, 0, arb.atan),
     sp.asin: _exact_at(0, 0, arb.asin),
-    sp.acos: _exact_at(1, 0, arb.acos),
     sp.Abs: abs,
     sp.sign: _sign,
     sp.floor: _floor,
-    sp.ceiling: lambda x: -_floor(-x),
     sp.LambertW: _lambert,
     sp.Ei: lambda x: arb(x).ei(),
     sp.besseli: lambda order, x: arb(x).bessel_i(arb(order)),
@@ -171,7 +166,6 @@ _FUNCTIONS: dict[type, Callable[..., Number]] = {
 _CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
     sp.pi: arb.pi,
     sp.E: arb.const_e,
-    sp.EulerGamma: arb.const_euler,
 }
 
 

@@ -46,6 +46,9 @@ _LATE = (10**2, 3 * 10**5)
 _FAR, _FARTHEST = 10**5, 10**8
 """Periods after which trends are read, and refusals confirmed."""
 
+_DEEP = 40
+"""Formulas inside formulas; more than a model has."""
+
 _TRUSTED = arb(10) ** -12
 """Relative error of a state."""
 
@@ -176,16 +179,20 @@ class Model:
             raise Undecided(f"{field} is not in the model")
         if (field, order) == (self.loop, 1):  # y' = G_t + G_y y'
             slope = sp.Dummy()
-            whole = _slope(self._inlined(self.values[field])).xreplace({field.diff(t): slope})
+            whole = _slope(self.inlined(self.values[field])).xreplace({field.diff(t): slope})
             return whole.xreplace({slope: sp.S.Zero}) / (1 - sp.diff(whole, slope))
         return _slope(self.formula(field, order - 1))
 
-    def _inlined(self, expr: sp.Expr) -> sp.Expr:
-        """Return an expression in terms of states, the loop and data."""
-        known = {f for f in self.values if f.args == (t,)} - {self.loop}
-        while found := known & expr.atoms(AppliedUndef):
-            expr = expr.xreplace({field: self.values[field] for field in found})
-        return expr
+    def inlined(self, expr: sp.Expr) -> sp.Expr:
+        """Return an expression in terms of time, states, the loop, data and initial values."""
+        kept = {*self.states, self.loop}
+        for _ in range(_DEEP):
+            rates = {d: self.formula(d.expr, d.derivative_count) for d in expr.atoms(sp.Derivative)}
+            fields = (f for f in expr.atoms(AppliedUndef) - kept if f.args == (t,))
+            if not (parts := rates or {f: self.formula(f, 0) for f in fields}):
+                return expr
+            expr = expr.xreplace(parts)
+        raise Undecided(f"{expr} rests on itself")
 
     @cached_property
     def system(self) -> System:

@@ -7,7 +7,7 @@ import sympy as sp
 from ..note.governing import Pin
 from ..symbols import symbol
 from ..variant import Variant
-from .function import Function
+from .function import Function, made
 from .rate import law, p_max, to_ratio
 from .relations import Relations
 from .symbols import compliance, h, load, pressure, sigma, sigma_a, sigma_c, u
@@ -43,10 +43,5 @@ def fields(relations: Relations) -> Function:
         "U_c": compliance * pressure,
         "p": pressure if variant.compliant else p_max * value,
     }
-    return Function.made(
-        "fields",
-        (pressure, u, load) if variant.compliant else (u, load),
-        assignments,
-        tuple(values[name] for name in names(variant)),
-        "every field at given wear and load, in mm and MPa",
-    )
+    arguments = (pressure, u, load) if variant.compliant else (u, load)
+    return made("fields", arguments, assignments, *(values[name] for name in names(variant)))

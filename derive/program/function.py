@@ -3,6 +3,7 @@
 Key results
     Assignment  a name and what it stands for
     Function    arguments, assignments, results
+    made        a function with no more assignments than it needs
 """
 
 from __future__ import annotations
@@ -16,6 +17,30 @@ from ..stable import released
 
 Assignment = tuple[sp.Symbol, sp.Expr]
 
+MEANINGS = {
+    "rate": "wear rate of the bearing, du_c/dt, in mm/s",
+    "slope": "derivative of the wear rate with respect to u_c, in 1/s",
+    "rate_and_slope": "wear rate in mm/s and its derivative with respect to u_c in 1/s",
+    "residual": "what the contact pressure p must make zero, in MPa",
+    "undeflected": "closure over roughness with an undeflected support",
+    "softness": "roughnesses that the support gives way per pressure, in 1/MPa",
+    "start": "estimate of the pressure with the support, in MPa",
+    "lower": "a pressure below that with the support, in MPa",
+    "upper": "a pressure above that with the support, in MPa",
+    "newton": "the pressure after a step of Newton's iteration from p, in MPa",
+    "fields": "every field at given wear and load, in mm and MPa",
+    "margin": "3 sigma - h with an undeflected support, in mm: contact where it is not negative",
+    "margin_slope": "derivative of the margin with respect to u_c; with respect to U_a it is 1",
+    "margin_terms": "sum of the absolute terms of the margin, in mm: known to as many roundoffs",
+    "limited_pressure": "contact pressure in MPa: root of the residual, or what keeps h at 3 sigma",
+    "limited_slope": "derivative of the wear rate with respect to u_c with h at 3 sigma, in 1/s",
+    "rate_gradient": "derivatives of the wear rate with respect to U_a and to the constants",
+    "margin_gradient": "derivatives of the margin with respect to the constants; to U_a it is 1",
+    "parameter_gradient": "derivatives with respect to the parameters, from those to the constants",
+    "contact_pressure": "contact pressure in MPa at closure and roughness in mm, and its slope",
+}
+"""What a function returns, by its name."""
+
 
 @dataclass(frozen=True)
 class Function:
@@ -25,24 +50,11 @@ class Function:
     arguments: tuple[sp.Symbol, ...]
     assignments: tuple[Assignment, ...]
     results: tuple[sp.Expr, ...]
-    meaning: str
 
-    @staticmethod
-    def made(
-        name: str,
-        arguments: tuple[sp.Symbol, ...],
-        assignments: Sequence[Assignment],
-        results: tuple[sp.Expr, ...],
-        meaning: str,
-    ) -> Function:
-        """Make a function, leaving out the assignments that its results do not need."""
-        needed = set().union(*(result.free_symbols for result in results))
-        kept: list[Assignment] = []
-        for symbol, value in reversed(assignments):
-            if symbol in needed:
-                kept.append((symbol, value))
-                needed |= value.free_symbols
-        return Function(name, arguments, tuple(reversed(kept)), results, meaning)
+    @property
+    def meaning(self) -> str:
+        """Return what it returns, in words."""
+        return MEANINGS[self.name]
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
@@ -66,3 +78,19 @@ class Function:
         for name, value in reversed(self.assignments):
             results = tuple(result.xreplace({name: released(value)}) for result in results)
         return results
+
+
+def made(
+    name: str,
+    arguments: tuple[sp.Symbol, ...],
+    assignments: Sequence[Assignment],
+    *results: sp.Expr,
+) -> Function:
+    """Return a function, without the assignments that its results do not need."""
+    needed = set().union(*(result.free_symbols for result in results))
+    kept: list[Assignment] = []
+    for symbol, value in reversed(assignments):
+        if symbol in needed:
+            kept.append((symbol, value))
+            needed |= value.free_symbols
+    return Function(name, arguments, tuple(reversed(kept)), results)

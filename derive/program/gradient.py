@@ -18,7 +18,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from .function import Assignment, Function
+from .function import Assignment, Function, made
 from .rate import law, p_max, to_ratio
 from .relations import Relations
 from .slopes import reusing
@@ -47,13 +47,9 @@ def rate_gradient(relations: Relations, constants: Sequence[sp.Symbol]) -> Funct
         seed, totals = largest_rate * slope, {largest_rate: value}
     totals[ratio] = seed
     back = _back(chain, totals, "rate_{}")
-    return Function.made(
-        "rate_gradient",
-        (pressure, u, load) if compliant else (u, load),
-        (*chain, *names, *back),
-        tuple(totals.get(name, sp.Integer(0)) for name in (load, *constants)),
-        "derivatives of the wear rate with respect to U_a and to each of the constants",
-    )
+    found = (totals.get(name, sp.Integer(0)) for name in (load, *constants))
+    arguments = (pressure, u, load) if compliant else (u, load)
+    return made("rate_gradient", arguments, (*chain, *names, *back), *found)
 
 
 def margin_gradient(margin: Function, constants: Sequence[sp.Symbol]) -> Function:
@@ -61,13 +57,8 @@ def margin_gradient(margin: Function, constants: Sequence[sp.Symbol]) -> Functio
     whole = number("margin")
     totals: Totals = {whole: sp.Integer(1)}
     back = _back((*margin.assignments, (whole, margin.results[0])), totals, "margin_{}")
-    return Function.made(
-        "margin_gradient",
-        margin.arguments,
-        (*margin.assignments, *back),
-        tuple(totals.get(name, sp.Integer(0)) for name in constants),
-        "derivatives of the margin with respect to each of the constants; to U_a it is 1",
-    )
+    found = (totals.get(name, sp.Integer(0)) for name in constants)
+    return made("margin_gradient", margin.arguments, (*margin.assignments, *back), *found)
 
 
 def parameter_gradient(
@@ -77,13 +68,8 @@ def parameter_gradient(
     totals: Totals = {name: by_constant(name.name) for name, _ in constants}
     computed = [(name, value) for name, value in constants if name != value]
     back = _back(computed, totals, "total_{}")
-    return Function.made(
-        "parameter_gradient",
-        (),
-        (*computed, *back),
-        tuple(totals[name] for name in parameters),
-        "derivatives with respect to the parameters, from those with respect to the constants",
-    )
+    found = (totals[name] for name in parameters)
+    return made("parameter_gradient", (), (*computed, *back), *found)
 
 
 def _back(chain: Sequence[Assignment], totals: Totals, named: str) -> tuple[Assignment, ...]:

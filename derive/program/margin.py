@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from .function import Assignment, Function
+from .function import Assignment, Function, made
 from .relations import Relations
 from .slopes import with_slopes
 from .symbols import (
@@ -59,48 +59,20 @@ def margin(relations: Relations) -> tuple[Function, ...]:
     assignments, value, slope = _margin(relations)
     terms = sp.Add.make_args(sp.expand(value.subs(dict([relations.closure(deflected=False)]))))
     return (
-        Function.made(
-            "margin",
-            (u, load),
-            assignments,
-            (value,),
-            "3 sigma - h with an undeflected support, in mm: contact where it is not negative",
-        ),
-        Function.made(
-            "margin_slope",
-            (u,),
-            assignments,
-            (slope,),
-            "derivative of the margin with respect to u_c; with respect to U_a it is 1",
-        ),
-        Function.made(
-            "margin_terms",
-            (u, load),
-            assignments,
-            (sp.Add(*map(sp.Abs, terms)),),
-            "sum of the absolute terms of the margin, in mm: it is known to as many roundoffs",
-        ),
+        made("margin", (u, load), assignments, value),
+        made("margin_slope", (u,), assignments, slope),
+        made("margin_terms", (u, load), assignments, sp.Add(*map(sp.Abs, terms))),
     )
 
 
 def limited() -> tuple[Function, ...]:
     """Return the pressure of a compliant support that lets go no further than to h = 3 sigma, and
     the slope of the rate while h stays there."""
+    held = sp.Min(pressure, sp.Max(0, value_of_margin / compliance))
+    change = wear_per_pressure * slope_of_margin / compliance
     return (
-        Function.made(
-            "limited_pressure",
-            (pressure, value_of_margin, compliance),
-            (),
-            (sp.Min(pressure, sp.Max(0, value_of_margin / compliance)),),
-            "contact pressure in MPa: the root of the residual, or what keeps h at 3 sigma",
-        ),
-        Function.made(
-            "limited_slope",
-            (slope_of_margin, compliance, wear_per_pressure),
-            (),
-            (wear_per_pressure * slope_of_margin / compliance,),
-            "derivative of the wear rate with respect to u_c while h stays at 3 sigma, in 1/s",
-        ),
+        made("limited_pressure", (pressure, value_of_margin, compliance), (), held),
+        made("limited_slope", (slope_of_margin, compliance, wear_per_pressure), (), change),
     )
 
 

@@ -16,7 +16,7 @@ from ..laws import r
 from ..stable import stable
 from ..symbols import symbol
 from ..variant import Variant
-from .function import Assignment, Function
+from .function import Assignment, Function, made
 from .relations import Relations
 from .slopes import with_slopes
 from .symbols import (
@@ -54,28 +54,15 @@ def rigid(relations: Relations) -> tuple[Function, ...]:
     assignments = (*sloped, *names)
     rate, change = largest_rate * value, largest_rate * slope * slopes[ratio]
     return (
-        Function.made(
-            "rate", (u, load), assignments, (rate,), "wear rate of the bearing, du_c/dt, in mm/s"
-        ),
-        Function.made(
-            "slope",
-            (u, load),
-            assignments,
-            (change,),
-            "derivative of the wear rate with respect to u_c, in 1/s",
-        ),
+        made("rate", (u, load), assignments, rate),
+        made("slope", (u, load), assignments, change),
     )
 
 
 def rate_and_slope(rate: Function, slope: Function) -> Function:
     """Return the rate and its slope at the cost of little more than one."""
-    return Function.made(
-        "rate_and_slope",
-        rate.arguments,
-        tuple(dict.fromkeys((*slope.assignments, *rate.assignments))),
-        (*rate.results, *slope.results),
-        "wear rate in mm/s and its derivative with respect to u_c in 1/s",
-    )
+    assignments = tuple(dict.fromkeys((*slope.assignments, *rate.assignments)))
+    return made("rate_and_slope", rate.arguments, assignments, *rate.results, *slope.results)
 
 
 def compliant(relations: Relations) -> tuple[Function, ...]:
@@ -83,19 +70,8 @@ def compliant(relations: Relations) -> tuple[Function, ...]:
     names, _, slope = law(relations.variant)
     sloped, slopes = with_slopes(to_ratio(relations, deflected=True))
     stiffening = number("residual_p"), 1 - p_max * slope * compliance / sigma
+    change = wear_per_pressure * p_max * slope * slopes[ratio] / stiffening[0]
     return (
-        Function.made(
-            "rate",
-            (pressure,),
-            (),
-            (wear_per_pressure * pressure,),
-            "wear rate of the bearing, du_c/dt, in mm/s",
-        ),
-        Function.made(
-            "slope",
-            (pressure, u, load),
-            (*sloped, *names, stiffening),
-            (wear_per_pressure * p_max * slope * slopes[ratio] / stiffening[0],),
-            "derivative of the wear rate with respect to u_c at the root, in 1/s",
-        ),
+        made("rate", (pressure,), (), wear_per_pressure * pressure),
+        made("slope", (pressure, u, load), (*sloped, *names, stiffening), change),
     )

@@ -19,7 +19,7 @@ import sympy as sp
 
 from ..laws import ContactLaw, r
 from ..stable import stable
-from .function import Assignment, Function
+from .function import Assignment, Function, made
 from .rate import law, p_max, to_ratio
 from .relations import Relations
 from .symbols import compliance, h, load, number, pressure, ratio, sigma, u
@@ -36,54 +36,21 @@ def root(relations: Relations) -> tuple[Function, ...]:
     names, value, slope = law(relations.variant)
     edge = _edge(relations.variant.law)
     of_equation = (undeflected, softness)
+    law_at = (*to_ratio(relations, deflected=True), *names)
+    step = (
+        (ratio, undeflected + softness * pressure),
+        *names,
+        (rise, -p_max * softness * slope),
+    )
+    stepped = (p_max * value + rise * pressure) / (1 + rise)
     return (
-        Function.made(
-            "residual",
-            (pressure, u, load),
-            (*to_ratio(relations, deflected=True), *names),
-            (pressure - p_max * value,),
-            "what the contact pressure p must make zero, in MPa",
-        ),
-        Function.made(
-            "undeflected",
-            (u, load),
-            to_ratio(relations, deflected=False)[:-1],
-            (h / sigma,),
-            "closure over roughness with an undeflected support",
-        ),
-        Function.made(
-            "softness",
-            (u,),
-            relations.roughnesses(),
-            (compliance / sigma,),
-            "roughnesses that the support gives way per pressure, in 1/MPa",
-        ),
+        made("residual", (pressure, u, load), law_at, pressure - p_max * value),
+        made("undeflected", (u, load), to_ratio(relations, deflected=False)[:-1], h / sigma),
+        made("softness", (u,), relations.roughnesses(), compliance / sigma),
         _start(relations.variant.law),
-        Function.made(
-            "lower",
-            of_equation,
-            (),
-            (sp.Max(0, sp.Min(*edge)),),
-            "a pressure below that with the support, in MPa",
-        ),
-        Function.made(
-            "upper",
-            of_equation,
-            (),
-            (sp.Max(*edge),),
-            "a pressure above that with the support, in MPa",
-        ),
-        Function.made(
-            "newton",
-            (pressure, *of_equation),
-            (
-                (ratio, undeflected + softness * pressure),
-                *names,
-                (rise, -p_max * softness * slope),
-            ),
-            ((p_max * value + rise * pressure) / (1 + rise),),
-            "the pressure after a step of Newton's iteration from p, in MPa",
-        ),
+        made("lower", of_equation, (), sp.Max(0, sp.Min(*edge))),
+        made("upper", of_equation, (), sp.Max(*edge)),
+        made("newton", (pressure, *of_equation), step, stepped),
     )
 
 
@@ -114,13 +81,7 @@ def _start(of: ContactLaw) -> Function:
             (height, sp.Max(level, 0) + sp.log(grown)),
         )
         estimate = height * (1 - sp.log(1 + height) / (2 + height)) / (steepness * softness)
-    return Function.made(
-        "start",
-        (undeflected, softness),
-        names,
-        (estimate,),
-        "estimate of the pressure with the support, in MPa",
-    )
+    return made("start", (undeflected, softness), names, estimate)
 
 
 @cache

@@ -157,8 +157,9 @@ class ChangeClock(Rule):
         factor = sp.cancel(scaled.rhs / moving[0])
         if not constant(factor):
             raise RuleError(f"missing premise: {factor} is constant")
-        slope = factor / T * sp.Derivative(moving[0], tau)
-        return Conclusion(Equality(sp.Derivative(scaled.lhs, t), slope))
+        rate = sp.Derivative(scaled.lhs, t)
+        require_defined(rate, *premises)
+        return Conclusion(Equality(rate, factor / T * sp.Derivative(moving[0], tau)))
 
 
 change_clock = ChangeClock()

@@ -7,7 +7,6 @@ import importlib
 import json
 import math
 import re
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -23,6 +22,7 @@ from derive.note.governing import Pin
 from derive.variant import VARIANTS, Variant
 from tests.derive import exact
 from tests.derive.reading_back import read_back
+from tests.programs import run
 
 every_target = pytest.mark.parametrize("target", TARGETS.values(), ids=TARGETS)
 RUN = (
@@ -38,13 +38,6 @@ COUNT = 60
 STATE = ("pin_wear_sign", "u", "U_a", "p", "undeflected", "softness", "margin", "margin_slope")
 STATE += ("compliance", "wear_per_pressure")
 FLAGS = ("-O2", "-ffp-contract=off", "-Wall", "-Werror")
-
-
-def run(*command, **options):
-    """Run a program; its complaints are the test's."""
-    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 # What is refused

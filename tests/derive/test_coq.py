@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import subprocess
 
 import pytest
 import sympy as sp
@@ -15,6 +14,7 @@ from derive.coq import export, printer, refutations
 from derive.coq.record import proved_by_coq, record
 from derive.coq.statements import statement
 from derive.symbols import symbols, t
+from tests.programs import ended
 
 h, sigma, p_max, U_a, f_c = symbols("h sigma p_max U_a f_c")
 
@@ -116,5 +116,5 @@ def test_mutated_exports_do_not_compile(deviation):
         f"{text.replace(lemma[0], n)}Abort All.\nLocate {n}.\n" for n, text in texts.items()
     )
     command = ["coqtop", "-q", "-w", "none", "-Q", ".", "Wear"]
-    said = subprocess.run(command, cwd=folder, input=session, capture_output=True, text=True)
-    assert re.findall(r"Constant Top\.(\w+)", said.stdout) == ["right"]
+    said = ended(*command, cwd=folder, input=session).stdout
+    assert re.findall(r"Constant Top\.(\w+)", said) == ["right"]

@@ -332,6 +332,11 @@ CASES: dict[str, Case] = {
         lambda: Multiply(rate("u_c"))(given(equal(u_a, q))),
         "Derivative",
     ),
+    "the rate of a quantity that jumps, in periods": (  # h = h_0 v, a square wave
+        lambda: change_clock(given(equal(h, h_0 * v)), CLOCK),
+        lambda: change_clock(given(equal(u_c, h_0 * v)), CLOCK),
+        "Derivative",
+    ),
     "a branch before the start": (  # u_a < h_0 for t < 0
         lambda: within(-T, h_0),
         lambda: within(sp.S.Zero, h_0),

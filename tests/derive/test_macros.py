@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -13,6 +12,7 @@ from derive import catalogue
 from derive.cli import main
 from derive.typeset.derivation import prose
 from derive.typeset.macros import macro_name, macros, room
+from tests.programs import run
 
 _HEAD = {
     "article": r"\documentclass{article}",
@@ -25,13 +25,8 @@ _CHOSEN = ("7c", "8", "21", "22")
 def _log(folder: Path, engine: str, head: str, body: str) -> str:
     source = f"{head}\\usepackage{{amsmath,booktabs}}\\input{{equations}}\\begin{{document}}{body}"
     (folder / "other.tex").write_text(source + "\\end{document}\n", encoding="utf-8")
-    done = subprocess.run(
-        [engine, "-interaction=nonstopmode", "-halt-on-error", "other.tex"],
-        cwd=folder, capture_output=True, text=True, check=False,
-        env={**os.environ, "max_print_line": "1000"},
-    )  # fmt: skip
-    assert done.returncode == 0, done.stdout[-2000:]
-    return done.stdout
+    command = (engine, "-interaction=nonstopmode", "-halt-on-error", "other.tex")
+    return run(*command, cwd=folder, env={**os.environ, "max_print_line": "1000"})
 
 
 def _too_wide(log: str) -> list[float]:
@@ -106,11 +101,8 @@ def test_a_derivation_fits_a_column(identifier, tmp_path, need_tool):
     head = r"\documentclass{article}\setlength{\textwidth}{246pt}"
     source = head + r"\usepackage{amsmath,booktabs}\begin{document}\input{equations}\end{document}"
     (tmp_path / "other.tex").write_text(source, encoding="utf-8")
-    done = subprocess.run(
-        [engine, "-interaction=nonstopmode", "-halt-on-error", "other.tex"],
-        cwd=tmp_path, capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    assert [float(too_wide) for too_wide in _WIDE.findall(done.stdout)] == []
+    log = run(engine, "-interaction=nonstopmode", "-halt-on-error", "other.tex", cwd=tmp_path)
+    assert [float(too_wide) for too_wide in _WIDE.findall(log)] == []
 
 
 @pytest.mark.parametrize("length", ["246", "3 cm", "wide", "-246pt", "1e9pt"])

@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from derive import completion, terminal
+from tests.programs import ended, python, run
 
 
 class SceneError(Exception):
@@ -74,11 +75,7 @@ def test_a_title_that_the_terminal_cannot_show_is_no_fault():
 from derive import terminal
 terminal.run("wear run", lambda: print("palier \u00e0 \u03c3") or 0, {})
 """
-    ascii_only = {"PYTHONIOENCODING": "ascii"}
-    run = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, env=ascii_only, check=True
-    )
-    assert run.stdout == b"palier \\xe0 \\u03c3\n"
+    assert python(code, env={"PYTHONIOENCODING": "ascii"}) == "palier \\xe0 \\u03c3\n"
 
 
 @pytest.mark.parametrize("closed", [">&-", ">&- 2>&-", "2>&-"])
@@ -87,26 +84,14 @@ def test_a_closed_output_is_no_fault(closed):
 from derive import terminal
 raise SystemExit(terminal.run("derive list", lambda: print("one") or 0, {}))
 """
-    run = subprocess.run(
-        ["sh", "-c", f'"$0" -c "$1" {closed}', sys.executable, code],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert (run.returncode, run.stderr) == (0, "")
+    done = ended("sh", "-c", f'"$0" -c "$1" {closed}', sys.executable, code)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.parametrize(("encoding", "drawn"), [("utf-8", True), ("ascii", False)])
 def test_formulas_are_drawn_with_what_the_terminal_has(encoding, drawn):
     code = "from derive import terminal; print(terminal.shows_formulas())"
-    run = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        env={"PYTHONIOENCODING": encoding},
-        check=True,
-    )
-    assert run.stdout == f"{drawn}\n"
+    assert python(code, env={"PYTHONIOENCODING": encoding}) == f"{drawn}\n"
 
 
 class Terminal(io.StringIO):
@@ -204,13 +189,8 @@ def complete(script: str, *words: str) -> list[str]:
     """Return what bash offers for the last of these words."""
     quoted = " ".join(f"'{word}'" for word in words)
     ask = f"COMP_WORDS=({quoted}); COMP_CWORD={len(words) - 1}; _toy_complete; "
-    shown = subprocess.run(
-        ["bash", "-c", script + "\n" + ask + 'printf "%s\\n" "${COMPREPLY[@]}"'],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return shown.stdout.split("\n")[:-1] if shown.stdout != "\n" else []
+    shown = run("bash", "-c", script + "\n" + ask + 'printf "%s\\n" "${COMPREPLY[@]}"')
+    return shown.split("\n")[:-1] if shown != "\n" else []
 
 
 @pytest.mark.parametrize(

@@ -4,14 +4,13 @@ import csv
 import io
 import json
 import math
-import subprocess
-import sys
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from tests.programs import python
 from tests.wear.reference_scenes import REFERENCE
 from wear import benchmark, cli
 from wear.benchmark import Effort, Status, judge, results
@@ -130,12 +129,12 @@ def result(clock):
 
 
 def test_times_are_compared_at_equal_true_error(result):
-    here = results.at(result.runs, "made", 100)
+    here = results.grouped(result.runs, "cycles")[100]
     assert [entry.method for entry in results.best(here, 6)] == ["quick", "slow"]
     assert [entry.method for entry in results.best(here, 3)] == ["off", "quick", "slow"]
     cells = [results.cell(here, name, 6) for name in ("quick", "slow", "off", "wrong")]
     assert cells == ["2 ms", "2 s (1000x)", "off by 1e-4", "off by 40 %"]
-    assert results.cell(results.at(result.runs, "made", 9000), "slow", 6) == "~ 3 min"
+    assert results.cell(results.grouped(result.runs, "cycles")[9000], "slow", 6) == "~ 3 min"
 
 
 def test_the_sentence_names_the_fastest_and_the_ratio(result):
@@ -235,8 +234,7 @@ for peer in load_peers("peers").PEERS:
         assert abs(wear / REFERENCE["S2"][10] - 1) < 1e-5, peer.name
 """
     if not all(map(missing, peers.PEERS)):
-        root = Path(__file__).parents[2]
-        subprocess.run([sys.executable, "-c", code], check=True, cwd=root)
+        python(code, cwd=Path(__file__).parents[2])
 
 
 @pytest.fixture(scope="module")

@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from derive.command_line import name_of
+from tests.programs import run
 from wear import cli
 from wear.cite import REFERENCES
 from wear.faults import Interrupted
 from wear.scene import builtin_names, load_scene, parse_scene
 
 ROOT = Path(__file__).parents[2]
-COMMANDS = [name_of(command) for command in cli.COMMANDS]
+COMMANDS = cli.COMMANDS.split()
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -70,15 +70,15 @@ def test_a_slip_is_met_with_what_was_meant(call, arguments, told):
 @pytest.mark.parametrize("arguments", [["--version"], ["scenes"]])
 def test_a_full_disk_is_told_whatever_is_printed(arguments):
     with Path("/dev/full").open("wb") as full:
-        run = subprocess.run(
+        done = subprocess.run(
             [sys.executable, "-m", "wear", *arguments],
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
             check=False,
         )
-    assert run.stderr == f"wear {arguments[0]}: No space left on device\n"
-    assert run.returncode == 2
+    assert done.stderr == f"wear {arguments[0]}: No space left on device\n"
+    assert done.returncode == 2
 
 
 @pytest.mark.parametrize(
@@ -133,8 +133,7 @@ def test_the_installed_command_is_this_one():
     command = Path(sys.executable).with_name("wear")
     if not command.exists():
         pytest.skip("wear is not installed beside this interpreter")
-    run = subprocess.run([command, "cite", "note"], capture_output=True, text=True, check=True)
-    assert "@misc{note," in run.stdout
+    assert "@misc{note," in run(command, "cite", "note")
 
 
 def test_scenes_lists_all_with_titles(call):
@@ -173,7 +172,7 @@ def test_cite_gives_every_entry_once(call):
 
 
 def test_cite_has_this_version_and_every_method():
-    from wear.solver import METHODS
+    from wear.request import METHODS
 
     version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
     assert REFERENCES["derive-wear"].fields["note"] == f"Version {version}"
@@ -185,10 +184,7 @@ def test_cite_is_bibtex_that_latex_takes(call, need_tool, tmp_path):
     need_tool("bibtex")
     (tmp_path / "all.bib").write_text(call("cite")[1])
     (tmp_path / "all.aux").write_text("\\citation{*}\n\\bibdata{all}\n\\bibstyle{plain}\n")
-    run = subprocess.run(
-        ["bibtex", "all"], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
-    assert run.returncode == 0, run.stdout
+    run("bibtex", "all", cwd=tmp_path)
     written = (tmp_path / "all.bbl").read_text()
     assert all(f"\\bibitem{{{key}}}" in written for key in REFERENCES)
 
@@ -197,15 +193,8 @@ def test_the_completion_knows_commands_scenes_and_options(call, need_tool):
     need_tool("bash")
     script = call("--print-completion")[1]
     ask = "COMP_WORDS=(wear scenes section4); COMP_CWORD=2; _wear_complete; echo ${COMPREPLY[@]}"
-    environment = {"PATH": os.environ["PATH"]}
-    run = subprocess.run(
-        ["bash", "-c", f"{script}\n{ask}"],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=environment,
-    )
-    assert run.stdout.split() == [name for name in builtin_names() if name.startswith("section4")]
+    offered = run("bash", "-c", f"{script}\n{ask}", env={"PATH": os.environ["PATH"]}).split()
+    assert offered == [name for name in builtin_names() if name.startswith("section4")]
 
 
 def test_claims_end_with_a_count_of_verdicts(call):

@@ -15,13 +15,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests import programs
 from tests.wear.test_history import CONTRACT
 from wear import cli
 from wear.commands.run_output import latex_number, text
 from wear.faults import AccuracyError, Interrupted
 from wear.load.spans import most_cycles
+from wear.request import METHODS
 from wear.scene import load_scene
-from wear.solver import METHODS, solve
+from wear.solver import solve
 
 
 @pytest.fixture
@@ -108,9 +110,8 @@ def test_the_latex_table_compiles(run, need_tool, tmp_path):
         "\\documentclass{article}\\usepackage{booktabs}\\usepackage[landscape]{geometry}\n"
         "\\begin{document}\\small\\input{wear}\\end{document}\n"
     )
-    command = ["latexmk", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "main.tex"]
-    compiled = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert compiled.returncode == 0, compiled.stdout[-2000:]
+    command = ("latexmk", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "main.tex")
+    programs.run(*command, cwd=tmp_path)
     assert "Overfull" not in (tmp_path / "main.log").read_text()
 
 

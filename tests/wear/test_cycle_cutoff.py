@@ -49,6 +49,23 @@ def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
     assert honest(found.u_c, found.error, true_wear(scene, cycles))
 
 
+@pytest.mark.parametrize("scene", ["section4-cutoff", "section5-cutoff"])
+@pytest.mark.parametrize(("nodes", "tolerance"), [(6, 1e-3), (8, 1e-5)])
+def test_a_cycle_knows_what_its_nodes_miss(scene, nodes, tolerance):
+    """Rates on few nodes: the map with many is exact beside it."""
+    made = load_scene(scene)
+    model, load = bind(made), made.periodic_load
+    of_scene = [model], [load], [edge_of_contact(model, load)]
+    wear, which = 1e-4 * np.geomspace(0.1, 5.0, 12), np.zeros(12, dtype=int)
+    few, many = (
+        switched_period_map(*of_scene, number, accuracy).advance(wear, which)
+        for number, accuracy in ((nodes, tolerance), (30, 1e-14))
+    )
+    off = np.abs(few.increment - many.increment)
+    assert np.max(off / many.increment) > 1e-12
+    assert np.all(off <= 3 * few.missed + 1e-13 * many.increment)
+
+
 @pytest.mark.parametrize("kind", ["harmonics", "table"])
 @pytest.mark.parametrize(("K", "f_c"), [(3e-4, 0.0), (5e-3, 0.0), (3e-3, 0.5)])
 def test_contact_lost_and_found_again_on_one_rise(kind, K, f_c):
@@ -294,3 +311,11 @@ def test_a_phase_that_is_rounded_under_a_steep_load_is_no_lack_of_nodes():
     load = Table(times, (0.0, 7.6e-4, -7.1e-4, 8e-5, 8.6e-4, 0.0))
     scene = with_load(load, 2.8e-3, 0.013, closure=9.577e-4)
     agrees_with_the_judge(scene, [1, 10], 1e-7)
+
+
+def test_wear_that_hardly_changes_itself_is_counted_to_a_depth():
+    """All the panels together are narrower than rounding."""
+    numbers = {"bearing.wear_coefficient": 1e-30, "bearing.roughness_growth": 1e5}
+    scene = load_scene("section4-cutoff").with_(numbers)
+    found = count.cycles_until(bind(scene), scene.periodic_load, np.array([1e-24, 1.0]), 1e-7)
+    assert_allclose(found.cycles, [32221, np.inf], atol=1)

@@ -17,7 +17,7 @@ from wear import direct
 from wear.load import Harmonics, Sine, Table
 from wear.loss_of_contact.switching import edge_of_contact, phase_of
 from wear.model import bind
-from wear.scene import Scene
+from wear.scene import Scene, load_scene
 
 STEPS = Table((0.0, 0.25, 0.5, 0.75, 1.0), (1.2e-6, 1.2e-6, 2.25e-5, 2.25e-5, 1.2e-6))
 WAVES = Harmonics(2e-5, (1e-4, -6e-5), (1.5e-4, 4e-5), 0.06)
@@ -111,3 +111,19 @@ def test_two_rough_solids_at_rest_on_a_plateau():
     assert np.all(np.abs(rest) <= 4e-15 * found.u_c)
     assert np.all(found.error <= 1e-8)
     assert found.cost.rhs_evaluations < 50_000
+
+
+@pytest.mark.parametrize(
+    ("name", "swing", "k", "most"),
+    [
+        ("section4-cutoff", 1e-12, 5e10, 1e-13),
+        ("section4-cutoff", 1e-13, 5e10, 1e-13),
+        ("section5-cutoff", 1e-13, 1e6, 1e-3),  # a cycle adds less than the margin's rounding
+    ],
+)
+def test_a_tiny_load_leaves_no_estimate_infinite(name, swing, k, most):
+    """What cannot be counted lies short of the limit."""
+    support, load = supported(1e-6, 0.25, False, k).support, Sine(swing, 0.06)
+    scene = replace(load_scene(name), support=support, load=load)
+    found = count.wear_after(bind(scene), load, np.array([1e3, 1e9, 1e12]), 1e-7)
+    assert np.all(found.error <= most)

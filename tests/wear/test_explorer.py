@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ import pytest
 import wear
 from derive.codegen.sources import definitions
 from tests.derive.exact import made, variant_of
+from tests.programs import run
 from wear.cli import main
 from wear.report import explorer, explorer_data, explorer_derived
 from wear.scene import builtin_names, load_scene, parse_scene
@@ -196,13 +196,7 @@ console.log(JSON.stringify({{
 }}));
 """
     )
-    done = subprocess.run(
-        [need_tool("node", "nodejs"), str(tmp_path / "run.js")],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    found = json.loads(done.stdout)
+    found = json.loads(run(need_tool("node", "nodejs"), tmp_path / "run.js"))
     load = scene.periodic_load
     assert found["value"] == pytest.approx(load(phases).tolist(), rel=1e-13, abs=1e-18)
     assert found["slope"] == pytest.approx(load.slope(phases).tolist(), rel=1e-11, abs=1e-16)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 from dataclasses import replace
 from typing import Any
 
@@ -16,6 +14,7 @@ from hypothesis import strategies as st
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
+from tests.programs import python
 from wear import figure_style, figures
 from wear.figure_data import (
     PRESSURE,
@@ -192,8 +191,7 @@ def test_pyplot_is_not_imported():
         "import sys, wear.figures, wear.report.drawing as d, wear.figure_style as s;"
         "s.svg(d.system()); print('matplotlib.pyplot' in sys.modules)"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"
+    assert python(code).strip() == "False"
 
 
 @pytest.mark.parametrize(

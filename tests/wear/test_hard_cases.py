@@ -83,10 +83,7 @@ def test_an_estimate_below_the_error_outranks_all_else():
     assert not lying.honest
     assert entry(estimate=None, error=1.0).honest
     assert entry(error=math.nan).honest
-    assert (
-        worst([entry(), entry(status=Status.WRONG, estimate=None), lying], "made", "auto") == lying
-    )
-    assert worst([], "made", "auto") is None
+    assert worst([entry(), entry(status=Status.WRONG, estimate=None), lying]) == lying
 
 
 def test_the_tables_say_how_a_method_fails():

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +13,7 @@ from scipy.integrate import solve_ivp
 import wear
 from derive.faults import UsageError as NotUnderstood
 from derive.own_law import normal
+from tests.programs import python
 from wear import own_laws
 
 ALGEBRAIC = "(1 - (r - 2)/sqrt(1 + (r - 2)^2))/2"
@@ -97,10 +96,7 @@ def test_a_law_is_derived_once_and_the_package_stays_as_it_is(home):
     assert text == with_law(ALGEBRAIC).contact.law
     (home / "scene.toml").write_text(with_law(ALGEBRAIC).to_toml())
     code = "import sys, wear; wear.solve('scene.toml', [1]); sys.exit('sympy' in sys.modules)"
-    subprocess.run(
-        [sys.executable, "-c", code], cwd=home, check=True,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )  # fmt: skip
+    python(code, cwd=home, env={**os.environ, "PYTHONPATH": str(ROOT)})
     kept = ROOT / "wear" / "generated"
     assert {path.name for path in kept.iterdir() if path.is_dir()} >= {"tanh", "exponential"}
     assert not list(kept.rglob("*own*"))

@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 import wear
+from tests.programs import ended
 from wear.faults import UsageError, WorkersLost
 from wear.studies import design as designs
 from wear.studies.design import Design, permuted
@@ -367,12 +368,9 @@ def test_a_full_disk_keeps_what_is_finished(tmp_path, monkeypatch):
     out, vary = str(tmp_path / "a.zarr"), f"{GROWTH}=0.1:0.3:1024"
     words = ["section4", "--vary", vary, "--cycles", "9000", "--workers", "1"]
     limit = (4096, resource.getrlimit(resource.RLIMIT_FSIZE)[1])
-    full = subprocess.run(
-        _command(*words, "-o", out, rows=1024),
+    full = ended(
+        *_command(*words, "-o", out, rows=1024),
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, limit),
-        capture_output=True,
-        text=True,
-        check=False,
     )
     assert full.returncode == 2
     assert "File too large" in full.stderr

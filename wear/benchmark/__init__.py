@@ -18,8 +18,6 @@ from typing import NamedTuple
 
 from wear.benchmark.methods import Answer, Case, Method, Run, UnsuitableError
 
-__all__ = ["DEFAULT", "FULL", "QUICK", "Effort", "Measurement", "StartUp", "Status", "benchmark"]
-
 ROUNDING = 4e-15  # a smaller error is none
 WRONG = 1e-2  # a relative error that no reader of a figure would forgive
 NO_ANSWER = Answer(math.nan)
@@ -54,7 +52,7 @@ class Status(StrEnum):
 
 
 class Measurement(NamedTuple):
-    """A method on a case at a tolerance.
+    """A method on a case at a tolerance; what has a default is that of a case that was not run.
 
     `seconds` is the median of `repeats` runs (an expectation if skipped), `error` the true signed
     relative error, `estimate` the method's own; NaN or None where there is none.
@@ -64,13 +62,13 @@ class Measurement(NamedTuple):
     scene: str
     cycles: int
     tolerance: float
-    seconds: float
-    repeats: int
-    error: float
-    estimate: float | None
-    evaluations: int | None
-    status: Status
-    remark: str
+    seconds: float = math.nan
+    repeats: int = 0
+    error: float = math.nan
+    estimate: float | None = None
+    evaluations: int | None = None
+    status: Status = Status.SKIPPED
+    remark: str = ""
 
     @property
     def honest(self) -> bool:
@@ -186,7 +184,8 @@ def _begin(method: Method, cases: Sequence[Case], cap: float) -> Iterator[Outcom
                 yield from _first_runs(method, run, of_scene, tolerance, cap)
         except UnsuitableError as fault:
             for case in of_scene:
-                yield _not_run(method, case, math.nan, Status.UNSUITABLE, str(fault))
+                found = Measurement(method.name, name, case.cycles, math.nan, remark=str(fault))
+                yield found._replace(status=Status.UNSUITABLE)
 
 
 def _first_runs(
@@ -197,7 +196,8 @@ def _first_runs(
     for case in cases:
         expected = _expected(before, case.cycles) if method.steps else 0.0
         if expected > cap:
-            yield _not_run(method, case, tolerance, Status.SKIPPED, "", expected)
+            found = Measurement(method.name, case.name, case.cycles, tolerance, expected)
+            yield found._replace(remark=f"would take some {expected:.2g} s")
             continue
         job = Job(method, case, tolerance, run)
         job.once()
@@ -216,27 +216,3 @@ def _expected(before: Sequence[Job], cycles: int) -> float:
         growth = math.log(max(ratio, 1.0)) / math.log(last.case.cycles / before[-2].case.cycles)
         growth = min(max(growth, LEAST_GROWTH if growth > 0.1 else 0.0), 1.0)
     return float(last.seconds[0] * (cycles / last.case.cycles) ** growth)
-
-
-def _not_run(
-    method: Method,
-    case: Case,
-    tolerance: float,
-    status: Status,
-    remark: str,
-    seconds: float = math.nan,
-) -> Measurement:
-    said = remark or f"would take some {seconds:.2g} s"
-    return Measurement(
-        method.name,
-        case.name,
-        case.cycles,
-        tolerance,
-        seconds,
-        0,
-        math.nan,
-        None,
-        None,
-        status,
-        said,
-    )

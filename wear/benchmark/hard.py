@@ -24,7 +24,7 @@ from wear.benchmark.methods import (
     solver,
     with_defaults,
 )
-from wear.benchmark.results import Table, cycle_count, magnitude, markdown_table, unique
+from wear.benchmark.results import Table, cycle_count, grouped, magnitude, markdown_table
 
 LEGEND = (
     "Largest true relative error over the numbers of cycles tried. reported: the method "
@@ -92,26 +92,23 @@ def _ran_out(entry: Measurement, case: Case, time_limit: float) -> bool:
     return fewer and entry.seconds > time_limit
 
 
-def worst(found: Sequence[Measurement], scene: str, method: str) -> Measurement | None:
-    """The case of a scene that shows a method from its worst side."""
-    entries = [entry for entry in found if (entry.scene, entry.method) == (scene, method)]
+def worst(entries: Sequence[Measurement]) -> Measurement:
+    """Return the case that shows a method on a scene from its worst side."""
     order = (Status.WRONG, Status.REPORTED, Status.MISSED, Status.STOPPED, Status.MET)
     return min(
-        entries,
-        key=lambda entry: (entry.honest, order.index(entry.status), -abs(entry.error)),
-        default=None,
+        entries, key=lambda entry: (entry.honest, order.index(entry.status), -abs(entry.error))
     )
 
 
 def overview(found: Sequence[Measurement]) -> Table:
     """Scenes against methods."""
-    methods = unique(entry.method for entry in found)
+    methods = grouped(found, "method")
     rows = []
-    for scene in unique(entry.scene for entry in found):
-        entries = [worst(found, scene, method) for method in methods]
-        rows.append((scene, *map(_cell, entries)))
-    tolerances = {entry.method: f"{entry.method}\n{entry.tolerance:g}" for entry in found}
-    return Table("Hard cases", ("scene", *(tolerances[name] for name in methods)), tuple(rows))
+    for scene, entries in grouped(found, "scene").items():
+        tried = {method: worst(some) for method, some in grouped(entries, "method").items()}
+        rows.append((scene, *(_cell(tried.get(method)) for method in methods)))
+    heads = (f"{name}\n{entries[-1].tolerance:g}" for name, entries in methods.items())
+    return Table("Hard cases", ("scene", *heads), tuple(rows))
 
 
 def _cell(entry: Measurement | None) -> str:
@@ -128,10 +125,10 @@ def _cell(entry: Measurement | None) -> str:
 def failures(found: Sequence[Measurement]) -> Table:
     """How methods failed: once a scene and method, at its worst."""
     rows = []
-    for scene in unique(entry.scene for entry in found):
-        for method in unique(entry.method for entry in found):
-            entry = worst(found, scene, method)
-            if entry is not None and (entry.status is not Status.MET or not entry.honest):
+    for scene, entries in grouped(found, "scene").items():
+        for method, some in grouped(entries, "method").items():
+            entry = worst(some)
+            if entry.status is not Status.MET or not entry.honest:
                 rows.append((scene, cycle_count(entry.cycles), method, _how(entry)))
     return Table("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
 

@@ -14,10 +14,13 @@ import time
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
-if TYPE_CHECKING:
-    from wear.scene import Scene
+from wear.faults import AccuracyError, Interrupted, UsageError
+from wear.load import Blocks, HistoryLoad
+from wear.model import bind
+from wear.scene import Scene, load_scene
+from wear.solver import solve
 
 REFERENCE = Path(__file__).parents[1] / "data" / "reference.json"
 CYCLES = (1, 100, 9000, 10**6, 10**8)
@@ -56,8 +59,6 @@ def cases(
     >>> [case.cycles for case in cases("speed", ["section4"], CYCLES)]
     [1, 100, 9000, 1000000, 100000000]
     """
-    from wear.scene import load_scene
-
     made = []
     for name in scenes:
         entry = _reference()[kind][name]
@@ -109,8 +110,6 @@ class UnsuitableError(Exception):
 
 def solver(scene: Scene, method: str, time_limit: float = LONGEST_RUN) -> Run:
     """`wear.solve` by one of its methods."""
-    from wear.faults import AccuracyError, Interrupted, UsageError
-    from wear.solver import solve
 
     def run(cycles: int, tolerance: float) -> Answer:
         complaint, stopped, start = "", False, time.monotonic()
@@ -144,9 +143,6 @@ def with_defaults(scene: Scene, method: str) -> Run:
     tenth of the wear of the first cycles, and steps jump over contact pulses.
     """
     from scipy.integrate import solve_ivp
-
-    from wear.load import Blocks, HistoryLoad
-    from wear.model import bind
 
     load = scene.load
     if isinstance(load, Blocks | HistoryLoad):

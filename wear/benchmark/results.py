@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from wear.benchmark import Measurement, StartUp, Status
 from wear.benchmark.machine import footer
 from wear.figure_data import Method
 
+Row = TypeVar("Row")
 COMMITTED = files("wear").joinpath("data", "speed.json")
 READER = "section4"
 """The scene of the sentences and of the figures."""
@@ -43,19 +44,16 @@ def best(runs: Sequence[Measurement], digits: int) -> tuple[Measurement, ...]:
     return tuple(found.values())
 
 
-def at(runs: Sequence[Measurement], scene: str, cycles: int) -> tuple[Measurement, ...]:
-    """The runs of one case."""
-    return tuple(run for run in runs if (run.scene, run.cycles) == (scene, cycles))
+def _of(runs: Sequence[Measurement], scene: str) -> list[Measurement]:
+    return [run for run in runs if run.scene == scene]
 
 
-def unique(names: Iterable[str]) -> tuple[str, ...]:
-    """Return names without repetition, in order of appearance."""
-    return tuple(dict.fromkeys(names))
-
-
-def cycles_of(runs: Sequence[Measurement]) -> tuple[int, ...]:
-    """The numbers of cycles that were asked for."""
-    return tuple(sorted({run.cycles for run in runs}))
+def grouped(rows: Iterable[Row], by: str) -> dict[Any, list[Row]]:
+    """Return rows by the value of a field, in order of appearance; by rising numbers of cycles."""
+    found: dict[Any, list[Row]] = {}
+    for row in rows:
+        found.setdefault(getattr(row, by), []).append(row)
+    return dict(sorted(found.items())) if by == "cycles" else found
 
 
 def cell(runs: Sequence[Measurement], method: str, digits: int) -> str:
@@ -116,8 +114,8 @@ def _rounded(number: float) -> str:
 def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple[str, ...]:
     """Return a sentence a number of cycles: for so many digits use X, it takes Y."""
     found = []
-    for cycles in cycles_of(runs):
-        ranking = best(at(runs, scene, cycles), digits)
+    for cycles, here in grouped(_of(runs, scene), "cycles").items():
+        ranking = best(here, digits)
         if not ranking:
             found.append(
                 f"{cycle_count(cycles)} cycles, {digits} digits: nothing that was tried gets there."
@@ -148,40 +146,39 @@ def silent_failures(runs: Sequence[Measurement]) -> tuple[Measurement, ...]:
     return tuple(run for run in wrong if run is worst[run.method, run.scene])
 
 
-def figure_cycles(runs: Sequence[Measurement], scene: str) -> tuple[int, ...]:
-    """The numbers of cycles, beyond one, at which enough methods have run to compare them."""
-    ran = {
-        cycles: {run.method for run in at(runs, scene, cycles) if run.repeats}
-        for cycles in cycles_of(runs)
+def comparable(runs: Sequence[Measurement], scene: str) -> dict[int, list[Measurement]]:
+    """Return the runs by number of cycles, beyond one, where enough methods have run to compare
+    them."""
+    return {
+        cycles: here
+        for cycles, here in grouped(_of(runs, scene), "cycles").items()
+        if cycles > 1 and len({run.method for run in here if run.repeats}) >= FEWEST_DRAWN
     }
-    return tuple(cycles for cycles in ran if cycles > 1 and len(ran[cycles]) >= FEWEST_DRAWN)
 
 
 def curves(runs: Sequence[Measurement]) -> list[Method]:
     """Return the runs of one case that took place, by method and rising tolerance; errors of zero
     are shown at the resolution of double precision."""
     shown = [run for run in runs if run.repeats and math.isfinite(run.error)]
-    shown.sort(key=lambda run: run.tolerance)
     return [
         Method(
             name,
-            np.array([max(abs(run.error), LEAST) for run in shown if run.method == name]),
-            np.array([run.seconds for run in shown if run.method == name]),
-            np.array([run.status is not Status.MET for run in shown if run.method == name]),
+            np.array([max(abs(run.error), LEAST) for run in own]),
+            np.array([run.seconds for run in own]),
+            np.array([run.status is not Status.MET for run in own]),
         )
-        for name in unique(run.method for run in runs if run in shown)
+        for name, runs in grouped(shown, "method").items()
+        for own in [sorted(runs, key=lambda run: run.tolerance)]
     ]
 
 
 def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> list[Method]:
     """Return each method's time to so many digits against the number of cycles, with what the next
     number that it was not given time for was expected to take."""
-    here = [run for run in runs if run.scene == scene]
     made = []
-    for name in unique(run.method for run in here):
+    for name, of_method in grouped(_of(runs, scene), "method").items():
         points = []
-        for cycles in cycles_of(here):
-            own = [run for run in at(here, scene, cycles) if run.method == name]
+        for cycles, own in grouped(of_method, "cycles").items():
             waits = [run.seconds for run in own if run.status is Status.SKIPPED]
             if reached := best(own, digits):
                 points.append((cycles, reached[0].seconds, False))
@@ -227,21 +224,21 @@ class Table(NamedTuple):
 
 def speed_table(runs: Sequence[Measurement], scene: str, digits: int) -> Table:
     """Methods against numbers of cycles."""
-    here = [run for run in runs if run.scene == scene]
-    counts = cycles_of(here)
+    here = _of(runs, scene)
+    by_cycles = grouped(here, "cycles")
     rows = [
-        (method, *(cell(at(here, scene, n), method, digits) for n in counts))
-        for method in unique(run.method for run in here)
+        (method, *(cell(some, method, digits) for some in by_cycles.values()))
+        for method in grouped(here, "method")
     ]
-    header = ("method", *(f"N = {cycle_count(n)}" for n in counts))
+    header = ("method", *(f"N = {cycle_count(n)}" for n in by_cycles))
     return Table(f"{scene}, {digits} digits", header, tuple(rows))
 
 
 def start_table(result: Result) -> Table:
     """What happens once: imports in a fresh process, then getting ready for a scene."""
     rows = []
-    for method in unique(start.method for start in result.starts):
-        ready = [start.seconds for start in result.starts if start.method == method]
+    for method, starts in grouped(result.starts, "method").items():
+        ready = [start.seconds for start in starts]
         imports = result.imports.get(method)
         shown = "-" if imports is None else duration(imports)
         rows.append((method, shown, duration(min(ready)), duration(max(ready))))
@@ -261,7 +258,7 @@ def failure_table(runs: Sequence[Measurement]) -> Table:
 
 def tables(result: Result) -> tuple[Table, ...]:
     """All tables, those of the scenes first."""
-    scenes = unique(run.scene for run in result.runs)
+    scenes = grouped(result.runs, "scene")
     made = [speed_table(result.runs, scene, digits) for digits in DIGITS for scene in scenes]
     made += [failure_table(result.runs), start_table(result)]
     return tuple(table for table in made if table.rows)

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from derive import files
 from derive.command_line import declare
+from wear.quantities import MOST_CYCLES
+from wear.words import did_you_mean, shown
 
 if TYPE_CHECKING:
     from wear.fitting.readings import Specimen
@@ -69,8 +71,6 @@ def one_of(choices: Callable[[], Sequence[str]]) -> Callable[[str], str]:
     """Return what reads one of some words, whatever the case of its letters."""
 
     def chosen(text: str) -> str:
-        from wear.checked import did_you_mean
-
         exact = {choice.lower(): choice for choice in choices()}
         if text.lower() in exact:
             return exact[text.lower()]
@@ -129,8 +129,6 @@ def cycles(text: str) -> tuple[int, ...]:
     >>> cycles("1, 10:13,1e8")
     (1, 10, 11, 12, 13, 100000000)
     """
-    from wear.checked import MOST_CYCLES
-
     parts = text.split(",")
     ends = [tuple(map(_number, entry.split(":"))) for entry in parts]
     wrong = [
@@ -199,33 +197,24 @@ def _number(text: str) -> float:
 
 
 def _quoted(text: str) -> str:
-    from wear.checked import shown
-
     return f'"{shown(text)}"'
 
 
-class Faults:
+class Faults(list[str]):
     """The faults of a command line, gathered until `stop_if_any`."""
-
-    def __init__(self, messages: Sequence[str]) -> None:
-        self._messages = list(messages)
-
-    def add(self, message: str) -> None:
-        """Remember one more fault."""
-        self._messages.append(message)
 
     def refuse_implausible(self, notices: Sequence[str]) -> None:
         """Make faults of the notices about magnitudes that are hardly meant."""
         from wear.scene.plausibility import WORD
 
-        self._messages += [notice for notice in notices if notice.startswith(WORD)]
+        self += [notice for notice in notices if notice.startswith(WORD)]
 
     def stop_if_any(self) -> None:
         """Raise a `UsageError` with all of them, a line each."""
         from wear.faults import UsageError
 
-        if self._messages:
-            raise UsageError("\n".join(self._messages))
+        if self:
+            raise UsageError("\n".join(self))
 
 
 def read(options: argparse.Namespace) -> Faults:
@@ -252,7 +241,7 @@ def _scene(name: str, options: argparse.Namespace, faults: Faults) -> Scene | No
     try:
         scene = load_scene(name, options.overrides)
     except SceneError as fault:
-        faults.add(str(fault))
+        faults.append(str(fault))
         return None
     if options.strict:
         faults.refuse_implausible(scene.notices)
@@ -271,6 +260,6 @@ def _readings(file: str, scenes: Sequence[Scene], faults: Faults) -> tuple[Speci
             for each in found:
                 scene.with_(each.changes)
     except WearError as fault:
-        faults.add(f"--data: {fault}")
+        faults.append(f"--data: {fault}")
         return ()
     return found

@@ -48,7 +48,7 @@ def execute(options: argparse.Namespace) -> Answer:
     """Measure, print, write."""
     faults = arguments.read(options)
     if options.hard and options.peers:
-        faults.add("--peers: the hard cases are for the package's own methods and SciPy's")
+        faults.append("--peers: the hard cases are for the package's own methods and SciPy's")
     faults.stop_if_any()
     return _hard(options) if options.hard else _speed(options)
 
@@ -58,11 +58,18 @@ def _speed(options: argparse.Namespace) -> Answer:
     from wear.benchmark.machine import footer
 
     result = _measure(options)
+    document = output.document(result, output.READER)
     if options.output is not None:
-        _write_speed(result, options.output)
+        contents: dict[str, str | bytes] = {
+            "speed.csv": output.csv_text(result.runs),
+            "speed-start.csv": output.csv_text(result.starts),
+            "speed.md": output.markdown(result, output.READER),
+            "speed.json": terminal.json_text(document),
+        }
+        files.write_all(options.output, contents | _figures(result))
     said = (*output.sentences(result.runs, output.READER), "", *output.absences(result))
     lines = (*_tables(output.tables(result)), *said, footer(result.facts))
-    return Answer(output.document(result, output.READER), lambda: "\n".join(lines))
+    return Answer(document, lambda: "\n".join(lines))
 
 
 def _measure(options: argparse.Namespace) -> Result:
@@ -120,30 +127,16 @@ def load_peers(name: str) -> ModuleType:
     return module
 
 
-def _write_speed(result: Result, folder: Path) -> None:
-    from wear.benchmark import results as output
-
-    with files.replacing_in(folder) as draft:
-        files.write_atomically(draft / "speed.csv", output.csv_text(result.runs))
-        files.write_atomically(draft / "speed-start.csv", output.csv_text(result.starts))
-        files.write_atomically(draft / "speed.md", output.markdown(result, output.READER))
-        files.write_atomically(
-            draft / "speed.json", terminal.json_text(output.document(result, output.READER))
-        )
-        for name, content in _figures(result).items():
-            (draft / name).write_bytes(content)
-
-
 def _figures(result: Result) -> dict[str, bytes]:
     """Return the figures by name of the file: time against the number of cycles, and against true
     error for the numbers of cycles worth a figure."""
-    from wear.benchmark.results import DIGITS, READER, at, curves, curves_by_cycles, figure_cycles
+    from wear.benchmark.results import DIGITS, READER, comparable, curves, curves_by_cycles
     from wear.figure_style import encoded
     from wear.figures import speed_against_cycles, speed_against_error
 
     drawn = {
-        f"speed-{cycles}": speed_against_error(curves(at(result.runs, READER, cycles)))
-        for cycles in figure_cycles(result.runs, READER)
+        f"speed-{cycles}": speed_against_error(curves(runs))
+        for cycles, runs in comparable(result.runs, READER).items()
     }
     if by_cycles := curves_by_cycles(result.runs, READER, DIGITS[0]):
         drawn["speed-cycles"] = speed_against_cycles(by_cycles)
@@ -161,9 +154,9 @@ def _hard(options: argparse.Namespace) -> Answer:
     found = hard.hard_cases(chosen, limit, terminal.progress)
     terminal.progress("")
     if options.output is not None:
-        with files.replacing_in(options.output) as draft:
-            files.write_atomically(draft / "hard-cases.csv", csv_text(found))
-            files.write_atomically(draft / "hard-cases.md", hard.markdown(found, footer(facts)))
+        page = hard.markdown(found, footer(facts))
+        contents = {"hard-cases.csv": csv_text(found), "hard-cases.md": page}
+        files.write_all(options.output, contents)
     lines = (*_tables([hard.overview(found), hard.failures(found)]), hard.LEGEND, footer(facts))
     document = {"machine": facts, "cases": [entry._asdict() for entry in found]}
     return Answer(document, lambda: "\n".join(lines))

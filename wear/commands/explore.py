@@ -31,7 +31,7 @@ def execute(options: argparse.Namespace) -> Answer:
     faults = arguments.read(options)
     specimens = options.readings
     if any(each.changes for each in specimens):
-        faults.add(f"--data: {options.data}: the page has one scene; leave its entries out")
+        faults.append(f"--data: {options.data}: the page has one scene; leave its entries out")
     faults.stop_if_any()
     with terminal.busy("solving the scenes that the page checks itself against"):
         text = page(options.scene, specimens)

@@ -61,11 +61,11 @@ def execute(options: argparse.Namespace) -> Answer:
     scenes, inside, output = options.scene, options.inside, options.output
     specimens, last = options.readings, options.cycles or ()
     if len(last) > 1 or last == (0,):
-        faults.add("--cycles: give one number of cycles, from 1 on")
+        faults.append("--cycles: give one number of cycles, from 1 on")
     if len(scenes) > MOST_AT_ONCE:
-        faults.add(f"{len(scenes)} scenes in one figure; name up to {MOST_AT_ONCE}")
+        faults.append(f"{len(scenes)} scenes in one figure; name up to {MOST_AT_ONCE}")
     if len(scenes) > 1 and (inside is not None or any(each.changes for each in specimens)):
-        faults.add("--inside, or readings with entries of the scene, go with one scene")
+        faults.append("--inside, or readings with entries of the scene, go with one scene")
     if inside is not None:
         _check_inside(inside, scenes, faults)
     faults.stop_if_any()
@@ -133,11 +133,11 @@ def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: argume
     from wear.request import obstacle
 
     if len(inside) > MOST_AT_ONCE:
-        faults.add(f"--inside: {len(inside)} cycles in one figure; name up to {MOST_AT_ONCE}")
+        faults.append(f"--inside: {len(inside)} cycles in one figure; name up to {MOST_AT_ONCE}")
     for scene in scenes:
         against = "the load does not repeat" if isinstance(scene.load, Blocks) else obstacle(scene)
         if against is not None:
-            faults.add(f"--inside: {against}; leave --inside out")
+            faults.append(f"--inside: {against}; leave --inside out")
 
 
 def _pressure_inside(scene: Scene, inside: Sequence[int], output: Path) -> Answer:

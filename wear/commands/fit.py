@@ -60,16 +60,16 @@ def execute(options: argparse.Namespace) -> Answer:
     faults = arguments.read(options)
     cycles, wear = options.forecast or (), options.until_wear
     if 0 in cycles:
-        faults.add("--forecast: 0 is the fresh state; give cycles from 1 on")
+        faults.append("--forecast: 0 is the fresh state; give cycles from 1 on")
     if options.posterior is not None and not find_spec("emcee"):
-        faults.add("--posterior needs emcee: pip install 'derive-wear[fit]'")
+        faults.append("--posterior needs emcee: pip install 'derive-wear[fit]'")
     model = None
     if options.scene is not None:
         asked = (options.free, options.free_each, options.error, options.ignore)
         try:
             model = Model.of(options.data, options.scene, *asked)
         except UsageError as fault:
-            faults.add(str(fault))
+            faults.append(str(fault))
     faults.stop_if_any()
     assert model is not None
     with terminal.busy("fitting") as tell:
@@ -146,12 +146,11 @@ def _write(folder: Path, found: Fit, document: dict[str, Any], samples: FloatArr
     drawn = {"data.svg": figures.data_and_band(found), "profiles.svg": figures.profiles(found)}
     if samples is not None:
         drawn["corner.svg"] = figures.corner(found, samples)
-    with files.replacing_in(folder) as made:
-        files.write_atomically(made / "fit.json", terminal.json_text(document))
-        scenes = found.scenes
-        for place, (specimen, scene) in enumerate(zip(found.model.specimens, scenes, strict=True)):
-            safe = "".join(c if c.isalnum() or c in "-_" else "_" for c in specimen.name)
-            name = f"fitted-{safe or place + 1}.toml" if len(scenes) > 1 else "fitted.toml"
-            files.write_atomically(made / name, scene.to_toml())
-        for name, figure in drawn.items():
-            files.write_atomically(made / name, encoded(figure, ".svg"))
+    contents: dict[str, str | bytes] = {"fit.json": terminal.json_text(document)}
+    scenes = found.scenes
+    for place, (specimen, scene) in enumerate(zip(found.model.specimens, scenes, strict=True)):
+        safe = "".join(c if c.isalnum() or c in "-_" else "_" for c in specimen.name)
+        name = f"fitted-{safe or place + 1}.toml" if len(scenes) > 1 else "fitted.toml"
+        contents[name] = scene.to_toml()
+    drawings = {name: encoded(figure, ".svg") for name, figure in drawn.items()}
+    files.write_all(folder, contents | drawings)

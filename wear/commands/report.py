@@ -32,18 +32,13 @@ def execute(options: argparse.Namespace) -> Answer:
     arguments.read(options).stop_if_any()
     folder = options.output or Path(f"{Path(options.scene.name).stem}-report")
     from wear.report.own import report
-    from wear.report.publish import publish
+    from wear.report.publish import published
 
     changes = [part for entry in options.overrides for part in ("--set", entry)]
     data = [] if options.data is None else ["--data", options.data]
     command = shlex.join(["wear", "report", name, *changes, *data])
     with terminal.busy("solving the scene and deriving its equations"):
-        document = report(options.scene, command, options.readings)
-        with files.replacing_in(folder) as draft:
-            published = publish(document, draft)
-            written = sorted(path.name for path in draft.iterdir())
-    return Answer(
-        {"folder": str(folder), "files": written},
-        lambda: f"report: {folder / 'report.html'}",
-        published.said,
-    )
+        contents, typeset = published(report(options.scene, command, options.readings))
+        files.write_all(folder, contents)
+    document = {"folder": str(folder), "files": sorted(contents)}
+    return Answer(document, lambda: f"report: {folder / 'report.html'}", typeset.said)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,8 +25,6 @@ EXAMPLE = """\
   wear reproduce -o elsewhere  into another folder
 """
 
-Progress = Callable[[str], None]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the folder."""
@@ -38,26 +37,39 @@ def execute(options: argparse.Namespace) -> Answer:
     folder = options.output
     start = time.monotonic()
     with terminal.busy("deriving the equations") as progress:
-        verification, ledger, published = _reproduce(folder, progress)
-    summary = _summary(folder, verification, ledger, published, time.monotonic() - start)
-    failures = [f"({i}) {check.kind} fails: {check.detail}" for i, check in verification.failures]
+        contents, verification, ledger, typeset = _reproduce(folder, progress)
+        files.write_all(folder, contents)
+    failures = [f"({i}) {check.kind}: {check.detail}" for i, check in verification.failures]
+    summary = {
+        "folder": str(folder),
+        "files": sorted(contents),
+        "equations": verification.equations,
+        "steps": verification.steps,
+        "checks": verification.checks,
+        "failures": failures,
+        "verdicts": dict(Counter(str(entry.finding.verdict) for entry in ledger)),
+        "notice": typeset.notice,
+        "seconds": time.monotonic() - start,
+    }
     status = terminal.DONE if verification.passed else terminal.FAILED
-    notices = (*published.said, *failures)
+    notices = (*typeset.said, *(failure.replace(":", " fails:", 1) for failure in failures))
     return Answer(summary, lambda: "\n".join(_lines(summary)), notices, status)
 
 
-def _reproduce(folder: Path, progress: Progress) -> tuple[Verification, tuple[Entry, ...], Typeset]:
-    """Make everything, then put it in place."""
+def _reproduce(
+    folder: Path, progress: Callable[[str], None]
+) -> tuple[dict[str, str | bytes], Verification, tuple[Entry, ...], Typeset]:
+    """Make everything: the files by name, the checks, the ledger, and what came of the PDF."""
     from derive.catalogue import equations
     from derive.note.claim_checks import SYMBOLIC
     from derive.verification import checked_at, verified
     from wear.report.claims import SIMULATED, as_json, decided, ledger
-    from wear.report.manifest import NAME, manifest
+    from wear.report.manifest import manifest
     from wear.report.paper import drawings, paper
-    from wear.report.publish import publish
+    from wear.report.publish import published
     from wear.report.runs import run
 
-    with files.replacing_in(folder) as draft, processes.assistant() as ask:
+    with processes.assistant() as ask:
         begun = {claim: ask(decided, claim) for claim in SYMBOLIC}
         catalogue = equations()
         checked = [ask(checked_at, place) for place in range(len(catalogue))]
@@ -70,33 +82,11 @@ def _reproduce(folder: Path, progress: Progress) -> tuple[Verification, tuple[En
         known = {entry.claim.id: entry for entry in solved}
         judged = ledger(decide=lambda claim: known.get(claim) or begun[claim]())
         progress("writing")
-        published = publish(paper(catalogue, verification, runs, judged, figures), draft)
-        files.write_atomically(draft / "claims.json", terminal.json_text(as_json(judged)))
+        contents, typeset = published(paper(catalogue, verification, runs, judged, figures))
+        contents["claims.json"] = terminal.json_text(as_json(judged))
         command = f"wear reproduce -o {folder.name}"
-        files.write_atomically(draft / NAME, terminal.json_text(manifest(draft, runs, command)))
-    return verification, judged, published
-
-
-def _summary(
-    folder: Path,
-    verification: Verification,
-    ledger: tuple[Entry, ...],
-    published: Typeset,
-    seconds: float,
-) -> dict[str, Any]:
-    from collections import Counter
-
-    return {
-        "folder": str(folder),
-        "files": sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*")),
-        "equations": verification.equations,
-        "steps": verification.steps,
-        "checks": verification.checks,
-        "failures": [f"({i}) {check.kind}: {check.detail}" for i, check in verification.failures],
-        "verdicts": dict(Counter(str(entry.finding.verdict) for entry in ledger)),
-        "notice": published.notice,
-        "seconds": seconds,
-    }
+        contents["manifest.json"] = terminal.json_text(manifest(contents, runs, command))
+    return contents, verification, judged, typeset
 
 
 def _lines(summary: dict[str, Any]) -> list[str]:

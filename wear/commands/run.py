@@ -57,7 +57,7 @@ def execute(options: argparse.Namespace) -> Answer:
 
     faults = arguments.read(options)
     if options.until_wear and options.scene and (against := obstacle(options.scene)):
-        faults.add(f"--until-wear: cycles cannot be counted: {against}")
+        faults.append(f"--until-wear: cycles cannot be counted: {against}")
     if options.phases is not None:
         run_inside.check(options, faults)
     faults.stop_if_any()
@@ -116,6 +116,6 @@ def _cycles_until(found: Life) -> dict[str, Any]:
 
 
 def _methods() -> Sequence[str]:
-    from wear.solver import METHODS
+    from wear.request import METHODS
 
     return METHODS

@@ -24,21 +24,23 @@ def check(options: argparse.Namespace, faults: arguments.Faults) -> None:
     from wear.request import obstacle
 
     if not options.phases.is_integer():
-        faults.add(f"--phases: {options.phases:g} is no whole number")
+        faults.append(f"--phases: {options.phases:g} is no whole number")
     if options.output is None or options.output.suffix not in SUFFIXES:
-        faults.add("--phases: name a .nc or .csv file with --output; there are too many states")
+        faults.append("--phases: name a .nc or .csv file with --output; there are too many states")
     if options.method not in ("auto", "abel"):
-        faults.add("--phases: only the cycle count knows the states inside; leave --method out")
+        faults.append("--phases: only the cycle count knows the states inside; leave --method out")
     for option in ("until-wear", "time-limit"):
         if getattr(options, option.replace("-", "_")) is not None:
-            faults.add(f"--phases: does not go with --{option}; leave one of them out")
+            faults.append(f"--phases: does not go with --{option}; leave one of them out")
     if options.scene is None:
         return
     against, most = obstacle(options.scene), most_cycles(options.scene.load)
     if against is not None:
-        faults.add(f"--phases: cycles cannot be counted: {against}; leave --phases out")
+        faults.append(f"--phases: cycles cannot be counted: {against}; leave --phases out")
     elif max(options.cycles, default=0) >= most:
-        faults.add(f"--cycles: the last cycle with phases begins after {most - 1}; the load ends")
+        faults.append(
+            f"--cycles: the last cycle with phases begins after {most - 1}; the load ends"
+        )
 
 
 def execute(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, output: Path) -> Answer:

@@ -49,7 +49,7 @@ def execute(options: argparse.Namespace) -> Answer:
 
         life = cycles_until(scene, depth, rtol)
         if life.reached[0].value != "counted":
-            faults.add(f"--until-wear: {depth:g} mm: {life.reached[0].value}, no derivative")
+            faults.append(f"--until-wear: {depth:g} mm: {life.reached[0].value}, no derivative")
             faults.stop_if_any()
         cycles = (*cycles, int(life.cycles[0]))
     with terminal.busy("counting cycles") as tell:
@@ -83,8 +83,9 @@ def _written(found: Sensitivities, suffix: str) -> bytes:
     if suffix.lower() in arguments.PICTURES:
         from wear.figure_style import encoded
         from wear.figures import tornado
+        from wear.quantities import in_short
 
-        labels = [f"$N$ = {n:.6g}".replace("e+0", "e").replace("e+", "e") for n in found.cycles]
+        labels = [f"$N$ = {in_short(n, 6)}" for n in found.cycles]
         return encoded(tornado(found.keys, found.elasticity, labels), suffix)
     rows = ["key,value,cycles,bearing_wear_mm,derivative,elasticity,error_estimate"]
     for key, value, *each in zip(

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.checked import MOST_CYCLES, is_path, shown
 from wear.faults import MOST_FAULTS_SHOWN, UsageError
 from wear.load.rows import read_bytes
+from wear.quantities import MOST_CYCLES
+from wear.words import is_path, shown
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]

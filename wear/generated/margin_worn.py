@@ -71,29 +71,29 @@ def margin_slope(u: Array, c: Constants) -> Array:
 
 
 def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
-    """Sum of the absolute terms of the margin, in mm: it is known to as many roundoffs."""
+    """Sum of the absolute terms of the margin, in mm: known to as many roundoffs."""
     return np.abs(U_a) + np.abs(c.fresh_margin) + np.abs(c.margin_gain * u)
 
 
 def limited_pressure(p: Array, margin: Array, compliance: Array, c: Constants) -> Array:
-    """Contact pressure in MPa: the root of the residual, or what keeps h at 3 sigma."""
+    """Contact pressure in MPa: root of the residual, or what keeps h at 3 sigma."""
     return np.minimum(p, np.maximum(margin / compliance, 0))
 
 
 def limited_slope(
     margin_slope: Array, compliance: Array, wear_per_pressure: Array, c: Constants
 ) -> Array:
-    """Derivative of the wear rate with respect to u_c while h stays at 3 sigma, in 1/s."""
+    """Derivative of the wear rate with respect to u_c with h at 3 sigma, in 1/s."""
     return margin_slope * wear_per_pressure / compliance
 
 
 def margin_gradient(u: Array, U_a: Array, c: Constants) -> Constants:
-    """Derivatives of the margin with respect to each of the constants; to U_a it is 1."""
+    """Derivatives of the margin with respect to the constants; to U_a it is 1."""
     return Constants(0 * u, 0 * u, 0 * u, 1 + 0 * u, 0 * u, u)
 
 
 def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
-    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    """Derivatives with respect to the parameters, from those to the constants."""
     kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
     total_most_of_gain = by.margin_gain + by.most_of_gain
     total_most_of_margin = by.fresh_margin + by.most_of_margin

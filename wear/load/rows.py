@@ -18,8 +18,6 @@ import numpy as np
 from pydantic import AfterValidator, Field, ValidationError
 
 from wear.checked import (
-    LARGEST,
-    SMALLEST,
     Finding,
     Flag,
     Line,
@@ -28,11 +26,12 @@ from wear.checked import (
     SceneTable,
     Text,
     all_wrong,
-    shown,
     table,
     wrong,
 )
 from wear.load.phase import FloatArray
+from wear.quantities import LARGEST, SMALLEST
+from wear.words import shown
 
 MOST_BYTES = 64 * 1024 * 1024
 MOST_ROWS = 1_000_000

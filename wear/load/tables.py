@@ -8,9 +8,10 @@ from typing import Any
 from pydantic import ValidationInfo
 from pydantic_core import PydanticCustomError
 
-from wear.checked import TABLES, all_wrong, choice, did_you_mean, shown
+from wear.checked import TABLES, all_wrong, choice
 from wear.load.lines import ForceTable, HistoryLoad, Table, load_of
 from wear.load.rows import ForceFile, RowsFile
+from wear.words import did_you_mean, shown
 
 PERIODIC = ("sine", "constant", "harmonics", "table")
 KINDS = (*PERIODIC, "force", "history", "blocks")

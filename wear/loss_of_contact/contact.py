@@ -26,6 +26,7 @@ SHORTEST = 1e-12  # step, of a stretch
 MOST_PARTS = 1000  # steps, then a stretch is not sound
 CAUTION, SHRINK, GROW = 0.9, 0.25, 4.0  # from one step to the next
 LEAST = 0.1  # of the length of contact, that may be left from one iteration to the next
+NEARLY_AS_FAST = 1.5  # of the 2 falls by as much that lie between the coefficients m and 2 m
 SETTLED = 1e-2  # of the tolerance: what Newton's method may leave
 STALLED = 1e-7  # what rounding may change from one iteration to the next, at the very most
 BLUR = 4 * ROUNDOFF  # of the margin's terms and of the phase: what the end of contact is known to
@@ -126,11 +127,13 @@ class ContactPart(NamedTuple):
 
 
 class ContactResult(NamedTuple):
-    """What contact adds to each wear (k,), mm, over its `length` (k,); whether that is `sound`
-    (k,); the number of right-hand sides evaluated; its `parts` in order; and which wears, in
-    `slid`, have ended by sliding along the edge."""
+    """What contact adds to each wear (k,), mm, and what the nodes have `missed` of that, by
+    estimate, over its `length` (k,); whether that is `sound` (k,); the number of right-hand sides
+    evaluated; its `parts` in order; and which wears, in `slid`, have ended by sliding along the
+    edge."""
 
     added: FloatArray
+    missed: FloatArray
     length: FloatArray
     sound: BoolArray
     evaluations: int
@@ -142,12 +145,13 @@ class ContactResult(NamedTuple):
         nothing."""
         if len(rows) == number:
             return self
-        added, length = np.zeros((2, number))
-        added[rows], length[rows] = self.added, self.length
+        added, missed, length = np.zeros((3, number))
+        added[rows], missed[rows], length[rows] = self.added, self.missed, self.length
         sound = np.full(number, True)
         sound[rows] = self.sound
         parts = tuple(part._replace(rows=rows[part.rows]) for part in self.parts)
-        return ContactResult(added, length, sound, self.evaluations, parts, rows[self.slid])
+        slid = rows[self.slid]
+        return ContactResult(added, missed, length, sound, self.evaluations, parts, slid)
 
 
 def wear_in_contact(
@@ -164,7 +168,7 @@ def wear_in_contact(
     Each stretch is taken in steps, as long as the rate on them is resolved to `tolerance` of what
     the cycle adds; all wears take a step at once, each its own.
     """
-    added, length, step = np.zeros(len(u)), np.zeros(len(u)), over.whole.copy()
+    (added, lost, length), step = np.zeros((3, len(u))), over.whole.copy()
     going, sound = np.full((2, len(u)), True)
     evaluations, parts = 0, list[ContactPart]()
     rows = np.arange(len(u))
@@ -197,16 +201,18 @@ def wear_in_contact(
             )
         )
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
+        by_now = np.maximum(earlier + part.added, 0.0)
+        lost[some] += (missed * tolerance * by_now + part.left * np.abs(part.added))[fine]
         length[some] += part.length[fine]
         going[some] = (steps[fine] > 1.0) & ~ended
         rows = np.flatnonzero(going)
-    return ContactResult(added, length, sound, evaluations, tuple(parts))
+    return ContactResult(added, lost, length, sound, evaluations, tuple(parts))
 
 
 class _Part(NamedTuple):
     """As `ContactResult`, with what is added `inside` (m, k) and the rate (m, k) in mm per cycle at
-    the nodes, what is `noise` of it (k,), and how often wear alone would turn over in the part: its
-    `stiffness` (k,)."""
+    the nodes, what is `noise` of it (k,), how often wear alone would turn over in the part: its
+    `stiffness` (k,); and what the next iteration would change, relatively: `left` (k,)."""
 
     added: FloatArray
     length: FloatArray
@@ -214,6 +220,7 @@ class _Part(NamedTuple):
     rate: FloatArray
     noise: FloatArray
     stiffness: FloatArray
+    left: FloatArray
     sound: BoolArray
     evaluations: int
 
@@ -223,13 +230,13 @@ def _missed(rule: Gauss, part: _Part, before: FloatArray) -> FloatArray:
     and `before` (k,).
 
     Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
-    predicts. Where the wear follows the load within less than the distance of two nodes, it leaves
-    those from m on, over that time.
+    predicts, if it goes on nearly as fast. Where the wear follows the load within less than the
+    distance of two nodes, it leaves those from m on, over that time.
     """
     series = np.abs(rule.coefficients @ part.rate)
     half = len(series) // 2
     middle, tail = (np.max(series[k - 3 : k], axis=0) for k in (half, 2 * half))
-    gain = np.minimum(tail / (middle + TINY), 1.0) ** 2
+    gain = np.minimum(tail / (middle + TINY), 1.0) ** NEARLY_AS_FAST
     follows = part.stiffness > half
     gain[follows] = np.maximum(gain, 1.0 / part.stiffness)[follows]
     left = tail * gain * part.length
@@ -247,7 +254,7 @@ def _part(contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: 
     length = np.where(contact.direction == 0.0, over.whole, over.expected)
     ends, nodes = np.any(contact.direction != 0.0), rule.nodes[:, None]
     inside = np.zeros((len(nodes), len(u)))
-    last, evaluations = np.ones(len(u)), 0
+    (last, left), evaluations = np.ones((2, len(u))), 0
     done, lost = np.full((2, len(u)), False)
     steepness = contact.steepness(u, over.begin)
     U_a = contact.cycles.load(over.begin + length * nodes)
@@ -274,13 +281,15 @@ def _part(contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: 
             added, length = added + rate[-1] * change, length + change
             allowed += np.where(length < over.whole, uncertainty / length, 0.0)
         lost |= ~(apart < DIVERGED) | ((apart > last) & ~done & (iteration > PATIENCE))
-        done |= _has_settled(apart, last, settled, allowed)
+        # A change that was large predicts nothing; one that is small and grows is rounding.
+        left = np.where(done, left, apart * np.minimum(1.0, apart / np.minimum(last, 1.0)))
+        done |= (left <= settled) | (apart <= allowed) | ((last < STALLED) & (apart >= last))
         if np.all(done | lost):
             break
         last = apart
         if ends:
             U_a = contact.cycles.load(over.begin + length * nodes)
-    return _Part(added, length, inside, rate, noise, stiffness, done, evaluations)
+    return _Part(added, length, inside, rate, noise, stiffness, left, done, evaluations)
 
 
 def _newton(rule: Gauss, slope: FloatArray, missing: FloatArray) -> FloatArray:
@@ -297,13 +306,3 @@ def _newton(rule: Gauss, slope: FloatArray, missing: FloatArray) -> FloatArray:
         matrix = np.eye(len(rule.nodes)) - rule.integrate * slope.T[stiff][:, None, :]
         x[:, stiff] = np.linalg.solve(matrix, missing.T[stiff][..., None])[..., 0].T
     return np.asarray(x)
-
-
-def _has_settled(apart: FloatArray, last: FloatArray, least: float, noise: FloatArray) -> BoolArray:
-    """Return whether an iteration that has changed by `apart`, after `last`, has come to its end:
-    the next change would be the `least` that counts, or this one is `noise`."""
-    # A change that was large predicts nothing; one that is small and grows is rounding.
-    predicted = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
-    stalled = (last < STALLED) & (apart >= last)
-    settled: BoolArray = (predicted <= least) | (apart <= noise) | stalled
-    return settled

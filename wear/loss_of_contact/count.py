@@ -281,7 +281,13 @@ def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> As
         inherited = after[0] * (relative[0] + inherited / (after[0] + TINY))
         begins += float(ran[0])
         drift += float(part.reach[0]) if isinstance(part, Unresolved) else 0.0
-    end_of_wear = None
+    end_of_wear: End | None = None
+    limit = problem.limit_wear
+    if not way.arrested and begins < cycles and limit is not None:
+        # The count has ended before, but no wear is beyond the limit.
+        left = max(limit.wear - way.wear, 0.0) + limit.uncertainty
+        short = Unresolved(*(one + x for x in (way.wear, limit.wear, cycles - begins, left)))
+        segments.append(Segment(_FIRST, short, one + begins, inherited, one + drift))
     if way.arrested and begins <= cycles:
         end_of_wear = _end(problem, segments, way.fades)
         rest = end_of_wear and _rest(problem, segments, end_of_wear)

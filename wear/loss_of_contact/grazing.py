@@ -16,6 +16,8 @@ from wear.numerics.tolerances import (
     TINY,
 )
 
+TINY_WEARS = 16  # samples of them: roots are found to roundoff of the larger sample
+
 
 class GrazingWear(NamedTuple):
     """A `wear` (mm) at which contact grazes, when so many pieces of the cycle lie `before`."""
@@ -30,7 +32,8 @@ def grazing_wears(model: Model, load: Load, edge: Edge, shift: float) -> list[Gr
 
     Where the margin is hardly more than its own rounding, the map does not feel the kink.
     """
-    wear = shift * np.expm1(np.linspace(0.0, 40.0, 400))
+    far = np.expm1(np.linspace(0.0, 40.0, 400))
+    wear = shift * np.insert(far, 1, np.geomspace(ROUNDOFF, 0.1 * far[1], TINY_WEARS))
     resolved = margin_roundoff(model, load.maximum, wear)
     heights = edge.grazing[:, None]
     margin = model.margin(wear, heights)

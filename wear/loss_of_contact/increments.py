@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.requests import COARSE, FINE, Asking, Request
+from wear.loss_of_contact.requests import COARSE, Asking, Request
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.abel import Frame
@@ -67,7 +67,8 @@ def frame_of(coordinate: Coordinate, starts: FloatArray, widths: FloatArray) -> 
 
 class Increments(NamedTuple):
     """ln(D/level) on a `frame` of panels of z: Chebyshev `series` (p, m) less a `level` (p,), mm;
-    `misfit` (p, 6) is the relative difference to a finer map at the CHECKS."""
+    `misfit` (p, 6) is the relative difference to cycles from the CHECKS, and what these have
+    missed."""
 
     coordinate: Coordinate
     frame: Frame
@@ -199,19 +200,18 @@ def fitted(
             np.array(column) for column in zip(*(task[1:] for task in todo), strict=True)
         )
         shift = np.array([task.span.coordinate.shift for task in todo])
-        widths = np.log((ends + shift) / (starts + shift))
-        run = yield Request(COARSE, _wear(todo, widths, nodes).ravel())
-        checks = _wear(todo, widths, CHECKS)
-        judged = yield Request(FINE, checks.ravel())
-        increment = run.increment.reshape(len(todo), number)
-        cost = cost.plus(increment.size + checks.size, run.evaluations + judged.evaluations)
+        widths = np.log1p((ends - starts) / (starts + shift))
+        wear = _wear(todo, widths, np.append(nodes, CHECKS))
+        run = yield Request(COARSE, wear.ravel())
+        increment, checks = np.hsplit(run.increment.reshape(wear.shape), [number])
+        cost = cost.plus(wear.size, run.evaluations)
         level = increment[:, number // 2]
         series = np.log(increment / level[:, None]) @ analysis
-        finer = judged.increment.reshape(checks.shape)
-        misfit = np.abs(level[:, None] * np.exp(series @ basis) / finer - 1.0)
+        misfit = np.abs(level[:, None] * np.exp(series @ basis) / checks - 1.0)
+        misfit += (run.missed / run.increment).reshape(wear.shape)[:, number:]
         again: list[_Task] = []
         for i, task in enumerate(todo):
-            off = float(np.max(misfit[i] / _allowed(task.span, checks[i], tolerance)))
+            off = float(np.max(misfit[i] / _allowed(task.span, wear[i, number:], tolerance)))
             if not off <= 1.0 and rounds < MOST_ROUNDS - 1:
                 again += task.pieces(2 if off < FAR_OFF else 4)
             elif off <= USABLE:

@@ -131,7 +131,7 @@ def solved(
     done: list[tuple[float, float, FloatArray, float]] = []
     poor = False
     for rounds in range(MOST_CUTS):
-        across = np.log((ends + shift) / (starts + shift))
+        across = np.log1p((ends - starts) / (starts + shift))
         frame = frame_of(coordinate, starts, across)
         nodes = frame.states(chebyshev_nodes(m))
         steps = coordinate.step(nodes, series.at(nodes))

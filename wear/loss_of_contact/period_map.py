@@ -45,10 +45,11 @@ AT_ONCE = 12_000  # numbers of an array that stays in the processor's cache, wit
 
 
 class Advanced(NamedTuple):
-    """The `increment` (k,) of a cycle from each wear, mm; whether it is sound, `converged` (k,);
-    and the number of right-hand sides evaluated."""
+    """The `increment` (k,) of a cycle from each wear, mm, and what it has `missed`, by estimate;
+    whether it is sound, `converged` (k,); and the number of right-hand sides evaluated."""
 
     increment: FloatArray
+    missed: FloatArray
     converged: BoolArray
     evaluations: int
 
@@ -68,18 +69,18 @@ class SwitchedPeriodMap(NamedTuple):
 
     def advance(self, wear: FloatArray, scene: IntArray) -> Advanced:
         """Return what a cycle adds to each wear (k,), mm, of the scenes (k,)."""
-        increment, sound = np.empty(len(wear)), np.empty(len(wear), dtype=bool)
+        increment, missed = np.zeros((2, len(wear)))
+        sound = np.full(len(wear), True)
         evaluations = 0
         few = AT_ONCE // len(self.rule.nodes)
         for at in range(0, len(wear), few):
             some = slice(at, at + few)
-            increment[some] = 0.0
-            sound[some] = True
             for _, run in self.pieces_from(wear[some], scene[some]):
                 increment[some] += run.added
+                missed[some] += run.missed
                 sound[some] &= run.sound
                 evaluations += run.evaluations
-        return Advanced(increment, sound, evaluations)
+        return Advanced(increment, missed, sound, evaluations)
 
     def pieces_from(
         self, wear: FloatArray, scene: IntArray
@@ -114,7 +115,7 @@ class SwitchedPeriodMap(NamedTuple):
         which = piece.top - needed > uncertainty
         if not which.any():
             none = np.zeros(len(wear))
-            return ContactResult(none, none, np.full(len(wear), True), 0)
+            return ContactResult(none, none, none, np.full(len(wear), True), 0)
         piece, rows = piece.take(which), np.flatnonzero(which)
         some = _Progress(
             cycles.take(which).on(piece), piece, wear[rows], before[rows], self.rule, self.tolerance
@@ -201,13 +202,15 @@ class _Progress:
     tolerance: float
     at: FloatArray = field(init=False)
     added: FloatArray = field(init=False)
+    missed: FloatArray = field(init=False)
     sound: BoolArray = field(init=False)
     over: BoolArray = field(init=False)
     evaluations: int = 0
     parts: tuple[ContactPart, ...] = ()
 
     def __post_init__(self) -> None:
-        self.at, self.added = self.piece.begin.copy(), np.zeros(len(self.u))
+        self.at = self.piece.begin.copy()
+        self.added, self.missed = np.zeros((2, len(self.u)))
         self.sound, self.over = np.full(len(self.u), True), np.full(len(self.u), False)
 
     def rigid(self, needed: FloatArray, uncertainty: FloatArray) -> ContactResult:
@@ -225,6 +228,7 @@ class _Progress:
         if len(slid):
             own, u = cycles.take(slid), self.u[slid]
             self.added[slid] = wear_at(own.model, top[slid], u, 0.0, own.turning_wear) - u
+            self.missed[slid] = 0.0
         self.sound &= rising | ~self.over
         return self.result()._replace(slid=slid)
 
@@ -251,7 +255,8 @@ class _Progress:
     def result(self) -> ContactResult:
         """Return what there is at the end of the pieces."""
         length = self.piece.end - self.piece.begin
-        return ContactResult(self.added, length, self.sound, self.evaluations, self.parts)
+        sound, parts = self.sound, self.parts
+        return ContactResult(self.added, self.missed, length, sound, self.evaluations, parts)
 
     def go(
         self,
@@ -272,6 +277,7 @@ class _Progress:
             start = self.u + self.added
             self.at = self.at + run.length
             self.added = self.added + run.added
+            self.missed = self.missed + run.missed
             self.sound &= run.sound
             U_a = self.cycles.load(self.at) - self.cycles.held
             self.over |= who & self.cycles.is_over(start, start + run.added, U_a)

@@ -70,10 +70,13 @@ def _together(
         parts = np.split(added, np.cumsum(lengths * pieces[scenes])[:-1])
         sound = np.array([True])
         return [
-            Advanced(part.reshape(length, pieces[scene]), sound, 0)
+            Advanced(part.reshape(length, pieces[scene]), part, sound, 0)
             for part, length, scene in zip(parts, lengths, scenes, strict=True)
         ]
     run = maps[kind].advance(np.concatenate(wear), which)
     share = run.evaluations / max(len(which), 1)
-    each = zip(np.split(run.increment, ends), np.split(run.converged, ends), strict=True)
-    return [Advanced(added, sound, round(share * len(added))) for added, sound in each]
+    arrays = (run.increment, run.missed, run.converged)
+    each = zip(*(np.split(array, ends) for array in arrays), strict=True)
+    return [
+        Advanced(added, missed, sound, round(share * len(added))) for added, missed, sound in each
+    ]

@@ -59,11 +59,12 @@ def _looks(series: Increments, begin: float, end: float) -> tuple[FloatArray, Fl
     which of them the increments are small."""
     coordinate = series.coordinate
     shift = coordinate.shift
-    width = np.log([(end + shift) / (begin + shift)])
+    width = np.log1p([(end - begin) / (begin + shift)])
     whole = frame_of(coordinate, np.array([begin]), width)
-    looks = whole.states(np.linspace(-1.0, 1.0, LOOKS))[0]
+    t = np.linspace(-1.0, 1.0, LOOKS)
+    looks = whole.states(t)[0]
     lasts = (looks + shift) / coordinate.step(looks, series.at(looks))
-    gains = (lasts[1:] + lasts[:-1]) / 2 * np.diff(np.log(looks + shift))
+    gains = (lasts[1:] + lasts[:-1]) / 2 * np.diff(whole.y_at(t)[0])
     return looks, gains, np.flatnonzero(lasts >= CALM)
 
 

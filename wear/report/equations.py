@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from derive import equations as derived
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import listed
 from derive.typeset.formula import width
 from derive.typeset.macros import macro_name
 from wear.report.document import Equation
 from wear.report.markup import markup
-
-if TYPE_CHECKING:
-    from derive import equations as derived
 
 #: Width in em up to which a hypothesis is shown as a formula.
 _SHORT = 12.0

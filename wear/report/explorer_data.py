@@ -15,13 +15,14 @@ from typing import Any
 import numpy as np
 
 from wear import own_laws
-from wear.faults import UsageError
+from wear.faults import AccuracyError, UsageError
 from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.load.tables import as_table
 from wear.model import bind
 from wear.parameters import AREA
 from wear.resampling import resampled
 from wear.scene import Scene, load_scene
+from wear.solver import solve
 
 CYCLES = (1, 10, 100, 1000, 10000)
 MICROMETRES = 1e3  # in a mm
@@ -109,8 +110,6 @@ def _load_data(load: Load) -> dict[str, Any]:
 
 def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
     """Return wear after cycles, and wear rates along the way, as Python computes them."""
-    from wear.solver import solve
-
     history = solve(scene, cycles, rtol=1e-10)
     model = bind(scene)
     phases = np.linspace(0.0, 1.0, 7)
@@ -132,8 +131,6 @@ def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
 
 def checked(scenes: Iterable[Scene]) -> list[dict[str, Any]]:
     """Return the check data of the scenes whose wear Python finds to the last digits wanted."""
-    from wear.faults import AccuracyError
-
     found = []
     for scene in scenes:
         try:

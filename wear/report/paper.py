@@ -11,19 +11,22 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import sympy as sp
 
+from derive.equations import Equation
 from derive.kernel import listed
 from derive.reasons import table
-from derive.results.regime_map import REGIMES
+from derive.results.regime_map import OPEN, REGIMES
 from derive.results.validity import RESOLUTIONS
 from derive.symbols import QUANTITIES
 from derive.typeset.derivation import Derivations
 from derive.typeset.display import inline
 from derive.typeset.nomenclature import occurring, unit
 from derive.typeset.present import presentable
+from derive.verification import Verification
 from wear.benchmark.machine import footer
 from wear.benchmark.methods import cases
 from wear.benchmark.results import (
@@ -37,20 +40,13 @@ from wear.benchmark.results import (
 from wear.figures import speed_against_cycles
 from wear.generated import asymptotics
 from wear.report import drawing, figures_of_note, note
+from wear.report.claims import Entry
 from wear.report.document import Document, Figure, drawn
 from wear.report.document import Equation as Shown
 from wear.report.equations import capital, shown
 from wear.report.manifest import versions
-from wear.report.runs import STATIC_CYCLES
+from wear.report.runs import STATIC_CYCLES, Runs
 from wear.report.text import parsed
-
-if TYPE_CHECKING:
-    import sympy as sp
-
-    from derive.equations import Equation
-    from derive.verification import Verification
-    from wear.report.claims import Entry
-    from wear.report.runs import Runs
 
 ROUNDOFF = sys.float_info.epsilon
 """The relative resolution of a double: a smaller error cannot be seen."""
@@ -172,10 +168,6 @@ def _regimes() -> Iterator[tuple[str, str, str, str]]:
 
 def _hypothesis(relation: sp.Basic) -> str:
     """Return a hypothesis of the map, with the gap at the vanishing roughness by its name."""
-    import sympy as sp
-
-    from derive.results.regime_map import OPEN
-
     gap = sp.Symbol("h_star", real=True)  # of either sign here
     return inline(presentable(relation.xreplace({OPEN.relation.lhs: gap})))
 

@@ -11,23 +11,17 @@ from wear.report.document import Document
 from wear.report.typeset import Typeset, typeset
 
 
-def publish(document: Document, folder: Path) -> Typeset:
-    """Write ``report.html``, ``report.tex``, ``equations.tex``, every figure as SVG and PDF, and
-    ``report.pdf`` where a TeX engine is found, into a directory that exists; return what came of
-    the PDF.
-
-    Everything is made before anything is written; each file is there whole or not at all.
-    """
+def published(document: Document) -> tuple[dict[str, str | bytes], Typeset]:
+    """Return the files of a document by name, and what came of the PDF: ``report.html``,
+    ``report.tex``, ``equations.tex``, every figure as SVG and PDF, and ``report.pdf`` where a TeX
+    engine is found."""
     sources = tex.report(document)
     drawings = {f"{label[4:]}.svg": figure.svg for label, figure in document.figures.items()}
     contents = {"report.html": html.page(document), **sources, **drawings}
     with TemporaryDirectory() as name:  # TeX leaves much behind
-        draft = Path(name)
         for file, content in sources.items():
-            write_atomically(draft / file, content)
-        outcome = typeset(draft / "report.tex")
+            write_atomically(Path(name, file), content)
+        outcome = typeset(Path(name, "report.tex"))
     if outcome.pdf is not None:
         contents["report.pdf"] = outcome.pdf
-    for file, content in contents.items():
-        write_atomically(folder / file, content)
-    return outcome
+    return contents, outcome

@@ -32,10 +32,7 @@ from wear.checked import (
     Text,
     all_wrong,
     choice,
-    did_you_mean,
-    is_path,
     problems,
-    shown,
     table,
     wrong,
 )
@@ -44,6 +41,7 @@ from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
 from wear.load.rows import read_bytes
 from wear.load.tables import as_table, load_from
 from wear.scene.text import MOST_BYTES, Source, read_tables, set_entry
+from wear.words import did_you_mean, is_path, shown
 
 SCENES = Path(__file__).parents[1].joinpath("scenes")
 TABLE_NAMES = {"bearing", "pin", "contact", "support", "motion", "load"}

@@ -12,8 +12,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from wear.checked import TABLES, Path, place_of, shown
+from wear.checked import TABLES, Path, place_of
 from wear.faults import Fault, SceneError
+from wear.words import shown
 
 MOST_BYTES = 256 * 1024
 LONGEST_LINE = 4096  # tomllib's time grows with the square of a dotted key's length

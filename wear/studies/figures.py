@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from wear.faults import UsageError
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, canvas, stroke, styled
-from wear.quantities import label_of
+from wear.quantities import in_short, label_of
 from wear.studies.vary import FloatArray
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def lines(results: xarray.Dataset, key: str) -> Figure:
             look = stroke(place)
             wear = results["bearing_wear_mm"].isel(cycle=place).values * _MICROMETRES_PER_MM
             axes.plot(
-                results[key].values, wear, color=look.colour, label=f"{_number(cycles)} cycles"
+                results[key].values, wear, color=look.colour, label=f"{in_short(cycles)} cycles"
             )
         _scale(axes, "x", results[key].values)
         _scale(axes, "y", results["bearing_wear_mm"].values)
@@ -72,7 +72,7 @@ def heat_map(results: xarray.Dataset, across: str, up: str) -> Figure:
             shading="nearest", rasterized=True,
         )  # fmt: skip
         cycles = float(results["cycle"].values[-1])
-        figure.colorbar(image, ax=axes, label=f"{_WEAR} after {_number(cycles)} cycles")
+        figure.colorbar(image, ax=axes, label=f"{_WEAR} after {in_short(cycles)} cycles")
         _scale(axes, "x", results[across].values)
         _scale(axes, "y", results[up].values)
         axes.set_xlabel(label_of(across))
@@ -111,7 +111,7 @@ def life(results: xarray.Dataset) -> Figure:
         if (share[finite] >= _FAILED).any():
             ten = ten_percent_life(results)
             bottom.plot([ten], [_FAILED], "x", color=look.colour)
-            note = f"10 % life: {_number(ten)} cycles"
+            note = f"10 % life: {in_short(ten)} cycles"
             bottom.annotate(note, (ten, _FAILED), (6, -2), textcoords="offset points", va="top")
     return figure
 
@@ -159,14 +159,6 @@ def _band(axes: Axes, results: xarray.Dataset) -> None:
     axes.set_xlabel("Cycles  $N$")
     axes.set_ylabel(_WEAR)
     axes.legend()
-
-
-def _number(value: float) -> str:
-    """
-    >>> _number(9000.0), _number(1e6)
-    ('9000', '1e6')
-    """
-    return f"{value:.4g}".replace("e+0", "e").replace("e+", "e")
 
 
 def _spans_decades(values: FloatArray) -> bool:

@@ -17,12 +17,12 @@ from concurrent.futures import (
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wear.checked import is_path
 from wear.faults import UsageError, WorkersLost
 from wear.progress import Pace
 from wear.studies.design import Chunk, Design
 from wear.studies.rows import Answers, Study, solve_chunk
 from wear.studies.vary import Distribution, Levels, Vary, parse
+from wear.words import is_path
 
 if TYPE_CHECKING:
     import xarray

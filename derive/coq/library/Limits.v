@@ -168,24 +168,6 @@ Proof.
   exists t0; intros t Ht; specialize (Ht0 t Ht); apply Rlt_div_l in Ht0; lra.
 Qed.
 
-(** Monotone and unbounded: where the rate has a positive lower bound as long as u is below
-    any given depth, u exceeds every depth. *)
-Lemma unbounded (u : R -> R) : (forall t, 0 <= t -> ex_derive u t) ->
-  (forall t, 0 <= t -> 0 <= Derive u t) ->
-  (forall m, exists c, 0 < c /\ forall t, 0 <= t -> u t <= m -> c <= Derive u t) ->
-  diverges u.
-Proof.
-  intros Hu Hr Hc; rewrite diverges_iff; intro m; destruct (Hc m) as [c [Hc0 Hcm]].
-  exists (Rmax 0 ((m - u 0) / c)); intros t Ht.
-  pose proof (Rmax_l 0 ((m - u 0) / c)); pose proof (Rmax_r 0 ((m - u 0) / c)).
-  destruct (Rlt_or_le m (u t)) as [|Hle]; [assumption | exfalso].
-  assert (Hlow : forall s, 0 <= s <= t -> c <= Derive u s).
-  { intros s Hs; apply Hcm; [lra |]; pose proof (increases u Hu Hr s t); lra. }
-  destruct (mean_value u 0 t) as [x [Hx E]]; [lra | assumption |].
-  assert (c <= Derive u x) by (apply Hlow; lra).
-  assert (Hm : m - u 0 < t * c) by (apply Rlt_div_l; lra); nra.
-Qed.
-
 (** A rate that tends to R: the wear of one period tends to R T. *)
 Lemma accumulates (u : R -> R) r T : 0 < T -> (forall t, 0 <= t -> ex_derive u t) ->
   tends (Derive u) r -> tends (fun t => u (t + T) - u t) (r * T).

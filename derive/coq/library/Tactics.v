@@ -56,6 +56,30 @@ Proof.
   pose proof (pow2_ge_0 y); pose proof (pow2_gt_0 z Hz); lra.
 Qed.
 
+(** The order of increasing functions decides a threshold. *)
+Lemma threshold (F : R -> R) (x s e : R) : (forall a b, 0 < a -> a < b -> F a < F b) ->
+  0 < x -> 0 < s -> F s = e -> s < x <-> e < F x.
+Proof.
+  intros HF Hx Hs <-; split; intro H; [auto |].
+  destruct (Rtotal_order s x) as [? | [-> | L]]; [assumption | lra | specialize (HF x s Hx L); lra].
+Qed.
+
+(** The mean value theorem for the logarithm of a positive function. *)
+Lemma log_slope (F F' : R -> R) (m a b : R) : (forall x, 0 < F x) ->
+  (forall x, is_derive F x (F' x)) -> (forall x, Rabs (F' x) <= m * F x) ->
+  Rabs (ln (F a / F b)) <= m * Rabs (a - b).
+Proof.
+  intros P D H; assert (L : forall x, is_derive (fun x => ln (F x)) x (F' x / F x)).
+  { intro x; auto_derive; [repeat split; [exists (F' x); apply D | apply P] |].
+    change (fun x => F x) with F; rewrite (is_derive_unique F x _ (D x)); field; apply Rgt_not_eq, P. }
+  destruct (MVT_gen (fun x => ln (F x)) b a (fun x => F' x / F x)) as [c [_ E]]; [auto | |].
+  - intros x _; apply continuity_pt_filterlim, (ex_derive_continuous (fun x => ln (F x))).
+    exists (F' x / F x); apply L.
+  - rewrite ln_div, E, Rabs_mult by apply P; apply Rmult_le_compat_r; [apply Rabs_pos |].
+    unfold Rdiv; rewrite Rabs_mult, Rabs_inv, (Rabs_pos_eq (F c)) by (left; apply P).
+    apply Rle_div_l; [apply P | apply H].
+Qed.
+
 Lemma sign_of {x e : R} : 0 < x -> x = e -> 0 < e.
 Proof. intros H <-; exact H. Qed.
 
@@ -140,11 +164,11 @@ Ltac same_under f :=
 
 Ltac same_under_law := match goal with |- context [@phi ?c _] => same_under (@phi c) end.
 
-Ltac tanh_of_opposite :=
+Ltac opposite_under f value law :=
   match goal with
-  | |- context [tanh ?a] => match goal with |- context [tanh ?b] =>
-      tryif constr_eq a b then fail
-      else replace (tanh b) with (- tanh a) by (rewrite <- tanh_opp; f_equal; same_argument) end
+  | |- context [f ?a] => match goal with |- context [f ?b] =>
+      tryif constr_eq a b then fail else let v := value (f a) in
+      replace (f b) with v by (rewrite <- law; f_equal; same_argument) end
   end.
 
 Ltac exp_of_multiple :=
@@ -158,12 +182,18 @@ Ltac exp_of_multiple :=
   end.
 
 Ltac same_functions :=
-  repeat first [same_under_law | same_under tanh | same_under exp | same_under ln | same_under sqrt | same_under Rabs];
-  repeat tanh_of_opposite.
+  repeat first [same_under_law | same_under tanh | same_under exp | same_under ln | same_under sqrt
+    | same_under Rabs | opposite_under tanh ltac:(fun v => constr:(- v)) tanh_opp
+    | opposite_under Rabs ltac:(fun v => v) Rabs_Ropp].
 
 Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_of_multiple];
   repeat match goal with |- context [exp ?a] =>
     lazymatch goal with H : 0 < exp a |- _ => fail | _ => pose proof (exp_pos a) end end.
+
+Ltac exp_of_logarithm :=
+  match goal with |- context [exp ?a] => match goal with |- context [ln ?b] =>
+    replace (exp a) with b by (transitivity (exp (ln b)); [symmetry; apply exp_ln |
+      f_equal; field]; first [positive | eapply Rlt_trans; [apply exp_pos | eassumption]]) end end.
 
 (** ** Equations *)
 
@@ -195,16 +225,17 @@ Ltac square_of_root :=
     assert (E : sqrt x * sqrt x = x) by (apply sqrt_sqrt; assumption);
     first [ring [E] | field [E]; positive] end.
 
-Ltac identity := in_contact; slopes; same_functions; first
+Ltac identity := in_contact; slopes; rewrite ?pow2_sqrt by positive; same_functions; first
   [ reflexivity | ring | field; positive | same_exponentials; field; positive | square_of_root
-  | progress roots; first [reflexivity | ring | field; positive] ].
+  | progress roots; first [reflexivity | ring | field; positive]
+  | exp_of_logarithm; field; positive ].
 
 (** The derivative of an expression, by Coquelicot. *)
 Ltac derived :=
   auto_derive;
   [ repeat split; first [positive | auto]
-  | repeat match goal with |- context [Derive (fun x => @phi ?c x) ?a] =>
-      progress change (Derive (fun x => @phi c x) a) with (Derive (@phi c) a) end; identity ].
+  | repeat match goal with |- context [Derive (fun x => ?f x) ?a] =>
+      progress change (Derive (fun x => f x) a) with (Derive f a) end; identity ].
 
 (** [ln x = y] from [x = exp y]. *)
 Ltac logarithm := match goal with |- ln ?x = ?y => replace x with (exp y); [apply ln_exp | identity] end.
@@ -264,6 +295,17 @@ Ltac from_inequality H c :=
 
 (** The same inequality up to form. *)
 Ltac same_inequality H := revert H; same_functions; intro H; arithmetic.
+
+(** The goal [f a < f b] for a function that is seen to increase. *)
+Ltac increasing :=
+  match goal with
+  | |- / _ < / _ => apply Rinv_lt_contravar; [positive | increasing]
+  | |- exp _ < exp _ => apply exp_increasing; increasing
+  | |- ?c + _ < ?c + _ => apply Rplus_lt_compat_l; increasing
+  | |- _ + ?c < _ + ?c => apply Rplus_lt_compat_r; increasing
+  | |- _ / _ < _ / _ => apply Rmult_lt_compat_l; [positive | increasing]
+  | |- _ => assumption
+  end.
 
 Ltac same_as_known :=
   match goal with

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.resources import files
 
 from wear.report import explorer_derived
-from wear.report.publish import publish
+from wear.report.publish import published
 
 FILES = {
     "report.html", "report.tex", "equations.tex",
@@ -13,18 +13,18 @@ FILES = {
 }  # fmt: skip
 
 
-def test_a_report_is_these_files(sample, tmp_path, need_tool):
+def test_a_report_is_these_files(sample, need_tool):
     need_tool("pdflatex")
-    published = publish(sample, tmp_path)
-    assert {file.name for file in tmp_path.iterdir()} == FILES | {"report.pdf"}
-    assert (published.warnings, published.notice) == ((), "")
+    contents, outcome = published(sample)
+    assert set(contents) == FILES | {"report.pdf"}
+    assert (outcome.warnings, outcome.notice) == ((), "")
 
 
 def test_without_tex_only_the_pdf_is_missing(sample, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
-    published = publish(sample, tmp_path)
-    assert {file.name for file in tmp_path.iterdir()} == FILES
-    assert "install" in published.notice
+    contents, outcome = published(sample)
+    assert set(contents) == FILES
+    assert "install" in outcome.notice
 
 
 def test_what_the_explorer_has_of_the_derivation_is_up_to_date():

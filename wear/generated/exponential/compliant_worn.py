@@ -139,7 +139,7 @@ def rate(p: Array, c: Constants) -> Array:
 
 
 def slope(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the wear rate with respect to u_c at the root, in 1/s."""
+    """Derivative of the wear rate with respect to u_c, in 1/s."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + c.compliance * p + c.gain * u - U_a
     ratio = h / sigma
@@ -157,7 +157,7 @@ def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:
 
 
 def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
-    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
+    """Derivatives of the wear rate with respect to U_a and to the constants."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + c.compliance * p + c.gain * u - U_a
     ratio = h / sigma
@@ -179,7 +179,7 @@ def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, 
 
 
 def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
-    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    """Derivatives with respect to the parameters, from those to the constants."""
     kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
     compliance = 1 / data.k
     wear_per_pressure = np.pi * data.K_c * data.R * data.n / (90 * data.H_c)

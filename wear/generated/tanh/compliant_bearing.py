@@ -130,7 +130,7 @@ def rate(p: Array, c: Constants) -> Array:
 
 
 def slope(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the wear rate with respect to u_c at the root, in 1/s."""
+    """Derivative of the wear rate with respect to u_c, in 1/s."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + u + c.compliance * p - U_a
     ratio = h / sigma
@@ -150,7 +150,7 @@ def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:
 
 
 def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
-    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
+    """Derivatives of the wear rate with respect to U_a and to the constants."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + u + c.compliance * p - U_a
     ratio = h / sigma
@@ -167,7 +167,7 @@ def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, 
 
 
 def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
-    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    """Derivatives with respect to the parameters, from those to the constants."""
     compliance = 1 / data.k
     wear_per_pressure = np.pi * data.K_c * data.R * data.n / (90 * data.H_c)
     return Parameters(

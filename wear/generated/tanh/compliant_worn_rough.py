@@ -163,7 +163,7 @@ def rate(p: Array, c: Constants) -> Array:
 
 
 def slope(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
-    """Derivative of the wear rate with respect to u_c at the root, in 1/s."""
+    """Derivative of the wear rate with respect to u_c, in 1/s."""
     sigma_a = c.sigma_a0 + c.slope_a * u
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
@@ -196,7 +196,7 @@ def fields(p: Array, u: Array, U_a: Array, c: Constants) -> Fields:
 
 
 def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
-    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
+    """Derivatives of the wear rate with respect to U_a and to the constants."""
     sigma_a = c.sigma_a0 + c.slope_a * u
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
@@ -226,7 +226,7 @@ def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, 
 
 
 def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
-    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    """Derivatives with respect to the parameters, from those to the constants."""
     kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
     slope_a = data.f_a * kappa
     compliance = 1 / data.k

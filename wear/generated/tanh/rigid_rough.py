@@ -103,7 +103,7 @@ def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
 
 
 def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
-    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
+    """Derivatives of the wear rate with respect to U_a and to the constants."""
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
     h = c.h_0 + u - U_a
@@ -121,7 +121,7 @@ def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]
 
 
 def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
-    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    """Derivatives with respect to the parameters, from those to the constants."""
     largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
     return Parameters(
         by.h_0,

@@ -105,7 +105,7 @@ def rate_and_slope(u: Array, U_a: Array, c: Constants) -> tuple[Array, Array]:
 
 
 def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]:
-    """Derivatives of the wear rate with respect to U_a and to each of the constants."""
+    """Derivatives of the wear rate with respect to U_a and to the constants."""
     sigma = c.sigma_c0 + c.f_c * u
     h = c.h_0 + c.gain * u - U_a
     ratio = h / sigma
@@ -119,7 +119,7 @@ def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]
 
 
 def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
-    """Derivatives with respect to the parameters, from those with respect to the constants."""
+    """Derivatives with respect to the parameters, from those to the constants."""
     kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
     largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
     total_kappa = by.kappa + by.gain * pin_wear_sign

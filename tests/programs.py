@@ -1,0 +1,22 @@
+"""Programs that tests run in processes of their own: Python, compilers, TeX."""
+
+import subprocess
+import sys
+from typing import Any
+
+
+def ended(*command: Any, **options: Any) -> subprocess.CompletedProcess[str]:
+    """Run a program to its end, be it good or bad."""
+    return subprocess.run(command, capture_output=True, text=True, check=False, **options)
+
+
+def run(*command: Any, **options: Any) -> str:
+    """Run a program and return what it prints; its complaints are the test's."""
+    done = ended(*command, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def python(code: str, **options: Any) -> str:
+    """Run Python code in a fresh interpreter and return what it prints."""
+    return run(sys.executable, "-c", code, **options)
