@@ -98,7 +98,10 @@ _TABLE = (
     Quantity("beta", r"\beta", "mm", "2 (b_0 + U_a)", REAL),
     Quantity("theta", r"\theta", "1", "tanh x_inf", REAL),
     Quantity("A", "A", "mm", "coefficient of the logarithmic drift of wear", REAL),
+    Quantity("ell", r"\ell", "mm", "sigma_c0/8 exp(4 (h_0 - U_a)/sigma_c0 - 8)", POSITIVE),
     Quantity("p_s", "p'", "MPa", "pressure, as variable of integration", POSITIVE),
+    Quantity("u_s", "u'", "mm", "wear, as variable of integration", REAL),
+    Quantity("sigma_s", r"\sigma'", "mm", "roughness, as variable of integration", NONNEGATIVE),
     # long-time expansion
     Quantity("tau", r"\tau", "1", "time in cycles, t/T", NONNEGATIVE),
     Quantity("s_0", "s_0", "mm", "what the roughness remembers of its start", REAL),

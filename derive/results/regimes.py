@@ -20,7 +20,8 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Proved
+from ..claims import landau_o
+from ..equations import Proved, stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH
@@ -28,15 +29,17 @@ from ..note.condensed import bearing_only
 from ..note.governing import ROUGH_BEARING
 from ..rules.algebra import Consequence, Solve, discharge, substitute
 from ..rules.assumption import assume, defined
-from ..rules.drift import LastCycles, LogarithmicGrowth
+from ..rules.drift import LeadingTerm, LogarithmicGrowth
 from ..rules.inequalities import Arithmetic, Monotone
 from ..rules.limits import AtInfinity, forever, unbounded
 from ..rules.reading import CONSTANT, SINE
+from ..rules.solutions import Integrated, Separate
 from ..symbols import rate, symbols, t
 from .steady_state import closure, roughness, wear_rate
 
 h_0, U_a, u_c, U, N, M, h_star, T = symbols("h_0 U_a u_c U N M h_star T")
 sigma_c0, sigma_c, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 sigma_c f_c p_max K_c H_c V")
+(sigma_s,) = symbols("sigma_s")
 
 SMOOTHING = Hypothesis("the bearing smoothens as it wears", sp.Lt(f_c, 0))
 KEPT = Hypothesis("wear does not change the roughness", sp.Eq(f_c, 0))
@@ -45,6 +48,11 @@ OVERLAP = Hypothesis(
     sp.Ge(U_a, h_0 - sigma_c0 / f_c),
     kind=Kind.STATE,
 )
+
+GAP = "gap where the roughness would vanish"
+
+odds = sp.exp(4 * h_star / sigma_s + 4 / f_c - 8)
+"""p_max/p - 1 at a roughness, f_c < 0 and static load."""
 
 largest_wear = defined(M, K_c * V * T * p_max / (3 * H_c))
 
@@ -88,9 +96,9 @@ class Regimes:
         scale, sine = sigma_c0 / 4, assume(SINE)
         bounded = Arithmetic(sp.Le(sp.Abs(U_a), U))(sine)
         deep = unbounded(self.kept, bounded, name="growth")
-        grown, tail = sp.exp((u_c - U_a) / scale), self.tail_rate.subs(f_c, 0)
-        level = tail * grown / (1 + tail * 3 * H_c / (K_c * V * p_max))
+        grown, tail = sp.exp((u_c - U_a) / scale), sp.exp(8 - 4 * closure / sigma_c0)
         value = K_c * V * p_max / (3 * H_c) * sp.exp(8 - 4 * h_0 / sigma_c0)
+        level = value / (1 + tail)
         fading = sp.exp(-u_c / scale)
         faded = AtInfinity(sp.Eq(forever(level), value), fading)(deep, bounded)
         claim = sp.Eq(forever(rate("u_c") * grown), value)
@@ -99,16 +107,27 @@ class Regimes:
         return substitute(worn, Solve(K_c)(largest_wear), name="logarithmic wear")
 
     @cached_property
+    def cycles(self) -> Judgement:
+        """The cycles to a roughness, as an integral over the roughness; static load."""
+        grown, rough = self.rough
+        gap = defined(h_star, h_0 - sigma_c0 / f_c - U_a, GAP, assume(CONSTANT))
+        smoothing, start = assume(SMOOTHING), bearing_only().model.start[4]
+        worn = Solve(u_c)(grown, smoothing)
+        law = sp.Eq(rate("u_c"), M / T / (1 + odds.subs(sigma_s, sigma_c)))
+        falling = Consequence(law)(self.rate, worn, largest_wear, gap, name="rate at a roughness")
+        whole = sp.Integral(1 + odds, (sigma_s, sigma_c0, sigma_c))
+        time = Separate(sp.Eq(f_c * M * t / T, whole))(falling, worn, start, rough, smoothing)
+        return Consequence(sp.Eq(f_c * M * N, whole))(time, defined(N, t / T, "number of cycles"))
+
+    @cached_property
     def saturating(self) -> Judgement:
         """The number of cycles at which the roughness has fallen to sigma_c, static load."""
-        rest = sigma_c**2 / (-4 * f_c * h_star * M)
-        claim = sp.Eq(sp.log(N), 4 * h_star / sigma_c - 8 + 4 / f_c + sp.log(rest))
-        grown, rough = self.rough
-        meaning = "gap where the roughness would vanish"
-        gap = defined(h_star, h_0 - sigma_c0 / f_c - U_a, meaning, assume(CONSTANT))
-        cycles = defined(N, t / T, "number of cycles")
-        facts = (largest_wear, assume(SMOOTHING), assume(CONSTANT), rough)
-        return LastCycles(claim)(self.rate, grown, cycles, gap, *facts, name="saturating wear")
+        primitive = sigma_s - sigma_s**2 / (4 * h_star) * odds
+        by_parts = Integrated(primitive, sigma_s / (2 * h_star) * odds)
+        (shown,) = stated("saturating-wear")
+        claim = sp.Eq(shown.lhs, shown.rhs - landau_o(sp.S.One))
+        facts = self.rough[1], assume(SMOOTHING)
+        return LeadingTerm(claim)(by_parts(self.cycles, *facts), *facts, name="saturating wear")
 
     @cached_property
     def finite(self) -> Judgement:

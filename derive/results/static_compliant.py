@@ -24,11 +24,11 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..note.governing import Model
-from ..rules.algebra import Insert, Solve, substitute
+from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume
 from ..rules.reading import CONSTANT
-from ..rules.solutions import Parametric
-from ..symbols import initial, symbols, t
+from ..rules.solutions import Integrated, Separate
+from ..symbols import initial, rate, symbols, t
 from .first_integral import SLOPED, UNSATURATED, FirstIntegral
 from .regimes import KEPT
 from .static_solution import half_rate, load_offset
@@ -42,9 +42,10 @@ START = Hypothesis("the first pressure is below p_max", sp.Lt(p_start, p_max), k
 OFF_LIMIT = Hypothesis(
     "the pressure is not that of steady wear", sp.Ne(log_odds - 8 + 4 / f_c, 0), kind=Kind.STATE
 )
-BETWEEN = tuple(
-    Hypothesis(f"for the pressures in between, {h.text}", relation, kind=Kind.STATE)
-    for h, relation in ((h, h.relation.subs(p, p_s)) for h in (UNSATURATED, OFF_LIMIT))
+BETWEEN = Hypothesis(
+    f"for the pressures in between, {OFF_LIMIT.text}",
+    OFF_LIMIT.relation.subs(p, p_s),
+    kind=Kind.STATE,
 )
 
 
@@ -68,11 +69,17 @@ class StaticCompliant:
         return Insert(claim)(*parents, name="wear at a pressure")
 
     @cached_property
+    def rate(self) -> Judgement:
+        """The rate at a pressure."""
+        claim = sp.Eq(rate("u_c"), 2 * C * p / p_max)
+        return Consequence(claim)(self.model.wear_laws[2], half_rate, name="rate at a pressure")
+
+    @cached_property
     def time(self) -> Judgement:
         """The time at a pressure, counted from the first pressure p(0)."""
-        facts = (load_offset, assume(OFF_LIMIT), assume(SLOPED), *map(assume, BETWEEN))
-        _, claim, *_ = stated("static-solution-compliant")
-        return self._time(claim, self.wear, *facts)
+        rough = (f_c * self.wear.claim.rhs + sigma_c0).subs(p, p_s)
+        by_parts, rest = p_max * rough / (f_c * p_s), p_max * rough / (f_c * p_s**2)
+        return self._integrated(self.wear, by_parts, rest, assume(BETWEEN), assume(SLOPED))
 
     @cached_property
     def wear_smooth(self) -> Judgement:
@@ -88,23 +95,23 @@ class StaticCompliant:
     @cached_property
     def time_smooth(self) -> Judgement:
         """The time at a pressure, for f_c = 0."""
-        facts = (assume(UNSATURATED), assume(START))
-        return self._time(sp.Eq(t, _elementary() / (2 * C)), self.wear_smooth, *facts)
+        odds = (p_max - p_s) / p_s
+        primitive = sigma_c0 / 4 * (odds + sp.log(odds)) - p_max / k * sp.log(p_s / p_max)
+        return self._integrated(self.wear_smooth, primitive, sp.S.Zero)
 
-    def _time(self, claim: sp.Basic, wear: Judgement, *facts: Judgement) -> Judgement:
-        law, start = self.model.wear_laws[2], self.model.start[1]
-        pressure, rough = bearing_only().pressure_of_bearing_wear, self.model.roughness_at_wear
-        parents = (law, wear, start, pressure, rough, half_rate, assume(CONSTANT), *facts)
-        return Parametric(claim)(*parents, name="time")
-
-
-def _elementary() -> sp.Expr:
-    """Return the integral of (p_max/p) du from p(0), where u = 0, to p, for f_c = 0."""
-    odds, odds_start = (p_max - p) / p, (p_max - p_start) / p_start
-    return sp.Add(
-        sigma_c0 / 4 * sp.Add(odds, -odds_start, sp.log(odds), -sp.log(odds_start)),
-        -(p_max / k * sp.log(p / p_start)),
-    )
+    def _integrated(
+        self, wear: Judgement, primitive: sp.Expr, rest: sp.Expr, *facts: Judgement
+    ) -> Judgement:
+        """Return the time, 2 C dt = (p_max/p) du, integrated by means of a primitive."""
+        below = assume(UNSATURATED), assume(START)
+        logarithm = sp.Function("L", real=True)(p_s)
+        worn = wear.claim.rhs.subs(p, p_s).subs(log_odds.subs(p, p_s), logarithm)
+        known = {sp.diff(logarithm, p_s): p_max / (p_s * (p_max - p_s)), logarithm: log_odds}
+        slope = p_max / p_s * sp.diff(worn, p_s).subs(known).subs(p, p_s)
+        claim = sp.Eq(2 * C * t, sp.Integral(slope, (p_s, p_start, p)))
+        root = bearing_only().pressure_of_bearing_wear, self.model.roughness_at_wear
+        time = Separate(claim)(self.rate, wear, *root, assume(CONSTANT), *below, *facts)
+        return Integrated(primitive, rest)(time, *below, *facts, name="time")
 
 
 def results() -> dict[str, Proved]:

@@ -24,7 +24,7 @@ from ..rules.assumption import assume, defined
 from ..symbols import symbols
 from .first_integral import FirstIntegral
 from .regimes import largest_wear
-from .static_solution import MOVING, excess, load_offset
+from .static_solution import MOVING, load_offset, primitive
 
 h, U_a, u_c, sigma, sigma_c0, f_c, beta, x_inf, M = symbols(
     "h U_a u_c sigma sigma_c0 f_c beta x_inf M"
@@ -47,7 +47,7 @@ def _remainder() -> sp.Expr:
 
 def scaled_primitive() -> Judgement:
     """The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow."""
-    claim = sp.Eq(sp.exp(-2 * x_inf) * excess(sigma), sigma * sp.exp(E) * _remainder())
+    claim = sp.Eq(sp.exp(-2 * x_inf) * sp.Add(*primitive(sigma)), sigma * sp.exp(E) * _remainder())
     return Insert(claim)(exponent, argument, assume(MOVING), name="scaled primitive")
 
 

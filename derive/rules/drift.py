@@ -4,7 +4,7 @@ Key results
     first_order          u (x - l) - a -> 0 for du/dt = F(x) gives t (du/dt - R) - F'(l) a/R -> 0
     logarithmic_drift    t (du/dt - R) - a -> 0, a periodic, gives (u - R t)/ln t -> mean of a
     LogarithmicGrowth    e^((u - U_a)/s) du/dt -> a gives u(N T) = s ln(1 + ...) + o(1)
-    LastCycles           the number of cycles to a vanishing roughness, to leading order
+    LeadingTerm          ln N to leading order, as a roughness vanishes
 """
 
 from __future__ import annotations
@@ -17,11 +17,9 @@ from ..claims import Asymptotic
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import symbols, t
 from ..zero import is_zero
-from .algebra import inserted
 from .limits import bounds, in_terms_of, in_time
-from .proving import continuous, require, require_defined, smooth
+from .proving import continuous, facts_of, holds, require, require_defined, smooth
 from .reading import (
-    CONSTANT,
     CONTINUOUS,
     LOAD,
     PERIODIC,
@@ -146,48 +144,37 @@ class LogarithmicGrowth(Rule):
 
 
 @dataclass(frozen=True)
-class LastCycles(Rule):
-    """``ln N = F(s) + o(1)`` as s -> 0+, for the cycles N at which the roughness is s.
+class LeadingTerm(Rule):
+    """``c N = F(s)`` gives ``ln N = K(s) + o(1)`` as s -> 0+: ``e^K -> oo``, ``N'/(e^K)' -> 1``.
 
-    Premises: ``du/dt = Q(u)`` under a constant load, ``s = s_0 + f u`` with f < 0, and names.  N
-    grows without bound, and the quotient of the claimed and the exact dN/ds tends to one.
+    F may have an integral up to s, whose derivative is its integrand; c is constant.
     """
 
     claim: sp.Equality
     words = (
-        "L'Hopital's rule: the quotient of the claimed and the exact number of cycles tends to "
-        "one, by {0}."
+        "As what is left vanishes, one term of {0} exceeds all others: by L'Hopital's rule its "
+        "quotient with the left side tends to one.  Take logarithms."
     )
     source = "L'Hopital's rule"
-    asks = ("the rate", "the roughness", "the cycles t/T", "the gap")
+    asks = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        law, size, clock, gap, *names = premises
-        (u, rate), rough, spent = rate_law(law), equality(size), equality(clock)
-        require_hypothesis(CONSTANT.relation, *premises)
-        left, s = self.claim.lhs, rough.lhs
-        slope = sp.diff(rough.rhs, u)
-        if left != sp.log(spent.lhs) or spent.rhs != t / T:
-            raise RuleError(f"missing premise: {left} is the logarithm of the cycles t/T")
-        require(sp.Lt(slope, 0), *premises)
-        require_defined(self.claim.rhs, *premises)
-        small, fall = sp.Dummy("s", positive=True), sp.Dummy("fall", positive=True)
-        worn = u + (small - rough.rhs) / slope
-        opening = equality(gap)
-        load = LOAD - (opening.rhs - opening.lhs) / sp.diff(opening.rhs, LOAD)
-        if sp.diff(opening.rhs, LOAD, 2) != 0 or sp.diff(rough.rhs, u, 2) != 0:
-            raise RuleError("missing premise: the gap is linear in the load")
-        exact = rate.subs(u, sp.cancel(worn)).subs(LOAD, sp.cancel(load))
-        claimed = inserted(sp.exp(self.claim.rhs), tuple(names)).subs(s, small)
-        exact, claimed = (e.subs(slope, -fall) for e in (exact, claimed))
-        if not constant(sp.Tuple(exact, claimed)):
-            raise RuleError("missing premise: rate and claim are functions of the roughness")
-        steps = -sp.diff(claimed, small) * fall * T * exact.rewrite(sp.exp)
+        given, (left, leading) = equality(premises[0]), self.claim.args
+        s = next(iter(fields(given.rhs)), t)
+        pace = sp.cancel(given.lhs / left.args[0]) if isinstance(left, sp.log) else left
+        require_defined(leading, *premises)
+        small, facts = sp.Dummy("s", positive=True), facts_of(premises)
+        fallen = (x for x in given.relation.free_symbols - {t} if holds(sp.Lt(x, 0), facts))
+        flat = {s: small} | {x: -sp.Dummy(positive=True) for x in fallen}
+        claimed, slope = sp.exp(leading).xreplace(flat), (given.rhs / pace).xreplace(flat)
+        slope = sp.diff(slope, small)
+        if not constant(sp.Tuple(pace, claimed, slope)) or fields(sp.Tuple(pace, claimed, slope)):
+            raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
         if sp.limit(_one_exponential(claimed), small, 0, "+") != sp.oo:
-            raise RuleError("missing premise: the number of cycles grows without bound")
-        if sp.limit(_one_exponential(steps), small, 0, "+") != 1:
+            raise RuleError(f"missing premise: {leading} grows without bound")
+        if sp.limit(_one_exponential(slope / sp.diff(claimed, small)), small, 0, "+") != 1:
             raise RuleError("missing premise: the quotient of the slopes tends to one")
-        return Conclusion(Asymptotic(left, self.claim.rhs, s, sp.S.Zero))
+        return Conclusion(Asymptotic(left, leading, s, sp.S.Zero))
 
 
 def _one_exponential(expr: sp.Expr) -> sp.Expr:

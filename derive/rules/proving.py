@@ -271,7 +271,13 @@ def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:
     if expr in known:
         return []
     parts = () if isinstance(expr, sp.Derivative) else expr.args
-    return [*(goal for part in parts for goal in _needed(part, known)), *_need(expr)]
+    goals = [goal for part in parts for goal in _needed(part, known)]
+    if isinstance(expr, sp.Integral) and [len(limit) for limit in expr.limits] == [3]:
+        s, *ends = expr.limits[0]
+        outside = (sp.And(*(relation(s, end) for end in ends)) for relation in (sp.Lt, sp.Gt))
+        beyond = tuple(outside)
+        goals = [sp.Or(goal, *beyond) if goal.has(s) else goal for goal in goals]
+    return [*goals, *_need(expr)]
 
 
 def _need(expr: sp.Basic) -> list[sp.Basic]:

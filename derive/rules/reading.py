@@ -3,6 +3,7 @@
 Key results
     equality, inequality, between               asked of any judgement
     rate_law, initial_value, limit_in_time      the forms that theorems about time ask for
+    one_integral                                the integral that a theorem changes
     constant                                    what does not depend on time
 """
 
@@ -88,6 +89,14 @@ def initial_value(judgement: Judgement, field: sp.Expr) -> sp.Expr:
     if start.lhs != field.subs(t, 0):
         raise RuleError(f"missing premise: the value of {field.func} at t = 0")
     return start.rhs
+
+
+def one_integral(expr: sp.Expr) -> sp.Integral:
+    """Return the only integral in an expression, which has two ends."""
+    found: set[sp.Integral] = expr.atoms(sp.Integral)
+    if [[len(limit) for limit in each.limits] for each in found] != [[3]]:
+        raise RuleError(f"missing premise: {expr} has one integral, with two ends")
+    return found.pop()
 
 
 def fields(expr: sp.Basic) -> set[sp.Expr]:

@@ -1,32 +1,33 @@
-"""Solutions of the differential equation, found by insight and proved by differentiating back.
+"""Solutions of the differential equation: variables separated, integrals by parts, inverses.
 
 Key results
-    Solution      t(u) under a constant load: dF/du = 1/Q and F(u(0)) = 0
-    Inverted      u(t), the inverse of an increasing t(u)
-    Parametric    t(p), where wear and rate are functions of the pressure
+    Separate      c t = int g(y) dy, where rate and wear are functions of y alone
+    Integrated    a part of an integral, or all of it, by a primitive
+    Lambert       w e^w = x gives w = W(x)
     FirstRoot     the first zero of what a positive factor makes quadratic
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
 
 from ..claims import Equality, FirstZero
-from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..kernel import Conclusion, Judgement, Rule, RuleError, plain
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .algebra import inserted
-from .proving import continuous, facts_of, require, require_defined, sign, smooth
+from .proving import WEARING, continuous, facts_of, require, require_defined, sign, smooth
 from .reading import (
     CONSTANT,
     LOAD,
     constant,
     equality,
     fields,
-    initial_value,
+    one_integral,
     rate_law,
+    replaced,
     require_hypothesis,
 )
 
@@ -34,136 +35,99 @@ PRESSURE = symbol("p")
 
 
 @dataclass(frozen=True)
-class Solution(Rule):
-    """``t = F(u)`` for ``du/dt = Q(u) > 0`` under a constant load: ``F' = 1/Q``, ``F(u(0)) = 0``.
+class Separate(Rule):
+    """``du/dt = Q(y)`` and ``u = G(y)`` give ``c t = int g(s) ds`` from y(0) to y, ``g Q = c G'``.
 
-    Premises: the rate, u(0), then names of constants, and what F needs to have a value.
+    Premises: the rate, then u in terms of y, unless y is u, and y(0), unless the integral begins
+    with this name.  y is a wear or a roughness, which has a rate, or the pressure: a premise says
+    that it is the one root of ``p = R(p, u)``, where ``p - R`` increases, so it is continuous.
     """
 
     claim: sp.Equality
-    words = (
-        "Differentiating the claim gives back the rate {0}; at t = 0 it gives the first wear, {1}."
-    )
-    source = "fundamental theorem of calculus"
-    asks = ("the rate", "u(0)")
-
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        law, start, *names = premises
-        (u, rate), time = rate_law(law), self.claim.rhs
-        require_hypothesis(CONSTANT.relation, *premises)
-        if self.claim.lhs != t or fields(rate) - {u, LOAD}:
-            raise RuleError(f"missing premise: {self.claim} gives the time")
-        require_defined(time, *premises)
-        require(sp.Gt(rate, 0), *premises)
-        plain = {u: sp.Dummy("u", nonnegative=True), LOAD: sp.Dummy("U", real=True)}
-        known = tuple(names)
-        found, slope = (inserted(e, known).xreplace(plain) for e in (time, rate))
-        if not constant(found) or not constant(slope) or fields(found) or not smooth(found):
-            raise RuleError(f"missing premise: {time} is a smooth function of the wear alone")
-        wear = plain[u]
-        require(sp.Ge(initial_value(start, u), 0), *premises)
-        if not is_zero(sp.diff(found, wear) - (1 / slope).rewrite(sp.tanh, sp.exp)):
-            raise RuleError("missing premise: its derivative is the reciprocal of the rate")
-        if not is_zero(found.subs(wear, initial_value(start, u))):
-            raise RuleError("missing premise: it begins at 0")
-        return Conclusion(Equality(t, time))
-
-
-@dataclass(frozen=True)
-class Inverted(Rule):
-    """``u = G(t)``, the inverse of ``t = F(u)``: F increases, and ``F(G(t)) = t``.
-
-    G may use the principal branch W of Lambert's function at arguments that are not negative:
-    with ``x = w e^w`` exponentials of w = W(x) are rational in w.
-    """
-
-    claim: sp.Equality
-    words = "Solve {0} for the wear, by Lambert's function."
-    source = "Corless et al., Adv. Comput. Math. 5 (1996) 329"
-    asks = ("the time",)
-
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        given = equality(premises[0])
-        u, inverse = self.claim.lhs, self.claim.rhs
-        x = sp.Dummy(real=True)
-        if given.lhs != t or u not in fields(given.rhs) or inverse.has(u):
-            raise RuleError(f"missing premise: {premises[0].relation} gives the time")
-        require_defined(inverse, *premises)
-        if not smooth(given.rhs) or sign(sp.diff(given.rhs.subs(u, x), x)) != 1:
-            raise RuleError(f"missing premise: {given.rhs} increases with {u}")
-        if not is_zero(_resolved(given.rhs.subs(u, inverse) - given.lhs)):
-            raise RuleError("missing premise: inserted, it gives back the time")
-        return Conclusion(Equality(u, inverse))
-
-
-def _resolved(expr: sp.Expr) -> sp.Expr:
-    """Use e^(-W(x)) = W(x)/x, for one Lambert function on which exponentials depend linearly."""
-    lambert = expr.atoms(sp.LambertW)
-    if len(lambert) != 1:
-        return expr
-    (found,) = lambert
-    w = sp.Dummy(positive=True)
-    expr = expr.subs(found, w)
-    exponents = {e: sp.expand(e.exp) for e in expr.atoms(sp.exp) if e.has(w)}
-    powers = {
-        e: sp.exp(inside.coeff(w, 0)) * (w / found.args[0]) ** -inside.coeff(w, 1)
-        for e, inside in exponents.items()
-    }
-    return expr.xreplace(powers)
-
-
-@dataclass(frozen=True)
-class Parametric(Rule):
-    """``t = F(p)`` where ``du/dt = Q(p)`` and ``u = G(p)``: ``F' = G'/Q``, F = 0 at p(0).
-
-    Premises: rate, wear, u(0), the pressure, then names of constants.  The load is constant and
-    the pressure is the one root of ``p = R(p, u)``, where ``p - R`` increases: it is continuous.
-    """
-
-    claim: sp.Equality
-    words = "Wear and rate are known at a pressure, {0} and {1}; integrate over it."
+    words = "Separate the variables of {0} and integrate from the start on, with {others}."
     source = "chain rule; implicit function theorem"
-    asks = ("the rate", "the wear", "u(0)", "the pressure")
+    asks = ("the rate",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        law, wear, start, pressure, *names = premises
-        (u, rate), worn = rate_law(law), equality(wear)
+        law, *others = premises
+        (u, rate), integral = rate_law(law), one_integral(self.claim.rhs)
         require_hypothesis(CONSTANT.relation, *premises)
-        if worn.lhs != u or self.claim.lhs != t or initial_value(start, u) != 0:
-            raise RuleError("missing premise: rate and wear are of the same quantity, from 0 on")
-        require_defined(self.claim.rhs, *premises)
-        _require_root(pressure, u, *premises)
-        p = sp.Dummy("p", positive=True)
-        first, load = sp.Dummy("p_0", positive=True), sp.Dummy("U", real=True)
-        plain = {PRESSURE: p, PRESSURE.subs(t, 0): first, LOAD: load, LOAD.subs(t, 0): load}
-        q, g, f = (
-            inserted(e, tuple(names)).xreplace(plain) for e in (rate, worn.rhs, self.claim.rhs)
-        )
-        flat = sp.Tuple(q, g, f.replace(sp.Integral, lambda integrand, _: integrand))
-        if fields(flat) or not constant(flat) or not all(map(smooth, flat)):
-            raise RuleError("missing premise: wear and time are smooth functions of the pressure")
-        if not is_zero(sp.diff(f, p) - sp.diff(g, p) / q):
-            raise RuleError("missing premise: its derivative is that of the wear over the rate")
-        f, zero = (e.subs(p, first).doit() for e in (f, g))
-        if f.has(load):  # u(0) = 0 gives the load at which the pressure is p(0)
-            if sp.diff(zero, load, 2) != 0:
-                raise RuleError("missing premise: the wear is linear in the load")
-            f = f.subs(load, load - zero / sp.diff(zero, load))
-        if not is_zero(f):
-            raise RuleError("missing premise: it begins at 0")
-        return Conclusion(Equality(t, self.claim.rhs))
+        known = {e.lhs: e.rhs for e in (p.claim for p in others) if isinstance(e, Equality)}
+        (s, first, y), wear = integral.limits[0], known.get(u, u)
+        start = y.subs(t, 0)
+        if y not in (*WEARING, PRESSURE) or known.get(start, start) != first:
+            raise RuleError(f"missing premise: {start} = {first}, of what moves")
+        if y == PRESSURE:
+            _require_root(known.get(y, y), u, *premises)
+        require_defined(self.claim, *premises)
+        moving, load = sp.Dummy(**s.assumptions0), sp.Dummy(real=True)
+        rate, wear = (e.xreplace({y: moving, LOAD: load}) for e in (rate, wear))
+        pace, factor = sp.cancel(self.claim.lhs / t), sp.cancel(self.claim.rhs / integral)
+        g = factor * integral.function.xreplace({s: moving, LOAD: load})
+        whole = sp.Tuple(rate, wear, pace, g)
+        if fields(whole) or not constant(whole) or not all(map(smooth, whole)):
+            raise RuleError(f"missing premise: {self.claim.rhs} by smooth functions of {y} alone")
+        if not is_zero(g * rate - pace * sp.diff(wear, moving)):
+            raise RuleError(f"missing premise: {law.relation} separates into {self.claim}")
+        return Conclusion(Equality(*self.claim.args))
 
 
-def _require_root(pressure: Judgement, u: sp.Expr, *premises: Judgement) -> None:
+def _require_root(value: sp.Expr, u: sp.Expr, *premises: Judgement) -> None:
     """Refuse unless the pressure is the one root of ``p = R(p, u, load)``, so that it follows u."""
-    given, p = equality(pressure), sp.Dummy("p", positive=True)
-    value = given.rhs.xreplace({PRESSURE: p})
+    p = sp.Dummy("p", positive=True)
+    value = value.xreplace({PRESSURE: p})
     moving = {unknown: unknown for unknown in (p, u, LOAD)}
     fixed = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
-    known = given.lhs == PRESSURE and constant(fixed) and not fields(fixed) and smooth(value, p)
+    known = constant(fixed) and not fields(fixed) and smooth(value, p)
     increases = known and sign(1 - sp.diff(value, p), facts_of(premises)) == 1
     if not increases or not continuous(value, moving, *premises):
         raise RuleError(f"missing premise: {PRESSURE} is the one root of an equation")
+
+
+@dataclass(frozen=True)
+class Integrated(Rule):
+    """``int g ds = F(b) - F(a) + int r ds`` from a to b, for a smooth F with ``F' = g - r``."""
+
+    primitive: sp.Expr
+    rest: sp.Expr = sp.S.Zero
+    source = "fundamental theorem of calculus; integration by parts"
+    asks = ("the integral",)
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        given = equality(premises[0])
+        integral = one_integral(given.rhs)
+        (limits,) = integral.limits
+        s, *ends = limits
+        slope = sp.diff(self.primitive, s)
+        between = (sp.Integral(part, limits) for part in (self.primitive, slope, self.rest))
+        require_defined(sp.Tuple(*between), *premises)
+        if not smooth(self.primitive, s) or not is_zero(integral.function - slope - self.rest):
+            raise RuleError(f"missing premise: {self.primitive} has the derivative of {given.rhs}")
+        first, last = (self.primitive.subs(s, end) for end in ends)
+        left = sp.Integral(self.rest, limits) if self.rest != 0 else self.rest
+        return Conclusion(Equality(given.lhs, replaced(given.rhs, integral, last - first + left)))
+
+    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
+        if self.rest == 0:
+            return f"Integrate {labels[0]}: a primitive is {write(self.primitive)}."
+        return f"Integrate {labels[0]} by parts: {write(self.primitive)} leaves the integral."
+
+
+@dataclass(frozen=True)
+class Lambert(Rule):
+    """``w e^w = x`` with ``w >= 0`` gives ``w = W(x)``, as ``w e^w`` increases there."""
+
+    argument: sp.Expr
+    words = "Of {0}, which is w e^w = x for a positive w, Lambert's function gives w."
+    source = "Corless et al., Adv. Comput. Math. 5 (1996) 329"
+    asks = ("the equation",)
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        given, w = equality(premises[0]), self.argument
+        require(sp.Ge(w, 0), *premises)
+        if not is_zero(given.lhs - w * sp.exp(w)):
+            raise RuleError(f"missing premise: {given.relation} is w e^w = x for w = {w}")
+        return Conclusion(Equality(w, sp.LambertW(given.rhs)))
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ def broken(latex: str, limit: float = LIMIT) -> str:
         lines = _system(_sharing(rows(system["rows"]), limit), limit)
         return system["open"] + r"\\".join(lines) + system["close"]
     lines = _lines(latex, limit)
-    if len(lines) == 1:
+    if lines == [latex]:
         return latex
     return r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}"
 
@@ -126,7 +126,12 @@ def _open_up(pieces: tuple[Piece, ...], limit: float) -> tuple[Piece, ...]:
     """The pieces with those opened that leave little of a line, or need more than one."""
     opened: list[Piece] = []
     for piece in pieces:
-        if piece.kind == "fence" and piece.width > 0.6 * limit:
+        if piece.kind == "cases" and piece.width > limit:
+            opened.append(_stacked(piece, limit))
+        elif piece.kind == "fence" and {part.kind for part in piece.parts[0]} == {"cases"}:
+            left, right = piece.delimiters
+            opened.append(fence(left, _open_up(piece.parts[0], limit), right))
+        elif piece.kind == "fence" and piece.width > 0.6 * limit:
             opened += _open_up(_unfenced(piece), limit)
         elif piece.kind == "root" and piece.width > 0.9 * limit:
             opened += _open_up(_as_power(piece), limit)
@@ -135,6 +140,18 @@ def _open_up(pieces: tuple[Piece, ...], limit: float) -> tuple[Piece, ...]:
         else:
             opened.append(piece)
     return tuple(opened)
+
+
+def _stacked(cases: Piece, limit: float) -> Piece:
+    """Cases with their conditions below the values, which are broken where they are too wide."""
+    body = cases.tex.removeprefix(r"\begin{cases}").removesuffix(r"\end{cases}")
+    lines: list[str] = []
+    for row in rows(body):
+        value, _, condition = row.partition("&")
+        shown = broken(value.replace(r"\displaystyle", "").strip(), limit - 1.0)
+        lines += [rf"\displaystyle {shown}", rf"\quad {condition.strip()}"]
+    tex = r"\begin{cases}" + r" \\ ".join(lines) + r"\end{cases}"
+    return replace(cases, tex=tex, width=limit)
 
 
 def _unfenced(piece: Piece) -> tuple[Piece, ...]:

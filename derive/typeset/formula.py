@@ -43,7 +43,7 @@ class Piece:
 
     tex: str
     width: float
-    kind: Literal["atom", "relation", "sign", "fence", "fraction", "root"] = "atom"
+    kind: Literal["atom", "relation", "sign", "fence", "fraction", "root", "cases"] = "atom"
     height: int = 0
     depth: int = 0
     parts: tuple[tuple[Piece, ...], ...] = ()
@@ -203,7 +203,8 @@ class _Reader:
         self._argument()
         tex = "".join(self._tokens[start : self._next])
         body = re.sub(r"\\(?:begin|end)\{[^}]*\}(?:\{[lcr]*\})?", "", tex)
-        return Piece(tex, max(width(row) for row in rows(body)) + 1.0, height=2)
+        wide = max(width(row) for row in rows(body)) + 1.0
+        return Piece(tex, wide, "cases" if tex.startswith(r"\begin{cases}") else "atom", height=2)
 
 
 def _is_operand(before: list[Piece]) -> bool:

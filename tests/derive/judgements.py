@@ -20,10 +20,10 @@ from derive.rules.drift import MEAN
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
 from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC, SINE
-from derive.rules.solutions import Solution
+from derive.rules.solutions import Separate
 from derive.symbols import initial, rate, symbol, symbols, t
 
-u_c, U_a, U_c, h, p, G = symbols("u_c U_a U_c h p G")
+u_c, U_a, U_c, h, p, G, u_s = symbols("u_c U_a U_c h p G u_s")
 C, f_c, h_0, k, theta, u_cum = symbols("C f_c h_0 k theta u_cum")
 
 
@@ -80,8 +80,12 @@ def integral(body: sp.Expr, low: int = -1) -> Judgement:
     return eq(G, sp.Integral(body, (theta, low, 2)))
 
 
-def timed(time: sp.Expr, speed: sp.Expr, start: Judgement, *facts: Judgement) -> Judgement:
-    return Solution(sp.Eq(t, time))(eq(rate("u_c"), speed), start, CONSTANTLY, *facts)
+def timed(
+    g: sp.Expr, speed: sp.Expr, start: Judgement, *facts: Judgement, low: int = 0
+) -> Judgement:
+    """Separate du_c/dt = speed: the time is the integral of g over u_s, from a first wear."""
+    claim = equal(t, sp.Integral(g, (u_s, low, u_c)))
+    return Separate(claim)(eq(rate("u_c"), speed), start, CONSTANTLY, *facts)
 
 
 def opened(*facts: Judgement) -> Judgement:

@@ -33,7 +33,7 @@ from derive.rules.drift import LogarithmicGrowth, first_order, logarithmic_drift
 from derive.rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
 from derive.rules.limits import AtInfinity, forever
 from derive.rules.reading import CONSTANT, SINE, replaced
-from derive.rules.solutions import Inverted
+from derive.rules.solutions import Lambert
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
     BOUNDED,
@@ -65,7 +65,7 @@ from tests.derive.judgements import (
 )
 
 u_c, u_a, U_a, h, G = symbols("u_c u_a U_a h G")
-h_0, sigma_c0, f_c, C, T, N, q, b_0 = symbols("h_0 sigma_c0 f_c C T N q b_0")
+h_0, sigma_c0, f_c, C, T, N, q, b_0, u_s = symbols("h_0 sigma_c0 f_c C T N q b_0 u_s")
 U, u_cum, theta, x_inf, tau, M, R, L, rho, w_1 = symbols("U u_cum theta x_inf tau M R L rho w_1")
 y = sp.Symbol("y", real=True)
 
@@ -198,13 +198,13 @@ CASES: dict[str, Case] = {
         "linear in",
     ),
     "a time that jumps": (  # u_c = 2
-        lambda: timed(sp.Piecewise((u_c / C, u_c < 1), (u_c / C + 5, True)), C, START),
-        lambda: timed(u_c / C, C, START),
+        lambda: timed(sp.Piecewise((1 / C, u_s < 1), (5 / C, True)), C, START),
+        lambda: timed(1 / C, C, START),
         "smooth function",
     ),
     "a start below zero": (  # u_c = -1/2
-        lambda: timed((u_c**2 - 1) / (2 * C * q), C * q / sp.Abs(u_c), eq(initial("u_c"), -1)),
-        lambda: timed((u_c - 1) / C, C, eq(initial("u_c"), 1)),
+        lambda: timed(u_s / (C * q), C * q / sp.Abs(u_c), eq(initial("u_c"), -1), low=-1),
+        lambda: timed(1 / C, C, eq(initial("u_c"), 1), low=1),
         "missing premise",
     ),
     # ---- of the false statements that were known, those without a case elsewhere
@@ -241,11 +241,9 @@ CASES: dict[str, Case] = {
         "data alone",
     ),
     "the other branch of Lambert's function": (  # u_c = q/3
-        lambda: Inverted(equal(u_c, -q * sp.LambertW(-t / T, -1)))(
-            eq(t, T * u_c / q * sp.exp(-u_c / q))
-        ),
-        lambda: Inverted(sp.Eq(u_c, q * t / T))(eq(t, T * u_c / q)),
-        "missing premise",
+        lambda: Lambert(-u_c / q)(eq(-u_c / q * sp.exp(-u_c / q), -t / T)),
+        lambda: Lambert(q)(eq(q * sp.exp(q), theta)),
+        "/q >= 0",
     ),
     "the tail of one solid and the wear of the other": (  # u_a = 0
         lambda: LogarithmicGrowth(q)(tends(rate("u_a") * sp.exp((u_c - U_a) / q), C), assume(SINE)),
@@ -303,7 +301,6 @@ CASES: dict[str, Case] = {
         lambda: sloped(),
         "may vary",
     ),
-    # ---- forgeries
 }
 
 

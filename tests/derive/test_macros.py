@@ -10,7 +10,8 @@ import pytest
 
 from derive import catalogue
 from derive.cli import main
-from derive.typeset.derivation import prose
+from derive.typeset.breaking import broken
+from derive.typeset.derivation import Derivations, prose
 from derive.typeset.macros import macro_name, macros, room
 from tests.programs import run
 
@@ -73,7 +74,7 @@ def test_a_law_has_no_ids_and_is_read_by_its_grammar(arguments, capsys):
 
 @pytest.mark.parametrize("width", ["246pt", "345pt"])
 def test_every_equation_fits_a_column(width, tmp_path, need_tool):
-    """Beside its number, by its name and by its id."""
+    """Beside its number, by its name and by its id; so does every step of its derivation."""
     engine = need_tool("pdflatex")
     equations = catalogue.equations()
     (tmp_path / "equations.tex").write_text(macros(equations, room(width)), encoding="utf-8")
@@ -81,8 +82,11 @@ def test_every_equation_fits_a_column(width, tmp_path, need_tool):
         rf"\begin{{equation}}\{macro_name(e)}\tag{{D.10}}\end{{equation}}\[\EqNote{{{e.id}}}\]"
         for e in equations
     )
+    derivations = Derivations(equations)
+    steps = (s for e in equations for s in (*derivations.start(e.id), *derivations.steps(e.id)))
+    displays = dict.fromkeys(broken(step.latex, room(width)) for step in steps if step.latex)
     head = rf"\documentclass{{article}}\setlength{{\textwidth}}{{{width}}}"
-    log = _log(tmp_path, engine, head, "\n".join(shown))
+    log = _log(tmp_path, engine, head, "\n".join((*shown, *(rf"\[{d}\]" for d in displays))))
     assert [float(too_wide) for too_wide in _WIDE.findall(log)] == []
 
 

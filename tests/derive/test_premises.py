@@ -45,7 +45,7 @@ from derive.rules.calculus import (
     rigid,
 )
 from derive.rules.data import Differentiated, OneSign
-from derive.rules.drift import LastCycles, LogarithmicGrowth, first_order, logarithmic_drift
+from derive.rules.drift import LeadingTerm, LogarithmicGrowth, first_order, logarithmic_drift
 from derive.rules.inequalities import Arithmetic, Lipschitz, LogarithmicSlope, Threshold
 from derive.rules.limits import (
     AtInfinity,
@@ -60,7 +60,7 @@ from derive.rules.limits import (
 )
 from derive.rules.proving import DIFFERENTIABLE
 from derive.rules.reading import CONTINUOUS, PERIODIC, SINE
-from derive.rules.solutions import FirstRoot, Inverted, Parametric, Solution
+from derive.rules.solutions import FirstRoot, Integrated, Lambert, Separate
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive import test_hostile, test_hostile_again, test_language, test_rules
 from tests.derive.judgements import (
@@ -70,6 +70,7 @@ from tests.derive.judgements import (
     DEEP,
     FIRST_DRIFT,
     GROWING,
+    PIN_START,
     RATE,
     ROUGHENS,
     SLOPE,
@@ -100,7 +101,7 @@ u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, sigma_c0, sigma_c, f_c, C, T, N, q, k, b_0 = symbols("h_0 sigma_c0 sigma_c f_c C T N q k b_0")
 U_max, L = symbols("U_max L")
 U, u_cum, theta, tau, h_star, epsilon, d, M = symbols("U u_cum theta tau h_star epsilon d M")
-p_max, u_stop, c_1, m = symbols("p_max u_stop c_1 m")
+p_max, u_stop, c_1, m, p_s, u_s = symbols("p_max u_stop c_1 m p_s u_s")
 x = sp.Symbol("x", positive=True)
 y = sp.Symbol("y", real=True)
 v = sp.Function("v", real=True)(tau)
@@ -108,10 +109,8 @@ RATIO = (h - U_a) / sigma_c0
 LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
 FALLS = sp.Lt(f_c, 0)
 LOG_N = sp.log(N)
-FEW = sp.log(-(h_star**2) / (f_c * C * T * sigma_c))
-SQUARE = U_a**2 / U - h_0 * p / p_max
+FEW = sp.log(-h_star / (f_c * sigma_c))
 TOUCHING = sp.Ge(U_a, b_0)
-TIME = h_0 / C * sp.log(initial("p") / p)
 
 
 def ordered(
@@ -138,10 +137,15 @@ def some_of_the_time(
     return intermittent(law, defined(d, share), above, *loads)
 
 
-def by_pressure(time: sp.Expr = TIME, wear: sp.Expr = U_a - h_0 * p / p_max) -> Judgement:
-    """Apply Parametric, with one thing wrong."""
-    law, pressure = eq(rate("u_c"), C * p / p_max), eq(p, p_max * (U_a - u_c) / h_0)
-    return Parametric(sp.Eq(t, time))(law, eq(u_c, wear), START, pressure, CONSTANTLY)
+def by_pressure(g: sp.Expr = -h_0 / (C * p_s), wear: sp.Expr = U_a - h_0 * p / p_max) -> Judgement:
+    """Separate the variables in terms of the pressure, with one thing wrong."""
+    law, claim = eq(rate("u_c"), C * p / p_max), sp.Integral(g, (p_s, initial("p"), p))
+    root = eq(p, p_max * (U_a - u_c) / h_0)
+    return Separate(equal(t, claim))(law, eq(u_c, wear), root, CONSTANTLY)
+
+
+def separated(law: Judgement) -> Judgement:
+    return Separate(equal(t, sp.Integral(1 / C, (u_s, 0, u_c))))(law, START, CONSTANTLY)
 
 
 def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Judgement:
@@ -149,14 +153,10 @@ def exponential_tail(scale: sp.Expr = sigma_c0, size: sp.Expr = sigma_c0) -> Jud
     return LogarithmicGrowth(scale)(tends(grown, C), assume(SINE))
 
 
-def last(
-    cycles: sp.Expr = FEW, gap: sp.Expr = h_0 - U_a, of: sp.Expr = LOG_N, sign: sp.Basic = FALLS
-) -> Judgement:
-    """Apply LastCycles where the rate is as the square of the roughness, with one thing wrong."""
-    size = sigma_c0 + f_c * u_c
-    law = eq(rate("u_c"), C * size**2 / h_star**2 * (h_0 - U_a) / h)
-    facts = defined(N, t / T), eq(h, gap), CONSTANTLY, given(sign)
-    return LastCycles(sp.Eq(of, cycles))(law, eq(sigma_c, size), *facts, gt(sigma_c, 0))
+def last(cycles: sp.Expr = FEW, of: sp.Expr = LOG_N, sign: sp.Basic = FALLS) -> Judgement:
+    """Apply LeadingTerm where N is as the reciprocal of the roughness, with one thing wrong."""
+    exact = eq(f_c * N, theta - h_star / sigma_c)
+    return LeadingTerm(sp.Eq(of, cycles))(exact, given(sign))
 
 
 def root(function: sp.Expr, factor: sp.Expr = sp.S.One) -> Judgement:
@@ -229,9 +229,9 @@ NEEDED: dict[str, Callable[[], Judgement]] = {
     "0/0": (  # h = u_a
         lambda: Insert(equal((h - u_a) / (u_c - h_0), 1))(eq(u_c, h_0 + h - u_a), ne(u_c, h_0))
     ),
-    "a load that varies": lambda: timed(u_c * h_star / (C * U), C * U / h_star, START),  # U_a = t
+    "a load that varies": lambda: timed(h_star / (C * U), C * U / h_star, START),  # U_a = t
     "the load of another time": (  # U_a = t: u_c = t^2/2
-        lambda: timed(u_c * h_0 / (C * U_a), C * U_a / h_0, START, given(U_a > 0))
+        lambda: timed(h_0 / (C * U_a), C * U_a / h_0, START, given(U_a > 0))
     ),
     "a threshold": lambda: exceeds(f_c**2, epsilon**2, epsilon),  # f_c = -0.04
     "ln f_c": lambda: Logarithm(equal(sp.log(f_c), sp.log(f_c)))(ROUGHENS),  # f_c = -1
@@ -250,6 +250,10 @@ NEEDED: dict[str, Callable[[], Judgement]] = {
     "an exponential tail": exponential_tail,
     "the last cycles": last,
     "time by pressure": by_pressure,
+    "w for f_c < 0": lambda: Lambert(f_c)(eq(f_c * sp.exp(f_c), theta), ROUGHENS),
+    "1/s^2 across 0": lambda: Integrated(-1 / u_s)(
+        eq(G, sp.Integral(u_s**-2, (u_s, f_c, 2))), ROUGHENS
+    ),
     "a term of the expansion": lambda: averaged_as(FIRST_DRIFT, *expansion_premises("c_1")),
     "slow time": slow,
     "scaled": lambda: change_clock(defined(u_c, sigma_c0 * v), defined(t, T * tau)),
@@ -275,6 +279,7 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     # calculus
     ("dy/dt = c dx/dt", lambda: integrate(eq(rate("u_c"), C), START, START)),
     ("is constant", lambda: integrate(eq(rate("u_c"), u_a * rate("u_a")), START, START)),
+    ("at t = 0", lambda: integrate(eq(rate("u_c"), 2 * rate("u_a")), PIN_START, START)),
     ("continuous for k", lambda: rigid(Multiply(k)(opened()))),
     ("t = T tau", lambda: change_clock(defined(u_c, sigma_c0 * v), defined(t, 2 * T * tau))),
     ("is constant", lambda: change_clock(eq(u_c, h * v), defined(t, T * tau))),
@@ -304,12 +309,11 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ),
     ("the limit of exp", lambda: exponential_tail(size=h_star)),
     ("b_0 > 0", lambda: exponential_tail(scale=b_0, size=b_0)),
-    ("logarithm of the cycles", lambda: last(of=N)),
-    ("linear in the load", lambda: last(gap=h_0 - U_a**3 / U**2)),
-    ("functions of the roughness", lambda: last(FEW + G**2)),
+    ("is about", lambda: last(of=N)),
+    ("is about", lambda: last(FEW + G**2)),
     ("grows without bound", lambda: last(-FEW)),
     ("quotient of the slopes", lambda: last(2 * FEW)),
-    ("f_c < 0", lambda: last(sign=sp.Ne(f_c, 0))),
+    ("f_c", lambda: last(sign=sp.Ne(f_c, 0))),
     ("b_0", lambda: last(FEW + 1 / b_0)),
     ("linear in the load", lambda: drifting(t * (rate("u_c") - C) - U_a**2 / U)),
     ("linear in the load", lambda: drifting(t * (rate("u_c") - C) - u_a)),
@@ -348,29 +352,18 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("positive and continuous", lambda: some_of_the_time(on=C * f_c)),
     ("rate in contact", lambda: some_of_the_time(on=C * (1 + U_a**2 / U**2))),
     # solutions
-    (
-        "is no equality",
-        lambda: Solution(sp.Eq(t, u_c / C))(ge(rate("u_c"), C), START, CONSTANTLY),
-    ),
-    (
-        "the same quantity",
-        lambda: Parametric(sp.Eq(t, (p - initial("p")) * h_0 / (C * p_max)))(
-            eq(rate("u_a"), C), eq(u_c, h_0 * (p - initial("p")) / p_max), START, CONSTANTLY
-        ),
-    ),
-    ("gives the time", lambda: Solution(sp.Eq(u_a, u_c))(RATE, START, CONSTANTLY)),
-    ("Ne", lambda: timed(u_c / f_c, f_c, START)),
-    ("f_c > 0", lambda: timed(u_c / f_c, f_c, START, ne(f_c, 0))),
-    ("reciprocal of the rate", lambda: timed(2 * u_c / C, C, START)),
-    ("begins at 0", lambda: timed(u_c / C, C, eq(initial("u_c"), 1))),
-    ("gives the time", lambda: Inverted(sp.Eq(u_c, T))(eq(u_a, T * u_c))),
-    ("increases with", lambda: Inverted(sp.Eq(u_c, -t))(eq(t, -u_c))),
-    ("gives back the time", lambda: Inverted(sp.Eq(u_c, 2 * t))(eq(t, u_c))),
-    ("Ne", lambda: by_pressure(time=TIME + 1 / f_c)),
+    ("is no equality", lambda: separated(ge(rate("u_c"), C))),
+    ("alone", lambda: separated(eq(rate("u_a"), C))),
+    ("one integral", lambda: Separate(sp.Eq(t, u_c))(RATE, START, CONSTANTLY)),
+    ("Ne", lambda: timed(1 / f_c, f_c, START)),
+    ("separates", lambda: timed(2 / C, C, START)),
+    ("of what moves", lambda: timed(1 / C, C, eq(initial("u_c"), 1))),
     ("smooth functions", lambda: by_pressure(wear=U_a - sp.Abs(b_0 - p))),
-    ("linear in the load", lambda: by_pressure(TIME + T * SQUARE.subs(t, 0) / U, SQUARE)),
-    ("wear over the rate", lambda: by_pressure(time=TIME * 2)),
-    ("begins at 0", lambda: by_pressure(time=TIME + T)),
+    ("separates", lambda: by_pressure(-2 * h_0 / (C * p_s))),
+    ("Ne", lambda: Integrated(1 / b_0)(eq(G, sp.Integral(p_s, (p_s, 1, 2))))),
+    ("has the derivative", lambda: Integrated(p_s)(eq(G, sp.Integral(p_s, (p_s, 1, 2))))),
+    ("q is w e^w|w e^w", lambda: Lambert(q)(eq(q * sp.exp(h), theta))),
+    ("f_c >= 0", lambda: Lambert(f_c)(eq(f_c * sp.exp(f_c), theta))),
     ("a first zero", lambda: FirstRoot(sp.S.One)(eq(u_stop, h_star))),
     ("is quadratic", lambda: root(h_star - x**3)),
     ("Ne", lambda: root((h_star - x) / (x - 1), x - 1)),

@@ -113,8 +113,9 @@ rules = st.one_of(
     st.builds(limits.Diverges, expressions),
     st.builds(limits.AtInfinity, ends, st.just(1 / u_c)),
     st.builds(limits.Passes, ends),
-    st.builds(solutions.Solution, equations),
-    st.builds(solutions.Inverted, equations),
+    st.builds(solutions.Separate, equations),
+    st.builds(solutions.Integrated, expressions),
+    st.builds(solutions.Lambert, expressions),
 )
 drawn_chains = st.tuples(
     st.lists(hypotheses, min_size=2, max_size=5),

@@ -43,7 +43,7 @@ from derive.rules.limits import (
     vanishes,
 )
 from derive.rules.proving import sign
-from derive.rules.solutions import Inverted, Solution
+from derive.rules.solutions import Integrated, Lambert, Separate
 from derive.symbols import initial, rate, symbol, symbols, t
 from derive.zero import is_zero
 from tests.derive.judgements import (
@@ -71,9 +71,16 @@ u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
 h_0, f_c, C, T, q, L, k = symbols("h_0 f_c C T q L k")
 U, M, u_cum, kappa, omega, theta, x_inf = symbols("U M u_cum kappa omega theta x_inf")
 p_max, h_star, epsilon, b, R_a = symbols("p_max h_star epsilon b R_a")
-sigma = symbol("sigma")
+sigma, p_s, u_s = symbols("sigma p_s u_s")
 y = sp.Symbol("y", real=True)
 ABOVE = gt(h, f_c)
+
+WORN = equal(t, sp.Integral(1 / C, (u_s, 0, u_c)))
+
+
+def integral_over(body: sp.Expr, s: sp.Symbol, low: int = 1) -> Judgement:
+    return eq(G, sp.Integral(body, (s, low, 2)))
+
 
 Case = tuple[Callable[[], Judgement], Callable[[], Judgement]]
 
@@ -274,14 +281,20 @@ CASES: dict[str, Case] = {
     ),
     # ---- solutions
     "the wrong branch of W": (  # u_c = 3 h_star
-        lambda: Inverted(sp.Eq(u_c, -h_star * sp.LambertW(-t / T)))(
-            eq(t, T * u_c / h_star * sp.exp(-u_c / h_star))
-        ),
-        lambda: Inverted(sp.Eq(u_c, h_star * t / T))(eq(t, T * u_c / h_star)),
+        lambda: Lambert(-u_c / h_star)(eq(-u_c / h_star * sp.exp(-u_c / h_star), -t / T)),
+        lambda: Lambert(q)(eq(q * sp.exp(q), theta)),
     ),
     "a multiple of the rate": (  # u_c = C t/2
-        lambda: Solution(sp.Eq(t, u_c / C))(eq(2 * rate("u_c"), C), START, CONSTANTLY),
-        lambda: Solution(sp.Eq(t, u_c / C))(eq(rate("u_c"), C), START, CONSTANTLY),
+        lambda: Separate(WORN)(eq(2 * rate("u_c"), C), START, CONSTANTLY),
+        lambda: Separate(WORN)(eq(rate("u_c"), C), START, CONSTANTLY),
+    ),
+    "the primitive of another function": (
+        lambda: Integrated(p_s**2)(integral_over(p_s, p_s)),
+        lambda: Integrated(p_s**2 / 2)(integral_over(p_s, p_s)),
+    ),
+    "a primitive that jumps": (  # from -1 to 1
+        lambda: Integrated(-1 / u_s)(integral_over(u_s**-2, u_s, -1)),
+        lambda: Integrated(-1 / p_s)(integral_over(p_s**-2, p_s)),
     ),
     # ---- logic
     "u_a <= h_0 if and only if u_a < h_0": (

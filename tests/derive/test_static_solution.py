@@ -13,23 +13,26 @@ import sympy as sp
 from derive.kernel import Judgement
 from derive.results.static_compliant import StaticCompliant
 from derive.results.static_scaled import scaled_primitive
-from derive.results.static_solution import StaticSolution
+from derive.results.static_solution import StaticSolution, scale
 from derive.symbols import symbols, t
 
 VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
 h_0, U_a, u_c, sigma_c0, f_c, C, beta, x_inf = symbols("h_0 U_a u_c sigma_c0 f_c C beta x_inf")
+(ell,) = symbols("ell")
 p, p_max, k = symbols("p p_max k")
 
 M = 44 * sp.pi / 10**6
 SECTION_4 = {sigma_c0: sp.Rational("3.6e-4"), h_0: sp.Rational("1.08e-3"), C: M / 2}
 """Time is counted in cycles: C T = M/2."""
+SCALE = scale.claim.rhs
 
 
 def _number(statement: Judgement, slope: str, load: str, more: dict[sp.Expr, sp.Expr]) -> sp.Expr:
     known = {**SECTION_4, f_c: sp.Rational(slope), U_a: sp.Rational(load), **more}
     offset = 2 * (sigma_c0 / f_c - h_0 + U_a)
-    right = statement.claim.rhs.subs({beta: offset, x_inf: 4 - 2 / f_c})
-    return sp.N(right.subs(known), 40)
+    names = {beta: offset, x_inf: 4 - 2 / f_c, ell: SCALE}
+    time = t * statement.claim.rhs / statement.claim.lhs
+    return sp.N(time.subs(names).subs(known), 40)
 
 
 @pytest.mark.parametrize(
@@ -48,7 +51,7 @@ def test_cycles_to_a_wear(slope: str, load: str, key: str) -> None:
 
 def test_wear_after_cycles_without_change_of_roughness() -> None:
     known = {**SECTION_4, U_a: sp.S.Zero, t: sp.Integer(100)}
-    found = sp.N(StaticSolution().wear_smooth.claim.rhs.subs(known), 40)
+    found = sp.N(StaticSolution().wear_smooth.claim.rhs.subs(ell, SCALE).subs(known), 40)
     expected = sp.Float(VALUES["static"]["u_f0(100 cycles,Ua=0)"], 40)
     assert abs(found / expected - 1) < 1e-28
 
@@ -74,7 +77,12 @@ def test_cycles_on_a_compliant_support() -> None:
     with mpmath.workdps(40):
         first = mpmath.findroot(wear, (3, 6), solver="anderson")
         last = mpmath.findroot(lambda x: wear(x) - mpmath.mpf("3e-4"), (0.5, 4), solver="anderson")
-        time = static.time.claim.rhs.subs(beta, offset).subs(known).subs(p.subs(t, 0), first)
+        time = (
+            (static.time.claim.rhs / (2 * C))
+            .subs(beta, offset)
+            .subs(known)
+            .subs(p.subs(t, 0), first)
+        )
         found = sp.lambdify(p, time, "mpmath")(last)
         key = "finite_k(k=1e6MPa/mm,f=.25,Ua=0) tau(u=3e-4)"
         assert abs(found / mpmath.mpf(VALUES["static"][key]) - 1) < mpmath.mpf("1e-19")
