@@ -185,10 +185,28 @@ def _without_cutoff(case: _Case) -> Asymptote:
     return _result(case, "finite-time", saturation_wear_mm=float(end), notices=(said,))
 
 
+def steady_wear_per_cycle(scene: Scene) -> float:
+    """Return the wear of a cycle (mm) in the steady state, Eq. (21), of a scene whose roughness
+    grows."""
+    with decimal.localcontext(_DIGITS):
+        case = _Case(scene)
+        return case.wear_at(float(_steady_pressure(case)))
+
+
+def fresh_wear_per_cycle(scene: Scene) -> float:
+    """Return the wear of a cycle (mm) of a fresh scene that does not feel it."""
+    model, load = bind(scene), scene.periodic_load
+    phases = (np.arange(_PHASES) + 0.5) / _PHASES
+    return float(np.mean(model.rate(0.0, load(phases)))) * load.period
+
+
+def _steady_pressure(case: _Case) -> Decimal:
+    share = case.law("share")(case.value(formula.closure_ratio))
+    return case.value(formula.pressure, share)
+
+
 def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
-    ratio = case.value(formula.closure_ratio)
-    share = case.law("share")(ratio)
-    pressure = case.value(formula.pressure, share)
+    ratio, pressure = case.value(formula.closure_ratio), _steady_pressure(case)
     per_cycle = case.wear_at(float(pressure))
     case.data["p_inf"] = pressure
     steepness = Decimal(case.law("steepness")(ratio))
@@ -335,8 +353,7 @@ def _at_one_third(case: _Case) -> Asymptote:
     model = bind(case.scene)
     phases = (np.arange(_PHASES) + 0.5) / _PHASES
     part = float(np.mean(model.margin(0.0, case.load(phases)) >= 0.0))
-    share = case.law("share")(case.value(formula.closure_ratio))
-    pressure = float(case.value(formula.pressure, share))
+    pressure = float(_steady_pressure(case))
     return _result(
         case,
         "steady",

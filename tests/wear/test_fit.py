@@ -16,7 +16,6 @@ import wear
 from wear.cli import main
 from wear.faults import UsageError
 from wear.fitting.laws import alternatives
-from wear.fitting.least_squares import follow
 from wear.fitting.posterior import posterior
 from wear.fitting.readings import FloatArray, Specimen, read_readings
 from wear.fitting.residuals import Residuals
@@ -164,6 +163,16 @@ def test_the_estimate_is_that_of_scipys_least_squares(found):
     np.testing.assert_allclose(found.correlation[0, 1], found.correlation[1, 0])
 
 
+def test_readings_under_blocks_are_fitted():
+    """A start is not counted beyond the readings: blocks go one by one."""
+    scene = load_scene(str(EXAMPLES / "blocks.toml"))
+    cycles = np.array([1.0, 4.0, 20.0])
+    truth = scene.with_({K: 2e-6})
+    wear_mm = wear.solve(truth, cycles.astype(int), rtol=1e-8).u_c
+    found = wear.fit([Specimen("", cycles, wear_mm, None, {})], scene, [K], intervals=False)
+    assert found.estimates == pytest.approx([2e-6], rel=1e-3)
+
+
 def test_the_jacobian_is_that_of_differences(found):
     slope = found.model(found.theta[None])[1][0]
     for place, step in enumerate(1e-3 * np.eye(2)):
@@ -185,12 +194,15 @@ def test_an_interval_ends_where_the_others_have_followed():
     some = [readings[0], readings[4]]
     scene = load_scene(str(EXAMPLES / "metal.toml")).with_({K: 3.0})
     found = wear.fit(some, scene, [GROWTH], ["bearing.roughness_mm"])
-    ends = np.tile(found.theta, (2, 1))
-    ends[:, 0] = found.profiles[0].interval
-    fixed, box = np.tile([True, False, False], (2, 1)), (found.theta, 7.0 * found.scale)
-    _, cost = follow(found.model, ends, fixed, box, 1e-6, 30)
-    roots = np.sqrt(cost - found.chi_square) / found.scatter
-    np.testing.assert_allclose(roots, found.quantile, rtol=0.01)
+    for end in found.profiles[0].interval:
+
+        def others(x, end=end):
+            off, slope = found.model(np.array([[end, *x]]))
+            return off[0], slope[0][:, 1:]
+
+        near = least_squares(lambda x: others(x)[0], found.theta[1:], jac=lambda x: others(x)[1])
+        root = np.sqrt(2 * near.cost - found.chi_square) / found.scatter
+        assert root == pytest.approx(found.quantile, rel=0.01)
 
 
 def test_an_end_that_only_the_bounds_of_another_parameter_make_is_open():

@@ -143,6 +143,18 @@ def test_a_study_is_what_its_scenes_give_one_by_one(tmp_path):
 
 
 @pytest.mark.usefixtures("small_chunks")
+def test_a_study_takes_no_more_disk_than_it_says(tmp_path):
+    from wear.studies.run import prepare
+    from wear.studies.store import disk_bytes
+
+    words = ("section4", [f"{GROWTH}=0.1:0.3:160"], [1, 9000])
+    study(*words, tmp_path / "a.zarr")
+    files = [file for file in (tmp_path / "a.zarr").rglob("*") if file.is_file()]
+    taken = sum(-(-file.stat().st_size // 4096) * 4096 + 4096 for file in files)
+    assert taken <= disk_bytes(prepare(*words, "grid", 0, 0, None, 1e-7)) <= 2 * taken
+
+
+@pytest.mark.usefixtures("small_chunks")
 def test_an_invalid_scene_is_a_row_with_its_reason(tmp_path):
     found = study("section4", [f"{HARDNESS}=100,-1"], [10], tmp_path / "a.zarr")
     assert found["status"].values.tolist() == [Status.DONE, Status.INVALID_SCENE]
@@ -424,7 +436,7 @@ def test_a_dry_run_says_what_a_study_takes_and_writes_nothing(call, tmp_path):
     words = ("section4", "--vary", f"{GROWTH}=0.1:0.3:21", "-o", str(out), "--dry-run")
     status, shown, _ = call("study", *words, "--json")
     said = json.loads(shown)
-    assert (status, said["scenes"], said["disk_bytes"]) == (0, 21, 21 * 17)
+    assert (status, said["scenes"], said["disk_bytes"]) == (0, 21, 21 * 17 + 15 * 8192)
     assert said["core_seconds"] > 0
     assert not out.exists()
 

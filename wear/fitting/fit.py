@@ -19,7 +19,7 @@ import numpy as np
 
 from wear.fitting import laws, openness
 from wear.fitting.estimate import FARTHEST, Estimate
-from wear.fitting.least_squares import estimate, settle
+from wear.fitting.least_squares import descend, estimate
 from wear.fitting.model import Model
 from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
@@ -159,7 +159,8 @@ class Fit(Estimate):
         early = replace(model, specimens=tuple(laws.first_half(model.specimens)))
         if len(early.residuals.observed) < len(self.theta):
             return float(np.nan)
-        theta = settle(early, self.theta, (self.theta, FARTHEST * self.scale))
+        box = self.theta, FARTHEST * self.scale
+        theta = descend(early, self.theta[None], box)[0][0]
         level, _ = model.log_wear(theta[None], [s.cycles[-1:] for s in model.specimens])
         return laws.forecast_rms(model.specimens, level[0])
 

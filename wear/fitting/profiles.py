@@ -1,26 +1,27 @@
-"""Profile likelihoods: a parameter is moved, all others follow.
+"""Profile likelihoods: how far a parameter goes before the data object, all others following.
 
-The ends of all intervals are sought side by side, so that each round is one batch of scenes. What
-each specimen has for itself beside shared parameters is not moved: its interval is that of the
-linearised model.
+The end of an interval is the farthest value of the parameter at which the sum of squares is at its
+limit (D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37, 87, 1988). A step leads to where it is
+in the linearised model; those of all ends are one batch of scenes. What each specimen has for
+itself beside shared parameters is not moved: its interval is that of the linearised model.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.estimate import FARTHEST, Estimate
-from wear.fitting.least_squares import ROUGHLY, follow, settle
-from wear.fitting.readings import FloatArray
+from wear.fitting.estimate import FARTHEST, LEAST, Estimate
+from wear.fitting.least_squares import descend
+from wear.fitting.readings import FloatArray, IntArray
 
-FLAT = 0.02  # of the slope that the root of the deviance has at the estimate: it rises no more
-NEAR = 0.01  # of the quantile: how closely the end of an interval is sought
-FIRST, FARTHER = 1.0, 2.5  # e-folds, or sizes, of the first step; times as far for the next
-MOST_ROUNDS, MOST_STEPS = 8, 15
+SHARES = (0.5, 1.0)  # of the quantile, at which a profile is drawn
+NEAR = 0.01  # of the quantile: how closely an end is sought
+ROUGHLY = 0.1  # of the quantile: an end that is not found to that is open
+FIRST, LONGER, SHORTER = 1.0, 2.0, 0.4  # e-folds, or sizes, of the longest step; the next
+MOST_STEPS = 25  # to each share
 MOST_DESCENTS = 3  # where a profile finds a better estimate
 BETTER = 0.5  # of the variance: worth another descent; less widens an interval by 6 % at most
 
@@ -34,54 +35,6 @@ class Profile(NamedTuple):
     interval: tuple[float, float]
 
 
-@dataclass
-class _End:
-    """One end of an interval: what is moved, how far it went, the root of the deviance there."""
-
-    index: int
-    side: float
-    error: float  # standard error of the parameter
-    farthest: float
-    path: FloatArray  # how all parameters move with it
-    step: float  # the next
-    inner: float = 0.0
-    below: float = 0.0  # root of the deviance at `inner`
-    outer: float = np.inf
-    above: float = np.inf
-    unfollowed: bool = False  # at `outer` another parameter can follow no farther
-    done: bool = False
-    seen: dict[float, float] = field(default_factory=dict)  # where all others could follow
-
-    def learn(self, point: FloatArray, root: float, limit: float, unfollowed: bool) -> None:
-        """Take in the root of the deviance at the step, (p,) away from the estimate, and choose
-        the next."""
-        if not unfollowed:
-            self.seen[self.side * self.step] = root
-        if root < limit:
-            self.path = point / (self.side * self.step)
-            flat = root - self.below < FLAT * (self.step - self.inner) / self.error
-            self.inner, self.below = self.step, root
-            if np.isinf(self.outer):
-                self.done = flat or self.step >= self.farthest
-                farther = self.step * min(FARTHER, 1.1 * limit / max(root, 1e-9))
-                self.step = min(farther, self.farthest)
-                return
-        else:
-            self.outer, self.above, self.unfollowed = self.step, root, unfollowed
-        self.done = abs(root / limit - 1.0) < NEAR and np.isfinite(self.outer)
-        self.step = self.inner + (self.outer - self.inner) * min(self._share(limit), 0.95)
-
-    def value(self, limit: float) -> float:
-        """Return the step at which the root of the deviance comes to the limit, infinite if it does
-        not, or not for the data's sake."""
-        if np.isinf(self.outer) or (self.unfollowed and self.below < (1.0 - NEAR) * limit):
-            return np.inf
-        return self.inner + (self.outer - self.inner) * self._share(limit)
-
-    def _share(self, limit: float) -> float:
-        return (limit - self.below) / (min(self.above, 3.0 * limit) - self.below)
-
-
 def profiles(found: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tuple[Profile, ...]]:
     """Return the profile likelihoods of an estimate, and the better estimate that they came upon,
     or the same."""
@@ -89,14 +42,15 @@ def profiles(found: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tup
         nothing, opened = np.array([0.0]), (-np.inf, np.inf)
         return found, tuple(Profile(np.array([x]), nothing, opened) for x in found.estimates)
     for _ in range(MOST_DESCENTS):
-        ends, best, cost = _followed(found, say)
-        if not cost < found.chi_square - BETTER * found.scatter**2:
+        ends = _Ends(found)
+        for share in SHARES:
+            ends.go(share * found.quantile * found.scatter, say)
+        if not ends.least < found.chi_square - BETTER * found.scatter**2:
             break
-        found = Estimate(found.model, settle(found.model, best, _box(found), say))
-    made = {end.index: _profile(found, end, high)
-            for end, high in zip(ends[::2], ends[1::2], strict=True)}  # fmt: skip
-    indices = range(len(found.theta))
-    return found, tuple(made.get(i) or _linear(found, i) for i in indices)
+        box = found.theta, FARTHEST * found.scale
+        found = Estimate(found.model, descend(found.model, ends.best[None], box, say)[0][0])
+    made = {number: ends.profile(2 * i) for i, number in enumerate(moved(found))}
+    return found, tuple(made.get(i) or _linear(found, i) for i in range(len(found.theta)))
 
 
 def moved(found: Estimate) -> list[int]:
@@ -105,40 +59,124 @@ def moved(found: Estimate) -> list[int]:
     return shared or list(range(len(found.parameters)))
 
 
-def _followed(found: Estimate, say: Callable[[str], None]) -> tuple[list[_End], FloatArray, float]:
-    """Return the ends, low and high in turn, and the best point seen with its sum of squares: of
-    those that are not out at the bounds, where a valley that the data leave open has no end."""
-    errors = found.spread(np.eye(len(found.theta)))
-    covariance = found.covariance
-    limit, best, least = found.quantile, found.theta, found.chi_square
-    ends = []
-    for index in moved(found):
-        error = float(errors[index])
-        for side in (-1.0, 1.0):
-            farthest = FARTHEST * float(found.scale[index])
-            step = min(limit * error, FIRST * float(found.scale[index]))
-            path = covariance[:, index] / covariance[index, index]
-            ends.append(_End(index, side, error, farthest, path, step))
-    for _ in range(MOST_ROUNDS):
-        active = [end for end in ends if not end.done]
-        if not active:
-            break
-        starts = np.array([found.theta + end.side * end.step * end.path for end in active])
-        fixed = np.arange(len(found.theta)) == np.array([[end.index] for end in active])
-        points, costs = follow(found.model, starts, fixed, _box(found), ROUGHLY, MOST_STEPS, say)
-        for end, point, cost in zip(active, points, costs.tolist(), strict=True):
-            at_bound = np.abs(point - found.theta) > 0.999 * FARTHEST * found.scale
-            if cost < least and not at_bound.any():
-                best, least = point, cost
-            root = float(np.sqrt(max(cost - found.chi_square, 0.0))) / found.scatter
-            unfollowed = bool(np.delete(at_bound, end.index).any())
-            end.learn(point - found.theta, root, limit, unfollowed)
-    return ends, best, least
+class _Ends:
+    """The two ends (k,) of the intervals of all parameters that are moved: the number of each, the
+    `side` to which it moves, the `points` (k, p) where they are, and whether the data leave them
+    `opened` (k,); with the `best` point seen, of the `least` sum of squares."""
+
+    def __init__(self, found: Estimate) -> None:
+        self.found, self.number = found, np.repeat(moved(found), 2)
+        self.side = np.tile([-1.0, 1.0], len(self.number) // 2)
+        self.points = np.tile(found.theta, (len(self.number), 1))
+        self.opened = np.full(len(self.number), False)
+        self.best, self.least = found.theta, found.chi_square
+        self.seen = [(self.points.copy(), np.zeros(len(self.number)))]
+
+    def go(self, level: float, say: Callable[[str], None]) -> None:
+        """Move on to where the root of the deviance is at a `level`, in units of residuals."""
+        found, far = self.found, FARTHEST * self.found.scale
+        low, high = found.theta - far, found.theta + far
+        off, slope = found.model(self.points)
+        longest, todo = np.full(len(self.number), FIRST), np.flatnonzero(~self.opened)
+        slack = np.full(len(self.number), found.quantile * found.scatter)
+        for _ in range(MOST_STEPS):
+            if not len(todo):
+                break
+            say(f"ends of intervals: {len(todo)} left to be found")
+            number, before, own = self.number[todo], self.points[todo], np.arange(len(todo))
+            most = np.maximum(level + slack[todo], self._root(off[todo]))
+            linear = Linearised.of(off[todo], slope[todo] * found.scale)
+            step = linear.farthest(number, self.side[todo], found.chi_square + level**2)
+            step *= np.minimum(1.0, longest[todo] / np.max(np.abs(step), axis=1))[:, None]
+            trial = np.clip(before + step * found.scale, low, high)
+            trial_off, trial_slope = found.model(trial)
+            bad = self._root(trial_off) > most
+            if bad.any():  # the valley bends: the step is corrected for that
+                step += linear.correction(number, step, trial_off)
+                trial[bad] = np.clip(before + step * found.scale, low, high)[bad]
+                trial_off[bad], trial_slope[bad] = found.model(trial[bad])
+            self._remember(trial, trial_off)
+            root = self._root(trial_off)
+            good = root <= most
+            longest[todo] *= np.where(good, LONGER, SHORTER)
+            slack[todo] *= np.where(root > level, SHORTER, 1.0)
+            way, moved_by = (np.abs(trial - x)[own, number] for x in (found.theta, before))
+            there = (np.abs(root - level) <= NEAR * level) & (moved_by <= NEAR * way)
+            won = todo[good]
+            for whole, part in zip(
+                (self.points, off, slope), (trial, trial_off, trial_slope), strict=True
+            ):
+                whole[won] = part[good]
+            self.opened[todo] = good & np.any(np.abs(trial - found.theta) > 0.999 * far, axis=1)
+            todo = todo[~(good & there) & ~self.opened[todo]]
+        root = self._root(off)
+        self.opened[todo] |= np.abs(root - level)[todo] > ROUGHLY * level
+        self.seen.append((self.points.copy(), root / found.scatter))
+
+    def profile(self, end: int) -> Profile:
+        """Return the profile between an end and the next, in the unit of its parameter."""
+        found, number, opened = self.found, self.number[end], self.opened[end : end + 2]
+        points, roots = (np.array(each) for each in zip(*self.seen, strict=True))
+        theta = np.concatenate([points[::-1, end, number], points[1:, end + 1, number]])
+        roots = np.concatenate([roots[::-1, end], roots[1:, end + 1]])
+        values = found.parameters[number].value(theta)
+        interval = np.where(opened, [-np.inf, np.inf], values[[0, -1]])
+        # What is drawn of an open end comes to no end either.
+        drawn = np.append(np.diff(theta) > 0.0, True) & (
+            (roots < found.quantile) | ~np.where(theta < found.theta[number], *opened)
+        )
+        return Profile(values[drawn], roots[drawn], (float(interval[0]), float(interval[1])))
+
+    def _root(self, off: FloatArray) -> FloatArray:
+        deviance = np.sum(off**2, axis=1) - self.found.chi_square
+        return np.asarray(np.sqrt(np.maximum(deviance, 0.0)))
+
+    def _remember(self, points: FloatArray, off: FloatArray) -> None:
+        for point, cost in zip(points, np.sum(off**2, axis=1).tolist(), strict=True):
+            if cost < self.least:
+                self.best, self.least = point, cost
 
 
-def _box(found: Estimate) -> tuple[FloatArray, FloatArray]:
-    """Return where the other parameters may follow."""
-    return found.theta, FARTHEST * found.scale
+class Linearised(NamedTuple):
+    """Points (k,) with the model linearised there: the residuals `off` (k, n), their `slope`
+    (k, n, p) and the inverse `covariance` (k, p, p) of its square."""
+
+    off: FloatArray
+    slope: FloatArray
+    covariance: FloatArray
+
+    @classmethod
+    def of(cls, off: FloatArray, slope: FloatArray) -> Linearised:
+        """Return the same for residuals with this slope."""
+        _, values, rows = np.linalg.svd(slope, full_matrices=False)
+        part = np.swapaxes(rows, 1, 2) / np.maximum(values, LEAST * values[:, :1])[:, None]
+        return cls(off, slope, part @ np.swapaxes(part, 1, 2))
+
+    def farthest(self, number: IntArray, side: FloatArray, limit: float) -> FloatArray:
+        """Return the steps (k, p) to where parameters of these numbers (k,) are farthest to a
+        `side` (k,) with a sum of squares of `limit`."""
+        gradient = np.einsum("knp,kn->kp", self.slope, self.off)
+        down = -np.einsum("kpq,kq->kp", self.covariance, gradient)
+        least = np.sum(self.off**2, axis=1) + np.sum(gradient * down, axis=1)
+        across, own = self._across(number)
+        way = side * np.sqrt(np.maximum(limit - least, 0.0) / own)
+        return np.asarray(down + way[:, None] * across)
+
+    def correction(self, number: IntArray, step: FloatArray, off: FloatArray) -> FloatArray:
+        """Return by how much the parameters but those of the numbers (k,) are to follow a `step`
+        (k, p) to make up for what the residuals `off` (k, n) after it differ from linear ones."""
+        missed = off - self.off - np.einsum("knp,kp->kn", self.slope, step)
+        gradient = np.einsum("knp,kn->kp", self.slope, missed)
+        across, own = self._across(number)
+        back = np.sum(across * gradient, axis=1) / own
+        return np.asarray(
+            back[:, None] * across - np.einsum("kpq,kq->kp", self.covariance, gradient)
+        )
+
+    def _across(self, number: IntArray) -> tuple[FloatArray, FloatArray]:
+        every = np.arange(len(number))
+        across = self.covariance[every, number]
+        return across, across[every, number]
 
 
 def _linear(found: Estimate, index: int) -> Profile:
@@ -150,16 +188,3 @@ def _linear(found: Estimate, index: int) -> Profile:
     values = parameter.value(found.theta[index] + steps)
     ends = (float(values[0]), float(values[2])) if width < farthest else (-np.inf, np.inf)
     return Profile(values, np.abs(steps) * limit / width, ends)
-
-
-def _profile(found: Estimate, low: _End, high: _End) -> Profile:
-    """Return the profile of a parameter, in its own unit."""
-    parameter, theta = found.parameters[low.index], found.theta[low.index]
-    seen = {0.0: 0.0} | low.seen | high.seen
-    steps = np.array(sorted(seen))
-    interval = [
-        float(parameter.value(theta + end.side * step)) if np.isfinite(step) else end.side * step
-        for end, step in ((end, end.value(found.quantile)) for end in (low, high))
-    ]
-    roots = np.array([seen[step] for step in steps.tolist()])
-    return Profile(parameter.value(theta + steps), roots, (interval[0], interval[1]))

@@ -18,6 +18,7 @@ from wear.quantities import MOST_CYCLES
 from wear.words import is_path, shown
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
 MOST_BYTES = 16 * 1024 * 1024
 WEAR = {"wear_mm": 1.0, "wear_um": 1e-3}  # column: mm a unit
 DELIMITERS = (",", ";", "\t")  # the decimal sign may be a comma where the first is not

@@ -31,6 +31,9 @@ if TYPE_CHECKING:
     import xarray
 
 
+BESIDE_A_FILE = 8192  # bytes on disk: its folder, and what is left of its last block
+
+
 class Variable(NamedTuple):
     """One array of a study, its type, whether it has a dimension of cycles, unit and meaning."""
 
@@ -207,10 +210,13 @@ class Store:
 
 
 def disk_bytes(study: Study) -> int:
-    """Return the bytes that all results take before they are compressed."""
-    numbers = 2 * len(study.cycles) + (study.until_wear is not None)
-    keys = len(study.design.vary) if study.design.kind != "grid" else 0
-    return study.design.rows * (8 * (numbers + keys) + 1)
+    """Return the bytes that all results take at most: uncompressed, a file a chunk and array."""
+    design, until = study.design, study.until_wear is not None
+    keys = len(design.vary) if design.kind != "grid" else 0
+    numbers = 2 * len(study.cycles) + until + keys
+    files = (3 + until + keys) * sum(1 for _ in design.chunks())
+    files += 2 * (5 + until + len(design.vary))  # coordinates, and what is said of each array
+    return design.rows * (8 * numbers + 1) + files * BESIDE_A_FILE
 
 
 def identity(study: Study) -> dict[str, Any]:
