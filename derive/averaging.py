@@ -4,13 +4,13 @@ Overview
     Let ds/dtau = rho (1 + p_1(tau)/s + p_2(tau)/s^2 + ...) with periodic p_n and large s.  Then
     s = m + w_1(tau)/m + w_2(tau)/m^2 + ... with periodic w_n of zero mean, and m grows without
     oscillation: dm/dtau = rho (1 + c_1/m + c_2/m^2 + ...).  Inserting and comparing powers of
-    1/m gives at each order one linear equation, dw_n/dtau + rho c_n = known: its mean is c_n,
+    1/m gives at each order one linear equation, c_n + (dw_n/dtau)/rho = known: its mean is c_n,
     the rest integrates to w_n.  What is periodic is a polynomial in z = exp(2 pi i tau) and 1/z,
     of which the mean is the coefficient of z^0: no integral has to be found.
 Key results
-    Averaged     the c_n and w_n
-    average      solves order by order
-    at           a polynomial in z, in sines and cosines
+    collected    what is known at an order
+    turning      a periodic expression in tau as a polynomial in z and 1/z
+    mean         its mean over a cycle
 References
     Sanders, Verhulst, Murdock, Averaging Methods in Nonlinear Dynamical Systems, 2007.
 """
@@ -18,37 +18,24 @@ References
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import sympy as sp
 
 z = sp.Dummy("z", positive=True)
 """exp(2 pi i tau)."""
 
-sine = (z - 1 / z) / (2 * sp.I)
-"""sin(2 pi tau)."""
 
+def collected(
+    terms: Sequence[sp.Expr], drift: Sequence[sp.Expr], waves: Sequence[sp.Expr], n: int
+) -> sp.Expr:
+    """Return ``c_n + (dw_n/dtau)/rho`` from p_1 to p_n and the c and w of the orders below.
 
-@dataclass(frozen=True)
-class Averaged:
-    """``drift[n] = c_n`` and ``oscillation[n] = w_n``; entries 0 are 1 and 0."""
-
-    drift: tuple[sp.Expr, ...]
-    oscillation: tuple[sp.Expr, ...]
-
-
-def average(terms: Sequence[sp.Expr], rho: sp.Expr) -> Averaged:
-    """Solve ``ds/dtau = rho sum_n terms[n]/s^n`` order by order; ``terms[0]`` is 1."""
-    drift, waves = [sp.S.One], [sp.S.Zero]
-    for n in range(1, len(terms)):
-        powers = (term * _power(waves, -k, n - k) for k, term in enumerate(terms[: n + 1]))
-        # of d(w_k/m^k)/dtau the slow part is -k w_k (dm/dtau)/m^(k + 1)
-        slow = (k * waves[k] * drift[n - k - 1] for k in range(1, n))
-        known = _coefficients(sp.Add(*powers, *slow))
-        drift.append(known.pop(0, sp.S.Zero))
-        turns = (c * z**j / (2 * sp.pi * sp.I * j) for j, c in known.items())
-        waves.append(rho * sp.Add(*turns))
-    return Averaged(tuple(drift), tuple(waves))
+    ``terms[0]`` and ``drift[0]`` are 1, ``waves[0]`` is 0.
+    """
+    powers = (term * _power(waves[:n], -k, n - k) for k, term in enumerate(terms[: n + 1]))
+    # of d(w_k/m^k)/dtau the slow part is -k w_k (dm/dtau)/m^(k + 1)
+    slow = (k * waves[k] * drift[n - k - 1] for k in range(1, n))
+    return sp.Add(*powers, *slow)
 
 
 def _power(waves: Sequence[sp.Expr], power: int, order: int) -> sp.Expr:
@@ -59,18 +46,19 @@ def _power(waves: Sequence[sp.Expr], power: int, order: int) -> sp.Expr:
     return sp.expand(series).coeff(small, order)
 
 
-def _coefficients(expr: sp.Expr) -> dict[int, sp.Expr]:
-    """Return the coefficients of a polynomial in z and 1/z, by the power."""
-    powers = sp.collect(sp.expand(expr), z, evaluate=False)
-    return {int(p.as_base_exp()[1]) if p.has(z) else 0: c for p, c in powers.items()}
+def turning(expr: sp.Expr, phase: sp.Expr) -> sp.Expr:
+    """Return an expression in sines and cosines of 2 pi n phase, n whole, in terms of z.
 
-
-def at(expr: sp.Expr, phase: sp.Expr) -> sp.Expr:
-    """Return a polynomial in z and 1/z at a phase, in sines and cosines.
-
-    >>> at(1 + sine**2, sp.Rational(1, 4))
-    2
+    >>> tau = sp.Symbol("tau")
+    >>> turning(sp.cos(2 * sp.pi * tau) ** 2, tau) == sp.expand((z + 1 / z) ** 2 / 4)
+    True
     """
-    angles = {n: 2 * sp.pi * n * phase for n in _coefficients(expr)}
-    waves = {n: sp.cos(angle) + sp.I * sp.sin(angle) for n, angle in angles.items()}
-    return sp.expand(sp.Add(*(c * waves[n] for n, c in _coefficients(expr).items())))
+    turns = expr.rewrite((sp.sin, sp.cos), sp.exp).replace(
+        sp.exp, lambda x: z ** sp.cancel(x / (2 * sp.pi * sp.I * phase))
+    )
+    return sp.expand(turns)
+
+
+def mean(expr: sp.Expr) -> sp.Expr:
+    """Return the coefficient of z^0 of a polynomial in z and 1/z."""
+    return expr.as_independent(z, as_Add=True)[0]

@@ -34,6 +34,7 @@ class Quantity(NamedTuple):
     meaning: str
     domain: str
     varies: bool = False  # a function of time
+    clock: str = "t"  # or of scaled time
 
 
 _TABLE = (
@@ -111,8 +112,10 @@ _TABLE = (
     Quantity("c_2", "c_2", "mm^2", "drift at order 1/m^2", REAL),
     Quantity("c_3", "c_3", "mm^3", "drift at order 1/m^3", REAL),
     Quantity("c_4", "c_4", "mm^4", "drift at order 1/m^4", REAL),
-    Quantity("w_1", "w_1", "mm^2", "oscillation at order 1/m", REAL),
-    Quantity("w_2", "w_2", "mm^3", "oscillation at order 1/m^2", REAL),
+    Quantity("w_1", "w_1", "mm^2", "oscillation at order 1/m", REAL, True, "tau"),
+    Quantity("w_2", "w_2", "mm^3", "oscillation at order 1/m^2", REAL, True, "tau"),
+    Quantity("w_3", "w_3", "mm^4", "oscillation at order 1/m^3", REAL, True, "tau"),
+    Quantity("w_4", "w_4", "mm^5", "oscillation at order 1/m^4", REAL, True, "tau"),
     # long time
     Quantity("G", "G", "1", "any field of a system", REAL, True),
     Quantity("G_inf", r"G_\infty", "1", "asymptotic response of a field", REAL, True),
@@ -142,7 +145,7 @@ DATA = frozenset(
 )
 """Parameters that may vary each by itself: all others are made of them."""
 
-CLOCKS = frozenset(["t", "tau", "N", "m", "z", "E", "w_1", "w_2"])
+CLOCKS = frozenset(["t", "tau", "N", "m", "z", "E"])
 """Symbols of what varies in time; any other symbol is a constant."""
 
 QUANTITIES = MappingProxyType({quantity.name: quantity for quantity in _TABLE})
@@ -158,7 +161,9 @@ def symbol(name: str) -> sp.Expr:
     """
     quantity = QUANTITIES[name]
     domain = {quantity.domain: True}
-    return sp.Function(name, **domain)(t) if quantity.varies else sp.Symbol(name, **domain)
+    if not quantity.varies:
+        return sp.Symbol(name, **domain)
+    return sp.Function(name, **domain)(t if quantity.clock == "t" else symbol(quantity.clock))
 
 
 def symbols(names: str) -> tuple[sp.Expr, ...]:

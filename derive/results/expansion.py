@@ -20,14 +20,22 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..claims import Drift, Oscillation, Term, landau_o
+from ..claims import Drift, Oscillation, landau_o
 from ..equations import Proved, stated
-from ..kernel import Judgement
+from ..kernel import Judgement, plain
 from ..note.stabilised import Stabilised
 from ..rules.assumption import assume, defined
-from ..rules.averages import EXPANSION, OFFSET, SATURATION, Averaging, SlowTime, term_of
+from ..rules.averages import (
+    EXPANSION,
+    OFFSET,
+    SATURATION,
+    Averaging,
+    OrderEquation,
+    SlowTime,
+    term_of,
+)
 from ..rules.reading import SINE
-from ..symbols import symbols
+from ..symbols import symbol, symbols
 from .steady_state import steady_state
 
 (f_c,) = symbols("f_c")
@@ -45,20 +53,32 @@ growth = defined(rho, f_c * u_cum)
 class Expansion:
     """The expansion for the note's law, a rigid support and a sine load."""
 
+    def order(self, n: int) -> Judgement:
+        """Return what the terms with 1/m^n say of c_n and w_n."""
+        pressure = steady_state().pressure_at_wear
+        names = (
+            defined(
+                name,
+                term_of(kind, k, pressure.claim.rhs),
+                f"{plain(name)} by definition, in {MEANING}",
+            )
+            for k in range(1, n + 1)
+            for kind, name in ((Drift, symbol(f"c_{k}")), (Oscillation, symbol(f"w_{k}")))
+        )
+        facts = (assume(SINE), offset, saturation, *names)
+        return OrderEquation(sp.Integer(n))(pressure, *facts, name=f"terms with 1/m^{n}")
+
     def drift(self, n: int) -> Judgement:
         """Growth of the roughness at order 1/m^n."""
-        return self._term(Drift, n, stated("expansion-drift")[n - 1])
+        claim = stated("expansion-drift")[n - 1]
+        return Averaging(claim)(
+            self.order(n), *map(self.oscillation, range(1, n - 1)), name="drift"
+        )
 
     def oscillation(self, n: int) -> Judgement:
         """Oscillation of the roughness at order 1/m^n."""
-        return self._term(Oscillation, n, stated("expansion-oscillation")[n - 1])
-
-    def _term(self, kind: type[Term], n: int, claim: sp.Equality) -> Judgement:
-        pressure = steady_state().pressure_at_wear
-        term = term_of(kind, n, pressure.claim.rhs)
-        name = defined(claim.lhs, term, f"{claim.lhs} by definition, in {MEANING}")
-        meaning = (assume(SINE), name, offset, saturation)
-        return Averaging(claim)(pressure, *meaning, name="term of the expansion")
+        claim, below = stated("expansion-oscillation")[n - 1], map(self.oscillation, range(1, n))
+        return Averaging(claim)(self.order(n), self.drift(n), *below, name="oscillation")
 
     @cached_property
     def slow_time(self) -> Judgement:

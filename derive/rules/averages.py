@@ -7,7 +7,8 @@ Overview
     belong to it, too.
 Key results
     term_of              what c_n and w_n are by definition, for a pressure
-    Averaging            c_n and w_n, by averaging the series again, order by order
+    OrderEquation        what the terms with 1/m^n say of c_n and w_n
+    Averaging            c_n, the mean of that over a cycle, and w_n, the integral of the rest
     SlowTime             tau as a function of m, from dm/dtau
 References
     Sanders, Verhulst, Murdock, Averaging Methods in Nonlinear Dynamical Systems, 2007.
@@ -15,17 +16,19 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
 import sympy as sp
 
-from ..averaging import Averaged, at, average, sine
+from ..averaging import collected, mean, turning
 from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
 from ..hypotheses import Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, listed
+from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
+from .algebra import inserted
 from .proving import require_defined
 from .reading import LOAD, SINE, T, clocks, constant, equality, fields, require_hypothesis
 
@@ -74,53 +77,91 @@ def term_of(kind: type[Term], n: int, pressure: sp.Expr) -> Term:
     return kind(sp.Integer(n), law, ROUGHNESS, tau, rho)
 
 
-def _meaning(name: sp.Expr, premises: tuple[Judgement, ...]) -> Term:
-    """Return the coefficient that a name is, by one of the premises."""
-    for claim in (premise.claim for premise in premises):
-        if isinstance(claim, Equality) and claim.lhs == name and isinstance(claim.rhs, Term):
-            return claim.rhs
-    raise RuleError(f"missing premise: {name} is a coefficient of the expansion, by definition")
-
-
-@cache
-def averaged(pressure: sp.Expr) -> Averaged:
-    """Average ``dsigma/dtau = rho p/p_inf`` over U_a = U sin(2 pi tau), to order 4."""
-    steady, *corrections = (
-        term.subs(sp.tanh(4 - 2 / f_c), theta).subs(sp.tanh(2 / f_c - 4), -theta)
-        for term in powers(pressure, ORDER)
-    )
-    under_sine = (sp.cancel(term / steady).subs(LOAD, U * sine) for term in corrections)
-    return average([sp.S.One, *under_sine], rho)
-
-
 @dataclass(frozen=True)
-class Averaging(Rule):
-    """A coefficient of the expansion, for a name that a premise defines as one.
+class OrderEquation(Rule):
+    """``dw_n/dtau = rho (K - c_n)``: the terms with 1/m^n, where K has terms of lower order.
 
-    The others give the pressure (the first), a sine load, b_0 and theta.
+    The premises give the pressure, a sine load, b_0 and theta, and name c_n and w_n, and those
+    of the orders below, by definition.
     """
 
-    claim: sp.Equality
-    words = "Average the rate over a cycle, order by order, with {all}."
+    order: sp.Integer
+    words = (
+        "Insert the expansion into the rate of the roughness, which is proportional to {0}, with "
+        "{others}, and compare the terms with 1/m^{order}."
+    )
     source = "Sanders, Verhulst, Murdock, 2007"
     asks = ("the pressure",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        given, name = equality(premises[0]), self.claim.lhs
+        given, n = equality(premises[0]), int(self.order)
         for relation in (SINE.relation, OFFSET, SATURATION, sp.Gt(f_c, 0)):
             require_hypothesis(relation, *premises)
         if given.lhs != p or fields(given.rhs) - {u_c, LOAD} or clocks(given.rhs):
             raise RuleError("missing premise: the pressure at given wear and load")
-        meaning, solved = _meaning(name, premises[1:]), averaged(given.rhs)
-        known = {term_of(Drift, n, given.rhs): solved.drift[n] for n in range(1, ORDER + 1)}
-        for n in (1, 2):
-            known[term_of(Oscillation, n, given.rhs)] = at(solved.oscillation[n], tau)
-        if meaning not in known:
-            raise RuleError(f"missing premise: {name} is c_1 to c_4, w_1 or w_2 of this pressure")
-        require_defined(self.claim.rhs, *premises)
-        if not is_zero(sp.expand_trig(self.claim.rhs) - sp.expand_trig(known[meaning])):
-            raise RuleError(f"missing premise: {name} = {known[meaning]}")
-        return Conclusion(Equality(name, self.claim.rhs))
+        drift, waves = [sp.S.One], [sp.S.Zero]
+        for k in range(1, n + 1):
+            drift.append(_named(term_of(Drift, k, given.rhs), *premises))
+            waves.append(_named(term_of(Oscillation, k, given.rhs), *premises))
+        known = collected(_series(given.rhs, n), drift, waves, n)
+        return Conclusion(Equality(sp.Derivative(waves[n], tau), rho * (known - drift[n])))
+
+
+def _named(term: Term, *premises: Judgement) -> sp.Expr:
+    """Return the name of a coefficient, which one of the premises gives it."""
+    for claim in (premise.claim for premise in premises):
+        if isinstance(claim, Equality) and claim.rhs == term:
+            return claim.lhs
+    kind = type(term).__name__.lower()
+    raise RuleError(f"missing premise: a name of the {kind} {term.letter}_{term.args[0]}")
+
+
+@cache
+def _series(pressure: sp.Expr, order: int) -> tuple[sp.Expr, ...]:
+    """Return the coefficients of 1/sigma^n in ``p/p_inf`` under U_a = U sin(2 pi tau)."""
+    steady, *corrections = (
+        term.subs(sp.tanh(4 - 2 / f_c), theta).subs(sp.tanh(2 / f_c - 4), -theta)
+        for term in powers(pressure, order)
+    )
+    load = SINE.relation.rhs.subs(t, T * tau)
+    return sp.S.One, *(sp.factor(sp.cancel(c / steady)).subs(LOAD, load) for c in corrections)
+
+
+@dataclass(frozen=True)
+class Averaging(Rule):
+    """``dw/dtau = R(tau)``, where w has the period 1 and the mean 0: c_n in R, or w.
+
+    The mean of R is 0, and so is that of every oscillation in it; the others give coefficients of
+    lower order, and c_n for w_n.
+    """
+
+    claim: sp.Equality
+    source = "Sanders, Verhulst, Murdock, 2007"
+    asks = ("the equation of an order",)
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, (name, value) = equality(premises[0]), self.claim.args
+        said = {h.relation for h in premises[0].hypotheses}
+        waves = {r.lhs: sp.S.Zero for r in said if isinstance(getattr(r, "rhs", 0), Oscillation)}
+        whole = law.lhs.args[0] if isinstance(law.lhs, sp.Derivative) else law.lhs
+        if whole not in waves or value.has(*waves):
+            raise RuleError(f"missing premise: {law.relation} is of an oscillation")
+        rest = sp.expand(inserted(law.rhs, premises[1:]))
+        if name == whole:
+            right = mean(turning(value, tau)) == 0 == turning(sp.diff(value, tau) - rest, tau)
+        else:
+            even = not any(sp.diff(rest, wave).has(tau) for wave in waves)
+            average = mean(turning(rest.xreplace(waves), tau)) if even else sp.nan
+            right = is_zero(average + rho * (name - value))
+        if not right:
+            raise RuleError(f"missing premise: {name} = {value} by the mean of {rest}")
+        return Conclusion(Equality(name, value))
+
+    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
+        known = f", with {listed(labels[1:])}" if labels[1:] else ""
+        if self.claim.lhs.is_Symbol:
+            return f"The mean of {labels[0]} over a cycle is zero{known}: solve for the drift."
+        return f"Integrate {labels[0]} over the phase{known}; the mean of an oscillation is zero."
 
 
 def _definitions(law: sp.Expr) -> set[sp.Equality]:
@@ -141,7 +182,7 @@ class SlowTime(Rule):
     """
 
     claim: sp.Equality
-    words = "Integrate the averaged drift term by term, with {all}."
+    words = "Divide by the drift, expand in powers of 1/m and integrate term by term, with {all}."
     source = "termwise integration of an asymptotic series"
 
     def conclude(self, *premises: Judgement) -> Conclusion:

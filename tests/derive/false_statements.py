@@ -24,8 +24,8 @@ theta, x_inf, tau, omega, kappa, epsilon, b_0, mu = (
     sp.Symbol("mu", positive=True),
 )
 K_a, K_c, H_a, H_c, p_max, sigma_a0, sigma_c0 = symbols("K_a K_c H_a H_c p_max sigma_a0 sigma_c0")
-U_mean, U_max, U_min, u_cum, u_stop, rho, m, w_1 = symbols(
-    "U_mean U_max U_min u_cum u_stop rho m w_1"
+U_mean, U_max, U_min, u_cum, u_stop, rho, m, c_2 = symbols(
+    "U_mean U_max U_min u_cum u_stop rho m c_2"
 )
 
 Eq, Ne, Gt, Ge, Lt, Le, exp, log = sp.Eq, sp.Ne, sp.Gt, sp.Ge, sp.Lt, sp.Le, sp.exp, sp.log
@@ -281,8 +281,8 @@ CASES = (
     Case("any load is a sine", (TAIL, START, LARGEST, PERIODIC, BOUNDED), Eq(u_c.subs(t, T), ROUNDS), (SINE,)),
     Case("a length is no drift", _constants, Eq(L, _c_1), (Eq(L, _c_1),)),
     Case("an area is no oscillation", (*_constants, Eq(rho, f_c * u_cum)),
-         Eq(w_1, -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi),
-         (Eq(w_1, -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi),)),
+         Eq(c_2, -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi),
+         (Eq(c_2, -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi),)),
     Case("wear of the other solid", (TAIL, START, LARGEST, SINE), Eq(u_a.subs(t, T), ROUNDS), (Eq(u_a, u_c),)),
     Case("a slope is no logarithm", (Lt(f_c, 0),), Eq(f_a, 4 / f_c - 8), (Eq(f_a, 4 / f_c - 8),)),
     Case("a length is no slow time", _constants, Eq(L, m - _c_1 * log(m / rho)), (Eq(L, m - _c_1 * log(m / rho)),)),

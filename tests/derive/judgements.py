@@ -7,14 +7,22 @@ from collections.abc import Callable
 import sympy as sp
 from sympy.core.relational import Relational
 
-from derive.claims import Drift, Term
+from derive.claims import Drift, Oscillation
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Judgement
 from derive.results.expansion import Expansion
 from derive.results.steady_state import BOUNDED_LOAD, steady_state
 from derive.rules.algebra import Insert, Solve, discharge, forget
 from derive.rules.assumption import assume, defined
-from derive.rules.averages import OFFSET, SATURATION, term_of
+from derive.rules.averages import (
+    EXPANSION,
+    OFFSET,
+    SATURATION,
+    Averaging,
+    OrderEquation,
+    SlowTime,
+    term_of,
+)
 from derive.rules.calculus import SPRINGS
 from derive.rules.drift import MEAN
 from derive.rules.inequalities import Arithmetic
@@ -99,12 +107,28 @@ def drift_premises(approach: sp.Expr = APPROACH) -> tuple[Judgement, ...]:
     return tends(approach, sp.S.Zero), assume(PERIODIC), assume(CONTINUOUS), mean
 
 
-def expansion_premises(name: str, kind: type[Term] = Drift, n: int = 1) -> tuple[Judgement, ...]:
-    """Return the pressure, the load, b_0, theta and a name for a coefficient of the expansion."""
+def expansion_premises(name: str = "c_1") -> tuple[Judgement, ...]:
+    """Return the pressure, the load, b_0, theta, and names for c_1 and w_1."""
     pressure = steady_state().pressure_at_wear
-    named = defined(symbol(name), term_of(kind, n, pressure.claim.rhs))
-    return pressure, assume(SINE), defined(*OFFSET.args), defined(*SATURATION.args), named
+    names = (
+        defined(symbol(called), term_of(kind, 1, pressure.claim.rhs))
+        for called, kind in ((name, Drift), ("w_1", Oscillation))
+    )
+    return pressure, assume(SINE), defined(*OFFSET.args), defined(*SATURATION.args), *names
+
+
+def first_order_terms(name: str = "c_1") -> Judgement:
+    """Return what the terms with 1/m say of c_1 and w_1."""
+    return OrderEquation(sp.S.One)(*expansion_premises(name))
+
+
+def averaged_as(claim: sp.Expr, name: str = "c_1") -> Judgement:
+    """Return c_1 from the mean of the terms with 1/m, where it has a name."""
+    return Averaging(sp.Eq(symbol("c_1"), claim))(first_order_terms(name))
 
 
 def slow_time() -> Judgement:
-    return Expansion().slow_time
+    """Return the slow time by the definitions of c_1 to c_4."""
+    known, pressure = Expansion().slow_time.claim, steady_state().pressure_at_wear.claim.rhs
+    drifts = [defined(symbol(f"c_{n}"), term_of(Drift, n, pressure)) for n in (1, 2, 3, 4)]
+    return SlowTime(sp.Eq(known.lhs, known.rhs))(*drifts, assume(EXPANSION))

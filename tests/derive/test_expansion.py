@@ -10,7 +10,7 @@ import mpmath
 import pytest
 import sympy as sp
 
-from derive.averaging import average, sine, z
+from derive.averaging import collected, mean, z
 from derive.kernel import Judgement
 from derive.laws import TANH
 from derive.note.stabilised import Stabilised
@@ -110,11 +110,16 @@ def test_a_softer_support_lowers_the_drift() -> None:
 
 def test_averaging_in_closed_form_for_any_load() -> None:
     """c_3 is a mean; c_4 has two correlations more.  Two harmonics, all amplitudes symbolic."""
-    a = sp.symbols("a1:9", real=True)
+    a, turns = sp.symbols("a1:9", real=True), 2 * sp.pi * sp.I
     first, second = (x + y * (z + 1 / z) + w * (z**2 - z**-2) for x, y, w in (a[:3], a[3:6]))
-    third, fourth = a[6] + a[0] * sine, a[7] + a[1] * sine
-    drift = average([sp.S.One, first, second, third, fourth], rho).drift
-    primitive = (a[1] * (z - 1 / z) + a[2] / 2 * (z**2 + z**-2)) / (2 * sp.pi * sp.I)
+    third, fourth = (x + y * (z - 1 / z) for x, y in ((a[6], a[0]), (a[7], a[1])))
+    drift, waves = [sp.S.One], [sp.S.Zero]
+    for n in (1, 2, 3, 4):
+        known = sp.expand(collected((sp.S.One, first, second, third, fourth), drift, waves, n))
+        drift.append(mean(known))
+        rest = ((c, c.as_coeff_exponent(z)[1]) for c in sp.Add.make_args(known - drift[n]))
+        waves.append(rho * sp.Add(*(c / (turns * power) for c, power in rest if c != 0)))
+    primitive = (a[1] * (z - 1 / z) + a[2] / 2 * (z**2 + z**-2)) / turns
     correlation = sp.expand(rho**2 * primitive**2 - rho * second * primitive).coeff(z, 0)
     assert sp.expand(drift[3] - a[6]) == 0
     assert sp.expand(drift[4] - a[7] - correlation) == 0

@@ -10,7 +10,6 @@ from collections.abc import Callable
 import pytest
 import sympy as sp
 
-from derive.claims import Oscillation
 from derive.hypotheses import Kind
 from derive.kernel import Judgement, RuleError, infer, replayed
 from derive.laws import GENERAL, r
@@ -39,17 +38,19 @@ from tests.derive.judgements import (
     BOUNDED,
     CONSTANTLY,
     DEEP,
+    FIRST_DRIFT,
     GROWING,
     RATE,
     ROUGHENS,
     SLOPE,
     START,
+    averaged_as,
     discharged,
     drift_premises,
     end,
     eq,
     equal,
-    expansion_premises,
+    first_order_terms,
     forgotten,
     ge,
     given,
@@ -271,9 +272,9 @@ CASES: dict[str, Case] = {
         "no identity",
     ),
     "an area that is an oscillation": (  # R L is whatever it is
-        lambda: Averaging(sp.Eq(R * L, FIRST_WAVE))(*expansion_premises("w_1", Oscillation)),
-        lambda: Averaging(sp.Eq(w_1, FIRST_WAVE))(*expansion_premises("w_1", Oscillation)),
-        "by definition",
+        lambda: Averaging(sp.Eq(R * L, FIRST_WAVE))(first_order_terms()),
+        lambda: Averaging(sp.Eq(w_1, FIRST_WAVE))(first_order_terms(), averaged_as(FIRST_DRIFT)),
+        "by the mean",
     ),
     "an angle that is the scaled rate": (  # theta = 0
         lambda: Consequence(sp.Eq(theta, C * T / q))(Multiply(T / q)(RATE)),

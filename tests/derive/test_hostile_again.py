@@ -10,7 +10,7 @@ from collections.abc import Callable
 import pytest
 import sympy as sp
 
-from derive.claims import Drift, FirstZero
+from derive.claims import Drift, FirstZero, Oscillation
 from derive.kernel import Judgement, RuleError, replayed
 from derive.rules.algebra import (
     Consequence,
@@ -21,7 +21,7 @@ from derive.rules.algebra import (
     restrict,
 )
 from derive.rules.assumption import assume, defined
-from derive.rules.averages import Averaging, SlowTime, term_of
+from derive.rules.averages import OrderEquation, SlowTime, term_of
 from derive.rules.calculus import (
     ParameterLimit,
     change_clock,
@@ -64,7 +64,7 @@ from tests.derive.judgements import (
 u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, f_c, C, T, N, q, b_0, d, M = symbols("h_0 f_c C T N q b_0 d M")
 p_max, theta, u_cum, U_mean, tau = symbols("p_max theta u_cum U_mean tau")
-u_stop, c_1, m, p_s = symbols("u_stop c_1 m p_s")
+u_stop, c_1, m, p_s, w_1 = symbols("u_stop c_1 m p_s w_1")
 y = sp.Symbol("y", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du, CLOCK = rate("u_c"), defined(t, T * tau)
@@ -132,12 +132,13 @@ def within(low: sp.Expr, level: sp.Expr) -> Judgement:
 
 
 def averaged(factor: sp.Expr) -> Judgement:
-    """The first drift under a pressure that is a multiple of the note's."""
-    known, sine, *constants, _ = expansion_premises("c_1")
+    """The terms of the first order under a pressure that is a multiple of the note's."""
+    known, sine, *constants, _, _ = expansion_premises()
     pressure = known.claim.rhs * factor
-    name = defined(c_1, term_of(Drift, 1, pressure))
-    facts = given(equal(p, pressure)), sine, *constants, name, ROUGHENS
-    return Averaging(equal(c_1, 2 * (1 - theta) * b_0))(*facts)
+    drift, wave = (term_of(kind, 1, pressure) for kind in (Drift, Oscillation))
+    names = defined(c_1, drift), defined(w_1, wave)
+    facts = given(equal(p, pressure)), sine, *constants, *names, ROUGHENS
+    return OrderEquation(sp.S.One)(*facts)
 
 
 def slow(added: sp.Expr) -> Judgement:

@@ -19,7 +19,7 @@ from derive.kernel import Judgement, RuleError, replayed
 from derive.own_law import own_law
 from derive.rules.algebra import Consequence, Insert, Multiply, restrict, substitute
 from derive.rules.assumption import assume, defined
-from derive.rules.averages import Averaging, SlowTime
+from derive.rules.averages import SlowTime
 from derive.rules.calculus import ParameterLimit, change_clock
 from derive.rules.data import Differentiated
 from derive.rules.drift import LogarithmicGrowth
@@ -39,10 +39,8 @@ from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
     BOUNDED,
     DEEP,
-    FIRST_DRIFT,
     ROUGHENS,
     equal,
-    expansion_premises,
     given,
     slow_time,
     supposed,
@@ -109,10 +107,6 @@ def both(*relations: sp.Basic) -> Judgement:
 
 def multiplied(factor: sp.Expr, *facts: Judgement) -> Judgement:
     return Multiply(factor)(given(equal(h, u_a)), *facts)
-
-
-def drift(added: sp.Expr) -> Judgement:
-    return Averaging(equal(c_1, FIRST_DRIFT + added))(*expansion_premises("c_1"))
 
 
 def slow(added: sp.Expr) -> Judgement:
@@ -252,7 +246,6 @@ CASES: dict[str, Case] = {
         lambda: passing(2 * G, 2 * theta, tends(G, theta)),
         "Ne",
     ),
-    "a coefficient with 0/0": (lambda: drift(GAP), lambda: drift(sp.S.Zero), "Ne"),
     "a slow time with 0/0": (lambda: slow(GAP), lambda: slow(sp.S.One), "Ne"),
     # ---- data that fields tie
     "two loads that tie h_0 and f_c": (  # the slope is f_c

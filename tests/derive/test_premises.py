@@ -36,7 +36,7 @@ from derive.rules.algebra import (
     substitute,
 )
 from derive.rules.assumption import assume, defined
-from derive.rules.averages import EXPANSION, Averaging, SlowTime, term_of
+from derive.rules.averages import EXPANSION, Averaging, OrderEquation, SlowTime, term_of
 from derive.rules.calculus import (
     ParameterLimit,
     change_clock,
@@ -81,11 +81,13 @@ from tests.derive.judgements import (
     ROUGHENS,
     SLOPE,
     START,
+    averaged_as,
     drift_premises,
     end,
     eq,
     equal,
     expansion_premises,
+    first_order_terms,
     forgotten,
     ge,
     given,
@@ -182,10 +184,6 @@ def sloped(claim: sp.Equality, datum: sp.Symbol = f_c) -> Judgement:
     return Differentiated(claim, datum)(GROWING)
 
 
-def averaged_as(claim: sp.Expr, *premises: Judgement) -> Judgement:
-    return Averaging(sp.Eq(c_1, claim))(*premises)
-
-
 FADING = sp.exp(-u_c / sigma_c0)
 
 
@@ -200,10 +198,10 @@ def drifting(approach: sp.Expr) -> Judgement:
     return logarithmic_drift(*drift_premises(approach))
 
 
-def of_another_pressure() -> tuple[Judgement, ...]:
-    *premises, _ = expansion_premises("c_1")
+def of_another_pressure() -> Judgement:
+    *premises, _, wave = expansion_premises()
     other = premises[0].claim.rhs.subs(h_0, 2 * h_0)
-    return *premises, defined(c_1, term_of(Drift, 1, other))
+    return OrderEquation(sp.S.One)(*premises, defined(c_1, term_of(Drift, 1, other)), wave)
 
 
 def vanishing_drifts() -> Judgement:
@@ -260,7 +258,8 @@ NEEDED: dict[str, Callable[[], Judgement]] = {
     "1/s^2 across 0": lambda: Integrated(-1 / u_s)(
         eq(G, sp.Integral(u_s**-2, (u_s, f_c, 2))), ROUGHENS
     ),
-    "a term of the expansion": lambda: averaged_as(FIRST_DRIFT, *expansion_premises("c_1")),
+    "the terms of an order": first_order_terms,
+    "a term of the expansion": lambda: averaged_as(FIRST_DRIFT),
     "slow time": slow,
     "scaled": lambda: change_clock(defined(u_c, sigma_c0 * v), defined(t, T * tau)),
     "a slope in a sum": lambda: sloped(equal(SLOPE, h_0)),
@@ -378,13 +377,13 @@ REFUSED: tuple[tuple[str, Callable[[], Judgement]], ...] = (
     ("missing premise", lambda: root(h_star - x, h_star - x)),
     ("no equality", lambda: FirstRoot(sp.S.One)(ge(u_stop, h_star))),
     # averages
-    ("by definition", lambda: averaged_as(FIRST_DRIFT, *expansion_premises("A"))),
-    ("at given wear", lambda: averaged_as(FIRST_DRIFT, eq(h, u_c), *expansion_premises("c_1"))),
-    ("c_1 to c_4", lambda: averaged_as(FIRST_DRIFT, *expansion_premises("c_1", Drift, 5))),
-    ("c_1 = ", lambda: averaged_as(2 * FIRST_DRIFT, *expansion_premises("c_1"))),
-    ("c_1 ", lambda: averaged_as(FIRST_DRIFT, *expansion_premises("c_1", Drift, 2))),
-    ("is constant", lambda: expansion_premises("c_1", Oscillation)[0]),
-    ("of this pressure", lambda: averaged_as(FIRST_DRIFT, *of_another_pressure())),
+    ("by the mean", lambda: averaged_as(FIRST_DRIFT, "A")),
+    ("by the mean", lambda: averaged_as(2 * FIRST_DRIFT)),
+    ("is of an oscillation", lambda: Averaging(sp.Eq(c_1, 0))(RATE)),
+    ("at given wear", lambda: OrderEquation(sp.S.One)(eq(h, u_c), *expansion_premises())),
+    ("the drift c_2", lambda: OrderEquation(sp.Integer(2))(*expansion_premises())),
+    ("is constant", lambda: defined(c_1, term_of(Oscillation, 1, U_a))),
+    ("the drift c_1", of_another_pressure),
     ("c_3 and c_4", lambda: SlowTime(sp.Eq(L, m))()),
     ("c_3 and c_4", vanishing_drifts),
     ("the drifts", lambda: slow(0)),
