@@ -176,8 +176,9 @@ def names(expr: sp.Basic) -> frozenset[tuple[str, object]]:
 
 def defined_by(relation: sp.Basic) -> frozenset[str]:
     """Return the names that a definition gives a meaning: a symbol, or all that are its own."""
-    if isinstance(relation, sp.Equality) and isinstance(relation.lhs, sp.Symbol):
-        return frozenset([relation.lhs.name])
+    name = _name(relation.args[0]) if isinstance(relation, sp.Equality) else ""
+    if name and (name not in _MODEL or relation.args[0].is_Symbol):
+        return frozenset([name])
     return frozenset(name for name, _ in names(relation)) - _MODEL
 
 
