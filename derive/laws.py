@@ -25,8 +25,9 @@ r = sp.Symbol("r", real=True)
 class ContactLaw:
     """A contact law ``p = p_max phi(r)`` with ``r = h/sigma``.
 
-    phi must be positive, continuous and decreasing, convex for ``r > inflection`` and concave
-    below it (``-oo``: convex everywhere); the pressure of a compliant support rests on that.
+    phi must be positive, smooth and decreasing (phi' < 0), convex for ``r > inflection`` and
+    concave below it (``-oo``: convex everywhere); the pressure of a compliant support rests on
+    that.
     ``cutoff`` is the ratio h/sigma beyond which the note's text has no contact.
     """
 
@@ -59,7 +60,7 @@ GENERAL = ContactLaw(
     name="general",
     phi=sp.Function("phi", positive=True)(r),
     inflection=sp.S.NegativeInfinity,
-    source="any positive, continuous, decreasing phi",
+    source="any positive, smooth, decreasing phi",
 )
 
 LAWS = MappingProxyType({law.name: law for law in (TANH, EXPONENTIAL)})

@@ -42,7 +42,7 @@ _LAWS = (
     1 / (1 + sp.exp(4 * _RATIO - 8)),
     (1 - (_RATIO - 1) / sp.sqrt(1 + (_RATIO - 1) ** 2)) / 2,
 )
-"""Positive, continuous, decreasing laws of contact."""
+"""Positive, smooth, decreasing laws of contact."""
 
 
 @cache

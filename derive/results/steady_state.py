@@ -1,7 +1,7 @@
 """Steady wear: the limit of the wear rate, for any contact law.
 
 Overview
-    One worn solid, contact law p = p_max phi(h/sigma) with phi positive, continuous and
+    One worn solid, contact law p = p_max phi(h/sigma) with phi positive, smooth and
     decreasing, roughness that grows (f_c > 0) from sigma_c0 > 0, load bounded by U.  No
     periodicity is needed.  The ratio h/sigma differs from 1/f_c by exactly b/sigma, where
     b = sigma_c0/f_c - h_0 + U_a is bounded.  So the ratio is bounded, the rate has a positive

@@ -146,6 +146,7 @@ class Averaging(Rule):
         whole = law.lhs.args[0] if isinstance(law.lhs, sp.Derivative) else law.lhs
         if whole not in waves or value.has(*waves):
             raise RuleError(f"missing premise: {law.relation} is of an oscillation")
+        require_defined(value, *premises)
         rest = sp.expand(inserted(law.rhs, premises[1:]))
         if name == whole:
             right = mean(turning(value, tau)) == 0 == turning(sp.diff(value, tau) - rest, tau)

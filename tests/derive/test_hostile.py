@@ -276,6 +276,11 @@ CASES: dict[str, Case] = {
         lambda: Averaging(sp.Eq(w_1, FIRST_WAVE))(first_order_terms(), averaged_as(FIRST_DRIFT)),
         "by the mean",
     ),
+    "a drift that is 0/0 for f_c = 1": (
+        lambda: averaged_as(FIRST_DRIFT + (f_c**2 - 1) / (f_c - 1) - f_c - 1),
+        lambda: averaged_as(FIRST_DRIFT),
+        "f_c - 1",
+    ),
     "an angle that is the scaled rate": (  # theta = 0
         lambda: Consequence(sp.Eq(theta, C * T / q))(Multiply(T / q)(RATE)),
         lambda: Consequence(sp.Eq(rate("u_c") * T / q, C * T / q))(Multiply(T / q)(RATE)),
