@@ -122,7 +122,7 @@ def test_ctrl_c_ends_any_command_that_solves(call, monkeypatch, tmp_path):
 
 
 def test_ctrl_c_ends_a_benchmark_and_not_one_run_of_it(call, monkeypatch, tmp_path):
-    monkeypatch.setattr("wear.solver.solve", interrupted)
+    monkeypatch.setattr("wear.benchmark.methods.solve", interrupted)
     folder = tmp_path / "hard"
     status, shown, messages = call("bench", "--hard", "--quick", "-o", str(folder))
     assert (status, shown, messages) == (130, "", "wear bench: interrupted\n")

@@ -189,7 +189,7 @@ def test_a_count_that_breaks_down_is_told_and_auto_goes_on(monkeypatch, fault):
     def broken(*_, **__):
         raise fault
 
-    monkeypatch.setattr("wear.cycles.wear_after", broken)
+    monkeypatch.setattr("wear.solver.wear_after", broken)
     with pytest.raises(AccuracyError, match="could not be counted"):
         solve(reference_scene("S2"), [1], 1e-8, "abel")
     history = solve(reference_scene("S2"), [1], 1e-8)

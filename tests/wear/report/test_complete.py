@@ -9,6 +9,7 @@ from itertools import pairwise
 import pytest
 from markdown_it.token import Token
 
+from derive.symbols import QUANTITIES
 from tests.wear.report import quick
 from wear.report.document import Document
 from wear.report.text import inline, line
@@ -23,6 +24,9 @@ _SYMBOL = re.compile(
     rf"|(?:\\bar ?\{{?\\sigma\}}?|\\(?:{_GREEK})(?![a-z])|(?<![\\a-zA-Z])[A-Za-z](?![a-z]))"
     r"(?:_(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\infty|[A-Za-z0-9]))?(?:\^(?:0|\*|\{0\}))?'?"
 )
+#: Quantities with a prime of their own; on any other symbol it means a derivative.
+_PRIMED = {"p'"} | {q.latex for q in QUANTITIES.values() if q.latex.endswith("'")}
+
 #: No quantities: the imaginary unit and indices, the orders of Landau.
 _NONE = {"i", "j", "f_ij", "o", "O"}
 
@@ -75,7 +79,7 @@ def _symbols(latex: str) -> set[str]:
     ['V', 't', 'u_c', 'x_\\infty']
     """
     shown = _SYMBOL.findall(_UPRIGHT.sub(" ", latex))
-    return {_plain(symbol).rstrip("'") if symbol != "p'" else symbol for symbol in shown}
+    return {symbol if symbol in _PRIMED else symbol.rstrip("'") for symbol in map(_plain, shown)}
 
 
 def _plain(symbol: str) -> str:
