@@ -138,9 +138,9 @@ def _results(equation: Equation) -> tuple[sp.Basic, ...]:
 def _assumed(hypothesis: Judgement) -> str:
     """Return how a step refers to a hypothesis that no equation shows: by a short formula."""
     relation, said = hypothesis.relation, hypothesis.hypotheses[-1]
-    if said.kind is Kind.DEFINITION:
-        if relation is sp.true or isinstance(relation.lhs, (sp.Symbol, AppliedUndef)):
-            return "the definitions"
+    defined = said.kind is Kind.DEFINITION
+    if defined and (relation is sp.true or isinstance(relation.lhs, (sp.Symbol, AppliedUndef))):
+        return "the definitions"
     in_words = relation is sp.true or len(str(relation)) > _SHORT
     return said.text if in_words else f"${inline(presentable(relation))}$"
 
