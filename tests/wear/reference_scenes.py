@@ -5,10 +5,13 @@ load, a compliant support.
 """
 
 import json
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from wear.load import Load
 from wear.scene import Scene
 
 REFERENCE: dict[str, dict[int, float]] = {
@@ -45,6 +48,33 @@ def tables(
     if k is not None:
         made["support"] = {"stiffness_MPa_per_mm": k}
     return made | {"motion": {"radius_mm": 22.0, "speed_rpm": 2000.0}, "load": dict(load)}
+
+
+def made(
+    K: float = 1e-6,
+    f_c: float = 0.25,
+    load: Load | None = None,
+    *,
+    roughness: float | None = None,
+    closure: float | None = None,
+    law: str = "tanh",
+    pin: bool | Mapping[str, float] = False,
+    k: float | None = None,
+    cutoff: bool = False,
+) -> Scene:
+    """The scene of `tables` under another load, with roughness and closure (mm) of its own, and a
+    pin of which some entries may be given."""
+    entries = tables(K, f_c, bool(pin), k, cutoff=cutoff)
+    entries["contact"]["law"] = law
+    if roughness is not None:
+        entries["bearing"]["roughness_mm"] = roughness
+    if closure is not None:
+        entries["contact"].pop("closure_in_sigma", None)
+        entries["contact"]["closure_mm"] = closure
+    if isinstance(pin, Mapping):
+        entries["pin"] |= pin
+    scene = Scene.from_dict(entries, "made")
+    return scene if load is None else replace(scene, load=load)
 
 
 TABLES = {
