@@ -16,13 +16,11 @@ from __future__ import annotations
 import sympy as sp
 
 from ..codegen.formulas import Formula, formula_module
-from ..equations import Proved
-from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.algebra import Insert, inserted, substitute
 from ..rules.assumption import assume, defined
 from ..symbols import symbols
-from .first_integral import FirstIntegral
+from .first_integral import log_odds
 from .regimes import largest_wear
 from .static_solution import MOVING, load_offset, primitive
 
@@ -41,14 +39,14 @@ argument = defined(z, -2 * beta / sigma)
 exponent = defined(E, z - 2 * x_inf)
 
 
-def _remainder() -> sp.Expr:
-    return sp.Add(1, -(z * sp.exp(-z) * sp.Ei(z)))
+_remainder = sp.Add(1, -(z * sp.exp(-z) * sp.Ei(z)))
 
+scaled_primitive = Insert(
+    sp.Eq(sp.exp(-2 * x_inf) * sp.Add(*primitive(sigma)), sigma * sp.exp(E) * _remainder)
+)(exponent, argument, assume(MOVING), name="scaled primitive")
+"""The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow."""
 
-def scaled_primitive() -> Judgement:
-    """The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow."""
-    claim = sp.Eq(sp.exp(-2 * x_inf) * sp.Add(*primitive(sigma)), sigma * sp.exp(E) * _remainder())
-    return Insert(claim)(exponent, argument, assume(MOVING), name="scaled primitive")
+static_solution_scaled = (scaled_primitive, exponent, argument)
 
 
 def _of_numbers(expr: sp.Expr) -> sp.Expr:
@@ -61,7 +59,7 @@ def _of_numbers(expr: sp.Expr) -> sp.Expr:
 
 def formulas() -> tuple[Formula, ...]:
     """Return what the closed solution needs, besides Ei."""
-    primitive = scaled_primitive().claim.rhs.xreplace({_remainder(): remainder}) / f_c
+    primitive = scaled_primitive.claim.rhs.xreplace({_remainder: remainder}) / f_c
     near = primitive.xreplace({sigma: size, E: log_ratio})
     return (
         Formula(
@@ -74,7 +72,7 @@ def formulas() -> tuple[Formula, ...]:
         Formula(
             "exponent",
             (u, load),
-            _of_numbers(-FirstIntegral().log_odds.claim.rhs),
+            _of_numbers(-log_odds.claim.rhs),
             "logarithm of p_max/p - 1 on a rigid support",
         ),
         Formula(
@@ -103,8 +101,3 @@ def module() -> str:
     """Return the source of the generated module."""
     origin = ("first-integral", "static-solution", "static-solution-scaled")
     return formula_module("Static solution, without the exponential integral.", origin, formulas())
-
-
-def results() -> dict[str, Proved]:
-    """Return the scaled form."""
-    return {"static-solution-scaled": (scaled_primitive(), exponent, argument)}
