@@ -29,8 +29,8 @@ _BEYOND = {
     "results.cutoff_two_solids": "margin-curvature arrest-depth-two-solids",
     "results.comparison": "compliant-load strip",
     "results.first_integral": "closure-line first-integral first-integral-compliant",
-    "results.static_solution": "static-solution static-solution-smooth static-wear-smooth",
-    "results.static_scaled": "static-solution-scaled",
+    "results.static_solution": "static-solution static-solution-smooth static-wear-smooth "
+    "static-solution-scaled",
     "results.static_compliant": "static-solution-compliant static-solution-compliant-smooth",
     "results.expansion": "log-drift expansion-drift expansion-oscillation expansion",
     "results.compliant": "compliant-pressure compliant-wear-per-cycle log-drift-any-law "

@@ -21,7 +21,7 @@ from .files import write_atomically
 from .laws import LAWS
 from .note.governing import Pin
 from .program import margin_program, program
-from .results import asymptotics, static_scaled
+from .results import asymptotics
 from .variant import VARIANTS
 
 _PACKAGE = '"""Generated code{of}, one module a variant; not to be edited."""\n'
@@ -48,7 +48,6 @@ def sources() -> Mapping[str, str]:
         files[f"margin_{pin}.py"] = source(margin_program(pin), "numpy")
     files["asymptotics.py"] = asymptotics.module()
     files["reaction.py"] = reaction.module()
-    files["static_solution.py"] = static_scaled.module()
     return MappingProxyType(files)
 
 

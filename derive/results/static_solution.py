@@ -10,6 +10,7 @@ Key results
     static_solution          t(u_c), f_c != 0, of either sign while sigma > 0
     static_solution_smooth   t(u_c), f_c = 0
     static_wear_smooth       u_c(t), f_c = 0
+    static_solution_scaled   its primitive in a form that floating point can evaluate
 References
     Ei: DLMF 6.2.5.  W: Corless et al., Adv. Comput. Math. 5 (1996) 329.
 """
@@ -31,7 +32,7 @@ from .regimes import grown, kept, rough
 
 h_0, U_a, u_c, sigma_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c sigma_c0 f_c")
 p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")
-ell, u_s, sigma_s = symbols("ell u_s sigma_s")
+ell, u_s, sigma, sigma_s = symbols("ell u_s sigma sigma_s")
 
 MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(beta, 0))
 
@@ -94,3 +95,18 @@ _claim = sp.Eq(_w * sp.exp(_w), 8 * ell / sigma_c0 * sp.exp(8 * (C * t + ell) / 
 _inverse = Solve(_grown)(Lambert(_w)(Insert(_claim)(time_smooth)))
 static_wear_smooth = Solve(u_c)(substitute(time_smooth, _inverse), name="wear at a time, f_c = 0")
 """The wear at a time, for f_c = 0."""
+
+z, E = sp.symbols("z E", real=True)
+_argument, _exponent = defined(z, -2 * beta / sigma), defined(E, z - 2 * x_inf)
+_bounded = sp.Add(1, -(z * sp.exp(-z) * sp.Ei(z)))
+_scaled = sp.Eq(sp.exp(-2 * x_inf) * sp.Add(*primitive(sigma)), sigma * sp.exp(E) * _bounded)
+static_solution_scaled = (
+    Insert(_scaled)(_exponent, _argument, moving, name="scaled primitive"),
+    _exponent,
+    _argument,
+)
+"""The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow.
+
+exp(-2 x_inf) and Ei(z) overflow where their product is harmless.  E = ln(p_max/p - 1) and z are
+moderate or harmless, and the last factor is a bounded function of z, about -1/z for large z.
+"""
