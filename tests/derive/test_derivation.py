@@ -19,7 +19,7 @@ from derive.note import condensed, governing
 from derive.note.governing import Model, Pin
 from derive.note.problems import problem_i, problem_ii, undetermined
 from derive.rules.assumption import Assume, assume
-from derive.symbols import symbols
+from derive.symbols import symbol, symbols
 from derive.typeset.derivation import Derivations
 from derive.verification import verify
 from derive.written import evaluated
