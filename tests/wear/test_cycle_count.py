@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.judges import ROUNDING, honest, true_wear
-from tests.wear.reference_scenes import REFERENCE, TABLES, made, reference_scene
+from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear import cycles as count
 from wear.load import Constant, Harmonics
 from wear.model import bind
@@ -22,7 +22,7 @@ def counted(
 
 
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-12, 1e-13])
-@pytest.mark.parametrize("name", TABLES)
+@pytest.mark.parametrize("name", REFERENCE)
 def test_reference_values(name, rtol):
     cycles = np.array(sorted(REFERENCE[name]), dtype=float)
     want = np.array([REFERENCE[name][int(n)] for n in cycles])
