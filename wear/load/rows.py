@@ -266,8 +266,8 @@ def _columns(
     faults: list[LineFault] = []
     for number, line in rows:
         cells = line.split(form.delimiter)
-        row = [_number(cells[at], form) for at in places] if len(cells) == width else [None]
-        if None in row:
+        row = [_number(cells[at], form) for at in places if len(cells) == width]
+        if not row or None in row:
             problem = f'"{shown(line.strip())}" is no row'
             faults.append((number, problem, "give two finite numbers of sane size"))
         else:
