@@ -31,6 +31,8 @@ compliant_load = Arithmetic(*stated("compliant-load"))(assume(UNSATURATED), name
 """The load that a compliant support leaves lies between two rigid ones."""
 
 strip = Arithmetic(sp.Gt(1 + 2 * sp.exp(_a) * _cosine + sp.exp(2 * _a), 1))(
-    assume(SAME_SIDE), name="strip of analyticity", remark="|1 + e^(a + i b)|^2 with c = cos b"
+    assume(SAME_SIDE),
+    name="strip of analyticity",
+    remark="the left side is |1 + e^(a + i b)|^2 with c = cos b",
 )
 """1/(1 + e^z) is less than 1 in modulus while the cosine of Im z is positive."""
