@@ -23,7 +23,7 @@ from .files import write_atomically
 from .laws import LAWS, ContactLaw, r
 from .note.governing import Pin
 from .program import margin_program, program
-from .results import asymptotics, static_scaled
+from .results import asymptotics
 from .rules.proving import sign
 from .variant import VARIANTS
 
@@ -74,7 +74,6 @@ def sources() -> Mapping[str, str]:
         files[f"margin_{pin}.py"] = source(margin_program(pin), "numpy")
     files["asymptotics.py"] = asymptotics.module()
     files["reaction.py"] = reaction.module()
-    files["static_solution.py"] = static_scaled.module()
     return MappingProxyType(files)
 
 

@@ -46,7 +46,7 @@ class Comparison:
     def strip(self) -> Judgement:
         """1/(1 + e^z) is less than 1 in modulus while the cosine of Im z is positive."""
         claim = sp.Gt(1 + 2 * sp.exp(_a) * _cosine + sp.exp(2 * _a), 1)
-        remark = "|1 + e^(a + i b)|^2 with c = cos b"
+        remark = "the left side is |1 + e^(a + i b)|^2 with c = cos b"
         return Arithmetic(claim)(assume(SAME_SIDE), name="strip of analyticity", remark=remark)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
@@ -179,9 +180,23 @@ def test_a_step_shows_the_hypotheses_that_it_uses():
     solved, inserted = (step.sentence for step in steps)
     assert solved.startswith(r"Solve $\max U_a")
     assert solved.endswith(r"= 0$ for $u_{\mathrm{stop}}$.")
-    assert inserted == "Insert step 1 and $f_c < 1 / 3$: an identity remains."
+    assert inserted == "Both sides are equal by step 1 and $f_c < 1 / 3$."
 
 
 def test_no_step_follows_from_the_equation_that_it_proves():
     steps = Derivations(catalogue.equations_up_to("expansion-drift")).steps("expansion-drift")
     assert not any("[eq:expansion-drift]" in step.sentence for step in steps)
+
+
+def test_a_sentence_has_no_raw_formula():
+    steps = Derivations(catalogue.equations_up_to("expansion-drift")).steps("expansion-drift")
+    words = [re.sub(r"\$[^$]*\$|\[[^\]]*\]", "", step.sentence) for step in steps]
+    assert not [said for said in words if set("_^=") & set(said)]
+    solved = [step.sentence[-5:-1] for step in steps if step.part]
+    assert solved == ["c_1$", "c_2$", "c_3$", "c_4$"]
+
+
+def test_no_step_cites_a_system_that_collects_relations():
+    steps = Derivations(catalogue.equations()).steps("bearing-rate")
+    assert not any("[eq:problem-" in step.sentence for step in steps)
+    assert "Integrate [eq:7f] over time, from [eq:6]." in [step.sentence for step in steps]

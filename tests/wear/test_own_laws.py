@@ -162,6 +162,8 @@ def test_what_is_no_law_is_a_fault(raw):
         ("-exp(-r)", "not proved to be positive|concave below"),
         ("1/(1 + r^2)", "concave below one value"),
         ("1/r", "not proved|concave below|could not be checked"),
+        ("exp(-r - sqrt(r^2)/2)", "kink"),
+        ("(3 - (r-2)/sqrt((r-2)^2))*exp(-r)", "kink"),
     ],
 )
 def test_what_the_theorems_ask_for_must_be_proved(text, problem):
