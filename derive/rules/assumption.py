@@ -18,7 +18,7 @@ from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .proving import sign, smooth_everywhere
-from .reading import at_an_instant, clocks, constant, fields, functions
+from .reading import at_an_instant, clocks, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
@@ -63,7 +63,7 @@ class Assume(Rule):
 
 @cache
 def _falls(law: sp.Expr) -> bool:
-    return smooth_everywhere(law, r) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
+    return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 
 
 def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:

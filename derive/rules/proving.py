@@ -344,11 +344,11 @@ def smooth(expr: sp.Expr, *unknowns: sp.Basic) -> bool:
     return all(isinstance(part, _SMOOTH) for part in changing)
 
 
-def smooth_everywhere(expr: sp.Expr, unknown: sp.Basic) -> bool:
-    """Return whether an expression is differentiable at every real value of an unknown.
+def smooth_everywhere(expr: sp.Expr) -> bool:
+    """Return whether an expression is differentiable whatever the values of its unknowns.
 
     >>> y = sp.Symbol("y", real=True)
-    >>> [smooth_everywhere(sp.sqrt(y**4 + rest), y) for rest in (1, y**2)]
+    >>> [smooth_everywhere(sp.sqrt(y**4 + rest)) for rest in (1, y**2)]
     [True, False]
     """
     return smooth(expr) and all(map(holds, map(_strict, _needed(expr, ()))))

@@ -73,6 +73,19 @@ def test_a_definition_shows_what_it_hides(made: Judgement, shown: str) -> None:
     assert shown in [str(condition.relation) for condition in stated.conditions]
 
 
+def test_a_sign_that_the_vocabulary_does_not_tell_is_shown() -> None:
+    scale = sp.Symbol("scale", positive=True)
+    stated = Equation("x", "1", "sign", (Arithmetic(sp.Gt(scale, 0, evaluate=False))(),))
+    assert [str(condition.relation) for condition in stated.conditions] == ["scale > 0"]
+
+
+def test_a_limit_that_only_a_definition_supposes_is_shown() -> None:
+    """Of U_a = U sin(t) there is none."""
+    end = sp.Limit(U_a, t, sp.oo)
+    made = Insert(sp.Eq(end, b_0, evaluate=False))(defined(b_0, end))
+    assert [c.text for c in Equation("x", "1", "end", (made,)).conditions] == ["U_a has a limit"]
+
+
 def test_every_equation_of_section_4_says_what_it_needs() -> None:
     """(14) to (22): smooth, unworn pin; rigid support; no loss of contact; f_c > 0; bounded."""
     for identifier in ("14", "15", "16a", "16b", "17a", "17b", "18", "21", "22"):
