@@ -16,7 +16,7 @@ from sympy.core.relational import Relational
 from derive.claims import Drift, Oscillation
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Judgement
-from derive.results.expansion import Expansion
+from derive.results.expansion import expansion
 from derive.results.steady_state import BOUNDED_LOAD, steady_state
 from derive.rules.algebra import Insert, Solve, discharge, forget
 from derive.rules.assumption import assume, defined
@@ -167,6 +167,6 @@ def averaged_as(claim: sp.Expr, name: str = "c_1") -> Judgement:
 
 def slow_time() -> Judgement:
     """Return the slow time by the definitions of c_1 to c_4."""
-    known, pressure = Expansion().slow_time.claim, steady_state().pressure_at_wear.claim.rhs
+    known, pressure = expansion.claim, steady_state().pressure_at_wear.claim.rhs
     drifts = [defined(symbol(f"c_{n}"), term_of(Drift, n, pressure)) for n in (1, 2, 3, 4)]
     return SlowTime(sp.Eq(known.lhs, known.rhs))(*drifts, assume(EXPANSION))

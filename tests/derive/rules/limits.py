@@ -138,7 +138,7 @@ FAMILIES = (
         "a squeeze by the load": ("is a constant over", sp.Le(G, U_a / u_c), sp.Ge(G, -U_a / u_c)),
         "bounds of two": ("encloses", sp.Le(G, h_0 / u_c), sp.Ge(h, 0)),
     }),
-    Family(lambda expr, value, *known: Passes(equal(forever(expr), sp.sympify(value)))(*known), (
+    Family(lambda expr, value, *known: Passes(equal(forever(expr), sp.S.Zero + value))(*known), (
         (du / u_c, 0, tends(du, C), DEEP),
         (G / (h_0 / u_c + G), 1, tends(G, theta), DEEP, ne(theta, 0)), (sp.exp(-G), 1, tends(G, 0)),
         (later(G), theta, tends(G, theta)), (2 * u_c - 2 * C * t, 2 * h_0, tends(u_c - C * t, h_0)),
