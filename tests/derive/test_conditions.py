@@ -17,11 +17,11 @@ from derive.rules.algebra import Insert
 from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
 from derive.rules.reading import CONSTANT, PERIODIC
-from derive.symbols import symbols
+from derive.symbols import symbols, t
 from derive.typeset.mathml import mathml
 from tests.derive.rules.algebra import defined_as
 
-b_0, f_c, h_0, kappa, G = symbols("b_0 f_c h_0 kappa G")
+b_0, f_c, h_0, kappa, G, U_a = symbols("b_0 f_c h_0 kappa G U_a")
 
 
 def test_every_condition_reads_as_latex() -> None:
