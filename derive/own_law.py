@@ -111,7 +111,7 @@ def own_law(text: str) -> tuple[ComputedLaw, float]:
 
     from .codegen.contact_law import faults_of
     from .laws import r
-    from .rules.proving import smooth
+    from .rules.proving import smooth_everywhere
     from .stable import ComputedLaw, Stable, share
     from .time_limit import TimeLimitError, time_limit
     from .written import evaluated, read
@@ -122,7 +122,7 @@ def own_law(text: str) -> tuple[ComputedLaw, float]:
             phi = evaluated(read(text))
             if r not in phi.free_symbols or phi.has(sp.zoo, sp.nan, sp.I):
                 raise UsageError(f"phi = {text} is no function of r = h/sigma")
-            if not smooth(phi):
+            if not smooth_everywhere(phi):
                 raise UsageError(f"phi = {text} has a kink")
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))
             row = Stable(((share, value),), share, slope, DOMAIN, value, slope / value)
