@@ -11,23 +11,19 @@ Overview
     iteration ends is that of the law from its tangent, which has one sign on either side of the
     law's inflection: the iteration does not cross the root.
 Key results
-    PressureRoot.equation    the equation for p
-    PressureRoot.unique      the three inequalities by which its root exists and is one
-    PressureRoot.softening   0 <= p_rigid - p <= p_max p/(k sigma), hence (10) as a limit
-    newton                   a step of Newton's iteration, and where it ends
-    curvature                the note's law is convex beyond h = 2 sigma, concave below
+    equation            the equation for p
+    pressure_root       the three inequalities by which its root exists and is one
+    rigid_limit_error   0 <= p_rigid - p <= p_max p/(k sigma), hence (10) as a limit
+    pressure_iteration  a step of Newton's iteration, and where it ends; the note's law is
+                        convex beyond h = 2 sigma, concave below
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-
 import sympy as sp
 
-from ..equations import Proved
-from ..kernel import Judgement, infer
-from ..laws import GENERAL, TANH, ContactLaw, r
+from ..kernel import infer
+from ..laws import GENERAL, TANH, r
 from ..note.condensed import two_solids
 from ..rules.algebra import Identity, substitute
 from ..rules.assumption import assume
@@ -46,83 +42,68 @@ s, x, y = sp.symbols("s x y", positive=True)
 """Softness p_max/(k sigma), a trial share of p_max, and the share at the root."""
 
 
-@dataclass(frozen=True)
-class PressureRoot:
-    """The pressure on a compliant support, for one contact law."""
-
-    law: ContactLaw = TANH
-
-    @cached_property
-    def equation(self) -> Judgement:
-        """The equation that the pressure satisfies at given wear, roughness and load."""
-        problem = two_solids(self.law)
-        closed = substitute(problem.model.pressure, problem.model.closure, problem.deflection)
-        return closed.named("equation for the pressure")
-
-    def residual(self, pressure: sp.Expr) -> sp.Expr:
-        """Left minus right of that equation, at any pressure."""
-        return pressure - self.equation.claim.rhs.subs(p, pressure)
-
-    @cached_property
-    def unique(self) -> tuple[Judgement, Judgement, Judgement]:
-        """Negative at 0, positive at p_max, increasing in between: exactly one root."""
-        trial = sp.Symbol("x", real=True)
-        slope = sp.diff(self.residual(trial), trial).subs(trial, p)
-        remark = "a continuous, increasing function that changes sign has exactly one root"
-        return (
-            Arithmetic(sp.Lt(self.residual(sp.S.Zero), 0))(self.equation),
-            Arithmetic(sp.Gt(self.residual(p_max), 0))(self.equation),
-            Arithmetic(sp.Gt(slope, 0))(self.equation, name="one root", remark=remark),
-        )
-
-    @cached_property
-    def softening(self) -> Judgement:
-        """The rigid pressure exceeds the compliant one, by at most p_max p/(k sigma)."""
-        function = sp.Lambda(r, self.law.phi)
-        rule = Lipschitz(function, undeflected / sigma, p / (k * sigma), p_max)
-        remark = "the second pressure is p itself, by its equation, and p < p_max"
-        return infer(rule, name="softening", remark=remark)
-
-    @cached_property
-    def error_bound(self) -> Judgement:
-        """That distance is below p_max^2/(k sigma), which tends to 0 for k -> oo."""
-        claim = sp.Le(p_max * p / (k * sigma), p_max**2 / (k * sigma))
-        return Arithmetic(claim)(assume(UNSATURATED), name="bound of the softening")
+problem = two_solids()
+equation = substitute(
+    problem.model.pressure,
+    problem.model.closure,
+    problem.deflection,
+    name="equation for the pressure",
+)
+"""The equation that the pressure satisfies at given wear, roughness and load."""
 
 
-def newton(law: ContactLaw) -> tuple[Judgement, Judgement]:
-    """A step from x in a form in which nothing cancels; the distance of its end from the root y.
-
-    At the root the second term of the distance vanishes.
-    """
-    steepness = 1 - s * sp.Subs(sp.diff(law.phi, r), r, a + s * x)
-    end = x - (x - law.ratio(a + s * x)) / steepness
-    summed = (law.ratio(a + s * x) + x * (steepness - 1)) / steepness
-    tangent = law.ratio(a + s * x) + (1 - steepness) * (y - x)
-    distance = y - end - (y - law.ratio(a + s * y)) / steepness
-    remark = "a curve lies on one side of its tangents where it is curved one way"
-    return (
-        Identity(sp.Eq(end, summed))(name="step of Newton's iteration"),
-        Identity(sp.Eq(distance, (law.ratio(a + s * y) - tangent) / steepness))(
-            name="distance from the root", remark=remark
-        ),
-    )
+def residual(pressure: sp.Expr) -> sp.Expr:
+    """Return left minus right of that equation, at any pressure."""
+    return pressure - equation.claim.rhs.subs(p, pressure)
 
 
-def curvature() -> tuple[Judgement, Judgement]:
-    """The note's law is convex where h > 2 sigma, and concave where h < 2 sigma."""
-    bend = sp.diff(TANH.phi, r, 2)
-    return (
-        Arithmetic(sp.Ge(bend.subs(r, TANH.inflection + x), 0))(name="convex"),
-        Arithmetic(sp.Le(bend.subs(r, TANH.inflection - x), 0))(name="concave"),
-    )
+_trial = sp.Symbol("x", real=True)
+pressure_root = (
+    Arithmetic(sp.Lt(residual(sp.S.Zero), 0))(equation),
+    Arithmetic(sp.Gt(residual(p_max), 0))(equation),
+    Arithmetic(sp.Gt(sp.diff(residual(_trial), _trial).subs(_trial, p), 0))(
+        equation,
+        name="one root",
+        remark="a continuous, increasing function that changes sign has exactly one root",
+    ),
+)
+"""Negative at 0, positive at p_max, increasing in between: exactly one root."""
+
+softening = infer(
+    Lipschitz(sp.Lambda(r, TANH.phi), undeflected / sigma, p / (k * sigma), p_max),
+    name="softening",
+    remark="the second pressure is p itself, by its equation, and p < p_max",
+)
+"""The rigid pressure exceeds the compliant one, by at most p_max p/(k sigma)."""
+
+rigid_limit_error = (
+    softening,
+    Arithmetic(sp.Le(p_max * p / (k * sigma), p_max**2 / (k * sigma)))(
+        assume(UNSATURATED), name="bound of the softening"
+    ),
+)
+"""That distance is below p_max^2/(k sigma), which tends to 0 for k -> oo."""
 
 
-def results() -> dict[str, Proved]:
-    """Return the results on the pressure of a compliant support."""
-    root = PressureRoot()
-    return {
-        "pressure-root": root.unique,
-        "pressure-iteration": (*newton(GENERAL), *curvature()),
-        "rigid-limit-error": (root.softening, root.error_bound),
-    }
+# Newton's iteration for y = phi(a + s y), from a trial share x
+_at_x, _at_y = GENERAL.ratio(a + s * x), GENERAL.ratio(a + s * y)
+_steepness = 1 - s * sp.Subs(sp.diff(GENERAL.phi, r), r, a + s * x)
+_end = x - (x - _at_x) / _steepness
+_summed = (_at_x + x * (_steepness - 1)) / _steepness
+_tangent = _at_x + (1 - _steepness) * (y - x)
+_distance = y - _end - (y - _at_y) / _steepness
+_bend = sp.diff(TANH.phi, r, 2)
+
+pressure_iteration = (
+    Identity(sp.Eq(_end, _summed))(name="step of Newton's iteration"),
+    Identity(sp.Eq(_distance, (_at_y - _tangent) / _steepness))(
+        name="distance from the root",
+        remark="a curve lies on one side of its tangents where it is curved one way",
+    ),
+    Arithmetic(sp.Ge(_bend.subs(r, TANH.inflection + x), 0))(name="convex"),
+    Arithmetic(sp.Le(_bend.subs(r, TANH.inflection - x), 0))(name="concave"),
+)
+"""A step from x without cancellation; how far its end is from the root y; the curvature of phi.
+
+At the root the second term of the distance vanishes.
+"""

@@ -9,18 +9,19 @@ Key results
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
 
-from ..claims import Claim, Equality, Inequality, Limit, claim_of
+from ..claims import Claim, Equality, Equivalence, Inequality, Limit, claim_of
 from ..hypotheses import Hypothesis
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, listed, plain
 from ..language import bound_in
 from ..symbols import t
 from ..zero import is_zero
 from .proving import holds, require, require_defined, smooth
-from .reading import clocks, constant, equality, replaced
+from .reading import clocks, constant, equality, replaced, require_constants
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,7 @@ class Multiply(Rule):
 class Restrict(Rule):
     """Where a relation holds, a piecewise expression is its branch, and ``|x| = x`` if x > 0."""
 
-    words = "Keep of {0} the branch on which {others} holds."
+    words = "Keep the branch of {0} on which {others} holds."
     asks = ("the claim", "the relation")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -143,10 +144,13 @@ class Identity(Rule):
     """An equation that holds for every value of its unknowns; premises show that it has values."""
 
     claim: sp.Equality
-    words = "An identity: both sides reduce to the same expression."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         return Conclusion(_identical(self.claim, (), premises))
+
+    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
+        known = f"; that it is defined follows from {listed(labels)}" if labels else ""
+        return f"Both sides reduce to the same expression{known}."
 
 
 @dataclass(frozen=True)
@@ -154,7 +158,7 @@ class Insert(Rule):
     """An equation that becomes an identity when the premises are inserted, in order."""
 
     claim: sp.Equality
-    words = "Insert {all}: an identity remains."
+    words = "Both sides are equal by {all}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         return Conclusion(_identical(self.claim, premises, premises))
@@ -199,8 +203,10 @@ class Consequence(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *others = premises
         claim = claim_of(self.claim)
-        require_defined(claim.value if isinstance(claim, Limit) else self.claim, *premises)
         taken = {claim.variable} - {t} if isinstance(claim, Limit) else set()
+        if isinstance(claim, Limit):
+            require_constants(claim.expr, claim.variable, *premises)
+        require_defined(claim.value if isinstance(claim, Limit) else self.claim, *premises)
         if any(taken & other.relation.free_symbols for other in others):
             raise RuleError(f"missing premise: {self.claim} for every {claim.variable}")
         places, sides = _inside(self.claim), _inside(first.relation)
@@ -232,7 +238,9 @@ class Alike(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = claim_of(self.claim)
-        left, right = (claim_of(part) for part in self.claim.args)
+        if not isinstance(claim, Equivalence):
+            raise RuleError(f"missing premise: {self.claim} is an equivalence")
+        left, right = claim.left, claim.right
         require_defined(self.claim, *premises)
         equal = is_zero((left.greater - left.lesser) - (right.greater - right.lesser))
         if not equal or left.strict != right.strict:

@@ -88,13 +88,15 @@ class OrderEquation(Rule):
     order: sp.Integer
     words = (
         "Insert the expansion into the rate of the roughness, which is proportional to {0}, with "
-        "{others}, and compare the terms with 1/m^{order}."
+        "{others}, and compare the terms of order {order} in 1/m."
     )
     source = "Sanders, Verhulst, Murdock, 2007"
     asks = ("the pressure",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, n = equality(premises[0]), int(self.order)
+        if n != self.order or n < 1:
+            raise RuleError(f"missing premise: {self.order} is the number of an order")
         for relation in (SINE.relation, OFFSET, SATURATION, sp.Gt(f_c, 0)):
             require_hypothesis(relation, *premises)
         if given.lhs != p or fields(given.rhs) - {u_c, LOAD} or clocks(given.rhs):
@@ -149,7 +151,8 @@ class Averaging(Rule):
         require_defined(value, *premises)
         rest = sp.expand(inserted(law.rhs, premises[1:]))
         if name == whole:
-            right = mean(turning(value, tau)) == 0 == turning(sp.diff(value, tau) - rest, tau)
+            slope = turning(sp.diff(value, tau) - rest, tau)
+            right = law.lhs != whole and mean(turning(value, tau)) == 0 == slope
         else:
             even = not any(sp.diff(rest, wave).has(tau) for wave in waves)
             average = mean(turning(rest.xreplace(waves), tau)) if even else sp.nan
@@ -160,8 +163,8 @@ class Averaging(Rule):
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         known = f", with {listed(labels[1:])}" if labels[1:] else ""
-        if self.claim.lhs.is_Symbol:
-            return f"The mean of {labels[0]} over a cycle is zero{known}: solve for the drift."
+        if (name := self.claim.lhs).is_Symbol:
+            return f"The mean of {labels[0]} over a cycle is zero{known}: solve for {write(name)}."
         return f"Integrate {labels[0]} over the phase{known}; the mean of an oscillation is zero."
 
 
