@@ -261,6 +261,7 @@ def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:
 
 def _in_full(relation: sp.Basic, where: tuple[sp.Basic, ...]) -> sp.Basic:
     """Return a relation with abbreviations written out."""
+    relation = evaluated(relation) if where else relation
     for short in reversed(where):
         relation = _replaced(relation, evaluated(short))
     return relation
@@ -270,8 +271,8 @@ def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
     """Return an expression with one abbreviation written out, a function at its arguments too."""
     name = short.lhs
     if not isinstance(name, AppliedUndef):
-        return evaluated(expr).subs(name, short.rhs)
-    written = evaluated(expr).replace(name.func, sp.Lambda(name.args, short.rhs))
+        return expr.subs(name, short.rhs)
+    written = expr.replace(name.func, sp.Lambda(name.args, short.rhs))
     return written.replace(sp.Subs, lambda *args: sp.Subs(*args).doit())  # slopes of the function
 
 

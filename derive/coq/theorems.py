@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 
 from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
+from ..rules.solutions import Integrated
 from ..symbols import symbol, t
 from .printer import binder, field, term
 from .steps import Step
@@ -28,6 +29,9 @@ def proof(step: Step) -> list[str]:
     for way in (
         _later,
         _same_rate,
+        _separates,
+        _by_parts,
+        _unbounded,
         _threshold,
         _grows,
         _integrates,
@@ -61,6 +65,72 @@ def _same_rate(step: Step) -> Iterator[str]:
             yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; derived)."
         yield "intros t Ht."
         yield f"multiple (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) 1."
+
+
+def _separates(step: Step) -> Iterator[str]:
+    """Separated variables: g(y) y' is constant."""
+    if step.rule == "Separate":
+        pace, integral = step.relation.lhs / t, step.relation.rhs
+        s, start, y = integral.limits[0]
+        law = (*step.frontier, *(h for h in step.hypotheses if h.relation.lhs.has(sp.Derivative)))
+        given = [other for other in step.hypotheses if isinstance(other.relation.lhs, sp.Symbol)]
+        made, end = f"(fun {binder(s)} => {term(integral.function)})", next(
+            p for p in step.hypotheses if p.relation.args == (y.subs(t, 0), start)
+        )
+        yield f"assert (C : {_on_line(y, binder(s), f'continuous {made} {binder(s)}')}) by ({_OPEN}; apply (ex_derive_continuous {made}); auto_derive; repeat split; positive)."
+        yield f"assert (D : forall t, 0 <= t -> {made} ({term(y)}) * Derive {field(y)} t = {term(pace)})."
+        yield from ("{ intros t Ht.", *step.signs())
+        yield f"{step.stated(dict.fromkeys((*law, *given)))}cbv beta; insert; identity. }}"
+        yield "intros t Ht."
+        yield f"pose proof (separates {field(y)} _ _ {_low(y)} smooth_{field(y)} ltac:(simpl; trivial) C D t Ht) as Q."
+        yield f"rewrite {end.name} in Q; rewrite <- Q; field; positive."
+
+
+_OPEN = "simpl; intros"
+
+
+def _low(y: sp.Expr) -> str:
+    """Return the end of the half-line on which a field varies."""
+    return "0" if y.is_nonnegative else "m_infty"
+
+
+def _on_line(y: sp.Expr, name: str, said: str) -> str:
+    return f"forall {name} : R, Rbar_lt {_low(y)} {name} -> {said}"
+
+
+def _by_parts(step: Step) -> Iterator[str]:
+    """A part of an integral, by a primitive."""
+    rule = step.judgement.rule
+    if isinstance(rule, Integrated):
+        (given,) = step.frontier[:1]
+        (integral,) = given.relation.atoms(sp.Integral)
+        s, start, y = integral.limits[0]
+        made, rest, primitive = (
+            f"(fun {binder(s)} => {term(e)})"
+            for e in (integral.function, rule.rest, rule.primitive)
+        )
+        for label, function in (("C", made), ("E", rest)):
+            yield f"assert ({label} : {_on_line(y, binder(s), f'continuous {function} {binder(s)}')}) by ({_OPEN}; apply (ex_derive_continuous {function}); auto_derive; repeat split; positive)."
+        slope = f"is_derive {primitive} {binder(s)} ({made} {binder(s)} - {rest} {binder(s)})"
+        yield f"assert (D : {_on_line(y, binder(s), slope)}) by ({_OPEN}; cbv beta; derived)."
+        yield from ("intros t Ht.", *step.signs())
+        yield f"rewrite ({step.now(given)})."
+        yield f"rewrite (by_parts {primitive} {made} {rest} {_low(y)} ({term(start)}) ({term(y)})); [| simpl; trivial | simpl; trivial | exact D | exact C | exact E]."
+        yield "rewrite ?RInt_const; unfold scal; simpl; unfold mult; simpl; identity."
+
+
+def _unbounded(step: Step) -> Iterator[str]:
+    """A rate with a positive minimum below every level, under a bounded load."""
+    if step.rule == "Unbounded":
+        law, *bounds = step.frontier
+        u, rate = law.relation.lhs.expr, law.relation.rhs
+        least = rate.xreplace({u: sp.Symbol("level"), _LOAD: -symbol("U")})
+        yield f"apply unbounded; [assumption |]; intros level; exists ({term(least)}); split; [bounds; positive |]."
+        yield f"intros t Ht Hm; rewrite ({step.now(law)})."
+        yield from (f"pose proof ({step.now(other)})." for other in bounds)
+        (low,), (high,) = (sorted(e.atoms(sp.tanh), key=str) for e in (least, rate))
+        difference = sp.diff(rate.xreplace({high: _RATIO}), _RATIO) * (high - low)
+        yield f"bounds; ordered ({term(low.args[0])}) ({term(high.args[0])}) ({term(difference)})."
 
 
 def _grows(step: Step) -> Iterator[str]:

@@ -72,6 +72,8 @@ def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> Non
         raise RuleError(f"missing premise: {name} is a new name")
     if name in _TIMES and (value == 0 or not any(constant(value / time) for time in _TIMES)):
         raise RuleError(f"missing premise: {name} is a multiple of another time")
+    if clocks(name) and constant(value) and not fields(value):
+        raise RuleError(f"missing premise: {value} varies, as {name} does")
     rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
     change = inserted(sp.Add(*rates), premises).doit()
     varies = clocks(relation.rhs) or any(d.has(t) for d in value.atoms(sp.Derivative))

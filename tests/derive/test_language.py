@@ -17,12 +17,13 @@ from derive.note.model import contact
 from derive.rules.algebra import Identity
 from derive.rules.assumption import assume
 from derive.rules.limits import forever
+from derive.rules.proving import LAW
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import end, equal, supposed
 
 u_c, U_a, U_c, h, p, sigma = symbols("u_c U_a U_c h p sigma")
 h_0, f_c, C, T, N, q, k, b_0, U = symbols("h_0 f_c C T N q k b_0 U")
-theta, kappa, tau, p_max = symbols("theta kappa tau p_max")
+theta, kappa, tau, p_max, m = symbols("theta kappa tau p_max m")
 x, y = sp.symbols("x y", real=True)
 WIGGLE = sp.Function("wiggle", real=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
@@ -91,6 +92,12 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Symbol("oo", real=True), "no real quantity"),
     (sp.Symbol("f_c_", positive=True), "no real quantity"),  # looks like f_c
     (sp.Symbol("sigmabar", real=True), "no real quantity"),  # looks like sigma
+    (sp.Symbol("lamda", real=True), "no real quantity"),  # looks like lambda
+    (sp.Symbol("xabs", real=True), "no real quantity"),  # looks like |x|, and may be -1
+    (sp.Symbol("hprime", real=True), "no real quantity"),  # looks like the rate of h
+    (sp.Symbol("phi", real=True), "no real quantity"),
+    (sp.Symbol("o", real=True), "no real quantity"),
+    (sp.Symbol("true", real=True), "no real quantity"),
     (sp.Function("exp", real=True)(t), "no real quantity"),
     (sp.Function("count", integer=True)(t), "no real quantity"),  # 1/2
     (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
@@ -104,6 +111,8 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
     sp.Rational(1, 10**20),
     sp.Limit(sp.sign(theta), theta, 0),
     sp.Symbol("f_x", positive=True) + sp.Symbol("U_x", positive=True),
+    sp.Symbol("lambda", real=True) * sp.Symbol("x_bar", real=True),
+    LAW(r),
     x * y,
 )
 
@@ -153,6 +162,7 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(2 * C, f_c * h_0), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
     (Kind.DEFINITION, equal(t, 5), "another time"),  # t = 4
+    (Kind.DEFINITION, equal(m, h_0), "varies"),  # m = s_0 at first
     (Kind.DEFINITION, equal(N, u_c / h_0), "another time"),  # u_c = -h_0 t/T
 )
 CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
@@ -168,6 +178,7 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(forever(WIGGLE - u_c), 1)),
     (Kind.DEFINITION, equal(b_0, PHASED.subs(tau, 1))),
     (Kind.DEFINITION, equal(N, t / T)),
+    (Kind.DEFINITION, equal(m, h_0 + u_c)),
 )
 
 
