@@ -29,7 +29,7 @@ from .kernel import Judgement, chain, domain
 from .language import names
 from .rules.assumption import Assume
 from .rules.proving import holds, needs
-from .symbols import CLOCKS, QUANTITIES, t
+from .symbols import CLOCKS, DATA, QUANTITIES, t
 from .typeset.display import latex
 from .typeset.present import presentable
 from .written import Names, evaluated, read
@@ -199,8 +199,9 @@ class Equation:
 
     @cached_property
     def typeset_agrees(self) -> bool:
-        """Return whether what is typeset is what was derived."""
-        return _agree(self.shown_in_full, self.claims)
+        """Return whether what is typeset is what was derived; an abbreviation is no datum."""
+        short = {name for abbreviation in self.where for name, _ in names(abbreviation.lhs)}
+        return short.isdisjoint(DATA) and _agree(self.shown_in_full, self.claims)
 
     @property
     def shown_in_full(self) -> tuple[sp.Basic, ...]:
