@@ -123,15 +123,6 @@ Proof.
   assert (c <= Derive u x) by (apply Hc; lra); nra.
 Qed.
 
-(** A positive rate: u increases. *)
-Lemma increases (u : R -> R) : (forall t, 0 <= t -> ex_derive u t) ->
-  (forall t, 0 <= t -> 0 <= Derive u t) -> forall a b, 0 <= a <= b -> u a <= u b.
-Proof.
-  intros Hu Hr a b [Ha [Hab | <-]]; [| lra].
-  destruct (mean_value u a b) as [x [Hx E]]; [lra | assumption |].
-  assert (0 <= Derive u x) by (apply Hr; lra); nra.
-Qed.
-
 (** A constant rate of one per the other: [y' = c x'] gives [y = y(0) + c (x - x(0))]. *)
 Lemma integrates (y x : R -> R) c :
   (forall t, 0 <= t -> ex_derive y t) -> (forall t, 0 <= t -> ex_derive x t) ->
@@ -166,22 +157,6 @@ Lemma diverges_affine u a f : 0 < f -> diverges u -> diverges (fun t => a + f * 
 Proof.
   rewrite !diverges_iff; intros Hf H m; destruct (H ((m - a) / f)) as [t0 Ht0].
   exists t0; intros t Ht; specialize (Ht0 t Ht); apply Rlt_div_l in Ht0; lra.
-Qed.
-
-(** A positive minimum of the rate below every level: u grows without bound. *)
-Lemma unbounded (u : R -> R) : (forall t, 0 <= t -> ex_derive u t) ->
-  (forall m, exists c, 0 < c /\ forall t, 0 <= t -> u t <= m -> c <= Derive u t) -> diverges u.
-Proof.
-  intros Hu H; assert (I : forall a b, 0 <= a <= b -> u a <= u b).
-  { apply increases; [assumption |]; intros t Ht.
-    destruct (H (u t)) as [c [Hc L]]; specialize (L t Ht); lra. }
-  apply diverges_iff; intros m; destruct (H m) as [c [Hc L]].
-  set (t1 := Rmax 1 ((m + 1 - u 0) / c)); assert (1 <= t1) by apply Rmax_l.
-  assert (G : (m + 1 - u 0) / c <= t1) by apply Rmax_r; apply Rle_div_l in G; [| assumption].
-  exists t1; intros t Ht; destruct (Rlt_le_dec m (u t)) as [| N]; [assumption |].
-  assert (u t1 <= u t) by (apply I; lra).
-  destruct (mean_value u 0 t1) as [s [Hs E]]; [lra | assumption |].
-  assert (u s <= u t1) by (apply I; lra); assert (c <= Derive u s) by (apply L; lra); nra.
 Qed.
 
 (** A rate that tends to R: the wear of one period tends to R T. *)
