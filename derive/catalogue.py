@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator
 from functools import cache
 from importlib import import_module
 
@@ -17,27 +16,36 @@ from .equations import TEXTS, Equation, numbered
 from .note import condensed, governing, stabilised
 from .note.governing import Model
 
-_BEYOND = (
-    "note.problems",
-    "results.pressure_root",
-    "results.steady_state",
-    "results.validity",
-    "results.two_solids",
-    "results.regimes",
-    "results.cutoff",
-    "results.cutoff_two_solids",
-    "results.comparison",
-    "results.first_integral",
-    "results.static_solution",
-    "results.static_scaled",
-    "results.static_compliant",
-    "results.expansion",
-    "results.compliant",
-    "results.sensitivities",
-    "results.monotonicity",
-    "results.dimensionless",
-)
-"""The modules with results beyond the note, imported when they are asked for."""
+_BEYOND = {
+    "note.problems": "problem-i problem-ii",
+    "results.pressure_root": "pressure-root pressure-iteration rigid-limit-error",
+    "results.any_law": "deviation growth general-rate closure-ratio general-law approach",
+    "results.validity": "share criterion share-slope threshold one-eighth",
+    "results.two_solids": "two-solids two-solids-opening two-solids-roughness "
+    "two-solids-closure-ratio two-solids-rate two-solids-log-drift",
+    "results.regimes": "tail logarithmic-wear saturating-wear closed-gap",
+    "results.cutoff": "contact-condition arrest-depth no-contact rate-in-contact sliding-rate "
+    "margin-rate margin one-third permanent-contact always-contact edge-of-contact",
+    "results.cutoff_two_solids": "margin-curvature arrest-depth-two-solids",
+    "results.comparison": "compliant-load strip",
+    "results.first_integral": "closure-line first-integral first-integral-compliant",
+    "results.static_solution": "static-solution static-solution-smooth static-wear-smooth "
+    "static-solution-scaled",
+    "results.static_compliant": "static-solution-compliant static-solution-compliant-smooth",
+    "results.expansion": "log-drift expansion-drift expansion-oscillation expansion",
+    "results.compliant": "compliant-pressure compliant-wear-per-cycle log-drift-any-law "
+    "log-drift-compliant",
+    "results.sensitivities": "elasticities sensitivity-slope elasticity-slope without-effect "
+    "sensitivity-pressure slope-from-wear coefficient-from-wear slope-from-pressure",
+    "results.monotonicity": "wear-increases wear-increases-apart wear-decreases",
+    "results.dimensionless": "groups-one-solid groups-two-solids groups-compliant",
+}
+"""The results beyond the note by the module that derives them when it is imported.
+
+A result is the value of that name, ``arrest_depth`` for arrest-depth.
+"""
+
+_MODULES = {identifier: module for module, ids in _BEYOND.items() for identifier in ids.split()}
 
 
 class UnknownEquationError(KeyError):
@@ -49,26 +57,20 @@ class UnknownEquationError(KeyError):
 
 def equations() -> tuple[Equation, ...]:
     """Return the note's equations in their order, then the results beyond it."""
-    return tuple(_in_order())
-
-
-def _in_order() -> Iterator[Equation]:
-    """Derive module after module, each once, and only as far as is asked for."""
-    yield from _of_the_note()
-    for module in _BEYOND:
-        yield from _beyond(module)
+    return (*_of_the_note().values(), *map(_beyond, _MODULES))
 
 
 @cache
-def _of_the_note() -> tuple[Equation, ...]:
+def _of_the_note() -> dict[str, Equation]:
     model = Model()
-    proved = governing.results(model) | condensed.results(model) | stabilised.results()
-    return tuple(sorted(numbered(proved), key=_place))
+    proved = governing.results(model) | condensed.results(model) | dict(stabilised.EQUATIONS)
+    return {found.id: found for found in sorted(numbered(proved), key=_place)}
 
 
 @cache
-def _beyond(module: str) -> tuple[Equation, ...]:
-    return numbered(import_module(f".{module}", __package__).results())
+def _beyond(identifier: str) -> Equation:
+    module = import_module(f".{_MODULES[identifier]}", __package__)
+    return numbered({identifier: getattr(module, identifier.replace("-", "_"))})[0]
 
 
 def _place(found: Equation) -> tuple[int, str]:
@@ -78,12 +80,8 @@ def _place(found: Equation) -> tuple[int, str]:
 
 def equations_up_to(identifier: str) -> tuple[Equation, ...]:
     """Return the equations of the catalogue up to one of them: all that it may rest on."""
-    found: list[Equation] = []
-    for one in _in_order():
-        found.append(one)
-        if one.id == identifier:
-            break
-    return tuple(found)
+    ids = [*_of_the_note(), *_MODULES]
+    return tuple(map(equation, ids[: ids.index(identifier) + 1]))
 
 
 def equation(identifier: str) -> Equation:
@@ -93,7 +91,7 @@ def equation(identifier: str) -> Equation:
     Eq(U_c(t), p(t)/k)
     """
     if identifier in TEXTS:
-        return next(found for found in _in_order() if found.id == identifier)
+        return _beyond(identifier) if identifier in _MODULES else _of_the_note()[identifier]
     near = difflib.get_close_matches(identifier, TEXTS, n=3, cutoff=0.5)
     hint = f"; did you mean {' or '.join(near)}?" if near else "; see `derive list`"
     raise UnknownEquationError(f"{identifier}: there is no such equation{hint}")

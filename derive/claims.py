@@ -18,6 +18,8 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.relational import Relational
+from sympy.printing.pretty.pretty import PrettyPrinter
+from sympy.printing.pretty.stringpict import prettyForm
 
 landau_o = sp.Function("o", real=True)
 """What vanishes in comparison with its argument, as in ``u = F + o(1)``."""
@@ -64,6 +66,11 @@ class Term(sp.Expr):
     def _latex(self, printer: sp.printing.printer.Printer) -> str:
         n, law, *_ = map(printer.doprint, self.args)
         return rf"{self.letter}_{{{n}}}\left[{law}\right]"
+
+    def _pretty(self, printer: PrettyPrinter) -> prettyForm:
+        n, law, *_ = self.args
+        name = printer._print(sp.Symbol(f"{self.letter}_{n}"))
+        return prettyForm(*name.right(prettyForm(*printer._print(law).parens("[", "]"))))
 
 
 class Drift(Term):

@@ -1,7 +1,6 @@
 """Writing the generated modules of wear, and whether they are up to date.
 
 Key results
-    faults_of   why no code is written for a contact law
     sources     every generated file, as text
     write       write what differs
     outdated    the files that differ from what would be written
@@ -14,43 +13,18 @@ from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
-import sympy as sp
-
 from .codegen import reaction
+from .codegen.contact_law import faults_of
 from .codegen.sources import source
 from .faults import UsageError
 from .files import write_atomically
-from .laws import LAWS, ContactLaw, r
+from .laws import LAWS
 from .note.governing import Pin
 from .program import margin_program, program
-from .results import asymptotics, static_scaled
-from .rules.proving import sign
+from .results import asymptotics
 from .variant import VARIANTS
 
-_DISTANCES = (-8.0, -1.0, -0.125, 0.125, 1.0, 8.0)
-"""From the inflection, in h/sigma: where the curvature of a law is looked at."""
 _PACKAGE = '"""Generated code{of}, one module a variant; not to be edited."""\n'
-
-
-def faults_of(law: ContactLaw) -> tuple[str, ...]:
-    """Return what is not proved of a law: it must be positive, decreasing and curved as stated.
-
-    >>> from derive.laws import TANH
-    >>> faults_of(TANH)
-    ()
-    """
-    slope = sp.diff(law.phi, r)
-    found = [
-        f"{law.name}: {expression} is not proved to be {wanted}; if it is, write phi otherwise"
-        for expression, wanted, expected in ((law.phi, "positive", 1), (slope, "negative", -1))
-        if sign(expression) != expected
-    ]
-    everywhere = not law.inflection.is_finite
-    place = sp.Integer(0) if everywhere else law.inflection
-    convex = [bool(sp.diff(slope, r).subs(r, place + d).evalf(30) > 0) for d in _DISTANCES]
-    if convex != [everywhere or d > 0 for d in _DISTANCES]:
-        found.append(f"{law.name}: phi does not turn from concave to convex at {law.inflection}")
-    return tuple(found)
 
 
 @cache
@@ -74,7 +48,6 @@ def sources() -> Mapping[str, str]:
         files[f"margin_{pin}.py"] = source(margin_program(pin), "numpy")
     files["asymptotics.py"] = asymptotics.module()
     files["reaction.py"] = reaction.module()
-    files["static_solution.py"] = static_scaled.module()
     return MappingProxyType(files)
 
 

@@ -68,7 +68,7 @@ class Hypothesis:
 
         None where only words say it, or where a number is missing.
 
-        >>> from derive.results.steady_state import ROUGHENING
+        >>> from derive.results.regime_map import ROUGHENING
         >>> ROUGHENING.guard({"f_c": 0.25}), ROUGHENING.guard({"f_c": -0.05}), ROUGHENING.guard({})
         (True, False, None)
         """
@@ -86,7 +86,8 @@ class Hypothesis:
     def typed(self) -> str:
         """Return the relation as one types it; the words where there is none, or a long one.
 
-        >>> from derive.results.steady_state import BOUNDED_LOAD, ROUGHENING
+        >>> from derive.results.regime_map import ROUGHENING
+        >>> from derive.results.steady_state import BOUNDED_LOAD
         >>> ROUGHENING.typed, BOUNDED_LOAD.typed
         ('f_c > 0', '|U_a| <= U')
         """

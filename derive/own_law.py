@@ -109,7 +109,7 @@ def own_law(text: str) -> tuple[ComputedLaw, float]:
     """
     import sympy as sp
 
-    from .generate import faults_of
+    from .codegen.contact_law import faults_of
     from .laws import r
     from .rules.proving import smooth
     from .stable import ComputedLaw, Stable, share
@@ -226,10 +226,10 @@ def file_of(text: str, name: str) -> str:
     UsageError
         as `own_law` does.
     """
+    from .codegen import contact_law
     from .codegen.sources import source
     from .note.governing import Pin
     from .program import program
-    from .results.asymptotics import law_module
     from .variant import Variant
 
     law, loss = own_law(text)
@@ -237,7 +237,7 @@ def file_of(text: str, name: str) -> str:
         about = {"phi": text, "inflection": str(law.inflection), "rounding_error": loss}
         return json.dumps(about)
     if name == "law.py":
-        return law_module(law)
+        return contact_law.module(law)
     variants = [Variant(law, compliant, pin) for compliant in (False, True) for pin in Pin]
     chosen = next(each for each in variants if f"{each.module}.py" == name)
     return source(program(chosen), "numpy")

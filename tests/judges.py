@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import mpmath
 import numpy as np
 
 from tests.independent import Judge, Problem, wear_after
@@ -66,3 +67,31 @@ def honest(wear: FloatArray, error: FloatArray, want: FloatArray, missed: Any = 
     """Whether relative errors are within estimates, what the reference misses, or rounding."""
     true = np.abs(wear / want - 1)
     return bool(np.all((true <= error + missed) | (true < ROUNDING)))
+
+
+def static_wear(scene: Scene, cycles: FloatArray, near: FloatArray) -> FloatArray:
+    """The wear (mm) after numbers of cycles under a constant load, rigid support, bearing wear
+    only: the roots near some wears of the closed solution, typed here on purpose."""
+    p, load = scene.parameters(), scene.periodic_load.mean
+    f = p["f_c"]
+    with mpmath.workdps(80 + int(4 / abs(f))):
+        sigma, f, h = map(mpmath.mpf, (p["sigma_c0"], f, p["h_0"]))
+        most = mpmath.mpf(math.pi) * p["K_c"] * p["R"] * p["T"] * p["n"] * p["p_max"]
+        b = 2 * (sigma / f - h + load)
+
+        def primitive(s: Any) -> Any:
+            return s * mpmath.exp(-2 * b / s) + 2 * b * mpmath.ei(-2 * b / s)
+
+        def count(u: Any) -> Any:
+            gap = mpmath.exp(4 / f - 8) / f * (primitive(sigma + f * u) - primitive(sigma))
+            return (u + gap) * 90 * mpmath.mpf(p["H_c"]) / most
+
+        def wear(n: float, start: float) -> float:
+            if n == 0:
+                return 0.0
+            u = mpmath.mpf(start)
+            return float(
+                mpmath.findroot(lambda u: count(u) / n - 1, (u, u * (1 + 1e-6)), tol=1e-40)
+            )
+
+        return np.vectorize(wear, otypes=[float])(cycles, near)

@@ -1,14 +1,19 @@
 """House rules: what holds for every file, and what starting a command may import."""
 
 import ast
+import contextlib
+import importlib
 import re
 import sys
 import tomllib
 from itertools import chain
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
+import derive
+import wear
 from tests.programs import ended, python
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -105,16 +110,11 @@ for arguments in (["--help"], ["run", "--help"], ["scenes"], ["cite"]):
 
 def test_what_a_package_offers_is_not_hidden_by_a_module_of_the_same_name():
     """Importing a module `wear.solve` turns a function `wear.solve` into it, if given lazily."""
-    code = """
-import contextlib, importlib, types, derive, wear
-for package in (derive, wear):
-    offered = getattr(package, "__all__", ())
-    for name in offered:
-        with contextlib.suppress(ModuleNotFoundError):
-            importlib.import_module(package.__name__ + "." + name)
-    assert not [n for n in offered if isinstance(getattr(package, n), types.ModuleType)]
-"""
-    python(code)
+    for package in (derive, wear):
+        for name in package.__all__:
+            with contextlib.suppress(ModuleNotFoundError):
+                importlib.import_module(f"{package.__name__}.{name}")
+            assert not isinstance(getattr(package, name), ModuleType), name
 
 
 def test_no_file_names_a_place_of_one_machine(need_tool):
@@ -148,6 +148,12 @@ def test_no_text_is_run_as_code(sources):
         or (isinstance(node, ast.ImportFrom) and "pickle" in (node.module or ""))
     ]
     assert not found
+
+
+def test_figures_are_drawn_without_pyplot(sources):
+    """Which opens windows and keeps what is drawn for all of a process."""
+    drawing = [text for path, text in sources.items() if "wear" in path.relative_to(ROOT).parts[:1]]
+    assert not [text for text in drawing if re.search(r"^ *(from|import) .*pyplot", text, re.M)]
 
 
 def test_every_module_says_what_it_holds(sources):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..note.governing import Model
-from ..note.problems import given_load
+from ..note.problems import problem_i
 from ..rules.algebra import Solve
 from ..symbols import symbol, symbols
 from .formulas import Formula, formula_module
@@ -25,7 +25,7 @@ mu, distance = sp.symbols("mu distance", nonnegative=True)
 def formulas() -> tuple[Formula, ...]:
     """Return the formulas of the forces of the pin."""
     force = Solve(symbol("R_a"))(Model().reaction).claim.rhs.subs(symbol("p"), pressure)
-    carried = given_load().order[0].claim.rhs.subs(symbol("R_a"), given)
+    carried = problem_i[0].claim.rhs.subs(symbol("R_a"), given)
     width, length = symbols("b L")
     slid = Model().slip.claim.rhs * symbol("T")
     of_pressure = "derivative of the pressure with respect to"

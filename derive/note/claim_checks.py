@@ -28,8 +28,8 @@ from ..verification import verify
 from ..zero import is_zero
 from .claims import Finding, Verdict
 from .governing import ROUGH_BEARING, Model
-from .problems import given_motion, undetermined
-from .stabilised import Stabilised
+from .problems import problem_ii, undetermined
+from .stabilised import asymptote, constant_bracket, wear_per_cycle
 
 h_0, U_a, U_c, u_a, u_c, p = symbols("h_0 U_a U_c u_a u_c p")
 f_c, sigma_c0, K_c, k, u_cum = symbols("f_c sigma_c0 K_c k u_cum")
@@ -138,7 +138,7 @@ def given_force() -> Finding:
 
 def recovered() -> Finding:
     """C12: every unknown of problem (ii) follows."""
-    missing = undetermined(given_motion())
+    missing = undetermined(U_a, problem_ii)
     good, evidence, _ = _holds("problem-ii")
     verdict = Verdict.CONFIRMED if good and not missing else Verdict.REFUTED
     left = ", ".join(map(str, missing)) or "none"
@@ -192,7 +192,7 @@ def periodic_rate() -> Finding:
 
 def bracket() -> Finding:
     """C24: the bracket of (16) in numbers."""
-    found = Stabilised().bracket.claim.rhs
+    found = constant_bracket.claim.rhs
     data = {f_c: sp.Rational(1, 4), h_0: sp.Rational(27, 25000), sigma_c0: sp.Rational(9, 25000)}
     value = found.subs(data).subs(U_a, 0)
     good, evidence, _ = _holds("bracket")
@@ -207,7 +207,7 @@ def bracket() -> Finding:
 
 def affine_asymptote() -> Finding:
     """C27: the coefficient of ln t."""
-    drift = Stabilised().asymptote.claim.value
+    drift = asymptote.claim.value
     (free,) = sp.solve(sp.numer(sp.together(drift)), sigma_c0)
     status = catalogue.equation("19").status
     only = sp.sstr(presentable(free), order="none")
@@ -220,7 +220,7 @@ def affine_asymptote() -> Finding:
 
 def linear_in_wear_coefficient() -> Finding:
     """C30: (21) as a function of K_c and of f_c."""
-    wear = Stabilised().wear_per_cycle.claim.rhs
+    wear = wear_per_cycle.claim.rhs
     affine = sp.diff(wear, K_c, 2) == 0
     linear = affine and wear.subs(K_c, 0) == 0
     bent = not is_zero(sp.diff(wear, f_c, 2))
@@ -235,7 +235,7 @@ def one_eighth() -> Finding:
     slope = sp.Rational(1, 10)
     margin = 1 + sp.tanh(4 - 2 / slope)
     counter = bool(margin > 0)
-    share = validity.share().claim.rhs
+    share = validity.share.claim.rhs
     level = float(share.subs(f_c, sp.Rational(1, 8)))
     limits = ", ".join(
         f"{float(validity.threshold_at(value)):.6f} for {name}"

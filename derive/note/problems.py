@@ -5,29 +5,25 @@ Overview
     displacement U_a.  Each problem is a list of statements, in an order in which every
     statement determines one more field from those before it.
 Key results
-    Problem         what is given, and the order in which the fields follow
-    given_load      (i): the pressure is prescribed, and wear follows directly
-    given_motion    (ii): the condensed problem gives the wear, and all else follows from it
-    undetermined    what is wrong with an order; nothing, for both
+    problem_i      given load: statements in the order in which the fields follow
+    problem_ii     given motion
+    undetermined   what is wrong with an order; nothing, for both
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..equations import Proved
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
-from ..results.first_integral import UNSATURATED, FirstIntegral
+from ..results.first_integral import UNSATURATED, log_odds
 from ..rules.algebra import Solve, discharge
 from ..rules.assumption import assume
 from ..symbols import symbols, t
-from .condensed import (
-    Condensed,
-)
+from .condensed import Condensed
 from .governing import Model
 
 h, p, p_max, R_a, U_a, b, L = symbols("h p p_max R_a U_a b L")
@@ -37,87 +33,52 @@ CARRIED = Hypothesis(
 )
 
 
-@dataclass(frozen=True)
-class Problem:
-    """A given field, and statements that determine the others one after the other.
+_model = Model()
+_condensed = Condensed(_model)
+_roughness = (_model.roughness_of_pin, _model.roughness_of_bearing, _model.roughness)
+_u_a_rate, _, _u_c_rate, _ = _model.wear_laws
+_pressure = Solve(p)(_model.reaction)
+
+problem_i = (
+    _pressure,
+    _u_a_rate,
+    _u_c_rate,
+    *_roughness,
+    _condensed.deflection,
+    discharge(Solve(h)(log_odds), UNSATURATED, _pressure, assume(CARRIED)),
+    Solve(U_a)(_model.closure),
+)
+"""The reaction R_a of the pin is given: the pressure is prescribed, and wear follows directly."""
+
+problem_ii = (
+    _condensed.scalar,
+    _model.wear_of_pin,
+    *_roughness,
+    _condensed.pressure_from_rate,
+    _condensed.deflection,
+    _model.closure,
+    Solve(R_a)(_model.reaction),
+)
+"""The displacement U_a of the pin is given: the condensed problem gives the wear."""
+
+
+def undetermined(given: sp.Expr, order: Iterable[Judgement]) -> tuple[str, ...]:
+    """Return what an order of statements uses before it has it; empty when every field follows.
 
     A field may follow from its own rate of change, that is by integration in time from (6).
-    """
 
-    id: str
-    title: str
-    given: sp.Expr
-    order: tuple[Judgement, ...]
-
-    @property
-    def unknowns(self) -> tuple[sp.Expr, ...]:
-        """Return the fields in the order in which they are determined."""
-        return tuple(_determined(statement) for statement in self.order)
-
-
-def _determined(statement: Judgement) -> sp.Expr:
-    left = statement.claim.lhs
-    return left.expr if isinstance(left, sp.Derivative) else left
-
-
-def undetermined(problem: Problem) -> tuple[str, ...]:
-    """Return what an order uses before it has it; empty when every field follows.
-
-    >>> undetermined(given_load()), undetermined(given_motion())
+    >>> undetermined(R_a, problem_i), undetermined(U_a, problem_ii)
     ((), ())
     """
-    known = {problem.given}
+    known = {given}
     faults = []
-    for statement in problem.order:
-        unknown = _determined(statement)
-        own = {unknown} if isinstance(statement.claim.lhs, sp.Derivative) else set()
-        needs = {f for f in statement.claim.rhs.atoms(AppliedUndef) if f.args == (t,)}
-        rates = {d.expr for d in statement.claim.rhs.atoms(sp.Derivative)} - own
+    for statement in order:
+        left, right = statement.claim.lhs, statement.claim.rhs
+        unknown = left.expr if isinstance(left, sp.Derivative) else left
+        own = {unknown} if isinstance(left, sp.Derivative) else set()
+        needs = {f for f in right.atoms(AppliedUndef) if f.args == (t,)}
+        rates = {d.expr for d in right.atoms(sp.Derivative)} - own
         early = sorted((needs | rates) - known - own, key=str)
         faults += [f"{unknown} needs {field} before it is known" for field in early]
         known.add(unknown)
     return tuple(faults)
-
-
-def given_load(model: Model | None = None) -> Problem:
-    """Problem (i): the reaction R_a of the pin is given."""
-    model = model or Model()
-    carried = assume(CARRIED)
-    pressure = Solve(p)(model.reaction)
-    closure = Solve(h)(FirstIntegral(model.law).log_odds)
-    u_a_rate, _, u_c_rate, _ = model.wear_laws
-    order = (
-        pressure,
-        u_a_rate,
-        u_c_rate,
-        model.roughness_of_pin,
-        model.roughness_of_bearing,
-        model.roughness,
-        Condensed(model).deflection,
-        discharge(closure, UNSATURATED, pressure, carried),
-        Solve(U_a)(model.closure),
-    )
-    return Problem("problem-i", "given load: the pressure is prescribed", R_a, order)
-
-
-def given_motion(model: Model | None = None) -> Problem:
-    """Problem (ii): the displacement U_a of the pin is given."""
-    model = model or Model()
-    condensed = Condensed(model)
-    order = (
-        condensed.scalar,
-        model.wear_of_pin,
-        model.roughness_of_pin,
-        model.roughness_of_bearing,
-        model.roughness,
-        condensed.pressure_from_rate,
-        condensed.deflection,
-        model.closure,
-        Solve(R_a)(model.reaction),
-    )
-    return Problem("problem-ii", "given displacement: the pressure is free", U_a, order)
-
-
-def results() -> dict[str, Proved]:
-    """Return both problems as systems, in the order in which the fields follow."""
-    return {"problem-i": given_load().order, "problem-ii": given_motion().order}

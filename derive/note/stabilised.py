@@ -6,10 +6,10 @@ Overview
     equation from (14) on is derived from the limit of h/sigma, which ``results.steady_state``
     proves for f_c > 0 and a bounded load, and the printed forms are compared with the results.
 Key results
-    Stabilised.argument          (17), second line
-    Stabilised.wear_per_cycle    (21)
-    Stabilised.asymptote         what stands in the place of (19)
-    Stabilised.bracket           why (16), second line, is false: the bracket is a constant
+    limit_argument     (17), second line
+    wear_per_cycle     (21)
+    asymptote          what stands in the place of (19)
+    constant_bracket   why (16), second line, is false: the bracket is a constant
 Remarks
     (11) as printed holds for every field, with G_inf = G.  (12) as printed, without the dots,
     excludes the accumulation that it is meant to describe.
@@ -17,8 +17,8 @@ Remarks
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Mapping
+from types import MappingProxyType
 
 import sympy as sp
 
@@ -26,15 +26,16 @@ from ..equations import Proved
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..results.steady_state import (
-    SteadyState,
     closure,
+    drift,
     excess,
+    named_limit,
     roughness,
     steady_state,
 )
 from ..rules.algebra import Identity, Insert, substitute
 from ..rules.assumption import assume, defined
-from ..rules.drift import MEAN, first_order, logarithmic_drift
+from ..rules.drift import first_order
 from ..rules.limits import (
     AtInfinity,
     Diverges,
@@ -43,171 +44,132 @@ from ..rules.limits import (
     later,
     one_period_later,
 )
-from ..rules.reading import CONTINUOUS, PERIODIC
+from ..rules.reading import PERIODIC
 from ..symbols import rate, symbols, t
 
 h_0, U_a, u_c = symbols("h_0 U_a u_c")
 sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
 u_cum, p_inf, G, G_inf, u_inf = symbols("u_cum p_inf G G_inf u_inf")
 
+
+def _defined(text: str, relation: sp.Basic) -> Judgement:
+    return assume(Hypothesis(text, relation, kind=Kind.DEFINITION))
+
+
 argument = (4 * roughness - 2 * closure) / roughness
 bracket = (4 * f_c - 2) * roughness - f_c * (4 * roughness - 2 * closure)
 
 
-@dataclass(frozen=True)
-class Stabilised:
-    """Section 4, from the limit of h/sigma."""
+steady = steady_state()
+"""The limit of h/sigma and what it rests on, for the law of the note."""
 
-    steady: SteadyState = field(default_factory=steady_state)
+asymptotic_response = _defined("an asymptotic response", sp.Eq(forever(G - G_inf.subs(t, 0)), 0))
+"""(11), made to say something: the field itself has a limit."""
 
-    @cached_property
-    def vacuous(self) -> Judgement:
-        """(11) as printed holds for every field, with G_inf = G."""
-        choice = assume(Hypothesis("a choice of G_inf", sp.Eq(G_inf, G), kind=Kind.DEFINITION))
-        claim = sp.Eq(forever(G - G_inf), 0)
-        return Passes(claim)(choice, name="every field satisfies (11)")
+every_field = Passes(sp.Eq(forever(G - G_inf), 0))(
+    _defined("a choice of G_inf", sp.Eq(G_inf, G)), name="every field satisfies (11)"
+)
+"""(11) as printed holds for every field, with G_inf = G."""
 
-    @cached_property
-    def asymptotic_response(self) -> Judgement:
-        """(11), made to say something: the field itself has a limit."""
-        at_rest = G_inf.subs(t, 0)
-        claim = sp.Eq(forever(G - at_rest), 0)
-        return assume(Hypothesis("an asymptotic response", claim, kind=Kind.DEFINITION))
+stabilised_response = (
+    _defined("a stabilised response", sp.Eq(rate("G_inf") - later(rate("G_inf")), 0)),
+    _defined("a stabilised response", sp.Eq(forever(rate("G") - rate("G_inf")), 0)),
+)
+"""(12), for rates as its text says."""
 
-    @cached_property
-    def stabilised_response(self) -> tuple[Judgement, Judgement]:
-        """(12), for rates as its text says."""
-        claims = (
-            sp.Eq(rate("G_inf") - later(rate("G_inf")), 0),
-            sp.Eq(forever(rate("G") - rate("G_inf")), 0),
-        )
-        text = "a stabilised response"
-        periodic, tends = (assume(Hypothesis(text, c, kind=Kind.DEFINITION)) for c in claims)
-        return periodic, tends
+periodic_rate = Passes(sp.Eq(forever(later(rate("u_c")) - rate("u_c")), 0))(
+    steady.rate, name="the rate becomes periodic"
+)
+"""(14): the rates of two cycles come together."""
 
-    @cached_property
-    def periodic_rate(self) -> Judgement:
-        """(14): the rates of two cycles come together."""
-        claim = sp.Eq(forever(later(rate("u_c")) - rate("u_c")), 0)
-        return Passes(claim)(self.steady.rate, name="the rate becomes periodic")
+_left = forever(3 * H_c / (K_c * V) * rate("u_c"))
+_right = forever(p_max / 2 * (1 + sp.tanh(argument)))
+_value = p_max / 2 * (1 + sp.tanh(4 - 2 / f_c))
+passage = Insert(sp.Eq(_left, _right))(
+    Passes(sp.Eq(_left, _value))(steady.rate),
+    Passes(sp.Eq(_right, _value))(steady.ratio),
+    name="passage to the limit",
+)
+"""First lines of (15), (16) and (17)."""
 
-    @cached_property
-    def passage(self) -> Judgement:
-        """First lines of (15), (16) and (17)."""
-        left = 3 * H_c / (K_c * V) * rate("u_c")
-        right = p_max / 2 * (1 + sp.tanh(argument))
-        value = p_max / 2 * (1 + sp.tanh(4 - 2 / f_c))
-        sides = (
-            Passes(sp.Eq(forever(left), value))(self.steady.rate),
-            Passes(sp.Eq(forever(right), value))(self.steady.ratio),
-        )
-        claim = sp.Eq(forever(left), forever(right))
-        return Insert(claim)(*sides, name="passage to the limit")
+arguments_meet = Passes(sp.Eq(forever(later(argument) - argument), 0))(
+    steady.ratio, name="the arguments come together"
+)
+"""(15), second line."""
 
-    @cached_property
-    def argument(self) -> Judgement:
-        """(17), second line: the argument of tanh tends to 4 - 2/f_c."""
-        claim = sp.Eq(forever(argument), 4 - 2 / f_c)
-        return Passes(claim)(self.steady.ratio, name="limit of the argument")
+limit_argument = Passes(sp.Eq(forever(argument), 4 - 2 / f_c))(
+    steady.ratio, name="limit of the argument"
+)
+"""(17), second line: the argument of tanh tends to 4 - 2/f_c."""
 
-    @cached_property
-    def arguments_meet(self) -> Judgement:
-        """(15), second line."""
-        claim = sp.Eq(forever(later(argument) - argument), 0)
-        return Passes(claim)(self.steady.ratio, name="the arguments come together")
+constant_bracket = Identity(sp.Eq(bracket, 2 * (f_c * (h_0 - U_a) - sigma_c0)))(
+    name="bracket of (16)",
+    remark="a constant for each load, zero only for one load: (16) as printed is false",
+)
+"""The bracket in (16), second line, does not depend on the wear."""
 
-    @cached_property
-    def bracket(self) -> Judgement:
-        """The bracket in (16), second line, does not depend on the wear."""
-        claim = sp.Eq(bracket, 2 * (f_c * (h_0 - U_a) - sigma_c0))
-        remark = "a constant for each load, zero only for one load: (16) as printed is false"
-        return Identity(claim)(name="bracket of (16)", remark=remark)
+_product = roughness * later(roughness)
+_repeats = assume(PERIODIC)
+_difference = sp.Eq(later(argument) - argument, (later(u_c) - u_c) * bracket / _product)
+dropped_denominators = substitute(
+    Insert(_difference)(_repeats, steady.roughening, steady.worn, one_period_later(steady.worn)),
+    _repeats,
+    name="from (15) to (16)",
+    remark="the product of two roughnesses tends to infinity and must not be dropped",
+)
+"""The difference in (15), with the denominators that (16) drops."""
 
-    @cached_property
-    def difference(self) -> Judgement:
-        """The difference in (15), with the denominators that (16) drops."""
-        wear, repeats = later(u_c) - u_c, assume(PERIODIC)
-        product = roughness * later(roughness)
-        claim = sp.Eq(later(argument) - argument, wear * bracket / product)
-        worn = self.steady.worn
-        facts = (self.steady.roughening, worn, one_period_later(worn))
-        remark = "the product of two roughnesses tends to infinity and must not be dropped"
-        found = Insert(claim)(repeats, *facts)
-        return substitute(found, repeats, name="from (15) to (16)", remark=remark)
+_ratio = forever(bracket / _product)
+bracket_over_roughness = Insert(sp.Eq(u_cum * _ratio, 0))(
+    Passes(sp.Eq(_ratio, 0))(steady.vanishing, steady.divergence),
+    name="(16) with its denominators",
+)
+"""(16), second line, with its denominators."""
 
-    @cached_property
-    def bracket_over_roughness(self) -> Judgement:
-        """(16), second line, with its denominators."""
-        product = forever(bracket / (roughness * later(roughness)))
-        vanishing = Passes(sp.Eq(product, 0))(self.steady.vanishing, self.steady.divergence)
-        claim = sp.Eq(u_cum * product, 0)
-        return Insert(claim)(vanishing, name="(16) with its denominators")
+_deviation = AtInfinity(
+    sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0), 1 / u_c
+)(Diverges(u_c)(steady.growth, steady.roughening), steady.roughening, steady.worn)
+linear_approach = first_order(
+    *(steady.rate_at_wear, _deviation, steady.ratio, steady.rate),
+    name="approach of the rate, first order",
+)
+"""The distance of the rate from its limit, to first order in 1/t."""
 
-    @cached_property
-    def linear_approach(self) -> Judgement:
-        """The distance of the rate from its limit, to first order in 1/t."""
-        steady = self.steady
-        wear = Diverges(u_c)(steady.growth, steady.roughening)
-        claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
-        deviation = AtInfinity(claim, 1 / u_c)(wear, steady.roughening, steady.worn)
-        parents = (steady.rate_at_wear, deviation, steady.ratio, steady.rate)
-        return first_order(*parents, name="approach of the rate, first order")
+asymptote = drift(linear_approach)
+"""In the place of (19): wear departs from every straight line like ln t."""
 
-    @cached_property
-    def asymptote(self) -> Judgement:
-        """In the place of (19): wear departs from every straight line like ln t."""
-        return drift(self.linear_approach)
+increment = defined(
+    u_cum,
+    later(u_inf) - u_inf,
+    "",
+    _defined("a stabilised response", sp.Eq(later(rate("u_inf")), rate("u_inf"))),
+)
+"""(20): the wear of one cycle of the asymptotic response."""
 
-    @cached_property
-    def increment(self) -> Judgement:
-        """(20): the wear of one cycle of the asymptotic response."""
-        same = sp.Eq(later(rate("u_inf")), rate("u_inf"))
-        periodic = assume(Hypothesis("a stabilised response", same, kind=Kind.DEFINITION))
-        return defined(u_cum, later(u_inf) - u_inf, "", periodic)
+wear_per_cycle = named_limit(u_cum, steady.wear_per_cycle, "wear per cycle")
+"""(21): the wear of a cycle tends to the product of limit rate and period."""
 
-    @cached_property
-    def wear_per_cycle(self) -> Judgement:
-        """(21): the wear of a cycle tends to the product of limit rate and period."""
-        limit = self.steady.wear_per_cycle
-        return named_limit(u_cum, limit, "wear per cycle")
+pressure = named_limit(p_inf, steady.pressure, "asymptotic pressure")
+"""(22)."""
 
-    @cached_property
-    def pressure(self) -> Judgement:
-        """(22)."""
-        return named_limit(p_inf, self.steady.pressure, "asymptotic pressure")
-
-
-def named_limit(symbol: sp.Expr, limit: Judgement, name: str) -> Judgement:
-    """Return the value of a symbol that is defined as a limit."""
-    definition = defined(symbol, limit.claim.term)
-    return Insert(sp.Eq(symbol, limit.claim.value))(definition, limit, name=name)
-
-
-def drift(approach: Judgement) -> Judgement:
-    """Return the logarithmic drift under a periodic load, from the approach of the rate."""
-    mean = defined(MEAN.lhs, MEAN.rhs, "mean of the load")
-    load = (assume(PERIODIC), assume(CONTINUOUS), mean)
-    return logarithmic_drift(approach, *load, name="logarithmic drift")
-
-
-def results() -> dict[str, Proved]:
-    """Return equations (11) to (22), and what refutes (11) and (16) as printed."""
-    s = Stabilised()
-    return {
-        "11": s.asymptotic_response,
-        "12": s.stabilised_response,
-        "14": s.periodic_rate,
-        "15": (s.passage, s.arguments_meet),
-        "16a": s.passage,
-        "16b": s.bracket_over_roughness,
-        "17a": s.passage,
-        "17b": s.argument,
-        "18": s.steady.rate,
-        "19": s.asymptote,
-        "20": s.increment,
-        "21": s.wear_per_cycle,
-        "22": s.pressure,
-        "every-field": s.vacuous,
-        "bracket": s.bracket,
-        "dropped-denominators": s.difference,
+EQUATIONS: Mapping[str, Proved] = MappingProxyType(
+    {
+        "11": asymptotic_response,
+        "12": stabilised_response,
+        "14": periodic_rate,
+        "15": (passage, arguments_meet),
+        "16a": passage,
+        "16b": bracket_over_roughness,
+        "17a": passage,
+        "17b": limit_argument,
+        "18": steady.rate,
+        "19": asymptote,
+        "20": increment,
+        "21": wear_per_cycle,
+        "22": pressure,
+        "every-field": every_field,
+        "bracket": constant_bracket,
+        "dropped-denominators": dropped_denominators,
     }
+)
+"""Equations (11) to (22), and what refutes (11) and (16) as printed."""

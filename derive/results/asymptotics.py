@@ -15,20 +15,20 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ..codegen import contact_law
+from ..codegen.contact_law import equal
 from ..codegen.formulas import Formula, formula_module
-from ..laws import LAWS, ContactLaw, r
+from ..laws import LAWS, r
 from ..note.condensed import bearing_only
 from ..rules.algebra import substitute
-from ..stable import released, stable
 from ..symbols import symbol, symbols
-from ..zero import is_zero
-from .cutoff import SMOOTHING as OUTGROWN
-from .cutoff import THIRD, Cutoff
-from .cutoff_two_solids import LOST, CutoffTwoSolids
+from .cutoff import arrest_depth, permanent_contact
+from .cutoff_two_solids import LOST, arrest_depth_two_solids
 from .cutoff_two_solids import discriminant as whole
-from .regimes import Regimes
+from .regime_map import OUTGROWN, THIRD
+from .regimes import logarithmic_wear
 from .two_solids import TwoSolids, apart, sigma
-from .validity import threshold_bound
+from .validity import bound
 
 q, g, p_1, p_inf, T = symbols("q g p_1 p_inf T")
 K_a, K_c, H_a, H_c, p_max = symbols("K_a K_c H_a H_c p_max")
@@ -90,55 +90,20 @@ def _vanishing() -> sp.Expr:
     wear = -p_1 / q**2
     squared = sigma**2 - (apart / q) ** 2
     values = {s.claim.lhs: s.claim.rhs for s in TwoSolids().definitions}
-    _equal(squared.subs(symbol("u_c"), wear).subs(values), sp.S.Zero)
+    equal(squared.subs(symbol("u_c"), wear).subs(values), sp.S.Zero)
     return wear
 
 
 def _laws() -> tuple[Formula, ...]:
-    made = [Formula("tanh_argument", (r,), 4 - 2 * r, "argument of tanh at h/sigma = r")]
-    for law in LAWS.values():
-        made += _law(law)
-    return tuple(made)
-
-
-def _law(law: ContactLaw) -> tuple[Formula, Formula]:
-    exact = sp.diff(law.phi, r) / law.phi
-    _equal(exact.subs(r, g / q) * OFFSET, TwoSolids(law).drift.claim.value)
-    share, steepness = "share p/p_max of the largest pressure", "relative slope phi'/phi"
-    return (
-        Formula(f"share_{law.name}", (r,), _share(law), f"{share} at h/sigma = r"),
-        Formula(
-            f"steepness_{law.name}", (r,), _steepness(law, exact), f"{steepness} at h/sigma = r"
-        ),
-    )
-
-
-def _share(law: ContactLaw) -> sp.Expr:
-    """Return phi in a form that does not overflow for large r, where the law has one."""
-    row = stable(law)
-    form = row.value if row.far_value is None else row.far_value
-    for name, intermediate in reversed(row.names):
-        form = form.xreplace({name: released(intermediate)})
-    return _equal(form, law.phi)
-
-
-def _steepness(law: ContactLaw, exact: sp.Expr) -> sp.Expr:
-    """Return phi'/phi in a form that does not overflow for large r, where the law has one."""
-    far = stable(law).far_steepness
-    form = sp.cancel(exact) if far is None else far
-    # one exponential, not a quotient that overflows
-    return _equal(sp.powsimp(form, deep=True), exact)
-
-
-def _equal(form: sp.Expr, exact: sp.Expr) -> sp.Expr:
-    """Return a form of an expression after it is proved to equal it."""
-    if not is_zero(form - exact):
-        raise ValueError(f"{form} is not {exact}")
-    return form
+    argument = Formula("tanh_argument", (r,), 4 - 2 * r, "argument of tanh at h/sigma = r")
+    return (argument, *(formula for law in LAWS.values() for formula in contact_law.formulas(law)))
 
 
 def _steady() -> tuple[Formula, ...]:
     problem = bearing_only()
+    for law in LAWS.values():
+        slope = sp.diff(law.phi, r).subs(r, g / q) / law.ratio(g / q)
+        equal(slope * OFFSET, TwoSolids(law).drift.claim.value)
     archard = substitute(problem.model.wear_laws[2], problem.model.slip).claim.rhs
     deflection = problem.deflection.claim.rhs
     compliant = OFFSET.subs(h_0, h_0 + deflection.subs(p, p_inf))
@@ -163,7 +128,6 @@ def _steady() -> tuple[Formula, ...]:
 
 
 def _cutoff() -> tuple[Formula, ...]:
-    one, two = Cutoff(), CutoffTwoSolids()
     gap, half, product, root = sp.symbols("gap half product root", real=True)
     parts = (
         (gap, h_0 - U_max),
@@ -174,15 +138,15 @@ def _cutoff() -> tuple[Formula, ...]:
     depth = product / (sp.sqrt(inside) - half)
     for written, derived in (
         (inside, whole),
-        (depth, two.arrest_depth.claim.rhs),
+        (depth, arrest_depth_two_solids.claim.rhs),
     ):
         for name, value in reversed(parts):
             written = written.subs(name, value)
-        _equal(written, derived)
+        equal(written, derived)
     discriminant = sp.Symbol("discriminant", real=True)
     relation = sp.And(discriminant >= 0, discriminant > half * sp.Abs(half))
     return (
-        Formula("arrest_depth", (), one.arrest_depth.claim.rhs, "wear at arrest, one worn solid"),
+        Formula("arrest_depth", (), arrest_depth.claim.rhs, "wear at arrest, one worn solid"),
         Formula("gap_outgrows_roughness", (), OUTGROWN.relation, OUTGROWN.text),
         Formula("gap_and_cutoff_grow_alike", (), THIRD.relation, THIRD.text),
         Formula("margin_is_lost", (), relation, LOST.text, (*parts, (discriminant, inside))),
@@ -196,14 +160,14 @@ def _cutoff() -> tuple[Formula, ...]:
         Formula(
             "permanent_depth",
             (),
-            one.permanent.claim.rhs,
+            permanent_contact.claim.rhs,
             "wear beyond which contact is permanent, f_c > 1/3",
         ),
     )
 
 
 def _logarithmic() -> tuple[Formula, ...]:
-    claim = Regimes().logarithmic.claim
+    claim = logarithmic_wear.claim
     factor = sp.besseli(0, 4 * symbols("U")[0] / sigma_c0)
     inside = claim.rhs.atoms(sp.log).pop().args[0]
     per_cycle = sp.expand((inside - 1) / N).subs(factor, load_factor)
@@ -218,15 +182,10 @@ def _logarithmic() -> tuple[Formula, ...]:
             "offset of the wear for f_c = 0",
             ((level, sp.expand_log(sp.log(per_cycle)).subs(mean, log_load_factor)),),
         ),
-        Formula("slope_threshold", (), threshold_bound(), "least f_c of a resolution epsilon"),
+        Formula("slope_threshold", (), bound, "least f_c of a resolution epsilon"),
     )
 
 
 def module() -> str:
     """Return the source of the generated module."""
     return formula_module("Long-time behaviour: the formulas of the regimes.", ORIGIN, formulas())
-
-
-def law_module(law: ContactLaw) -> str:
-    """Return the source of a module with the value and the relative slope of one law."""
-    return formula_module("A contact law.", ("4",), _law(law))

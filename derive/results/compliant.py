@@ -18,11 +18,9 @@ from typing import ClassVar
 
 import sympy as sp
 
-from ..equations import Proved
 from ..kernel import Judgement, RuleError
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import bearing_only
-from ..note.stabilised import drift, named_limit
 from ..rules.algebra import Insert, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
@@ -30,7 +28,7 @@ from ..rules.inequalities import Arithmetic
 from ..rules.limits import AtInfinity, Diverges, Passes, forever
 from ..symbols import rate, symbols
 from .first_integral import UNSATURATED
-from .steady_state import SteadyState, roughness
+from .steady_state import SteadyState, drift, named_limit, roughness
 
 h_0, U_a, U_c, u_c, p, U, sigma_c0, f_c = symbols("h_0 U_a U_c u_c p U sigma_c0 f_c")
 p_max, k, K_c, H_c, V, A, U_mean, p_inf = symbols("p_max k K_c H_c V A U_mean p_inf")
@@ -113,11 +111,7 @@ def drift_coefficient(law: ContactLaw) -> Judgement:
     return Insert(claim)(definition, steady.drift, name="drift")
 
 
-def results() -> dict[str, Proved]:
-    """Return the results for a compliant support."""
-    return {
-        "compliant-pressure": CompliantSteadyState(GENERAL).pressure,
-        "compliant-wear-per-cycle": CompliantSteadyState(TANH).wear_per_cycle,
-        "log-drift-any-law": drift_coefficient(GENERAL),
-        "log-drift-compliant": drift_coefficient(TANH),
-    }
+compliant_pressure = CompliantSteadyState(GENERAL).pressure
+compliant_wear_per_cycle = CompliantSteadyState().wear_per_cycle
+log_drift_any_law = drift_coefficient(GENERAL)
+log_drift_compliant = drift_coefficient(TANH)

@@ -7,10 +7,10 @@ Overview
     wear of a cycle, M.  One worn solid has four groups, two worn solids seven, and a compliant
     support adds one.
 Key results
-    one_solid     f_c, M/sigma_c0, h_0/sigma_c0, U/sigma_c0
-    two_solids    and f_a, kappa, sigma_a0/sigma_c0
-    compliant     one solid, and p_max/(k sigma_c0)
-    count         number of data and rank of their dimension matrix
+    groups_one_solid    f_c, M/sigma_c0, h_0/sigma_c0, U/sigma_c0
+    groups_two_solids   and f_a, kappa, sigma_a0/sigma_c0
+    groups_compliant    one solid, and p_max/(k sigma_c0)
+    count               number of data and rank of their dimension matrix
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..dimensions import dimension
-from ..equations import Proved, stated
+from ..equations import stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note import condensed
@@ -93,41 +93,34 @@ GROUPS_OF_TWO = (f_c, mu, eta, nu, f_a, kappa, zeta)
 GROUPS_COMPLIANT = (f_c, eta, nu, lamda)
 
 
-def one_solid() -> Judgement:
-    """Four groups for one worn solid."""
-    problem = bearing_only()
-    rough = problem.model.roughness_at_wear
-    return _scaled("groups-one-solid", rough, problem.rigid, GROUPS_OF_ONE)
+_one, _two = bearing_only(), condensed.two_solids()
 
+groups_one_solid = (
+    _scaled("groups-one-solid", _one.model.roughness_at_wear, _one.rigid, GROUPS_OF_ONE),
+    *(DEFINITIONS[group] for group in (mu, eta, nu)),
+)
+"""Four groups for one worn solid."""
 
-def two_solids() -> Judgement:
-    """Seven groups for two worn, rough solids."""
-    problem = condensed.two_solids()
-    grown = problem.model.roughness_at_wear
-    squares = (zeta + f_a * (kappa * v)) ** 2 + (1 + f_c * v) ** 2
-    rough = Consequence(sp.Gt(sigma_c0**2 * squares, 0))(
-        Arithmetic(sp.Gt(grown.claim.rhs**2, 0))(grown),
-        problem.model.wear_of_pin,
-        *(SCALES[0], DEFINITIONS[zeta], DEFINITIONS[kappa]),
-    )
-    return _scaled("groups-two-solids", rough, problem.rigid, GROUPS_OF_TWO)
+_squares = (zeta + f_a * (kappa * v)) ** 2 + (1 + f_c * v) ** 2
+_grown = _two.model.roughness_at_wear
+_rough = Consequence(sp.Gt(sigma_c0**2 * _squares, 0))(
+    Arithmetic(sp.Gt(_grown.claim.rhs**2, 0))(_grown),
+    _two.model.wear_of_pin,
+    *(SCALES[0], DEFINITIONS[zeta], DEFINITIONS[kappa]),
+)
+groups_two_solids = (
+    _scaled("groups-two-solids", _rough, _two.rigid, GROUPS_OF_TWO),
+    *(DEFINITIONS[group] for group in (kappa, zeta)),
+)
+"""Seven groups for two worn, rough solids."""
 
-
-def compliant() -> Judgement:
-    """One more group for a compliant support, in the pressure."""
-    problem = bearing_only()
-    rough, parent = problem.model.roughness_at_wear, problem.pressure_of_bearing_wear
-    return _scaled("groups-compliant", rough, parent, GROUPS_COMPLIANT)
-
-
-def results() -> dict[str, Proved]:
-    """Return the dimensionless problems."""
-    return {
-        "groups-one-solid": (one_solid(), *_defined(mu, eta, nu)),
-        "groups-two-solids": (two_solids(), *_defined(kappa, zeta)),
-        "groups-compliant": (compliant(), *_defined(lamda)),
-    }
-
-
-def _defined(*groups: sp.Symbol) -> tuple[Judgement, ...]:
-    return tuple(DEFINITIONS[group] for group in groups)
+groups_compliant = (
+    _scaled(
+        "groups-compliant",
+        _one.model.roughness_at_wear,
+        _one.pressure_of_bearing_wear,
+        GROUPS_COMPLIANT,
+    ),
+    DEFINITIONS[lamda],
+)
+"""One more group for a compliant support, in the pressure."""

@@ -7,23 +7,22 @@ Overview
     roughness from its oscillation w_n within a cycle.  The first drift c_1 makes the wear leave
     every straight line like A ln t: (19) is no asymptote of u_c, while (21) is its slope.
 Key results
-    Expansion.drift(n)        c_1 to c_4
-    Expansion.oscillation(n)  w_1, w_2
-    Expansion.slow_time       tau as a function of m, to order 1/m^3
-    log-drift                 the drift as a limit, proved on the way to (19)
+    drift(n)         c_1 to c_4
+    oscillation(n)   w_1, w_2
+    expansion        tau as a function of m, to order 1/m^3
+    log_drift        the drift as a limit, proved on the way to (19)
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from functools import cache
 
 import sympy as sp
 
 from ..claims import Drift, Oscillation, landau_o
-from ..equations import Proved, stated
+from ..equations import stated
 from ..kernel import Judgement, plain
-from ..note.stabilised import Stabilised
+from ..note.stabilised import asymptote
 from ..rules.assumption import assume, defined
 from ..rules.averages import (
     EXPANSION,
@@ -49,53 +48,44 @@ saturation = defined(*SATURATION.args)
 growth = defined(rho, f_c * u_cum)
 
 
-@dataclass(frozen=True)
-class Expansion:
-    """The expansion for the note's law, a rigid support and a sine load."""
-
-    def order(self, n: int) -> Judgement:
-        """Return what the terms with 1/m^n say of c_n and w_n."""
-        pressure = steady_state().pressure_at_wear
-        names = (
-            defined(
-                name,
-                term_of(kind, k, pressure.claim.rhs),
-                f"{plain(name)} by definition, in {MEANING}",
-            )
-            for k in range(1, n + 1)
-            for kind, name in ((Drift, symbol(f"c_{k}")), (Oscillation, symbol(f"w_{k}")))
+def order(n: int) -> Judgement:
+    """Return what the terms with 1/m^n say of c_n and w_n."""
+    pressure = steady_state().pressure_at_wear
+    names = (
+        defined(
+            name,
+            term_of(kind, k, pressure.claim.rhs),
+            f"{plain(name)} by definition, in {MEANING}",
         )
-        facts = (assume(SINE), offset, saturation, *names)
-        return OrderEquation(sp.Integer(n))(pressure, *facts, name=f"terms with 1/m^{n}")
-
-    def drift(self, n: int) -> Judgement:
-        """Growth of the roughness at order 1/m^n."""
-        claim = stated("expansion-drift")[n - 1]
-        return Averaging(claim)(
-            self.order(n), *map(self.oscillation, range(1, n - 1)), name="drift"
-        )
-
-    def oscillation(self, n: int) -> Judgement:
-        """Oscillation of the roughness at order 1/m^n."""
-        claim, below = stated("expansion-oscillation")[n - 1], map(self.oscillation, range(1, n))
-        return Averaging(claim)(self.order(n), self.drift(n), *below, name="oscillation")
-
-    @cached_property
-    def slow_time(self) -> Judgement:
-        """The number of cycles as a function of the averaged roughness."""
-        drifts = tuple(self.drift(n) for n in (1, 2, 3, 4))
-        (shown,) = stated("expansion")
-        claim = sp.Eq(shown.lhs, shown.rhs - landau_o(m**-3))
-        return SlowTime(claim)(*drifts, assume(EXPANSION), name="slow time")
+        for k in range(1, n + 1)
+        for kind, name in ((Drift, symbol(f"c_{k}")), (Oscillation, symbol(f"w_{k}")))
+    )
+    facts = (assume(SINE), offset, saturation, *names)
+    return OrderEquation(sp.Integer(n))(pressure, *facts, name=f"terms with 1/m^{n}")
 
 
-def results() -> dict[str, Proved]:
-    """Return the expansion and the coefficient of the drift."""
-    expansion = Expansion()
-    drifts = (expansion.drift(n) for n in (1, 2, 3, 4))
-    return {
-        "log-drift": Stabilised().asymptote,
-        "expansion-drift": (*drifts, offset, saturation, growth),
-        "expansion-oscillation": tuple(expansion.oscillation(n) for n in (1, 2)),
-        "expansion": expansion.slow_time,
-    }
+@cache
+def drift(n: int) -> Judgement:
+    """Return the growth of the roughness at order 1/m^n."""
+    claim, below = stated("expansion-drift")[n - 1], map(oscillation, range(1, n - 1))
+    return Averaging(claim)(order(n), *below, name="drift")
+
+
+@cache
+def oscillation(n: int) -> Judgement:
+    """Return the oscillation of the roughness at order 1/m^n."""
+    claim, below = stated("expansion-oscillation")[n - 1], map(oscillation, range(1, n))
+    return Averaging(claim)(order(n), drift(n), *below, name="oscillation")
+
+
+log_drift = asymptote
+
+_drifts = tuple(map(drift, (1, 2, 3, 4)))
+expansion_drift = (*_drifts, offset, saturation, growth)
+expansion_oscillation = tuple(map(oscillation, (1, 2)))
+
+(_shown,) = stated("expansion")
+expansion = SlowTime(sp.Eq(_shown.lhs, _shown.rhs - landau_o(m**-3)))(
+    *_drifts, assume(EXPANSION), name="slow time"
+)
+"""The number of cycles as a function of the averaged roughness."""

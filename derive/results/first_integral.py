@@ -7,25 +7,21 @@ Overview
     roughness and load that holds at every instant of every history, periodic or not, on a
     rigid or a compliant support.
 Key results
-    FirstIntegral.line       any contact law
-    FirstIntegral.log_odds   ln(p/(p_max - p)) = 8 - 4 h/sigma, for (4)
-    FirstIntegral.compliant  the relation for (4), with the deflection p/k
-    FirstIntegral.rigid      its limit for k -> oo
+    closure_line               any contact law
+    log_odds                   ln(p/(p_max - p)) = 8 - 4 h/sigma, for (4)
+    first_integral_compliant   the relation for (4), with the deflection p/k
+    first_integral             its limit for k -> oo
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-
 import sympy as sp
 
-from ..equations import Proved, stated
+from ..equations import stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
 from ..note.condensed import bearing_only
-from ..note.governing import Model
 from ..rules.algebra import Insert, Logarithm, Solve
 from ..rules.assumption import assume
 from ..rules.calculus import RIGID
@@ -40,56 +36,28 @@ UNSATURATED = Hypothesis(
 )
 
 
-@dataclass(frozen=True)
-class FirstIntegral:
-    """The first integral of one worn solid, for one contact law."""
-
-    law: ContactLaw = TANH
-
-    @property
-    def model(self) -> Model:
-        """Bearing wear only."""
-        return bearing_only(self.law).model
-
-    @cached_property
-    def line(self) -> Judgement:
-        """Closure and roughness lie on a line that the load shifts."""
-        model = self.model
-        parents = (model.closure, model.roughness_at_wear, model.wear_of_pin)
-        (claim,) = stated("closure-line")
-        return Insert(claim)(*parents, assume(SLOPED), name="line of closure")
-
-    @cached_property
-    def log_odds(self) -> Judgement:
-        """Eq. (4) solved for the closure."""
-        claim = sp.Eq(sp.log(p / (p_max - p)), 8 - 4 * h / sigma)
-        parents = (self.model.pressure, assume(UNSATURATED))
-        return Logarithm(claim)(*parents, name="log-odds of pressure")
-
-    @cached_property
-    def compliant(self) -> Judgement:
-        """What stays constant, with a support of stiffness k."""
-        deflection = bearing_only(self.law).deflection
-        return self._from("first-integral-compliant", deflection).named(
-            "first integral, compliant support"
-        )
-
-    @cached_property
-    def rigid(self) -> Judgement:
-        """What stays constant, on a rigid support."""
-        return self._from("first-integral", assume(RIGID)).named("first integral")
-
-    def _from(self, identifier: str, deflection: Judgement) -> Judgement:
-        parents = (self.log_odds, Solve(h)(self.line), deflection)
-        (claim,) = stated(identifier)
-        return Insert(claim)(*parents)
+def _line(law: ContactLaw) -> Judgement:
+    """Return that closure and roughness lie on a line that the load shifts."""
+    model = bearing_only(law).model
+    parents = (model.closure, model.roughness_at_wear, model.wear_of_pin)
+    return Insert(*stated("closure-line"))(*parents, assume(SLOPED), name="line of closure")
 
 
-def results() -> dict[str, Proved]:
-    """Return the first integrals."""
-    tanh = FirstIntegral(TANH)
-    return {
-        "closure-line": FirstIntegral(GENERAL).line,
-        "first-integral": tanh.rigid,
-        "first-integral-compliant": tanh.compliant,
-    }
+closure_line = _line(GENERAL)
+
+log_odds = Logarithm(sp.Eq(sp.log(p / (p_max - p)), 8 - 4 * h / sigma))(
+    bearing_only().model.pressure, assume(UNSATURATED), name="log-odds of pressure"
+)
+"""Eq. (4) solved for the closure."""
+
+_closure = Solve(h)(_line(TANH))
+
+first_integral_compliant = Insert(*stated("first-integral-compliant"))(
+    log_odds, _closure, bearing_only().deflection, name="first integral, compliant support"
+)
+"""What stays constant, with a support of stiffness k."""
+
+first_integral = Insert(*stated("first-integral"))(
+    log_odds, _closure, assume(RIGID), name="first integral"
+)
+"""What stays constant, on a rigid support."""

@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..equations import Proved
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
@@ -54,10 +53,6 @@ def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgem
     return OneSign(datum)(problem.rigid, *facts, name=f"effect of {datum}")
 
 
-def results() -> dict[str, Proved]:
-    """Return the directions in which the data move the wear."""
-    return {
-        "wear-increases": tuple(effect(TANH, a) for a in INCREASING if a not in WHILE_APART),
-        "wear-increases-apart": tuple(effect(TANH, a) for a in WHILE_APART),
-        "wear-decreases": tuple(effect(TANH, a) for a in DECREASING),
-    }
+wear_increases = tuple(effect(TANH, a) for a in INCREASING if a not in WHILE_APART)
+wear_increases_apart = tuple(effect(TANH, a) for a in WHILE_APART)
+wear_decreases = tuple(effect(TANH, a) for a in DECREASING)

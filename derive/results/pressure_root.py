@@ -11,21 +11,17 @@ Overview
     iteration ends is that of the law from its tangent, which has one sign on either side of the
     law's inflection: the iteration does not cross the root.
 Key results
-    PressureRoot.equation    the equation for p
-    PressureRoot.unique      the three inequalities by which its root exists and is one
-    PressureRoot.softening   0 <= p_rigid - p <= p_max p/(k sigma), hence (10) as a limit
-    newton                   a step of Newton's iteration, and where it ends
-    curvature                the note's law is convex beyond h = 2 sigma, concave below
+    equation            the equation for p
+    pressure_root       the three inequalities by which its root exists and is one
+    rigid_limit_error   0 <= p_rigid - p <= p_max p/(k sigma), hence (10) as a limit
+    newton              a step of Newton's iteration, and where it ends
+    curvature           the note's law is convex beyond h = 2 sigma, concave below
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-
 import sympy as sp
 
-from ..equations import Proved
 from ..kernel import Judgement, infer
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..note.condensed import two_solids
@@ -46,48 +42,47 @@ s, x, y = sp.symbols("s x y", positive=True)
 """Softness p_max/(k sigma), a trial share of p_max, and the share at the root."""
 
 
-@dataclass(frozen=True)
-class PressureRoot:
-    """The pressure on a compliant support, for one contact law."""
+problem = two_solids()
+equation = substitute(
+    problem.model.pressure,
+    problem.model.closure,
+    problem.deflection,
+    name="equation for the pressure",
+)
+"""The equation that the pressure satisfies at given wear, roughness and load."""
 
-    law: ContactLaw = TANH
 
-    @cached_property
-    def equation(self) -> Judgement:
-        """The equation that the pressure satisfies at given wear, roughness and load."""
-        problem = two_solids(self.law)
-        closed = substitute(problem.model.pressure, problem.model.closure, problem.deflection)
-        return closed.named("equation for the pressure")
+def residual(pressure: sp.Expr) -> sp.Expr:
+    """Return left minus right of that equation, at any pressure."""
+    return pressure - equation.claim.rhs.subs(p, pressure)
 
-    def residual(self, pressure: sp.Expr) -> sp.Expr:
-        """Left minus right of that equation, at any pressure."""
-        return pressure - self.equation.claim.rhs.subs(p, pressure)
 
-    @cached_property
-    def unique(self) -> tuple[Judgement, Judgement, Judgement]:
-        """Negative at 0, positive at p_max, increasing in between: exactly one root."""
-        trial = sp.Symbol("x", real=True)
-        slope = sp.diff(self.residual(trial), trial).subs(trial, p)
-        remark = "a continuous, increasing function that changes sign has exactly one root"
-        return (
-            Arithmetic(sp.Lt(self.residual(sp.S.Zero), 0))(self.equation),
-            Arithmetic(sp.Gt(self.residual(p_max), 0))(self.equation),
-            Arithmetic(sp.Gt(slope, 0))(self.equation, name="one root", remark=remark),
-        )
+_trial = sp.Symbol("x", real=True)
+pressure_root = (
+    Arithmetic(sp.Lt(residual(sp.S.Zero), 0))(equation),
+    Arithmetic(sp.Gt(residual(p_max), 0))(equation),
+    Arithmetic(sp.Gt(sp.diff(residual(_trial), _trial).subs(_trial, p), 0))(
+        equation,
+        name="one root",
+        remark="a continuous, increasing function that changes sign has exactly one root",
+    ),
+)
+"""Negative at 0, positive at p_max, increasing in between: exactly one root."""
 
-    @cached_property
-    def softening(self) -> Judgement:
-        """The rigid pressure exceeds the compliant one, by at most p_max p/(k sigma)."""
-        function = sp.Lambda(r, self.law.phi)
-        rule = Lipschitz(function, undeflected / sigma, p / (k * sigma), p_max)
-        remark = "the second pressure is p itself, by its equation, and p < p_max"
-        return infer(rule, name="softening", remark=remark)
+softening = infer(
+    Lipschitz(sp.Lambda(r, TANH.phi), undeflected / sigma, p / (k * sigma), p_max),
+    name="softening",
+    remark="the second pressure is p itself, by its equation, and p < p_max",
+)
+"""The rigid pressure exceeds the compliant one, by at most p_max p/(k sigma)."""
 
-    @cached_property
-    def error_bound(self) -> Judgement:
-        """That distance is below p_max^2/(k sigma), which tends to 0 for k -> oo."""
-        claim = sp.Le(p_max * p / (k * sigma), p_max**2 / (k * sigma))
-        return Arithmetic(claim)(assume(UNSATURATED), name="bound of the softening")
+rigid_limit_error = (
+    softening,
+    Arithmetic(sp.Le(p_max * p / (k * sigma), p_max**2 / (k * sigma)))(
+        assume(UNSATURATED), name="bound of the softening"
+    ),
+)
+"""That distance is below p_max^2/(k sigma), which tends to 0 for k -> oo."""
 
 
 def newton(law: ContactLaw) -> tuple[Judgement, Judgement]:
@@ -118,11 +113,4 @@ def curvature() -> tuple[Judgement, Judgement]:
     )
 
 
-def results() -> dict[str, Proved]:
-    """Return the results on the pressure of a compliant support."""
-    root = PressureRoot()
-    return {
-        "pressure-root": root.unique,
-        "pressure-iteration": (*newton(GENERAL), *curvature()),
-        "rigid-limit-error": (root.softening, root.error_bound),
-    }
+pressure_iteration = (*newton(GENERAL), *curvature())

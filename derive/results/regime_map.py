@@ -4,7 +4,7 @@ Overview
     Without cutoff the roughness growth f_c decides, and for f_c < 0 the gap that is left where
     the roughness would vanish; with the cutoff 1/3 takes the part of 0.  The conditions are
     relations between data, so that the map can be asked with numbers; it covers all of them,
-    each once.
+    each once.  The derivations of its rows rest on these conditions.
 Key results
     REGIMES    the rows of the map
     regime     the row that holds for given data
@@ -19,14 +19,16 @@ import sympy as sp
 
 from ..hypotheses import Hypothesis
 from ..symbols import symbols
-from .cutoff import ROUGHER, THIRD
-from .cutoff import SMOOTHING as OUTGROWN
-from .regimes import KEPT, SMOOTHING
-from .steady_state import ROUGHENING
 
 f_c, h_0, sigma_c0, U_max = symbols("f_c h_0 sigma_c0 U_max")
 
+ROUGHENING = Hypothesis("the bearing roughens as it wears", sp.Gt(f_c, 0))
+KEPT = Hypothesis("wear does not change the roughness", sp.Eq(f_c, 0))
+SMOOTHING = Hypothesis("the bearing smoothens as it wears", sp.Lt(f_c, 0))
 NOT_SMOOTHING = Hypothesis("wear does not smoothen the bearing", sp.Ge(f_c, 0))
+OUTGROWN = Hypothesis("the gap outgrows the roughness", sp.Lt(f_c, sp.Rational(1, 3)))
+THIRD = Hypothesis("gap and cutoff grow alike", sp.Eq(f_c, sp.Rational(1, 3)))
+ROUGHER = Hypothesis("the roughness outgrows the gap", sp.Gt(f_c, sp.Rational(1, 3)))
 _gap = h_0 - sigma_c0 / f_c - U_max
 OPEN = Hypothesis("a gap is left where the roughness would vanish", sp.Gt(_gap, 0))
 CLOSED = Hypothesis("no gap is left where the roughness would vanish", sp.Le(_gap, 0))

@@ -11,38 +11,32 @@ Key results
     elasticity(...)     the same, relative
     slope_from_wear     f_c from u_cum
     coefficient_from_wear   K_c from u_cum
-    slope_from_rate     f_c from a pressure at one instant
+    slope_from_pressure f_c from a pressure at one instant
 """
 
 from __future__ import annotations
 
-from functools import cache
-
 import sympy as sp
 
-from ..equations import Proved, stated
+from ..equations import stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
-from ..note.stabilised import Stabilised, named_limit
+from ..note.condensed import bearing_only
+from ..note.stabilised import pressure, wear_per_cycle
 from ..rules.algebra import Insert, Logarithm, substitute
 from ..rules.assumption import assume
 from ..rules.calculus import RIGID
 from ..rules.data import Differentiated
 from ..symbols import symbols
 from .compliant import CompliantSteadyState
-from .first_integral import FirstIntegral
+from .first_integral import log_odds
+from .regime_map import ROUGHENING
 from .regimes import largest_wear
-from .steady_state import ROUGHENING
+from .steady_state import named_limit
 
 u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
 f_c, h, h_0, U, u_c = symbols("f_c h h_0 U u_c")
 sigma_c0, M, k = symbols("sigma_c0 M k")
-
-
-@cache
-def stabilised() -> Stabilised:
-    """Return section 4's asymptotic state, which all here is about."""
-    return Stabilised()
 
 
 WORN = Hypothesis("there is wear", sp.Gt(u_c, 0), kind=Kind.STATE)
@@ -77,53 +71,43 @@ def _differentiated(
     result: Judgement, parameter: sp.Symbol, left: sp.Expr, right: sp.Expr
 ) -> Judgement:
     claim = sp.Eq(left, right, evaluate=False)
-    names = [stabilised().pressure] if right.has(p_inf) else []
+    names = [pressure] if right.has(p_inf) else []
     names += [largest_wear] if right.has(M) else []
     return Differentiated(claim, parameter)(result, *names, name="sensitivity")
 
 
-def slope_from_wear() -> Judgement:
-    """f_c from the asymptotic wear per cycle."""
-    odds = sp.log(M / u_cum - 1)
-    known = Logarithm(sp.Eq(odds, 4 / f_c - 8))(stabilised().wear_per_cycle, largest_wear)
-    claim = sp.Eq(f_c, 4 / (8 + odds))
-    return Insert(claim)(known, assume(ROUGHENING), name="f_c from wear per cycle")
+_wear_without_effect = named_limit(u_cum, CompliantSteadyState().wear_per_cycle, "wear per cycle")
+_by_share = 4 / f_c**2 * share * (1 - share)
 
+elasticities = tuple(elasticity(wear_per_cycle, a, sp.Integer(n)) for a, n in POWERS.items())
+sensitivity_slope = sensitivity(wear_per_cycle, f_c, M * _by_share)
+elasticity_slope = elasticity(wear_per_cycle, f_c, 4 / f_c * (1 - share))
+without_effect = tuple(sensitivity(_wear_without_effect, a, sp.S.Zero) for a in WITHOUT_EFFECT)
+sensitivity_pressure = (
+    sensitivity(pressure, f_c, p_max * _by_share),
+    sensitivity(pressure, p_max, share),
+)
 
-def coefficient_from_wear() -> Judgement:
-    """K_c from the asymptotic wear per cycle."""
-    claim = sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * (1 + sp.exp(4 / f_c - 8)))
-    return Insert(claim)(stabilised().wear_per_cycle, name="K_c from wear per cycle")
+_odds = sp.log(M / u_cum - 1)
+slope_from_wear = Insert(sp.Eq(f_c, 4 / (8 + _odds)))(
+    Logarithm(sp.Eq(_odds, 4 / f_c - 8))(wear_per_cycle, largest_wear),
+    assume(ROUGHENING),
+    name="f_c from wear per cycle",
+)
+"""f_c from the asymptotic wear per cycle."""
 
+coefficient_from_wear = Insert(
+    sp.Eq(K_c, 3 * H_c * u_cum / (V * T * p_max) * (1 + sp.exp(4 / f_c - 8)))
+)(wear_per_cycle, name="K_c from wear per cycle")
+"""K_c from the asymptotic wear per cycle."""
 
-def slope_from_rate() -> Judgement:
-    """f_c from the pressure at one instant."""
-    (claim,) = stated("slope-from-pressure")
-    integral = FirstIntegral()
-    model = integral.model
-    closure = substitute(model.closure, model.wear_of_pin, assume(RIGID))
-    facts = (assume(WORN), assume(OPEN_GAP))
-    parents = (integral.log_odds, closure, model.roughness_at_wear, *facts)
-    return Insert(claim)(*parents, name="f_c from a pressure")
-
-
-def results() -> dict[str, Proved]:
-    """Return sensitivities, elasticities and identification."""
-    wear_per_cycle, pressure = stabilised().wear_per_cycle, stabilised().pressure
-    compliant_wear = named_limit(u_cum, CompliantSteadyState().wear_per_cycle, "wear per cycle")
-    by_share = 4 / f_c**2 * share * (1 - share)
-    return {
-        "elasticities": tuple(
-            elasticity(wear_per_cycle, a, sp.Integer(n)) for a, n in POWERS.items()
-        ),
-        "sensitivity-slope": sensitivity(wear_per_cycle, f_c, M * by_share),
-        "elasticity-slope": elasticity(wear_per_cycle, f_c, 4 / f_c * (1 - share)),
-        "without-effect": tuple(sensitivity(compliant_wear, a, sp.S.Zero) for a in WITHOUT_EFFECT),
-        "sensitivity-pressure": (
-            sensitivity(pressure, f_c, p_max * by_share),
-            sensitivity(pressure, p_max, share),
-        ),
-        "slope-from-wear": slope_from_wear(),
-        "coefficient-from-wear": coefficient_from_wear(),
-        "slope-from-pressure": slope_from_rate(),
-    }
+_model = bearing_only().model
+slope_from_pressure = Insert(*stated("slope-from-pressure"))(
+    log_odds,
+    substitute(_model.closure, _model.wear_of_pin, assume(RIGID)),
+    _model.roughness_at_wear,
+    assume(WORN),
+    assume(OPEN_GAP),
+    name="f_c from a pressure",
+)
+"""f_c from the pressure at one instant."""

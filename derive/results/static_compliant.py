@@ -6,41 +6,40 @@ Overview
     follows by integrating du/(du/dt) along the pressure, by parts.  For f_c != 0 one integral
     remains, of a smooth function; for f_c = 0 everything is elementary.
 Key results
-    StaticCompliant.wear          u_c(p), f_c != 0
-    StaticCompliant.time          t(p)
-    StaticCompliant.wear_smooth   u_c(p), f_c = 0
-    StaticCompliant.time_smooth   t(p)
+    wear, time                         u_c(p) and t(p), f_c != 0
+    static_solution_compliant_smooth   the same for f_c = 0
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-
 import sympy as sp
 
-from ..equations import Proved, stated
+from ..equations import stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
-from ..note.governing import Model
 from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume
 from ..rules.reading import CONSTANT
 from ..rules.solutions import Integrated, Separate
 from ..symbols import initial, rate, symbols, t
-from .first_integral import SLOPED, UNSATURATED, FirstIntegral
-from .regimes import KEPT
+from .first_integral import SLOPED, UNSATURATED, first_integral_compliant, log_odds
+from .regime_map import KEPT
 from .static_solution import half_rate, load_offset
 
 h, u_c, sigma, sigma_c0, f_c = symbols("h u_c sigma sigma_c0 f_c")
 p, p_max, k, C, p_s = symbols("p p_max k C p_s")
 p_start = initial("p")
 
-log_odds = sp.log(p / (p_max - p))
+
+def odds_of(pressure: sp.Expr) -> sp.Expr:
+    """Return the logarithm of the odds of a pressure."""
+    return sp.log(pressure / (p_max - pressure))
+
+
 START = Hypothesis("the first pressure is below p_max", sp.Lt(p_start, p_max), kind=Kind.STATE)
 OFF_LIMIT = Hypothesis(
-    "the pressure is not that of steady wear", sp.Ne(log_odds - 8 + 4 / f_c, 0), kind=Kind.STATE
+    "the pressure is not that of steady wear", sp.Ne(odds_of(p) - 8 + 4 / f_c, 0), kind=Kind.STATE
 )
 BETWEEN = Hypothesis(
     f"for the pressures in between, {OFF_LIMIT.text}",
@@ -49,75 +48,60 @@ BETWEEN = Hypothesis(
 )
 
 
-@dataclass(frozen=True)
-class StaticCompliant:
-    """Wear under a constant load, for the law of the note and a support of stiffness k."""
+model = bearing_only().model
+off_limit, sloped = assume(OFF_LIMIT), assume(SLOPED)
 
-    @property
-    def model(self) -> Model:
-        """Bearing wear only."""
-        return bearing_only().model
+wear = Insert(stated("static-solution-compliant")[0])(
+    Solve(u_c)(model.roughness_at_wear, sloped),
+    Solve(sigma)(first_integral_compliant, off_limit),
+    load_offset,
+    off_limit,
+    sloped,
+    name="wear at a pressure",
+)
+"""The wear at a pressure."""
 
-    @cached_property
-    def wear(self) -> Judgement:
-        """The wear at a pressure."""
-        off, sloped = assume(OFF_LIMIT), assume(SLOPED)
-        roughness = Solve(sigma)(FirstIntegral().compliant, off)
-        grown = Solve(u_c)(self.model.roughness_at_wear, sloped)
-        parents = (grown, roughness, load_offset, off, sloped)
-        claim, *_ = stated("static-solution-compliant")
-        return Insert(claim)(*parents, name="wear at a pressure")
+wear_smooth = Insert(stated("static-solution-compliant-smooth")[0])(
+    Solve(u_c)(substitute(model.closure, model.wear_of_pin)),
+    Solve(h)(log_odds),
+    bearing_only().deflection,
+    substitute(model.roughness_at_wear, assume(KEPT)),
+    name="wear, f_c = 0",
+)
+"""The wear at a pressure, for f_c = 0."""
 
-    @cached_property
-    def rate(self) -> Judgement:
-        """The rate at a pressure."""
-        claim = sp.Eq(rate("u_c"), 2 * C * p / p_max)
-        return Consequence(claim)(self.model.wear_laws[2], half_rate, name="rate at a pressure")
-
-    @cached_property
-    def time(self) -> Judgement:
-        """The time at a pressure, counted from the first pressure p(0)."""
-        rough = (f_c * self.wear.claim.rhs + sigma_c0).subs(p, p_s)
-        by_parts, rest = p_max * rough / (f_c * p_s), p_max * rough / (f_c * p_s**2)
-        return self._integrated(self.wear, by_parts, rest, assume(BETWEEN), assume(SLOPED))
-
-    @cached_property
-    def wear_smooth(self) -> Judgement:
-        """The wear at a pressure, for f_c = 0."""
-        model = self.model
-        smooth = substitute(model.roughness_at_wear, assume(KEPT))
-        closed = Solve(h)(FirstIntegral().log_odds)
-        opened = Solve(u_c)(substitute(model.closure, model.wear_of_pin))
-        parents = (opened, closed, bearing_only().deflection, smooth)
-        claim, *_ = stated("static-solution-compliant-smooth")
-        return Insert(claim)(*parents, name="wear, f_c = 0")
-
-    @cached_property
-    def time_smooth(self) -> Judgement:
-        """The time at a pressure, for f_c = 0."""
-        odds = (p_max - p_s) / p_s
-        primitive = sigma_c0 / 4 * (odds + sp.log(odds)) - p_max / k * sp.log(p_s / p_max)
-        return self._integrated(self.wear_smooth, primitive, sp.S.Zero)
-
-    def _integrated(
-        self, wear: Judgement, primitive: sp.Expr, rest: sp.Expr, *facts: Judgement
-    ) -> Judgement:
-        """Return the time, 2 C dt = (p_max/p) du, integrated by means of a primitive."""
-        below = assume(UNSATURATED), assume(START)
-        logarithm = sp.Function("L", real=True)(p_s)
-        worn = wear.claim.rhs.subs(p, p_s).subs(log_odds.subs(p, p_s), logarithm)
-        known = {sp.diff(logarithm, p_s): p_max / (p_s * (p_max - p_s)), logarithm: log_odds}
-        slope = p_max / p_s * sp.diff(worn, p_s).subs(known).subs(p, p_s)
-        claim = sp.Eq(2 * C * t, sp.Integral(slope, (p_s, p_start, p)))
-        root = bearing_only().pressure_of_bearing_wear, self.model.roughness_at_wear
-        time = Separate(claim)(self.rate, wear, *root, assume(CONSTANT), *below, *facts)
-        return Integrated(primitive, rest)(time, *below, *facts, name="time")
+_rate = Consequence(sp.Eq(rate("u_c"), 2 * C * p / p_max))(
+    model.wear_laws[2], half_rate, name="rate at a pressure"
+)
 
 
-def results() -> dict[str, Proved]:
-    """Return the static solutions on a compliant support."""
-    static = StaticCompliant()
-    return {
-        "static-solution-compliant": (static.wear, static.time, load_offset, half_rate),
-        "static-solution-compliant-smooth": (static.wear_smooth, static.time_smooth, half_rate),
-    }
+def _time(wear: Judgement, primitive: sp.Expr, rest: sp.Expr, *facts: Judgement) -> Judgement:
+    """Return the time, 2 C dt = (p_max/p) du, integrated by means of a primitive.
+
+    It is counted from the first pressure p(0).
+    """
+    below = assume(UNSATURATED), assume(START)
+    logarithm = sp.Function("L", real=True)(p_s)
+    worn = wear.claim.rhs.subs(p, p_s).subs(odds_of(p_s), logarithm)
+    known = {sp.diff(logarithm, p_s): p_max / (p_s * (p_max - p_s)), logarithm: odds_of(p_s)}
+    slope = p_max / p_s * sp.diff(worn, p_s).subs(known).subs(p, p_s)
+    claim = sp.Eq(2 * C * t, sp.Integral(slope, (p_s, p_start, p)))
+    root = bearing_only().pressure_of_bearing_wear, model.roughness_at_wear
+    time = Separate(claim)(_rate, wear, *root, assume(CONSTANT), *below, *facts)
+    return Integrated(primitive, rest)(time, *below, *facts, name="time")
+
+
+_rough = (f_c * wear.claim.rhs + sigma_c0).subs(p, p_s)
+_by_parts, _rest = p_max * _rough / (f_c * p_s), p_max * _rough / (f_c * p_s**2)
+time = _time(wear, _by_parts, _rest, assume(BETWEEN), sloped)
+"""The time at a pressure."""
+
+static_solution_compliant = (wear, time, load_offset, half_rate)
+
+_odds = (p_max - p_s) / p_s
+_primitive = sigma_c0 / 4 * (_odds + sp.log(_odds)) - p_max / k * sp.log(p_s / p_max)
+static_solution_compliant_smooth = (
+    wear_smooth,
+    _time(wear_smooth, _primitive, sp.S.Zero),
+    half_rate,
+)

@@ -7,23 +7,20 @@ Overview
     a compliant support everything is explicit in the pressure but for one integral, which has
     no closed form; for f_c = 0 it has one.
 Key results
-    StaticSolution.time        t(u_c), f_c != 0, of either sign while sigma > 0
-    StaticSolution.time_smooth t(u_c), f_c = 0
-    StaticSolution.wear_smooth u_c(t), f_c = 0
+    static_solution          t(u_c), f_c != 0, of either sign while sigma > 0
+    static_solution_smooth   t(u_c), f_c = 0
+    static_wear_smooth       u_c(t), f_c = 0
+    static_solution_scaled   its primitive in a form that floating point can evaluate
 References
     Ei: DLMF 6.2.5.  W: Corless et al., Adv. Comput. Math. 5 (1996) 329.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-
 import sympy as sp
 
-from ..equations import Proved, stated
+from ..equations import stated
 from ..hypotheses import Hypothesis
-from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Insert, Multiply, Solve, substitute
 from ..rules.assumption import assume, defined
@@ -31,11 +28,11 @@ from ..rules.reading import CONSTANT
 from ..rules.solutions import Integrated, Lambert, Separate
 from ..symbols import rate, symbols, t
 from .first_integral import SLOPED
-from .regimes import Regimes
+from .regimes import grown, kept, rough
 
 h_0, U_a, u_c, sigma_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c sigma_c0 f_c")
 p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")
-ell, u_s, sigma_s = symbols("ell u_s sigma_s")
+ell, u_s, sigma, sigma_s = symbols("ell u_s sigma sigma_s")
 
 MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(beta, 0))
 
@@ -55,65 +52,61 @@ def primitive(roughness: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     return roughness * sp.exp(z), 2 * beta * sp.Ei(z)
 
 
-@dataclass(frozen=True)
-class StaticSolution:
-    """Wear under a constant load, for the law of the note and a rigid support."""
-
-    @cached_property
-    def rate(self) -> Judgement:
-        """Eq. (13) in terms of the roughness: the saturated rate, over one plus the excess."""
-        names = (half_rate, load_offset, limit_argument)
-        claim = sp.Eq(rate("u_c"), 2 * C / (1 + odds.subs(sigma_s, sigma_c)))
-        return Consequence(claim)(bearing_only().rigid, self.worn, *names, name="rate")
-
-    @cached_property
-    def worn(self) -> Judgement:
-        """The wear at a roughness."""
-        return Solve(u_c)(bearing_only().model.roughness_of_bearing, assume(SLOPED))
-
-    @cached_property
-    def time(self) -> Judgement:
-        """The time at which the wear is u_c."""
-        whole = sp.Integral(1 + odds, (sigma_s, sigma_c0, sigma_c))
-        sloped, moving, (grown, rough) = assume(SLOPED), assume(MOVING), Regimes().rough
-        start, facts = bearing_only().model.start[4], (rough, sloped, moving)
-        time = Separate(sp.Eq(2 * C * f_c * t, whole))(self.rate, self.worn, start, *facts)
-        time = Integrated(sigma_s + sigma_s * odds, -2 * beta / sigma_s * odds)(time, rough)
-        time = Integrated(sp.exp(-2 * x_inf) * primitive(sigma_s)[1])(time, rough, moving)
-        claim, *_ = stated("static-solution")
-        scaled = Multiply(1 / (2 * C * f_c))(time, sloped)
-        return Consequence(claim)(scaled, grown, rough, moving, name="static solution")
-
-    @cached_property
-    def rate_smooth(self) -> Judgement:
-        """The rate at a wear, for f_c = 0."""
-        claim = sp.Eq(rate("u_c"), 2 * C / (1 + 8 * ell / sigma_c0 * sp.exp(4 * u_c / sigma_c0)))
-        return Consequence(claim)(Regimes().kept, half_rate, scale, name="rate, f_c = 0")
-
-    @cached_property
-    def time_smooth(self) -> Judgement:
-        """The time at which the wear is u_c, for f_c = 0."""
-        growth = 4 * ell / sigma_c0 * sp.exp(4 * u_s / sigma_c0)
-        whole = sp.Integral(sp.Rational(1, 2) + growth, (u_s, 0, u_c))
-        parents = (self.rate_smooth, bearing_only().model.start[1], assume(CONSTANT))
-        time = Separate(sp.Eq(C * t, whole))(*parents)
-        return Integrated(u_s / 2 + ell * sp.exp(4 * u_s / sigma_c0))(time)
-
-    @cached_property
-    def wear_smooth(self) -> Judgement:
-        """The wear at a time, for f_c = 0."""
-        grown = sp.exp(4 * u_c / sigma_c0)
-        w = 8 * ell / sigma_c0 * grown
-        claim = sp.Eq(w * sp.exp(w), 8 * ell / sigma_c0 * sp.exp(8 * (C * t + ell) / sigma_c0))
-        inverse = Solve(grown)(Lambert(w)(Insert(claim)(self.time_smooth)))
-        return Solve(u_c)(substitute(self.time_smooth, inverse), name="wear at a time, f_c = 0")
+def _law(growth: sp.Expr) -> sp.Equality:
+    """Return the saturated rate over one plus the odds p_max/p - 1."""
+    return sp.Eq(rate("u_c"), 2 * C / (1 + growth))
 
 
-def results() -> dict[str, Proved]:
-    """Return the static solutions."""
-    static = StaticSolution()
-    return {
-        "static-solution": (static.time, load_offset, limit_argument, half_rate),
-        "static-solution-smooth": (static.time_smooth, scale, half_rate),
-        "static-wear-smooth": static.wear_smooth,
-    }
+sloped, moving, constant = map(assume, (SLOPED, MOVING, CONSTANT))
+start_of_wear, start_of_roughness = (bearing_only().model.start[place] for place in (1, 4))
+
+worn = Solve(u_c)(grown, sloped)
+"""The wear at a roughness."""
+
+_rate = Consequence(_law(odds.subs(sigma_s, sigma_c)))(
+    bearing_only().rigid, worn, half_rate, load_offset, limit_argument, name="rate"
+)
+_whole = sp.Integral(1 + odds, (sigma_s, sigma_c0, sigma_c))
+_time = Separate(sp.Eq(2 * C * f_c * t, _whole))(
+    _rate, worn, start_of_roughness, rough, sloped, moving
+)
+_time = Integrated(sigma_s + sigma_s * odds, -2 * beta / sigma_s * odds)(_time, rough)
+_time = Integrated(sp.exp(-2 * x_inf) * primitive(sigma_s)[1])(_time, rough, moving)
+time = Consequence(stated("static-solution")[0])(
+    Multiply(1 / (2 * C * f_c))(_time, sloped), grown, rough, moving, name="static solution"
+)
+"""The time at which the wear is u_c."""
+
+static_solution = (time, load_offset, limit_argument, half_rate)
+
+_growth = 4 * ell / sigma_c0 * sp.exp(4 * u_s / sigma_c0)
+_rate = Consequence(_law(2 * _growth.subs(u_s, u_c)))(kept, half_rate, scale, name="rate, f_c = 0")
+_whole = sp.Integral(sp.Rational(1, 2) + _growth, (u_s, 0, u_c))
+time_smooth = Integrated(u_s / 2 + ell * sp.exp(4 * u_s / sigma_c0))(
+    Separate(sp.Eq(C * t, _whole))(_rate, start_of_wear, constant)
+)
+"""The time at which the wear is u_c, for f_c = 0."""
+
+static_solution_smooth = (time_smooth, scale, half_rate)
+
+_grown = sp.exp(4 * u_c / sigma_c0)
+_w = 8 * ell / sigma_c0 * _grown
+_claim = sp.Eq(_w * sp.exp(_w), 8 * ell / sigma_c0 * sp.exp(8 * (C * t + ell) / sigma_c0))
+_inverse = Solve(_grown)(Lambert(_w)(Insert(_claim)(time_smooth)))
+static_wear_smooth = Solve(u_c)(substitute(time_smooth, _inverse), name="wear at a time, f_c = 0")
+"""The wear at a time, for f_c = 0."""
+
+z, E = sp.symbols("z E", real=True)
+_argument, _exponent = defined(z, -2 * beta / sigma), defined(E, z - 2 * x_inf)
+_bounded = sp.Add(1, -(z * sp.exp(-z) * sp.Ei(z)))
+_scaled = sp.Eq(sp.exp(-2 * x_inf) * sp.Add(*primitive(sigma)), sigma * sp.exp(E) * _bounded)
+static_solution_scaled = (
+    Insert(_scaled)(_exponent, _argument, moving, name="scaled primitive"),
+    _exponent,
+    _argument,
+)
+"""The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow.
+
+exp(-2 x_inf) and Ei(z) overflow where their product is harmless.  E = ln(p_max/p - 1) and z are
+moderate or harmless, and the last factor is a bounded function of z, about -1/z for large z.
+"""

@@ -26,23 +26,24 @@ from typing import ClassVar
 
 import sympy as sp
 
-from ..equations import Proved
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, infer
-from ..laws import GENERAL, TANH, ContactLaw, r
+from ..laws import TANH, ContactLaw, r
 from ..note import condensed
 from ..note.governing import ROUGH_BEARING, Model
-from ..rules.algebra import Consequence, Identity, discharge
-from ..rules.assumption import assume
+from ..rules.algebra import Consequence, Identity, Insert, discharge
+from ..rules.assumption import assume, defined
 from ..rules.calculus import grows, rigid
+from ..rules.drift import MEAN, logarithmic_drift
 from ..rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
 from ..rules.limits import Diverges, Passes, accumulates, forever, vanishes
+from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols
+from .regime_map import ROUGHENING
 
 h_0, U_a, u_c, p, U = symbols("h_0 U_a u_c p U")
 sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
 
-ROUGHENING = Hypothesis("the bearing roughens as it wears", sp.Gt(f_c, 0))
 BOUNDED_LOAD = Hypothesis("the load is bounded by U", sp.Le(sp.Abs(U_a), U), kind=Kind.LOAD)
 
 roughness = sigma_c0 + f_c * u_c
@@ -195,14 +196,14 @@ def steady_state(law: ContactLaw = TANH) -> SteadyState:
     return SteadyState(law)
 
 
-def results() -> dict[str, Proved]:
-    """Return the results for any contact law."""
-    general, tanh = steady_state(GENERAL), steady_state(TANH)
-    return {
-        "deviation": general.deviation,
-        "growth": tanh.growth,
-        "general-rate": condensed.bearing_only(GENERAL).rigid,
-        "closure-ratio": general.ratio,
-        "general-law": general.pressure,
-        "approach": tanh.approach,
-    }
+def named_limit(symbol: sp.Expr, limit: Judgement, name: str) -> Judgement:
+    """Return the value of a symbol that is defined as a limit."""
+    definition = defined(symbol, limit.claim.term)
+    return Insert(sp.Eq(symbol, limit.claim.value))(definition, limit, name=name)
+
+
+def drift(approach: Judgement) -> Judgement:
+    """Return the logarithmic drift under a periodic load, from the approach of the rate."""
+    mean = defined(MEAN.lhs, MEAN.rhs, "mean of the load")
+    load = (assume(PERIODIC), assume(CONTINUOUS), mean)
+    return logarithmic_drift(approach, *load, name="logarithmic drift")

@@ -24,19 +24,17 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..equations import Proved
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note import condensed
-from ..note.stabilised import drift
 from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
 from ..rules.inequalities import Arithmetic
 from ..rules.limits import AtInfinity, Passes, forever, unbounded
 from ..symbols import rate, symbols
-from .steady_state import BOUNDED_LOAD
+from .steady_state import BOUNDED_LOAD, drift
 
 h_0, U_a, u_c, kappa, q, g, p_1 = symbols("h_0 U_a u_c kappa q g p_1")
 f_a, f_c, sigma_a0, sigma_c0 = symbols("f_a f_c sigma_a0 sigma_c0")
@@ -130,14 +128,10 @@ class TwoSolids:
         return drift(first_order(*parents))
 
 
-def results() -> dict[str, Proved]:
-    """Return the results for two solids, sign of Eq. (1) as printed."""
-    two = TwoSolids()
-    return {
-        "two-solids": two.definitions,
-        "two-solids-opening": TwoSolids(opening=True).definitions,
-        "two-solids-roughness": two.separation,
-        "two-solids-closure-ratio": two.ratio,
-        "two-solids-rate": two.rate,
-        "two-solids-log-drift": two.drift,
-    }
+_printed = TwoSolids()
+two_solids = _printed.definitions
+two_solids_opening = TwoSolids(opening=True).definitions
+two_solids_roughness = _printed.separation
+two_solids_closure_ratio = _printed.ratio
+two_solids_rate = _printed.rate
+two_solids_log_drift = _printed.drift

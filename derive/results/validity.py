@@ -8,10 +8,10 @@ Overview
     calculation with ten digits.
 Key results
     share       p_inf/p_max = 1/(1 + e^(4/f_c - 8))
-    always      tanh(4 - 2/f_c) > -1, without condition
-    growing     d/df_c of it is positive
+    criterion   tanh(4 - 2/f_c) > -1, without condition
+    share_slope d/df_c of it is positive
     threshold   p_inf/p_max > epsilon if and only if f_c > 4/(8 + ln(1/epsilon - 1))
-    eighth      the case f_c > 1/8
+    one_eighth  the case f_c > 1/8
     RESOLUTIONS the epsilon of some arithmetics
 """
 
@@ -21,15 +21,13 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from ..equations import Proved
 from ..hypotheses import Hypothesis
-from ..kernel import Judgement
 from ..rules.algebra import Identity, discharge, forget, substitute
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic, Monotone, Threshold
 from ..symbols import symbols
 from .first_integral import SLOPED
-from .steady_state import ROUGHENING
+from .regime_map import ROUGHENING
 
 f_c, epsilon = symbols("f_c epsilon")
 
@@ -46,40 +44,37 @@ RESOLVED = Hypothesis("epsilon is below the largest possible share", epsilon < 1
 TEN_DIGITS = Hypothesis("resolution of ten digits", sp.Eq(epsilon, 1 / (1 + sp.exp(24))))
 
 
-def share() -> Judgement:
-    """(22) as a share of p_max, in the form to compute with."""
-    claim = sp.Eq((1 + sp.tanh(4 - 2 / f_c)) / 2, 1 / (1 + sp.exp(4 / f_c - 8)))
-    return Identity(claim)(assume(SLOPED), name="share of p_max")
+sloped = assume(SLOPED)
 
+share = Identity(sp.Eq((1 + sp.tanh(4 - 2 / f_c)) / 2, 1 / (1 + sp.exp(4 / f_c - 8))))(
+    sloped, name="share of p_max"
+)
+"""(22) as a share of p_max, in the form to compute with."""
 
-def always() -> Judgement:
-    """The note's criterion holds without condition."""
-    claim = sp.StrictGreaterThan(sp.tanh(4 - 2 / f_c), -1)
-    return Arithmetic(claim)(assume(SLOPED), name="the criterion always holds")
+criterion = Arithmetic(sp.Gt(sp.tanh(4 - 2 / f_c), -1))(sloped, name="the criterion always holds")
+"""The note's criterion holds without condition."""
 
+_value = share.claim.rhs
+share_slope = Identity(sp.Eq(sp.diff(_value, f_c), 4 / f_c**2 * _value * (1 - _value)))(
+    sloped, name="slope of the share"
+)
+"""The asymptotic pressure grows with f_c."""
 
-def growing() -> Judgement:
-    """The asymptotic pressure grows with f_c."""
-    value = share().claim.rhs
-    claim = sp.Eq(sp.diff(value, f_c), 4 / f_c**2 * value * (1 - value))
-    return Identity(claim)(assume(SLOPED), name="slope of the share")
+bound = 4 / (8 + sp.log(1 / epsilon - 1))
+"""The least f_c of a resolution epsilon."""
 
+_x = sp.Dummy("x", real=True)
+_rare = Arithmetic(sp.Gt(1 / epsilon - 1, sp.exp(-8)))(assume(RESOLVED))
+threshold = Threshold(sp.Equivalent(sp.Gt(_value, epsilon), sp.Gt(f_c, bound)), f_c)(
+    assume(ROUGHENING), Monotone(sp.Lambda(_x, sp.log(_x)))(_rare), name="threshold"
+)
+"""A demand on the pressure is a demand on f_c."""
 
-def threshold() -> Judgement:
-    """A demand on the pressure is a demand on f_c."""
-    bound = 4 / (8 + sp.log(1 / epsilon - 1))
-    claim = sp.Equivalent(sp.Gt(share().claim.rhs, epsilon), sp.Gt(f_c, bound))
-    rare = Arithmetic(sp.Gt(1 / epsilon - 1, sp.exp(-8)))(assume(RESOLVED))
-    x = sp.Dummy("x", real=True)
-    level = Monotone(sp.Lambda(x, sp.log(x)))(rare)
-    return Threshold(claim, f_c)(assume(ROUGHENING), level, name="threshold")
-
-
-def eighth() -> Judgement:
-    """f_c > 1/8 is a demand on the size of the asymptotic pressure."""
-    resolution = assume(TEN_DIGITS)
-    special = substitute(threshold(), resolution)
-    return forget(discharge(special, RESOLVED, resolution), TEN_DIGITS)
+_resolution = assume(TEN_DIGITS)
+one_eighth = forget(
+    discharge(substitute(threshold, _resolution), RESOLVED, _resolution), TEN_DIGITS
+)
+"""f_c > 1/8 is a demand on the size of the asymptotic pressure."""
 
 
 def threshold_at(resolution: sp.Expr) -> sp.Expr:
@@ -88,22 +83,4 @@ def threshold_at(resolution: sp.Expr) -> sp.Expr:
     >>> round(float(threshold_at(RESOLUTIONS["double precision"])), 9)
     0.086724449
     """
-    return threshold_bound().subs(epsilon, resolution)
-
-
-def threshold_bound() -> sp.Expr:
-    """Return the bound of ``threshold`` as an expression in epsilon."""
-    said = threshold().claim
-    (bound,) = (part.lesser for part in (said.left, said.right) if part.greater == f_c)
-    return bound
-
-
-def results() -> dict[str, Proved]:
-    """Return what f_c > 1/8 means."""
-    return {
-        "share": share(),
-        "criterion": always(),
-        "share-slope": growing(),
-        "threshold": threshold(),
-        "one-eighth": eighth(),
-    }
+    return bound.subs(epsilon, resolution)

@@ -9,13 +9,14 @@ Key results
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
 
 from ..claims import Claim, Equality, Inequality, Limit, claim_of
 from ..hypotheses import Hypothesis
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer
+from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, listed, plain
 from ..language import bound_in
 from ..symbols import t
 from ..zero import is_zero
@@ -98,7 +99,7 @@ class Multiply(Rule):
 class Restrict(Rule):
     """Where a relation holds, a piecewise expression is its branch, and ``|x| = x`` if x > 0."""
 
-    words = "Keep of {0} the branch on which {others} holds."
+    words = "Keep the branch of {0} on which {others} holds."
     asks = ("the claim", "the relation")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -143,10 +144,13 @@ class Identity(Rule):
     """An equation that holds for every value of its unknowns; premises show that it has values."""
 
     claim: sp.Equality
-    words = "An identity: both sides reduce to the same expression."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         return Conclusion(_identical(self.claim, (), premises))
+
+    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
+        known = f"; that it is defined follows from {listed(labels)}" if labels else ""
+        return f"Both sides reduce to the same expression{known}."
 
 
 @dataclass(frozen=True)
@@ -154,7 +158,7 @@ class Insert(Rule):
     """An equation that becomes an identity when the premises are inserted, in order."""
 
     claim: sp.Equality
-    words = "Insert {all}: an identity remains."
+    words = "Both sides are equal by {all}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         return Conclusion(_identical(self.claim, premises, premises))

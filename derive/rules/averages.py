@@ -88,7 +88,7 @@ class OrderEquation(Rule):
     order: sp.Integer
     words = (
         "Insert the expansion into the rate of the roughness, which is proportional to {0}, with "
-        "{others}, and compare the terms with 1/m^{order}."
+        "{others}, and compare the terms of order {order} in 1/m."
     )
     source = "Sanders, Verhulst, Murdock, 2007"
     asks = ("the pressure",)
@@ -160,8 +160,8 @@ class Averaging(Rule):
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         known = f", with {listed(labels[1:])}" if labels[1:] else ""
-        if self.claim.lhs.is_Symbol:
-            return f"The mean of {labels[0]} over a cycle is zero{known}: solve for the drift."
+        if (name := self.claim.lhs).is_Symbol:
+            return f"The mean of {labels[0]} over a cycle is zero{known}: solve for {write(name)}."
         return f"Integrate {labels[0]} over the phase{known}; the mean of an oscillation is zero."
 
 

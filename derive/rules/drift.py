@@ -152,7 +152,7 @@ class LeadingTerm(Rule):
 
     claim: sp.Equality
     words = (
-        "As what is left vanishes, one term of {0} exceeds all others: by L'Hopital's rule its "
+        "As the roughness vanishes, one term of {0} exceeds all others: by L'Hôpital's rule its "
         "quotient with the left side tends to one.  Take logarithms."
     )
     source = "L'Hopital's rule"

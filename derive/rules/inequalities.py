@@ -26,7 +26,7 @@ class Arithmetic(Rule):
     """A relation that follows from the premises in the real numbers."""
 
     claim: sp.Basic
-    words = "This inequality of real numbers follows from {all}."
+    words = "This inequality follows from {all}."
     source = "decided by z3: Jovanovic, de Moura, Solving nonlinear arithmetic, 2012"
 
     def conclude(self, *premises: Judgement) -> Conclusion:

@@ -95,7 +95,7 @@ class Diverges(Rule):
     """``u >= c t + d`` with constants c > 0 and d: ``a + f u -> oo`` for constants f > 0 and a."""
 
     expr: sp.Expr
-    words = "By {0} the wear grows without bound, and with it {expr}."
+    words = "By {0}, the wear grows without bound, and with it {expr}."
     asks = ("the growth",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -216,7 +216,7 @@ class AtInfinity(Rule):
 
     claim: sp.Equality
     small: sp.Expr
-    words = "By {0} let {small} tend to zero in an expansion that is uniform in bounded loads."
+    words = "By {0}, {small} tends to zero: expand in it, uniformly in bounded loads."
     source = "Taylor's theorem"
     asks = ("the growth",)
 

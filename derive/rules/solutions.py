@@ -118,7 +118,7 @@ class Lambert(Rule):
     """``w e^w = x`` with ``w >= 0`` gives ``w = W(x)``, as ``w e^w`` increases there."""
 
     argument: sp.Expr
-    words = "Of {0}, which is w e^w = x for a positive w, Lambert's function gives w."
+    words = "Lambert's function solves {0}: it has the form w e^w = x with w > 0, so that w = W(x)."
     source = "Corless et al., Adv. Comput. Math. 5 (1996) 329"
     asks = ("the equation",)
 

@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ..hypotheses import Kind
 from ..kernel import Judgement
@@ -22,19 +23,24 @@ from .breaking import broken
 from .display import inline, latex
 from .macros import macro_name, macros
 from .present import presentable
+from .reading import typed
 
 if TYPE_CHECKING:
     from ..equations import Equation
 
 
 class Step(NamedTuple):
-    """A step: a sentence, the author's remark on it, and the formula that came out; `equation` is
-    the id if the formula is an equation with a number, `latex` is empty then."""
+    """A step: a sentence, the author's remark on it, and the formula that came out.
+
+    If the formula has a number, `latex` is empty, `equation` is its id, and `part` says whether it
+    is one of several under that number.
+    """
 
     sentence: str
     remark: str
     latex: str
-    equation: str
+    equation: str = ""
+    part: bool = False
 
 
 class Derivations:
@@ -44,9 +50,9 @@ class Derivations:
         self._equations = {equation.id: equation for equation in equations}
         self._named: dict[sp.Basic, str] = {}
         for equation in self._equations.values():
-            results = [each for each in equation.statements if not is_hypothesis(each)]
-            for statement in results or equation.statements:
-                self._named.setdefault(statement.relation, equation.id)
+            if equation.id not in _COLLECTIONS:
+                for relation in _results(equation):
+                    self._named.setdefault(relation, equation.id)
         self._told: dict[sp.Basic, tuple[str, int]] = {}
 
     def steps(self, identifier: str) -> tuple[Step, ...]:
@@ -68,7 +74,8 @@ class Derivations:
     def start(self, identifier: str) -> tuple[Step, ...]:
         """Return the hypotheses on which an equation rests, as steps without a sentence."""
         chain = self._equations[identifier].steps
-        return tuple(dict.fromkeys(self._shown(each) for each in chain if is_hypothesis(each)))
+        given = (each for each in chain if is_hypothesis(each))
+        return tuple(dict.fromkeys(self._shown(each, identifier) for each in given))
 
     def _tell(self, identifier: str, statements: Iterable[Judgement]) -> tuple[Step, ...]:
         steps: list[Step] = []
@@ -97,15 +104,19 @@ class Derivations:
 
     def _step(self, statement: Judgement, of: str) -> Step:
         parents = [self._name(parent, of) for parent in statement.parents]
-        said = statement.rule.sentence(*parents, write=_written)
-        return self._shown(statement)._replace(sentence=said, remark=statement.remark)
+        parts = _FIXED.split(statement.rule.sentence(*parents, write=_written))
+        said = "".join(part if part[:1] in ("$", "[") else typed(part) for part in parts)
+        return self._shown(statement, of)._replace(sentence=said, remark=statement.remark)
 
-    def _shown(self, statement: Judgement) -> Step:
+    def _shown(self, statement: Judgement, of: str) -> Step:
         """Return what a step gave: an equation, a formula, or words."""
-        name, relation = self._named.get(statement.relation, ""), statement.relation
+        relation = statement.relation
         if relation is sp.true:
-            return Step("", "", statement.hypotheses[-1].latex, name)
-        return Step("", "", "" if name else latex(presentable(relation)), name)
+            return Step("", "", statement.hypotheses[-1].latex)
+        own = of if relation in _results(self._equations[of]) else ""
+        if name := self._named.get(relation, own):
+            return Step("", "", "", name, len(_results(self._equations[name])) > 1)
+        return Step("", "", latex(presentable(relation)))
 
     def _name(self, parent: Judgement, of: str) -> str:
         """How a step refers to another relation."""
@@ -118,11 +129,17 @@ class Derivations:
         return f"step {place}" if equation == of else f"step {place} of the [der:{equation}]"
 
 
+def _results(equation: Equation) -> tuple[sp.Basic, ...]:
+    """Return what is derived in an equation, or all of it where nothing is."""
+    derived = tuple(each.relation for each in equation.statements if not is_hypothesis(each))
+    return derived or tuple(each.relation for each in equation.statements)
+
+
 def _assumed(hypothesis: Judgement) -> str:
     """Return how a step refers to a hypothesis that no equation shows: by a short formula."""
     relation, said = hypothesis.relation, hypothesis.hypotheses[-1]
-    names = isinstance(relation, sp.Equality) and relation.lhs.is_Symbol
-    if said.kind is Kind.DEFINITION and (names or relation is sp.true):
+    defined = said.kind is Kind.DEFINITION
+    if defined and (relation is sp.true or isinstance(relation.lhs, (sp.Symbol, AppliedUndef))):
         return "the definitions"
     in_words = relation is sp.true or len(str(relation)) > _SHORT
     return said.text if in_words else f"${inline(presentable(relation))}$"
@@ -135,6 +152,10 @@ def is_hypothesis(statement: Judgement) -> bool:
 
 #: Characters up to which a formula stands in a sentence.
 _SHORT = 60
+_FIXED = re.compile(r"(\$[^$]*\$|\[[^\]]*\])")
+"""What a sentence has in LaTeX already, and references."""
+_COLLECTIONS = ("problem-i", "problem-ii")
+"""Systems that collect what is derived elsewhere: no step refers to a line of theirs."""
 _REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
 
 
@@ -179,4 +200,4 @@ def _formula(
 
 
 def _written(expr: sp.Basic) -> str:
-    return f"${latex(expr)}$"
+    return f"${inline(presentable(expr))}$"

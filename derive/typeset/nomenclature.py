@@ -16,7 +16,7 @@ from sympy.core.function import AppliedUndef
 
 from ..equations import Equation
 from ..symbols import QUANTITIES, Quantity
-from .reading import read
+from .reading import typed
 
 #: Units that have a name.
 _UNITS = {"1": "", "MPa mm^2": "N"}
@@ -75,9 +75,7 @@ def meaning(quantity: Quantity) -> str:
     >>> print(meaning(QUANTITIES["c_2"]))
     drift at order $1/m^2$
     """
-    return "".join(
-        f"${part.text}$" if part.kind == "formula" else part.text for part in read(quantity.meaning)
-    )
+    return typed(quantity.meaning)
 
 
 def unit(quantity: Quantity) -> str:

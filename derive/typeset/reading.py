@@ -8,6 +8,7 @@ Overview
     is a result, and stands outside of formulas.
 Key results
     read    the parts of a text
+    typed   a text with its formulas in LaTeX
     Part    words, a formula, a number, or a name that is none of the model's
 """
 
@@ -101,6 +102,15 @@ def read(text: str) -> tuple[Part, ...]:
     while (folded := _BRACKETS.sub(fold, text)) != text:
         text = folded
     return tuple(part for part in _parts(text, groups) if part.text)
+
+
+def typed(text: str) -> str:
+    r"""Return the text with its formulas in LaTeX.
+
+    >>> print(typed("terms of order 2 in 1/m, with f_c > 0"))
+    terms of order 2 in $1/m$, with $f_c > 0$
+    """
+    return "".join(f"${part.text}$" if part.kind == "formula" else part.text for part in read(text))
 
 
 def _is_certain(text: str) -> bool:

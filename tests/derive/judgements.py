@@ -1,8 +1,14 @@
-"""What tests of the rules share: judgements to start from, and what is often made of them."""
+"""What tests of the rules share: judgements to start from, and what is often made of them.
+
+A ``Family`` holds applications of one builder: arguments with which it gives a true statement, and
+those with which it would give a false one, each with what the refusal says.  In the comment of a
+false one stands a model in which it fails, or what is wrong with it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -10,7 +16,7 @@ from sympy.core.relational import Relational
 from derive.claims import Drift, Oscillation
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Judgement
-from derive.results.expansion import Expansion
+from derive.results.expansion import expansion
 from derive.results.steady_state import BOUNDED_LOAD, steady_state
 from derive.rules.algebra import Insert, Solve, discharge, forget
 from derive.rules.assumption import assume, defined
@@ -24,7 +30,8 @@ from derive.rules.averages import (
     term_of,
 )
 from derive.rules.calculus import SPRINGS
-from derive.rules.drift import MEAN
+from derive.rules.data import Differentiated
+from derive.rules.drift import MEAN, LogarithmicGrowth, logarithmic_drift
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
 from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC, SINE
@@ -32,7 +39,22 @@ from derive.rules.solutions import Separate
 from derive.symbols import initial, rate, symbol, symbols, t
 
 u_c, U_a, U_c, h, p, G, u_s = symbols("u_c U_a U_c h p G u_s")
-C, f_c, h_0, k, theta, u_cum = symbols("C f_c h_0 k theta u_cum")
+C, f_c, h_0, k, q, T, tau, theta, u_cum = symbols("C f_c h_0 k q T tau theta u_cum")
+
+
+@dataclass(frozen=True)
+class Family:
+    """Applications of a builder: an argument, or a tuple of them, for each that is true; by name,
+    what the refusal says (a regular expression) and the arguments of each that is false."""
+
+    build: Callable[..., Judgement]
+    true: tuple[object, ...] = ()
+    false: Mapping[str, tuple[object, ...]] = field(default_factory=dict)
+
+
+def each(build: Callable[[], Judgement]) -> Judgement:
+    """Build what shares no builder with others."""
+    return build()
 
 
 def given(relation: sp.Basic, text: str = "known") -> Judgement:
@@ -63,8 +85,10 @@ START, PIN_START = eq(initial("u_c"), 0), eq(initial("u_a"), 0)
 BOUNDED = assume(BOUNDED_LOAD)
 DEEP = tends(u_c, sp.oo)
 ROUGHENS = gt(f_c, 0)
-RATE = eq(rate("u_c"), C)
+SPEED = rate("u_c")
+RATE = eq(SPEED, C)
 CONSTANTLY = assume(CONSTANT)
+CYCLING = defined(t, T * tau)
 SLOPE = sp.Derivative(u_cum, f_c, evaluate=False)
 GROWING = defined(u_cum, h_0 * f_c)
 APPROACH = t * (rate("u_c") - C) - f_c * U_a
@@ -102,6 +126,20 @@ def opened(*facts: Judgement) -> Judgement:
     return Insert(sp.Eq(h, h_0 + p / k - U_a))(closure, Solve(U_c)(assume(SPRINGS)), *facts)
 
 
+def sloped(*facts: Judgement) -> Judgement:
+    """Return the slope of u_cum = h_0 f_c in f_c."""
+    return Differentiated(equal(SLOPE, h_0), f_c)(GROWING, *facts)
+
+
+def logarithmic(scale: sp.Expr = q, size: sp.Expr = q, speed: sp.Expr = SPEED) -> Judgement:
+    """Return how wear grows whose rate falls exponentially with it."""
+    return LogarithmicGrowth(scale)(tends(speed * sp.exp((u_c - U_a) / size), C), assume(SINE))
+
+
+def drifting(approach: sp.Expr = APPROACH) -> Judgement:
+    return logarithmic_drift(*drift_premises(approach))
+
+
 def drift_premises(approach: sp.Expr = APPROACH) -> tuple[Judgement, ...]:
     mean = defined(MEAN.lhs, MEAN.rhs)
     return tends(approach, sp.S.Zero), assume(PERIODIC), assume(CONTINUOUS), mean
@@ -129,6 +167,6 @@ def averaged_as(claim: sp.Expr, name: str = "c_1") -> Judgement:
 
 def slow_time() -> Judgement:
     """Return the slow time by the definitions of c_1 to c_4."""
-    known, pressure = Expansion().slow_time.claim, steady_state().pressure_at_wear.claim.rhs
+    known, pressure = expansion.claim, steady_state().pressure_at_wear.claim.rhs
     drifts = [defined(symbol(f"c_{n}"), term_of(Drift, n, pressure)) for n in (1, 2, 3, 4)]
     return SlowTime(sp.Eq(known.lhs, known.rhs))(*drifts, assume(EXPANSION))

@@ -92,6 +92,6 @@ def test_thresholds_are_in_the_evidence_of_c32() -> None:
 
 def test_the_bracket_would_vanish_for_one_load() -> None:
     """f_c (h_0 - U_a) = sigma_c0 is the one load for which (16) would hold."""
-    bracket = claim_checks.Stabilised().bracket.claim.rhs
+    bracket = claim_checks.constant_bracket.claim.rhs
     load = symbol("h_0") - symbol("sigma_c0") / symbol("f_c")
     assert sp.expand(bracket.subs(symbol("U_a"), load)) == 0

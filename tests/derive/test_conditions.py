@@ -11,13 +11,17 @@ from derive import catalogue
 from derive.claims import Asymptotic, Equality, Limit
 from derive.equations import Equation
 from derive.hypotheses import Hypothesis, Kind
-from derive.kernel import RuleError
+from derive.kernel import Judgement, RuleError
 from derive.results import validity
+from derive.rules.algebra import Insert
 from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
 from derive.rules.reading import CONSTANT, PERIODIC
 from derive.symbols import symbols
 from derive.typeset.mathml import mathml
+from tests.derive.rules.algebra import defined_as
+
+b_0, f_c, h_0, kappa, G = symbols("b_0 f_c h_0 kappa G")
 
 
 def test_every_condition_reads_as_latex() -> None:
@@ -42,13 +46,31 @@ def test_what_cannot_be_is_no_hypothesis() -> None:
 
 def test_a_name_has_a_value_under_the_conditions_that_are_shown() -> None:
     """b_0 = sqrt(f_c) and b_0 = 1/f_c hide a condition on f_c from who sees b_0 alone."""
-    b_0, f_c = symbols("b_0 f_c")
     for value, condition in ((sp.sqrt(f_c), sp.Ge(f_c, 0)), (1 / f_c, sp.Ne(f_c, 0))):
         claim = Arithmetic(condition)(defined(b_0, value))
         (shown,) = Equation("own", "", "", (claim,)).conditions
         assert shown.relation == condition
         growing = Arithmetic(sp.Gt(f_c**3, 0))(claim, assume(Hypothesis("grows", sp.Gt(f_c, 0))))
         assert [h.text for h in Equation("own", "", "", (growing,)).conditions] == ["grows"]
+
+
+@pytest.mark.parametrize(
+    ("made", "shown"),
+    [
+        (defined_as(sp.Eq(G - sp.log(f_c), 0)), "f_c > 0"),
+        (defined(sp.Symbol("scale", positive=True), f_c), "scale > 0"),
+        (
+            Insert(sp.Eq(kappa, sp.exp(b_0)))(
+                defined(b_0, sp.log(kappa)), defined_as(sp.Eq(kappa, f_c))
+            ),
+            "kappa > 0",
+        ),
+    ],
+    ids=str,
+)
+def test_a_definition_shows_what_it_hides(made: Judgement, shown: str) -> None:
+    stated = Equation("x", "1", "hidden", (Arithmetic(sp.Ge(h_0, 0, evaluate=False))(made),))
+    assert shown in [str(condition.relation) for condition in stated.conditions]
 
 
 def test_every_equation_of_section_4_says_what_it_needs() -> None:

@@ -14,10 +14,10 @@ from derive.results.dimensionless import (
     GROUPS_OF_TWO,
     ONE,
     TWO,
-    compliant,
     count,
-    one_solid,
-    two_solids,
+    groups_compliant,
+    groups_one_solid,
+    groups_two_solids,
 )
 from derive.symbols import symbols
 
@@ -25,16 +25,15 @@ k, U_a, u_c, T, sigma_c0 = symbols("k U_a u_c T sigma_c0")
 
 
 @pytest.mark.parametrize(
-    ("made", "groups", "number"),
+    ("scaled", "groups", "number"),
     [
-        (one_solid, GROUPS_OF_ONE, 4),
-        (two_solids, GROUPS_OF_TWO, 7),
-        (compliant, GROUPS_COMPLIANT, 4),
+        (groups_one_solid[0], GROUPS_OF_ONE, 4),
+        (groups_two_solids[0], GROUPS_OF_TWO, 7),
+        (groups_compliant[0], GROUPS_COMPLIANT, 4),
     ],
 )
-def test_the_number_of_groups(made, groups, number):
+def test_the_number_of_groups(scaled, groups, number):
     """No datum is left but the groups."""
-    scaled = made()
     assert replayed(scaled) is None
     names = {s.name for s in scaled.relation.free_symbols} - {"tau"}
     assert names == {group.name for group in groups}

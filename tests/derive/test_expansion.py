@@ -13,9 +13,9 @@ import sympy as sp
 from derive.averaging import collected, mean, z
 from derive.kernel import Judgement
 from derive.laws import TANH
-from derive.note.stabilised import Stabilised
+from derive.note.stabilised import asymptote
+from derive.results import expansion
 from derive.results.compliant import drift_coefficient
-from derive.results.expansion import Expansion
 from derive.symbols import symbols
 from derive.zero import is_zero
 
@@ -42,7 +42,6 @@ def _of_section_4(statement: Judgement, slope: sp.Expr) -> mpmath.mpf:
 
 def _offset(wear: mpmath.mpf, cycles: int, slope: sp.Expr, order: int) -> mpmath.mpf:
     """Return B from the wear at a cycle, by the expansion cut after 1/m^order."""
-    expansion = Expansion()
     c = [mpmath.mpf(0)] * 5
     for n in range(1, order + 1):
         c[n] = _of_section_4(expansion.drift(n), slope)
@@ -77,16 +76,16 @@ def test_what_the_expansion_leaves_falls_with_its_order(order: int) -> None:
 
 
 def test_the_drift_of_section_4() -> None:
-    coefficient = _of_section_4(Expansion().drift(1), sp.Rational(1, 4)) * 4
+    coefficient = _of_section_4(expansion.drift(1), sp.Rational(1, 4)) * 4
     expected = mpmath.mpf(VALUES["sec4_f0.25"]["A_log_mm"])
     assert abs(coefficient / expected - 1) < 1e-28
 
 
 def test_the_limit_and_the_expansion_give_one_drift() -> None:
     """Proved as a limit on the way to (19), and found again as c_1/f_c."""
-    limit = Stabilised().asymptote.claim.value.subs(U_mean, 0)
+    limit = asymptote.claim.value.subs(U_mean, 0)
     names = {b_0: sigma_c0 / f_c - h_0, theta: sp.tanh(4 - 2 / f_c)}
-    assert is_zero(limit - Expansion().drift(1).claim.rhs.subs(names) / f_c)
+    assert is_zero(limit - expansion.drift(1).claim.rhs.subs(names) / f_c)
 
 
 def test_where_the_drift_is_least() -> None:

@@ -8,7 +8,9 @@ from collections.abc import Callable, Iterator
 import pytest
 import sympy as sp
 
+from derive.check import checks
 from derive.claims import Equality, Inequality
+from derive.equations import Equation
 from derive.hypotheses import Hypothesis
 from derive.kernel import Conclusion, Judgement, Rule, RuleError, infer, replayed
 from derive.rules.algebra import Discharge, Identity, substitute
@@ -160,6 +162,26 @@ def test_an_expression_that_was_changed_in_place_is_found() -> None:
     made = Arithmetic(relation)()
     relation._args = (f_c + 7, sp.S.Zero)
     assert replayed(made) == "what it rests on was changed"
+
+
+def test_a_judgement_that_rests_on_itself_is_found() -> None:
+    made = Arithmetic(sp.Gt(f_c, 0))(ROUGHENS)
+    object.__setattr__(made, "hypotheses", ())
+    object.__setattr__(made, "parents", (made,))
+    assert replayed(made) == "f_c > 0 rests on itself"
+
+
+def test_a_claim_that_is_changed_after_its_check_is_found() -> None:
+    made = substitute(eq(h, h_0), eq(h_0, L))
+    assert all(check.passed for check in checks(made))
+    object.__setattr__(made, "claim", Equality(h, 2 * L))
+    assert not all(check.passed for check in checks(made))
+
+
+@pytest.mark.parametrize("statements", [(), ("f_c > 0",)])
+def test_an_equation_states_judgements(statements: tuple[Judgement, ...]) -> None:
+    with pytest.raises(TypeError):
+        Equation("x", "1", "none", statements)
 
 
 def test_a_step_that_takes_too_long_is_given_up() -> None:

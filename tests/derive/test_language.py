@@ -103,6 +103,10 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
     (sp.Function("u_c", real=True)(t, x), "of no kind"),
     (sp.Limit(u_c / k, k, sp.oo), "data alone"),
+    (sp.Integral(1 / q, (q, 0, 1)), "q is never 0"),  # infinite
+    (sp.Integral(U_a, (t, -T, T)), "t is never -T"),  # nobody says what the load was
+    (U_a.subs(t, t - T), "t is never -T"),
+    (sp.Subs(rate("u_c"), t, -T), "t is never -T"),
 )
 SPEAKABLE: tuple[sp.Expr, ...] = (
     2 - 1 / k,
@@ -114,6 +118,8 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
     sp.Symbol("lambda", real=True) * sp.Symbol("x_bar", real=True),
     LAW(r),
     x * y,
+    U_a.subs(t, t + T),
+    sp.Subs(rate("u_c"), t, T),
 )
 
 
@@ -137,6 +143,7 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.MODEL, sp.Eq(f_c, 5), "no equation of the model"),  # f_c = 1
     (Kind.MODEL, touching(1 + f_c), "no equation of the model"),  # f_c = 1
     (Kind.STATE, equal(forever(u_c), C * t), "cannot be a limit"),
+    (Kind.STATE, equal(forever(u_c), C * PHASED), "cannot be a limit"),
     (Kind.STATE, sp.Eq(f_c > 0, sp.true, evaluate=False), "no relation between numbers"),
     (Kind.MODEL, touching(-sp.S.One), "no equation of the model"),  # p > 0
     (Kind.MODEL, contact(ContactLaw("", sp.exp(r), sp.S.Zero, "")), "decreases"),

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
-from derive.results import sensitivities
-from derive.results.sensitivities import coefficient_from_wear, slope_from_wear, stabilised
+from derive import catalogue
+from derive.note.stabilised import wear_per_cycle
+from derive.results.sensitivities import coefficient_from_wear, slope_from_wear
 from derive.symbols import symbols
 
 VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())["sec4_f0.25"]
@@ -27,12 +28,11 @@ QUARTER = {**DATA, f_c: sp.Rational(1, 4), p_inf: sp.Float(VALUES["p_inf_MPa"], 
 
 
 def _right(identifier: str) -> sp.Expr:
-    found = sensitivities.results()[identifier]
-    return (found[0] if isinstance(found, tuple) else found).claim.rhs
+    return catalogue.equation(identifier).statements[0].claim.rhs
 
 
 def test_wear_per_cycle_of_section_4() -> None:
-    found = sp.N(stabilised().wear_per_cycle.claim.rhs.subs(QUARTER), 40)
+    found = sp.N(wear_per_cycle.claim.rhs.subs(QUARTER), 40)
     assert abs(found / sp.Float(VALUES["u_cum_mm"], 40) - 1) < 1e-28
 
 
@@ -47,7 +47,7 @@ def test_sensitivities_to_the_roughness_growth(identifier: str, key: str) -> Non
 
 def test_the_single_changes_that_would_give_the_printed_wear_per_cycle() -> None:
     printed = {u_cum: sp.Rational("2.35e-5"), f_c: sp.Rational(1, 4)}
-    slope = sp.N(slope_from_wear().claim.rhs.subs(printed).subs(DATA), 40)
+    slope = sp.N(slope_from_wear.claim.rhs.subs(printed).subs(DATA), 40)
     assert abs(slope / sp.Float(VALUES["f_for_2.35e-5"], 40) - 1) < 1e-28
-    gain = sp.N(coefficient_from_wear().claim.rhs.subs(printed).subs(DATA) * 10**6, 40)
+    gain = sp.N(coefficient_from_wear.claim.rhs.subs(printed).subs(DATA) * 10**6, 40)
     assert abs(gain / sp.Float(VALUES["factor_on_K_for_2.35e-5"], 40) - 1) < 1e-28

@@ -84,21 +84,20 @@ def test_the_limit_is_proved_for_every_law(law):
 
 def test_wear_per_cycle_and_pressure_of_section_4():
     section_4 = VALUES["sec4_f0.25"]
-    found = stabilised.Stabilised()
-    assert agrees(number(found.wear_per_cycle.claim.rhs), section_4["u_cum_mm"])
-    assert agrees(number(found.pressure.claim.rhs), section_4["p_inf_MPa"])
+    assert agrees(number(stabilised.wear_per_cycle.claim.rhs), section_4["u_cum_mm"])
+    assert agrees(number(stabilised.pressure.claim.rhs), section_4["p_inf_MPa"])
 
 
 @pytest.mark.parametrize(
     ("slope", "reference"), [("1/4", "0.0057580683832485130861216608317042"), ("1/2", "-0.00144")]
 )
 def test_the_logarithmic_drift(slope, reference):
-    drift = stabilised.Stabilised().asymptote.claim.value
+    drift = stabilised.asymptote.claim.value
     assert agrees(number(drift, f_c=slope), reference)
 
 
 def test_the_bracket_of_16_is_a_constant_that_is_not_zero():
-    bracket = stabilised.Stabilised().bracket.claim.rhs.subs(symbol("U_a"), 0)
+    bracket = stabilised.constant_bracket.claim.rhs.subs(symbol("U_a"), 0)
     assert agrees(number(bracket), "-1.8e-4")
 
 
@@ -121,7 +120,7 @@ def test_two_solids_of_section_3(opening):
 def test_arrest_depth_of_two_solids(opening, name, section, slope):
     solids = two_solids.TwoSolids(opening=opening)
     definitions = {s.claim.lhs: s.claim.rhs for s in solids.definitions}
-    depth = cutoff_two_solids.CutoffTwoSolids().arrest_depth.claim.rhs.subs(definitions)
+    depth = cutoff_two_solids.arrest_depth_two_solids.claim.rhs.subs(definitions)
     sigma = sp.sqrt(sp.Rational(65, 10**6) ** 2 + sp.Rational(36, 10**5) ** 2)
     depth = depth.subs(symbol("h_0"), 3 * sigma)
     data = {"f_a": "1/20", "f_c": slope, "kappa": "1/3"}
@@ -134,19 +133,19 @@ def test_arrest_depth_of_two_solids(opening, name, section, slope):
     ("slope", "reference"), [("1/4", "0.002"), ("-1/20", "0.00043478260869565217391304347826087")]
 )
 def test_arrest_depth_of_one_solid(slope, reference):
-    depth = cutoff.Cutoff().arrest_depth.claim.rhs
+    depth = cutoff.arrest_depth.claim.rhs
     assert agrees(number(depth, f_c=slope), reference)
 
 
 def test_one_solid_is_the_case_of_two():
-    depth = cutoff_two_solids.CutoffTwoSolids().arrest_depth.claim.rhs
+    depth = cutoff_two_solids.arrest_depth_two_solids.claim.rhs
     single = {symbol("sigma_a0"): 0, symbol("g"): 1, symbol("q"): symbol("f_c")}
     single[symbol("p_1")] = symbol("f_c") * symbol("sigma_c0")
     assert agrees(number(depth.subs(single)), "0.002")
 
 
 def test_wear_per_cycle_for_one_third():
-    wear = cutoff.Cutoff().per_cycle.claim.rhs.subs(symbol("d"), sp.Rational(1, 2))
+    wear = cutoff.one_third.claim.rhs.subs(symbol("d"), sp.Rational(1, 2))
     assert agrees(number(wear, f_c="1/3"), VALUES["cutoff"]["u_cum_f_1/3"])
 
 
@@ -172,14 +171,14 @@ def test_the_threshold_of_doubles_is_where_a_correctly_rounded_tanh_becomes_minu
 
 
 def test_one_eighth():
-    said = validity.eighth().claim
+    said = validity.one_eighth.claim
     bounds = {said.left.lesser, said.right.lesser}
     assert bounds == {sp.Rational(1, 8), 1 / (1 + sp.exp(24))}
 
 
 def test_saturating_wear_approaches_the_static_solution():
     """The law for f_c < 0 against quadrature of dN/ds; the relative distance falls like s."""
-    law = regimes.Regimes().saturating.claim.rhs
+    law = regimes.saturating_wear.claim.rhs
     decline, start, gap, wear = (mpmath.mpf(v) for v in ("0.05", "3.6e-4", "8.28e-3", "1.38e-4"))
     distances = []
     with mpmath.workdps(30):

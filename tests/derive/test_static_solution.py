@@ -11,9 +11,7 @@ import pytest
 import sympy as sp
 
 from derive.kernel import Judgement
-from derive.results.static_compliant import StaticCompliant
-from derive.results.static_scaled import scaled_primitive
-from derive.results.static_solution import StaticSolution, scale
+from derive.results import static_compliant, static_solution
 from derive.symbols import symbols, t
 
 VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
@@ -24,7 +22,7 @@ p, p_max, k = symbols("p p_max k")
 M = 44 * sp.pi / 10**6
 SECTION_4 = {sigma_c0: sp.Rational("3.6e-4"), h_0: sp.Rational("1.08e-3"), C: M / 2}
 """Time is counted in cycles: C T = M/2."""
-SCALE = scale.claim.rhs
+SCALE = static_solution.scale.claim.rhs
 
 
 def _number(statement: Judgement, slope: str, load: str, more: dict[sp.Expr, sp.Expr]) -> sp.Expr:
@@ -45,22 +43,22 @@ def _number(statement: Judgement, slope: str, load: str, more: dict[sp.Expr, sp.
     ],
 )
 def test_cycles_to_a_wear(slope: str, load: str, key: str) -> None:
-    found = _number(StaticSolution().time, slope, load, {u_c: sp.Rational("3e-4")})
+    found = _number(static_solution.time, slope, load, {u_c: sp.Rational("3e-4")})
     assert abs(found / sp.Float(VALUES["static"][key], 40) - 1) < 1e-28
 
 
 def test_wear_after_cycles_without_change_of_roughness() -> None:
     known = {**SECTION_4, U_a: sp.S.Zero, t: sp.Integer(100)}
-    found = sp.N(StaticSolution().wear_smooth.claim.rhs.subs(ell, SCALE).subs(known), 40)
+    found = sp.N(static_solution.static_wear_smooth.claim.rhs.subs(ell, SCALE).subs(known), 40)
     expected = sp.Float(VALUES["static"]["u_f0(100 cycles,Ua=0)"], 40)
     assert abs(found / expected - 1) < 1e-28
 
 
 def test_the_smooth_solution_is_the_limit_of_the_rough_one() -> None:
     wear = {u_c: sp.Rational("3e-4")}
-    smooth = _number(StaticSolution().time_smooth, "0", "0", wear)
+    smooth = _number(static_solution.time_smooth, "0", "0", wear)
     gaps = [
-        abs(_number(StaticSolution().time, slope, "0", wear) / smooth - 1)
+        abs(_number(static_solution.time, slope, "0", wear) / smooth - 1)
         for slope in ("1e-3", "1e-4", "1e-5")
     ]
     for wide, narrow in pairwise(gaps):
@@ -70,15 +68,14 @@ def test_the_smooth_solution_is_the_limit_of_the_rough_one() -> None:
 def test_cycles_on_a_compliant_support() -> None:
     """Parametric in the pressure: the two pressures are roots of the wear."""
     stiffness = {k: sp.Integer(10**6), p_max: sp.Integer(300)}
-    static = StaticCompliant()
     known = {**SECTION_4, **stiffness, f_c: sp.Rational("0.25"), U_a: sp.S.Zero}
     offset = 2 * (sigma_c0 / f_c - h_0 + U_a)
-    wear = sp.lambdify(p, static.wear.claim.rhs.subs(beta, offset).subs(known), "mpmath")
+    wear = sp.lambdify(p, static_compliant.wear.claim.rhs.subs(beta, offset).subs(known), "mpmath")
     with mpmath.workdps(40):
         first = mpmath.findroot(wear, (3, 6), solver="anderson")
         last = mpmath.findroot(lambda x: wear(x) - mpmath.mpf("3e-4"), (0.5, 4), solver="anderson")
         time = (
-            (static.time.claim.rhs / (2 * C))
+            (static_compliant.time.claim.rhs / (2 * C))
             .subs(beta, offset)
             .subs(known)
             .subs(p.subs(t, 0), first)
@@ -89,7 +86,7 @@ def test_cycles_on_a_compliant_support() -> None:
 
 
 def test_the_scaled_form_equals_the_plain_one_where_both_can_be_evaluated() -> None:
-    claim = scaled_primitive().claim
+    claim = static_solution.static_solution_scaled[0].claim
     z, E, sigma = sp.Symbol("z", real=True), sp.Symbol("E", real=True), symbols("sigma")[0]
     for argument, limit in ((-3, 2), (5, -1), (-40, 4), (60, -20)):
         size = sp.Rational(7, 10000)

@@ -291,6 +291,7 @@ def test_the_figure_over_cycles_shows_what_was_expected(result):
 @pytest.fixture
 def wear(capsys, monkeypatch):
     """Run `wear bench` with the least effort; give status and results."""
+    monkeypatch.setattr("wear.benchmark.methods.CYCLES", (1, 9000))
     monkeypatch.setattr(benchmark, "QUICK", Effort(cap=0.0, repeated=1.0, rounds=1, rest=0.5))
 
     def call(*arguments: str) -> tuple[int, str, str]:
@@ -304,7 +305,7 @@ def test_the_command_gives_one_json_document(wear):
     told = json.loads(shown)
     assert status == 0
     assert {run["method"] for run in told["measurements"]} == {made.name for made in OWN}
-    assert len(told["sentences"]) == len(CYCLES)
+    assert len(told["sentences"]) == 2
     assert told["machine"]["cores"] >= 1
     counted = [run for run in told["measurements"] if run["method"] == "abel"]
     assert all(abs(run["error"]) <= run["tolerance"] for run in counted)
@@ -314,7 +315,6 @@ def test_the_command_writes_its_files(wear, monkeypatch, tmp_path):
     """With all that `--peers` adds but the packages of others, which are tried above."""
     added = {"jumps": jumps, "peers": SimpleNamespace(PEERS=())}
     monkeypatch.setattr(bench, "load_peers", added.get)
-    monkeypatch.setattr("wear.benchmark.methods.CYCLES", (1, 9000))
     folder = tmp_path / "new"
     status, shown, _ = wear("--quick", "--peers", "-o", str(folder))
     assert status == 0

@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from tests.programs import python
 from wear import figure_style, figures
 from wear.figure_data import (
     PRESSURE,
@@ -184,14 +183,6 @@ def test_the_suffix_names_the_kind_of_file(drawn, suffix, start):
 def test_an_unknown_suffix_is_told_with_the_known_ones(drawn):
     with pytest.raises(ValueError, match=r"\.bmp.*\.svg, \.pdf, \.png"):
         figure_style.encoded(drawn["wear"], ".bmp")
-
-
-def test_pyplot_is_not_imported():
-    code = (
-        "import sys, wear.figures, wear.report.drawing as d, wear.figure_style as s;"
-        "s.svg(d.system()); print('matplotlib.pyplot' in sys.modules)"
-    )
-    assert python(code).strip() == "False"
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import wear
-from derive.note.problems import given_load
+from derive.note.problems import problem_i
 from derive.symbols import symbol
 from wear.cycles import cycles_to_depth, sweep
 from wear.inside import fields_inside
@@ -55,7 +55,7 @@ def test_wear_is_the_integral_of_the_force(name: str, load: dict[str, object], m
 def test_closure_and_displacement_are_those_of_problem_i() -> None:
     scene = pressed("soft-support")
     history = wear.solve(scene, [5000])
-    closure, displacement = (given_load().order[place].claim for place in (-2, -1))
+    closure, displacement = (step.claim for step in problem_i[-2:])
     numbers = {symbol(name): value for name, value in scene.parameters().items() if name != "T"}
     fields = {
         symbol(name): float(getattr(history, name)[0])

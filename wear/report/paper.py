@@ -69,6 +69,7 @@ def paper(
 ) -> Document:
     """Return the paper. Equations that its text does not name stand in the appendix."""
     displayed, derivations = shown(equations), Derivations(equations)
+    sections = _by_section(equations, displayed)
     template = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
     text = template.partition("{#app:")[0]
     values = {
@@ -97,11 +98,12 @@ def paper(
         "versions": versions(),
         "derivations": derivations,
         "origins": {
-            e.id: listed(f"[(eq:{name})]" for name in found)
-            for e in equations
-            if (found := derivations.origins(e.id))
+            name: listed(f"[(eq:{origin})]" for origin in found)
+            for names in sections.values()
+            for name in names
+            if (found := derivations.origins(name))
         },
-        "sections": _by_section(equations, displayed),
+        "sections": sections,
         "in_text": [name for names in _EQUATIONS.findall(text) for name in names.split()],
     }
     return Document(parsed(template, values), displayed, figures)

@@ -1,0 +1,68 @@
+"""A contact law as code: its value and relative slope in forms that do not overflow.
+
+Key results
+    faults_of   why no code is written for a law
+    formulas    share p/p_max and relative slope of a law
+    module      the source of a module with them
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..laws import ContactLaw, r
+from ..rules.proving import sign
+from ..stable import released, stable
+from ..zero import is_zero
+from .formulas import Formula, formula_module
+
+_DISTANCES = (-8.0, -1.0, -0.125, 0.125, 1.0, 8.0)
+"""From the inflection, in h/sigma: where the curvature of a law is looked at."""
+
+
+def faults_of(law: ContactLaw) -> tuple[str, ...]:
+    """Return what is not proved of a law: it must be positive, decreasing and curved as stated.
+
+    >>> from derive.laws import TANH
+    >>> faults_of(TANH)
+    ()
+    """
+    slope = sp.diff(law.phi, r)
+    found = [
+        f"{law.name}: {expression} is not proved to be {wanted}; if it is, write phi otherwise"
+        for expression, wanted, expected in ((law.phi, "positive", 1), (slope, "negative", -1))
+        if sign(expression) != expected
+    ]
+    everywhere = not law.inflection.is_finite
+    place = sp.Integer(0) if everywhere else law.inflection
+    convex = [bool(sp.diff(slope, r).subs(r, place + d).evalf(30) > 0) for d in _DISTANCES]
+    if convex != [everywhere or d > 0 for d in _DISTANCES]:
+        found.append(f"{law.name}: phi does not turn from concave to convex at {law.inflection}")
+    return tuple(found)
+
+
+def formulas(law: ContactLaw) -> tuple[Formula, Formula]:
+    """Return p/p_max and phi'/phi at h/sigma = r."""
+    row, exact = stable(law), sp.diff(law.phi, r) / law.phi
+    share = row.value if row.far_value is None else row.far_value
+    for name, intermediate in reversed(row.names):
+        share = share.xreplace({name: released(intermediate)})
+    slope = sp.cancel(exact) if row.far_steepness is None else row.far_steepness
+    slope = sp.powsimp(slope, deep=True)  # one exponential, not a quotient that overflows
+    value, relative = "share p/p_max of the largest pressure", "relative slope phi'/phi"
+    return (
+        Formula(f"share_{law.name}", (r,), equal(share, law.phi), f"{value} at h/sigma = r"),
+        Formula(f"steepness_{law.name}", (r,), equal(slope, exact), f"{relative} at h/sigma = r"),
+    )
+
+
+def equal(form: sp.Expr, exact: sp.Expr) -> sp.Expr:
+    """Return a form of an expression after it is proved to equal it."""
+    if not is_zero(form - exact):
+        raise ValueError(f"{form} is not {exact}")
+    return form
+
+
+def module(law: ContactLaw) -> str:
+    """Return the source of a module with the value and the relative slope of one law."""
+    return formula_module("A contact law.", ("4",), formulas(law))

@@ -1,0 +1,263 @@
+"""Algebra at an instant, hypotheses that are met, names and their definitions."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from derive.claims import FirstZero
+from derive.hypotheses import Kind
+from derive.rules.algebra import (
+    Alike,
+    Consequence,
+    Identity,
+    Insert,
+    Logarithm,
+    Multiply,
+    Solve,
+    discharge,
+    forget,
+    restrict,
+    substitute,
+)
+from derive.rules.assumption import assume, defined
+from derive.rules.calculus import ParameterLimit, differentiate
+from derive.rules.inequalities import Arithmetic
+from derive.rules.limits import forever
+from derive.rules.proving import DIFFERENTIABLE
+from derive.rules.reading import CONTINUOUS
+from derive.symbols import initial, rate, symbols, t
+from tests.derive.judgements import (
+    CONSTANTLY,
+    CYCLING,
+    RATE,
+    ROUGHENS,
+    SLOPE,
+    START,
+    Family,
+    discharged,
+    drifting,
+    each,
+    eq,
+    equal,
+    forgotten,
+    ge,
+    given,
+    gt,
+    integral,
+    le,
+    logarithmic,
+    lt,
+    ne,
+    sloped,
+    supposed,
+    tends,
+)
+
+u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
+h_0, f_c, C, T, N, q, b, b_0, M, L = symbols("h_0 f_c C T N q b b_0 M L")
+theta, x_inf, u_cum, kappa, U_mean, u_stop, tau = symbols(
+    "theta x_inf u_cum kappa U_mean u_stop tau"
+)
+x, y = sp.symbols("x y", real=True)
+v = sp.Function("v", real=True)(tau)
+
+SIDES = eq(h, u_a)
+ABOVE, AT_ONE, EXACTLY_ONE = gt(h, f_c), eq(f_c, 1), eq(2 * f_c, 2)
+FALLS = ParameterLimit(f_c / M, M)()
+MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)
+SOLVED = Solve(u_a)(eq(f_c * u_a, h_0), ROUGHENS)
+SPECIAL = substitute(eq(h, f_c * u_a), AT_ONE)
+SPEED = Multiply(T / q)(RATE)
+KINKED = sp.Piecewise((x_inf, x_inf < 0), (x_inf - 1, True))
+OVER_ZERO = equal((h - u_a) / (u_c - h_0), 1)
+
+
+def divided(*facts):
+    """Return u_a = h_0, from a product with f_c = 1, which meets f_c != 0."""
+    product = Solve(u_a)(eq(f_c * u_a, f_c * h_0), facts[0])
+    return discharge(product, facts[0].hypotheses[0], *facts[1:])
+
+
+def in_contact(contact):
+    """Return the time in contact, where the load makes contact."""
+    return eq(G, sp.Integral(sp.Piecewise((1, contact), (0, True)), (t, 0, T))), given(contact)
+
+
+def under(body):
+    return sp.Integral(body, (theta, 0, 1))
+
+
+def defined_as(relation):
+    return assume(supposed(relation, Kind.DEFINITION))
+
+
+FAMILIES = (
+    Family(substitute, (
+        (SIDES, eq(u_a, h_0)), (integral(b_0), eq(b_0, x_inf)), (FALLS, eq(f_c, b_0)),
+        (sloped(), eq(h_0, b_0)), (RATE, eq(u_c, u_a)), (MEAN_LOAD, eq(U_a, h_0 * G)),
+    ), {
+        "u_a >= h_0 is no equation": ("is no equality", SIDES, ge(u_a, h_0)),  # 2 >= 1
+        "a value that divides": ("has no value", eq(h, 1 / b_0), eq(b_0, 0)),
+        "nothing to insert": ("does not occur", SIDES, eq(b_0, q)),
+        "a variable of integration": ("every value", integral(theta), eq(theta, b_0)),
+        "the datum of a slope": ("every value", given(equal(SLOPE, h_0)), eq(f_c, 1)),
+        # theta = 1: G = 3, not 3/2
+        "capture by an integral": ("for every", integral(b_0), eq(b_0, theta)),
+        "capture by a limit": ("for every", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
+        "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
+        # d(h_0 N)/dt is h_0/T
+        "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
+        "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
+        # G(0) = 1
+        "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, initial("G"))),
+    }),
+    Family(lambda unknown, *known: Solve(unknown)(*known), (
+        (h_0, eq(u_a, h_0)), (rate("G"), eq(T * rate("G") + G, theta)),
+        (x_inf, eq(x_inf - 1, theta)),
+        (u_a, eq(f_c * u_a, f_c * h_0), ROUGHENS),  # f_c = 0
+    ), {
+        "an inequality is not solved": ("is no equality", u_a, ge(u_a, h_0)),
+        # G = 1 - e^-t
+        "solved under a derivative": ("linear in G", G, eq(T * rate("G") + G, theta)),
+        "solved across a jump": ("linear in x_inf", x_inf, eq(KINKED, theta)),  # x_inf = -1/2
+    }),
+    Family(lambda factor, claim=SIDES, *known: Multiply(factor)(claim, *known), (
+        (q, ge(u_a, h_0)), sp.Integral(1 / q, (q, 1, 2)), (forever(G), SIDES, tends(G, theta)),
+        u_stop, rate("u_c"), (sp.Integral(x / theta, (x, 1, 2)), SIDES, given(theta > 0)),
+        sp.log(1 + q), (sp.Piecewise((1, f_c > 0)), SIDES, ROUGHENS), (1 / f_c, SIDES, ROUGHENS),
+    ), {
+        "neither equality nor inequality": ("is an equality or", q, ne(h, u_a)),
+        "an inequality times either sign": ("f_c > 0", f_c, ge(u_a, h_0)),  # f_c = -1
+        "a factor that is no limit": ("zoo", sp.Limit(sp.sin(y), y, sp.oo)),
+        "a factor that is no zero": ("zoo", FirstZero(y**2 + 1, y)),
+        "a factor that is a rate": ("Derivative", rate("h")),  # h jumps
+        "1/theta over -1 to 1, for theta > 0": ("Ne", sp.Integral(1 / theta, (theta, -1, 1)), SIDES,
+            given(theta > 0)),
+        "ln x at -1, for x > 0": ("> 0", sp.Subs(sp.log(x), x, -1), SIDES, given(x > 0)),
+        "a piece without the others": ("f_c > 0", sp.Piecewise((1, f_c > 0))),  # f_c = -1
+    }),
+    Family(restrict, (
+        (integral(sp.Piecewise((1, f_c < 0), (0, True))), given(f_c < 0)),
+        (integral(sp.Abs(x_inf) * theta), ge(x_inf, 0)), in_contact(U_a >= h_0),
+    ), {
+        # 1, not 3
+        "a branch under an integral": ("for every",
+            integral(sp.Piecewise((1, theta < 0), (0, True))), given(theta < 0)),
+        # int_-1^2 |theta|
+        "a modulus under an integral": ("for every", integral(sp.Abs(theta)), ge(theta, 0)),
+        "a branch for N times the load": ("for every", *in_contact(N * U_a >= h_0)),
+        "no branch": ("has no branch", eq(h, q), ROUGHENS),
+        "a branch for less": ("has no branch", eq(p, sp.Piecewise((q, h <= L), (0, True))),
+            le(h, 2 * L)),
+        "a modulus for f_c < 0": ("has no branch", eq(h, sp.Abs(f_c)), lt(f_c, 0)),
+    }),
+    Family(lambda claim, *known: Insert(claim)(*known), (
+        (equal(u_a, h_0), eq(u_a, h_0)), (equal(theta * forever(G), theta * b_0), tends(G, b_0)),
+        (OVER_ZERO, eq(u_c, h_0 + h - u_a), ne(u_c, h_0)),  # h = u_a
+    ), {
+        "a bound inserted as an equation": ("no identity", equal(u_a, h_0), le(u_a, h_0)),
+        # theta = 1: 1/2, not 1/3
+        "a limit inserted under an integral": ("for every",
+            equal(under(theta * forever(G)), under(theta**2)), tends(G, theta)),
+    }),
+    Family(lambda claim, *known: Identity(claim)(*known), (
+        equal(sp.Abs(f_c) ** 2, f_c**2), equal(sp.log(2 * q), sp.log(2) + sp.log(q)),
+        equal(theta * sp.exp(theta) * sp.exp(-theta), theta),
+        equal(sp.besseli(0, y) + 0, sp.besseli(0, y)),
+        (sp.Eq((f_c**2 - 1) / (f_c - 1), f_c + 1), ne(f_c, 1)),  # f_c = 1
+    ), {
+        "|f_c| = f_c": ("no identity", sp.Eq(sp.Abs(f_c), f_c)),
+        "log(x^2) = 2 log(x)": ("x_inf.* > 0", sp.Eq(sp.log(x_inf**2), 2 * sp.log(x_inf))),
+        "W(x e^x) = x": (">= 0", sp.Eq(sp.LambertW(theta * sp.exp(theta)), theta)),
+        "zero is not one": ("no identity", equal(sp.log(f_c**2) - sp.log(f_c**2), 1)),
+        "no equation": ("is an equality", sp.Ge(f_c, q)),
+        # y = -1: imaginary
+        "a Bessel function of half an order": ("zoo",
+            equal(sp.besseli(sp.S.Half, y) + 0, sp.besseli(sp.S.Half, y))),
+    }),
+    Family(lambda inside, value, *known: Logarithm(equal(sp.log(inside), value))(*known), (
+        (kappa, f_c, eq(kappa, sp.exp(f_c))), (f_c, sp.log(f_c), ROUGHENS),
+    ), {
+        "the logarithm of a bound": ("kappa = exp", kappa, f_c, ge(kappa, sp.exp(f_c))),
+    }),
+    Family(lambda claim, *known: Consequence(claim)(*known), (
+        (sp.Le(-G, h_0), le(-G, L), eq(L, h_0)), (sp.Eq(rate("u_c") * T / q, C * T / q), SPEED),
+        (equal(sp.Limit(h_0 / M, M, sp.oo), 0), FALLS, eq(f_c, h_0)),
+        (equal(sp.Limit(T / M, M, sp.oo), 0), ParameterLimit(b / M, M)(), eq(T, b)),
+    ), {
+        # u_a = 2, L = 1
+        "more parts than the premise": ("does not become", sp.And(sp.Le(-G, h_0), sp.Lt(u_a, L)),
+            le(-G, L), eq(L, h_0)),
+        # theta = 0
+        "an angle that is the scaled rate": ("does not become", sp.Eq(theta, C * T / q), SPEED),
+        "divided by what may vanish": ("Ne", sp.Eq(h / f_c, u_a / f_c), SIDES),
+        # lim M/M = 1
+        "capture by the limit of another form": ("for every M",
+            equal(sp.Limit(sp.S.One, M, sp.oo), 0), FALLS, eq(f_c, M)),
+        # b_0 = sigma_c0/f_c - h_0
+        "a name held fixed while a datum grows": ("data alone",
+            equal(sp.Limit(b_0 / h_0, h_0, sp.oo), 0), ParameterLimit(L / h_0, h_0)(), eq(b_0, L)),
+    }),
+    Family(lambda left, right: Alike(sp.Equivalent(left, right))(), (
+        (sp.Le(u_a, h_0), sp.Le(u_a - h_0, 0)), (sp.Gt(u_a, q), sp.Lt(q - u_a, 0)),
+    ), {
+        "strict and not": ("differences", sp.Le(u_a, h_0), sp.Lt(u_a, h_0)),
+        "the converse": ("differences", sp.Gt(u_a, q), sp.Lt(h, q)),  # u_a = h = 0
+        "between what may have no value": ("Ne", sp.Le(u_a, 1 / f_c), sp.Le(u_a - 1 / f_c, 0)),
+    }),
+    Family(lambda first, met, *known: discharge(first, met.hypotheses[0], *known), (
+        (SOLVED, ROUGHENS, AT_ONE), (ROUGHENS, ROUGHENS, gt(f_c, 1)),
+        (SPECIAL, AT_ONE, EXACTLY_ONE),
+    ), {
+        "a hypothesis that is not met": ("f_c > 0", SOLVED, ROUGHENS, START),
+        "a hypothesis met by itself": ("from others", ROUGHENS, ROUGHENS, ROUGHENS),
+        # f_c = 1/2, u_a = 1, h = 1/2
+        "a special case for every f_c": (r"Eq\(f_c, 1\)", SPECIAL, AT_ONE, ROUGHENS),
+        "what is no hypothesis of it": ("does not rest on", SPECIAL, START, START),
+        # sin t
+        "a load that is constant under no condition": ("missing premise", differentiate(CONSTANTLY),
+            CONSTANTLY, START),
+        "what only words say": ("only words say", drifting(), assume(CONTINUOUS), START),
+    }),
+    Family(lambda met, *known: discharged(sp.Ge(met, 0, evaluate=False), sp.Gt(f_c, 0), *known), (
+        (sp.log(f_c) ** 2, ROUGHENS),
+    ), {
+        "(ln f_c)^2 >= 0 is not met without a value": ("f_c > 0", sp.log(f_c) ** 2, START),
+    }),
+    Family(lambda first, said: forget(first, said.hypotheses[0]), (
+        (discharge(substitute(ABOVE, AT_ONE), ABOVE.hypotheses[0], AT_ONE, gt(h, 1)), AT_ONE),
+    ), {
+        "a value that the claim still has": ("occurs nowhere else", AT_ONE, AT_ONE),
+        # 0 = 0, 2 != 1
+        "what was divided by f_c = 1, for f_c = 0": ("occurs nowhere else",
+            divided(ne(f_c, 0), AT_ONE), AT_ONE),
+        "the value of a field": ("constant", eq(b_0, U_a), eq(b_0, U_a)),
+        # a square load
+        "a differentiable load, forgotten": ("value of a symbol",
+            differentiate(eq(h, h_0 - U_a), assume(DIFFERENTIABLE)), assume(DIFFERENTIABLE)),
+    }),
+    Family(forgotten, ((equal(b_0, sp.log(h_0 + 1)), sp.Gt(h_0, -1, evaluate=False)),), {
+        "b_0 = ln f_c, forgotten": ("f_c > 0", equal(b_0, sp.log(f_c)), sp.Gt(f_c, 0)),  # f_c = -1
+        "a positive name": ("may be -1", equal(q, -1), sp.Ge(h_0, 0, evaluate=False)),
+    }),
+    # ---- names
+    Family(lambda claim, *said: Arithmetic(claim)(*said), (
+        (equal(h_0, 0), defined(b_0, h_0), eq(b_0, 2 * h_0)),
+        (equal(u_c, u_a), defined_as(equal(G, u_c)), eq(G, u_a)),
+        (equal(h_0, 0), defined(b_0, theta + h_0), eq(theta, b_0)),
+        (equal(u_c, C * T * tau), eq(u_c, C * t), CYCLING),
+    ), {
+        # h_0 = 1
+        "two definitions of one name": ("two definitions", equal(h_0, 0), defined(b_0, h_0),
+            defined(b_0, 2 * h_0)),
+        # u_c = 1, u_a = 2
+        "two names for one field": ("two definitions", equal(u_c, u_a), defined_as(equal(G, u_c)),
+            defined_as(equal(G - u_a, 0))),
+        # h_0 = 1
+        "definitions in a circle": ("circle", equal(h_0, 0), defined(b_0, theta + h_0),
+            defined(theta, b_0 + 0)),
+    }),
+    Family(each, (lambda: defined(b_0, U_a, "", CONSTANTLY),), {
+        "t = 5, by definition": ("another time", lambda: defined(t, sp.Integer(5))),  # t = 4
+    }),
+)  # fmt: skip

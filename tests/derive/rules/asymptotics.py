@@ -1,0 +1,171 @@
+"""Approach to a steady rate, logarithmic growth, terms of the expansion."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from derive.claims import Drift, Oscillation
+from derive.kernel import infer
+from derive.rules.assumption import defined
+from derive.rules.averages import Averaging, OrderEquation, SlowTime, term_of
+from derive.rules.drift import LeadingTerm, first_order, logarithmic_drift
+from derive.rules.limits import forever
+from derive.symbols import rate, symbol, symbols, t
+from tests.derive.judgements import (
+    APPROACH,
+    BOUNDED,
+    FIRST_DRIFT,
+    RATE,
+    ROUGHENS,
+    Family,
+    averaged_as,
+    drift_premises,
+    drifting,
+    each,
+    eq,
+    equal,
+    expansion_premises,
+    first_order_terms,
+    given,
+    le,
+    logarithmic,
+    slow_time,
+    tends,
+)
+
+u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
+h_0, sigma_c0, sigma_c, f_c, C, T, N, q, b_0 = symbols("h_0 sigma_c0 sigma_c f_c C T N q b_0")
+U, L, R, A, rho, h_star, theta, tau, m = symbols("U L R A rho h_star theta tau m")
+c_1, w_1 = symbols("c_1 w_1")
+du = rate("u_c")
+
+RATIO = (h - U_a) / sigma_c0
+LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
+FEW, LOG_N, FALLS = sp.log(-h_star / (f_c * sigma_c)), sp.log(N), sp.Lt(f_c, 0)
+FIRST_WAVE = -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi
+GAP = (h_0**2 - L**2) / (h_0 - L) - h_0 - L
+"""Zero, but where h_0 = L."""
+
+
+def ordered(rest=U_a, law=LAW, end=sp.S.Zero, speed=STEADY):
+    """Apply FirstOrder, with one thing wrong."""
+    limits = tends(u_c * (RATIO - q) - rest, end), tends(RATIO, q), tends(du, speed)
+    return first_order(eq(du, law), *limits, BOUNDED)
+
+
+def last(cycles=FEW, of=LOG_N, sign=FALLS):
+    """Apply LeadingTerm where N is as the reciprocal of the roughness, with one thing wrong."""
+    exact = eq(f_c * N, theta - h_star / sigma_c)
+    return LeadingTerm(sp.Eq(of, cycles))(exact, given(sign))
+
+
+def averaged(factor):
+    """Return the terms of the first order under a pressure that is a multiple of the note's."""
+    known, sine, *constants, _, _ = expansion_premises()
+    pressure = known.claim.rhs * factor
+    drift, wave = (term_of(kind, 1, pressure) for kind in (Drift, Oscillation))
+    names = defined(c_1, drift), defined(w_1, wave)
+    return OrderEquation(sp.S.One)(eq(p, pressure), sine, *constants, *names, ROUGHENS)
+
+
+def of_another_pressure():
+    *premises, _, wave = expansion_premises()
+    other = premises[0].claim.rhs.subs(h_0, 2 * h_0)
+    return OrderEquation(sp.S.One)(*premises, defined(c_1, term_of(Drift, 1, other)), wave)
+
+
+def slow(added=sp.S.Zero, without=None, left=None):
+    """Return the slow time, with something added to the function of m, or with a premise less."""
+    known = slow_time()
+    claim = equal(left or known.claim.lhs, known.claim.rhs + added)
+    return infer(SlowTime(claim), *(j for i, j in enumerate(known.parents) if i != without))
+
+
+def vanishing_drifts():
+    names = [defined(symbol(f"c_{n}"), sp.S.Zero) for n in (1, 2, 3, 4)]
+    known = slow_time()
+    return known.rule(*names, known.parents[-1])
+
+
+FAMILIES = (
+    Family(ordered, (
+        (),
+        2 * U_a,  # U_a = sqrt t
+    ), {
+        # U_a = sin(t)/sqrt(t)
+        "a deviation that grows with time": ("linear in bounded", t * U_a / T),
+        "a deviation that grows like a root of the wear": ("linear in bounded|is bounded",
+            U_a * sp.sqrt(1 + u_c**2 / q**2)),
+        "a load and time": ("is bounded", U_a + h_0 * t / T),
+        "a deviation that stays": ("with that limit", U_a, LAW, sp.S.One),
+        "a rate by another field": ("with that limit", U_a, LAW * (1 + G**2)),
+        "a law with a kink": ("differentiable at the limit", U_a, C * sp.Abs(RATIO), 0, C * q),
+        "another rate": ("at the limit", U_a, LAW, 0, C),
+        "a steady rate of either sign": ("f_c", U_a, f_c * LAW, 0, f_c * STEADY),
+    }),
+    Family(drifting, ((), t * (du - C * q) - U_a), {
+        # u_c - C t ~ int U_a/T
+        "a drift that grows with N": ("linear in the load", t * (du - C) - N * U_a),
+        "a drift from a speed that grows": ("linear in the load", t * (du - C * N) - U_a),
+        "a faster approach": ("linear in the load", t**2 * (du - C) - U_a),
+        "the square of the load": ("linear in the load", t * (du - C) - U_a**2 / U),
+        "another field than the load": ("linear in the load", t * (du - C) - u_a),
+    }),
+    Family(each, (), {
+        # u_c = C t - ln(1 + t)
+        "a drift from a bound of the limit": ("is no limit",
+            lambda: logarithmic_drift(le(forever(APPROACH), 0), *drift_premises()[1:])),
+    }),
+    Family(logarithmic, ((),), {
+        # u_a = 0
+        "the tail of one solid and the wear of the other": ("the limit of exp", q, q, rate("u_a")),
+        "another length": ("the limit of exp", q, h_star),
+        "a length of either sign": ("b_0 > 0", b_0, b_0),
+    }),
+    Family(last, ((),), {
+        "not the logarithm": ("is about", FEW, N),
+        "a field beside it": ("is about", FEW + G**2),
+        "fewer cycles for more wear": ("grows without bound", -FEW),
+        "another factor": ("quotient of the slopes", 2 * FEW),
+        "a roughness of either trend": ("f_c", FEW, LOG_N, sp.Ne(f_c, 0)),
+        "a name that may be zero": ("b_0", FEW + 1 / b_0),
+    }),
+    # ---- averages
+    Family(lambda claim, name="c_1", *known: Averaging(claim)(first_order_terms(name), *known), (
+        sp.Eq(c_1, FIRST_DRIFT), (sp.Eq(A, FIRST_DRIFT), "A"),
+        (sp.Eq(w_1, FIRST_WAVE), "c_1", averaged_as(FIRST_DRIFT)),
+    ), {
+        "the formula of A, a name for nothing": ("A = ", sp.Eq(A, FIRST_DRIFT)),
+        "the formula of c_1, which is called A": ("c_1 = ", sp.Eq(c_1, FIRST_DRIFT), "A"),
+        "another drift": ("by the mean", sp.Eq(c_1, 2 * FIRST_DRIFT)),
+        # R L is whatever it is
+        "an area that is an oscillation": ("by the mean", sp.Eq(R * L, FIRST_WAVE)),
+        "a drift that is 0/0 for f_c = 1": ("f_c - 1",
+            sp.Eq(c_1, FIRST_DRIFT + (f_c**2 - 1) / (f_c - 1) - f_c - 1)),
+    }),
+    Family(averaged, (1 + q,), {
+        "a pressure that varies with the phase": ("at given", 1 + sp.sin(2 * sp.pi * tau) / 2),
+    }),
+    Family(each, (first_order_terms,), {
+        "no term of the expansion": ("is of an oscillation",
+            lambda: Averaging(sp.Eq(c_1, 0))(RATE)),
+        "no pressure": ("at given wear",
+            lambda: OrderEquation(sp.S.One)(eq(h, u_c), *expansion_premises())),
+        "a second order without names": ("the drift c_2",
+            lambda: OrderEquation(sp.Integer(2))(*expansion_premises())),
+        "an oscillation for a drift": ("is constant",
+            lambda: defined(c_1, term_of(Oscillation, 1, U_a))),
+        "the drift of another pressure": ("the drift c_1", of_another_pressure),
+        "a slow time without drifts": ("c_3 and c_4", lambda: SlowTime(sp.Eq(L, m))()),
+        "drifts that vanish": ("c_3 and c_4", vanishing_drifts),
+    }),
+    Family(slow, (h_0**5 / m**4,), {
+        "another constant of integration": ("a function of m", h_0),  # s_0 is one of them
+        # h_0^3 u_c/m^4 is no o(m^-3)
+        "a wear that goes like m": ("a function of m", h_0**4 * u_c / m**4),
+        "a slow time with 0/0": ("Ne", GAP * h_0**5 / m**5),
+        "a slow time with a drift less": ("the drifts", 0, 0),
+        "a slow time of any roughness": ("averaged roughness", 0, 4),
+        "another time": ("dtau/dm", 0, None, h_0),
+    }),
+)  # fmt: skip

@@ -1,0 +1,220 @@
+"""Rates and data, limits of data, inequalities."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from derive.hypotheses import Kind
+from derive.kernel import infer
+from derive.laws import GENERAL, r
+from derive.rules.algebra import Insert, Multiply, Solve, substitute
+from derive.rules.assumption import assume, defined
+from derive.rules.calculus import (
+    SPRINGS,
+    ParameterLimit,
+    change_clock,
+    differentiate,
+    grows,
+    integrate,
+    rigid,
+)
+from derive.rules.data import Differentiated, OneSign
+from derive.rules.inequalities import (
+    Arithmetic,
+    Lipschitz,
+    LogarithmicSlope,
+    Monotone,
+    Threshold,
+)
+from derive.rules.proving import DIFFERENTIABLE
+from derive.symbols import initial, rate, symbols, t
+from tests.derive.judgements import (
+    BOUNDED,
+    CYCLING,
+    GROWING,
+    PIN_START,
+    ROUGHENS,
+    SLOPE,
+    START,
+    Family,
+    eq,
+    equal,
+    ge,
+    gt,
+    integral,
+    le,
+    lt,
+    opened,
+    supposed,
+)
+
+u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
+h_0, f_c, C, T, N, q, k, b, b_0, M, L = symbols("h_0 f_c C T N q k b b_0 M L")
+sigma_c0, u_cum, theta, x_inf, tau, omega = symbols("sigma_c0 u_cum theta x_inf tau omega")
+U, U_max, p_max, R_a, epsilon = symbols("U U_max p_max R_a epsilon")
+y = sp.Symbol("y", real=True)
+v, w = (sp.Function(name, real=True)(tau) for name in "vw")
+du, da = rate("u_c"), rate("u_a")
+
+SMOOTH = assume(DIFFERENTIABLE)
+SCALED = defined(u_c, sigma_c0 * v)
+IN_H_0 = sp.Derivative(u_cum, h_0, evaluate=False)
+IN_FALLING_ORDER, HIGHER = ge(x_inf, theta), ge(-q, -2 * q, evaluate=False)
+WHOLE = sp.Piecewise((1 / f_c, sp.Ne(f_c, 0)), (0, True))
+
+
+def said(relation, kind):
+    return assume(supposed(relation, kind))
+
+
+def tied(low, high):
+    """Return u_cum = f_c h_0, after h_0 = f_c L was inserted."""
+    value = Arithmetic(equal(h_0, f_c * L))(low, high)
+    return Insert(equal(u_cum, f_c**2 * L))(defined(u_cum, f_c * h_0), value)
+
+
+def exceeds(function, level, point, right=sp.Gt):
+    """Compare a function with a level, and f_c with the point where it has that value."""
+    claim = sp.Equivalent(sp.Gt(function, level), right(f_c, point))
+    return Threshold(claim, f_c)(ROUGHENS)
+
+
+FAMILIES = (
+    Family(lambda law, start=START, pin=PIN_START: integrate(law, start, pin), (
+        eq(du, f_c * da), (eq(du, f_c * da), eq(initial("u_c"), h_0)), eq(du, q * da),
+    ), {
+        "an inequality between rates": ("no equality", ge(du, f_c * da)),  # u_a = t, u_c = 2 t
+        "rates of two orders": ("no rate", eq(du, T * sp.Derivative(u_a, (t, 2)))),
+        # u_c(0) = 5 h_0
+        "an initial value that is only bounded": ("no equality", eq(du, f_c * da),
+            ge(initial("u_c"), h_0)),
+        "slopes in a datum": ("no rate", eq(sp.Derivative(u_c, f_c), sp.Derivative(u_a, f_c))),
+        # v = tau: u_c = int tau du_a
+        "integrated with a factor v(tau)": ("is constant", eq(du, v * da)),
+        "integrated with a field": ("is constant", eq(du, u_a * da)),
+        "a rate alone": ("dy/dt = c dx/dt", eq(du, C)),
+        "initial values of the other": ("at t = 0", eq(du, 2 * da), PIN_START, START),
+    }),
+    Family(lambda bound, start=START: grows(bound, start), (
+        ge(du, C * b_0), (ge(rate("G"), omega), eq(initial("G"), h_0)),
+    ), {
+        "the number of cycles held fixed": ("constant", ge(du, C * N)),  # u_c = C t^2/(2 T)
+        "a bound v(tau) of the rate": ("constant", ge(du, C * v)),  # v = e^-tau
+        # G = omega T
+        "a derivative with respect to the period": ("no rate", ge(sp.Derivative(G, T), omega),
+            eq(initial("G"), 0)),
+        "the bound of a second derivative": ("no rate", ge(sp.Derivative(u_c, (t, 2)), C / T)),
+        # u_c(0) = 0
+        "a start that is only bounded": ("no equality", ge(du, C), le(initial("u_c"), h_0)),
+    }),
+    Family(differentiate, (
+        eq(u_c, h_0 * t / T), eq(u_c, h_0 * b_0),
+        (eq(h, sp.sqrt(u_c)), gt(u_c, 0)),  # u_c = t^2
+        (eq(h, h_0 - U_a), SMOOTH),
+    ), {
+        "the rate of the number of cycles": ("differentiable", eq(u_c, h_0 * N)),  # u_c = h_0 t/T
+        "the rate of v(tau)": ("differentiable", eq(u_c, h_0 * v)),
+        "the rate of an inequality": ("no equality", ge(h, 2 * u_c)),
+    }),
+    Family(rigid, (
+        opened(), opened(ROUGHENS), substitute(eq(h, h_0 + U_c - U_a), Solve(U_c)(assume(SPRINGS))),
+    ), {
+        "k -> oo with U_c held fixed": ("equilibrium", eq(R_a, k * b * L * (U_c - U))),
+        "k -> oo under a bounded load": ("nothing else is said", opened(BOUNDED)),
+        "words about the load": ("nothing else is said", opened(said(sp.true, Kind.LOAD))),
+        "k times an equation": ("continuous for k", Multiply(k)(opened())),
+    }),
+    Family(lambda scaled, clock=CYCLING: change_clock(scaled, clock), (SCALED, eq(u_c, q * v)), {
+        "time in periods, with a factor N": ("constant", eq(u_c, N * h_0 * v)),  # u_c = h_0 tau v
+        "time in periods, with a field": ("constant", eq(u_c, h * v)),
+        "the rate of what jumps": ("Derivative", eq(h, h_0 * v)),  # h = h_0 v, a square wave
+        # the left side is 0 to SymPy
+        "the rate of w = q v, with time held": ("Derivative", eq(w, q * v)),
+        "another clock": ("t = T tau", SCALED, defined(t, 2 * T * tau)),
+        "an inequality in periods": ("no equality", ge(u_c, u_a)),
+    }),
+    Family(lambda expr, variable, *known: ParameterLimit(expr, variable)(*known), (
+        (sigma_c0 * f_c * h_0 / (1 + h_0), h_0),
+        (f_c * N / (1 + f_c * N), N, ROUGHENS),  # f_c = 0
+        (h_0 ** (1 / N), N, gt(h_0, 0)),  # h_0 = 0
+    ), {
+        "a field held fixed": ("data alone", u_c * h_0 / (1 + h_0), h_0),  # u_c depends on h_0
+        "a name held fixed": ("data alone", b_0 / h_0, h_0),  # b_0 = sigma_c0/f_c - h_0
+        "h(0) held fixed": ("data alone", initial("h") / h_0, h_0),  # h(0) = h_0
+    }),
+    # ---- data
+    Family(lambda claim, known=GROWING, datum=f_c,
+        *facts: Differentiated(claim, datum)(known, *facts), (
+        equal(SLOPE, h_0), (equal(IN_H_0, f_c), defined(u_cum, f_c * h_0), h_0),
+    ), {
+        "no datum": ("of the data", equal(sp.Derivative(u_cum, b_0), 0), GROWING, b_0),
+        "0/0 beside a slope": ("Ne", equal(SLOPE / (f_c - 1), h_0 / (f_c - 1))),
+        "d(2 f_c)/d f_c at f_c = 1": ("may vary", equal(SLOPE, 0),
+            substitute(defined(u_cum, f_c * h_0), eq(f_c, 1))),
+        "another slope": ("the derivative is", equal(SLOPE, 2 * h_0)),
+        # u_cum = 5 h_0 f_c
+        "the slope of a bound": ("no equality", equal(SLOPE, h_0), ge(u_cum, h_0 * f_c)),
+        # theta = tanh(4 - 2/f_c)
+        "theta has f_c": ("data alone", equal(SLOPE, 0), eq(u_cum, h_0 * (1 + theta) / 2)),
+        # h(0) = h_0: the slope is f_c
+        "h(0) held fixed as h_0 varies": ("data alone", equal(IN_H_0, 0),
+            defined(u_cum, initial("h") * f_c), h_0),
+        # called a property of the load
+        "a slope at a value of the datum": ("may vary", equal(SLOPE, h_0), GROWING, f_c,
+            said(sp.Eq(f_c, 1), Kind.LOAD)),
+        # the slope is f_c
+        "two loads that tie h_0 and f_c": ("may vary", equal(IN_H_0, 0),
+            tied(said(equal(U_a, f_c * L), Kind.LOAD), said(equal(U_a, h_0), Kind.LOAD)), h_0),
+        "two starts that tie h_0 and f_c": ("may vary", equal(IN_H_0, 0),
+            tied(said(equal(initial("h"), h_0), Kind.INITIAL), eq(initial("h"), f_c * L)), h_0),
+    }),
+    Family(OneSign(h_0), ((eq(du, C * f_c * h_0), ROUGHENS),), {
+        "the slope of a root": ("Ne|> 0", eq(G, sp.sqrt(h_0))),
+    }),
+    # ---- inequalities
+    Family(lambda claim, *known: Arithmetic(claim)(*known), (
+        (sp.Ne(f_c, 0), eq(G, 1 / f_c)), (sp.Gt(theta, 0), eq(G, sp.log(theta))),
+        (sp.Gt(h, u_a), ge(h - q, u_a)), (sp.Lt(u_a, q), lt(sp.Max(u_a, h), q)),
+        (sp.Ge(rate("U_a") ** 2, 0), SMOOTH), (sp.Gt(U_max, 0), gt(U_max, h_0)),
+        (sp.Gt(f_c, -1), ROUGHENS), (sp.Lt(p, 10**6 * p_max), lt(p, p_max)),
+    ), {
+        "a branch that is not taken": ("Ne", sp.Ne(f_c, 0), eq(G, WHOLE)),  # f_c = 0, G = 0
+        "an integrand": ("theta > 0", sp.Gt(theta, 0), integral(sp.log(theta), 1)),  # theta = -1
+        "strictness in a limit": (r"h\(t\) > u_a", sp.Gt(h, u_a), gt(h + q / M, u_a)),  # h = u_a
+        "a part of an or": ("u_a", sp.Lt(u_a, q), lt(sp.Min(u_a, h), q)),  # u_a = 2 q
+        "the square of a rate": ("Derivative", sp.Ge(rate("U_a") ** 2, 0)),  # a square load
+    }),
+    Family(lambda body, known=IN_FALLING_ORDER: Monotone(sp.Lambda(y, body))(known), (
+        2 * y - 1, (-1 / y, ge(h_0 + q, q, evaluate=False)), GENERAL.phi.subs(r, -y),
+        (GENERAL.phi.subs(r, y), HIGHER),
+    ), {
+        # 999, 1000
+        "a jump where no sample lies": ("monotone", sp.Piecewise((y, y < 1000), (y - 2000, True))),
+        "-1/x across its pole": ("monotone", -1 / y),  # 1, -1
+        "the pole inside a contact law": ("monotone", GENERAL.phi.subs(r, -1 / y)),
+        "the slope of any law": ("monotone", sp.diff(GENERAL.phi, r).subs(r, y), HIGHER),
+    }),
+    Family(lambda body, at=theta, step=q, factor=L,
+        *known: infer(Lipschitz(sp.Lambda(y, body), at, step, factor), *known), (
+        -y, (-y, theta, f_c, L, ROUGHENS),
+    ), {
+        "a slope that is too steep": ("-1 <= ", -2 * y),
+        "a root": (">= 0", -sp.sqrt(y)),
+        "a step from nowhere": ("f_c", -y, 1 / f_c),
+    }),
+    Family(lambda body, a, b, bound: infer(LogarithmicSlope(sp.Lambda(y, body), a, b, bound)), (
+        (sp.exp(y), theta, x_inf, 4 + f_c**2), (1 + sp.tanh(y), theta, q, sp.Integer(2)),
+    ), {
+        # f_c = -1
+        "a bound that has no value": ("f_c > 0", sp.exp(y), theta, x_inf, 4 + sp.log(f_c) ** 2),
+        "beyond its bound": ("<= 1", 1 + sp.tanh(y), theta, q, sp.S.One),
+        "a logarithm of a root": (">= 0", sp.exp(sp.sqrt(y)), q, M, M),
+    }),
+    Family(exceeds, ((f_c**2, epsilon**2, epsilon), (2 * f_c, epsilon, epsilon / 2)), {
+        "strict if and only if not": ("strict on both", 2 * f_c, epsilon, epsilon / 2, sp.Ge),
+        "across a pole": ("Ne", 1 / (f_c - 1), epsilon, 1 + 1 / epsilon),
+        "a threshold of either sign": ("b_0 > 0", 2 * f_c, 2 * b_0, b_0),
+        "what decreases": ("increases with", -2 * f_c, -2 * q, q),
+        "another level": ("the left side is", 2 * f_c, q, q),
+    }),
+)  # fmt: skip

@@ -1,0 +1,127 @@
+"""Separation of variables, primitives, roots."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from derive.claims import FirstZero
+from derive.rules.assumption import defined
+from derive.rules.solutions import FirstRoot, Integrated, Lambert, Separate
+from derive.symbols import initial, rate, symbols, t
+from tests.derive.judgements import (
+    CONSTANTLY,
+    RATE,
+    ROUGHENS,
+    START,
+    Family,
+    each,
+    eq,
+    equal,
+    ge,
+    given,
+    timed,
+)
+
+u_c, u_a, U_a, p, h, G = symbols("u_c u_a U_a p h G")
+h_0, f_c, C, T, q, b_0, U, h_star = symbols("h_0 f_c C T q b_0 U h_star")
+p_max, theta, tau, u_stop, p_s, u_s = symbols("p_max theta tau u_stop p_s u_s")
+x = sp.Symbol("x", positive=True)
+w = sp.Function("w", positive=True)(tau)
+du = rate("u_c")
+
+WORN = equal(t, sp.Integral(1 / C, (u_s, 0, u_c)))
+
+
+def by_pressure(g=-h_0 / (C * p_s), wear=U_a - h_0 * p / p_max):
+    """Return the time at which the pressure has a value, with one thing wrong."""
+    claim = equal(t, sp.Integral(g, (p_s, initial("p"), p)))
+    root = eq(p, p_max * (U_a - u_c) / h_0)
+    return Separate(claim)(eq(du, C * p / p_max), eq(u_c, wear), root, CONSTANTLY)
+
+
+def by_size(field, size):
+    """Return the time at which a field has a value, where wear is a multiple of its size."""
+    root = eq(p, p_max * u_c / h_0) if field == p else START
+    claim = equal(t, sp.Integral(h_0 / (C * p_max), (p_s, field.subs(t, 0), field)))
+    return Separate(claim)(RATE, eq(u_c, h_0 * size / p_max), root, CONSTANTLY)
+
+
+def bent(bend):
+    """Return the time at which the pressure has a value, where wear bends as it grows."""
+    s, first = p / p_max, initial("p") / p_max
+    begin = first + bend * first**2
+    wear, root = h_0 * (s + bend * s**2 - begin), p_max * (u_c / h_0 + begin - bend * s**2)
+    slope = h_0 / (C * p_s) * (1 + 2 * bend * p_s / p_max)
+    claim = equal(t, sp.Integral(slope, (p_s, initial("p"), p)))
+    return Separate(claim)(eq(du, C * s), eq(u_c, wear), eq(p, root), CONSTANTLY)
+
+
+FAMILIES = (
+    Family(lambda law, claim=WORN: Separate(claim)(law, START, CONSTANTLY), (RATE,), {
+        "a multiple of the rate": ("no rate", eq(2 * du, C)),  # u_c = C t/2
+        "a rate bounded below": ("no equality", ge(du, C)),
+        "the rate of the other solid": ("alone", eq(rate("u_a"), C)),
+        "no integral": ("one integral", RATE, sp.Eq(t, u_c)),
+    }),
+    Family(lambda g, speed, start=START, *facts: timed(g, speed, start, *facts), (
+        (1 / (C * b_0), C * b_0, START, given(b_0 > 0)),
+        (h_star / (C * U), C * U / h_star),  # U_a = t
+        (h_0 / (C * U_a), C * U_a / h_0, START, given(U_a > 0)),  # U_a = t: u_c = t^2/2
+    ), {
+        # u_c = 2
+        "a time that jumps": ("smooth function", sp.Piecewise((1 / C, u_s < 1), (5 / C, True)), C),
+        # u_c = int C w
+        "the time of a rate with w(tau)": (r"of u_c\(t\) alone", 1 / (C * w), C * w),
+        "a rate of either sign": ("Ne", 1 / f_c, f_c),
+        "twice the time": ("separates", 2 / C, C),
+        "another start": ("of what moves", 1 / C, C, eq(initial("u_c"), 1)),
+    }),
+    Family(each, (lambda: timed(1 / C, C, eq(initial("u_c"), 1), low=1),), {
+        # u_c = -1/2
+        "a start below zero": ("missing premise",
+            lambda: timed(u_s / (C * q), C * q / sp.Abs(u_c), eq(initial("u_c"), -1), low=-1)),
+    }),
+    Family(by_pressure, ((),), {
+        "a wear with a kink": ("smooth functions", -h_0 / (C * p_s), U_a - sp.Abs(b_0 - p)),
+        "twice the time, by pressure": ("separates", -2 * h_0 / (C * p_s)),
+    }),
+    Family(by_size, ((p, sp.sqrt(p**2)),), {
+        # G = -sqrt(C t/h_0) from some time on
+        "a field of either sign": ("p_s is never", G, sp.sqrt(G**2)),
+    }),
+    Family(bent, (1,), {
+        # from p to p_max - p, where the wear is the same
+        "a pressure that may jump": ("the one root", -1),
+    }),
+    Family(lambda primitive, body, s=p_s, low=1,
+        *facts: Integrated(primitive)(eq(G, sp.Integral(body, (s, low, 2))), *facts), (
+        (p_s**2 / 2, p_s), (-1 / p_s, p_s**-2),
+        (-1 / u_s, u_s**-2, u_s, f_c, ROUGHENS),  # across 0
+    ), {
+        "the primitive of another function": ("has the derivative", p_s**2, p_s),
+        "a primitive that jumps": ("Ne", -1 / u_s, u_s**-2, u_s, -1),  # from -1 to 1
+        "a primitive that may have no value": ("Ne", 1 / b_0, p_s),
+    }),
+    Family(lambda value, known, *facts: Lambert(value)(known, *facts), (
+        (q, eq(q * sp.exp(q), theta)),
+        (f_c, eq(f_c * sp.exp(f_c), theta), ROUGHENS),  # f_c < 0
+    ), {
+        # u_c = q/3
+        "the other branch of W": ("/q >= 0", -u_c / q, eq(-u_c / q * sp.exp(-u_c / q), -t / T)),
+        "an exponential of another": ("w e", q, eq(q * sp.exp(h), theta)),
+    }),
+    Family(lambda function,
+        factor=sp.S.One: FirstRoot(factor)(defined(u_stop, FirstZero(function, x))), (
+        h_star - x,
+    ), {
+        "a cubic": ("is quadratic", h_star - x**3),
+        "a pole before the root": ("Ne", (h_star - x) / (x - 1), x - 1),
+        "a factor of either sign": ("f_c > 0", h_star - x, f_c),
+        "a start below the root": ("f_c > 0", f_c - x),
+        "a factor that vanishes there": ("missing premise", h_star - x, h_star - x),
+    }),
+    Family(FirstRoot(sp.S.One), (), {
+        "no first zero": ("a first zero", eq(u_stop, h_star)),
+        "a bound of a zero": ("no equality", ge(u_stop, h_star)),
+    }),
+)  # fmt: skip
