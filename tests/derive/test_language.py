@@ -23,7 +23,7 @@ from tests.derive.judgements import end, equal, supposed
 
 u_c, U_a, U_c, h, p, sigma = symbols("u_c U_a U_c h p sigma")
 h_0, f_c, C, T, N, q, k, b_0, U = symbols("h_0 f_c C T N q k b_0 U")
-theta, kappa, tau, p_max, m = symbols("theta kappa tau p_max m")
+theta, kappa, tau, p_max = symbols("theta kappa tau p_max")
 x, y = sp.symbols("x y", real=True)
 WIGGLE = sp.Function("wiggle", real=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
@@ -169,7 +169,6 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(2 * C, f_c * h_0), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
     (Kind.DEFINITION, equal(t, 5), "another time"),  # t = 4
-    (Kind.DEFINITION, equal(m, h_0), "varies"),  # m = s_0 at first
     (Kind.DEFINITION, equal(N, u_c / h_0), "another time"),  # u_c = -h_0 t/T
 )
 CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
@@ -185,7 +184,6 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(forever(WIGGLE - u_c), 1)),
     (Kind.DEFINITION, equal(b_0, PHASED.subs(tau, 1))),
     (Kind.DEFINITION, equal(N, t / T)),
-    (Kind.DEFINITION, equal(m, h_0 + u_c)),
 )
 
 

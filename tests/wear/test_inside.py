@@ -251,7 +251,7 @@ def test_cycles_with_a_cutoff_go_through_open_closed_and_sliding_contact(scene: 
     assert np.all(found.error <= 1e-9)
     assert np.all(np.diff(found.u, axis=1) >= 0)
     model, load = bind(scene), scene.periodic_load
-    steps = 20_000
+    steps = 10_000
     middles = load((np.arange(steps) + 0.5) / steps).tolist()
     u = found.u[:, 0].copy()
     largest = np.max(found.u[:, -1] - found.u[:, 0]) + 1e-30
