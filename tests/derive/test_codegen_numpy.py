@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 
 import mpmath
 import numpy as np
@@ -14,7 +15,6 @@ from sympy.core.function import AppliedUndef
 
 import wear.pressure_root
 from derive import generate
-from derive.check import checks
 from derive.codegen.sources import source
 from derive.faults import UsageError
 from derive.laws import LAWS, ContactLaw, r
@@ -25,7 +25,6 @@ from derive.program.gradient import by_constant
 from derive.program.root import tail
 from derive.program.symbols import pin_wear_sign
 from derive.rules.algebra import substitute
-from derive.stable import STABLE, proof
 from derive.symbols import QUANTITIES
 from derive.variant import VARIANTS, Variant
 from derive.zero import is_zero
@@ -261,10 +260,11 @@ def test_a_step_of_newton_is_that_of_the_residual(variant):
             assert abs(found - wanted) <= terms * mpmath.mpf(10) ** -40
 
 
-@pytest.mark.parametrize("law", STABLE)
-def test_stable_forms_are_proved(law):
-    for statement in proof(law):
-        assert all(outcome.passed for outcome in checks(statement))
+@pytest.mark.parametrize("changed", ["value", "slope"])
+def test_a_form_that_is_not_the_law_is_refused(changed):
+    law = LAWS["tanh"]
+    wrong = replace(law, form=replace(law.form, **{changed: 2 * getattr(law.form, changed)}))
+    assert generate.faults_of(wrong) == ("tanh: the form to compute with is not phi",)
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
