@@ -1,7 +1,11 @@
 """Command lines of several commands: what one is, and the parser of all of them.
 
+Overview
+    A command is a module that has its name.  ``SUMMARY`` says what it does, in a line, and
+    ``EXAMPLE`` shows command lines below its help; ``add_arguments(parser)`` declares its
+    arguments, but for `--json`, which all have; ``execute(options)`` does the work and returns an
+    ``Answer``.
 Key results
-    Command    a module with one command
     Answer     what a command has to say
     Parser     gathers the faults of arguments
     declare    an argument, as its usage shows it
@@ -19,7 +23,8 @@ import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Any, Protocol
+from types import ModuleType
+from typing import Any
 
 from derive import completion, terminal
 
@@ -49,29 +54,7 @@ class Answer:
     status: int = terminal.DONE
 
 
-class Command(Protocol):
-    """A module with one command, which has the name of the module.
-
-    Attributes
-    ----------
-    SUMMARY
-        What it does, in a line.
-    EXAMPLE
-        Command lines with what they show, printed below its help.
-    """
-
-    __name__: str
-    SUMMARY: str
-    EXAMPLE: str
-
-    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
-        """Declare its arguments, but for `--json`, which all have."""
-
-    def execute(self, options: argparse.Namespace) -> Answer:
-        """Do the work."""
-
-
-def name_of(command: Command) -> str:
+def name_of(command: ModuleType) -> str:
     """Return what a command is called."""
     return command.__name__.rpartition(".")[2].rstrip("_")
 
@@ -166,7 +149,7 @@ def main(
 
     def execute() -> int:
         options = _parsed(whole, words)
-        command: Command = options.command
+        command = options.command
         try:
             answer = command.execute(options)
         except ModuleNotFoundError as missing:

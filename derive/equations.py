@@ -24,12 +24,13 @@ from types import MappingProxyType
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from .claims import Limit
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, domain
-from .language import names
+from .kernel import Judgement, chain, domain, plain
+from .language import certain, names
 from .rules.assumption import Assume
 from .rules.proving import holds, needs
-from .symbols import CLOCKS, QUANTITIES, t
+from .symbols import CLOCKS, DATA, QUANTITIES, t
 from .typeset.display import latex
 from .typeset.present import presentable
 from .written import Names, evaluated, read
@@ -166,16 +167,31 @@ class Equation:
         """Return what a reader needs to know beside the equation of when it holds.
 
         A name may be positive by the vocabulary: what it is defined as then has to be, and it has
-        to have a value.
+        to have a value.  The vocabulary does not tell the sign of other names.
         """
         shown = tuple(h for h in self.hypotheses if h.shown)
         defined = (h.relation for h in self.hypotheses if h.kind is Kind.DEFINITION)
         names = tuple(r for r in defined if isinstance(r, sp.Equality) and r not in self.claims)
-        signs = (sign for name in names if (sign := _sign(name)) and not self._follows(sign))
+        others = self.relation.free_symbols - {name.lhs for name in names}
+        own = sorted((s for s in others if s.name not in QUANTITIES), key=str)
+        signs = [s for name in names if (s := _sign(name.lhs)) and not self._follows(s)]
+        signs += filter(None, map(_sign, own))
         given = frozenset(h.relation for h in self.hypotheses)
         values = (goal for name in names for goal in needs(name) if not holds(goal, given))
-        hidden = (*signs, *(Hypothesis(str(goal), goal) for goal in values))
+        ends = {part for name in names for part in certain(name.rhs) if isinstance(part, sp.Limit)}
+        words = (f"{plain(end.args[0])} has a limit" for end in ends - self._limits())
+        hidden = (
+            *signs,
+            *(Hypothesis(str(goal), goal) for goal in values),
+            *map(Hypothesis, words),
+        )
         return tuple(dict.fromkeys((*shown, *hidden)))
+
+    def _limits(self) -> set[sp.Limit]:
+        """Return the limits that are derived from what the equation rests on."""
+        given = set(self.hypotheses)
+        apart = (s.claim for s in self.steps if given.issuperset(s.hypotheses))
+        return {claim.term for claim in apart if isinstance(claim, Limit)}
 
     def _follows(self, sign: Hypothesis) -> bool:
         """Return whether the sign of a name follows from what is derived of it, and else holds."""
@@ -199,8 +215,9 @@ class Equation:
 
     @cached_property
     def typeset_agrees(self) -> bool:
-        """Return whether what is typeset is what was derived."""
-        return _agree(self.shown_in_full, self.claims)
+        """Return whether what is typeset is what was derived; an abbreviation is no datum."""
+        short = {name for abbreviation in self.where for name, _ in names(abbreviation.lhs)}
+        return short.isdisjoint(DATA) and _agree(self.shown_in_full, self.claims)
 
     @property
     def shown_in_full(self) -> tuple[sp.Basic, ...]:
@@ -230,9 +247,8 @@ def _used(name: sp.Symbol, step: Judgement) -> bool:
     )
 
 
-def _sign(definition: sp.Basic) -> Hypothesis | None:
-    """Return the sign that the vocabulary gives to a name which does not vary."""
-    name = definition.args[0] if definition.args else t
+def _sign(name: sp.Basic) -> Hypothesis | None:
+    """Return the sign of a name which does not vary, where it has one."""
     sign = domain(name) if name.is_Symbol and name.name not in CLOCKS else None
     return sign and replace(sign, kind=Kind.PARAMETER)
 
@@ -261,6 +277,7 @@ def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:
 
 def _in_full(relation: sp.Basic, where: tuple[sp.Basic, ...]) -> sp.Basic:
     """Return a relation with abbreviations written out."""
+    relation = evaluated(relation) if where else relation
     for short in reversed(where):
         relation = _replaced(relation, evaluated(short))
     return relation
@@ -270,8 +287,8 @@ def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
     """Return an expression with one abbreviation written out, a function at its arguments too."""
     name = short.lhs
     if not isinstance(name, AppliedUndef):
-        return evaluated(expr).subs(name, short.rhs)
-    written = evaluated(expr).replace(name.func, sp.Lambda(name.args, short.rhs))
+        return expr.subs(name, short.rhs)
+    written = expr.replace(name.func, sp.Lambda(name.args, short.rhs))
     return written.replace(sp.Subs, lambda *args: sp.Subs(*args).doit())  # slopes of the function
 
 

@@ -23,7 +23,7 @@ from .faults import UsageError
 if TYPE_CHECKING:
     import sympy as sp
 
-    from .stable import ComputedLaw
+    from .laws import ContactLaw
 
 NAME = "own"
 LONGEST = 500  # characters
@@ -36,7 +36,6 @@ TINIEST = 1e-280  # values below are as good as zero
 DIGITS = 320  # that remain of a value so small where all others cancel
 GRID = range(-120, 121)  # quarters of h/sigma: where the curvature is looked at
 FUNCTIONS = ("exp", "tanh", "sqrt")
-DOMAIN = "where the digits were counted"
 GRAMMAR = "use numbers, r, + - * / ^, parentheses, exp, tanh and sqrt"
 
 
@@ -98,7 +97,7 @@ def _half_integer(node: ast.expr) -> float:
 
 
 @cache
-def own_law(text: str) -> tuple[ComputedLaw, float]:
+def own_law(text: str) -> tuple[ContactLaw, float]:
     """Return the contact law of a text, and the relative error of its value and slope by rounding.
 
     Raises
@@ -110,9 +109,8 @@ def own_law(text: str) -> tuple[ComputedLaw, float]:
     import sympy as sp
 
     from .codegen.contact_law import faults_of
-    from .laws import r
-    from .rules.proving import smooth
-    from .stable import ComputedLaw, Stable, share
+    from .laws import ContactLaw, Stable, r, share
+    from .rules.proving import smooth_everywhere
     from .time_limit import TimeLimitError, time_limit
     from .written import evaluated, read
 
@@ -122,11 +120,11 @@ def own_law(text: str) -> tuple[ComputedLaw, float]:
             phi = evaluated(read(text))
             if r not in phi.free_symbols or phi.has(sp.zoo, sp.nan, sp.I):
                 raise UsageError(f"phi = {text} is no function of r = h/sigma")
-            if not smooth(phi):
+            if not smooth_everywhere(phi):
                 raise UsageError(f"phi = {text} has a kink")
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))
-            row = Stable(((share, value),), share, slope, DOMAIN, value, slope / value)
-            law = ComputedLaw(NAME, phi, _inflection(phi), f"phi = {text}", row=row)
+            row = Stable(((share, value),), share, slope, value, slope / value)
+            law = ContactLaw(NAME, phi, _inflection(phi), f"phi = {text}", form=row)
             if faults := faults_of(law):
                 raise UsageError("\n".join(faults))
     except (TimeLimitError, ArithmeticError, RecursionError, MemoryError) as fault:

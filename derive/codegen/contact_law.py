@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..laws import ContactLaw, r
+from ..laws import ContactLaw, r, released
 from ..rules.proving import sign
-from ..stable import released, stable
 from ..zero import is_zero
 from .formulas import Formula, formula_module
 
@@ -21,7 +20,7 @@ _DISTANCES = (-8.0, -1.0, -0.125, 0.125, 1.0, 8.0)
 
 
 def faults_of(law: ContactLaw) -> tuple[str, ...]:
-    """Return what is not proved of a law: it must be positive, decreasing and curved as stated.
+    """Return what is not proved of a law: positive, decreasing, curved as stated, computed as phi.
 
     >>> from derive.laws import TANH
     >>> faults_of(TANH)
@@ -38,15 +37,24 @@ def faults_of(law: ContactLaw) -> tuple[str, ...]:
     convex = [bool(sp.diff(slope, r).subs(r, place + d).evalf(30) > 0) for d in _DISTANCES]
     if convex != [everywhere or d > 0 for d in _DISTANCES]:
         found.append(f"{law.name}: phi does not turn from concave to convex at {law.inflection}")
+    forms = zip(_exact_forms(law), (law.phi, slope), strict=True)
+    if not all(is_zero((form - exact).rewrite(sp.exp)) for form, exact in forms):
+        found.append(f"{law.name}: the form to compute with is not phi")
     return tuple(found)
+
+
+def _exact_forms(law: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
+    """Return value and slope as they are computed, in r alone and without rounding."""
+    value, slope = law.stable.value, law.stable.slope
+    for name, form in reversed(law.stable.names):
+        value, slope = (each.xreplace({name: released(form)}) for each in (value, slope))
+    return value, slope
 
 
 def formulas(law: ContactLaw) -> tuple[Formula, Formula]:
     """Return p/p_max and phi'/phi at h/sigma = r."""
-    row, exact = stable(law), sp.diff(law.phi, r) / law.phi
-    share = row.value if row.far_value is None else row.far_value
-    for name, intermediate in reversed(row.names):
-        share = share.xreplace({name: released(intermediate)})
+    row, exact = law.stable, sp.diff(law.phi, r) / law.phi
+    share = _exact_forms(law)[0] if row.far_value is None else row.far_value
     slope = sp.cancel(exact) if row.far_steepness is None else row.far_steepness
     slope = sp.powsimp(slope, deep=True)  # one exponential, not a quotient that overflows
     value, relative = "share p/p_max of the largest pressure", "relative slope phi'/phi"

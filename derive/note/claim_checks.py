@@ -51,14 +51,18 @@ def _holds(*ids: str) -> tuple[bool, str, bool]:
     return good, f"{shown}; {outcome}{setting}{needed}", bool(needed)
 
 
+def _finding(holds: bool, evidence: str, otherwise: Verdict = Verdict.REFUTED) -> Finding:
+    """Return that a claim is confirmed if it holds, the other verdict if not."""
+    return Finding(Verdict.CONFIRMED if holds else otherwise, evidence)
+
+
 def _equations(*ids: str) -> Callable[[], Finding]:
     """Return the check of a claim that equations of the catalogue state."""
 
     def check() -> Finding:
         good, evidence, conditional = _holds(*ids)
-        if not good:
-            return Finding(Verdict.REFUTED, evidence)
-        return Finding(Verdict.CONDITIONAL if conditional else Verdict.CONFIRMED, evidence)
+        otherwise = Verdict.CONDITIONAL if good else Verdict.REFUTED
+        return _finding(good and not conditional, evidence, otherwise)
 
     return check
 
@@ -68,25 +72,23 @@ def closure_sign() -> Finding:
     model = Model()
     slope = sp.diff(model.closure.claim.rhs, u_a)
     grows = sign(model.wear_laws[0].claim.rhs)
-    verdict = Verdict.INCONSISTENT if slope * grows < 0 else Verdict.CONFIRMED
-    return Finding(verdict, f"dh/du_a = {slope} while (5) gives du_a/dt > 0: wear closes the gap")
+    evidence = f"dh/du_a = {slope} while (5) gives du_a/dt > 0: wear closes the gap"
+    return _finding(slope * grows >= 0, evidence, Verdict.INCONSISTENT)
 
 
 def regularity() -> Finding:
     """C4: the pressure at the edge of contact."""
     jump = float(TANH.ratio(TANH.cutoff))
     drops = Model().pressure.claim != Model().pressure_with_cutoff.claim
-    verdict = Verdict.INCONSISTENT if jump > 0 and drops else Verdict.CONFIRMED
     evidence = f"at h = 3 sigma the pressure jumps by {jump:.7f} p_max; (7e) has no cutoff"
-    return Finding(verdict, evidence)
+    return _finding(jump <= 0 or not drops, evidence, Verdict.INCONSISTENT)
 
 
 def below_maximum() -> Finding:
     """C5: 0 < p < p_max."""
     within = sign(TANH.phi) == 1 and sign(1 - TANH.phi) == 1
     edges = [sp.limit(TANH.phi, r, end) for end in (-sp.oo, sp.oo)]
-    verdict = Verdict.CONFIRMED if within else Verdict.REFUTED
-    return Finding(verdict, f"0 < p/p_max < 1 for every h; limits {edges[0]} and {edges[1]}")
+    return _finding(within, f"0 < p/p_max < 1 for every h; limits {edges[0]} and {edges[1]}")
 
 
 def increasing() -> Finding:
@@ -95,7 +97,7 @@ def increasing() -> Finding:
     starts = [Model().start[i].claim.rhs for i in (1, 2)]
     good = all(sign(value) == 1 for value in rates) and starts == [0, 0]
     evidence = "both rates of (5) are positive for p > 0, and both depths start at 0"
-    return Finding(Verdict.CONFIRMED if good else Verdict.REFUTED, evidence)
+    return _finding(good, evidence)
 
 
 def positive_roughness() -> Finding:
@@ -103,9 +105,8 @@ def positive_roughness() -> Finding:
     decline = sp.Symbol("|f_c|", positive=True)
     value = Model().roughness_of_bearing.claim.rhs.subs(f_c, -decline)
     (zero,) = sp.solve(value, u_c)
-    good = not zero.is_positive
     evidence = f"for f_c < 0 the roughness of (5), (6) vanishes at u_c = {zero}"
-    return Finding(Verdict.CONFIRMED if good else Verdict.INCONSISTENT, evidence)
+    return _finding(not zero.is_positive, evidence, Verdict.INCONSISTENT)
 
 
 def initial_state() -> Finding:
@@ -116,12 +117,10 @@ def initial_state() -> Finding:
     gap = gap.subs(U_c, Solve(U_c)(model.support).claim.rhs)
     rigid = sp.limit(gap, k, sp.oo).subs(U_a, 0)
     evidence = f"(1), (2), (6) give h(0) - h_0 = {sp.expand(gap)} at t = 0"
-    if is_zero(gap):
-        return Finding(Verdict.CONFIRMED, evidence)
-    if rigid == 0:
+    if rigid == 0 and not is_zero(gap):
         needs = "zero only for a rigid support and U_a(0) = 0"
         return Finding(Verdict.CONDITIONAL, f"{evidence}; {needs}")
-    return Finding(Verdict.REFUTED, evidence)
+    return _finding(is_zero(gap), evidence)
 
 
 def given_force() -> Finding:
@@ -130,64 +129,56 @@ def given_force() -> Finding:
     least, most = (sp.limit(TANH.phi, r, end) for end in (sp.oo, -sp.oo))
     if not good:
         return Finding(Verdict.REFUTED, evidence)
-    return Finding(
-        Verdict.CONDITIONAL,
-        f"{evidence}: the range of (4) is {least} < p/p_max < {most}",
-    )
+    needs = f"the range of (4) is {least} < p/p_max < {most}"
+    return Finding(Verdict.CONDITIONAL, f"{evidence}: {needs}")
 
 
 def recovered() -> Finding:
     """C12: every unknown of problem (ii) follows."""
     missing = undetermined(U_a, problem_ii)
     good, evidence, _ = _holds("problem-ii")
-    verdict = Verdict.CONFIRMED if good and not missing else Verdict.REFUTED
     left = ", ".join(map(str, missing)) or "none"
-    return Finding(verdict, f"unknowns left undetermined: {left}; {evidence}")
+    return _finding(good and not missing, f"unknowns left undetermined: {left}; {evidence}")
 
 
 def stiff_limit() -> Finding:
     """C14: the limit at equal wear, and what it leaves in the long run."""
     good, evidence, _ = _holds("10", "rigid-limit-error")
     drift = catalogue.equation("log-drift-compliant").relation
-    verdict = Verdict.REFUTED if not good else Verdict.CONFIRMED
     if good and drift.has(k):
-        verdict = Verdict.CONDITIONAL
-        evidence += "; u_c on bounded times only: the coefficient of its ln t depends on k"
-    return Finding(verdict, evidence)
+        needs = "u_c on bounded times only: the coefficient of its ln t depends on k"
+        return Finding(Verdict.CONDITIONAL, f"{evidence}; {needs}")
+    return _finding(good, evidence)
 
 
 def deflection() -> Finding:
     """C15: p/k for k to infinity at bounded p."""
     value = sp.limit(Solve(U_c)(Model().support).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
-    verdict = Verdict.CONFIRMED if value == 0 else Verdict.REFUTED
-    return Finding(verdict, f"U_c = p/k with 0 < p < p_max tends to {value}")
+    return _finding(value == 0, f"U_c = p/k with 0 < p < p_max tends to {value}")
 
 
 def vacuous() -> Finding:
     """C18: (11) is satisfied by every field."""
     good, evidence, _ = _holds("every-field")
-    verdict = Verdict.INCONSISTENT if good else Verdict.CONFIRMED
-    return Finding(
-        verdict, f"G_inf = G satisfies (11) for every G, so it defines nothing; {evidence}"
-    )
+    said = f"G_inf = G satisfies (11) for every G, so it defines nothing; {evidence}"
+    return _finding(not good, said, Verdict.INCONSISTENT)
 
 
 def without_dots() -> Finding:
     """C19: whether accumulation, case (b), satisfies (12) as printed."""
     cycles, bound = sp.symbols("cycles bound", positive=True)
     distance = sp.limit(cycles * u_cum - bound, cycles, sp.oo)
-    verdict = Verdict.INCONSISTENT if distance == sp.oo else Verdict.CONFIRMED
-    return Finding(
-        verdict,
+    evidence = (
         f"after N cycles of u_cum each, the distance to a periodic G_inf tends to {distance}: "
-        "as printed (12) excludes its own case (b); for rates it holds",
+        "as printed (12) excludes its own case (b); for rates it holds"
     )
+    return _finding(distance != sp.oo, evidence, Verdict.INCONSISTENT)
 
 
 def periodic_rate() -> Finding:
     """C21: proved rather than assumed."""
     good, evidence, _ = _holds("14")
-    return Finding(Verdict.CONFIRMED if good else Verdict.REFUTED, f"provable; {evidence}")
+    return _finding(good, f"provable; {evidence}")
 
 
 def bracket() -> Finding:
@@ -196,10 +187,9 @@ def bracket() -> Finding:
     data = {f_c: sp.Rational(1, 4), h_0: sp.Rational(27, 25000), sigma_c0: sp.Rational(9, 25000)}
     value = found.subs(data).subs(U_a, 0)
     good, evidence, _ = _holds("bracket")
-    constant = good and not found.has(u_c)
-    verdict = Verdict.REFUTED if constant and value != 0 else Verdict.CONFIRMED
-    return Finding(
-        verdict,
+    refuted = good and not found.has(u_c) and value != 0
+    return _finding(
+        not refuted,
         f"the bracket is 2 [f_c (h_0 - U_a) - sigma_c0], whatever u_c; for section 4 and U_a = 0 "
         f"it is {float(value):.2e} mm; {evidence}",
     )
@@ -211,9 +201,8 @@ def affine_asymptote() -> Finding:
     (free,) = sp.solve(sp.numer(sp.together(drift)), sigma_c0)
     status = catalogue.equation("19").status
     only = sp.sstr(presentable(free), order="none")
-    verdict = Verdict.CONFIRMED if is_zero(drift) else Verdict.REFUTED
-    return Finding(
-        verdict,
+    return _finding(
+        is_zero(drift),
         f"(19) {status}: u_c - u_cum t/T grows like A ln t; A = 0 only for sigma_c0 = {only}",
     )
 
@@ -224,9 +213,9 @@ def linear_in_wear_coefficient() -> Finding:
     affine = sp.diff(wear, K_c, 2) == 0
     linear = affine and wear.subs(K_c, 0) == 0
     bent = not is_zero(sp.diff(wear, f_c, 2))
-    verdict = Verdict.CONFIRMED if affine and bent else Verdict.REFUTED
     kind = "linear" if linear else "affine"
-    return Finding(verdict, f"(21) is {kind} in K_c; its second derivative in f_c is not zero")
+    evidence = f"(21) is {kind} in K_c; its second derivative in f_c is not zero"
+    return _finding(affine and bent, evidence)
 
 
 def one_eighth() -> Finding:
@@ -241,9 +230,8 @@ def one_eighth() -> Finding:
         f"{float(validity.threshold_at(value)):.6f} for {name}"
         for name, value in validity.RESOLUTIONS.items()
     )
-    verdict = Verdict.REFUTED if good and counter else Verdict.CONFIRMED
-    return Finding(
-        verdict,
+    return _finding(
+        not (good and counter),
         f"tanh(4 - 2/f_c) > -1 always, by {float(margin):.3e} at f_c = {float(slope)}; f_c > 1/8 "
         f"is p_inf/p_max > {level:.4e}, a resolution; thresholds: {limits}; {evidence}",
     )

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..stable import released
+from ..laws import released
 
 Assignment = tuple[sp.Symbol, sp.Expr]
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 import sympy as sp
 
 from ..laws import r
-from ..stable import stable
 from ..symbols import symbol
 from ..variant import Variant
 from .function import Assignment, Function, made
@@ -37,7 +36,7 @@ p_max = symbol("p_max")
 
 def law(variant: Variant) -> tuple[tuple[Assignment, ...], sp.Expr, sp.Expr]:
     """Return the law's intermediates, value and slope at ``ratio``."""
-    row = stable(variant.law)
+    row = variant.law.stable
     names = tuple((name, expr.subs(r, ratio)) for name, expr in row.names)
     return names, row.value.subs(r, ratio), row.slope.subs(r, ratio)
 

@@ -18,7 +18,6 @@ from functools import cache
 import sympy as sp
 
 from ..laws import ContactLaw, r
-from ..stable import stable
 from .function import Assignment, Function, made
 from .rate import law, p_max, to_ratio
 from .relations import Relations
@@ -92,7 +91,7 @@ def tail(of: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
     >>> tail(TANH)
     (exp(8), 4)
     """
-    row = stable(of)
+    row = of.stable
     value = of.phi if row.far_value is None else row.far_value
     steepness = sp.diff(of.phi, r) / of.phi if row.far_steepness is None else row.far_steepness
     m = -sp.limit(steepness.rewrite(sp.exp), r, sp.oo)

@@ -14,16 +14,16 @@ Key results
     equation            the equation for p
     pressure_root       the three inequalities by which its root exists and is one
     rigid_limit_error   0 <= p_rigid - p <= p_max p/(k sigma), hence (10) as a limit
-    newton              a step of Newton's iteration, and where it ends
-    curvature           the note's law is convex beyond h = 2 sigma, concave below
+    pressure_iteration  a step of Newton's iteration, and where it ends; the note's law is
+                        convex beyond h = 2 sigma, concave below
 """
 
 from __future__ import annotations
 
 import sympy as sp
 
-from ..kernel import Judgement, infer
-from ..laws import GENERAL, TANH, ContactLaw, r
+from ..kernel import infer
+from ..laws import GENERAL, TANH, r
 from ..note.condensed import two_solids
 from ..rules.algebra import Identity, substitute
 from ..rules.assumption import assume
@@ -85,32 +85,25 @@ rigid_limit_error = (
 """That distance is below p_max^2/(k sigma), which tends to 0 for k -> oo."""
 
 
-def newton(law: ContactLaw) -> tuple[Judgement, Judgement]:
-    """A step from x in a form in which nothing cancels; the distance of its end from the root y.
+# Newton's iteration for y = phi(a + s y), from a trial share x
+_at_x, _at_y = GENERAL.ratio(a + s * x), GENERAL.ratio(a + s * y)
+_steepness = 1 - s * sp.Subs(sp.diff(GENERAL.phi, r), r, a + s * x)
+_end = x - (x - _at_x) / _steepness
+_summed = (_at_x + x * (_steepness - 1)) / _steepness
+_tangent = _at_x + (1 - _steepness) * (y - x)
+_distance = y - _end - (y - _at_y) / _steepness
+_bend = sp.diff(TANH.phi, r, 2)
 
-    At the root the second term of the distance vanishes.
-    """
-    steepness = 1 - s * sp.Subs(sp.diff(law.phi, r), r, a + s * x)
-    end = x - (x - law.ratio(a + s * x)) / steepness
-    summed = (law.ratio(a + s * x) + x * (steepness - 1)) / steepness
-    tangent = law.ratio(a + s * x) + (1 - steepness) * (y - x)
-    distance = y - end - (y - law.ratio(a + s * y)) / steepness
-    remark = "a curve lies on one side of its tangents where it is curved one way"
-    return (
-        Identity(sp.Eq(end, summed))(name="step of Newton's iteration"),
-        Identity(sp.Eq(distance, (law.ratio(a + s * y) - tangent) / steepness))(
-            name="distance from the root", remark=remark
-        ),
-    )
+pressure_iteration = (
+    Identity(sp.Eq(_end, _summed))(name="step of Newton's iteration"),
+    Identity(sp.Eq(_distance, (_at_y - _tangent) / _steepness))(
+        name="distance from the root",
+        remark="a curve lies on one side of its tangents where it is curved one way",
+    ),
+    Arithmetic(sp.Ge(_bend.subs(r, TANH.inflection + x), 0))(name="convex"),
+    Arithmetic(sp.Le(_bend.subs(r, TANH.inflection - x), 0))(name="concave"),
+)
+"""A step from x without cancellation; how far its end is from the root y; the curvature of phi.
 
-
-def curvature() -> tuple[Judgement, Judgement]:
-    """The note's law is convex where h > 2 sigma, and concave where h < 2 sigma."""
-    bend = sp.diff(TANH.phi, r, 2)
-    return (
-        Arithmetic(sp.Ge(bend.subs(r, TANH.inflection + x), 0))(name="convex"),
-        Arithmetic(sp.Le(bend.subs(r, TANH.inflection - x), 0))(name="concave"),
-    )
-
-
-pressure_iteration = (*newton(GENERAL), *curvature())
+At the root the second term of the distance vanishes.
+"""

@@ -52,28 +52,20 @@ WITHOUT_EFFECT = (sigma_c0, h_0, U, k)
 """Data that u_cum and p_inf do not depend on."""
 
 
-def sensitivity(result: Judgement, parameter: sp.Symbol, slope: sp.Expr) -> Judgement:
-    """Return the judgement that ``slope`` is the derivative of a result."""
-    return _differentiated(result, parameter, _slope(result, parameter), slope)
+def sensitivity(
+    result: Judgement, parameter: sp.Symbol, value: sp.Expr, scale: sp.Expr = sp.S.One
+) -> Judgement:
+    """Return the judgement that ``value`` is the derivative of a result, times a scale."""
+    slope = sp.Derivative(result.claim.lhs, parameter, evaluate=False)
+    claim = sp.Eq(scale * slope, value, evaluate=False)
+    names = [pressure] if value.has(p_inf) else []
+    names += [largest_wear] if value.has(M) else []
+    return Differentiated(claim, parameter)(result, *names, name="sensitivity")
 
 
 def elasticity(result: Judgement, parameter: sp.Symbol, value: sp.Expr) -> Judgement:
     """Return the judgement that ``value`` is the elasticity of a result."""
-    relative = parameter / result.claim.lhs * _slope(result, parameter)
-    return _differentiated(result, parameter, relative, value)
-
-
-def _slope(result: Judgement, parameter: sp.Symbol) -> sp.Derivative:
-    return sp.Derivative(result.claim.lhs, parameter, evaluate=False)
-
-
-def _differentiated(
-    result: Judgement, parameter: sp.Symbol, left: sp.Expr, right: sp.Expr
-) -> Judgement:
-    claim = sp.Eq(left, right, evaluate=False)
-    names = [pressure] if right.has(p_inf) else []
-    names += [largest_wear] if right.has(M) else []
-    return Differentiated(claim, parameter)(result, *names, name="sensitivity")
+    return sensitivity(result, parameter, value, parameter / result.claim.lhs)
 
 
 _wear_without_effect = named_limit(u_cum, CompliantSteadyState().wear_per_cycle, "wear per cycle")

@@ -91,14 +91,9 @@ class TwoSolids:
         return Consequence(claim)(proportional, *self.definitions, self.rough, name="wear rate")
 
     @cached_property
-    def bounded(self) -> Judgement:
-        """The hypothesis of a bounded load."""
-        return assume(BOUNDED_LOAD)
-
-    @cached_property
     def unbounded(self) -> Judgement:
         """Wear grows without bound."""
-        return unbounded(self.rate_at_wear, self.rough, self.bounded, name="growth")
+        return unbounded(self.rate_at_wear, self.rough, assume(BOUNDED_LOAD), name="growth")
 
     @cached_property
     def ratio(self) -> Judgement:

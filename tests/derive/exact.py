@@ -21,9 +21,9 @@ import mpmath
 import sympy as sp
 
 from derive.codegen.sources import source
+from derive.laws import released
 from derive.program import Program, program
 from derive.program.function import Function
-from derive.stable import released
 from derive.variant import VARIANTS, Variant
 
 UNITS = 8

@@ -24,7 +24,8 @@ from wear.benchmark.methods import (
     solver,
     with_defaults,
 )
-from wear.benchmark.results import Table, cycle_count, grouped, magnitude, markdown_table
+from wear.benchmark.results import Table, grouped, magnitude, markdown_table
+from wear.quantities import in_short
 
 LEGEND = (
     "Largest true relative error over the numbers of cycles tried. reported: the method "
@@ -71,25 +72,19 @@ def hard_cases(
 
     Parameters
     ----------
+    chosen
+        By rising numbers of cycles of each scene: a method too slow for some is not tried on more.
     time_limit
         Seconds after which a run of a method that can be stopped is.
     """
     found: list[Measurement] = []
     for case in chosen:
         progress(f"{case.name}, {case.cycles} cycles")
-        too_slow = {entry.method for entry in found if _ran_out(entry, case, time_limit)}
-        found += [
-            attempt(case, method, tolerance, time_limit)
-            for method, tolerance in methods_of(case)
-            if method not in too_slow
-        ]
+        for method, tolerance in methods_of(case):
+            fewer = [e for e in found if (e.scene, e.method) == (case.name, method)]
+            if all(entry.seconds <= time_limit for entry in fewer):
+                found.append(attempt(case, method, tolerance, time_limit))
     return tuple(found)
-
-
-def _ran_out(entry: Measurement, case: Case, time_limit: float) -> bool:
-    """Whether the method was too slow for fewer cycles of the same scene."""
-    fewer = entry.scene == case.name and entry.cycles < case.cycles
-    return fewer and entry.seconds > time_limit
 
 
 def worst(entries: Sequence[Measurement]) -> Measurement:
@@ -129,7 +124,7 @@ def failures(found: Sequence[Measurement]) -> Table:
         for method, some in grouped(entries, "method").items():
             entry = worst(some)
             if entry.status is not Status.MET or not entry.honest:
-                rows.append((scene, cycle_count(entry.cycles), method, _how(entry)))
+                rows.append((scene, in_short(entry.cycles, 5), method, _how(entry)))
     return Table("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
 
 
