@@ -22,8 +22,9 @@ from derive.rules.averages import EXPANSION, Averaging, OrderEquation
 from derive.rules.calculus import RIGID, SPRINGS, differentiate, rigid
 from derive.rules.data import Differentiated
 from derive.rules.drift import LogarithmicGrowth
+from derive.rules.growth import AtInfinity, Diverges
 from derive.rules.inequalities import Arithmetic
-from derive.rules.limits import AtInfinity, Diverges, Passes, later, one_period_later
+from derive.rules.limits import Passes, later, one_period_later
 from derive.rules.proving import LAW
 from derive.rules.reading import CONSTANT, SINE
 from derive.rules.solutions import Lambert, Separate
