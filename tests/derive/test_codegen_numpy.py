@@ -20,7 +20,7 @@ from derive.codegen.sources import source
 from derive.faults import UsageError
 from derive.laws import LAWS, ContactLaw, r
 from derive.note.condensed import Condensed
-from derive.note.governing import Model, Pin
+from derive.note.governing import Pin
 from derive.program import margin_program
 from derive.program.gradient import by_constant
 from derive.program.root import tail
@@ -60,7 +60,7 @@ def signed(variant: Variant, name: str):
     found = in_parameters(variant, name)
     for opening in (False, True) if variant.pin.wears else (False,):
         sign = 1 if opening else -1
-        yield Model(variant.law, opening, variant.pin), found.subs(pin_wear_sign, sign)
+        yield Condensed(variant.law, opening, variant.pin), found.subs(pin_wear_sign, sign)
 
 
 # What the code computes
@@ -119,7 +119,7 @@ def test_rate_is_the_derived_right_hand_side(variant):
         if variant.compliant:
             wanted = substitute(model.wear_laws[2], model.slip).claim.rhs
         else:
-            wanted = substitute(Condensed(model).rigid, model.slip).claim.rhs
+            wanted = substitute(model.rigid, model.slip).claim.rhs
         assert is_zero(found - plain(wanted))
 
 
@@ -127,7 +127,7 @@ def test_rate_is_the_derived_right_hand_side(variant):
 def test_residual_is_the_general_implicit_form(variant):
     """(9): the residual at the pressure that belongs to a wear rate."""
     for model, found in signed(variant, "residual"):
-        wanted = Condensed(model).pressure_of_bearing_wear.claim
+        wanted = model.pressure_of_bearing_wear.claim
         assert is_zero(found - plain(wanted.lhs - wanted.rhs))
 
 
@@ -377,8 +377,8 @@ def test_constants_are_accurate_to_roundoff(case):
 def test_balls_of_the_exact_form_hold_the_computed_values(name, opening):
     """Ball arithmetic encloses (10) as printed, with tanh; the code's values lie at the balls."""
     variant = exact.variant_of("tanh", name)
-    model = Model(variant.law, opening, variant.pin)
-    printed = plain(substitute(Condensed(model).rigid, model.slip).claim.rhs)
+    model = Condensed(variant.law, opening, variant.pin)
+    printed = plain(substitute(model.rigid, model.slip).claim.rhs)
     flint.ctx.prec = 4000  # 1 + tanh(-700) begins after 600 digits
     for drawn in exact.points(variant, 40):
         at = drawn._replace(pin_wear_sign=1.0 if opening else -1.0)
