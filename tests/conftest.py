@@ -43,7 +43,7 @@ def _need_tool(*names: str) -> str:
 
 #: Tests that need the catalogue of equations, the paper made of it, or the browser.
 _OF_THE_CATALOGUE = re.compile(
-    r"tests/(wear/report/|wear/test_(cli_re|explorer)|test_|derive/(?!test_codegen))"
+    r"tests/(wear/report/|wear/test_(cli_re|explorer|regime_map)|test_|derive/(?!test_codegen))"
 )
 
 

@@ -21,6 +21,7 @@ import numpy as np
 
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of, growth
+from wear.faults import Faults
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
@@ -33,7 +34,7 @@ from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
 from wear.quantities import MOST_CYCLES
 from wear.request import checked_scenes, wear_depths, whole_cycles
-from wear.resampling import resampled
+from wear.resampling import Resampled, resampled
 from wear.scene import Scene
 
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
@@ -50,15 +51,6 @@ class Wear(NamedTuple):
     notices: tuple[str, ...]
 
 
-class Cycles(NamedTuple):
-    """Whole numbers of cycles after which a wear is first reached, infinite where it is not, and
-    the estimated relative error of the count."""
-
-    cycles: FloatArray
-    error: FloatArray
-    cost: Cost
-
-
 class Sweep(NamedTuple):
     """Bearing wear `u_c` (scenes, cycles) in mm and its estimated relative `error`."""
 
@@ -67,7 +59,7 @@ class Sweep(NamedTuple):
 
 
 class CyclesToDepth(NamedTuple):
-    """Whole numbers of `cycles` (scenes, depths) after which each wear is first reached, infinite
+    """Whole numbers of `cycles` (..., depths) after which each wear is first reached, infinite
     where it is not within 1e12 cycles, and their estimated relative `error`."""
 
     cycles: FloatArray
@@ -189,7 +181,7 @@ def wear_after(
     return Wear(u, error, cost, tuple(notices))
 
 
-def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> Cycles:
+def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> CyclesToDepth:
     """Return the whole cycles after which each wear u_c (mm, (n,)) is first reached, infinite where
     it is not within the load or 1e12 cycles, and the estimated relative error of their number.
 
@@ -198,9 +190,8 @@ def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> 
     """
     wear = np.asarray(wear, dtype=float)
     count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
-    doubtful, cost = np.full(wear.shape, False), Cost(0, 0)
+    doubtful = np.full(wear.shape, False)
     for part in _as_far_as_needed(model, load, wear, rtol):
-        cost = cost.plus(*part.found.cost)
         reached, own = part.until(wear)
         certain = part.until(wear + part.inherited)[0] if part.inherited else reached
         if isinstance(load, Blocks) and part.ends < most_cycles(load):
@@ -215,7 +206,7 @@ def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> 
         if np.isfinite(count).all() and not doubtful.any():
             break
     error[doubtful] = np.inf
-    return Cycles(count, error / np.maximum(count, 1.0), cost)
+    return CyclesToDepth(count, error / np.maximum(count, 1.0))
 
 
 def _as_far_as_needed(
@@ -251,9 +242,9 @@ def sweep(
     >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
     ['1.129447e-03', '1.635357e-03', '2.201233e-03', '2.844174e-03']
     """
-    faults: list[str] = []
+    faults = Faults()
     numbers = np.array(whole_cycles(cycles, faults), dtype=float)
-    wanted = checked_scenes(scenes, rtol, faults)
+    fewer = [resampled(scene, rtol) for scene in checked_scenes(scenes, rtol, faults)]
     last = float(np.max(numbers, initial=0.0))
 
     def together(some: Sequence[Scene]) -> Answer:
@@ -262,9 +253,7 @@ def sweep(
     def alone(scene: Scene) -> Answer:
         return wear_after(bind(scene), scene.load, numbers, rtol)[:2]
 
-    fewer = [resampled(scene, rtol) for scene in wanted]
-    some = [each.scene for each in fewer]
-    u, error = _each(some, len(numbers), together, alone, Pace(progress))
+    u, error = _each(fewer, len(numbers), together, alone, progress)
     for row, each in enumerate(fewer):
         error[row] += each.missed(u[row])
     return Sweep(u, error)
@@ -284,9 +273,9 @@ def cycles_to_depth(
     >>> cycles_to_depth(["section4", "section5"], 1e-3).cycles.tolist()
     [[140.0], [484.0]]
     """
-    faults: list[str] = []
+    faults = Faults()
     depths = np.array(wear_depths(wear, faults))
-    wanted = checked_scenes(scenes, rtol, faults)
+    fewer = [resampled(scene, rtol) for scene in checked_scenes(scenes, rtol, faults)]
 
     def together(some: Sequence[Scene]) -> Answer:
         count, error = np.full((2, len(some), len(depths)), np.inf)
@@ -302,11 +291,9 @@ def cycles_to_depth(
         return count, np.where(np.isinf(count), 0.0, error)
 
     def alone(scene: Scene) -> Answer:
-        return cycles_until(bind(scene), scene.load, depths, rtol)[:2]
+        return cycles_until(bind(scene), scene.load, depths, rtol)
 
-    fewer = [resampled(scene, rtol) for scene in wanted]
-    some = [each.scene for each in fewer]
-    count, error = _each(some, len(depths), together, alone, Pace(progress))
+    count, error = _each(fewer, len(depths), together, alone, progress)
     return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))
 
 
@@ -324,17 +311,17 @@ def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
 
 @np.errstate(all="ignore")
 def _each(
-    scenes: Sequence[Scene],
+    wanted: Sequence[Resampled],
     number: int,
     together: Callable[[Sequence[Scene]], Answer],
     alone: Callable[[Scene], Answer],
-    pace: Pace,
+    progress: Callable[[str], None],
 ) -> Answer:
     """Return two numbers (scenes, number) of every scene: of those of one variant `together`, of
     those whose load consists of blocks each `alone`."""
+    scenes, pace, done = [each.scene for each in wanted], Pace(progress), 0
     first, second = np.empty((2, len(scenes), number))
     pace.begin("scene", len(scenes))
-    done = 0
     for which in groups(scenes):
         some = [scenes[i] for i in which.tolist()]
         lone = isinstance(some[0].load, Blocks)

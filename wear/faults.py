@@ -60,6 +60,15 @@ class UsageError(WearError, ValueError):
     """A request that makes no sense, in words for the user (exit status 2)."""
 
 
+class Faults(list[str]):
+    """What is wrong with a request, gathered until `stop_if_any`."""
+
+    def stop_if_any(self) -> None:
+        """Raise a `UsageError` with all of it, a line each."""
+        if self:
+            raise UsageError("\n".join(self))
+
+
 class AccuracyError(WearError, ArithmeticError):
     """A solver could not reach the requested accuracy (exit status 3).
 

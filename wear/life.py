@@ -11,25 +11,23 @@ import math
 import os
 from collections.abc import Iterable
 from enum import Enum
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear import cycles as engine
-from wear.faults import AccuracyError, UsageError
-from wear.history import History
+from wear.faults import AccuracyError, Faults
 from wear.load import Blocks
 from wear.load.spans import most_cycles
 from wear.model import bind
+from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
 from wear.regime import Asymptote, asymptote
 from wear.request import check_rtol, obstacle, wear_depths
 from wear.resampling import resampled
 from wear.scene import Scene, as_scene
 from wear.solver import solve
-from wear.states import fields_at, result_notices
+from wear.states import notices_of_wear
 
 MOST_ITERATIONS = 50
 MOST_SHOWN = 5  # depths, where a life is shown in a line
@@ -52,8 +50,8 @@ class Life(NamedTuple):
     worth knowing of them."""
 
     wear_mm: tuple[float, ...]
-    cycles: NDArray[np.float64]
-    error: NDArray[np.float64]
+    cycles: FloatArray
+    error: FloatArray
     reached: tuple[Reached, ...]
     notices: tuple[str, ...] = ()
 
@@ -90,84 +88,65 @@ def cycles_until(
     >>> [f"{cycles:.4e}" for cycles in life.cycles], [way.value for way in life.reached]
     (['1.4000e+02', '1.0786e+12'], ['counted', 'extrapolated'])
     """
-    scene = as_scene(scene)
-    depths = _checked(scene, wear_mm, rtol)
-    fewer, model = resampled(scene, rtol), bind(scene)
-    found = engine.cycles_until(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
-    cycles, error = found.cycles.copy(), found.error + fewer.error
-    known = np.isfinite(cycles) & np.isfinite(error)
-    reached = [Reached.COUNTED] * len(depths)
-    if not known.all():
-        beyond = _Beyond(scene, rtol)
-        for place in np.flatnonzero(~known):
-            cycles[place], error[place], reached[place] = beyond(depths[place])
-    ends = [depth for depth, count in zip(depths, cycles, strict=True) if math.isfinite(count)]
-    u = np.array(ends)
-    fields = fields_at(model, scene, [0] * len(ends), u)
-    judged = result_notices(model, scene, fields, cycles[np.isfinite(cycles)].tolist(), u)
-    return Life(depths, cycles, error, tuple(reached), (*scene.notices, *judged))
-
-
-def _checked(scene: Scene, wear_mm: float | Iterable[float], rtol: float) -> tuple[float, ...]:
-    faults: list[str] = []
+    scene, faults = as_scene(scene), Faults()
     depths = wear_depths(wear_mm, faults)
     check_rtol(rtol, faults)
     if (against := obstacle(scene)) is not None:
         faults.append(f"cycles cannot be counted: {against}")
-    if faults:
-        raise UsageError("\n".join(faults))
-    return tuple(map(float, depths))
+    faults.stop_if_any()
+    fewer, model = resampled(scene, rtol), bind(scene)
+    found = engine.cycles_until(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
+    cycles, error = found.cycles.copy(), found.error + fewer.error
+    reached = [Reached.COUNTED] * len(depths)
+    known = np.isfinite(cycles) & np.isfinite(error)
+    if not known.all():
+        cycles[~known], error[~known], ways = _beyond(scene, np.array(depths)[~known], rtol)
+        for place, way in zip(np.flatnonzero(~known).tolist(), ways, strict=True):
+            reached[place] = way
+    ends = np.isfinite(cycles)
+    notices = notices_of_wear(scene, cycles[ends].tolist(), np.array(depths)[ends])
+    return Life(depths, cycles, error, tuple(reached), notices)
 
 
-class _Beyond:
-    """What becomes of wear that 1e12 cycles, or the load, do not bring about."""
+def _beyond(
+    scene: Scene, depths: FloatArray, rtol: float
+) -> tuple[FloatArray, FloatArray, list[Reached]]:
+    """Return the cycles to depths (k,) that 1e12 cycles, or the load, do not bring about, their
+    relative error and how each was found."""
+    cycles, error = np.full((2, len(depths)), np.nan)
+    if isinstance(scene.load, Blocks):
+        ends = most_cycles(scene.load) < MOST_CYCLES
+        return cycles, error, [Reached.LOAD_ENDS if ends else Reached.LATER] * len(depths)
+    try:
+        far = asymptote(scene)
+        limits = (far.arrest_wear_mm, far.saturation_wear_mm)
+        never = depths > min((limit for limit in limits if limit is not None), default=np.inf)
+        if far.wear_per_cycle_mm and not never.all():
+            cycles, error = _extrapolated(scene, far.wear_per_cycle_mm, far, depths, rtol)
+    except AccuracyError:
+        never = np.full(len(depths), False)
+    found = np.isfinite(cycles) & (error < LARGEST_ERROR) & ~never
+    ways = [
+        Reached.EXTRAPOLATED if good else Reached.NEVER if ends else Reached.LATER
+        for good, ends in zip(found.tolist(), never.tolist(), strict=True)
+    ]
+    return np.where(found, cycles, np.nan), np.where(found, error, np.nan), ways
 
-    def __init__(self, scene: Scene, rtol: float) -> None:
-        self.scene, self.rtol = scene, rtol
-        self.blocks = isinstance(scene.load, Blocks)
 
-    @cached_property
-    def far(self) -> Asymptote | None:
-        """Return the asymptote, None where it could not be found."""
-        try:
-            return asymptote(self.scene)
-        except AccuracyError:
-            return None
-
-    @cached_property
-    def counted(self) -> History | None:
-        """Return the last decade that is counted, None where it could not be."""
-        try:
-            return solve(self.scene, (MOST_CYCLES // 10, MOST_CYCLES), self.rtol)
-        except AccuracyError:
-            return None
-
-    def __call__(self, depth: float) -> tuple[float, float, Reached]:
-        """Return the cycles to a depth, their relative error and how they were found."""
-        if self.blocks:
-            ends = most_cycles(self.scene.load) < MOST_CYCLES
-            return math.nan, math.nan, Reached.LOAD_ENDS if ends else Reached.LATER
-        far = self.far
-        limits = () if far is None else (far.arrest_wear_mm, far.saturation_wear_mm)
-        if any(limit is not None and depth > limit for limit in limits):
-            return math.nan, math.nan, Reached.NEVER
-        cycles, error = self._extrapolated(depth)
-        if not error < LARGEST_ERROR:
-            return math.nan, math.nan, Reached.LATER
-        return cycles, error, Reached.EXTRAPOLATED
-
-    def _extrapolated(self, depth: float) -> tuple[float, float]:
-        """Return the cycles by the asymptote, and their error by its misfit in the last decade."""
-        if self.far is None or not self.far.wear_per_cycle_mm or self.counted is None:
-            return math.nan, math.inf
-        rate, drift = self.far.wear_per_cycle_mm, self.far.log_coefficient_mm or 0.0
-        before, last = self.counted.u_c.tolist()
-        expected = rate * (MOST_CYCLES - MOST_CYCLES // 10) + drift * math.log(10.0)
-        misfit = abs(last - before - expected) / expected
-        cycles = float(MOST_CYCLES)
-        for _ in range(MOST_ITERATIONS):
-            drifted = drift * math.log(cycles / MOST_CYCLES)
-            cycles = MOST_CYCLES + max(0.0, (depth - last - drifted) / rate)
-            if not math.isfinite(cycles):
-                return math.nan, math.inf
-        return cycles, misfit + float(self.counted.error[1]) * last / (rate * cycles)
+@np.errstate(all="ignore")  # a number of cycles may be none that a double has
+def _extrapolated(
+    scene: Scene, rate: float, far: Asymptote, depths: FloatArray, rtol: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return the cycles to depths (k,) by the asymptote, and their relative error by its misfit in
+    the last decade that is counted."""
+    drift = far.log_coefficient_mm or 0.0
+    counted = solve(scene, (MOST_CYCLES // 10, MOST_CYCLES), rtol)
+    before, last = counted.u_c.tolist()
+    expected = rate * (MOST_CYCLES - MOST_CYCLES // 10) + drift * math.log(10.0)
+    misfit = abs(last - before - expected) / expected
+    cycles = np.full(len(depths), float(MOST_CYCLES))
+    for _ in range(MOST_ITERATIONS):
+        drifted = drift * np.log(cycles / MOST_CYCLES)
+        more = np.maximum(0.0, (depths - last - drifted) / rate)
+        cycles = np.where(np.isfinite(cycles), MOST_CYCLES + more, np.inf)
+    return cycles, misfit + counted.error[1] * last / (rate * cycles)

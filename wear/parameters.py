@@ -14,17 +14,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.equation import WearEquation
 from wear.load import Blocks, Load
 from wear.load.spans import Span
 from wear.model import Real, Summed, bind, bind_many
+from wear.numerics.gauss import FloatArray, IntArray
 from wear.scene import KEYS, Scene
 from wear.words import did_you_mean
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.intp]
 Gradient = Callable[[Real, Real, Summed], dict[str, Real]]
 
 AREA = {"b": ("contact", "width_mm"), "L": ("contact", "length_mm")}

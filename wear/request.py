@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wear import direct
-from wear.faults import UsageError
+from wear.faults import Faults
 from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
 from wear.quantities import MOST_CYCLES
@@ -27,7 +27,7 @@ def is_number(given: object) -> bool:
 
 
 def whole_cycles(
-    cycles: float | Iterable[float], faults: list[str], least: int = 0
+    cycles: float | Iterable[float], faults: Faults, least: int = 0
 ) -> tuple[int, ...]:
     """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
     several = _several(cycles)
@@ -42,14 +42,14 @@ def whole_cycles(
     return tuple(wanted)
 
 
-def wear_depths(wear_mm: float | Iterable[float], faults: list[str]) -> tuple[float, ...]:
+def wear_depths(wear_mm: float | Iterable[float], faults: Faults) -> tuple[float, ...]:
     """Return depths of wear in mm, or one; what is none of them is among the `faults`."""
-    depths = _several(wear_mm)
-    faults += [
-        f"wear: {depth!r} is no depth in mm; give a number >= 0"
-        for depth in depths
-        if not (is_number(depth) and 0.0 <= depth < math.inf)
-    ]
+    depths = []
+    for depth in _several(wear_mm):
+        if is_number(depth) and 0.0 <= depth < math.inf:
+            depths.append(float(depth))
+        else:
+            faults.append(f"wear: {depth!r} is no depth in mm; give a number >= 0")
     return tuple(depths)
 
 
@@ -66,21 +66,20 @@ def _several(given: Any) -> list[Any]:
     )
 
 
-def check_rtol(rtol: float, faults: list[str], least: float = LEAST_RTOL) -> None:
+def check_rtol(rtol: float, faults: Faults, least: float = LEAST_RTOL) -> None:
     """Check a requested relative accuracy."""
     if not is_number(rtol) or not least <= rtol <= LARGEST_RTOL:
         faults.append(f"rtol: {rtol!r} is not between {least:g} and {LARGEST_RTOL:g}")
 
 
 def checked_scenes(
-    scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: list[str]
+    scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: Faults
 ) -> list[Scene]:
     """Return the scenes of a request for many, or raise its `faults` and those found here."""
     check_rtol(rtol, faults)
     if isinstance(scenes, str) or not isinstance(scenes, Sequence):
         faults.append("scenes: give a list of them")
-    if faults:
-        raise UsageError("\n".join(faults))
+    faults.stop_if_any()
     return [as_scene(scene) for scene in scenes]
 
 
@@ -108,7 +107,7 @@ def checked_request(
     UsageError
         that says everything that is wrong with the request.
     """
-    faults: list[str] = []
+    faults = Faults()
     wanted = whole_cycles(cycles, faults)
     check_rtol(rtol, faults)
     if method not in METHODS:
@@ -121,6 +120,5 @@ def checked_request(
         faults.append(f"time_limit: {time_limit!r} is no positive number of seconds")
     if max(wanted, default=0) > most_cycles(scene.load):
         faults.append(f"cycles: the load ends after {most_cycles(scene.load)} whole cycles")
-    if faults:
-        raise UsageError("\n".join(faults))
+    faults.stop_if_any()
     return wanted

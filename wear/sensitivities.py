@@ -16,10 +16,9 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.cycles import groups
-from wear.faults import UsageError
+from wear.faults import Faults, UsageError
 from wear.load import Constant
 from wear.load.spans import span
 from wear.loss_of_contact.count import Wanted, counted_stages
@@ -27,16 +26,14 @@ from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import edge_of_contact
 from wear.loss_of_contact.tangent import stage_tangents
 from wear.model import Model, bind
+from wear.numerics.gauss import FloatArray
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import no_such_number, parameters_of, parametrised
 from wear.progress import Pace
 from wear.request import checked_request, checked_scenes, obstacle
 from wear.scene import Scene, as_scene
-from wear.states import fields_at, result_notices
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.intp]
+from wear.states import notices_of_wear
 
 PERIOD = "load.period_s"
 GENTLE = 0.01  # of the roughness: wear in a cycle that needs no steps within
@@ -76,7 +73,7 @@ def gradients(
     '1698.1082'
     """
     given = np.asarray(cycles)
-    faults = [] if given.dtype.kind in "iuf" else [f"cycles: {cycles!r} are no numbers"]
+    faults = Faults([] if given.dtype.kind in "iuf" else [f"cycles: {cycles!r} are no numbers"])
     scenes, cycles = checked_scenes(scenes, rtol, faults), given.astype(float)
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
@@ -112,14 +109,12 @@ def _in_parts(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
 
 def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:
     """Raise a `UsageError` that names every key that some scene does not have."""
-    known = [parameters_of(scene) for scene in scenes]
-    faults = []
+    known, faults = [parameters_of(scene) for scene in scenes], Faults()
     for key in keys:
         owner = next((own for own in known if key not in own), None)
         if owner is not None:
             faults.append(no_such_number(key, owner))
-    if faults:
-        raise UsageError("\n".join(faults))
+    faults.stop_if_any()
 
 
 @np.errstate(all="ignore")  # trial states far off the solution; what is no number has no digit
@@ -288,13 +283,8 @@ def sensitivity(
     u, _, derivative, error, added = (part[0] for part in found)
     values = np.array(list(numbers.values()))
     known = np.flatnonzero(np.isfinite(u)).tolist()
-    cycles_known, model = [wanted[i] for i in known], bind(scene)
-    fields = fields_at(model, scene, cycles_known, u[known])
-    notices = (
-        *scene.notices,
-        *result_notices(model, scene, fields, cycles_known, u[known]),
-        *_one_sided(model, scene),
-    )
+    worn = notices_of_wear(scene, [wanted[i] for i in known], u[known])
+    notices = (*worn, *_one_sided(bind(scene), scene))
     return Sensitivities(
         scene, wanted, u, added, tuple(numbers), values, derivative, error, notices
     )

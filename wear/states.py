@@ -44,6 +44,13 @@ def displacement_of(scene: Scene, u: FloatArray) -> FloatArray | None:
     return np.asarray(model.displacement(u, np.full(u.shape, float(scene.periodic_load(0.0)))))
 
 
+def notices_of_wear(scene: Scene, cycles: Sequence[int], u: FloatArray) -> tuple[str, ...]:
+    """Return what is worth knowing of a scene and its wear `u` (mm) after `cycles`."""
+    model = bind(scene)
+    fields = fields_at(model, scene, [0] * len(u), u)  # of which the roughness is looked at
+    return (*scene.notices, *result_notices(model, scene, fields, cycles, u))
+
+
 def result_notices(
     model: Model, scene: Scene, fields: Fields, cycles: Sequence[int], u: FloatArray
 ) -> tuple[str, ...]:

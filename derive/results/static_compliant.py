@@ -42,9 +42,7 @@ OFF_LIMIT = Hypothesis(
     "the pressure is not that of steady wear", sp.Ne(odds_of(p) - 8 + 4 / f_c, 0), kind=Kind.STATE
 )
 BETWEEN = Hypothesis(
-    f"for the pressures in between, {OFF_LIMIT.text}",
-    OFF_LIMIT.relation.subs(p, p_s),
-    kind=Kind.STATE,
+    "no pressure before is that of steady wear", OFF_LIMIT.relation.subs(p, p_s), kind=Kind.STATE
 )
 
 

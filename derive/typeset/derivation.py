@@ -19,6 +19,7 @@ from sympy.core.function import AppliedUndef
 
 from ..hypotheses import Kind
 from ..kernel import Judgement
+from . import formula
 from .breaking import broken
 from .display import inline, latex
 from .macros import macro_name, macros
@@ -152,6 +153,8 @@ def is_hypothesis(statement: Judgement) -> bool:
 
 #: Characters up to which a formula stands in a sentence.
 _SHORT = 60
+_LONG = 18.0
+"""Width in em from which a formula does not fit into the line of a phone."""
 _FIXED = re.compile(r"(\$[^$]*\$|\[[^\]]*\])")
 """What a sentence has in LaTeX already, and references."""
 _COLLECTIONS = ("problem-i", "problem-ii")
@@ -200,4 +203,6 @@ def _formula(
 
 
 def _written(expr: sp.Basic) -> str:
-    return f"${inline(presentable(expr))}$"
+    """Return a formula for a sentence, its fractions on the line unless that makes it long."""
+    flat = inline(presentable(expr))
+    return f"${flat if formula.width(flat) < _LONG else latex(expr)}$"

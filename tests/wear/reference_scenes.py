@@ -5,11 +5,14 @@ load, a compliant support.
 """
 
 import json
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from wear.scene import Scene
+from wear.load import Constant, Load, Sine
+from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support
 
 REFERENCE: dict[str, dict[int, float]] = {
     name: {int(cycles): float(wear) for cycles, wear in row.items()}
@@ -17,53 +20,59 @@ REFERENCE: dict[str, dict[int, float]] = {
         "u_c_mm"
     ].items()
 }
-
-SINE = {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.06}
-CONSTANT = {"kind": "constant", "value_mm": 5e-4, "period_s": 0.06}
+SINE, CONSTANT = Sine(5e-4, 0.06), Constant(5e-4, 0.06)
 
 
-def tables(
+def made(
     K: float = 1e-6,
     f_c: float = 0.25,
-    pin: bool = False,
+    load: Load = SINE,
+    *,
+    roughness: float = 3.6e-4,
+    closure: float | None = None,
+    law: str = "tanh",
+    pin: bool | Mapping[str, float] = False,
     k: float | None = None,
-    load: dict[str, Any] = SINE,
     cutoff: bool = False,
-) -> dict[str, Any]:
-    """The tables of a scene file; without arguments those of the note's section 4."""
-    bearing = {"hardness_MPa": 200.0, "roughness_mm": 3.6e-4, "roughness_growth": f_c}
-    made: dict[str, Any] = {"bearing": bearing | {"wear_coefficient": K}}
-    contact: dict[str, Any] = {"max_pressure_MPa": 300.0, "ends_at_3_sigma": cutoff}
-    if pin:
-        made["pin"] = {
-            "hardness_MPa": 600.0,
-            "wear_coefficient": K,
-            "roughness_mm": 6.5e-5,
-            "roughness_growth": 0.05,
-        }
-    made["contact"] = contact | ({"closure_in_sigma": 3.0} if pin else {"closure_mm": 1.08e-3})
-    if k is not None:
-        made["support"] = {"stiffness_MPa_per_mm": k}
-    return made | {"motion": {"radius_mm": 22.0, "speed_rpm": 2000.0}, "load": dict(load)}
+) -> Scene:
+    """The note's section 4, or what is changed of it; lengths in mm.
+
+    A pin is that of section 3, of which some entries may be given; with it the closure is three
+    times the roughness of both, if none is given.
+    """
+    if closure is None and not pin:
+        closure = 1.08e-3
+    of_section_3 = Pin(600.0, K, 6.5e-5, 0.05)
+    return Scene(
+        bearing=Bearing(200.0, K, roughness, f_c),
+        pin=replace(of_section_3, **(pin if isinstance(pin, Mapping) else {})) if pin else None,
+        contact=Contact(
+            300.0, closure, 3.0 if closure is None else None, law=law, ends_at_3_sigma=cutoff
+        ),
+        support=None if k is None else Support(k),
+        motion=Motion(22.0, 2000.0),
+        load=load,
+        name="made",
+    )
 
 
-TABLES = {
-    "S1": tables(f_c=-0.05, pin=True),
-    "S2": tables(),
-    "S3a": tables(K=1e-7, f_c=0.05, pin=True),
-    "S3b": tables(f_c=0.05, pin=True),
-    "S3c": tables(K=1e-5, f_c=0.05, pin=True),
-    "S3d": tables(K=1e-4, f_c=0.05, pin=True),
-    "S4": tables(K=1e-3),
-    "S5": tables(f_c=0.125),
-    "S6": tables(f_c=-0.05),
-    "S7": tables(load=CONSTANT),
-    "S8_1": tables(f_c=-0.05, pin=True, k=1e5),
-    "S8_2": tables(k=1e5),
+_CHANGES: dict[str, dict[str, Any]] = {
+    "S1": {"f_c": -0.05, "pin": True},
+    "S2": {},
+    "S3a": {"K": 1e-7, "f_c": 0.05, "pin": True},
+    "S3b": {"f_c": 0.05, "pin": True},
+    "S3c": {"K": 1e-5, "f_c": 0.05, "pin": True},
+    "S3d": {"K": 1e-4, "f_c": 0.05, "pin": True},
+    "S4": {"K": 1e-3},
+    "S5": {"f_c": 0.125},
+    "S6": {"f_c": -0.05},
+    "S7": {"load": CONSTANT},
+    "S8_1": {"f_c": -0.05, "pin": True, "k": 1e5},
+    "S8_2": {"k": 1e5},
 }
 
 
 @cache
 def reference_scene(name: str) -> Scene:
     """The scene of that name."""
-    return Scene.from_dict(TABLES[name], name)
+    return replace(made(**_CHANGES[name]), name=name)

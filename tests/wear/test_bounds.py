@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
-
 import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from derive.results.comparison import STRIP as DERIVED_STRIP
-from tests.wear.reference_scenes import REFERENCE, TABLES, tables
+from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear.bounds import STRIP, Enclosure, static_bounds, wear_bounds
 from wear.faults import UsageError
-from wear.load import Constant, Harmonics, Sine
-from wear.scene import Scene
+from wear.load import Harmonics, Sine
 from wear.solver import solve
 
-SCENES = [name for name in TABLES if name != "S4"]
-
-
-def scene(**changes: Any) -> Scene:
-    return Scene.from_dict(tables(**changes))
+SCENES = [name for name in REFERENCE if name != "S4"]
 
 
 def contains(bounds: Enclosure, wear: float) -> bool:
@@ -31,14 +23,13 @@ def contains(bounds: Enclosure, wear: float) -> bool:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_bounds_contain_the_reference_values(name):
-    made = Scene.from_dict(TABLES[name])
     cycles = [1, 10, 100]
-    for count, bounds in zip(cycles, wear_bounds(made, cycles), strict=True):
+    for count, bounds in zip(cycles, wear_bounds(reference_scene(name), cycles), strict=True):
         assert contains(bounds, REFERENCE[name][count]), count
 
 
 def test_bounds_of_section_4_are_tight():
-    (first, tenth, later) = wear_bounds(scene(), [1, 10, 1000])
+    (first, tenth, later) = wear_bounds(made(), [1, 10, 1000])
     assert first.high / first.low < 1.16
     assert tenth.high / tenth.low < 1.07
     assert later.high / later.low < 1.0008
@@ -46,28 +37,27 @@ def test_bounds_of_section_4_are_tight():
 
 
 def test_bounds_under_a_constant_load_close_as_the_wear_slows_down():
-    made = replace(scene(), load=Constant(5e-4, 0.06))
-    early, late = wear_bounds(made, [10, 300])
+    early, late = wear_bounds(reference_scene("S7"), [10, 300])
     assert late.high / late.low < early.high / early.low < 1.1
 
 
 def test_bounds_contain_what_equidistant_phases_miss():
     """Hardly any wear, under a load so large that 64 phases resolve its pulse to 6e-4 only."""
-    made = replace(scene(K=1e-9, f_c=0.05), load=Sine(3e-3, 0.06))
-    (bounds,) = wear_bounds(made, [1])
-    assert contains(bounds, float(solve(made, [1], rtol=1e-10).u_c[0]))
+    scene = made(1e-9, 0.05, Sine(3e-3, 0.06))
+    (bounds,) = wear_bounds(scene, [1])
+    assert contains(bounds, float(solve(scene, [1], rtol=1e-10).u_c[0]))
 
 
 def test_static_bounds_are_looser():
     cycles = [1, 50]
     for tight, loose in zip(
-        wear_bounds(scene(), cycles), static_bounds(scene(), cycles), strict=True
+        wear_bounds(made(), cycles), static_bounds(made(), cycles), strict=True
     ):
         assert loose.low < tight.low < tight.high < loose.high
 
 
 def test_a_compliant_support_wears_less_than_a_rigid_one():
-    rigid, compliant = wear_bounds(scene(), [20])[0], wear_bounds(scene(k=1e5), [20])[0]
+    rigid, compliant = wear_bounds(made(), [20])[0], wear_bounds(made(k=1e5), [20])[0]
     assert compliant.high == rigid.high
     assert compliant.low < rigid.low
 
@@ -95,25 +85,25 @@ def to_a_picometre(length: float) -> float:
 )
 def test_bounds_contain_the_solution(slope, wear_coefficient, pin, first, second, mean):
     load = Harmonics(mean, (first,), (second, first / 2), 0.06)
-    made = replace(scene(K=wear_coefficient, f_c=slope, pin=pin), load=load)
-    (bounds,) = wear_bounds(made, [3])
-    assert contains(bounds, float(solve(made, [3], rtol=1e-10).u_c[0]))
+    scene = made(wear_coefficient, slope, load, pin=pin)
+    (bounds,) = wear_bounds(scene, [3])
+    assert contains(bounds, float(solve(scene, [3], rtol=1e-10).u_c[0]))
 
 
 @settings(max_examples=15)
 @given(amplitude=st.floats(1e-9, 1.5e-3), pin=st.booleans())
 def test_a_larger_load_never_gives_less_wear(amplitude, pin):
-    made = replace(scene(pin=pin), load=Sine(amplitude, 0.06))
-    (static,) = static_bounds(made, [2])
-    assert contains(static, float(solve(made, [2], rtol=1e-9).u_c[0]))
+    scene = made(load=Sine(amplitude, 0.06), pin=pin)
+    (static,) = static_bounds(scene, [2])
+    assert contains(static, float(solve(scene, [2], rtol=1e-9).u_c[0]))
 
 
 @pytest.mark.parametrize("cycles", [[0], [1.5], [-1]])
 def test_only_whole_cycles(cycles):
     with pytest.raises(UsageError, match="whole numbers"):
-        wear_bounds(scene(), cycles)
+        wear_bounds(made(), cycles)
 
 
 def test_what_has_no_bounds_is_told():
     with pytest.raises(UsageError, match="without cutoff"):
-        wear_bounds(scene(cutoff=True), [1])
+        wear_bounds(made(cutoff=True), [1])

@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.judges import ROUNDING, honest, true_wear
-from tests.wear.reference_scenes import CONSTANT, REFERENCE, TABLES, reference_scene, tables
+from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear import cycles as count
+from wear.load import Constant, Harmonics
 from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
@@ -21,7 +22,7 @@ def counted(
 
 
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-12, 1e-13])
-@pytest.mark.parametrize("name", TABLES)
+@pytest.mark.parametrize("name", REFERENCE)
 def test_reference_values(name, rtol):
     cycles = np.array(sorted(REFERENCE[name]), dtype=float)
     want = np.array([REFERENCE[name][int(n)] for n in cycles])
@@ -50,28 +51,19 @@ def scenes(draw: st.DrawFn) -> Scene:
     roughness = 10 ** draw(between(-4, -3))
     swing = roughness * 10 ** draw(between(-1.5, 0.4))
     K = 10 ** draw(between(-8, -3))
-    made = tables(
-        K=K,
-        f_c=draw(between(-0.3, 0.6)),
-        pin=draw(st.booleans()),
-        k=draw(st.none() | between(3, 8).map(lambda e: 10**e)),
+    half = between(-0.5, 0.5)
+    load = Harmonics(
+        swing * draw(half), (swing * draw(half),), (swing, swing * draw(between(-0.3, 0.3))), 0.06
     )
-    made["bearing"]["roughness_mm"] = roughness
-    made["contact"].pop("closure_in_sigma", None)
-    made["contact"]["closure_mm"] = roughness * draw(between(0, 8))
-    made["load"] = {
-        "kind": "harmonics",
-        "mean_mm": swing * draw(between(-0.5, 0.5)),
-        "cosine_mm": [swing * draw(between(-0.5, 0.5))],
-        "sine_mm": [swing, swing * draw(between(-0.3, 0.3))],
-        "period_s": 0.06,
+    pin = draw(st.booleans()) and {
+        "wear_coefficient": K * 10 ** draw(between(-1, 0.6)),
+        "roughness_mm": roughness * draw(between(0.1, 1)),
+        "roughness_growth": draw(between(-0.2, 0.3)),
     }
-    if "pin" in made:
-        made["pin"]["wear_coefficient"] = K * 10 ** draw(between(-1, 0.6))
-        made["pin"]["roughness_mm"] = roughness * draw(between(0.1, 1))
-        made["pin"]["roughness_growth"] = draw(between(-0.2, 0.3))
-        made["contact"]["pin_wear_opens_gap"] = draw(st.booleans())
-    return Scene.from_dict(made, "drawn")
+    f_c, closure = draw(between(-0.3, 0.6)), roughness * draw(between(0, 8))
+    k = draw(st.none() | between(3, 8).map(lambda e: 10**e))
+    scene = made(K, f_c, load, roughness=roughness, closure=closure, pin=pin, k=k)
+    return scene.with_({"contact.pin_wear_opens_gap": bool(pin) and draw(st.booleans())})
 
 
 @settings(max_examples=16)
@@ -117,18 +109,14 @@ def test_wear_that_is_never_reached_takes_for_ever():
 
 
 def test_no_pressure_no_wear():
-    made = tables()
-    made["contact"]["closure_mm"] = 1.0
-    found = counted(Scene.from_dict(made, "far"), np.array([0.0, 1.0, 1e12]), 1e-9)
+    found = counted(made(closure=1.0), np.array([0.0, 1.0, 1e12]), 1e-9)
     assert found.u_c.tolist() == [0.0, 0.0, 0.0]
     assert "adds less" in found.notices[0]
 
 
 def test_vanishing_roughness_is_said_and_not_solved():
     """With f < 0 and the pin pressed in, the roughness is gone after finitely many cycles."""
-    made = tables(f_c=-0.5, load=CONSTANT)
-    made["load"]["value_mm"] = 2e-3
-    found = counted(Scene.from_dict(made, "vanishing"), np.array([1.0, 1e6]), 1e-9)
+    found = counted(made(f_c=-0.5, load=Constant(2e-3, 0.06)), np.array([1.0, 1e6]), 1e-9)
     assert found.error[0] < 1e-9
     assert found.error[1] == np.inf
     assert "roughness vanishes" in found.notices[0]

@@ -1,7 +1,6 @@
 """The cutoff: arrest in the very cycle, kinks crossed, permanent contact counted."""
 
 import re
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -11,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.judges import honest, true_wear
-from tests.wear.reference_scenes import reference_scene, tables
+from tests.wear.reference_scenes import made, reference_scene
 from tests.wear.test_cycle_count import between
 from wear import cycles as count
 from wear import direct
@@ -26,8 +25,7 @@ from wear.scene import Scene, load_scene
 @pytest.mark.parametrize("slope", [0.25, 0.5])
 def test_counted_cycles_are_integrated_ones(slope):
     """f above and below 1/3: direct integration with events shares no code with the map."""
-    scene = Scene.from_dict(tables(f_c=slope, cutoff=True), "cutoff")
-    agrees_with_direct_integration(scene, [1, 2, 12], 1e-10)
+    agrees_with_direct_integration(made(f_c=slope, cutoff=True), [1, 2, 12], 1e-10)
 
 
 UNEVEN = {  # rise slowly, then fast, and slowly again
@@ -37,10 +35,7 @@ UNEVEN = {  # rise slowly, then fast, and slowly again
 
 
 def with_load(load: Load, K: float, f_c: float, pin: bool = False, closure: float = 9e-4) -> Scene:
-    made = tables(K=K, f_c=f_c, pin=pin, cutoff=True)
-    made["contact"].pop("closure_in_sigma", None)
-    made["contact"]["closure_mm"] = closure
-    return replace(Scene.from_dict(made), load=load)
+    return made(K, f_c, load, pin=pin, closure=closure, cutoff=True)
 
 
 def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
@@ -53,8 +48,8 @@ def agrees_with_the_judge(scene: Scene, cycles: list[int], rtol: float) -> None:
 @pytest.mark.parametrize(("nodes", "tolerance"), [(6, 1e-3), (8, 1e-5)])
 def test_a_cycle_knows_what_its_nodes_miss(scene, nodes, tolerance):
     """Rates on few nodes: the map with many is exact beside it."""
-    made = load_scene(scene)
-    model, load = bind(made), made.periodic_load
+    of = load_scene(scene)
+    model, load = bind(of), of.periodic_load
     of_scene = [model], [load], [edge_of_contact(model, load)]
     wear, which = 1e-4 * np.geomspace(0.1, 5.0, 12), np.zeros(12, dtype=int)
     few, many = (
@@ -93,14 +88,10 @@ def test_drawn_scenes_agree_with_the_judge(load, K, f_c, pin):
 
 
 def test_in_permanent_contact_the_cutoff_changes_nothing():
-    made = tables(f_c=0.5, cutoff=True)
-    made["contact"]["closure_mm"] = 4e-4
-    scene = Scene.from_dict(made, "closed")
-    made["contact"]["ends_at_3_sigma"] = False
-    without = Scene.from_dict(made, "smooth")
     cycles = np.array([1.0, 30.0, 1e6])
     found, want = (
-        count.wear_after(bind(one), one.periodic_load, cycles, 1e-11) for one in (scene, without)
+        count.wear_after(bind(one), one.periodic_load, cycles, 1e-11)
+        for one in (made(f_c=0.5, closure=4e-4, cutoff=cutoff) for cutoff in (True, False))
     )
     assert_allclose(found.u_c, want.u_c, rtol=1e-11)
 
@@ -108,7 +99,7 @@ def test_in_permanent_contact_the_cutoff_changes_nothing():
 @pytest.mark.parametrize("f_c", [1 / 3, 0.25])
 def test_the_margin_of_one_solid_keeps_its_digits(f_c):
     """Near f = 1/3 roughness and closure outgrow their difference by orders of magnitude."""
-    scene = Scene.from_dict(tables(f_c=f_c, cutoff=True))
+    scene = made(f_c=f_c, cutoff=True)
     p, u = scene.parameters(), 1e3
     start = 3 * Fraction(p["sigma_c0"]) - Fraction(p["h_0"])
     true = start + (3 * Fraction(f_c) - 1) * Fraction(u)
@@ -116,7 +107,7 @@ def test_the_margin_of_one_solid_keeps_its_digits(f_c):
 
 
 def test_kinks_are_where_contact_grazes():
-    scene = Scene.from_dict(tables(f_c=0.25, cutoff=True), "cutoff")
+    scene = made(f_c=0.25, cutoff=True)
     model, load = bind(scene), scene.periodic_load
     # Section 4: (1 - 3 f) u = U_a at the edge, of which only the peak, 5e-4 mm, is ahead.
     (grazing,) = grazing_wears(model, load, edge_of_contact(model, load), 1e-4)
@@ -228,8 +219,7 @@ def test_a_loose_request_has_an_estimate_too():
 
 def supported(K: float, f_c: float, pin: bool, k: float, load: Load | None = None) -> Scene:
     """Contact with cutoff on a compliant support."""
-    scene = Scene.from_dict(tables(K=K, f_c=f_c, pin=pin, k=k, cutoff=True))
-    return scene if load is None else replace(scene, load=load)
+    return made(K, f_c, load, pin=pin, k=k, cutoff=True)
 
 
 def agrees_with_direct_integration(scene: Scene, cycles: list[int], rtol: float) -> None:

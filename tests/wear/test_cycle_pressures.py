@@ -16,7 +16,7 @@ from wear.model import bind
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 
-from .reference_scenes import tables
+from .reference_scenes import made
 
 GRID = np.linspace(0.0, 1.0, 100_001)
 SAW = Table((0.0, 0.01, 0.025, 0.06), (0.0, 5e-4, -2e-4, 0.0))
@@ -50,8 +50,8 @@ def reference(scene: Scene, cycle: int) -> tuple[float, float]:
 SCENES = {
     "section4": load_scene("section4"),
     "section3": load_scene("section3"),
-    "springs": Scene.from_dict(tables(k=1e5, K=1e-5)),
-    "fast": Scene.from_dict(tables(K=1e-4)),
+    "springs": made(1e-5, k=1e5),
+    "fast": made(1e-4),
     "saw": replace(load_scene("section4"), load=SAW),
     "harmonics": replace(load_scene("section4"), load=TWO),
     "constant": replace(load_scene("section4"), load=Constant(5e-4, 0.06)),
@@ -79,9 +79,8 @@ def test_the_mean_is_what_archard_integrates() -> None:
 
 def test_the_share_of_contact_is_that_of_the_margin() -> None:
     """So little wear that the closure is the fresh one: contact where U sin > h_0 - 3 sigma."""
-    made = tables(K=1e-20, cutoff=True)
-    made["contact"]["closure_mm"] = 1.3e-3
-    found = cycle_pressures(Scene.from_dict(made), np.array([1.0, 50.0]), 1e-10)
+    scene = made(1e-20, closure=1.3e-3, cutoff=True)
+    found = cycle_pressures(scene, np.array([1.0, 50.0]), 1e-10)
     share = 0.5 - np.arcsin((1.3e-3 - 3.0 * 3.6e-4) / 5e-4) / np.pi
     assert_allclose(found.contact_fraction, share, rtol=1e-6)
     sigma, h = 3.6e-4, 1.3e-3 - 5e-4 * np.sin(2.0 * np.pi * GRID)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tests.independent_support import SupportJudge
 from tests.judges import problem
-from tests.wear.reference_scenes import tables
+from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import between
 from tests.wear.test_cycle_cutoff import agrees_with_the_judge, loads, supported
 from wear import cycles as count
@@ -17,7 +17,7 @@ from wear import direct
 from wear.load import Harmonics, Sine, Table
 from wear.loss_of_contact.switching import edge_of_contact, phase_of
 from wear.model import bind
-from wear.scene import Scene, load_scene
+from wear.scene import load_scene
 
 STEPS = Table((0.0, 0.25, 0.5, 0.75, 1.0), (1.2e-6, 1.2e-6, 2.25e-5, 2.25e-5, 1.2e-6))
 WAVES = Harmonics(2e-5, (1e-4, -6e-5), (1.5e-4, 4e-5), 0.06)
@@ -92,9 +92,7 @@ def test_at_a_plateau_wear_on_springs_fades_within_a_cycle():
 def test_a_margin_that_is_rounding_ends_the_iteration():
     """After the first cycle all that changes on the plateau is the last digit."""
     times, values = (0.0, 0.25, 0.5, 0.75, 1.0), (2.85e-4, 2.85e-4, 1e-4, 1e-4, 2.85e-4)
-    made = tables(K=9.36e-5, f_c=0.13, k=1.04e8, cutoff=True)
-    made["contact"]["closure_mm"] = 8.27e-4
-    scene = replace(Scene.from_dict(made), load=Table(times, values))
+    scene = made(9.36e-5, 0.13, Table(times, values), closure=8.27e-4, k=1.04e8, cutoff=True)
     agrees_with_the_judge(scene, [1, 2], 1e-9)
     found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0]), 1e-9)
     assert found.cost.rhs_evaluations < 30_000

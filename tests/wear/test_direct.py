@@ -17,7 +17,7 @@ from wear.model import bind
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 
-from .reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
+from .reference_scenes import REFERENCE, made, reference_scene
 
 ROUNDOFF = float(np.finfo(float).eps)
 
@@ -91,19 +91,13 @@ def test_steps_of_fixed_length_converge_with_the_order_of_the_method(method, ord
     assert -slope == pytest.approx(order, abs=0.6)
 
 
-def scaled(factor: float) -> dict:
-    """Section 4 in another unit of length (pressures and the dimensionless numbers stay)."""
-    made = tables(load={"kind": "sine", "amplitude_mm": 5e-4 * factor, "period_s": 0.06})
-    made["bearing"]["roughness_mm"] *= factor
-    made["contact"]["closure_mm"] *= factor
-    made["motion"]["radius_mm"] *= factor
-    return made
-
-
 @pytest.mark.parametrize("factor", [1e-6, 0.125, 1e6])
 def test_another_unit_of_length_scales_the_wear(factor):
+    """Pressures and the dimensionless numbers stay."""
     plain_units = integrate(reference_scene("S2"), [1, 10], 1e-10)
-    other_units = integrate(Scene.from_dict(scaled(factor)), [1, 10], 1e-10)
+    lengths = {"roughness": 3.6e-4 * factor, "closure": 1.08e-3 * factor}
+    scene = made(load=Sine(5e-4 * factor, 0.06), **lengths)
+    other_units = integrate(scene.with_({"motion.radius_mm": 22.0 * factor}), [1, 10], 1e-10)
     np.testing.assert_allclose(other_units.u, factor * plain_units.u, rtol=2e-11)
 
 
@@ -111,10 +105,8 @@ def test_another_unit_of_length_scales_the_wear(factor):
 @given(factor=st.floats(0.01, 100.0))
 def test_wear_coefficient_and_period_trade_off(factor):
     """K enters as K T only, and so does the rotation speed."""
-    slow = tables(K=1e-5 * factor, load={"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.06})
-    fast = tables(K=1e-5)
-    fast["load"]["period_s"] = 0.06 * factor
-    one, other = (integrate(Scene.from_dict(t), [1, 5], 1e-8) for t in (slow, fast))
+    slow, fast = made(1e-5 * factor), made(1e-5, load=Sine(5e-4, 0.06 * factor))
+    one, other = (integrate(scene, [1, 5], 1e-8) for scene in (slow, fast))
     np.testing.assert_allclose(one.u, other.u, rtol=2e-8)
 
 
@@ -151,10 +143,7 @@ def test_a_shift_by_whole_cycles_changes_nothing():
     method=st.sampled_from(["RK45", "Radau", "LSODA"]),
 )
 def test_methods_agree_on_drawn_scenes(f_c, log_K, amplitude, closure, method):
-    load = {"kind": "sine", "amplitude_mm": amplitude, "period_s": 0.06}
-    made = tables(K=10.0**log_K, f_c=f_c, load=load)
-    made["contact"]["closure_mm"] = closure
-    scene = Scene.from_dict(made)
+    scene = made(10.0**log_K, f_c, Sine(amplitude, 0.06), closure=closure)
     one, other = (integrate(scene, [1, 3], 1e-6, name) for name in ("DOP853", method))
     assume(one.stopped is None and other.stopped is None)  # the roughness may vanish
     allowed = (one.error + other.error) * one.u
@@ -165,7 +154,7 @@ def test_methods_agree_on_drawn_scenes(f_c, log_K, amplitude, closure, method):
 @given(level=st.integers(-500, 500), more=st.integers(0, 500))
 def test_more_displacement_wears_more(level, more):
     wear = [
-        integrate(Scene.from_dict(tables(load=CONSTANT | {"value_mm": 1e-6 * nm})), [10], 1e-9).u[0]
+        integrate(made(load=Constant(1e-6 * nm, 0.06)), [10], 1e-9).u[0]
         for nm in (level, level + more)
     ]
     assert wear[0] <= wear[1] * (1.0 + 1e-8)
@@ -173,8 +162,7 @@ def test_more_displacement_wears_more(level, more):
 
 def test_steps_resolve_the_pulses_of_a_large_swing():
     """U = 10 h_0: pulses of a hundredth of a period once the contact is worn in."""
-    load = {"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06}
-    scene = Scene.from_dict(tables(load=load, f_c=0.0))
+    scene = made(f_c=0.0, load=Sine(1.08e-2, 0.06))
     of = problem(bind(scene), scene.load)
     deviation = math.sqrt(3.6e-4 / (4 * 4 * math.pi**2 * 1.08e-2))  # of exp(4 U_a/sigma)
     assert deviation < 0.015
@@ -191,8 +179,7 @@ def test_without_a_pulse_steps_may_be_long():
 
 def test_the_end_of_the_model_is_told_with_what_there_is():
     """f_c < 0 and always in contact: the roughness of the only rough surface reaches zero."""
-    made = tables(K=1e-3, f_c=-0.5, load=CONSTANT | {"value_mm": 3e-3})
-    result = integrate(Scene.from_dict(made), [0, 1000], 1e-8)
+    result = integrate(made(1e-3, -0.5, Constant(3e-3, 0.06)), [0, 1000], 1e-8)
     assert result.cycles == (0,)
     assert "has become smooth at u_c = 0.00072 mm" in result.stopped
 

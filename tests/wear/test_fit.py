@@ -17,8 +17,9 @@ from wear.cli import main
 from wear.faults import UsageError
 from wear.fitting.laws import alternatives
 from wear.fitting.posterior import posterior
-from wear.fitting.readings import FloatArray, Specimen, read_readings
+from wear.fitting.readings import Specimen, read_readings
 from wear.fitting.residuals import Residuals
+from wear.numerics.gauss import FloatArray
 from wear.scene import load_scene
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"

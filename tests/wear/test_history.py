@@ -14,13 +14,13 @@ from wear import direct
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history_files import write_inside
 from wear.inside import fields_inside
-from wear.load import Table
+from wear.load import Block, Blocks, Constant, Sine, Table
 from wear.model import bind
 from wear.quantities import unit_of
 from wear.scene import Scene
 from wear.solver import solve
 
-from .reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
+from .reference_scenes import REFERENCE, made, reference_scene
 
 CONTRACT = {
     *("scene", "model", "method", "rtol", "cycles", "bearing_wear_mm", "pin_wear_mm"),
@@ -162,8 +162,7 @@ def test_a_time_limit_keeps_what_was_computed():
 
 def test_a_count_out_of_time_keeps_its_first_cycles():
     """No time at all: the first cycles are integrated, and no panel is refined."""
-    swing = {"kind": "sine", "amplitude_mm": 5e-3, "period_s": 0.06}
-    scene = Scene.from_dict(tables(load=swing))
+    scene = made(load=Sine(5e-3, 0.06))
     with pytest.raises(Interrupted, match="time limit has passed; cycle 3 was") as stop:
         solve(scene, [1, 3, 10**9], 1e-12, time_limit=1e-9)
     history = stop.value.history
@@ -175,10 +174,8 @@ def test_a_count_out_of_time_keeps_its_first_cycles():
 
 @pytest.mark.parametrize("cutoff", [False, True])
 def test_blocks_out_of_time_keep_the_first_one(cutoff):
-    small = {"kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06, "cycles": 3}
-    large = {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.03, "cycles": 5}
-    load = {"kind": "blocks", "blocks": [small, large], "repeat": 100}
-    scene = Scene.from_dict(tables(K=1e-5, load=load, cutoff=cutoff))
+    blocks = Blocks((Block(Sine(2e-4, 0.06), 3), Block(Sine(5e-4, 0.03), 5)), 100)
+    scene = dataclasses.replace(made(1e-5, cutoff=cutoff), load=blocks)
     with pytest.raises(Interrupted, match="time limit") as stop:
         solve(scene, [1, 3, 4, 700], 1e-15, "abel", time_limit=1e-9)
     assert stop.value.history.cycles.tolist() == [1, 3]
@@ -219,15 +216,14 @@ def test_an_interrupt_keeps_what_was_computed(monkeypatch):
 
 def test_a_negative_roughness_is_told_with_the_wear_at_which_it_begins():
     """Section 3 with fast wear: sigma_c changes sign at u_c = 3.6e-4/0.05 = 0.0072 mm."""
-    made = tables(K=1e-3, f_c=-0.05, pin=True, load=CONSTANT | {"value_mm": 1e-2})
-    history = solve(Scene.from_dict(made), [1], 1e-6, "DOP853")
+    scene = made(1e-3, -0.05, Constant(1e-2, 0.06), pin=True)
+    history = solve(scene, [1], 1e-6, "DOP853")
     assert history.sigma_c[0] < 0.0
     assert any("bearing is negative beyond u_c = 0.0072 mm" in text for text in history.notices)
 
 
 def test_the_pressure_out_of_contact_is_zero_and_arrest_is_told():
-    made = tables(K=1e-4, cutoff=True)
-    history = solve(Scene.from_dict(made), [0, 100], 1e-8, "DOP853")
+    history = solve(made(1e-4, cutoff=True), [0, 100], 1e-8, "DOP853")
     assert history.p.tolist() == [pytest.approx(300 / (1 + np.exp(4))), 0.0]
     assert history.h[1] == pytest.approx(1.08e-3 + 0.002)
     assert "wear stops for good in cycle 21" in history.notices

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.judges import static_wear
-from tests.wear.reference_scenes import CONSTANT, REFERENCE, reference_scene, tables
+from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear import inside
 from wear.cycles import count_cycles, wear_after
 from wear.equation import equation_of
 from wear.faults import UsageError
 from wear.inside import Inside, fields_inside
-from wear.load import Harmonics, HistoryLoad, Table
+from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
 from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import Rules, integrate
@@ -145,8 +145,8 @@ def marched(scene: Scene, start: float) -> FloatArray:
 @pytest.mark.parametrize("kind", ["sine_mm", "cosine_mm"])
 def test_very_fast_wear_inside_its_first_cycles(rtol: float, K: float, kind: str) -> None:
     """An error that the wear forgets within a cycle makes no negative estimate."""
-    load = {"kind": "harmonics", kind: [1.4e-3, 0.0, 7e-4], "period_s": 0.06}
-    scene = Scene.from_dict(tables(K=K, f_c=0.16, load=load), "fast")
+    waves = (1.4e-3, 0.0, 7e-4)
+    scene = made(K, 0.16, replace(Harmonics(0.0, (), (), 0.06), **{kind: waves}))
     cycles = np.array([0.0, 1.0, 2.0, 4.0, 5.0, 1e3])
     parts = fields_inside(bind(scene), scene.load, cycles, PHASES, rtol)
     for part in parts:
@@ -178,11 +178,9 @@ def test_a_load_shifted_in_time_shifts_the_wear(name: str, phase: float) -> None
 @pytest.mark.parametrize("rtol", [1e-2, 1e-4])
 def test_a_first_cycle_that_two_meshes_miss_alike(rtol: float) -> None:
     """Wear takes off within a hundredth of it: what the count knows of its end has a say."""
-    made = tables(K=3.1e-3, f_c=1.1145, pin=True, load=CONSTANT | {"value_mm": 3.7e-6})
-    made["bearing"]["roughness_mm"] = 7.577e-5
-    made["pin"] |= {"roughness_mm": 1.263e-5, "roughness_growth": -0.0099}
-    made["contact"] = {"max_pressure_MPa": 300.0, "closure_mm": 2.273e-4}
-    scene = Scene.from_dict(made, "violent")
+    pin = {"roughness_mm": 1.263e-5, "roughness_growth": -0.0099}
+    load = Constant(3.7e-6, 0.06)
+    scene = made(3.1e-3, 1.1145, load, roughness=7.577e-5, closure=2.273e-4, pin=pin)
     cycles = np.array([0.0, 1e3, 1e9])
     found, want = (
         next(fields_inside(bind(scene), scene.load, cycles, PHASES, x)) for x in (rtol, 1e-13)
@@ -194,10 +192,7 @@ def test_a_first_cycle_that_two_meshes_miss_alike(rtol: float) -> None:
 
 def test_no_cycle_leads_to_negative_roughness() -> None:
     """Very fast wear had another solution beyond the wear at which the roughness vanishes."""
-    made = tables(K=0.0126, f_c=-0.14, load=CONSTANT | {"value_mm": 2e-4, "period_s": 1.05})
-    made["bearing"]["roughness_mm"] = 7.5e-5
-    made["contact"]["closure_mm"] = 2.8e-4
-    scene = Scene.from_dict(made, "violent")
+    scene = made(0.0126, -0.14, Constant(2e-4, 1.05), roughness=7.5e-5, closure=2.8e-4)
     cycles = np.array([0.0, 1.0, 20.0])
     found = history(scene, cycles)
     exact = static_wear(scene, cycles[:, None] + PHASES, found.u)
@@ -208,9 +203,7 @@ def test_no_cycle_leads_to_negative_roughness() -> None:
 
 def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
     """Out of contact at first, roughness grows until contact sets in: the count begins anew."""
-    made = tables(K=0.03, f_c=0.55, load=CONSTANT | {"value_mm": 0.0})
-    made["contact"]["closure_mm"] = 7.3 * 3.6e-4
-    scene = Scene.from_dict(made, "faster")
+    scene = made(0.03, 0.55, Constant(0.0, 0.06), closure=7.3 * 3.6e-4)
     cycles = np.array([0.0, 100.0, 12_823.0, 12_824.0, 12_830.0, 1e5, 1e7])
     counted = count_cycles(bind(scene), scene.periodic_load, 1e7, 1e-12)
     assert len(counted.orbit.segments) > 1
@@ -223,19 +216,12 @@ def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
 
 
 ZIGZAG = Table((0.0, 0.01, 0.03, 0.06), (0.0, 5e-4, 1e-4, 0.0))
-BLOCKS = {
-    "kind": "blocks",
-    "blocks": [
-        {"kind": "sine", "amplitude_mm": 2e-4, "period_s": 0.06, "cycles": 20},
-        {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.03, "cycles": 300},
-    ],
-    "repeat": 3,
-}
+BLOCKS = Blocks((Block(Sine(2e-4, 0.06), 20), Block(Sine(5e-4, 0.03), 300)), 3)
 
 
 @pytest.mark.parametrize("cutoff", [False, True])
 def test_blocks_of_loads_go_on_from_each_other(cutoff: bool) -> None:
-    scene = Scene.from_dict(tables(K=1e-5, f_c=0.5, load=BLOCKS, cutoff=cutoff), "blocks")
+    scene = replace(made(1e-5, 0.5, cutoff=cutoff), load=BLOCKS)
     cycles = np.array([0.0, 19.0, 20.0, 100.0, 319.0, 320.0, 959.0])
     found = history(scene, cycles)
     ends = solve(scene, [*cycles, *(cycles + 1)], 1e-12)
@@ -248,8 +234,8 @@ def test_blocks_of_loads_go_on_from_each_other(cutoff: bool) -> None:
 
 CUTOFF = [load_scene(name) for name in builtin_names() if load_scene(name).contact.ends_at_3_sigma]
 CUTOFF += [
-    Scene.from_dict(tables(K=1e-3, cutoff=True), "slides along the edge of contact"),
-    replace(Scene.from_dict(tables(K=1e-4, cutoff=True), "kinks"), load=ZIGZAG),
+    replace(made(1e-3, cutoff=True), name="slides along the edge of contact"),
+    replace(made(1e-4, load=ZIGZAG, cutoff=True), name="kinks"),
 ]
 
 
@@ -265,7 +251,7 @@ def test_cycles_with_a_cutoff_go_through_open_closed_and_sliding_contact(scene: 
     assert np.all(found.error <= 1e-9)
     assert np.all(np.diff(found.u, axis=1) >= 0)
     model, load = bind(scene), scene.periodic_load
-    steps = 20_000
+    steps = 10_000
     middles = load((np.arange(steps) + 0.5) / steps).tolist()
     u = found.u[:, 0].copy()
     largest = np.max(found.u[:, -1] - found.u[:, 0]) + 1e-30
@@ -276,7 +262,7 @@ def test_cycles_with_a_cutoff_go_through_open_closed_and_sliding_contact(scene: 
         u += speed * load.period / steps
 
 
-HELD = Scene.from_dict(tables(k=1e4, cutoff=True), "compliant")
+HELD = replace(made(k=1e4, cutoff=True), name="compliant")
 
 
 @pytest.mark.parametrize("scene", [*CUTOFF, HELD], ids=lambda scene: scene.name)
@@ -298,8 +284,6 @@ def test_what_cannot_be_counted_has_no_history_inside() -> None:
 
 
 def test_no_wear_inside_cycles_without_pressure() -> None:
-    made = tables()
-    made["contact"]["closure_mm"] = 1.0
-    found = history(Scene.from_dict(made, "far"), np.array([0.0, 1e6]))
+    found = history(made(closure=1.0), np.array([0.0, 1e6]))
     assert not found.u.any()
     assert not found.error.any()

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.wear.reference_scenes import tables
+from tests.wear.reference_scenes import made
 from wear.load import Harmonics
 from wear.offset import offset
 from wear.regime import Asymptote, asymptote
@@ -18,11 +18,7 @@ from wear.solver import solve
 
 VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
 CONSTANTS = VALUES["asymptotic_constants"]
-HALF, FOUR_TENTHS = tables(f_c=0.5), tables(f_c=0.4, K=1e-4)
-
-
-def _scene(made: dict[str, object]) -> Scene:
-    return Scene.from_dict(made)
+HALF, FOUR_TENTHS = made(f_c=0.5), made(1e-4, 0.4)
 
 
 def _derived(scene: Scene) -> tuple[float, float, Asymptote]:
@@ -34,10 +30,10 @@ def _derived(scene: Scene) -> tuple[float, float, Asymptote]:
 
 
 @pytest.mark.parametrize(
-    ("made", "key"), [(HALF, "f0.5_K1e-6"), (FOUR_TENTHS, "f0.4_K1e-4")], ids=["half", "fast"]
+    ("scene", "key"), [(HALF, "f0.5_K1e-6"), (FOUR_TENTHS, "f0.4_K1e-4")], ids=["half", "fast"]
 )
-def test_the_constants_of_the_asymptote(made: dict[str, object], key: str) -> None:
-    known, scene = CONSTANTS[key], _scene(made)
+def test_the_constants_of_the_asymptote(scene: Scene, key: str) -> None:
+    known = CONSTANTS[key]
     rate, drift, _ = _derived(scene)
     found = offset(scene, rate, drift)
     assert found is not None
@@ -58,26 +54,16 @@ def _two_solids() -> Scene:
     )
 
 
-def _harmonics() -> Scene:
-    load = Harmonics(1e-4, (2e-4, 1e-4), (3e-4, -1e-4), 0.06)
-    return dataclasses.replace(_scene(HALF), load=load)
-
-
-def _exponential() -> Scene:
-    scene = _scene(HALF)
-    return dataclasses.replace(scene, contact=dataclasses.replace(scene.contact, law="exponential"))
-
-
 @pytest.mark.parametrize(
     "scene",
     [
-        _scene(HALF),
-        _scene(tables(f_c=0.5, k=1e5)),
+        HALF,
+        made(f_c=0.5, k=1e5),
         _two_solids(),
-        _harmonics(),
-        _exponential(),
-        _scene(tables(f_c=0.5, cutoff=True)),
-        _scene(tables(f_c=0.5, cutoff=True, k=1e5)),
+        made(f_c=0.5, load=Harmonics(1e-4, (2e-4, 1e-4), (3e-4, -1e-4), 0.06)),
+        made(f_c=0.5, law="exponential"),
+        made(f_c=0.5, cutoff=True),
+        made(f_c=0.5, cutoff=True, k=1e5),
     ],
     ids=["rigid", "compliant", "two solids", "harmonics", "exponential", "loss", "compliant loss"],
 )
@@ -112,19 +98,18 @@ def test_no_offset_where_the_steady_state_is_out_of_reach(scene: str) -> None:
 
 
 def test_the_offset_remembers_that_contact_was_lost() -> None:
-    found = asymptote(_scene(tables(f_c=0.5, cutoff=True))).offset_mm
-    without = asymptote(_scene(HALF)).offset_mm
+    found = asymptote(made(f_c=0.5, cutoff=True)).offset_mm
+    without = asymptote(HALF).offset_mm
     assert found is not None
     assert without is not None
     assert found < without
 
 
 @pytest.mark.parametrize(
-    "made",
-    [tables(f_c=0.25, cutoff=True), load_scene("f-one-third").to_tables()],
+    "scene",
+    [made(f_c=0.25, cutoff=True), load_scene("f-one-third")],
     ids=["arrest", "contact in a fixed part of the cycle"],
 )
-def test_no_offset_with_a_cutoff_that_stays(made: dict[str, object]) -> None:
-    scene = _scene(made)
+def test_no_offset_with_a_cutoff_that_stays(scene: Scene) -> None:
     assert asymptote(scene).offset_mm is None
     assert offset(scene, 1e-8, 1e-3) is None

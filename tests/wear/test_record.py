@@ -15,11 +15,11 @@ from numpy.testing import assert_allclose
 
 from tests.independent import Judge, wear_after
 from tests.judges import ROUNDING, honest, problem
-from tests.wear.reference_scenes import CONSTANT, tables
+from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import between
 from wear import direct, records
 from wear.faults import AccuracyError, Interrupted, UsageError
-from wear.load import HistoryLoad
+from wear.load import Constant, HistoryLoad
 from wear.model import bind
 from wear.numerics.collocation import iterate
 from wear.numerics.gauss import FloatArray
@@ -52,8 +52,7 @@ def history(times: Any, levels: Any) -> HistoryLoad:
 
 
 def scene(load: HistoryLoad, **changes: Any) -> Scene:
-    made = Scene.from_dict(tables(load=CONSTANT, **changes))
-    return dataclasses.replace(made, load=load)
+    return dataclasses.replace(made(**changes), load=load)
 
 
 def followed(load: HistoryLoad, cycles: list[int], rtol: float = 1e-12, **changes: Any) -> Outcome:
@@ -62,9 +61,8 @@ def followed(load: HistoryLoad, cycles: list[int], rtol: float = 1e-12, **change
 
 def truth(of: Scene, load: HistoryLoad) -> float:
     """The wear at the end of a record of one second, by the independent integrator."""
-    constant = Scene.from_dict(tables(load=CONSTANT)).load
     rows = tuple(zip(load.times_s, load.values_mm, strict=True))
-    data = problem(dataclasses.replace(of, load=constant))
+    data = problem(dataclasses.replace(of, load=Constant(0.0, 1.0)))
     return wear_after(Judge(dataclasses.replace(data, period=1.0, mean=0.0, rows=rows)), [1])[1]
 
 
@@ -72,22 +70,20 @@ def truth(of: Scene, load: HistoryLoad) -> float:
 def drawn_records(draw: st.DrawFn) -> Scene:
     """Few rows, far apart or close together, under wear slow and violent."""
     roughness = 10 ** draw(between(-4, -3))
-    made = tables(
-        K=10 ** draw(between(-8, -1)),
-        f_c=draw(between(-0.3, 0.6)),
+    of = made(
+        10 ** draw(between(-8, -1)),
+        draw(between(-0.3, 0.6)),
         pin=draw(st.booleans()),
         k=draw(st.none() | between(3, 8).map(lambda e: 10**e)),
-        load=CONSTANT,
+        roughness=roughness,
+        closure=roughness * draw(between(0, 8)),
     )
-    made["bearing"]["roughness_mm"] = roughness
-    made["contact"].pop("closure_in_sigma", None)
-    made["contact"]["closure_mm"] = roughness * draw(between(0, 8))
     swing = roughness * 10 ** draw(between(-1.5, 1))
     inner = draw(st.lists(st.integers(1, 4095), min_size=1, max_size=12, unique=True))
     times = np.array([0, *sorted(inner), 4096]) / 4096
     levels = swing * np.array([draw(between(-2, 2)) for _ in times])
     load = HistoryLoad(tuple(times.tolist()), tuple(levels.tolist()), 1.0)
-    return dataclasses.replace(Scene.from_dict(made), load=load)
+    return dataclasses.replace(of, load=load)
 
 
 @settings(max_examples=25, deadline=None)
@@ -204,9 +200,7 @@ def test_what_early_rows_miss_is_not_forgotten(monkeypatch: pytest.MonkeyPatch) 
 def test_rounding_is_counted() -> None:
     """Where the pressure is exp(-500) of the largest its exponent's last digit decides; no wear is
     felt there, so that the rate is known."""
-    made = tables(load=CONSTANT)
-    made["contact"]["closure_mm"] = 0.05
-    model = bind(Scene.from_dict(made))
+    model = bind(made(closure=0.05))
     largest = 1e-6 * (math.pi * 22.0 * 2000.0 / 30) * 300.0 / (3 * 200.0)
     worst = 0.0
     for level in np.linspace(0.0, 5e-3, 40):
@@ -266,10 +260,8 @@ def test_an_interrupt_keeps_the_cycles_so_far(monkeypatch: pytest.MonkeyPatch) -
 
 def test_a_trial_state_without_a_pressure_is_no_end() -> None:
     """Violent wear on stiff springs: the iteration over all lines runs away, to -1e12 mm."""
-    made = tables(K=0.0019065965263269193, f_c=0.0, k=1.0634538522847895e7, load=CONSTANT)
-    made["contact"] |= {"closure_mm": 0.0003160310487783073, "law": "exponential"}
-    made["contact"].pop("closure_in_sigma", None)
-    of = Scene.from_dict(made)
+    stiff = {"closure": 0.0003160310487783073, "k": 1.0634538522847895e7}
+    of = made(0.0019065965263269193, 0.0, law="exponential", **stiff)
     levels = (0.00149725, 0.00012321, 0.00178868)
     load = HistoryLoad((0.0, 0.5, 1.0), levels, 1.0)
     found = follow(bind(of), load, [1], 1e-9)
@@ -294,7 +286,7 @@ def test_what_auto_takes_and_what_it_may_be_told() -> None:
     assert "auto: collocation, because the load does not repeat" in found.notices
     with_cutoff = solve(scene(load, cutoff=True), [1], 1e-6)
     assert with_cutoff.method == "DOP853"
-    for other in (scene(load, cutoff=True), Scene.from_dict(tables())):
+    for other in (scene(load, cutoff=True), made()):
         with pytest.raises(UsageError, match="collocation is for a measured history"):
             solve(other, [1], method="collocation")
     with pytest.raises(UsageError, match="ends after 2 whole cycles"):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -11,11 +10,10 @@ from hypothesis import strategies as st
 
 from derive import catalogue
 from derive.results.regime_map import REGIMES, regime
-from tests.wear.reference_scenes import tables
+from tests.wear.reference_scenes import made
 from wear import regime as wear_regime
 from wear.load import Sine
 from wear.regime import asymptote
-from wear.scene import Scene
 
 THIRD = 1 / 3
 
@@ -36,15 +34,13 @@ def _without_integration(monkeypatch):
     cutoff=st.booleans(),
 )
 def test_a_scene_is_in_the_regime_of_the_map(slope, amplitude, closure, cutoff):
-    scene = Scene.from_dict(tables(f_c=slope, cutoff=cutoff))
-    contact = replace(scene.contact, closure_mm=closure)
-    scene = replace(scene, contact=contact, load=Sine(amplitude, 0.06))
+    scene = made(f_c=slope, load=Sine(amplitude, 0.06), closure=closure, cutoff=cutoff)
     data = {"f_c": slope, "h_0": closure, "sigma_c0": 3.6e-4, "U_max": amplitude}
     assert asymptote(scene).regime == regime(data, cutoff).name
 
 
 def test_one_third_is_steady_with_the_cutoff():
-    found = asymptote(Scene.from_dict(tables(f_c=THIRD, cutoff=True)))
+    found = asymptote(made(f_c=THIRD, cutoff=True))
     assert found.regime == "steady"
     assert found.wear_per_cycle_mm == pytest.approx(1.243117591822268629e-6, rel=1e-12)
     assert Fraction(THIRD) != Fraction(1, 3)  # the nearest double stands for it

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from itertools import pairwise
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 from scipy.integrate import quad
 
 from tests import judges
-from tests.wear.reference_scenes import CONSTANT, REFERENCE, tables
+from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear.load import Constant
 from wear.model import bind
 from wear.report.runs import static_wear
@@ -19,13 +18,12 @@ from wear.solver import solve
 
 
 def _scene(slope: float, load: float, stiffness: float | None = None) -> Scene:
-    made = tables(f_c=slope, k=stiffness, load=CONSTANT)
-    return dataclasses.replace(Scene.from_dict(made), load=Constant(load, 0.06))
+    return made(f_c=slope, k=stiffness, load=Constant(load, 0.06))
 
 
 def test_the_closed_form_has_the_wear_of_the_reference():
     cycles, wear = list(REFERENCE["S7"]), list(REFERENCE["S7"].values())
-    found = static_wear(Scene.from_dict(tables(load=CONSTANT)), cycles, wear)
+    found = static_wear(reference_scene("S7"), cycles, wear)
     assert found == pytest.approx(wear, rel=1e-15)
 
 

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.judges import honest
-from tests.wear.reference_scenes import CONSTANT, REFERENCE, SINE, reference_scene, tables
+from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear.cycles import cycles_to_depth, sweep, wear_after
-from wear.load import Table
+from wear.load import Block, Blocks, Constant, Harmonics, Load, Sine, Table
 from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene, load_scene
@@ -47,47 +47,37 @@ def test_reference_values(names, rtol):
     )
 )
 def test_a_scene_does_not_feel_its_neighbours(drawn):
-    scenes = [
-        Scene.from_dict(
-            tables(
-                K=10 ** (K / 10),
-                f_c=f / 100,
-                load={"kind": "sine", "amplitude_mm": U * 1e-4, "period_s": 0.06},
-            ),
-            "drawn",
-        )
-        for K, f, U in drawn
-    ]
+    scenes = [made(10 ** (K / 10), f / 100, Sine(U * 1e-4, 0.06)) for K, f, U in drawn]
     as_alone(scenes, CYCLES, 1e-8)
 
 
 def test_loads_of_all_kinds_go_together():
     """Their meshes of phase differ, in the number of intervals too."""
     loads = [
-        {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.06},
-        {"kind": "constant", "value_mm": 4e-4, "period_s": 0.02},
-        {"kind": "harmonics", "sine_mm": [4e-4, 0.0, 2e-4], "period_s": 0.1},
-        {"kind": "sine", "amplitude_mm": -6e-4, "period_s": 0.06},
+        Sine(5e-4, 0.06),
+        Constant(4e-4, 0.02),
+        Harmonics(0.0, (), (4e-4, 0.0, 2e-4), 0.1),
+        Sine(-6e-4, 0.06),
     ]
-    as_alone([Scene.from_dict(tables(load=load), "drawn") for load in loads], CYCLES, 1e-9)
+    as_alone([made(load=load) for load in loads], CYCLES, 1e-9)
 
 
 def test_panels_are_as_many_as_a_scene_needs():
     """1e12 cycles take more of them than the two that every scene begins with."""
-    scenes = [Scene.from_dict(tables(f_c=f), "drawn") for f in (0.05, 0.2, 0.35)]
+    scenes = [made(f_c=f) for f in (0.05, 0.2, 0.35)]
     as_alone(scenes, np.array([1e3, 1e12]), 1e-8)
 
 
 @pytest.mark.parametrize(
     ("K", "f_c", "load"),
     [
-        (0.1784, 0.4116, {"kind": "harmonics", "cosine_mm": [3.194e-4], "period_s": 0.5186}),
-        (0.1678, 0.4846, {"kind": "constant", "value_mm": 3.338e-4, "period_s": 0.5337}),
+        (0.1784, 0.4116, Harmonics(0.0, (3.194e-4,), (), 0.5186)),
+        (0.1678, 0.4846, Constant(3.338e-4, 0.5337)),
     ],
 )
 def test_wear_that_opens_the_gap_before_the_first_node_is_not_overlooked(K, f_c, load):
     """The two maps agree there, for neither sees it."""
-    as_alone([Scene.from_dict(tables(K=K, f_c=f_c, load=load), "fast")], CYCLES, 1e-4)
+    as_alone([made(K, f_c, load)], CYCLES, 1e-4)
 
 
 @pytest.mark.parametrize("k", [None, 1e4])
@@ -95,15 +85,7 @@ def test_scenes_of_a_wide_range(k):
     """Wear coefficients over three decades, swings over one, up to a hundred million cycles."""
     drawn = np.random.default_rng(7).uniform(size=(40, 3))
     scenes = [
-        Scene.from_dict(
-            tables(
-                K=10 ** (-8 + 3 * K),
-                f_c=0.05 + 0.35 * f,
-                k=k,
-                load={"kind": "sine", "amplitude_mm": 2e-4 * 10**U, "period_s": 0.06},
-            ),
-            "wide",
-        )
+        made(10 ** (-8 + 3 * K), 0.05 + 0.35 * f, Sine(2e-4 * 10**U, 0.06), k=k)
         for K, f, U in drawn
     ]
     as_alone(scenes, np.array([1.0, 1e3, 1e8]), 1e-7)
@@ -111,24 +93,17 @@ def test_scenes_of_a_wide_range(k):
 
 def test_a_hard_scene_does_not_disturb_the_others():
     """Pulses of a hundredth of a period and fast wear."""
-    narrow = tables(K=1e-2, load={"kind": "sine", "amplitude_mm": 1.08e-2, "period_s": 0.06})
-    found = sweep([reference_scene("S2"), Scene.from_dict(narrow, "narrow")], CYCLES, 1e-10)
+    narrow = made(1e-2, load=Sine(1.08e-2, 0.06))
+    found = sweep([reference_scene("S2"), narrow], CYCLES, 1e-10)
     assert np.all(found.error <= 1e-10)
     assert_allclose(found.u_c[0], [REFERENCE["S2"][int(n)] for n in CYCLES], rtol=1e-10)
 
 
 def test_scenes_of_different_kinds_are_mixed_in_one_call():
     """Variants, loss of contact and blocks; each as by itself."""
-    blocks = {
-        "kind": "blocks",
-        "blocks": [
-            {"kind": "sine", "amplitude_mm": 5e-4, "period_s": 0.06, "cycles": 20},
-            {"kind": "sine", "amplitude_mm": 3e-4, "period_s": 0.03, "cycles": 300},
-        ],
-        "repeat": 30,
-    }
+    blocks = Blocks((Block(Sine(5e-4, 0.06), 20), Block(Sine(3e-4, 0.03), 300)), 30)
     scenes = [reference_scene(name) for name in ("S1", "S2", "S8_1", "S5", "S8_2")]
-    scenes += [load_scene("section4-cutoff"), Scene.from_dict(tables(load=blocks), "blocks")]
+    scenes += [load_scene("section4-cutoff"), replace(made(), load=blocks)]
     as_alone(scenes, CYCLES, 1e-9)
 
 
@@ -136,33 +111,24 @@ def test_a_sharp_density_is_judged_by_more_nodes_than_it_was_solved_with():
     """Wear that takes off: within a cycle the density changes by orders of magnitude, and the same
     quadrature twice told nothing of that. It came to light beside a scene of sharp density."""
     drawn = [(2.77e-3, 0.7424, 3.352e-3, 1.145e-5), (2.482e-4, 0.36384, 1.58474e-3, 4.002e-5)]
-    scenes = []
-    for K, f_c, closure, value in drawn:
-        made = tables(K=K, f_c=f_c, pin=True, load=CONSTANT | {"value_mm": value})
-        made["contact"] |= {"closure_mm": closure}
-        made["contact"].pop("closure_in_sigma", None)
-        scenes.append(Scene.from_dict(made, "drawn"))
+    scenes = [
+        made(K, f_c, Constant(value, 0.06), closure=closure, pin=True)
+        for K, f_c, closure, value in drawn
+    ]
     as_alone(scenes, np.array([1.0, 30.0, 200.0, 1e3, 1e12]), 1e-8)
 
 
-def smooth(r: float, f_c: float, K: float, closure: float, amplitude: float) -> Scene:
-    load = {"kind": "sine", "amplitude_mm": amplitude, "period_s": 0.06}
-    made = tables(K=K, f_c=f_c, load=load)
-    made["bearing"] |= {"roughness_mm": r}
-    made["contact"] |= {"closure_mm": closure}
-    return Scene.from_dict(made, "smooth")
-
-
 # Far beyond these cycles the rate underflows to zero, where there is no density.
-FADING = (2.055677e-4, -0.1988934, 4.324113e-7, 2.5677618e-4, 1.587736e-4)
+FADING = made(4.324113e-7, -0.1988934, Sine(1.587736e-4, 0.06), roughness=2.055677e-4,
+              closure=2.5677618e-4)  # fmt: skip
 # Between its ends a count missed what it met there.
-MISSED_ON_THE_WAY = (1.772079e-4, 0.54323347, 9.7268339e-7, 9.4937768e-4, 2.6236185e-4)
+MISSED_ON_THE_WAY = made(9.7268339e-7, 0.54323347, Sine(2.6236185e-4, 0.06), roughness=1.772079e-4,
+                         closure=9.4937768e-4)  # fmt: skip
 
 
 @pytest.mark.parametrize("drawn", [FADING, MISSED_ON_THE_WAY])
 def test_the_request_is_met_by_wear_of(drawn):
-    other = smooth(3.6e-4, 0.25, 1e-6, 1.08e-3, 5e-4)
-    as_alone([smooth(*drawn), other], np.array([3.0, 3000.0, 1e8]), 1e-7)
+    as_alone([drawn, made()], np.array([3.0, 3000.0, 1e8]), 1e-7)
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -172,14 +138,11 @@ def test_variants_may_be_mixed_in_any_order(seed):
     scenes = []
     for pin, k in ((False, None), (True, None), (False, 1e5)):
         for _ in range(12):
-            load = {
-                "kind": "harmonics",
-                "sine_mm": (4e-4 * rng.uniform(0.2, 1.0, rng.integers(1, 4))).tolist(),
-                "period_s": 0.06,
-            }
-            made = tables(10 ** rng.uniform(-8, -4), rng.uniform(-0.2, 0.5), pin, k, load)
-            made["bearing"] |= {"roughness_mm": 3.6e-4 * 10 ** rng.uniform(-0.3, 0.3)}
-            scenes.append(Scene.from_dict(made, "drawn"))
+            waves = 4e-4 * rng.uniform(0.2, 1.0, rng.integers(1, 4))
+            K, f_c = 10 ** rng.uniform(-8, -4), rng.uniform(-0.2, 0.5)
+            roughness = 3.6e-4 * 10 ** rng.uniform(-0.3, 0.3)
+            load = Harmonics(0.0, (), tuple(waves.tolist()), 0.06)
+            scenes.append(made(K, f_c, load, roughness=roughness, pin=pin, k=k))
     order = rng.permutation(len(scenes))
     as_alone([scenes[i] for i in order], np.array([3.0, 3000.0, 1e8]), 1e-7)
 
@@ -188,24 +151,22 @@ def test_scenes_that_lose_contact_are_as_if_alone_in_any_order():
     """Loads of one kind go together, rising and falling at different phases; some come twice."""
     rng = np.random.default_rng(3)
 
-    def load(kind: str) -> dict[str, object]:
+    def load(kind: str) -> Load:
         swing = 4e-4 * rng.uniform(0.7, 1.2)
         if kind == "sine":
-            return SINE | {"amplitude_mm": swing * rng.choice([-1.0, 1.0])}
-        waves = (swing * rng.uniform(0.2, 0.6, rng.integers(1, 4))).tolist()
-        return {"kind": "harmonics", "sine_mm": waves, "cosine_mm": waves[:1], "period_s": 0.03}
+            return Sine(swing * rng.choice([-1.0, 1.0]), 0.06)
+        waves = tuple((swing * rng.uniform(0.2, 0.6, rng.integers(1, 4))).tolist())
+        return Harmonics(0.0, waves[:1], waves, 0.03)
 
     scenes = []
     for kind, k in (("sine", None), ("harmonics", None), ("sine", 1e5)):
         for _ in range(3):
-            made = tables(
-                10 ** rng.uniform(-8, -5), rng.uniform(-0.2, 0.5), False, k, load(kind), True
-            )
-            made["contact"]["closure_mm"] = 1.08e-3 * rng.uniform(0.6, 1.0)
-            scenes.append(Scene.from_dict(made, "drawn"))
+            K, f_c, acting = 10 ** rng.uniform(-8, -5), rng.uniform(-0.2, 0.5), load(kind)
+            closure = 1.08e-3 * rng.uniform(0.6, 1.0)
+            scenes.append(made(K, f_c, acting, closure=closure, k=k, cutoff=True))
     for rows in rng.uniform(-4e-4, 5e-4, (2, 4)):
         table = Table((0.0, 0.01, 0.02, 0.03, 0.06), (*rows, rows[0]))
-        scenes.append(replace(Scene.from_dict(tables(cutoff=True), "table"), load=table))
+        scenes.append(made(load=table, cutoff=True))
     cycles = np.array([3.0, 3000.0, 1e8])
     alone = [wear_after(bind(scene), scene.load, cycles, 1e-11) for scene in scenes]
     order = rng.permutation(np.append(np.arange(len(scenes)), [0, 4]))

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from derive import files
 from derive.command_line import declare
+from wear.faults import Faults
 from wear.quantities import MOST_CYCLES
 from wear.words import did_you_mean, shown
 
@@ -200,21 +201,11 @@ def _quoted(text: str) -> str:
     return f'"{shown(text)}"'
 
 
-class Faults(list[str]):
-    """The faults of a command line, gathered until `stop_if_any`."""
+def refuse_implausible(notices: Sequence[str], faults: Faults) -> None:
+    """Make faults of the notices about magnitudes that are hardly meant."""
+    from wear.scene.plausibility import WORD
 
-    def refuse_implausible(self, notices: Sequence[str]) -> None:
-        """Make faults of the notices about magnitudes that are hardly meant."""
-        from wear.scene.plausibility import WORD
-
-        self += [notice for notice in notices if notice.startswith(WORD)]
-
-    def stop_if_any(self) -> None:
-        """Raise a `UsageError` with all of them, a line each."""
-        from wear.faults import UsageError
-
-        if self:
-            raise UsageError("\n".join(self))
+    faults += [notice for notice in notices if notice.startswith(WORD)]
 
 
 def read(options: argparse.Namespace) -> Faults:
@@ -244,7 +235,7 @@ def _scene(name: str, options: argparse.Namespace, faults: Faults) -> Scene | No
         faults.append(str(fault))
         return None
     if options.strict:
-        faults.refuse_implausible(scene.notices)
+        refuse_implausible(scene.notices, faults)
     return scene
 
 

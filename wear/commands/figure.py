@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from derive import files, terminal
 from derive.command_line import Answer, declare
 from wear.commands import arguments, run_output
+from wear.faults import Faults
 
 if TYPE_CHECKING:
     from wear.fitting.readings import Specimen
@@ -128,7 +129,7 @@ def _write(drawn: object, output: Path) -> None:
     files.write_atomically(output, encoded(drawn, output.suffix))  # type: ignore[arg-type]
 
 
-def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: arguments.Faults) -> None:
+def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: Faults) -> None:
     from wear.load import Blocks
     from wear.request import obstacle
 

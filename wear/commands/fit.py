@@ -14,7 +14,7 @@ from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.fitting.fit import Fit
-    from wear.fitting.readings import FloatArray
+    from wear.numerics.gauss import FloatArray
 
 SUMMARY = "parameters of a scene from measured wear"
 EXAMPLE = """\

@@ -85,7 +85,7 @@ def execute(options: argparse.Namespace) -> Answer:
         until = _cycles_until(life) | {"notices": [*history.notices, *more]}
         notices += more
     if options.strict:
-        faults.refuse_implausible(notices)
+        arguments.refuse_implausible(notices, faults)
         faults.stop_if_any()
     if output is not None:
         run_output.write(history, output)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from derive import terminal
 from derive.command_line import Answer
-from wear.commands import arguments
+from wear.faults import Faults
 
 if TYPE_CHECKING:
     from wear.inside import Inside
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".csv", ".nc")
 
 
-def check(options: argparse.Namespace, faults: arguments.Faults) -> None:
+def check(options: argparse.Namespace, faults: Faults) -> None:
     """Add what stands against states inside the cycles."""
     from wear.load.spans import most_cycles
     from wear.request import obstacle

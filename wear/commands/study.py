@@ -85,7 +85,7 @@ def execute(options: argparse.Namespace) -> Answer:
     results = store.dataset()
     notices = results.attrs["notices"]
     if options.strict:
-        faults.refuse_implausible(notices)
+        arguments.refuse_implausible(notices, faults)
         faults.stop_if_any()
     if options.figure is not None:
         from wear.figure_style import encoded

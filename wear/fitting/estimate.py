@@ -12,8 +12,8 @@ from functools import cached_property
 import numpy as np
 
 from wear.fitting.model import RTOL, Model, Parameter
-from wear.fitting.readings import FloatArray
 from wear.fitting.residuals import rms
+from wear.numerics.gauss import FloatArray
 
 CONFIDENCE = 0.95
 FARTHEST = 7.0  # e-folds (a factor of a thousand), or multiples of its size, that it is followed

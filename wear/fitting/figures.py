@@ -12,7 +12,7 @@ from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, PAGE, canvas, strok
 from wear.fitting.fit import Fit
 from wear.fitting.model import Parameter
 from wear.fitting.profiles import moved
-from wear.fitting.readings import FloatArray
+from wear.numerics.gauss import FloatArray
 from wear.quantities import label_of
 
 _MICROMETRES_PER_MM = 1e3

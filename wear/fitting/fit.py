@@ -23,9 +23,8 @@ from wear.fitting.least_squares import descend, estimate
 from wear.fitting.model import Model
 from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
-from wear.model import bind
 from wear.progress import Pace
-from wear.states import fields_at, result_notices
+from wear.states import notices_of_wear
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -204,10 +203,7 @@ class Fit(Estimate):
         if self.degrees_of_freedom == 0 and not self.model.residuals.known:
             notices.append("there are as many parameters as readings: the scatter is unknown")
         for specimen, scene in zip(self.model.specimens, self.scenes, strict=True):
-            notices += scene.notices
-            model, cycles, u = bind(scene), specimen.cycles.tolist(), specimen.wear_mm
-            fields = fields_at(model, scene, cycles, u)
-            notices += result_notices(model, scene, fields, cycles, u)
+            notices += notices_of_wear(scene, specimen.cycles.tolist(), specimen.wear_mm)
         return list(dict.fromkeys(notices))
 
     def plot(self) -> Figure:

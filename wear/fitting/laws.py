@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.readings import FloatArray, Specimen
+from wear.fitting.readings import Specimen
 from wear.fitting.residuals import Residuals, rms
+from wear.numerics.gauss import FloatArray
 
 LAWS: dict[str, tuple[Callable[[FloatArray, float], FloatArray], tuple[float, ...]]] = {
     "archard": (lambda cycles, _: np.log(cycles), ()),

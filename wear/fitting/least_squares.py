@@ -7,11 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from wear.faults import UsageError
+from wear.faults import Faults, UsageError
 from wear.fitting.model import LOST, Model
-from wear.fitting.readings import FloatArray, Specimen
+from wear.fitting.readings import Specimen
 from wear.load import Blocks
 from wear.load.spans import span
+from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import TINY
 from wear.regime import fresh_wear_per_cycle, steady_wear_per_cycle
 
@@ -82,9 +83,8 @@ def estimate(model: Model, say: Callable[[str], None]) -> FloatArray:
     if not fine.any():
         raise UsageError("no start leads to a scene with wear: correct the scene")
     idle = np.all(slope == 0.0, axis=(0, 1))
-    if idle.any():
-        names = [str(p) for p, none in zip(model.parameters, idle, strict=True) if none]
-        raise UsageError("\n".join(f"free: {name}: has no influence" for name in names))
+    nothing = [p for p, none in zip(model.parameters, idle, strict=True) if none]
+    Faults(f"free: {p}: has no influence" for p in nothing).stop_if_any()
     starts = np.concatenate([starts, _in_pace(model, starts[fine])])
     best = starts[np.argsort(model.cost(starts), kind="stable")[:FOLLOWED]]
     points, costs = descend(model, best, (own, SEARCHED * model.scale(own)), say)

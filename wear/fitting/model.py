@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from wear.faults import SceneError, UsageError
-from wear.fitting.readings import FloatArray, Specimen, read_readings, readings_of
+from wear.faults import Faults, SceneError, UsageError
+from wear.fitting.readings import Specimen, read_readings, readings_of
 from wear.fitting.residuals import Residuals
+from wear.numerics.gauss import FloatArray
 from wear.parameters import no_such_number, parameters_of
 from wear.scene import Scene, as_scene
 from wear.sensitivities import gradients
@@ -67,7 +68,7 @@ class Model:
     ) -> Model:
         """Return the model of a request, see `wear.fit`, or raise a `UsageError` with all that is
         wrong with it."""
-        base, faults = as_scene(scene), []
+        base, faults = as_scene(scene), Faults()
         specimens: tuple[Specimen, ...] = ()
         shared, own = ([keys] if isinstance(keys, str) else [*keys] for keys in (free, free_each))
         try:
@@ -79,8 +80,7 @@ class Model:
             faults.append(f"error: {error!r} is neither relative nor absolute")
         elif error == "relative" and any(np.any(s.wear_mm <= 0.0) for s in specimens):
             faults.append("error: a wear of zero has no logarithm; leave it out, or take absolute")
-        if faults:
-            raise UsageError("\n".join(faults))
+        faults.stop_if_any()
         wanted = [(key, "") for key in shared]
         wanted += [(key, specimen.name) for key in own for specimen in specimens]
         parameters = (Parameter(key, name, is_positive(base, key)) for key, name in wanted)

@@ -11,7 +11,7 @@ import numpy as np
 from wear.fitting.estimate import FARTHEST, Estimate
 from wear.fitting.model import Parameter
 from wear.fitting.profiles import Profile
-from wear.fitting.readings import FloatArray
+from wear.numerics.gauss import FloatArray
 
 UNKNOWN = 1.0  # standard error of a logarithm, or share of a value, from which it is open
 ALIKE = 0.1  # relative spread of powers that are shown as one

@@ -8,7 +8,7 @@ import numpy as np
 
 from wear.faults import UsageError
 from wear.fitting.estimate import FARTHEST, Estimate
-from wear.fitting.readings import FloatArray
+from wear.numerics.gauss import FloatArray
 
 WALKERS = 4  # a parameter, and no fewer than LEAST_WALKERS
 LEAST_WALKERS = 32

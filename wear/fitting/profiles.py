@@ -15,7 +15,7 @@ import numpy as np
 
 from wear.fitting.estimate import FARTHEST, LEAST, Estimate
 from wear.fitting.least_squares import descend
-from wear.fitting.readings import FloatArray, IntArray
+from wear.numerics.gauss import FloatArray, IntArray
 
 SHARES = (0.5, 1.0)  # of the quantile, at which a profile is drawn
 NEAR = 0.01  # of the quantile: how closely an end is sought

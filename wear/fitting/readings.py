@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.faults import MOST_FAULTS_SHOWN, UsageError
+from wear.faults import MOST_FAULTS_SHOWN, Faults, UsageError
 from wear.load.rows import read_bytes
+from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
 from wear.words import is_path, shown
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.intp]
 MOST_BYTES = 16 * 1024 * 1024
 WEAR = {"wear_mm": 1.0, "wear_um": 1e-3}  # column: mm a unit
 DELIMITERS = (",", ";", "\t")  # the decimal sign may be a comma where the first is not
@@ -110,8 +109,7 @@ def read_readings(path: str | os.PathLike[str], ignore: Sequence[str] = ()) -> S
         columns = {name: [row[i] for _, row in body] for i, name in enumerate(names)}
         lines = [f"line {number}" for number, _ in body]
         found, faults = _specimens(columns, ignore, lines, delimiter)
-    if faults:
-        raise UsageError("\n".join(f"{path}: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]))
+    Faults(f"{path}: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]).stop_if_any()
     return found
 
 
@@ -126,8 +124,7 @@ def readings_of(columns: Mapping[str, Iterable[Any]], ignore: Sequence[str]) -> 
         raise UsageError("data: the columns are of different length")
     rows = [f"row {number}" for number in range(1, most + 1)]
     found, faults = _specimens(entries, ignore, rows)
-    if faults:
-        raise UsageError("\n".join(f"data: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]))
+    Faults(f"data: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]).stop_if_any()
     return found
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wear.fitting.readings import FloatArray, Specimen
+from wear.fitting.readings import Specimen
+from wear.numerics.gauss import FloatArray
 
 
 @dataclass(frozen=True)

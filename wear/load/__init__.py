@@ -19,15 +19,15 @@ from wear.checked import Positive, Real, table
 from wear.load.blocks import Block, Blocks
 from wear.load.harmonics import Harmonics, Smooth, Waves, derivative
 from wear.load.lines import ForceTable, HistoryLoad, Table
-from wear.load.phase import FloatArray, centred
+from wear.load.phase import centred
 from wear.load.protocol import Load
 from wear.load.spans import Loading
+from wear.numerics.gauss import FloatArray
 
 __all__ = [
     "Block",
     "Blocks",
     "Constant",
-    "FloatArray",
     "Force",
     "ForceTable",
     "Harmonics",

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from wear.checked import Positive, Real, Reals, SceneTable, table
-from wear.load.phase import FloatArray, centred, within_cycle
+from wear.load.phase import centred, within_cycle
+from wear.numerics.gauss import FloatArray
 
 MOST_HARMONICS = 100
 FEW = 2  # harmonics: so many cost less as a polynomial

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.faults import UsageError
-
-FloatArray = NDArray[np.float64]
+from wear.numerics.gauss import FloatArray
 
 
 def centred(phase: FloatArray | float) -> FloatArray:

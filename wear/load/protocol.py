@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from wear.load.phase import FloatArray
+from wear.numerics.gauss import FloatArray
 
 
 class Load(Protocol):

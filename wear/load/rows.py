@@ -29,7 +29,7 @@ from wear.checked import (
     table,
     wrong,
 )
-from wear.load.phase import FloatArray
+from wear.numerics.gauss import FloatArray
 from wear.quantities import LARGEST, SMALLEST
 from wear.words import shown
 

@@ -14,8 +14,8 @@ import numpy as np
 
 from wear.load.blocks import Blocks
 from wear.load.lines import HistoryLoad
-from wear.load.phase import FloatArray
 from wear.load.protocol import Load
+from wear.numerics.gauss import FloatArray
 
 FOREVER = 1 << 62
 

@@ -22,6 +22,7 @@ _BEARING_ALONE = (
     "no loss of contact", "smooth pin", "no cross coupling of roughness", "unworn pin",
     "rigid support",
 )  # fmt: skip
+_ALONE = "bearing wear alone"
 
 
 def shown(equations: Sequence[derived.Equation]) -> Mapping[str, Equation]:
@@ -59,21 +60,26 @@ def capital(text: str) -> str:
 
 
 def _title(equation: derived.Equation) -> str:
-    """What an equation is called, and its hypotheses but for that of the whole paper."""
+    """What an equation is called, and its hypotheses but for that of the whole paper.
+
+    A part of the title that is one of the hypotheses is said once.
+    """
     known = (Kind.SETTING, Kind.LOAD)
     words = [c for c in equation.conditions if c.kind in known and not _short(c)]
     formulas = [f"${part}$" for c in equation.conditions if _short(c) for part in _parts(c)]
     said = [markup(c.text) for c in equation.conditions if c not in words and not _short(c)]
-    parts = [markup(capital(equation.title))]
+    settings = dict.fromkeys(c.text for c in words)
+    repeated = {_ALONE, *settings, *(formula.replace(" ", "") for formula in formulas)}
+    name, *parts = equation.title.split(", ")
+    title = [markup(capital(name))]
+    title += [m for p in parts if not {p, (m := markup(p)).replace(" ", "")} & repeated]
     for word, hypotheses in (("for", formulas), ("if", said)):
         if hypotheses:
-            parts.append(f"{word} {listed(hypotheses)}")
-    title = ", ".join(parts)
-    settings = list(dict.fromkeys(c.text for c in words))
-    if set(_BEARING_ALONE) <= set(settings):
-        rest = [text for text in settings if text not in _BEARING_ALONE]
-        settings = ["bearing wear alone", *rest]
-    return f"{title} ({', '.join(map(markup, settings))})" if settings else title
+            title.append(f"{word} {listed(hypotheses)}")
+    if settings.keys() >= set(_BEARING_ALONE):
+        settings = dict.fromkeys((_ALONE, *(s for s in settings if s not in _BEARING_ALONE)))
+    brackets = f" ({', '.join(map(markup, settings))})" if settings else ""
+    return ", ".join(title) + brackets
 
 
 def _short(hypothesis: Hypothesis) -> bool:

@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import TINY
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
-FloatArray = NDArray[np.float64]
 Cycles = Sequence[int] | NDArray[np.int64]
 Real = Any  # a float, or an array along rows
 WORD = "implausible"

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.faults import UsageError
+from wear.faults import Faults
+from wear.numerics.gauss import FloatArray
 from wear.studies.vary import Distribution, Levels, Vary
 
-FloatArray = NDArray[np.float64]
 Chunk = tuple[slice, ...]
 DESIGNS = ("grid", "sobol", "latin-hypercube", "random")
 ROWS = 2048  # of a chunk: seconds of work on a core, a thousandth of that to hand it over
@@ -45,9 +45,7 @@ class Design:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        faults = list(_faults(self))
-        if faults:
-            raise UsageError("\n".join(faults))
+        Faults(_faults(self)).stop_if_any()
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 
 from wear.faults import UsageError
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, canvas, stroke, styled
+from wear.numerics.gauss import FloatArray
 from wear.quantities import in_short, label_of
-from wear.studies.vary import FloatArray
 
 if TYPE_CHECKING:
     import xarray

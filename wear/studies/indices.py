@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wear.faults import UsageError
+from wear.numerics.gauss import FloatArray
 from wear.studies.design import ROWS
 from wear.studies.notices import Tally
 from wear.studies.rows import Status, Study, solve_rows
 from wear.studies.run import check_executor, prepare
-from wear.studies.vary import Distribution, FloatArray, Vary
+from wear.studies.vary import Distribution, Vary
 
 if TYPE_CHECKING:
     import xarray

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from wear.model import bound, generated
+from wear.numerics.gauss import FloatArray
 from wear.scene import KEYS, VariantKey
 from wear.scene.plausibility import (
     WORD,
@@ -17,7 +18,6 @@ from wear.scene.plausibility import (
     doubts_of_results,
     entries_of,
 )
-from wear.studies.vary import FloatArray
 
 if TYPE_CHECKING:
     from wear.studies.rows import Study

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.numerics.gauss import FloatArray
+
 if TYPE_CHECKING:
     from wear.scene import Scene
     from wear.studies.design import Chunk, Design
 
-FloatArray = NDArray[np.float64]
 LONGEST_REASON = 200  # characters
 
 

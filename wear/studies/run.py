@@ -17,7 +17,7 @@ from concurrent.futures import (
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wear.faults import UsageError, WorkersLost
+from wear.faults import Faults, UsageError, WorkersLost
 from wear.progress import Pace
 from wear.studies.design import Chunk, Design
 from wear.studies.rows import Answers, Study, solve_chunk
@@ -135,7 +135,7 @@ def prepare(
     from wear.scene import as_scene
 
     base = as_scene(scene)
-    faults: list[str] = []
+    faults = Faults()
     parsed: list[Vary] = []
     for entry in [vary] if isinstance(vary, str) else vary:
         try:
@@ -156,8 +156,8 @@ def prepare(
     if until_wear is not None and not (is_number(until_wear) and 0.0 < until_wear < 1e30):
         faults.append(f"until_wear: {until_wear!r} is no positive number of mm")
     check_rtol(rtol, faults, least=1e-13)
-    if faults or plan is None:
-        raise UsageError("\n".join(faults))
+    faults.stop_if_any()
+    assert plan is not None
     return Study(base, plan, wanted, until_wear, rtol)
 
 

@@ -14,11 +14,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wear.faults import UsageError
+from wear.numerics.gauss import FloatArray
 
-FloatArray = NDArray[np.float64]
 MOST_LEVELS = 10**7  # of one key
 _CALL = re.compile(r"(\w+)\(([^()]*)\)")
 
