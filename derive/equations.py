@@ -24,9 +24,10 @@ from types import MappingProxyType
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from .claims import Limit
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, domain
-from .language import names
+from .kernel import Judgement, chain, domain, plain
+from .language import certain, names
 from .rules.assumption import Assume
 from .rules.proving import holds, needs
 from .symbols import CLOCKS, QUANTITIES, t
@@ -166,16 +167,31 @@ class Equation:
         """Return what a reader needs to know beside the equation of when it holds.
 
         A name may be positive by the vocabulary: what it is defined as then has to be, and it has
-        to have a value.
+        to have a value.  The vocabulary does not tell the sign of other names.
         """
         shown = tuple(h for h in self.hypotheses if h.shown)
         defined = (h.relation for h in self.hypotheses if h.kind is Kind.DEFINITION)
         names = tuple(r for r in defined if isinstance(r, sp.Equality) and r not in self.claims)
-        signs = (sign for name in names if (sign := _sign(name)) and not self._follows(sign))
+        others = self.relation.free_symbols - {name.lhs for name in names}
+        own = sorted((s for s in others if s.name not in QUANTITIES), key=str)
+        signs = [s for name in names if (s := _sign(name.lhs)) and not self._follows(s)]
+        signs += filter(None, map(_sign, own))
         given = frozenset(h.relation for h in self.hypotheses)
         values = (goal for name in names for goal in needs(name) if not holds(goal, given))
-        hidden = (*signs, *(Hypothesis(str(goal), goal) for goal in values))
+        ends = {part for name in names for part in certain(name.rhs) if isinstance(part, sp.Limit)}
+        words = (f"{plain(end.args[0])} has a limit" for end in ends - self._limits())
+        hidden = (
+            *signs,
+            *(Hypothesis(str(goal), goal) for goal in values),
+            *map(Hypothesis, words),
+        )
         return tuple(dict.fromkeys((*shown, *hidden)))
+
+    def _limits(self) -> set[sp.Limit]:
+        """Return the limits that are derived from what the equation rests on."""
+        given = set(self.hypotheses)
+        apart = (s.claim for s in self.steps if given.issuperset(s.hypotheses))
+        return {claim.term for claim in apart if isinstance(claim, Limit)}
 
     def _follows(self, sign: Hypothesis) -> bool:
         """Return whether the sign of a name follows from what is derived of it, and else holds."""
@@ -230,9 +246,8 @@ def _used(name: sp.Symbol, step: Judgement) -> bool:
     )
 
 
-def _sign(definition: sp.Basic) -> Hypothesis | None:
-    """Return the sign that the vocabulary gives to a name which does not vary."""
-    name = definition.args[0] if definition.args else t
+def _sign(name: sp.Basic) -> Hypothesis | None:
+    """Return the sign of a name which does not vary, where it has one."""
     sign = domain(name) if name.is_Symbol and name.name not in CLOCKS else None
     return sign and replace(sign, kind=Kind.PARAMETER)
 

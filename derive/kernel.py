@@ -25,11 +25,13 @@ from functools import cache
 from typing import ClassVar
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
 from .language import defined_by, fault, names
-from .symbols import QUANTITIES
+from .note.model import subject
+from .symbols import QUANTITIES, t
 from .time_limit import time_limit
 
 _ROOM = "derive.rules."
@@ -205,6 +207,7 @@ def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypot
     hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
     _require_language(made.claim.relation, *hypotheses)
     _require_names(hypotheses)
+    _require_one_model(hypotheses)
     return hypotheses, made.claim
 
 
@@ -221,6 +224,23 @@ def _require_names(hypotheses: tuple[Hypothesis, ...]) -> None:
         if not done:
             raise RuleError(f"{listed(map(str, names))} is no new name: a circle of definitions")
         names -= done
+
+
+def _require_one_model(hypotheses: tuple[Hypothesis, ...]) -> None:
+    """Refuse two equations of the model for one quantity, and one for a quantity that is zero.
+
+    Nobody is told of them beside a result, so nobody would see that they contradict each other.
+    """
+    equalities = [h for h in hypotheses if isinstance(h.relation, sp.Equality)]
+    given = [subject(h.relation) for h in equalities if h.kind is Kind.MODEL]
+    zero = {h.relation.lhs.func for h in equalities if h.relation.rhs == 0 and _now(h.relation.lhs)}
+    begun = {h.relation.lhs.func for h in equalities if h.kind is Kind.INITIAL and h.relation.rhs}
+    if len(set(given)) < len(given) or zero & {*given, *begun}:
+        raise RuleError("two equations of the model contradict each other")
+
+
+def _now(expr: sp.Basic) -> bool:
+    return isinstance(expr, AppliedUndef) and expr.args == (t,)
 
 
 def _require_language(*parts: object) -> None:

@@ -93,6 +93,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{kind.__name__} is of no kind that a claim may hold"
     if kind is sp.Limit:
         return _fault_of_limit(node)
+    if kind is sp.Integral and any(len(limits) != 3 for limits in node.limits):
+        return f"{node} has no two ends"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _varies(node.rhs, node.lhs.args[1]):
         return f"{node.rhs} cannot be a limit: it varies with {node.lhs.args[1]}"
     if isinstance(node, Relational) and not all(isinstance(side, sp.Expr) for side in node.args):

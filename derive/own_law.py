@@ -110,7 +110,7 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
 
     from .codegen.contact_law import faults_of
     from .laws import ContactLaw, Stable, r, share
-    from .rules.proving import smooth
+    from .rules.proving import smooth_everywhere
     from .time_limit import TimeLimitError, time_limit
     from .written import evaluated, read
 
@@ -120,7 +120,7 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
             phi = evaluated(read(text))
             if r not in phi.free_symbols or phi.has(sp.zoo, sp.nan, sp.I):
                 raise UsageError(f"phi = {text} is no function of r = h/sigma")
-            if not smooth(phi):
+            if not smooth_everywhere(phi):
                 raise UsageError(f"phi = {text} has a kink")
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))
             row = Stable(((share, value),), share, slope, value, slope / value)

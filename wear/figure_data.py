@@ -39,13 +39,6 @@ class Line:
     family: int = 0
     variant: int = 0
 
-    def __post_init__(self) -> None:
-        if np.shape(self.x) != np.shape(self.y) or np.ndim(self.x) != 1 or not np.size(self.x):
-            raise ValueError(
-                f"line {self.name!r}: x and y must be of one shape (n,) with n > 0, "
-                f"got {np.shape(self.x)} and {np.shape(self.y)}"
-            )
-
     def positive(self) -> Line:
         """Return the part that a logarithmic axis can show."""
         return self._where(self.x > 0.0)

@@ -8,18 +8,10 @@ import signal
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from typing import ParamSpec, Protocol, TypeVar
+from typing import Any
 
-Result = TypeVar("Result")
-Arguments = ParamSpec("Arguments")
-
-
-class Ask(Protocol):
-    """Has a task done elsewhere; what it returns fetches the result."""
-
-    def __call__(
-        self, task: Callable[Arguments, Result], *given: Arguments.args, **named: Arguments.kwargs
-    ) -> Callable[[], Result]: ...
+Ask = Callable[..., Callable[[], Any]]
+"""Has a task done elsewhere, given as `submit` takes it; what it returns fetches the result."""
 
 
 def cores() -> int:

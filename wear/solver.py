@@ -6,6 +6,7 @@ import os
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from wear.scene import Scene, as_scene
 from wear.states import fields_at, result_notices
 
 AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
+FIELDS = ("u_a", "sigma_c", "sigma_a", "h", "p", "U_c")  # of a model, as a history has them
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
 
 
@@ -174,16 +176,12 @@ def _history(
     order = [place[cycle] for cycle in cycles]
     u, error = wear.u[order], wear.error[order]
     fields = fields_at(model, scene, cycles, u)
+    found: dict[str, Any] = {name: getattr(fields, name, None) for name in FIELDS}
     return History(
         definition=scene,
         cycles=np.array(cycles, dtype=np.int64),
         u_c=u,
-        u_a=getattr(fields, "u_a", None),
-        sigma_c=fields.sigma_c,
-        sigma_a=getattr(fields, "sigma_a", None),
-        h=fields.h,
-        p=fields.p,
-        U_c=getattr(fields, "U_c", None),
+        **found,
         error=error,
         method=wear.method,
         rtol=rtol,

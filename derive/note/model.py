@@ -13,6 +13,7 @@ Key results
     SLIP                section 2.4
     belongs             whether a relation is one of them
     law_of              the law in (4)
+    subject             the quantity that one of them gives
     FIELDS              the functions of time in (1) to (5)
 """
 
@@ -75,6 +76,17 @@ def belongs(kind: Kind, relation: sp.Basic) -> bool:
         return relation in START
     of_the_model = (*CLOSURE.values(), REACTION, SUPPORT, ROUGHNESS, *ARCHARD, *SLIP)
     return kind is not Kind.MODEL or relation in of_the_model or law_of(relation) is not None
+
+
+def subject(relation: sp.Equality) -> object:
+    """Return the quantity of which an equation of the model gives the value, or the rate.
+
+    >>> subject(SUPPORT), subject(ARCHARD[0])
+    (U_c, u_a)
+    """
+    given = {SUPPORT: U_c, REACTION: R_a}.get(relation, relation.lhs)
+    given = given.expr if isinstance(given, sp.Derivative) else given
+    return given.func if given.args else given
 
 
 def law_of(relation: sp.Basic) -> sp.Expr | None:

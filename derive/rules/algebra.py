@@ -14,14 +14,14 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..claims import Claim, Equality, Inequality, Limit, claim_of
+from ..claims import Claim, Equality, Equivalence, Inequality, Limit, claim_of
 from ..hypotheses import Hypothesis
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, listed, plain
 from ..language import bound_in
 from ..symbols import t
 from ..zero import is_zero
 from .proving import holds, require, require_defined, smooth
-from .reading import clocks, constant, equality, replaced
+from .reading import clocks, constant, equality, replaced, require_constants
 
 
 @dataclass(frozen=True)
@@ -203,8 +203,10 @@ class Consequence(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *others = premises
         claim = claim_of(self.claim)
-        require_defined(claim.value if isinstance(claim, Limit) else self.claim, *premises)
         taken = {claim.variable} - {t} if isinstance(claim, Limit) else set()
+        if isinstance(claim, Limit):
+            require_constants(claim.expr, claim.variable, *premises)
+        require_defined(claim.value if isinstance(claim, Limit) else self.claim, *premises)
         if any(taken & other.relation.free_symbols for other in others):
             raise RuleError(f"missing premise: {self.claim} for every {claim.variable}")
         places, sides = _inside(self.claim), _inside(first.relation)
@@ -236,7 +238,9 @@ class Alike(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = claim_of(self.claim)
-        left, right = (claim_of(part) for part in self.claim.args)
+        if not isinstance(claim, Equivalence):
+            raise RuleError(f"missing premise: {self.claim} is an equivalence")
+        left, right = claim.left, claim.right
         require_defined(self.claim, *premises)
         equal = is_zero((left.greater - left.lesser) - (right.greater - right.lesser))
         if not equal or left.strict != right.strict:

@@ -17,12 +17,15 @@ from ..note.model import FIELDS, belongs, law_of
 from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import sign, smooth
-from .reading import at_an_instant, clocks, constant, fields, functions
+from .proving import sign, smooth_everywhere
+from .reading import at_an_instant, clocks, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
-_TIMES = (t, symbol("tau"), symbol("N"))
+_CLOCKS = {t: symbol("T") * symbol("tau"), symbol("N"): t / symbol("T")}
+"""What the times are that have a definition."""
+_GIVEN = DATA | {"m", "s_0"}
+"""What has a meaning already: the data, and what belongs to the expansion."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +63,7 @@ class Assume(Rule):
 
 @cache
 def _falls(law: sp.Expr) -> bool:
-    return smooth(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
+    return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 
 
 def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:
@@ -68,10 +71,10 @@ def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> Non
     name, value = relation.lhs, at_an_instant(relation.rhs)
     if not name.is_Symbol and _solvable(relation):
         return
-    if not name.is_Symbol or name.name in DATA or value.has(name):
+    if not name.is_Symbol or name.name in _GIVEN or value.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
-    if name in _TIMES and (value == 0 or not any(constant(value / time) for time in _TIMES)):
-        raise RuleError(f"missing premise: {name} is a multiple of another time")
+    if name in (*_CLOCKS, symbol("tau")) and value != _CLOCKS.get(name):
+        raise RuleError(f"missing premise: {name} is another time, t = T tau or N = t/T")
     rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
     change = inserted(sp.Add(*rates), premises).doit()
     varies = clocks(relation.rhs) or any(d.has(t) for d in value.atoms(sp.Derivative))
@@ -93,16 +96,18 @@ def _solvable(relation: sp.Equality) -> bool:
     fields = {f for f in functions(whole) if f.func not in FIELDS}
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
     free = () if functions(whole) or tends else whole.free_symbols
-    names = {s for s in free if s.name not in DATA | CLOCKS}
+    names = {s for s in free if s.name not in _GIVEN | CLOCKS}
     own = {
         part: sp.Dummy(real=True) for part in (*rates, *fields - {d.expr for d in rates}, *names)
     }
     flat = whole.xreplace(own)
     slopes = {part: sp.diff(flat, name) for part, name in own.items()}
-    if any(slope.has(*own.values()) for slope in slopes.values()):
+    beside = any(flat.has(d.expr.func) for d in rates)  # the solution may not last
+    if beside or any(slope.has(*own.values()) for slope in slopes.values()):
         return False
     heads = [getattr(part, "expr", part).func for part in own]
-    return flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0 or any(
+    rests = not any(part.is_positive for part in own)
+    return (rests and flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0) or any(
         slope.is_nonzero
         and (part.is_Symbol or heads.count(getattr(part, "expr", part).func) == 1)
         and getattr(part, "expr", part).args in ((), (t,), (symbol("tau"),))

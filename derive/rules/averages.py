@@ -95,6 +95,8 @@ class OrderEquation(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, n = equality(premises[0]), int(self.order)
+        if n != self.order or n < 1:
+            raise RuleError(f"missing premise: {self.order} is the number of an order")
         for relation in (SINE.relation, OFFSET, SATURATION, sp.Gt(f_c, 0)):
             require_hypothesis(relation, *premises)
         if given.lhs != p or fields(given.rhs) - {u_c, LOAD} or clocks(given.rhs):
@@ -149,7 +151,8 @@ class Averaging(Rule):
         require_defined(value, *premises)
         rest = sp.expand(inserted(law.rhs, premises[1:]))
         if name == whole:
-            right = mean(turning(value, tau)) == 0 == turning(sp.diff(value, tau) - rest, tau)
+            slope = turning(sp.diff(value, tau) - rest, tau)
+            right = law.lhs != whole and mean(turning(value, tau)) == 0 == slope
         else:
             even = not any(sp.diff(rest, wave).has(tau) for wave in waves)
             average = mean(turning(rest.xreplace(waves), tau)) if even else sp.nan

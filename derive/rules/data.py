@@ -7,6 +7,7 @@ Key results
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import sympy as sp
@@ -15,6 +16,7 @@ from sympy.core.function import AppliedUndef
 from ..claims import Equality, Inequality
 from ..hypotheses import Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..language import defined_by, names
 from ..symbols import DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
@@ -27,25 +29,37 @@ _OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)
 
 def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
     """Refuse unless an expression has data alone, of which one may vary with the others fixed."""
-    names = {s for s in expr.free_symbols if s.name not in DATA}
-    if functions(expr) or names:
+    if functions(expr) or any(s.name not in DATA for s in expr.free_symbols):
         raise RuleError(f"missing premise: {expr} is a function of data alone")
-    for hypothesis in (h for premise in premises for h in premise.hypotheses):
+    hypotheses = [hypothesis for premise in premises for hypothesis in premise.hypotheses]
+    definitions = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
+    for hypothesis in hypotheses:
         relation, kind = hypothesis.relation, hypothesis.kind
+        about = _data_of(relation, definitions)
         of_data = not relation.atoms(AppliedUndef) and kind is not Kind.DEFINITION
-        kept = relation.has(parameter) and (of_data or kind in (Kind.PARAMETER, Kind.STATE))
-        if (kept or _ties(relation, kind)) and not isinstance(relation, _OPEN):
+        kept = parameter.name in about and (of_data or kind in (Kind.PARAMETER, Kind.STATE))
+        if (kept or _ties(relation, kind, definitions)) and not isinstance(relation, _OPEN):
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
 
 
-def _ties(relation: sp.Basic, kind: Kind) -> bool:
+def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> set[str]:
+    """Return the data that a relation is about, also by names that are defined by them."""
+    about = {name for name, _ in names(relation)}
+    for _ in definitions:
+        meant = (names(known) for known in definitions if about & defined_by(known))
+        about = about.union(name for found in meant for name, _ in found)
+    return about & DATA
+
+
+def _ties(relation: sp.Basic, kind: Kind, definitions: Collection[sp.Basic]) -> bool:
     """Return whether a relation gives a field a value by data, so that two may tie these."""
     if kind in (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION) or not functions(relation):
         return False
     bounds_load = isinstance(relation, sp.LessThan) and relation.lhs == sp.Abs(LOAD)
+    if bounds_load and relation.rhs.is_positive:
+        return False
     law = isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
-    rest = relation.rhs / PRESSURE_MAX if law else relation
-    return not bounds_load and any(s.name in DATA for s in rest.free_symbols)
+    return bool(_data_of(relation.rhs / PRESSURE_MAX if law else relation, definitions))
 
 
 @dataclass(frozen=True)

@@ -136,6 +136,7 @@ class LogarithmicGrowth(Rule):
         u, a, s = field_of_rate(rate), growth.value, self.scale
         if not is_zero(growth.expr - rate * sp.exp((u - LOAD) / s)) or fields(s) or not constant(s):
             raise RuleError("missing premise: the limit of exp((u - U_a)/s) du/dt")
+        require_defined(s, *premises)
         for positive in (a, s):
             require(sp.Gt(positive, 0), *premises)
         mean = sp.besseli(0, U / s)

@@ -44,6 +44,7 @@ from .reading import (
     inequality,
     limit_in_time,
     rate_law,
+    require_constants,
     require_hypothesis,
 )
 
@@ -78,7 +79,7 @@ class OnePeriodLater(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = premises[0].claim
-        if clocks(claim.relation) or any(map(_binds_time, sp.preorder_traversal(claim.relation))):
+        if not _at_one_time(claim.relation):
             raise RuleError(f"missing premise: {claim.relation} is about fields at one time")
         return Conclusion(claim.map(later))
 
@@ -86,8 +87,10 @@ class OnePeriodLater(Rule):
 one_period_later = OnePeriodLater()
 
 
-def _binds_time(node: sp.Basic) -> bool:
-    return t in bound(node) and not isinstance(node, sp.Derivative)
+def _at_one_time(expr: sp.Basic) -> bool:
+    """Return whether an expression is about fields at one time, which may come later."""
+    nodes = (node for node in sp.preorder_traversal(expr) if not isinstance(node, sp.Derivative))
+    return not clocks(expr) and not any(t in bound(node) for node in nodes)
 
 
 @dataclass(frozen=True)
@@ -105,6 +108,7 @@ class Diverges(Rule):
         steady = (speed, sp.expand(bound - speed * t), slope, sp.expand(self.expr - slope * u))
         if fields(u) != {u} or not all(constant(e) and not fields(e) for e in steady):
             raise RuleError(f"missing premise: {self.expr} is linear in what grows")
+        require_defined(self.expr, *premises)
         for positive in (speed, slope):
             require(sp.Gt(positive, 0), *premises)
         return Conclusion(in_time(self.expr, sp.oo))
@@ -231,7 +235,8 @@ class AtInfinity(Rule):
             bounds(field, *premises)
         flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
         order, smooth = expanded(flat.subs(u, deep), z)
-        if smooth.has(sp.Piecewise) or not continuous(smooth, {z: sp.S.Zero}, *premises):
+        bent = (sp.Piecewise, LAW) if order > 1 else (sp.Piecewise,)
+        if smooth.has(*bent) or not continuous(smooth, {z: sp.S.Zero}, *premises):
             raise RuleError(f"missing premise: {inside} is smooth at infinity")
         for n in range(max(order, 0)):
             if not is_zero(_taylor(smooth, z, n)):
@@ -310,7 +315,7 @@ class Passes(Rule):
                 part, end = 1 / part, sp.S.Zero
             elif given.value.is_finite is False:
                 raise RuleError(f"missing premise: the limit of {given.expr} is finite")
-            for quantity in (part,) if clocks(part) else (part, later(part)):
+            for quantity in (part, later(part)) if _at_one_time(part) else (part,):
                 stand_in = sp.Dummy(real=True)
                 expr = in_terms_of(expr, quantity, stand_in)
                 ends[stand_in], meaning[stand_in] = end, quantity
@@ -321,6 +326,7 @@ class Passes(Rule):
             raise RuleError(f"missing premise: the limit of all that varies in {whole}")
         if not continuous(expr, ends, *premises):
             raise RuleError(f"missing premise: {whole} is continuous at {(*ends.values(),)}")
+        require_constants(whole, t, *premises)
         require_defined(self.claim.rhs, *premises)
         if not is_zero(expr.subs(ends) - self.claim.rhs):
             raise RuleError(f"missing premise: the limit of {whole} is {expr.subs(ends)}")

@@ -344,5 +344,15 @@ def smooth(expr: sp.Expr, *unknowns: sp.Basic) -> bool:
     return all(isinstance(part, _SMOOTH) for part in changing)
 
 
+def smooth_everywhere(expr: sp.Expr) -> bool:
+    """Return whether an expression is differentiable whatever the values of its unknowns.
+
+    >>> y = sp.Symbol("y", real=True)
+    >>> [smooth_everywhere(sp.sqrt(y**4 + rest)) for rest in (1, y**2)]
+    [True, False]
+    """
+    return smooth(expr) and all(map(holds, map(_strict, _needed(expr, ()))))
+
+
 def _strict(goal: sp.Basic) -> sp.Basic:
     return sp.Gt(*goal.args) if isinstance(goal, sp.GreaterThan) else goal

@@ -19,7 +19,7 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, RuleError
 from ..language import bound
 from ..symbols import CLOCKS, symbol, t
-from .proving import LAW
+from .proving import LAW, require_defined
 
 C = TypeVar("C", bound=Claim)
 T = symbol("T")
@@ -113,6 +113,18 @@ def constant(expr: sp.Expr) -> bool:
     """Return whether an expression does not depend on time."""
     moving = expr.has(t) or clocks(expr)
     return not moving and not expr.atoms(sp.Derivative, sp.Integral, sp.Limit) - _slopes(expr)
+
+
+def require_constants(expr: sp.Basic, variable: sp.Symbol, *premises: Judgement) -> None:
+    """Raise RuleError unless what does not vary in the expression of a limit has a value.
+
+    The rest need have one only near the end.
+    """
+    if constant(expr) and not fields(expr) and not expr.has(variable):
+        require_defined(expr, *premises)
+    elif not bound(expr):
+        for part in expr.args:
+            require_constants(part, variable, *premises)
 
 
 def clocks(expr: sp.Basic) -> set[sp.Basic]:

@@ -18,7 +18,16 @@ from ..claims import Equality, FirstZero
 from ..kernel import Conclusion, Judgement, Rule, RuleError, plain
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .proving import WEARING, continuous, facts_of, require, require_defined, sign, smooth
+from .proving import (
+    WEARING,
+    continuous,
+    facts_of,
+    holds,
+    require,
+    require_defined,
+    sign,
+    smooth,
+)
 from .reading import (
     CONSTANT,
     LOAD,
@@ -67,7 +76,10 @@ class Separate(Rule):
         whole = sp.Tuple(rate, wear, pace, g)
         if fields(whole) or not constant(whole) or not all(map(smooth, whole)):
             raise RuleError(f"missing premise: {self.claim.rhs} by smooth functions of {y} alone")
-        if not is_zero(g * rate - pace * sp.diff(wear, moving)):
+        slope, facts = sp.diff(wear, moving), facts_of(premises)
+        if not any(holds(sp.Ne(e.xreplace({moving: y}), 0), facts) for e in (slope, rate)):
+            raise RuleError(f"missing premise: {u} moves with {y}")
+        if not is_zero(g * rate - pace * slope):
             raise RuleError(f"missing premise: {law.relation} separates into {self.claim}")
         return Conclusion(Equality(*self.claim.args))
 
@@ -124,6 +136,7 @@ class Lambert(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, w = equality(premises[0]), self.argument
+        require_defined(w, *premises)
         require(sp.Ge(w, 0), *premises)
         if not is_zero(given.lhs - w * sp.exp(w)):
             raise RuleError(f"missing premise: {given.relation} is w e^w = x for w = {w}")

@@ -16,7 +16,8 @@ import numpy as np
 from jumps import Cycles, cycles_of, extrapolated
 
 from wear.benchmark.methods import Case, cases
-from wear.benchmark.results import Table, cycle_count, markdown_table
+from wear.benchmark.results import Table, markdown_table
+from wear.quantities import in_short
 
 HERE = Path(__file__).resolve().parent
 SCENE, CYCLES = "section4", (9000, 10**6)
@@ -92,7 +93,7 @@ def table(rows: list[Row]) -> Table:
         "How far",
         header,
         tuple(
-            (cycle_count(row.cycles), _jump(row), str(row.integrated), *map(_percent, row[4:]))
+            (in_short(row.cycles, 5), _jump(row), str(row.integrated), *map(_percent, row[4:]))
             for row in rows
         ),
     )
@@ -121,7 +122,7 @@ def figure(rows: list[Row]) -> bytes:
                 [row.error for row in own],
                 look.marker,
                 color=look.colour,
-                label=f"{kind}, {cycle_count(number)} cycles",
+                label=f"{kind}, {in_short(number, 5)} cycles",
             )
             axes.loglog(x, [row.predicted for row in own], "-", color=look.colour, linewidth=0.8)
         axes.set(xlabel="Cycles integrated", ylabel="Relative error of the wear")

@@ -7,6 +7,7 @@ import dataclasses
 import pytest
 import sympy as sp
 
+from derive import verification
 from derive.note import claim_checks
 from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Verdict
@@ -45,6 +46,16 @@ VERDICTS = {
     "C31": Verdict.CONDITIONAL,
     "C32": Verdict.REFUTED,
 }
+
+
+@pytest.fixture(scope="module", autouse=True)
+def proofs_alone():
+    """Models try the equations in `test_derivation`, and each step in `derive verify`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(verification, "on_models", lambda _: ())
+        claim_checks._holds.cache_clear()
+        yield
+    claim_checks._holds.cache_clear()
 
 
 @pytest.mark.parametrize("identifier", SYMBOLIC)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import decimal
 import importlib
 import json
@@ -21,6 +22,7 @@ from derive.laws import ContactLaw, r
 from derive.note.governing import Pin
 from derive.variant import VARIANTS, Variant
 from tests.derive import exact
+from tests.derive.compiled import FLAGS, PASSED, library, names_of_outputs, number, outputs
 from tests.derive.reading_back import read_back
 from tests.programs import run
 
@@ -35,9 +37,6 @@ RUN = (
 )
 every_run = pytest.mark.parametrize("name", RUN)
 COUNT = 60
-STATE = ("pin_wear_sign", "u", "U_a", "p", "undeflected", "softness", "margin", "margin_slope")
-STATE += ("compliance", "wear_per_pressure")
-FLAGS = ("-O2", "-ffp-contract=off", "-Wall", "-Werror")
 
 
 # What is refused
@@ -223,112 +222,6 @@ def test_every_javascript_source_is_a_module(need_tool, tmp_path):
 # And computes the same
 
 
-def outputs(variant):
-    """What a driver prints for a point: every function, every field, root and right-hand side."""
-    made = exact.made(variant)
-    plain = [f for f in made.functions if len(f.results) == 1]
-    return plain, made.fields, ["pressure"] * variant.compliant + ["right_hand_side"]
-
-
-def c_driver(variant):
-    plain, fields, roots = outputs(variant)
-    made = exact.made(variant)
-    at = ", ".join(a.name for a in made.functions[-1].arguments)
-    values = [f"wear_{f.name}({', '.join([a.name for a in f.arguments] + ['&c'])})" for f in plain]
-    values += [f"f.{name}" for name in fields] + [f"wear_{root}(u, U_a, &c)" for root in roots]
-    reads = [f"d.{p.name}" for p in made.parameters] + list(STATE)
-    return f"""{source(made, "c")}
-#include <stdio.h>
-int main(void)
-{{
-    struct wear_parameters d;
-    struct wear_fields f;
-    double {", ".join(STATE)};
-    while ({" && ".join(f'scanf("%lf", &{name}) == 1' for name in reads)}) {{
-        const struct wear_constants c = wear_bind(&d{", pin_wear_sign" * variant.pin.wears});
-        f = wear_fields({at}, &c);
-        {" ".join(f'printf("%.17g ", {value});' for value in values)}
-        printf("\\n");
-    }}
-    return 0;
-}}
-"""
-
-
-def fortran_driver(variant):
-    plain, fields, roots = outputs(variant)
-    made = exact.made(variant)
-    functions = {"undeflected": "at", "softness": "give", "margin": "m", "margin_slope": "dm"}
-
-    def words(names):
-        return [functions.get(name) or FORTRAN.rename(name) for name in names]
-
-    data = range(1, len(made.parameters) + 1)
-    given = ", ".join([f"d({i})" for i in data] + ["pin_wear_sign"] * variant.pin.wears)
-    at = ", ".join(words(a.name for a in made.functions[-1].arguments))
-    values = [f"{f.name}({', '.join([*words(a.name for a in f.arguments), 'c'])})" for f in plain]
-    values += [f"f%{name}" for name in words(fields)]
-    values += [f"{root}(u, pin_displacement, c)" for root in roots]
-    write = "    write (*, '(es28.17e4)', advance='no') "
-    return f"""{source(made, "fortran")}
-program driver
-  use, intrinsic :: iso_fortran_env, only: dp => real64
-  use wear_{variant.law.name}_{variant.name}
-  implicit none
-  real(dp) :: d({len(data)}), {", ".join(words(STATE))}
-  type(constants) :: c
-  type(fields_type) :: f
-  integer :: status
-  do
-    read (*, *, iostat=status) d, {", ".join(words(STATE))}
-    if (status /= 0) exit
-    c = bind_constants({given})
-    f = fields({at}, c)
-{chr(10).join(write + value for value in values)}
-    write (*, *)
-    if (p < 0) stop
-  end do
-end program driver
-"""
-
-
-def javascript_driver(variant):
-    plain, fields, roots = outputs(variant)
-    parameters = [p.name for p in exact.made(variant).parameters]
-    calls = [f"m.{f.name}({', '.join([a.name for a in f.arguments] + ['c'])})" for f in plain]
-    at = ", ".join(a.name for a in exact.made(variant).functions[-1].arguments)
-    calls += [f"m.fields({at}, c).{name}" for name in fields]
-    calls += [f"m.{root}(u, U_a, c)" for root in roots]
-    return f"""
-import * as m from './source.mjs';
-import {{ readFileSync }} from 'node:fs';
-for (const line of readFileSync(0, 'utf8').trim().split('\\n')) {{
-  const [{", ".join([*parameters, *STATE])}] = line.split(' ').map(Number);
-  const c = m.bind({{ {", ".join(parameters)} }}, pin_wear_sign);
-  console.log([{", ".join(calls)}].join(' '));
-}}
-"""
-
-
-def build(language, variant, folder, need_tool):
-    """Write, compile and return the command that runs a driver."""
-    program = str(folder / "driver")
-    if language == "c":
-        compiler = need_tool("gcc")
-        (folder / "driver.c").write_text(c_driver(variant))
-        run(compiler, "-std=c99", *FLAGS, str(folder / "driver.c"), "-lm", "-o", program)
-        return [program]
-    if language == "fortran":
-        compiler = need_tool("gfortran")
-        (folder / "driver.f90").write_text(fortran_driver(variant))
-        run(compiler, "-std=f2008", *FLAGS, "driver.f90", "-o", program, cwd=folder)
-        return [program]
-    node = need_tool("node", "nodejs")
-    (folder / "source.mjs").write_text(source(exact.made(variant), "javascript"))
-    (folder / "driver.mjs").write_text(javascript_driver(variant))
-    return [node, str(folder / "driver.mjs")]
-
-
 @pytest.fixture(scope="module")
 def wanted():
     """The judged outputs of each variant at its points, computed once."""
@@ -351,11 +244,11 @@ def judged(variant, at):
     made = exact.made(variant)
     by_name = {f.name: f for f in made.functions}
     values = {**at.state, **constants._asdict()}
-    plain, _, _ = outputs(variant)
+    plain, _ = names_of_outputs(variant)
     known = {
         f.name: exact.judge(f, exact.inputs(f, at, constants._asdict())) for f in made.functions
     }
-    found = [*(known[f.name][0] for f in plain), *known["fields"]]
+    found = [*(known[name][0] for name in plain), *known["fields"]]
     if not variant.compliant:
         (rate,) = known["rate"]
         cut = variant.ends_at_3_sigma and known["margin"][0].value < 0
@@ -376,29 +269,20 @@ def judged(variant, at):
 @pytest.mark.parametrize("language", ["c", "fortran", "javascript"])
 def test_compiled_code_is_accurate_to_roundoff(language, name, need_tool, tmp_path, wanted):
     """At most 8 units of roundoff times the sum of the absolute terms, as the NumPy code."""
-    command = None
     variant, rows, references = wanted(name)
-    command = build(language, variant, tmp_path, need_tool)
-    text = "\n".join(" ".join(map(repr, [*at.numbers.values(), *at.state.values()])) for at in rows)
-    printed = run(*command, input=text + "\n").splitlines()
-    assert len(printed) == len(rows)
-    for line, reference in zip(printed, references, strict=True):
-        for number, one in zip(map(float, line.split()), reference, strict=True):
-            assert one.units(number) <= exact.UNITS
+    found = outputs(language, variant, rows, tmp_path, need_tool)
+    for numbers, reference in zip(found, references, strict=True):
+        for value, one in zip(numbers, reference, strict=True):
+            assert one.units(value) <= exact.UNITS
 
 
-def test_not_a_number_is_not_hidden(need_tool, tmp_path):
+@pytest.mark.parametrize("language", ["c", "fortran", "javascript"])
+def test_not_a_number_is_not_hidden(language, need_tool, tmp_path):
     """fmin and Fortran's min would make a full pressure of it."""
     variant = exact.variant_of("tanh", "rigid_bearing")
-    names = [p.name for p in exact.made(variant).parameters]
-    text = (
-        " ".join(["1"] * len(names) + ["1", "NaN", "0", "1", "0", "0", "0", "0", "0", "0"]) + "\n"
-    )
-    for language in ("c", "fortran", "javascript"):
-        folder = tmp_path / language
-        folder.mkdir()
-        printed = run(*build(language, variant, folder, need_tool), input=text)
-        assert math.isnan(float(printed.split()[0])), language
+    at = exact.points(variant, 1)[0]._replace(u=math.nan)
+    ((rate, *_),) = outputs(language, variant, [at], tmp_path, need_tool)
+    assert math.isnan(rate)
 
 
 # Laws for finite element codes
@@ -420,32 +304,19 @@ def test_every_c_source_is_what_its_header_declares(need_tool, tmp_path):
 def test_the_contact_pressure_and_its_derivative_are_those_of_the_law(law, need_tool, tmp_path):
     """At closures from deep in contact to far apart; nothing is hidden at none."""
     variant = exact.variant_of(law, "rigid_bearing")
-    ratios = (-3.0, 0.25, 1.0, 2.5, 7.0, 60.0)
-    pairs = ", ".join(f"{2.0**-11 * ratio!r}" for ratio in ratios)
-    (tmp_path / "user.c").write_text(
-        f"""{source(exact.made(variant), "c")}
-#include <stdio.h>
-int main(void)
-{{
-    const double closures[] = {{{pairs}, NAN}};
-    for (int i = 0; i < {len(ratios) + 1}; ++i) {{
-        double pressure, slope;
-        wear_contact_pressure(closures[i], 0x1p-11, 300.0, &pressure, &slope);
-        printf("%.17g %.17g\\n", pressure, slope);
-    }}
-    return 0;
-}}
-"""
-    )
-    run(need_tool("gcc"), "-std=c99", *FLAGS, "user.c", "-lm", "-o", "user", cwd=tmp_path)
-    *printed, none = run(str(tmp_path / "user")).splitlines()
-    assert all(math.isnan(float(number)) for number in none.split())
+    law_of_c = library("c", variant, tmp_path, need_tool).wear_contact_pressure
+
+    def found(closure):
+        pressure, slope = number(), number()
+        given = map(number, (closure, 2.0**-11, 300.0))
+        law_of_c(*given, ctypes.byref(pressure), ctypes.byref(slope))
+        return pressure.value, slope.value
+
+    assert all(map(math.isnan, found(math.nan)))
     forms = (300 * variant.law.phi, 300 * sp.diff(variant.law.phi, r) * 2**11)
-    for ratio, line in zip(ratios, printed, strict=True):
-        for number, form in zip(line.split(), forms, strict=True):
-            assert float(number) == pytest.approx(
-                float(form.subs(r, sp.Rational(ratio)).evalf(50)), rel=1e-14, abs=0
-            )
+    for ratio in (-3.0, 0.25, 1.0, 2.5, 7.0, 60.0):
+        wanted = [float(form.subs(r, sp.Rational(ratio)).evalf(50)) for form in forms]
+        assert found(2.0**-11 * ratio) == pytest.approx(wanted, rel=1e-14, abs=0)
 
 
 STUB = """
@@ -507,43 +378,6 @@ def test_umeshmotion_moves_a_node_inwards_by_archards_law(need_tool, tmp_path):
     assert [float(number) for number in worn.split()] == pytest.approx([0.25, 0.5 - velocity])
 
 
-def c_user(start, data):
-    """A program that prints the states after ten increments."""
-    states = list(start)
-    arguments = ", ".join([*map(repr, data), *(f"&{name}" for name in states)])
-    return f"""#include <stdio.h>
-#include "wear_model.h"
-int main(void)
-{{
-    double {", ".join(f"{name} = {value!r}" for name, value in start.items())};
-    for (int i = 1; i <= 10; ++i)
-        wear_increment(100.0, 4.0, 0.1 * i, {arguments});
-    printf("{" %.17g" * len(states)}", {", ".join(states)});
-    return 0;
-}}
-"""
-
-
-def fortran_user(made, start, data):
-    """The same in Fortran."""
-    states = list(start)
-    continued = ", &\n      "
-    return f"""{source(made, "fortran")}
-program user
-  use, intrinsic :: iso_fortran_env, only: dp => real64
-  implicit none
-  real(dp) :: {", ".join(states)}
-  integer :: i
-  {"; ".join(f"{name} = {value!r}_dp" for name, value in start.items())}
-  do i = 1, 10
-    call wear_increment(100.0_dp, 4.0_dp, 0.1_dp * i, &
-      {continued.join([*(f"{value!r}_dp" for value in data), *states])})
-  end do
-  write (*, '({len(states)}es28.17e4)') {", ".join(states)}
-end program user
-"""
-
-
 @pytest.mark.parametrize("language", ["c", "fortran"])
 @pytest.mark.parametrize("module", ["rigid_bearing", "rigid_worn", "rigid_worn_rough"])
 def test_increments_add_up_to_the_wear_that_the_model_has(module, language, need_tool, tmp_path):
@@ -557,16 +391,12 @@ def test_increments_add_up_to_the_wear_that_the_model_has(module, language, need
     if "sigma_a" in start:
         start["sigma_a"] = at.parameters["sigma_a0"]
     data = [at.parameters[s.name] for s in made.parameters]
-    if language == "c":
-        for name, target in (("wear_model.c", "c"), ("wear_model.h", "header")):
-            (tmp_path / name).write_text(source(exact.made(variant), target))
-        (tmp_path / "user.c").write_text(c_user(start, data))
-        files = ("-std=c99", "user.c", "wear_model.c", "-lm")
-        run(need_tool("gcc"), *FLAGS, *files, "-o", "user", cwd=tmp_path)
-    else:
-        (tmp_path / "user.f90").write_text(fortran_user(exact.made(variant), start, data))
-        run(need_tool("gfortran"), "-std=f2008", *FLAGS, "user.f90", "-o", "user", cwd=tmp_path)
-    found = dict(zip(states, map(float, run(str(tmp_path / "user")).split()), strict=True))
+    compiled, passed = library(language, variant, tmp_path, need_tool), PASSED[language]
+    advance = compiled[{"c": "wear_increment", "fortran": "wear_increment_"}[language]]
+    ends = [number(start[state]) for state in states]
+    for i in range(1, 11):
+        advance(*map(passed, (100.0, 4.0, 0.1 * i, *data)), *map(ctypes.byref, ends))
+    found = dict(zip(states, (end.value for end in ends), strict=True))
     p = at.parameters
     worn = p["K_c"] * 100.0 * 4.0 * 5.5 / (3.0 * p["H_c"])
     assert found["u_c"] == pytest.approx(worn, rel=1e-14)

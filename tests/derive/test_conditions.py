@@ -17,11 +17,11 @@ from derive.rules.algebra import Insert
 from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
 from derive.rules.reading import CONSTANT, PERIODIC
-from derive.symbols import symbols
+from derive.symbols import symbols, t
 from derive.typeset.mathml import mathml
 from tests.derive.rules.algebra import defined_as
 
-b_0, f_c, h_0, kappa, G = symbols("b_0 f_c h_0 kappa G")
+b_0, f_c, h_0, kappa, G, U_a = symbols("b_0 f_c h_0 kappa G U_a")
 
 
 def test_every_condition_reads_as_latex() -> None:
@@ -71,6 +71,19 @@ def test_a_name_has_a_value_under_the_conditions_that_are_shown() -> None:
 def test_a_definition_shows_what_it_hides(made: Judgement, shown: str) -> None:
     stated = Equation("x", "1", "hidden", (Arithmetic(sp.Ge(h_0, 0, evaluate=False))(made),))
     assert shown in [str(condition.relation) for condition in stated.conditions]
+
+
+def test_a_sign_that_the_vocabulary_does_not_tell_is_shown() -> None:
+    scale = sp.Symbol("scale", positive=True)
+    stated = Equation("x", "1", "sign", (Arithmetic(sp.Gt(scale, 0, evaluate=False))(),))
+    assert [str(condition.relation) for condition in stated.conditions] == ["scale > 0"]
+
+
+def test_a_limit_that_only_a_definition_supposes_is_shown() -> None:
+    """Of U_a = U sin(t) there is none."""
+    end = sp.Limit(U_a, t, sp.oo)
+    made = Insert(sp.Eq(end, b_0, evaluate=False))(defined(b_0, end))
+    assert [c.text for c in Equation("x", "1", "end", (made,)).conditions] == ["U_a has a limit"]
 
 
 def test_every_equation_of_section_4_says_what_it_needs() -> None:

@@ -185,14 +185,6 @@ def test_an_unknown_suffix_is_told_with_the_known_ones(drawn):
         figure_style.encoded(drawn["wear"], ".bmp")
 
 
-@pytest.mark.parametrize(
-    ("x", "y"), [(np.zeros(3), np.zeros(4)), (np.zeros((2, 2)), np.zeros((2, 2))), ([], [])]
-)
-def test_arrays_of_other_shapes_are_refused(x, y):
-    with pytest.raises(ValueError, match="shape"):
-        Line("line", x, y)
-
-
 @given(heights=st.lists(st.floats(0.0, 1.0), min_size=1, max_size=10), gap=st.floats(0.01, 0.1))
 def test_names_stay_apart_in_order_and_inside(heights, gap):
     ends = np.sort(np.array(heights))

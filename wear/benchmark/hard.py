@@ -24,7 +24,8 @@ from wear.benchmark.methods import (
     solver,
     with_defaults,
 )
-from wear.benchmark.results import Table, cycle_count, grouped, magnitude, markdown_table
+from wear.benchmark.results import Table, grouped, magnitude, markdown_table
+from wear.quantities import in_short
 
 LEGEND = (
     "Largest true relative error over the numbers of cycles tried. reported: the method "
@@ -129,7 +130,7 @@ def failures(found: Sequence[Measurement]) -> Table:
         for method, some in grouped(entries, "method").items():
             entry = worst(some)
             if entry.status is not Status.MET or not entry.honest:
-                rows.append((scene, cycle_count(entry.cycles), method, _how(entry)))
+                rows.append((scene, in_short(entry.cycles, 5), method, _how(entry)))
     return Table("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from wear.benchmark import Measurement, StartUp, Status
 from wear.benchmark.machine import footer
 from wear.figure_data import Method
+from wear.quantities import in_short
 
 Row = TypeVar("Row")
 COMMITTED = files("wear").joinpath("data", "speed.json")
@@ -98,15 +99,6 @@ def magnitude(error: float) -> str:
     return f"{abs(error):.0e}".replace("e-0", "e-")
 
 
-def cycle_count(cycles: int) -> str:
-    """A number of cycles, short.
-
-    >>> cycle_count(9000), cycle_count(10**8)
-    ('9000', '1e8')
-    """
-    return str(cycles) if cycles < 10**5 else f"{cycles:.3g}".replace("e+0", "e")
-
-
 def _rounded(number: float) -> str:
     return f"{number:.2g}" if number < 99.5 else f"{number:.0f}"
 
@@ -118,12 +110,12 @@ def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple
         ranking = best(here, digits)
         if not ranking:
             found.append(
-                f"{cycle_count(cycles)} cycles, {digits} digits: nothing that was tried gets there."
+                f"{in_short(cycles, 5)} cycles, {digits} digits: nothing that was tried gets there."
             )
             continue
         first, *others = ranking
         text = (
-            f"For {digits} digits of the wear after {cycle_count(cycles)} "
+            f"For {digits} digits of the wear after {in_short(cycles, 5)} "
             f"{'cycle' if cycles == 1 else 'cycles'} use {first.method}: "
             f"it takes {duration(first.seconds)}"
         )
@@ -230,7 +222,7 @@ def speed_table(runs: Sequence[Measurement], scene: str, digits: int) -> Table:
         (method, *(cell(some, method, digits) for some in by_cycles.values()))
         for method in grouped(here, "method")
     ]
-    header = ("method", *(f"N = {cycle_count(n)}" for n in by_cycles))
+    header = ("method", *(f"N = {in_short(n, 5)}" for n in by_cycles))
     return Table(f"{scene}, {digits} digits", header, tuple(rows))
 
 
@@ -249,7 +241,7 @@ def start_table(result: Result) -> Table:
 def failure_table(runs: Sequence[Measurement]) -> Table:
     """Return the answers that were silently wrong."""
     rows = [
-        (run.method, run.scene, cycle_count(run.cycles), f"{run.tolerance:g}", f"{run.error:+.0%}")
+        (run.method, run.scene, in_short(run.cycles, 5), f"{run.tolerance:g}", f"{run.error:+.0%}")
         for run in silent_failures(runs)
     ]
     header = ("method", "scene", "cycles", "tolerance", "true error")

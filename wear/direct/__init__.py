@@ -26,7 +26,6 @@ from wear.direct.step import (
     METHODS,
     EndOfModelError,
     Meter,
-    OutOfTimeError,
     leg,
 )
 from wear.load import Loading
@@ -111,7 +110,7 @@ def integrate(
                 runs[-1].states.append(state)
             if len(runs) > 1 and np.max(_errors(runs, blur), initial=0.0) <= rtol:
                 break
-    except OutOfTimeError:
+    except TimeoutError:
         stopped, interrupted = "the time limit has passed", True
     except KeyboardInterrupt:
         stopped, interrupted = "interrupted", True

@@ -124,7 +124,7 @@ def cycle(
 
     Raises
     ------
-    OutOfTimeError, EndOfModelError
+    TimeoutError, EndOfModelError
     """
     longest = widest_step(of, u, 1.0)
     for piece in cut:

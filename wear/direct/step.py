@@ -22,10 +22,6 @@ NEAR = 1e-6  # of a cycle: by how much an interpolant may misplace the end of co
 LOOKS_PER_STEP = 8  # where a step is searched for the end of contact
 
 
-class OutOfTimeError(Exception):
-    """The time limit has passed."""
-
-
 class EndOfModelError(Exception):
     """The integration cannot go on; the message says why."""
 
@@ -51,7 +47,7 @@ class Meter:
         is up."""
         self.steps += 1
         if time.monotonic() > self.deadline:
-            raise OutOfTimeError
+            raise TimeoutError
         self.pace.at(self.cycles - self.before + phase)
 
 
@@ -81,7 +77,7 @@ def leg(
 
     Raises
     ------
-    OutOfTimeError, EndOfModelError
+    TimeoutError, EndOfModelError
     """
     solver = _solver(of, u, start, end, setting, meter, longest)
     side = 0.0

@@ -130,7 +130,7 @@ FAMILIES = (
         "the rate of what jumps": ("Derivative", eq(h, h_0 * v)),  # h = h_0 v, a square wave
         # the left side is 0 to SymPy
         "the rate of w = q v, with time held": ("Derivative", eq(w, q * v)),
-        "another clock": ("t = T tau", SCALED, defined(t, 2 * T * tau)),
+        "another clock": ("t = T tau", SCALED, defined(N, t / T)),
         "an inequality in periods": ("no equality", ge(u_c, u_a)),
     }),
     Family(lambda expr, variable, *known: ParameterLimit(expr, variable)(*known), (
