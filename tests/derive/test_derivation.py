@@ -100,7 +100,7 @@ def test_no_wrong_step_passes(part):
         assert str(refusal.value), (written, what)
 
 
-def _sections_2_and_3(model: Model) -> tuple[Equation, ...]:
+def _sections_2_and_3(model: Condensed) -> tuple[Equation, ...]:
     return numbered(governing.results(model) | condensed.results(model))
 
 
@@ -109,9 +109,9 @@ HYPOTHESES = [(name, None) for name in ("closure", "support", "roughness", "pres
 ]
 
 
-def _with_wrong(name: str, place: int | None, what: int) -> Model:
+def _with_wrong(name: str, place: int | None, what: int) -> Condensed:
     """Return a model in which one hypothesis is mutated, before anything is derived from it."""
-    model = Model()
+    model = Condensed()
     stated = getattr(model, name)
     target = stated if place is None else stated[place]
     wrong = [claim for _, claim in mutants(target.relation) if not same(claim, target.relation)]
