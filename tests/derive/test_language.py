@@ -17,6 +17,7 @@ from derive.note.model import contact
 from derive.rules.algebra import Identity
 from derive.rules.assumption import assume
 from derive.rules.limits import forever
+from derive.rules.proving import LAW
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import end, equal, supposed
 
@@ -91,6 +92,12 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Symbol("oo", real=True), "no real quantity"),
     (sp.Symbol("f_c_", positive=True), "no real quantity"),  # looks like f_c
     (sp.Symbol("sigmabar", real=True), "no real quantity"),  # looks like sigma
+    (sp.Symbol("lamda", real=True), "no real quantity"),  # looks like lambda
+    (sp.Symbol("xabs", real=True), "no real quantity"),  # looks like |x|, and may be -1
+    (sp.Symbol("hprime", real=True), "no real quantity"),  # looks like the rate of h
+    (sp.Symbol("phi", real=True), "no real quantity"),
+    (sp.Symbol("o", real=True), "no real quantity"),
+    (sp.Symbol("true", real=True), "no real quantity"),
     (sp.Function("exp", real=True)(t), "no real quantity"),
     (sp.Function("count", integer=True)(t), "no real quantity"),  # 1/2
     (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
@@ -108,6 +115,8 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
     sp.Rational(1, 10**20),
     sp.Limit(sp.sign(theta), theta, 0),
     sp.Symbol("f_x", positive=True) + sp.Symbol("U_x", positive=True),
+    sp.Symbol("lambda", real=True) * sp.Symbol("x_bar", real=True),
+    LAW(r),
     x * y,
     U_a.subs(t, t + T),
     sp.Subs(rate("u_c"), t, T),
