@@ -26,6 +26,7 @@ h_0, f_c, C, T, N, q, k, b_0, U = symbols("h_0 f_c C T N q k b_0 U")
 theta, kappa, tau, p_max = symbols("theta kappa tau p_max")
 x, y = sp.symbols("x y", real=True)
 WIGGLE = sp.Function("wiggle", real=True)(t)
+SWAYS, POSITIVE = sp.Derivative(WIGGLE, t), sp.Function("wiggle", positive=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
 
 
@@ -58,6 +59,10 @@ def with_a_slope_of_its_own() -> sp.Expr:
     """Return an unspecified function of y that is said to fall."""
     kind = type("Lying", (AppliedUndef,), {"fdiff": lambda *_: -sp.S.Half})
     return UndefinedFunction("lie", bases=(kind,), real=True)(y)
+
+
+def kinked(inside: sp.Expr) -> sp.Expr:
+    return sp.exp(-r - sp.sqrt(inside) / (2 + 2 * r**2))
 
 
 def touching(factor: sp.Expr) -> sp.Basic:
@@ -166,6 +171,12 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 0), u_c), "is a new name"),  # u_c = t
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 2 * t) - WIGGLE, h_0), "is a new name"),  # t = 0
     (Kind.DEFINITION, equal(sp.Limit(WIGGLE, t, 0), 1), "is a new name"),
+    (Kind.MODEL, contact(ContactLaw("", kinked(r**4 + r**2), sp.S.Zero, "")), "smooth"),
+    (Kind.DEFINITION, equal(kappa * f_c, 0), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, equal(f_c * POSITIVE, 0), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, equal(kappa + p_max, 0), "is a new name"),
+    (Kind.DEFINITION, equal(SWAYS, (1 + WIGGLE**2) / T), "is a new name"),  # tan(t/T)
+    (Kind.DEFINITION, equal(N, t / (2 * T)), "another time"),  # u_c = C t
     (Kind.DEFINITION, equal(2 * C, f_c * h_0), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
     (Kind.DEFINITION, equal(t, 5), "another time"),  # t = 4
@@ -184,6 +195,11 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(forever(WIGGLE - u_c), 1)),
     (Kind.DEFINITION, equal(b_0, PHASED.subs(tau, 1))),
     (Kind.DEFINITION, equal(N, t / T)),
+    (Kind.MODEL, contact(ContactLaw("", kinked(1 + r**2), sp.S.Zero, ""))),
+    (Kind.DEFINITION, equal(f_c * b_0, 0)),
+    (Kind.DEFINITION, equal(f_c * WIGGLE, 0)),
+    (Kind.DEFINITION, equal(kappa + b_0, 0)),
+    (Kind.DEFINITION, equal(SWAYS, (1 + u_c**2) / T)),
 )
 
 
