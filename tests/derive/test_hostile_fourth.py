@@ -14,7 +14,7 @@ from derive.faults import UsageError
 from derive.hypotheses import Kind
 from derive.kernel import Judgement, RuleError, replayed
 from derive.laws import EXPONENTIAL, TANH, ContactLaw, r
-from derive.note.model import ARCHARD, CLOSURE, START, contact
+from derive.note.model import ARCHARD, CLOSURE, SLIP, START, contact
 from derive.own_law import own_law
 from derive.rules.algebra import Alike, Consequence, Insert, Multiply, Solve, restrict, substitute
 from derive.rules.assumption import assume, defined
@@ -38,16 +38,20 @@ from tests.derive.judgements import (
     expansion_premises,
     first_order_terms,
     given,
+    logarithmic,
     opened,
     slow_time,
     supposed,
     tends,
 )
+from tests.derive.rules.asymptotics import averaged
 
 u_c, u_a, U_a, h, p, G, sigma = symbols("u_c u_a U_a h p G sigma")
 h_0, f_c, C, T, N, q, b_0, L, U = symbols("h_0 f_c C T N q b_0 L U")
 theta, u_cum, tau, m, p_max, kappa, s_0, rho = symbols("theta u_cum tau m p_max kappa s_0 rho")
-sigma_a, w_1, d, u_s = symbols("sigma_a w_1 d u_s")
+sigma_a, w_1, d, u_s, p_s, c_1, U_c, k, n, omega, f_cc = symbols(
+    "sigma_a w_1 d u_s p_s c_1 U_c k n omega f_cc"
+)
 x, y = sp.symbols("x y", real=True)
 WIGGLE, WOBBLE = (sp.Function(name, real=True)(t) for name in ("wiggle", "wobble"))
 POSITIVE = sp.Function("wiggle", positive=True)(t)
@@ -142,6 +146,22 @@ def curved() -> Judgement:
     return AtInfinity(end(u_c**2 * odd, 0), 1 / u_c)(DEEP)
 
 
+def deflected(ratio: sp.Expr) -> Judgement:
+    """Return that the support is deflected one period later, as it always is."""
+    known = one_period_later(Solve(U_c)(assume(SPRINGS)))
+    return Insert(equal(ratio, 1))(known, Arithmetic(sp.Ne(later(U_c), 0))(known))
+
+
+def mean_of(right: sp.Expr, mean: sp.Expr) -> Judgement:
+    law = equal(sp.Derivative(w_1, tau), rho * (right - c_1))
+    return Averaging(equal(c_1, mean))(Consequence(law)(given(law), expansion_premises()[-1]))
+
+
+def over_pressures(most: sp.Expr, known: Judgement) -> Judgement:
+    part = sp.Integral(1 / (p_s - p_max), (p_s, p_max / 4, most))
+    return Multiply(part)(HELD, known)
+
+
 def grown(scale: sp.Expr, *facts: Judgement) -> Judgement:
     limit = tends(du * sp.exp((u_c - U_a) / q), C)
     return LogarithmicGrowth(scale)(limit, assume(SINE), *facts)
@@ -218,6 +238,38 @@ CASES: dict[str, Case] = {
         lambda: rigid(OPENED),
         "nothing else is said of the load",
     ),
+    "a deflection one period later": (  # 0 = 1
+        lambda: rigid(deflected(later(p) / (k * later(U_c)))),
+        lambda: rigid(OPENED),
+        "nothing else is said of",
+    ),
+    # ---- what an asymptotic relation is about, on the right of what is inserted
+    "a scale that grows with the number of cycles": (  # G = q/N, for one N
+        lambda: substitute(logarithmic(), given(equal(q, N * G))),
+        lambda: substitute(logarithmic(), given(equal(q, b_0 * G))),
+        "may take every value",
+    ),
+    # ---- averages
+    "a pressure whose limit varies with the load": (
+        lambda: averaged(1 + U_a / (2 * U)),
+        lambda: averaged(1 + q),
+        "is the limit of",
+    ),
+    "a pressure that vanishes": (
+        lambda: averaged(1 / (1 + u_c**2 / q**2)),
+        lambda: averaged(1 + f_c**2),
+        "smooth at infinity",
+    ),
+    "the mean over half a wave": (  # c_1 is no constant
+        lambda: mean_of(U * sp.cos(sp.pi * tau), sp.S.Zero),
+        lambda: mean_of(U * sp.cos(2 * sp.pi * tau), sp.S.Zero),
+        "the period 1",
+    ),
+    "the mean of a field": (  # G = tau
+        lambda: mean_of(h_0 * G, h_0 * G),
+        lambda: mean_of(h_0 * q, h_0 * q),
+        "the period 1",
+    ),
     # ---- one period later, with time that is bound
     "a mean in a limit": (lambda: shifted(MEAN), lambda: shifted(h_0 / T), "all that varies"),
     "a first value in a limit": (  # G = t e^(-t/T)
@@ -291,7 +343,7 @@ CASES: dict[str, Case] = {
     "half of the number of cycles": (  # u_c = C t
         lambda: defined(N, t / (2 * T)),
         lambda: defined(N, t / T),
-        "another time",
+        "N is t/T",
     ),
     "an averaged roughness that is another wear": (
         lambda: Arithmetic(equal(m, u_a))(defined(m, u_a), assume(EXPANSION)),
@@ -301,6 +353,26 @@ CASES: dict[str, Case] = {
     "what remembers another start": (
         lambda: substitute(slow_time(), defined(s_0, 5 * h_0)),
         lambda: substitute(slow_time(), given(equal(s_0, 5 * h_0))),
+        "is a new name",
+    ),
+    "an angular speed that is C/L": (  # n is whatever it is
+        lambda: Arithmetic(equal(sp.pi * n / 30, C / L))(*of_model(SLIP[1]), defined(omega, C / L)),
+        lambda: Arithmetic(equal(omega, sp.pi * n / 30))(*of_model(SLIP[1])),
+        "is a new name",
+    ),
+    "a roughness that does not grow": (  # f_c = 1
+        lambda: substitute(*of_model(ARCHARD[3]), defined(f_cc, sp.S.Zero)),
+        lambda: substitute(*of_model(ARCHARD[3]), defined(f_cc, f_c)),
+        "f_cc is f_c",
+    ),
+    "another growth of the averaged roughness": (
+        lambda: substitute(slow_time(), defined(rho, 5 * h_0)),
+        lambda: substitute(slow_time(), defined(rho, f_c * u_cum)),
+        "rho is f_c",
+    ),
+    "a variable of integration that is p_max/2": (  # 1/0 at p_max
+        lambda: over_pressures(2 * p_max, defined(p_s, p_max / 2)),
+        lambda: over_pressures(p_max / 2, given(sp.Lt(p_s, p_max))),
         "is a new name",
     ),
     # ---- 0/0 where h_0 = L, in what an author writes

@@ -159,8 +159,8 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(sp.Limit(WIGGLE, t, 0), 1), "is a new name"),
     (Kind.DEFINITION, equal(2 * C, f_c * h_0), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
-    (Kind.DEFINITION, equal(t, 5), "another time"),  # t = 4
-    (Kind.DEFINITION, equal(N, u_c / h_0), "another time"),  # u_c = -h_0 t/T
+    (Kind.DEFINITION, equal(t, 5), "t is T"),  # t = 4
+    (Kind.DEFINITION, equal(N, u_c / h_0), "N is t/T"),  # u_c = -h_0 t/T
 )
 CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.STATE, sp.Eq(u_c, C * t)),

@@ -258,6 +258,6 @@ FAMILIES = (
             defined(theta, b_0 + 0)),
     }),
     Family(each, (lambda: defined(b_0, U_a, "", CONSTANTLY),), {
-        "t = 5, by definition": ("another time", lambda: defined(t, sp.Integer(5))),  # t = 4
+        "t = 5, by definition": ("t is T", lambda: defined(t, sp.Integer(5))),  # t = 4
     }),
 )  # fmt: skip
