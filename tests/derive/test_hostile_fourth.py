@@ -44,7 +44,7 @@ from tests.derive.judgements import (
     supposed,
     tends,
 )
-from tests.derive.rules.asymptotics import averaged
+from tests.derive.rules import asymptotics
 
 u_c, u_a, U_a, h, p, G, sigma = symbols("u_c u_a U_a h p G sigma")
 h_0, f_c, C, T, N, q, b_0, L, U = symbols("h_0 f_c C T N q b_0 L U")
@@ -65,6 +65,7 @@ STEEP = sp.diff(LAW(y), y).subs(y, 0)
 SMOOTH, HELD = given(equal(sigma_a, 0)), given(equal(h, h_0))
 PIN_WORN = given(sp.Ge(u_a, 0))
 OPENED = opened()
+averaged: Callable[[sp.Expr], Judgement] = asymptotics.averaged
 
 
 def called(relation: sp.Basic, kind: Kind) -> Judgement:

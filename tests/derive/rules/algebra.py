@@ -103,7 +103,7 @@ FAMILIES = (
         "the datum of a slope": ("every value", given(equal(SLOPE, h_0)), eq(f_c, 1)),
         # theta = 1: G = 3, not 3/2
         "capture by an integral": ("for every", integral(b_0), eq(b_0, theta)),
-        "capture by a limit": ("for every", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
+        "capture by a limit": ("every value", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
         # d(h_0 N)/dt is h_0/T
         "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
