@@ -30,7 +30,7 @@ from .kernel import Judgement, chain, domain, plain
 from .language import certain, names
 from .rules.assumption import Assume
 from .rules.proving import holds, needs
-from .symbols import CLOCKS, QUANTITIES, t
+from .symbols import CLOCKS, DATA, QUANTITIES, t
 from .typeset.display import latex
 from .typeset.present import presentable
 from .written import Names, evaluated, read
@@ -215,8 +215,9 @@ class Equation:
 
     @cached_property
     def typeset_agrees(self) -> bool:
-        """Return whether what is typeset is what was derived."""
-        return _agree(self.shown_in_full, self.claims)
+        """Return whether what is typeset is what was derived; an abbreviation is no datum."""
+        short = {name for abbreviation in self.where for name, _ in names(abbreviation.lhs)}
+        return short.isdisjoint(DATA) and _agree(self.shown_in_full, self.claims)
 
     @property
     def shown_in_full(self) -> tuple[sp.Basic, ...]:
@@ -276,6 +277,7 @@ def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:
 
 def _in_full(relation: sp.Basic, where: tuple[sp.Basic, ...]) -> sp.Basic:
     """Return a relation with abbreviations written out."""
+    relation = evaluated(relation) if where else relation
     for short in reversed(where):
         relation = _replaced(relation, evaluated(short))
     return relation
@@ -285,8 +287,8 @@ def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
     """Return an expression with one abbreviation written out, a function at its arguments too."""
     name = short.lhs
     if not isinstance(name, AppliedUndef):
-        return evaluated(expr).subs(name, short.rhs)
-    written = evaluated(expr).replace(name.func, sp.Lambda(name.args, short.rhs))
+        return expr.subs(name, short.rhs)
+    written = expr.replace(name.func, sp.Lambda(name.args, short.rhs))
     return written.replace(sp.Subs, lambda *args: sp.Subs(*args).doit())  # slopes of the function
 
 

@@ -24,7 +24,8 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from .claims import Drift, FirstZero, Oscillation, Term
+from .claims import Drift, FirstZero, Oscillation, Term, landau_o
+from .laws import GENERAL
 from .note.model import FIELDS
 from .symbols import CLOCKS, DATA, QUANTITIES, symbol, t
 
@@ -41,15 +42,9 @@ _HEADS = frozenset(
 _MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS
 _FACES = frozenset(quantity.latex.replace(" ", "") for quantity in QUANTITIES.values())
 _WORDS = frozenset(head.__name__ for head in _HEADS) | {
-    "pi",
-    "oo",
-    "zoo",
-    "nan",
-    "I",
-    "sqrt",
-    "lim",
-    "ln",
+    *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o"),
 }
+_FUNCTIONS = frozenset((GENERAL.phi.func, landau_o))
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 _SIGNS = [{domain: True} for domain in ("real", "positive", "nonnegative")]
 _DOMAINS = [sp.Dummy(**domain).assumptions0 for domain in _SIGNS]
@@ -151,14 +146,17 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
         same = node.func == known.func if node.args else node == known
         return None if same else f"{name} is not the {name} of the vocabulary"
     fits = node.assumptions0 in _DOMAINS if node.is_Symbol else node.func._kwargs in _RANGES
-    if not fits or name in _WORDS or _face(name) in _FACES or not _NAME.fullmatch(name):
+    known = name in _WORDS and node.func not in _FUNCTIONS
+    if not fits or known or not _NAME.fullmatch(name) or not _shows(name):
         return f"{name} is no real quantity"
     return None
 
 
 @cache
-def _face(name: str) -> str:
-    return str(sp.latex(sp.Symbol(name))).replace(" ", "")
+def _shows(name: str) -> bool:
+    """Return whether a name is typeset as it is typed, and as no quantity of the vocabulary."""
+    face = str(sp.latex(sp.Symbol(name))).replace(" ", "")
+    return face not in _FACES and re.sub(r"[\\_{}]", "", face) == name.replace("_", "")
 
 
 def _name(node: sp.Basic) -> str:

@@ -18,6 +18,7 @@ import itertools
 import operator
 import re
 from collections.abc import Mapping
+from functools import cache
 from types import MappingProxyType
 from typing import Any
 
@@ -71,6 +72,7 @@ def read(text: str, names: Names = MappingProxyType({})) -> sp.Basic:
         return sides[0] if len(sides) == 1 else sp.Equivalent(*sides)
 
 
+@cache
 def evaluated(expr: sp.Basic) -> sp.Basic:
     """Return an expression that was built as written, evaluated."""
     if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):

@@ -67,9 +67,9 @@ def _text(found: Equation) -> str:
 
 
 def _mathml(found: Equation) -> str:
-    from derive.typeset.mathml import mathml
+    from derive.typeset.mathml import display
 
-    return mathml(found.latex)
+    return display(found.latex)
 
 
 def _srepr(found: Equation) -> str:

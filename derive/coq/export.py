@@ -28,7 +28,7 @@ from .statements import key, world
 from .steps import Step, steps
 
 LIBRARY = Path(__file__).parent / "library"
-THEOREMS = ("Tanh", "Limits", "Drift", "Tactics")
+THEOREMS = ("Tanh", "Limits", "Integrals", "Drift", "Tactics")
 """The files of the library, each after those that it needs."""
 
 AXIOMS = frozenset(

@@ -17,6 +17,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.printing.str import StrPrinter
 
+from ..claims import landau_o
 from ..symbols import QUANTITIES, symbol, t
 
 tau = symbol("tau")
@@ -109,6 +110,8 @@ class _Printer(StrPrinter):
     def _print_Function(self, expr: sp.Function) -> str:
         if tau in expr.args:
             raise UntranslatableError("a claim in scaled time")
+        if expr.func == landau_o:
+            raise UntranslatableError("an asymptotic relation")
         if isinstance(expr, AppliedUndef):
             head = field(expr)
         elif expr.func in _FUNCTIONS:

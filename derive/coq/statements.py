@@ -69,7 +69,10 @@ class Statement:
 def statement(judgement: Judgement) -> Statement:
     """Return the lemma of a judgement; UntranslatableError where Coq's library lacks the words."""
     premises = [_premise(h) for h in judgement.hypotheses]
-    premises += [_domain(h.relation) for h in judgement.domains if _of_quantity(h.relation.args[0])]
+    relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
+    free = frozenset().union(*(relation.free_symbols for relation in relations))
+    domains = [h.relation for h in judgement.domains if _of_quantity(h.relation.args[0])]
+    premises += [_domain(r) for r in domains if r.args[0].args or r.args[0] in free]
     premises += _assumed(judgement)
     premises += _smooth(judgement)
     conclusion = printer.always(claim(judgement))

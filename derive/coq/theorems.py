@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 
 from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
+from ..rules.solutions import Integrated
 from ..symbols import symbol, t
 from .printer import binder, field, term
 from .steps import Step
@@ -28,6 +29,8 @@ def proof(step: Step) -> list[str]:
     for way in (
         _later,
         _same_rate,
+        _separates,
+        _by_parts,
         _threshold,
         _grows,
         _integrates,
@@ -61,6 +64,64 @@ def _same_rate(step: Step) -> Iterator[str]:
             yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; derived)."
         yield "intros t Ht."
         yield f"multiple (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) 1."
+
+
+def _separates(step: Step) -> Iterator[str]:
+    """Separated variables: g(y) y' is constant."""
+    if step.rule == "Separate":
+        pace, integral = term(step.relation.lhs / t), step.relation.rhs
+        s, start, y = integral.limits[0]
+        made, low, rate = _function(integral.function, s), _low(y), (sp.Derivative(y, t),)
+        first = next(h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start))
+        rates = (next(r for r in step.ancestors if r.relation.args[:1] == rate), step.frontier[0])
+        yield _continuous("C", made, s, y)
+        yield f"assert (D : forall t, 0 <= t -> {made} ({term(y)}) * Derive {field(y)} t = {pace})."
+        yield from ("{ intros t Ht.", *step.signs())
+        yield f"{step.stated(dict.fromkeys(rates))}cbv beta; insert; identity. }}"
+        yield f"assert (B : forall t, 0 <= t -> Rbar_lt {low} ({term(y)})) by (simpl; auto)."
+        yield "intros t Ht."
+        yield f"pose proof (separates {field(y)} {made} ({pace}) {low} smooth_{field(y)} B C D t Ht) as Q."
+        yield f"rewrite ({step.cited(first)}) in Q; refine (eq_trans _ Q); field; positive."
+
+
+def _function(expr: sp.Expr, variable: sp.Symbol) -> str:
+    return f"(fun {binder(variable)} => {term(expr)})"
+
+
+def _low(y: sp.Expr) -> str:
+    """Return the end of the half-line, or line, on which a field varies."""
+    return "0" if y.is_nonnegative else "m_infty"
+
+
+def _assured(label: str, said: str, s: sp.Symbol, y: sp.Expr, proof: str) -> str:
+    """State what holds wherever a field may be."""
+    place = f"forall {binder(s)} : R, Rbar_lt {_low(y)} {binder(s)}"
+    return f"assert ({label} : {place} -> {said}) by (simpl; intros; {proof})."
+
+
+def _continuous(label: str, made: str, s: sp.Symbol, y: sp.Expr) -> str:
+    proof = f"apply (ex_derive_continuous {made}); auto_derive; repeat split; positive"
+    return _assured(label, f"continuous {made} {binder(s)}", s, y, proof)
+
+
+def _by_parts(step: Step) -> Iterator[str]:
+    """A part of an integral, by a primitive."""
+    rule = step.judgement.rule
+    if isinstance(rule, Integrated):
+        given = step.frontier[0]
+        (integral,) = given.relation.atoms(sp.Integral)
+        s, *ends = integral.limits[0]
+        y, parts = ends[1], (rule.primitive, integral.function, rule.rest)
+        primitive, made, rest = (_function(part, s) for part in parts)
+        here = binder(s)
+        slope = f"is_derive {primitive} {here} ({made} {here} - {rest} {here})"
+        yield _continuous("C", made, s, y)
+        yield _continuous("E", rest, s, y)
+        yield _assured("D", slope, s, y, "cbv beta; derived")
+        yield from ("intros t Ht.", *step.signs())
+        a, b = (f"({term(end)})" for end in ends)
+        yield f"rewrite ({step.now(given)}), (by_parts {primitive} {made} {rest} {_low(y)} {a} {b}); [| simpl; trivial | simpl; trivial | exact D | exact C | exact E]."
+        yield "rewrite ?RInt_zero; unfold Rdiv; rewrite ?Rmult_0_r, ?Rmult_0_l, ?exp_0; identity."
 
 
 def _grows(step: Step) -> Iterator[str]:
@@ -159,7 +220,8 @@ def _bounded_load(step: Step) -> Iterator[str]:
     diverges = next(s for s in step.limits if s.relation.rhs == sp.oo)
     yield f"assert (S : diverges (fun t => {term(start)} + {term(slope)} * u_c t)) by (apply diverges_affine; [positive | exact ({step.cited(diverges)})])."
     yield from _bounded(step, affine)
-    yield f"generalize (vanishes_affine {affine.function} _ b ({affine.c0}) ({affine.c1}) B S); apply tends_ext; intros t Ht."
+    yield f"pose proof (affine_bounded {affine.function} b ({affine.c0}) ({affine.c1}) B) as A."
+    yield f"generalize (bounded_vanishes (fun t => {affine}) _ _ A (tends_inv_diverges _ S)); apply tends_ext; intros t Ht."
     facts = [s for s in step.frontier if not isinstance(s.relation, sp.Equality)]
     yield from (f"pose proof ({step.now(s)})." for s in facts)
     yield f"assert (0 < {term(size)}) by positive; identity."
@@ -191,7 +253,8 @@ def _first_order(step: Step) -> Iterator[str]:
     yield f"assert (N : {term(speed)} <> 0) by (apply Rgt_not_eq, Rlt_gt; positive)."
     yield f"assert (L : {made} ({term(end)}) = {term(speed)}) by (cbv beta; identity)."
     yield from _bounded(step, affine)
-    yield f"generalize (first_order_affine u_c (fun t => {at}) {affine.function} {made} _ _ ({term(speed)}) b ({affine.c0}) ({affine.c1}) smooth_u_c W D L N B ({step.cited(ratio)}) ({step.cited(limit)}) E)."
+    yield f"pose proof (affine_bounded {affine.function} b ({affine.c0}) ({affine.c1}) B) as A."
+    yield f"generalize (first_order u_c (fun t => {at}) (fun t => {affine}) {made} _ _ ({term(speed)}) _ smooth_u_c W D L N A ({step.cited(ratio)}) ({step.cited(limit)}) E)."
     yield "apply tends_ext; intros t Ht; cbv beta; bounds; identity."
 
 
@@ -211,9 +274,9 @@ def _drift(step: Step) -> Iterator[str]:
     said = {part: p for p in step.statement.premises for part in p.relation.args}
     mean, periodic = said[symbol("U_mean")], said[_LOAD]
     smooth = next(p for p in step.statement.premises if p.said.endswith("continuous U_a t"))
-    yield f"assert (M : RInt U_a 0 T = U_mean * T) by (rewrite {mean.label}; exact (mean_times _ T domain_T))."
+    yield f"assert (M : RInt U_a 0 T = U_mean * T) by (rewrite {mean.label}; unfold Rdiv; rewrite Rmult_assoc, Rinv_l, Rmult_1_r; [reflexivity | positive])."
     yield f"assert (E : tends (fun t => t * (Derive u_c t - ({term(speed)})) - {affine}) 0) by (generalize ({step.cited(approach)}); apply tends_ext; intros t Ht; field; positive)."
-    yield f"pose proof (logarithmic_drift_affine u_c U_a _ _ _ _ T domain_T smooth_u_c {smooth.label} {periodic.label} M E) as L."
+    yield f"pose proof (logarithmic_drift u_c U_a _ _ _ _ T domain_T smooth_u_c {smooth.label} {periodic.label} M E) as L."
     yield f"apply (tends_value _ (({affine.c0}) + ({affine.c1}) * U_mean)); [field; positive |]."
     yield f"apply (tends_ext (fun t => (u_c t - ({term(speed)}) * t) / ln (t / T))); [| exact L]."
     yield "intros t Ht; unfold Rdiv; f_equal; field; positive."

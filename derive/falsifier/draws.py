@@ -37,7 +37,7 @@ _CLOSED = (sp.Limit, sp.Integral, sp.Subs)
 
 
 _PHI, _RATIO = GENERAL.phi.func, sp.Dummy("r", real=True)
-_LAWS = (
+LAWS = (
     sp.exp(-_RATIO),
     1 / (1 + sp.exp(4 * _RATIO - 8)),
     (1 - (_RATIO - 1) / sp.sqrt(1 + (_RATIO - 1) ** 2)) / 2,
@@ -46,11 +46,11 @@ _LAWS = (
 
 
 @cache
-def with_law(relation: sp.Basic, seed: int) -> sp.Basic:
-    """Return a relation about any law of contact, for one."""
+def with_law(relation: sp.Basic, number: int) -> sp.Basic:
+    """Return a relation about any law of contact, for one of those that are tried."""
     if not relation.has(_PHI):
         return relation
-    law = sp.Lambda(_RATIO, _LAWS[seed % len(_LAWS)])
+    law = sp.Lambda(_RATIO, LAWS[number])
     written = relation.replace(_PHI, law)
     return written.replace(lambda e: isinstance(e, sp.Subs), lambda slope: slope.doit())
 
@@ -72,7 +72,7 @@ class _Draft:
         field_or_rate = of(quantity.expr if rate else quantity)[:2]
         if any(known in self.values for known in (quantity, *field_or_rate)):
             return False
-        rests_on = reached((value,), _stateless(self.values))
+        rests_on = reached((value,), self.values, states=False)
         if _name(quantity) in DATA and rests_on & self.moving:
             return False
         if not rate and quantity in rests_on:
@@ -100,17 +100,28 @@ def drawn(
     if edges and chance.random() < 0.15:
         edge = chance.choice(sorted(edges, key=str))
         relations = (*relations, sp.Eq(*edge.args, evaluate=False))
-    everything = sp.Tuple(*relations, *wanted)
-    over = {d for d in everything.atoms(sp.Derivative) if t not in d.variables}
-    ends = {limit.args[1] for limit in everything.atoms(sp.Limit)} - {t}
+    over = frozenset().union(*map(slopes_over_data, (*relations, *wanted)))
+    ends = frozenset().union(*map(_limits_over_data, (*relations, *wanted)))
     moving = ends.union(*(slope.variables for slope in over))
-    model = _made(relations, seed, free, frozenset(d.expr for d in over), frozenset(moving))
+    model = _made(relations, seed, free, frozenset(d.expr for d in over), moving)
     if model is not None:
         for quantity in quantities(sp.Tuple(*wanted)):
             if not any(known in model.values for known in of(quantity)[:2]):
                 draw = test_function if quantity.args else _value
                 model.values[quantity] = draw(quantity, seed, quantity in free)
     return model
+
+
+@cache
+def slopes_over_data(relation: sp.Basic) -> frozenset[sp.Expr]:
+    """Return the derivatives with respect to data in a relation."""
+    return frozenset(d for d in relation.atoms(sp.Derivative) if t not in d.variables)
+
+
+@cache
+def _limits_over_data(relation: sp.Basic) -> frozenset[sp.Expr]:
+    """Return the data over which a relation takes limits."""
+    return frozenset(limit.args[1] for limit in relation.atoms(sp.Limit)) - {t}
 
 
 @lru_cache(maxsize=300)
@@ -147,11 +158,6 @@ def _made(
     return _model(draft)
 
 
-def _stateless(values: dict[sp.Expr, sp.Expr]) -> dict[sp.Expr, sp.Expr]:
-    """Return the values of data and fields, without rates and initial values."""
-    return {key: value for key, value in values.items() if key in quantities(key)}
-
-
 def _name(quantity: sp.Expr) -> str:
     return str(quantity.func if quantity.args else quantity)
 
@@ -176,11 +182,12 @@ def _fitting(
 ) -> sp.Expr:
     """Return a test function of which holds what is said of it alone; the last one tried if none
     is found."""
+    others = {known: value for known, value in values.items() if known in quantities(known)}
     for attempt in range(12 if about else 1):
         made = test_function(varying, seed + 97 * attempt, outside)
         if varying.subs(t, 0) in values:
             made = made - made.subs(t, 0) + values[varying.subs(t, 0)]
-        alone = Model({**_stateless(values), varying: made})
+        alone = Model({**others, varying: made})
         if all(truth(relation, alone).holds for relation in about):
             break
     return made

@@ -62,13 +62,17 @@ def quantities(expr: sp.Basic) -> frozenset[sp.Expr]:
     return frozenset((*fields, *(s for s in expr.free_symbols if s != t)))
 
 
-def reached(expressions: Iterable[sp.Basic], values: Mapping[sp.Basic, sp.Expr]) -> set[sp.Expr]:
-    """Return the quantities on which expressions rest, through the values of quantities."""
+def reached(
+    expressions: Iterable[sp.Basic], values: Mapping[sp.Basic, sp.Expr], states: bool = True
+) -> set[sp.Expr]:
+    """Return the quantities on which expressions rest, through the values of quantities; with
+    ``states`` also through rates and initial values."""
     waiting, seen = list(expressions), set[sp.Expr]()
     while waiting:
         for found in quantities(waiting.pop()) - seen:
             seen.add(found)
-            waiting += [values[key] for key in of(found) if key in values]
+            keys = of(found) if states else (found,)
+            waiting += [values[key] for key in keys if key in values]
     return seen
 
 
@@ -172,14 +176,14 @@ class Model:
         return self._formulas[key]
 
     def _formula(self, field: sp.Expr, order: int) -> sp.Expr:
-        given = field if order == 0 else field.diff(t) if order == 1 else None
+        given = of(field)[order] if order < 2 else None
         if given in self.values:
             return self.values[given]
         if order == 0:
             raise Undecided(f"{field} is not in the model")
         if (field, order) == (self.loop, 1):  # y' = G_t + G_y y'
             slope = sp.Dummy()
-            whole = _slope(self.inlined(self.values[field])).xreplace({field.diff(t): slope})
+            whole = _slope(self.inlined(self.values[field])).xreplace({of(field)[1]: slope})
             return whole.xreplace({slope: sp.S.Zero}) / (1 - sp.diff(whole, slope))
         return _slope(self.formula(field, order - 1))
 
@@ -307,5 +311,10 @@ def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]], loop: sp.Expr | None
 
 def _spacings(model: Model) -> Iterator[float]:
     """Return the times between jumps of the fields of a model."""
-    for jump in {f for value in model.values.values() for f in value.atoms(sp.floor)}:
+    for jump in frozenset().union(*map(_jumps, model.values.values())):
         yield 1 / float(ball(compiled(sp.diff(jump.args[0], t))(Moment(model))).mid())
+
+
+@cache
+def _jumps(expr: sp.Expr) -> frozenset[sp.Expr]:
+    return frozenset(expr.atoms(sp.floor))

@@ -9,7 +9,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ import numpy as np
 import sympy as sp
 from flint import ctx
 from sympy.core.function import AppliedUndef
+from sympy.printing.numpy import NumPyPrinter
 
 from ..symbols import t
 from .balls import BITS, Moment, Undecided, ball, compiled
@@ -44,9 +45,7 @@ class System:
         fields = whole.atoms(AppliedUndef)
         if any(field.args not in ((t,), (0,)) for field in fields):
             raise Undecided("a rate that needs another time")
-        plain = whole.xreplace(dict.fromkeys(fields, sp.Dummy()))
-        others = (fields | plain.atoms(sp.Symbol) - plain.atoms(sp.Dummy)) - set(self._moving)
-        data = tuple(sorted(others, key=str))
+        data = tuple(sorted((fields | whole.atoms(sp.Symbol)) - set(self._moving), key=str))
         with ctx.workprec(BITS):
             here = Moment(self._model)
             values = [float(ball(compiled(datum)(here)).mid()) for datum in data]
@@ -93,6 +92,19 @@ class System:
 def _compiled(
     written: tuple[sp.Expr, ...], quantities: tuple[sp.Expr, ...]
 ) -> Callable[..., list[Any]]:
-    names = [sp.Dummy() for _ in quantities]
-    flat = [expr.xreplace(dict(zip(quantities, names, strict=True))) for expr in written]
-    return sp.lambdify(names, flat, "numpy", cse=True)
+    names = {quantity: sp.Symbol(f"q_{i}") for i, quantity in enumerate(quantities)}
+    printer = _Printer(names)
+    return sp.lambdify(list(names.values()), list(written), "numpy", printer=printer, cse=True)
+
+
+class _Printer(NumPyPrinter):
+    """Quantities by the names of arguments, so that no formula is built anew with these."""
+
+    def __init__(self, names: Mapping[sp.Expr, sp.Symbol]) -> None:
+        super().__init__({"fully_qualified_modules": False})
+        self._names = names
+
+    def _print_Symbol(self, expr: sp.Symbol) -> str:
+        return str(self._names.get(expr, expr))
+
+    _print_AppliedUndef = _print_Symbol

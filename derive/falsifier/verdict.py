@@ -21,7 +21,7 @@ from sympy.core.function import AppliedUndef
 
 from ..symbols import t
 from .balls import fraction
-from .draws import WILD, drawn, with_law
+from .draws import LAWS, WILD, drawn, slopes_over_data, with_law
 from .models import Model, quantities, reached
 from .truth import truth
 
@@ -138,8 +138,8 @@ class _Trial:
 
     def _varied(self) -> set[sp.Symbol]:
         """Return the data over which something is differentiated."""
-        slopes = sp.Tuple(*self.relations).atoms(sp.Derivative)
-        return {v for slope in slopes for v in slope.variables if v != t}
+        slopes = (slope for relation in self.relations for slope in slopes_over_data(relation))
+        return {variable for slope in slopes for variable in slope.variables}
 
     def _moved(self) -> Iterator[Model]:
         """Return the models next to this one, where a claim has a derivative with respect to
@@ -179,11 +179,13 @@ def _models(
 ) -> Iterator[_Trial]:
     """Draw models that are made to satisfy what is imposed; the relations are given a value."""
     trends = sp.Tuple(*relations).has(sp.Limit)
+    in_time, imposed_in_time = (_in_time(given, imposed) for given in (relations, imposed))
     for seed in range(draws):
         if trends and seed % WILD == WILD - 1:  # what takes 1e30 periods has no trend in 1e8
             continue
-        written = tuple(with_law(relation, seed) for relation in _in_time(relations, imposed))
-        given = tuple(with_law(h, seed) for h in _in_time(imposed, imposed))
+        law = seed % len(LAWS)
+        written = tuple(with_law(relation, law) for relation in in_time)
+        given = tuple(with_law(h, law) for h in imposed_in_time)
         model = drawn(given, written, seed, free)
         if model is not None:
             yield _Trial(model, written, seed)

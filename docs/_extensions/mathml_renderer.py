@@ -14,7 +14,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util import logging
 
-from wear.report import mathml
+from derive.typeset import mathml
 
 LIST_OF_EQUATIONS = "reference/equations"
 _TAG = re.compile(r"\\tag\{([\w-]+)\}\s*$")

@@ -39,7 +39,7 @@ from derive.rules.solutions import Separate
 from derive.symbols import initial, rate, symbol, symbols, t
 
 u_c, U_a, U_c, h, p, G, u_s = symbols("u_c U_a U_c h p G u_s")
-C, f_c, h_0, k, q, T, tau, theta, u_cum = symbols("C f_c h_0 k q T tau theta u_cum")
+C, f_c, h_0, k, q, L, T, tau, theta, u_cum = symbols("C f_c h_0 k q L T tau theta u_cum")
 
 
 @dataclass(frozen=True)
@@ -91,6 +91,9 @@ CONSTANTLY = assume(CONSTANT)
 CYCLING = defined(t, T * tau)
 SLOPE = sp.Derivative(u_cum, f_c, evaluate=False)
 GROWING = defined(u_cum, h_0 * f_c)
+GAP = (h_0**2 - L**2) / (h_0 - L) - h_0 - L
+"""Zero, but where h_0 = L."""
+APART = ne(h_0, L)
 APPROACH = t * (rate("u_c") - C) - f_c * U_a
 FIRST_DRIFT = 2 * (1 - theta) * symbol("b_0")
 
@@ -131,9 +134,12 @@ def sloped(*facts: Judgement) -> Judgement:
     return Differentiated(equal(SLOPE, h_0), f_c)(GROWING, *facts)
 
 
-def logarithmic(scale: sp.Expr = q, size: sp.Expr = q, speed: sp.Expr = SPEED) -> Judgement:
+def logarithmic(
+    scale: sp.Expr = q, size: sp.Expr = q, speed: sp.Expr = SPEED, *facts: Judgement
+) -> Judgement:
     """Return how wear grows whose rate falls exponentially with it."""
-    return LogarithmicGrowth(scale)(tends(speed * sp.exp((u_c - U_a) / size), C), assume(SINE))
+    limit = tends(speed * sp.exp((u_c - U_a) / size), C)
+    return LogarithmicGrowth(scale)(limit, assume(SINE), *facts)
 
 
 def drifting(approach: sp.Expr = APPROACH) -> Judgement:

@@ -18,7 +18,7 @@ from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
 from derive.rules.reading import CONSTANT, PERIODIC
 from derive.symbols import symbols, t
-from derive.typeset.mathml import mathml
+from derive.typeset.mathml import display
 from tests.derive.rules.algebra import defined_as
 
 b_0, f_c, h_0, kappa, G, U_a = symbols("b_0 f_c h_0 kappa G U_a")
@@ -30,7 +30,7 @@ def test_every_condition_reads_as_latex() -> None:
         assert condition.latex
         for words in re.findall(r"\\text\{([^}]*)\}", condition.latex):
             assert not set(words) & set("_^()/=$\\"), "a formula in words"
-        assert "<math" in mathml(condition.latex)
+        assert "<math" in display(condition.latex)
 
 
 def test_a_value_that_meets_a_condition_leaves_none() -> None:

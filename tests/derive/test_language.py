@@ -17,7 +17,8 @@ from derive.note.model import contact
 from derive.rules.algebra import Identity
 from derive.rules.assumption import assume
 from derive.rules.limits import forever
-from derive.symbols import initial, rate, symbols, t
+from derive.rules.proving import LAW
+from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import end, equal, supposed
 
 u_c, U_a, U_c, h, p, sigma = symbols("u_c U_a U_c h p sigma")
@@ -25,6 +26,7 @@ h_0, f_c, C, T, N, q, k, b_0, U = symbols("h_0 f_c C T N q k b_0 U")
 theta, kappa, tau, p_max = symbols("theta kappa tau p_max")
 x, y = sp.symbols("x y", real=True)
 WIGGLE = sp.Function("wiggle", real=True)(t)
+SWAYS, POSITIVE = sp.Derivative(WIGGLE, t), sp.Function("wiggle", positive=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
 
 
@@ -59,6 +61,10 @@ def with_a_slope_of_its_own() -> sp.Expr:
     return UndefinedFunction("lie", bases=(kind,), real=True)(y)
 
 
+def kinked(inside: sp.Expr) -> sp.Expr:
+    return sp.exp(-r - sp.sqrt(inside) / (2 + 2 * r**2))
+
+
 def touching(factor: sp.Expr) -> sp.Basic:
     """Return the contact law with its cutoff, times a factor."""
     law = factor * p_max * TANH.ratio(h / sigma)
@@ -91,6 +97,12 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Symbol("oo", real=True), "no real quantity"),
     (sp.Symbol("f_c_", positive=True), "no real quantity"),  # looks like f_c
     (sp.Symbol("sigmabar", real=True), "no real quantity"),  # looks like sigma
+    (sp.Symbol("lamda", real=True), "no real quantity"),  # looks like lambda
+    (sp.Symbol("xabs", real=True), "no real quantity"),  # looks like |x|, and may be -1
+    (sp.Symbol("hprime", real=True), "no real quantity"),  # looks like the rate of h
+    (sp.Symbol("phi", real=True), "no real quantity"),
+    (sp.Symbol("o", real=True), "no real quantity"),
+    (sp.Symbol("true", real=True), "no real quantity"),
     (sp.Function("exp", real=True)(t), "no real quantity"),
     (sp.Function("count", integer=True)(t), "no real quantity"),  # 1/2
     (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
@@ -108,6 +120,8 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
     sp.Rational(1, 10**20),
     sp.Limit(sp.sign(theta), theta, 0),
     sp.Symbol("f_x", positive=True) + sp.Symbol("U_x", positive=True),
+    sp.Symbol("lambda", real=True) * sp.Symbol("x_bar", real=True),
+    LAW(r),
     x * y,
     U_a.subs(t, t + T),
     sp.Subs(rate("u_c"), t, T),
@@ -157,6 +171,16 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 0), u_c), "is a new name"),  # u_c = t
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 2 * t) - WIGGLE, h_0), "is a new name"),  # t = 0
     (Kind.DEFINITION, equal(sp.Limit(WIGGLE, t, 0), 1), "is a new name"),
+    (Kind.MODEL, contact(ContactLaw("", kinked(r**4 + r**2), sp.S.Zero, "")), "smooth"),
+    (Kind.DEFINITION, equal(kappa * f_c, 0), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, equal(f_c * POSITIVE, 0), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, equal(kappa + p_max, 0), "is a new name"),
+    (Kind.DEFINITION, equal(SWAYS, (1 + WIGGLE**2) / T), "is a new name"),  # tan(t/T)
+    (Kind.DEFINITION, equal(N, t / (2 * T)), "N is t/T"),  # u_c = C t
+    (Kind.DEFINITION, equal(symbol("omega"), C / T), "is a new name"),  # it is pi n/30
+    (Kind.DEFINITION, equal(symbol("f_cc"), 0), "f_cc is f_c"),  # the roughness grows
+    (Kind.DEFINITION, equal(symbol("rho"), h_0), "rho is f_c"),  # of the slow time
+    (Kind.DEFINITION, equal(symbol("p_s"), p_max / 2), "is a new name"),  # int 1/(p_s - p_max)
     (Kind.DEFINITION, equal(2 * C, f_c * h_0), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
     (Kind.DEFINITION, equal(t, 5), "t is T"),  # t = 4
@@ -175,6 +199,12 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(forever(WIGGLE - u_c), 1)),
     (Kind.DEFINITION, equal(b_0, PHASED.subs(tau, 1))),
     (Kind.DEFINITION, equal(N, t / T)),
+    (Kind.MODEL, contact(ContactLaw("", kinked(1 + r**2), sp.S.Zero, ""))),
+    (Kind.DEFINITION, equal(f_c * b_0, 0)),
+    (Kind.DEFINITION, equal(symbol("f_cc"), f_c)),
+    (Kind.DEFINITION, equal(f_c * WIGGLE, 0)),
+    (Kind.DEFINITION, equal(kappa + b_0, 0)),
+    (Kind.DEFINITION, equal(SWAYS, (1 + u_c**2) / T)),
 )
 
 

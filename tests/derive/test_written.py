@@ -3,12 +3,14 @@
 import pytest
 import sympy as sp
 
-from derive.equations import TEXTS
+from derive.equations import TEXTS, Equation
+from derive.rules.algebra import substitute
 from derive.symbols import rate, symbols, t
 from derive.typeset.display import latex
 from derive.written import evaluated, read
+from tests.derive.judgements import equal, given
 
-h_0, u_c, U_a, f_c, T = symbols("h_0 u_c U_a f_c T")
+h_0, u_c, U_a, f_c, T, h, L = symbols("h_0 u_c U_a f_c T h L")
 
 
 @pytest.mark.parametrize(
@@ -40,3 +42,10 @@ def test_what_is_no_formula_is_refused(text: str):
 def test_texts_of_equations_have_no_keys_that_nobody_reads():
     known = {"section", "title", "remark", "macro", "printed", "shown", "where"}
     assert set().union(*TEXTS.values()) == known
+
+
+@pytest.mark.parametrize(("short", "agrees"), [("S", True), ("kappa", True), ("f_c", False)])
+def test_an_abbreviation_is_no_datum(short: str, agrees: bool) -> None:
+    made = substitute(given(equal(h, h_0)), given(equal(h_0, 2 * L)))
+    texts = {"shown": f"h = {short}", "where": f"{short} = 2 L"}
+    assert Equation("x", "1", "short", (made,), texts=texts).typeset_agrees is agrees

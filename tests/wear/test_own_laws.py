@@ -161,8 +161,9 @@ def test_what_is_no_law_is_a_fault(raw):
         ("sqrt(-1)*r", "no function of r"),
         ("-exp(-r)", "not proved to be positive|concave below"),
         ("1/(1 + r^2)", "concave below one value"),
-        ("1/r", "not proved|concave below|could not be checked"),
+        ("1/r", "kink"),
         ("exp(-r - sqrt(r^2)/2)", "kink"),
+        ("exp(-r - sqrt(r^4 + r^2)/(2 + 2*r^2))", "kink"),
         ("(3 - (r-2)/sqrt((r-2)^2))*exp(-r)", "kink"),
     ],
 )

@@ -72,25 +72,19 @@ def hard_cases(
 
     Parameters
     ----------
+    chosen
+        By rising numbers of cycles of each scene: a method too slow for some is not tried on more.
     time_limit
         Seconds after which a run of a method that can be stopped is.
     """
     found: list[Measurement] = []
     for case in chosen:
         progress(f"{case.name}, {case.cycles} cycles")
-        too_slow = {entry.method for entry in found if _ran_out(entry, case, time_limit)}
-        found += [
-            attempt(case, method, tolerance, time_limit)
-            for method, tolerance in methods_of(case)
-            if method not in too_slow
-        ]
+        for method, tolerance in methods_of(case):
+            fewer = [e for e in found if (e.scene, e.method) == (case.name, method)]
+            if all(entry.seconds <= time_limit for entry in fewer):
+                found.append(attempt(case, method, tolerance, time_limit))
     return tuple(found)
-
-
-def _ran_out(entry: Measurement, case: Case, time_limit: float) -> bool:
-    """Whether the method was too slow for fewer cycles of the same scene."""
-    fewer = entry.scene == case.name and entry.cycles < case.cycles
-    return fewer and entry.seconds > time_limit
 
 
 def worst(entries: Sequence[Measurement]) -> Measurement:

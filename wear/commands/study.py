@@ -7,7 +7,7 @@ import logging
 import time
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -126,17 +126,11 @@ def _dry_run(asked: Study, workers: int) -> Answer:
     )
 
 
-@contextmanager
-def _executor(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
-    """Give the workers: of a Dask cluster, processes of this machine, or none for a single core."""
+def _executor(scheduler: str | None, workers: int) -> AbstractContextManager[Executor | None]:
+    """Return the workers: of a Dask cluster, processes of this machine, or none for one core."""
     if scheduler is not None:
-        with _cluster(scheduler) as executor:
-            yield executor
-    elif workers == 1:
-        yield None
-    else:
-        with processes.workers(workers) as pool:
-            yield pool
+        return _cluster(scheduler)
+    return nullcontext() if workers == 1 else processes.workers(workers)
 
 
 @contextmanager

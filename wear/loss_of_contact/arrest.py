@@ -132,6 +132,11 @@ class Unresolved(NamedTuple):
         return self
 
     @property
+    def ends(self) -> FloatArray:
+        """Return the wear (mm) at both ends."""
+        return np.concatenate([self.start, self.last_state])
+
+    @property
     def limit(self) -> FloatArray:
         """Return that the model goes on."""
         return np.full(1, np.inf)

@@ -33,6 +33,7 @@ from wear.loss_of_contact.requests import (
     answered,
     without_feedback,
 )
+from wear.loss_of_contact.roundoff import roundoff
 from wear.loss_of_contact.samples import Samples
 from wear.loss_of_contact.stretch import Stretch, stretch
 from wear.loss_of_contact.switching import Edge, edge_of_contact
@@ -82,7 +83,7 @@ def counted_stages(
     finer = max(ROUNDOFF, JUDGED * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(*each, rtol, deadline) for each in zip(wanted, edges, strict=True)]
-    return answered(counts, [coarse, fine])
+    return answered(counts, [coarse, coarse, fine])
 
 
 def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[Counted]:
@@ -203,7 +204,8 @@ class _Way:
         if not FEW <= left < np.inf:
             return False
         part = np.array([[self.wear], [ahead], [left], [ahead - self.wear]])
-        self._append(Unresolved(*part), float(left), ahead)
+        self.parts.append(Unresolved(*part))
+        self.wear, self.done = ahead, self.done + float(left)
         return True
 
     def _grazing_wear(self) -> float:
@@ -252,10 +254,6 @@ class _Way:
         slope, sound = (beside - added) / apart, run.converged[: len(wear)]
         self.samples.add(wear, added, slope, sound)
 
-    def _append(self, part: OnPanels | Unresolved, ran: float, wear: float) -> None:
-        self.parts.append(part)
-        self.wear, self.done = wear, self.done + ran
-
     def _append_cycles(self, cycles: OneByOne) -> None:
         if self.parts and isinstance(last := self.parts[-1], OneByOne):
             last.wear.extend(cycles.wear[1:])
@@ -273,8 +271,9 @@ def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> As
     segments: list[Segment] = []
     begins, drift, one = 0.0, 0.0, np.zeros(1)
     inherited = one + begun_with
-    for part in way.parts:
-        counted = part if isinstance(part, Unresolved) else part.judged(problem)
+    rounding = roundoff(problem.model, problem.load, [part.ends for part in way.parts])
+    for part, here in zip(way.parts, rounding, strict=True):
+        counted = part if isinstance(part, Unresolved) else part.judged(problem, here)
         segments.append(Segment(_FIRST, counted, one + begins, inherited, one + drift))
         ran = counted.whole_cycles
         after, relative = counted.after(ran[None])

@@ -9,7 +9,7 @@ import numpy as np
 from wear.loss_of_contact.arrest import LimitWear, TabulatedCount
 from wear.loss_of_contact.increments import Increments, frame_of, middle
 from wear.loss_of_contact.plan import Problem
-from wear.loss_of_contact.roundoff import roundoff
+from wear.loss_of_contact.roundoff import Roundoff
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
@@ -32,10 +32,14 @@ class OneByOne(NamedTuple):
     missed: list[float]
     growth: list[float]
 
-    def judged(self, problem: Problem) -> Iterates:
-        """Return the cycles with their estimated error."""
+    @property
+    def ends(self) -> FloatArray:
+        """Return the wear (mm) where cycles begin and end."""
+        return np.array(self.wear)
+
+    def judged(self, problem: Problem, rounding: Roundoff) -> Iterates:
+        """Return the cycles with their estimated error, by `rounding` at their ends, too."""
         wear, added, missed, growth = map(np.array, self)
-        rounding = roundoff(problem.model, problem.load, wear)
         # The response to a relative error of the rate: what is made early grows, but once the wear
         # exceeds the roughness the rate hardly grows any more.
         response = added + np.minimum(added, 4 * problem.scale) * growth
@@ -96,15 +100,18 @@ class OnPanels(NamedTuple):
         after, _ = self.table.state_after(begin + ran)
         return float(ran[0]), float(after[0])
 
-    def judged(self, problem: Problem) -> TabulatedCount:
+    @property
+    def ends(self) -> FloatArray:
+        """Return the wear (mm) where cells begin and end."""
+        return self.series.coordinate.wear(np.append(self.table.u, self.last))
+
+    def judged(self, problem: Problem, rounding: Roundoff) -> TabulatedCount:
         """Return the count with its estimated error: of the increments, of Abel's equation, at
-        junctions of panels, by rounding."""
+        junctions of panels, by `rounding` at the ends of cells."""
         table, panels = self.table, self.panels
         coordinate = self.series.coordinate
         parts = len(table.length) // len(panels.series)
-        z = np.append(table.u, table.ends[-1])
-        rounding = roundoff(problem.model, problem.load, coordinate.wear(z))
-        ends = self.series.missed(z)
+        ends = self.series.missed(np.append(table.u, self.last))
         misfit = np.maximum(ends[1:], ends[:-1])
         if self.line:
             misfit[table.u >= self.series.frame.starts[-1]] = 0.0  # there the residual says it all

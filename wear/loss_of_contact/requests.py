@@ -15,7 +15,9 @@ import numpy as np
 from wear.loss_of_contact.period_map import Advanced, SwitchedPeriodMap
 from wear.numerics.gauss import FloatArray
 
-COARSE, FINE, FROZEN = range(3)  # maps: for the result, to judge it, and as if no rate felt it
+# Maps: as if no rate felt the wear, for the result, and to judge it; the cheap ones come first, so
+# that the requests of more scenes for the others come together.
+FROZEN, COARSE, FINE = range(3)
 
 
 class Request(NamedTuple):
@@ -36,8 +38,8 @@ def without_feedback(wear: FloatArray) -> Asking[FloatArray]:
 
 
 def answered(counts: Sequence[Asking[T]], maps: Sequence[SwitchedPeriodMap]) -> list[T]:
-    """Return what each of the counts returns, scene by scene, by two maps of all scenes: for the
-    result, and to judge it."""
+    """Return what each of the counts returns, scene by scene, by the maps of all scenes for each
+    kind of request."""
     results: dict[int, T] = {}
     asked: dict[int, Request] = {}
 
@@ -65,8 +67,8 @@ def _together(
     lengths = [len(part) for part in wear]
     ends, which = np.cumsum(lengths)[:-1], np.repeat(scenes, lengths)
     if kind == FROZEN:
-        pieces = np.diff(maps[0].first)
-        added = maps[0].each_without_feedback(np.concatenate(wear), which)
+        pieces = np.diff(maps[FROZEN].first)
+        added = maps[FROZEN].each_without_feedback(np.concatenate(wear), which)
         parts = np.split(added, np.cumsum(lengths * pieces[scenes])[:-1])
         sound = np.array([True])
         return [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -39,9 +40,13 @@ class Roundoff(NamedTuple):
         return np.asarray(np.maximum(self.rate[1:], self.rate[:-1]) + lost)
 
 
-def roundoff(model: Model, load: Load, wear: FloatArray) -> Roundoff:
-    """Return what rounding does at each wear (k,), mm."""
-    return Roundoff(_of_rate(model, load, wear), _of_contact(model, load, wear))
+def roundoff(model: Model, load: Load, wears: Sequence[FloatArray]) -> list[Roundoff]:
+    """Return what rounding does at each of several sequences of wear (k,), mm."""
+    wear, ends = np.concatenate(wears), np.cumsum([len(part) for part in wears])[:-1]
+    found = _of_rate(model, load, wear), _of_contact(model, load, wear)
+    return [
+        Roundoff(*parts) for parts in zip(*(np.split(error, ends) for error in found), strict=True)
+    ]
 
 
 def _of_rate(model: Model, load: Load, wear: FloatArray) -> FloatArray:

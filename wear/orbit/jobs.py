@@ -176,7 +176,7 @@ class Jobs:
         spent = job.spent + filled.evaluations / len(which)
         scene, residual = filled.panels.scene, filled.panels.residual
         worst = np.zeros(len(which))
-        np.maximum.at(worst, scene, np.nan_to_num(residual, nan=np.inf))
+        np.maximum.at(worst, scene, np.where(np.isnan(residual), np.inf, residual))
         marked, good = filled.marked.any(axis=1), worst <= tolerance
         counts = list(self._counted(job, filled.panels)) if number == 0 else []
         for rows, counted in counts:

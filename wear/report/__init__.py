@@ -4,7 +4,7 @@ Contents
     paper.md, paper; scene.md, own              what the reports say, and their numbers
     text, document, number                     Markdown with values, labels numbered
     equations, markup                          equations with titles; plain text as Markdown
-    writer, html, tex, templates, svg, mathml  the writer and its two forms
+    writer, html, tex, templates, svg          the writer and its two forms
     typeset, publish, manifest                 the files of a report
     runs, claims, reconcile                    what is computed for it
     figures_of_note, drawing                   its figures

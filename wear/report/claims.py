@@ -22,7 +22,7 @@ from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Claim, Finding, Verdict
 from wear.report import note
 from wear.report.note import PRINTED
-from wear.report.reconcile import reconciliations, slope_for_simulation
+from wear.report.reconcile import reconciliation, slope_for_simulation
 from wear.solver import solve
 
 LEAST_SLOPE = 1.0 / 8.0
@@ -116,7 +116,7 @@ def formula_wear() -> Finding:
         return Finding(Verdict.CONFIRMED, evidence)
     return Finding(
         Verdict.NOT_REPRODUCIBLE,
-        f"{evidence}; {reconciliations()[0].sentence}; any other datum would have to change by "
+        f"{evidence}; {reconciliation().sentence}; any other datum would have to change by "
         f"the whole factor: no plausible single change explains both printed values",
     )
 

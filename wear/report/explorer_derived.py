@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from derive.laws import LAWS, TANH
-from wear.report import mathml
+from derive.typeset import mathml
 from wear.report.explorer_data import GROUPS, MICROMETRES, SMALL
 
 FILE = "explorer.derived.json"

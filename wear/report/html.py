@@ -21,8 +21,9 @@ from numbers import Integral
 
 import jinja2
 
+from derive.typeset import mathml
 from wear.cite import listed
-from wear.report import mathml, svg
+from wear.report import svg
 from wear.report.document import Document
 from wear.report.number import Number, grouped
 from wear.report.writer import Writer
@@ -40,7 +41,7 @@ def page(document: Document) -> str:
     Raises
     ------
     ValueError
-        for references that lead nowhere and formulas outside the subset of `wear.report.mathml`.
+        for references that lead nowhere and formulas outside the subset of `derive.typeset.mathml`.
     """
     writer = Writer(document, TEMPLATES.get_template("blocks.html"))
     return TEMPLATES.get_template("page.html").render(

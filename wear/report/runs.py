@@ -29,7 +29,7 @@ from wear.load import Constant
 from wear.model import bind
 from wear.regime import Asymptote
 from wear.report import note
-from wear.report.reconcile import Reconciliation, reconciliations
+from wear.report.reconcile import Reconciliation, reconciliation
 from wear.scene import Scene, hard_names
 from wear.solver import solve
 
@@ -139,7 +139,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
         approach=_approach("section4", _DECADES),
         decay=_decay(note.scene("section3")),
         printed_increment=float(note.increments_after(application, note.PRINTED.cycles)[0]),
-        reconciliation=reconciliations()[0],
+        reconciliation=reconciliation(),
         threshold_excess=float(_approach("section4", [round(note.required(predicted))]).excess[0]),
         phases=_steady_phases(cases["section4"]),
         static_distance=_static_distance(application),

@@ -2,7 +2,7 @@
 
 From Coq Require Import Reals Lra Lia.
 From Coquelicot Require Import Coquelicot.
-From Wear Require Import Limits.
+From Wear Require Import Limits Integrals.
 Open Scope R_scope.
 
 (** ** The rate to first order in 1/t *)
@@ -33,6 +33,14 @@ Proof.
   assert (Hs : Rabs (e t - 0) < eps / (B + 1)) by (apply Ht0; lra).
   apply Rlt_div_r in Hs; [| lra]; rewrite Rminus_0_r, Rabs_mult in *.
   pose proof (Ha t); pose proof (Rabs_pos (e t)); nra.
+Qed.
+
+(** What is affine in a bounded load is bounded. *)
+Lemma affine_bounded (U : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
+  forall t, 0 <= t -> Rabs (c0 + c1 * U t) <= Rabs c0 + Rabs c1 * b.
+Proof.
+  intros H t Ht; eapply Rle_trans; [apply Rabs_triang |]; rewrite Rabs_mult.
+  apply Rplus_le_compat_l, Rmult_le_compat_l; [apply Rabs_pos | auto].
 Qed.
 
 (** [u' = F(q)], [u (q - l) - a -> 0] with bounded a, [q -> l] and [u' -> r]:
@@ -84,18 +92,14 @@ Proof.
   exists 1; intros t Ht; unfold w; rewrite exp_ln by lra; reflexivity.
 Qed.
 
-(** The mean of a periodic function. *)
-Definition periodic (f : R -> R) (T : R) := forall t, 0 <= t -> f (t + T) = f t.
-
 (** A periodic, continuous function with integral 0 over a period has a bounded integral. *)
-Lemma periodic_integral a T : 0 < T -> periodic a T ->
+Lemma periodic_integral a T : 0 < T -> (forall t, 0 <= t -> a (T + t) = a t) ->
   (forall t, 0 <= t -> continuous a t) -> RInt a 0 T = 0 ->
   exists B, forall t, 0 <= t -> Rabs (RInt a 0 t) <= B.
 Proof.
   intros HT Hp Hc H0.
   assert (I : forall x y, 0 <= x -> 0 <= y -> ex_RInt a x y).
-  { intros x y Hx Hy; apply (ex_RInt_continuous a); intros z Hz; apply Hc.
-    revert Hz; unfold Rmin; destruct (Rle_dec x y); lra. }
+  { intros x y; apply (integrable a (Rle 0)); [exact (Rle_trans 0) | assumption]. }
   assert (S : forall t, 0 <= t -> RInt a 0 (t + T) = RInt a 0 t).
   { intros t Ht; rewrite <- (RInt_Chasles a 0 T (t + T)) by (apply I; lra).
     rewrite H0; unfold plus; simpl; rewrite Rplus_0_l.
@@ -103,7 +107,7 @@ Proof.
     { transitivity (RInt a (1 * 0 + T) (1 * t + T)); [apply (RInt_comp_lin a 1 T 0 t), I; lra |].
       f_equal; ring. }
     rewrite <- L; apply RInt_ext; intros x Hx; unfold scal; simpl; unfold mult; simpl.
-    rewrite !Rmult_1_l; apply Hp.
+    rewrite !Rmult_1_l, Rplus_comm; apply Hp.
     revert Hx; unfold Rmin; destruct (Rle_dec 0 t); lra. }
   destruct (continuity_ab_maj (fun x => Rabs (a x)) 0 T) as [top [Ht _]]; [lra | |].
   { intros x Hx; apply continuity_pt_filterlim, continuous_comp;
@@ -123,48 +127,46 @@ Proof.
   apply (N (Datatypes.S n)); split; [assumption |]; rewrite S_INR; apply Rlt_div_l in Hn; lra.
 Qed.
 
-(** [t (u' - r) - a -> 0] with periodic, continuous a of mean m: [(u - r t) / ln (t/T) -> m]. *)
-Lemma logarithmic_drift (u a : R -> R) (r m T : R) : 0 < T ->
-  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> continuous a t) ->
-  periodic a T -> RInt a 0 T = m * T ->
-  tends (fun t => t * (Derive u t - r) - a t) 0 ->
-  tends (fun t => (u t - r * t) / ln (t / T)) m.
+(** [t (u' - r) - c0 - c1 U -> 0] with periodic, continuous U of mean m:
+    [(u - r t) / ln (t/T) -> c0 + c1 m]. *)
+Lemma logarithmic_drift (u U : R -> R) (r c0 c1 m T : R) : 0 < T ->
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> continuous U t) ->
+  (forall t, 0 <= t -> U (T + t) = U t) -> RInt U 0 T = m * T ->
+  tends (fun t => t * (Derive u t - r) - (c0 + c1 * U t)) 0 ->
+  tends (fun t => (u t - r * t) / ln (t / T)) (c0 + c1 * m).
 Proof.
-  intros HT Hu Hc Hp Hm H; set (b := fun t => a t - m); set (A := fun t => RInt b 0 t).
+  intros HT Hu Hc Hp Hm H; set (b := fun t => U t - m); set (A := fun t => RInt b 0 t).
   assert (Hb : forall t, 0 <= t -> continuous b t).
-  { intros t Ht; apply (continuous_minus a); [auto | apply continuous_const]. }
-  assert (I : forall x y, 0 <= x -> 0 <= y -> ex_RInt b x y).
-  { intros x y Hx Hy; apply (ex_RInt_continuous b); intros z Hz; apply Hb.
-    revert Hz; unfold Rmin; destruct (Rle_dec x y); lra. }
+  { intros t Ht; apply (continuous_minus U); [auto | apply continuous_const]. }
   destruct (periodic_integral b T) as [B HB]; trivial.
   { intros t Ht; unfold b; rewrite Hp; trivial. }
-  { assert (Ia : ex_RInt a 0 T).
-    { apply (ex_RInt_continuous a); intros z Hz; apply Hc; rewrite Rmin_left in Hz; lra. }
-    unfold b; rewrite (RInt_minus a (fun _ => m)), RInt_const, Hm; trivial.
+  { assert (Ia : ex_RInt U 0 T) by (apply (integrable U (Rle 0)); trivial; [exact (Rle_trans 0) | |]; lra).
+    unfold b; rewrite (RInt_minus U (fun _ => m)), RInt_const, Hm; trivial.
     - unfold minus, plus, opp, scal; simpl; unfold mult; simpl; ring.
     - apply ex_RInt_const. }
   assert (HA : forall t, 0 < t -> is_derive A t (b t)).
-  { intros t Ht; apply (is_derive_RInt b A 0); [| apply Hb; lra].
-    exists (mkposreal t Ht); intros y Hy; apply (RInt_correct b); apply I; [lra |].
-    unfold ball in Hy; simpl in Hy; unfold AbsRing_ball, abs, minus, plus, opp in Hy; simpl in Hy.
-    apply Rabs_def2 in Hy; lra. }
+  { intros t Ht; apply (derive_integral b (Rle 0)); [exact (Rle_trans 0) | assumption | lra |].
+    apply (locally_interval _ _ 0 p_infty); [exact Ht | exact I | intros y Hy _; left; exact Hy]. }
   assert (Hq : tends (fun t => A t / t) 0).
   { apply squeezed with (s := fun t => t) (B := B); [apply is_lim_id |]; intros t Ht.
     assert (P : 0 < / t) by (apply Rinv_0_lt_compat, Ht).
     pose proof (HB t (Rlt_le _ _ Ht)) as Q; apply Rabs_le_between in Q; fold (A t) in Q.
     unfold Rdiv; nra. }
-  set (v := fun t => u t - r * t - A t / t).
+  apply (tends_scal c1) in Hq; rewrite Rmult_0_r in Hq.
+  set (v := fun t => u t - r * t - c1 * (A t / t)).
   assert (Hv : forall t, 0 < t ->
-    is_derive v t (Derive u t - r - (b t * t - A t) / t ^ 2)).
-  { intros t Ht; apply (is_derive_minus (fun t => u t - r * t) (fun t => A t / t)).
+    is_derive v t (Derive u t - r - c1 * ((b t * t - A t) / t ^ 2))).
+  { intros t Ht; apply (is_derive_minus (fun t => u t - r * t) (fun t => c1 * (A t / t))).
     - apply (is_derive_minus u (fun t => r * t)); [apply Derive_correct, Hu; lra |].
       auto_derive; [trivial | ring].
-    - evar_last; [apply (is_derive_div A (fun t => t) t (b t) 1); [auto | apply (is_derive_id t) | lra] |].
+    - apply is_derive_scal; evar_last;
+        [apply (is_derive_div A (fun t => t) t (b t) 1); [auto | apply (is_derive_id t) | lra] |].
       unfold Rdiv; ring. }
-  assert (L : tends (fun t => v t / ln t) m).
+  assert (L : tends (fun t => v t / ln t) (c0 + c1 * m)).
   { apply logarithmic; [intros t Ht; eexists; apply Hv; lra |].
-    pose proof (tends_plus _ _ _ _ (tends_plus _ _ _ _ H Hq) (tends_const m)) as G.
-    replace (0 + 0 + m) with m in G by ring; revert G; apply is_lim_ext_loc; exists 0.
+    pose proof (tends_plus _ _ _ _ (tends_plus _ _ _ _ H Hq) (tends_const (c0 + c1 * m))) as G.
+    replace (0 + 0 + (c0 + c1 * m)) with (c0 + c1 * m) in G by ring; revert G.
+    apply is_lim_ext_loc; exists 0.
     intros t Ht; rewrite (is_derive_unique _ _ _ (Hv t Ht)); unfold b; field; lra. }
   pose proof is_lim_ln_p as Hln; fold (diverges ln) in Hln.
   pose proof (tends_inv_diverges ln Hln) as Hi.
@@ -172,7 +174,8 @@ Proof.
   pose proof (tends_minus _ _ _ _ (tends_const 1) (tends_scal (ln T) _ _ Hi)) as G2.
   replace (1 - ln T * 0) with 1 in G2 by ring; apply tends_inv in G2; [| lra].
   pose proof (tends_mult _ _ _ _ G1 G2) as G.
-  replace ((m + 0 * 0) * / 1) with m in G by field; revert G; apply is_lim_ext_loc.
+  replace ((c0 + c1 * m + 0 * 0) * / 1) with (c0 + c1 * m) in G by field; revert G.
+  apply is_lim_ext_loc.
   exists (Rmax 1 T); intros t Ht; pose proof (Rmax_l 1 T); pose proof (Rmax_r 1 T).
   assert (0 < ln t) by (rewrite <- ln_1; apply ln_increasing; lra).
   assert (ln T < ln t) by (apply ln_increasing; lra).
@@ -202,55 +205,4 @@ Proof.
     (tends_inv_diverges _ Hl)) as G.
   replace ((0 + b) * 0) with 0 in G by ring; revert G; apply tends_ext; intros t Ht.
   unfold Rdiv; f_equal; ring.
-Qed.
-
-(** ** Loads: what is affine in a bounded or periodic load *)
-
-Lemma affine_bounded (U : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
-  forall t, 0 <= t -> Rabs (c0 + c1 * U t) <= Rabs c0 + Rabs c1 * b.
-Proof.
-  intros H t Ht; eapply Rle_trans; [apply Rabs_triang |]; rewrite Rabs_mult.
-  apply Rplus_le_compat_l, Rmult_le_compat_l; [apply Rabs_pos | auto].
-Qed.
-
-(** [(c0 + c1 U)/s] tends to 0 where U is bounded and s diverges. *)
-Lemma vanishes_affine (U s : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
-  diverges s -> tends (fun t => / s t * (c0 + c1 * U t)) 0.
-Proof.
-  intros HU Hs; apply (bounded_vanishes (fun t => c0 + c1 * U t) _ _ (affine_bounded U b c0 c1 HU)).
-  apply (tends_inv_diverges s Hs).
-Qed.
-
-Lemma first_order_affine (u q U F : R -> R) (l d r b c0 c1 : R) :
-  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> Derive u t = F (q t)) ->
-  is_derive F l d -> F l = r -> r <> 0 -> (forall t, 0 <= t -> Rabs (U t) <= b) ->
-  tends q l -> tends (Derive u) r -> tends (fun t => u t * (q t - l) - (c0 + c1 * U t)) 0 ->
-  tends (fun t => t * (Derive u t - r) - d / r * (c0 + c1 * U t)) 0.
-Proof.
-  intros Hu Hr Hd Hl Hr0 HU.
-  apply (first_order u q (fun t => c0 + c1 * U t) F l d r (Rabs c0 + Rabs c1 * b) Hu Hr Hd Hl Hr0).
-  apply (affine_bounded U b c0 c1 HU).
-Qed.
-
-Lemma mean_times (x T : R) : 0 < T -> x = x / T * T.
-Proof. intros; field; lra. Qed.
-
-Lemma logarithmic_drift_affine (u U : R -> R) (r c0 c1 m T : R) : 0 < T ->
-  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> continuous U t) ->
-  (forall t, 0 <= t -> U (T + t) = U t) -> RInt U 0 T = m * T ->
-  tends (fun t => t * (Derive u t - r) - (c0 + c1 * U t)) 0 ->
-  tends (fun t => (u t - r * t) / ln (t / T)) (c0 + c1 * m).
-Proof.
-  intros HT Hu Hc Hp Hm H; apply (logarithmic_drift u (fun t => c0 + c1 * U t)); trivial.
-  - intros t Ht; apply (continuous_plus (fun _ => c0)); [apply continuous_const |].
-    apply (continuous_scal_r c1 U); auto.
-  - intros t Ht; replace (t + T) with (T + t) by ring; rewrite Hp by assumption; reflexivity.
-  - assert (I : ex_RInt U 0 T).
-    { apply (ex_RInt_continuous U); intros z Hz; apply Hc; rewrite Rmin_left in Hz; lra. }
-    assert (S : RInt (fun t => c1 * U t) 0 T = c1 * (m * T)).
-    { rewrite <- Hm; apply (RInt_scal U 0 T c1 I). }
-    transitivity (RInt (fun _ => c0) 0 T + RInt (fun t => c1 * U t) 0 T).
-    + apply (RInt_plus (fun _ => c0) (fun t => c1 * U t));
-        [apply ex_RInt_const | apply (ex_RInt_scal U 0 T c1 I)].
-    + rewrite S, RInt_const; unfold scal; simpl; unfold mult; simpl; ring.
 Qed.

@@ -123,15 +123,6 @@ Proof.
   assert (c <= Derive u x) by (apply Hc; lra); nra.
 Qed.
 
-(** A positive rate: u increases. *)
-Lemma increases (u : R -> R) : (forall t, 0 <= t -> ex_derive u t) ->
-  (forall t, 0 <= t -> 0 <= Derive u t) -> forall a b, 0 <= a <= b -> u a <= u b.
-Proof.
-  intros Hu Hr a b [Ha [Hab | <-]]; [| lra].
-  destruct (mean_value u a b) as [x [Hx E]]; [lra | assumption |].
-  assert (0 <= Derive u x) by (apply Hr; lra); nra.
-Qed.
-
 (** A constant rate of one per the other: [y' = c x'] gives [y = y(0) + c (x - x(0))]. *)
 Lemma integrates (y x : R -> R) c :
   (forall t, 0 <= t -> ex_derive y t) -> (forall t, 0 <= t -> ex_derive x t) ->

@@ -108,7 +108,6 @@ with positive_part :=
   | |- 0 < ?a ^ ?n => apply pow_lt; positive
   | |- 0 < exp _ => apply exp_pos
   | |- 0 < tanh ?x => apply tanh_pos; positive
-  | |- 0 < 1 + tanh _ => apply one_plus_tanh_pos
   | |- 0 < 1 - tanh _ ^ 2 => apply one_minus_tanh_square_pos
   | |- context [tanh ?x] => pose proof (tanh_above x); pose proof (tanh_below x); lra
   | |- 0 < sqrt _ => apply sqrt_lt_R0; positive
@@ -171,22 +170,22 @@ Ltac opposite_under f value law :=
       replace (f b) with v by (rewrite <- law; f_equal; same_argument) end
   end.
 
-Ltac exp_of_multiple :=
-  match goal with
-  | |- context [exp ?a] => match goal with |- context [exp ?b] =>
-      tryif constr_eq a b then fail else first
-      [ replace (exp b) with (/ exp a) by (rewrite <- exp_Ropp; f_equal; same_argument)
-      | replace (exp b) with (exp a * exp a) by (rewrite <- exp_plus; f_equal; same_argument)
-      | replace (exp b) with (/ (exp a * exp a))
-          by (rewrite <- exp_plus, <- exp_Ropp; f_equal; same_argument) ] end
-  end.
+(** An exponential as the inverse of another, or by the product of two. *)
+Ltac exp_of_sum :=
+  match goal with |- context [exp ?c] => match goal with |- context [exp ?a] =>
+    tryif constr_eq a c then fail else first
+    [ replace (exp c) with (/ exp a) by (rewrite <- exp_Ropp; f_equal; same_argument)
+    | match goal with |- context [exp ?b] => tryif constr_eq b c then fail else first
+      [ replace (exp c) with (exp a * exp b) by (rewrite <- exp_plus; f_equal; same_argument)
+      | replace (exp c) with (/ (exp a * exp b)) by (rewrite <- exp_plus, <- exp_Ropp;
+          f_equal; same_argument) ] end ] end end.
 
 Ltac same_functions :=
   repeat first [same_under_law | same_under tanh | same_under exp | same_under ln | same_under sqrt
     | same_under Rabs | opposite_under tanh ltac:(fun v => constr:(- v)) tanh_opp
     | opposite_under Rabs ltac:(fun v => v) Rabs_Ropp].
 
-Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_of_multiple];
+Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_of_sum];
   repeat match goal with |- context [exp ?a] =>
     lazymatch goal with H : 0 < exp a |- _ => fail | _ => pose proof (exp_pos a) end end.
 
@@ -275,26 +274,23 @@ Ltac multiple F c :=
 
 (** ** Inequalities *)
 
+Ltac same_inequality H := revert H; same_functions; intro H; arithmetic.
+
+Ltac difference := first [apply Rminus_le_0 | apply Rminus_lt_0].
+
+Ltac manifest_as e := difference; match goal with |- ?r 0 ?d => replace d with e by identity end.
+
 (** The goal [a <= b] or [a < b] where [b - a] is the expression e of manifest sign. *)
-Ltac manifest e :=
-  first [apply Rminus_le_0 | apply Rminus_lt_0];
-  match goal with |- ?r 0 ?d => replace d with e by identity end; arithmetic.
+Ltac manifest e := manifest_as e; arithmetic.
 
 (** The same, where the fact H gives the sign. *)
-Ltac manifest_by H e :=
-  first [apply Rminus_le_0 | apply Rminus_lt_0];
-  match goal with |- ?r 0 ?d => replace d with e by identity end;
-  revert H; same_functions; intro H; arithmetic.
+Ltac manifest_by H e := manifest_as e; same_inequality H.
 
 (** The goal is c times the inequality H. *)
 Ltac from_inequality H c :=
-  first [apply Rminus_le_0 in H | apply Rminus_lt_0 in H];
-  first [apply Rminus_le_0 | apply Rminus_lt_0];
+  first [apply Rminus_le_0 in H | apply Rminus_lt_0 in H]; difference;
   match goal with |- ?r 0 ?d => match type of H with _ 0 ?e => replace d with (c * e) by identity end end;
   positive.
-
-(** The same inequality up to form. *)
-Ltac same_inequality H := revert H; same_functions; intro H; arithmetic.
 
 (** The goal [f a < f b] for a function that is seen to increase. *)
 Ltac increasing :=

@@ -66,9 +66,6 @@ Proof.
   - rewrite E. pose proof (Rle_0_sqr (tanh c)); unfold Rsqr in *; nra.
 Qed.
 
-Lemma one_plus_tanh_pos (x : R) : 0 < 1 + tanh x.
-Proof. pose proof (tanh_above x); lra. Qed.
-
 (** The share of the largest pressure: [(1 + tanh x)/2 = 1/(1 + e^(-2x))]. *)
 Lemma share_exp (x : R) : (1 + tanh x) / 2 = / (1 + exp (- (2 * x))).
 Proof. rewrite tanh_exp, exp_Ropp; pose proof (exp_pos (2 * x)); field; lra. Qed.

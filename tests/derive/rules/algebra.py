@@ -6,6 +6,9 @@ import sympy as sp
 
 from derive.claims import FirstZero
 from derive.hypotheses import Kind
+from derive.laws import EXPONENTIAL, TANH
+from derive.note.model import ARCHARD, CLOSURE, contact
+from derive.note.model import START as STARTS
 from derive.rules.algebra import (
     Alike,
     Consequence,
@@ -20,15 +23,17 @@ from derive.rules.algebra import (
     substitute,
 )
 from derive.rules.assumption import assume, defined
-from derive.rules.calculus import ParameterLimit, differentiate
+from derive.rules.calculus import RIGID, SPRINGS, ParameterLimit, differentiate
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
 from derive.rules.proving import DIFFERENTIABLE
 from derive.rules.reading import CONTINUOUS
-from derive.symbols import initial, rate, symbols, t
+from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
+    APART,
     CONSTANTLY,
     CYCLING,
+    GAP,
     RATE,
     ROUGHENS,
     SLOPE,
@@ -37,6 +42,7 @@ from tests.derive.judgements import (
     discharged,
     drifting,
     each,
+    end,
     eq,
     equal,
     forgotten,
@@ -53,7 +59,7 @@ from tests.derive.judgements import (
     tends,
 )
 
-u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
+u_c, u_a, U_a, h, p, G, sigma = symbols("u_c u_a U_a h p G sigma")
 h_0, f_c, C, T, N, q, b, b_0, M, L = symbols("h_0 f_c C T N q b b_0 M L")
 theta, x_inf, u_cum, kappa, U_mean, u_stop, tau = symbols(
     "theta x_inf u_cum kappa U_mean u_stop tau"
@@ -87,8 +93,20 @@ def under(body):
     return sp.Integral(body, (theta, 0, 1))
 
 
+def called(relation, kind):
+    return assume(supposed(relation, kind))
+
+
 def defined_as(relation):
-    return assume(supposed(relation, Kind.DEFINITION))
+    return called(relation, Kind.DEFINITION)
+
+
+def touching(law):
+    return restrict(called(contact(law), Kind.MODEL), given(sp.Le(h, 3 * sigma)))
+
+
+PIN_WEARS, SMOOTH_PIN = called(ARCHARD[0], Kind.MODEL), eq(symbol("sigma_a"), 0)
+AS_WORN = Insert(equal(h, h_0))(eq(h, h_0), called(STARTS[1], Kind.INITIAL), SMOOTH_PIN)
 
 
 FAMILIES = (
@@ -110,6 +128,8 @@ FAMILIES = (
         "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
         # G(0) = 1
         "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, initial("G"))),
+        # G = q/N, for one N
+        "a length that grows with N": ("may take every value", logarithmic(), eq(q, N * G)),
     }),
     Family(lambda unknown, *known: Solve(unknown)(*known), (
         (h_0, eq(u_a, h_0)), (rate("G"), eq(T * rate("G") + G, theta)),
@@ -129,6 +149,7 @@ FAMILIES = (
         "neither equality nor inequality": ("is an equality or", q, ne(h, u_a)),
         "an inequality times either sign": ("f_c > 0", f_c, ge(u_a, h_0)),  # f_c = -1
         "a factor that is no limit": ("zoo", sp.Limit(sp.sin(y), y, sp.oo)),
+        "a primitive": ("two ends", sp.Integral(x, x)),
         "a factor that is no zero": ("zoo", FirstZero(y**2 + 1, y)),
         "a factor that is a rate": ("Derivative", rate("h")),  # h jumps
         "1/theta over -1 to 1, for theta > 0": ("Ne", sp.Integral(1 / theta, (theta, -1, 1)), SIDES,
@@ -184,12 +205,14 @@ FAMILIES = (
         (sp.Le(-G, h_0), le(-G, L), eq(L, h_0)), (sp.Eq(rate("u_c") * T / q, C * T / q), SPEED),
         (equal(sp.Limit(h_0 / M, M, sp.oo), 0), FALLS, eq(f_c, h_0)),
         (equal(sp.Limit(T / M, M, sp.oo), 0), ParameterLimit(b / M, M)(), eq(T, b)),
+        (end(G + GAP, theta), tends(G, theta), APART),
     ), {
         # u_a = 2, L = 1
         "more parts than the premise": ("does not become", sp.And(sp.Le(-G, h_0), sp.Lt(u_a, L)),
             le(-G, L), eq(L, h_0)),
         # theta = 0
         "an angle that is the scaled rate": ("does not become", sp.Eq(theta, C * T / q), SPEED),
+        "another form of a limit, with 0/0": ("Ne", end(G + GAP, theta), tends(G, theta)),
         "divided by what may vanish": ("Ne", sp.Eq(h / f_c, u_a / f_c), SIDES),
         # lim M/M = 1
         "capture by the limit of another form": ("for every M",
@@ -198,9 +221,11 @@ FAMILIES = (
         "a name held fixed while a datum grows": ("data alone",
             equal(sp.Limit(b_0 / h_0, h_0, sp.oo), 0), ParameterLimit(L / h_0, h_0)(), eq(b_0, L)),
     }),
-    Family(lambda left, right: Alike(sp.Equivalent(left, right))(), (
+    Family(lambda left, right, join=sp.Equivalent: Alike(join(left, right, evaluate=False))(), (
         (sp.Le(u_a, h_0), sp.Le(u_a - h_0, 0)), (sp.Gt(u_a, q), sp.Lt(q - u_a, 0)),
     ), {
+        # h = 2 L
+        "both of two": ("is an equivalence", sp.Le(h, L), sp.Le(h + q, L + q), sp.And),
         "strict and not": ("differences", sp.Le(u_a, h_0), sp.Lt(u_a, h_0)),
         "the converse": ("differences", sp.Gt(u_a, q), sp.Lt(h, q)),  # u_a = h = 0
         "between what may have no value": ("Ne", sp.Le(u_a, 1 / f_c), sp.Le(u_a - 1 / f_c, 0)),
@@ -256,6 +281,26 @@ FAMILIES = (
         # h_0 = 1
         "definitions in a circle": ("circle", equal(h_0, 0), defined(b_0, theta + h_0),
             defined(theta, b_0 + 0)),
+    }),
+    # ---- equations of the model that contradict each other, of which no reader is told
+    Family(lambda claim, *known: Arithmetic(claim)(*known), (
+        (equal(u_a, 0), called(CLOSURE[True], Kind.MODEL), given(CLOSURE[False])),
+        (sp.Gt(rate("u_a"), 0), PIN_WEARS),
+    ), {
+        # u_a = 1 under one of them
+        "both signs of pin wear": ("contradict", equal(u_a, 0),
+            called(CLOSURE[True], Kind.MODEL), called(CLOSURE[False], Kind.MODEL)),
+        "a pin that wears and does not": ("contradict", equal(h_0, 5 * L), PIN_WEARS,
+            differentiate(eq(u_a, 0))),
+        "a rough pin that is smooth": ("contradict", equal(h, h_0),
+            called(STARTS[3], Kind.INITIAL), SMOOTH_PIN, eq(h, h_0)),
+    }),
+    Family(each, (lambda: Solve(p)(assume(SPRINGS)), lambda: Multiply(q)(AS_WORN)), {
+        # p > 0
+        "a rigid support of finite stiffness": ("contradict",
+            lambda: substitute(assume(SPRINGS), assume(RIGID))),
+        # one of them alone
+        "two laws": ("contradict", lambda: substitute(touching(TANH), touching(EXPONENTIAL))),
     }),
     Family(each, (lambda: defined(b_0, U_a, "", CONSTANTLY),), {
         "t = 5, by definition": ("t is T", lambda: defined(t, sp.Integer(5))),  # t = 4

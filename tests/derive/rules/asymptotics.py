@@ -6,17 +6,22 @@ import sympy as sp
 
 from derive.claims import Drift, Oscillation
 from derive.kernel import infer
-from derive.rules.assumption import defined
-from derive.rules.averages import Averaging, OrderEquation, SlowTime, term_of
+from derive.rules.algebra import Consequence, substitute
+from derive.rules.assumption import assume, defined
+from derive.rules.averages import EXPANSION, Averaging, OrderEquation, SlowTime, term_of
 from derive.rules.drift import LeadingTerm, first_order, logarithmic_drift
+from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
 from derive.symbols import rate, symbol, symbols, t
 from tests.derive.judgements import (
+    APART,
     APPROACH,
     BOUNDED,
     FIRST_DRIFT,
+    GAP,
     RATE,
     ROUGHENS,
+    SPEED,
     Family,
     averaged_as,
     drift_premises,
@@ -36,15 +41,13 @@ from tests.derive.judgements import (
 u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, sigma_c0, sigma_c, f_c, C, T, N, q, b_0 = symbols("h_0 sigma_c0 sigma_c f_c C T N q b_0")
 U, L, R, A, rho, h_star, theta, tau, m = symbols("U L R A rho h_star theta tau m")
-c_1, w_1 = symbols("c_1 w_1")
+c_1, w_1, s_0 = symbols("c_1 w_1 s_0")
 du = rate("u_c")
 
 RATIO = (h - U_a) / sigma_c0
 LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
 FEW, LOG_N, FALLS = sp.log(-h_star / (f_c * sigma_c)), sp.log(N), sp.Lt(f_c, 0)
 FIRST_WAVE = -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi
-GAP = (h_0**2 - L**2) / (h_0 - L) - h_0 - L
-"""Zero, but where h_0 = L."""
 
 
 def ordered(rest=U_a, law=LAW, end=sp.S.Zero, speed=STEADY):
@@ -66,6 +69,17 @@ def averaged(factor):
     drift, wave = (term_of(kind, 1, pressure) for kind in (Drift, Oscillation))
     names = defined(c_1, drift), defined(w_1, wave)
     return OrderEquation(sp.S.One)(eq(p, pressure), sine, *constants, *names, ROUGHENS)
+
+
+def wave_of_wave():
+    known = Averaging(sp.Eq(w_1, FIRST_WAVE))(first_order_terms(), averaged_as(FIRST_DRIFT))
+    return Averaging(sp.Eq(w_1, sp.integrate(FIRST_WAVE, tau)))(known)
+
+
+def mean_of(right, mean):
+    """Return c_1 from its equation, which has another right side."""
+    law = equal(sp.Derivative(w_1, tau), rho * (right - c_1))
+    return Averaging(equal(c_1, mean))(Consequence(law)(given(law), expansion_premises()[-1]))
 
 
 def of_another_pressure():
@@ -116,9 +130,10 @@ FAMILIES = (
         "a drift from a bound of the limit": ("is no limit",
             lambda: logarithmic_drift(le(forever(APPROACH), 0), *drift_premises()[1:])),
     }),
-    Family(logarithmic, ((),), {
+    Family(logarithmic, ((), (q + sp.Abs(GAP), q, SPEED, APART)), {
         # u_a = 0
         "the tail of one solid and the wear of the other": ("the limit of exp", q, q, rate("u_a")),
+        "a length with 0/0": ("Ne", q + sp.Abs(GAP)),
         "another length": ("the limit of exp", q, h_star),
         "a length of either sign": ("b_0 > 0", b_0, b_0),
     }),
@@ -143,12 +158,25 @@ FAMILIES = (
         "a drift that is 0/0 for f_c = 1": ("f_c - 1",
             sp.Eq(c_1, FIRST_DRIFT + (f_c**2 - 1) / (f_c - 1) - f_c - 1)),
     }),
+    Family(mean_of, ((U * sp.cos(2 * sp.pi * tau), 0), (h_0 * q, h_0 * q)), {
+        "the mean over half a wave": ("the period 1", U * sp.cos(sp.pi * tau), 0),
+        "the mean of a field": ("the period 1", h_0 * G, h_0 * G),  # G = tau
+    }),
     Family(averaged, (1 + q,), {
+        "a limit that varies with the load": ("is the limit of", 1 + U_a / (2 * U)),
+        "a pressure that vanishes": ("smooth at infinity", 1 / (1 + u_c**2 / q**2)),
         "a pressure that varies with the phase": ("at given", 1 + sp.sin(2 * sp.pi * tau) / 2),
     }),
     Family(each, (first_order_terms,), {
         "no term of the expansion": ("is of an oscillation",
             lambda: Averaging(sp.Eq(c_1, 0))(RATE)),
+        "the wave of a wave": ("by the mean", wave_of_wave),  # w_1' is not w_1
+        "half an order": ("number of an order",
+            lambda: OrderEquation(sp.Rational(3, 2))(*expansion_premises())),
+        "what remembers another start": ("is a new name",
+            lambda: substitute(slow_time(), defined(s_0, 5 * h_0))),
+        "an averaged roughness that is another wear": ("is a new name",
+            lambda: Arithmetic(equal(m, u_a))(defined(m, u_a), assume(EXPANSION))),
         "no pressure": ("at given wear",
             lambda: OrderEquation(sp.S.One)(eq(h, u_c), *expansion_premises())),
         "a second order without names": ("the drift c_2",

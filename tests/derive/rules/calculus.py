@@ -26,6 +26,7 @@ from derive.rules.inequalities import (
     Monotone,
     Threshold,
 )
+from derive.rules.limits import later, one_period_later
 from derive.rules.proving import DIFFERENTIABLE
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
@@ -54,9 +55,11 @@ sigma_c0, u_cum, theta, x_inf, tau, omega = symbols("sigma_c0 u_cum theta x_inf 
 U, U_max, p_max, R_a, epsilon = symbols("U U_max p_max R_a epsilon")
 y = sp.Symbol("y", real=True)
 v, w = (sp.Function(name, real=True)(tau) for name in "vw")
+WIGGLE, WOBBLE = (sp.Function(name, real=True)(t) for name in ("wiggle", "wobble"))
 du, da = rate("u_c"), rate("u_a")
 
 SMOOTH = assume(DIFFERENTIABLE)
+LATER = one_period_later(opened())
 SCALED = defined(u_c, sigma_c0 * v)
 IN_H_0 = sp.Derivative(u_cum, h_0, evaluate=False)
 IN_FALLING_ORDER, HIGHER = ge(x_inf, theta), ge(-q, -2 * q, evaluate=False)
@@ -67,9 +70,9 @@ def said(relation, kind):
     return assume(supposed(relation, kind))
 
 
-def tied(low, high):
+def tied(*ties):
     """Return u_cum = f_c h_0, after h_0 = f_c L was inserted."""
-    value = Arithmetic(equal(h_0, f_c * L))(low, high)
+    value = Arithmetic(equal(h_0, f_c * L))(*ties)
     return Insert(equal(u_cum, f_c**2 * L))(defined(u_cum, f_c * h_0), value)
 
 
@@ -78,6 +81,30 @@ def exceeds(function, level, point, right=sp.Gt):
     claim = sp.Equivalent(sp.Gt(function, level), right(f_c, point))
     return Threshold(claim, f_c)(ROUGHENS)
 
+
+def beside(*facts):
+    """Return u_cum = h_0 f_c under the hypotheses of others, too."""
+    return Insert(equal(u_cum, h_0 * f_c))(GROWING, *facts)
+
+
+def deflected():
+    """Return that the support is deflected one period later, as it always is."""
+    known = one_period_later(Solve(U_c)(assume(SPRINGS)))
+    there = later(U_c)
+    return Insert(equal(later(p) / (k * there), 1))(known, Arithmetic(sp.Ne(there, 0))(known))
+
+
+def pressed(closure):
+    """Return that what lies between the solids is positive: it is p/k."""
+    inside = closure.claim.lhs - h_0 + later(U_a)
+    return Insert(equal(sp.Abs(inside) / inside, 1))(closure, Arithmetic(sp.Ne(inside, 0))(closure))
+
+
+FACTORS = defined(theta, f_c), defined(b_0, h_0 / L)
+FIELDS = tuple(
+    said(equal(field, value), Kind.DEFINITION)
+    for field, value in ((WIGGLE, f_c), (WOBBLE, h_0 / L))
+)
 
 FAMILIES = (
     Family(lambda law, start=START, pin=PIN_START: integrate(law, start, pin), (
@@ -122,6 +149,9 @@ FAMILIES = (
         "k -> oo with U_c held fixed": ("equilibrium", eq(R_a, k * b * L * (U_c - U))),
         "k -> oo under a bounded load": ("nothing else is said", opened(BOUNDED)),
         "words about the load": ("nothing else is said", opened(said(sp.true, Kind.LOAD))),
+        "a deflection one period later": ("nothing else is said", deflected()),  # 0 = 1
+        # 0/0
+        "what is pressed one period later": ("nothing else is said", pressed(LATER)),
         "k times an equation": ("continuous for k", Multiply(k)(opened())),
     }),
     Family(lambda scaled, clock=CYCLING: change_clock(scaled, clock), (SCALED, eq(u_c, q * v)), {
@@ -146,6 +176,8 @@ FAMILIES = (
     Family(lambda claim, known=GROWING, datum=f_c,
         *facts: Differentiated(claim, datum)(known, *facts), (
         equal(SLOPE, h_0), (equal(IN_H_0, f_c), defined(u_cum, f_c * h_0), h_0),
+        (equal(SLOPE, h_0), beside(*FACTORS, eq(p, p_max * sp.tanh(h / u_c)))),
+        (equal(SLOPE, h_0), beside(*FIELDS, BOUNDED)),
     ), {
         "no datum": ("of the data", equal(sp.Derivative(u_cum, b_0), 0), GROWING, b_0),
         "0/0 beside a slope": ("Ne", equal(SLOPE / (f_c - 1), h_0 / (f_c - 1))),
@@ -165,6 +197,16 @@ FAMILIES = (
         # the slope is f_c
         "two loads that tie h_0 and f_c": ("may vary", equal(IN_H_0, 0),
             tied(said(equal(U_a, f_c * L), Kind.LOAD), said(equal(U_a, h_0), Kind.LOAD)), h_0),
+        "a name for f_c that is h_0/L": ("may vary", equal(IN_H_0, 0),
+            tied(defined(q, f_c), eq(q, h_0 / L)), h_0),
+        "two names that are equal": ("may vary", equal(IN_H_0, 0),
+            tied(*FACTORS, eq(theta, b_0)), h_0),
+        "two names of one pressure": ("may vary", equal(IN_H_0, 0),
+            tied(*FACTORS, eq(p, p_max * theta), eq(p, p_max * b_0)), h_0),
+        "two fields that are equal": ("may vary", equal(IN_H_0, 0),
+            tied(*FIELDS, eq(WIGGLE, WOBBLE)), h_0),
+        "a load below what is negative": ("may vary", equal(IN_H_0, 0),
+            tied(said(sp.Le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2), Kind.LOAD)), h_0),
         "two starts that tie h_0 and f_c": ("may vary", equal(IN_H_0, 0),
             tied(said(equal(initial("h"), h_0), Kind.INITIAL), eq(initial("h"), f_c * L)), h_0),
     }),

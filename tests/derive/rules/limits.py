@@ -22,8 +22,10 @@ from derive.rules.proving import LAW
 from derive.rules.reading import CONTINUOUS, PERIODIC
 from derive.symbols import rate, symbols, t
 from tests.derive.judgements import (
+    APART,
     BOUNDED,
     DEEP,
+    GAP,
     ROUGHENS,
     Family,
     end,
@@ -43,9 +45,9 @@ y = sp.Symbol("y", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
 
-GAP = (h_0**2 - L**2) / (h_0 - L) - h_0 - L
-"""Zero, but where h_0 = L."""
+MEAN = sp.Integral(U_a, (t, 0, T)) / (T * h_0)
 FADING, LATER_ON, TOUCHING = sp.exp(-u_c / sigma_c0), sp.exp(t / T), sp.Ge(U_a, b_0)
+NOTHING = b_0 / (h_0 - L)
 WITH_G = C * (2 + sp.tanh(G * q / (u_c**2 + q**2)))
 BENDING = C / (1 + u_c**2 / h_star**2)
 
@@ -58,6 +60,9 @@ def some_of_the_time(contact=TOUCHING, on=C, off=sp.S.Zero, part=None, least=sp.
     )
     loads = assume(PERIODIC), assume(CONTINUOUS), BOUNDED
     return intermittent(law, defined(d, share), ge(u_c, least), *loads, *facts)
+
+
+ODD = LAW(q / u_c) - LAW(-q / u_c) - 2 * q / u_c * sp.diff(LAW(y), y).subs(y, 0)
 
 
 def curved(order):
@@ -78,11 +83,12 @@ FAMILIES = (
         "the first rate": ("at one time", eq(sp.Subs(du, t, 0), C)),  # u_c = C t e^(-t/T)
     }),
     Family(lambda expr, least, *facts: Diverges(expr)(ge(u_c, least), *facts), (
-        (u_c, h_0 + C * t), (q * u_c - h_0, C * t),
+        (u_c, h_0 + C * t), (q * u_c - h_0, C * t), (u_c * (1 + sp.Abs(GAP)), C * t, APART),
         (sigma_c0 + f_c * u_c, C * t, ROUGHENS),  # f_c = -0.05
     ), {
         "bounded below by a constant": ("False", u_c, h_0),  # u_c = h_0
         "u_c - C t": ("linear in what grows", u_c - C * t, C * t),  # u_c = C t
+        "growth times 1 + |0/0|": ("Ne", u_c * (1 + sp.Abs(GAP)), C * t),
         "growth times w(tau)": ("linear in what grows", w * u_c, C * t),  # w = e^-tau
     }),
     Family(lambda speed, *facts: unbounded(eq(du, speed), *facts), (
@@ -115,6 +121,8 @@ FAMILIES = (
         "the load divides": ("is smooth", 1 / (U_a + h_0 / u_c), 0, BOUNDED),
         "what grows itself": ("is bounded", u_c),
         "the second slope of a law": ("phi", *curved(2)),  # it may have none at 0
+        # it is differentiable once
+        "the second slope of a law, cancelled": ("is smooth", u_c**2 * ODD),
         "a limit that is not reached": ("the limit is 0", q / u_c, 1),
         "a limit with 0/0": ("Ne", q / u_c, GAP),  # h_0 = L
     }),
@@ -141,7 +149,10 @@ FAMILIES = (
     Family(lambda expr, value, *known: Passes(equal(forever(expr), sp.S.Zero + value))(*known), (
         (du / u_c, 0, tends(du, C), DEEP),
         (G / (h_0 / u_c + G), 1, tends(G, theta), DEEP, ne(theta, 0)), (sp.exp(-G), 1, tends(G, 0)),
-        (later(G), theta, tends(G, theta)), (2 * u_c - 2 * C * t, 2 * h_0, tends(u_c - C * t, h_0)),
+        (later(G), theta, tends(G, theta)),
+        (later(G + q * sp.tanh(u_c)), theta, tends(G + q * sp.tanh(u_c), theta)),
+        (G + NOTHING, theta, tends(G, theta), eq(b_0, 0), APART),
+        (2 * u_c - 2 * C * t, 2 * h_0, tends(u_c - C * t, h_0)),
     ), {
         # G = h_0/u_c
         "u_c G/(h_0 + u_c G)": ("continuous at", G / (h_0 / u_c + G), 1, tends(G, 0), DEEP),
@@ -152,6 +163,12 @@ FAMILIES = (
             tends(G, theta, sp.S.Zero)),
         "a sign is not continuous": ("continuous at", sp.sign(G), 0, tends(G, 0)),
         "another limit": ("the limit of", 2 * G, theta, tends(G, theta)),
+        "a mean, one period later": ("the limit of all", later(G) + later(MEAN), theta,
+            tends(G + MEAN, theta)),
+        # G = t e^(-t/T)
+        "a first value, one period later": ("the limit of all", later(G) + sp.Limit(G, t, 0),
+            theta, tends(G + sp.Limit(G, t, 0), theta)),
+        "a limit that passes, with b_0/0": ("Ne", G + NOTHING, theta, tends(G, theta), eq(b_0, 0)),
         "a limit of -oo": ("is finite", 2 * G, -sp.oo, tends(G, -sp.oo)),
         # h_0 = L
         "a limit that passes, with 0/0": ("Ne", 2 * G, 2 * theta + GAP / L, tends(G, theta)),

@@ -5,11 +5,15 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.claims import FirstZero
+from derive.rules.algebra import Insert
 from derive.rules.assumption import defined
 from derive.rules.solutions import FirstRoot, Integrated, Lambert, Separate
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
+    APART,
     CONSTANTLY,
+    GAP,
+    PIN_START,
     RATE,
     ROUGHENS,
     START,
@@ -19,6 +23,7 @@ from tests.derive.judgements import (
     equal,
     ge,
     given,
+    ne,
     timed,
 )
 
@@ -56,7 +61,25 @@ def bent(bend):
     return Separate(claim)(eq(du, C * s), eq(u_c, wear), eq(p, root), CONSTANTLY)
 
 
+def by_pin(speed, wear, *facts):
+    """Return the time as an integral over the wear of the pin, which that of the bearing is of."""
+    claim = equal(C * t, sp.Integral(1, (u_s, 0, u_a)))
+    law = Insert(equal(du, speed))(eq(du, speed), *facts)
+    return Separate(claim)(law, eq(u_c, wear), PIN_START, CONSTANTLY)
+
+
 FAMILIES = (
+    Family(by_pin, (
+        (C, u_a), (f_c * C, f_c * u_a, ne(f_c, 0)),
+        (2 * C * (u_a / h_0 + q), u_a**2 / h_0 + 2 * q * u_a, ge(u_a, 0)),
+    ), {
+        # u_a = 0
+        "a wear that does not change": ("moves with", sp.S.Zero, h_0),
+        # u_a = u_c = 0
+        "a wear that rests where it begins": ("moves with", 2 * C * u_a / h_0, u_a**2 / h_0),
+        # f_c = 0, u_a = 0
+        "a growth that may vanish": ("moves with", f_c * C, f_c * u_a),
+    }),
     Family(lambda law, claim=WORN: Separate(claim)(law, START, CONSTANTLY), (RATE,), {
         "a multiple of the rate": ("no rate", eq(2 * du, C)),  # u_c = C t/2
         "a rate bounded below": ("no equality", ge(du, C)),
@@ -103,11 +126,12 @@ FAMILIES = (
         "a primitive that may have no value": ("Ne", 1 / b_0, p_s),
     }),
     Family(lambda value, known, *facts: Lambert(value)(known, *facts), (
-        (q, eq(q * sp.exp(q), theta)),
+        (q, eq(q * sp.exp(q), theta)), (q + sp.Abs(GAP), eq(q * sp.exp(q), theta), APART),
         (f_c, eq(f_c * sp.exp(f_c), theta), ROUGHENS),  # f_c < 0
     ), {
         # u_c = q/3
         "the other branch of W": ("/q >= 0", -u_c / q, eq(-u_c / q * sp.exp(-u_c / q), -t / T)),
+        "W with 0/0": ("Ne", q + sp.Abs(GAP), eq(q * sp.exp(q), theta)),
         "an exponential of another": ("w e", q, eq(q * sp.exp(h), theta)),
     }),
     Family(lambda function,

@@ -32,7 +32,7 @@ from derive.rules.proving import sign
 from derive.rules.reading import replaced
 from derive.symbols import rate, symbol, symbols, t
 from derive.zero import is_zero
-from tests.derive import test_hostile_fourth, test_language
+from tests.derive import test_language
 from tests.derive.judgements import ROUGHENS, eq, ge, le, supposed
 from tests.derive.rules import algebra, asymptotics, calculus, limits, solutions
 
@@ -127,9 +127,7 @@ def test_a_rule_gives_what_is_true_and_needs_each_premise(kind: type[Rule]) -> N
 def test_every_refusal_of_the_rules_is_brought_about() -> None:
     """A line of a rule that refuses, or asks for a condition, and never did is not tested."""
     assumed = (partial(assume, supposed(said, kind)) for kind, said, _ in test_language.MISCALLED)
-    fourth = (false for false, _, _ in test_hostile_fourth.CASES.values())
-    builds = (*(build for _, build in FALSE.values()), *assumed, *fourth)
-    found = [attempt(build) for build in builds]
+    found = [attempt(build) for build in (*(build for _, build in FALSE.values()), *assumed)]
     found += [each for of_a_rule in made().values() for one in of_a_rule for each in dropped(one)]
     hit = {
         (Path(frame.filename).name, frame.lineno)

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from derive.typeset import mathml
 from derive.typeset.breaking import LIMIT, broken
 from derive.typeset.formula import parse, rows, source, width
-from wear.report import mathml
 from wear.report.typeset import typeset
 
 S = r"\left(\sigma_c^0 + f_c u_c\right)"

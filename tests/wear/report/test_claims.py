@@ -64,17 +64,8 @@ def test_true_numbers_would_be_confirmed(monkeypatch: pytest.MonkeyPatch) -> Non
     assert claims.stabilised_after().verdict is Verdict.CONFIRMED
 
 
-def test_one_change_of_f_c_reconciles_best() -> None:
-    best, *others = reconcile.reconciliations()
-    assert best.datum == "f_c"
-    assert best.value == pytest.approx(0.41729339833096945516, rel=1e-14)
-    assert best.misfit == pytest.approx(-0.0040, abs=2e-4)
-    assert {change.datum for change in others} == {"K_c", "p_max", "H_c", "R"}
-    (coefficient,) = (change for change in others if change.datum == "K_c")
-    assert coefficient.value == pytest.approx(506.95199148770437756e-6, rel=1e-14)
-    assert all(abs(change.misfit) > 5 * abs(best.misfit) for change in others)
-
-
-def test_the_printed_simulation_needs_nearly_the_same_slope() -> None:
-    needed = reconcile.slope_for_simulation()
-    assert needed == pytest.approx(reconcile.reconciliations()[0].value, rel=1e-3)
+def test_another_f_c_reconciles_the_printed_numbers() -> None:
+    found = reconcile.reconciliation()
+    assert found.value == pytest.approx(0.41729339833096945516, rel=1e-14)
+    assert found.misfit == pytest.approx(-0.0040, abs=2e-4)
+    assert reconcile.slope_for_simulation() == pytest.approx(found.value, rel=1e-3)

@@ -11,8 +11,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from derive.typeset import mathml
 from tests.wear.report.conftest import document
-from wear.report import html, mathml, svg
+from wear.report import html, svg
 from wear.report.number import Number
 
 _VOID = {"meta", "link", "br", "img", "hr", "mspace", "path", "use", "rect", "stop", "circle"}
