@@ -94,7 +94,7 @@ always_contact = Insert(*stated("always-contact"))(
 )
 """Beyond that depth the margin is positive at every load."""
 
-model = bearing_only().model
+model = bearing_only()
 geometry = (
     substitute(model.closure, model.wear_of_pin, assume(RIGID)),
     model.roughness_at_wear,

@@ -48,7 +48,7 @@ OVERLAP = Hypothesis(
 law = bearing_only().rigid
 """Eq. (13), solved for the rate."""
 
-grown, rough = bearing_only().model.roughness_of_bearing, assume(ROUGH_BEARING)
+grown, rough = bearing_only().roughness_of_bearing, assume(ROUGH_BEARING)
 """The roughness of the bearing, which has not vanished."""
 
 largest_wear = defined(M, K_c * V * T * p_max / (3 * H_c))
@@ -94,7 +94,7 @@ _falling = Consequence(sp.Eq(rate("u_c"), M / T / (1 + odds.subs(sigma_s, sigma_
 )
 _whole = sp.Integral(1 + odds, (sigma_s, sigma_c0, sigma_c))
 _time = Separate(sp.Eq(f_c * M * t / T, _whole))(
-    _falling, Solve(u_c)(grown, smoothing), bearing_only().model.start[4], rough, smoothing
+    _falling, Solve(u_c)(grown, smoothing), bearing_only().start[4], rough, smoothing
 )
 _cycles = Consequence(sp.Eq(f_c * M * N, _whole))(_time, defined(N, t / T, "number of cycles"))
 _by_parts = Integrated(sigma_s - sigma_s**2 / (4 * h_star) * odds, sigma_s / (2 * h_star) * odds)
