@@ -14,7 +14,6 @@ from importlib import import_module
 
 from .equations import TEXTS, Equation, numbered
 from .note import condensed, governing, stabilised
-from .note.governing import Model
 
 _BEYOND = {
     "note.problems": "problem-i problem-ii",
@@ -62,7 +61,7 @@ def equations() -> tuple[Equation, ...]:
 
 @cache
 def _of_the_note() -> dict[str, Equation]:
-    model = Model()
+    model = condensed.two_solids()
     proved = governing.results(model) | condensed.results(model) | dict(stabilised.EQUATIONS)
     return {found.id: found for found in sorted(numbered(proved), key=_place)}
 

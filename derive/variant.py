@@ -2,21 +2,17 @@
 
 Key results
     Variant     law, support, pin, loss of contact
-    modelled    the hypotheses of a law, a sign of pin wear and a kind of pin, stated once
     VARIANTS    every variant that source code can be written for
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from itertools import product
 
 from .laws import LAWS, ContactLaw
-from .note.governing import Model, Pin
-
-modelled = cache(Model)
-"""The hypotheses of a law, a sign of pin wear and a kind of pin; what follows is derived once."""
+from .note.condensed import Condensed, condensed
+from .note.governing import Pin
 
 
 @dataclass(frozen=True)
@@ -46,9 +42,9 @@ class Variant:
         return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
     @property
-    def model(self) -> Model:
+    def model(self) -> Condensed:
         """Return the hypotheses that the variant rests on, with the printed sign of pin wear."""
-        return modelled(self.law, False, self.pin)
+        return condensed(self.law, False, self.pin)
 
     @property
     def equations(self) -> tuple[str, ...]:

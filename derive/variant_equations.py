@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .equations import Equation
-from .note.condensed import Condensed
 from .rules.algebra import substitute
 from .rules.assumption import assume
 from .rules.calculus import RIGID
@@ -24,7 +23,6 @@ def equations_of(variant: Variant, *, opening: bool) -> tuple[Equation, ...]:
     h = h_0 + u_c - U_a
     """
     model = replace(variant.model, opening=opening)
-    condensed = Condensed(model)
     support = () if variant.compliant else (assume(RIGID),)
     pin = () if model.pin.wears else (model.wear_of_pin,)
     law = model.pressure_with_cutoff if variant.ends_at_3_sigma else model.pressure
@@ -38,9 +36,9 @@ def equations_of(variant: Variant, *, opening: bool) -> tuple[Equation, ...]:
     if model.pin.wears:
         found["pin-wear"] = ("wear of the pin", model.wear_of_pin)
     if variant.compliant:
-        found["deflection"] = ("deflection of the support", condensed.deflection)
+        found["deflection"] = ("deflection of the support", model.deflection)
     if not variant.ends_at_3_sigma:
-        whole = condensed.implicit if variant.compliant else condensed.rigid_condensed
+        whole = model.implicit if variant.compliant else model.rigid_condensed
         found["whole"] = ("the model in one equation", whole)
     return tuple(
         Equation(f"scene-{name}", "", title, (proved,)) for name, (title, proved) in found.items()

@@ -9,7 +9,8 @@ Key results
     Condensed.scalar         (8) with u_a eliminated as well: Q of (9)
     Condensed.rigid          (10), the limit k -> oo of (8), taken by the machine
     Condensed.rigid_condensed (13), for a smooth pin that does not wear
-    bearing_only, two_solids  the problems that all results rest on, each derived once
+    condensed                any of these problems, each derived once
+    bearing_only, two_solids  those that all results rest on
 """
 
 from __future__ import annotations
@@ -30,27 +31,24 @@ U_c, u_a = symbols("U_c u_a")
 
 
 @dataclass(frozen=True)
-class Condensed:
-    """Section 3 for one model."""
-
-    model: Model
+class Condensed(Model):
+    """The model, with all but the wear eliminated."""
 
     @cached_property
     def deflection(self) -> Judgement:
         """Eq. (7c)."""
-        return Solve(U_c)(self.model.support)
+        return Solve(U_c)(self.support)
 
     @cached_property
     def pressure_from_rate(self) -> Judgement:
         """Archard's law of the bearing, read as the pressure that a wear rate needs."""
-        return Solve(p)(self.model.wear_laws[2])
+        return Solve(p)(self.wear_laws[2])
 
     @cached_property
     def pressure_at_wear(self) -> Judgement:
         """The contact law with closure and roughness written in terms of wear and load."""
-        model = self.model
-        closed = substitute(model.pressure, model.closure, self.deflection)
-        return substitute(closed, model.roughness_at_wear)
+        closed = substitute(self.pressure, self.closure, self.deflection)
+        return substitute(closed, self.roughness_at_wear)
 
     @cached_property
     def implicit(self) -> Judgement:
@@ -62,12 +60,12 @@ class Condensed:
     def pressure_of_bearing_wear(self) -> Judgement:
         """The pressure in terms of u_c and U_a: explicit but for the deflection p/k."""
         made = self.pressure_at_wear
-        return substitute(made, self.model.wear_of_pin) if made.relation.has(u_a) else made
+        return substitute(made, self.wear_of_pin) if made.relation.has(u_a) else made
 
     @cached_property
     def scalar(self) -> Judgement:
         """Eq. (9): u_c alone, solved for its rate where that stands outside the contact law."""
-        explicit = substitute(self.model.wear_laws[2], self.pressure_of_bearing_wear)
+        explicit = substitute(self.wear_laws[2], self.pressure_of_bearing_wear)
         return substitute(explicit, self.pressure_from_rate).named("general form")
 
     @cached_property
@@ -80,28 +78,31 @@ class Condensed:
         """Eq. (13), first line: (8) for a rigid support."""
         condensed = rigid(self.implicit)
         if condensed.relation.has(u_a):
-            condensed = substitute(condensed, self.model.wear_of_pin)
+            condensed = substitute(condensed, self.wear_of_pin)
         return condensed.named("condensed problem, rigid support")
 
 
-@cache
+condensed = cache(Condensed)
+
+
+"""The problem of a law, a sign of pin wear and a kind of pin; what follows is derived once."""
+
+
 def bearing_only(law: ContactLaw = TANH) -> Condensed:
     """Return the problem of a pin that is smooth and does not wear: section 4."""
-    return Condensed(Model(law, pin=Pin.ABSENT))
+    return condensed(law, False, Pin.ABSENT)
 
 
-@cache
 def two_solids(law: ContactLaw = TANH, opening: bool = False) -> Condensed:
     """Return the problem of two worn, rough solids: section 3."""
-    return Condensed(Model(law, opening))
+    return condensed(law, opening, Pin.WORN_ROUGH)
 
 
-def results(model: Model) -> dict[str, Proved]:
-    """Return equations (8) to (10) and (13) of a model with two worn, rough solids."""
-    two, one = Condensed(model), Condensed(replace(model, pin=Pin.ABSENT))
-    start = model.start[1]
+def results(two: Condensed) -> dict[str, Proved]:
+    """Return equations (8) to (10) and (13) of two worn, rough solids."""
+    one, start = replace(two, pin=Pin.ABSENT), two.start[1]
     return {
-        "8": (two.implicit, model.wear_of_pin, start),
+        "8": (two.implicit, two.wear_of_pin, start),
         "9": (two.scalar, start),
         "10": (two.rigid, start),
         "13": (one.rigid_condensed, start),

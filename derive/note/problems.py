@@ -23,8 +23,7 @@ from ..results.first_integral import UNSATURATED, log_odds
 from ..rules.algebra import Solve, discharge
 from ..rules.assumption import assume
 from ..symbols import symbols, t
-from .condensed import Condensed
-from .governing import Model
+from .condensed import two_solids
 
 h, p, p_max, R_a, U_a, b, L = symbols("h p p_max R_a U_a b L")
 
@@ -33,8 +32,7 @@ CARRIED = Hypothesis(
 )
 
 
-_model = Model()
-_condensed = Condensed(_model)
+_model = two_solids()
 _roughness = (_model.roughness_of_pin, _model.roughness_of_bearing, _model.roughness)
 _u_a_rate, _, _u_c_rate, _ = _model.wear_laws
 _pressure = Solve(p)(_model.reaction)
@@ -44,18 +42,18 @@ problem_i = (
     _u_a_rate,
     _u_c_rate,
     *_roughness,
-    _condensed.deflection,
+    _model.deflection,
     discharge(Solve(h)(log_odds), UNSATURATED, _pressure, assume(CARRIED)),
     Solve(U_a)(_model.closure),
 )
 """The reaction R_a of the pin is given: the pressure is prescribed, and wear follows directly."""
 
 problem_ii = (
-    _condensed.scalar,
+    _model.scalar,
     _model.wear_of_pin,
     *_roughness,
-    _condensed.pressure_from_rate,
-    _condensed.deflection,
+    _model.pressure_from_rate,
+    _model.deflection,
     _model.closure,
     Solve(R_a)(_model.reaction),
 )

@@ -16,13 +16,13 @@ from functools import cache
 import sympy as sp
 
 from ..kernel import Judgement
-from ..note.condensed import Condensed
+from ..note.condensed import condensed
 from ..note.governing import Pin
 from ..rules.algebra import Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.calculus import RIGID
 from ..symbols import QUANTITIES, symbols
-from ..variant import Variant, modelled
+from ..variant import Variant
 from . import symbols as named
 from .function import Assignment
 
@@ -101,8 +101,8 @@ class Relations:
 
     def _closure(self, opening: bool, deflected: bool) -> sp.Expr:
         """Return h where wear of the pin opens the gap, or where it closes it."""
-        model = modelled(self.variant.law, opening, self.variant.pin)
-        deflection = Condensed(model).deflection if deflected else assume(RIGID)
+        model = condensed(self.variant.law, opening, self.variant.pin)
+        deflection = model.deflection if deflected else assume(RIGID)
         return _plain(substitute(model.closure, self._wear_of_pin(), deflection).claim.rhs)
 
     def _wear_of_pin(self) -> Judgement:

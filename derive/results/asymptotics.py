@@ -104,7 +104,7 @@ def _steady() -> tuple[Formula, ...]:
     for law in LAWS.values():
         slope = sp.diff(law.phi, r).subs(r, g / q) / law.ratio(g / q)
         equal(slope * OFFSET, TwoSolids(law).drift.claim.value)
-    archard = substitute(problem.model.wear_laws[2], problem.model.slip).claim.rhs
+    archard = substitute(problem.wear_laws[2], problem.slip).claim.rhs
     deflection = problem.deflection.claim.rhs
     compliant = OFFSET.subs(h_0, h_0 + deflection.subs(p, p_inf))
     per_cycle = sp.expand(archard.subs(p, p_inf) * T)

@@ -20,12 +20,12 @@ import sympy as sp
 
 from ..kernel import Judgement, RuleError
 from ..laws import GENERAL, TANH, ContactLaw, r
-from ..note.condensed import bearing_only
 from ..rules.algebra import Insert, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
+from ..rules.growth import AtInfinity, Diverges
 from ..rules.inequalities import Arithmetic
-from ..rules.limits import AtInfinity, Diverges, Passes, forever
+from ..rules.limits import Passes, forever
 from ..symbols import rate, symbols
 from .first_integral import UNSATURATED
 from .steady_state import SteadyState, drift, named_limit, roughness
@@ -65,7 +65,7 @@ class CompliantSteadyState(SteadyState):
     def deflected(self) -> Judgement:
         """The support carries a pressure below p_max, where the law does not show it by itself."""
         claim = sp.And(sp.Gt(U_c, 0), sp.Lt(U_c, p_max / k))
-        deflection = bearing_only(self.law).deflection
+        deflection = self.model.deflection
         try:
             return Arithmetic(claim)(deflection, self.model.pressure)
         except RuleError:
@@ -89,9 +89,7 @@ class CompliantSteadyState(SteadyState):
         claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
         deviation = AtInfinity(claim, 1 / u_c)(wear, *self.facts)
         near = first_order(self.rate_at_wear, deviation, self.ratio, self.rate, self.deflected)
-        settled = Passes(sp.Eq(forever(U_c), p_inf / k))(
-            bearing_only(self.law).deflection, self.steady
-        )
+        settled = Passes(sp.Eq(forever(U_c), p_inf / k))(self.model.deflection, self.steady)
         at_rest = near.claim.expr.subs(U_c, p_inf / k)
         return drift(Passes(sp.Eq(forever(at_rest), 0))(near, settled))
 

@@ -96,16 +96,16 @@ GROUPS_COMPLIANT = (f_c, eta, nu, lamda)
 _one, _two = bearing_only(), condensed.two_solids()
 
 groups_one_solid = (
-    _scaled("groups-one-solid", _one.model.roughness_at_wear, _one.rigid, GROUPS_OF_ONE),
+    _scaled("groups-one-solid", _one.roughness_at_wear, _one.rigid, GROUPS_OF_ONE),
     *(DEFINITIONS[group] for group in (mu, eta, nu)),
 )
 """Four groups for one worn solid."""
 
 _squares = (zeta + f_a * (kappa * v)) ** 2 + (1 + f_c * v) ** 2
-_grown = _two.model.roughness_at_wear
+_grown = _two.roughness_at_wear
 _rough = Consequence(sp.Gt(sigma_c0**2 * _squares, 0))(
     Arithmetic(sp.Gt(_grown.claim.rhs**2, 0))(_grown),
-    _two.model.wear_of_pin,
+    _two.wear_of_pin,
     *(SCALES[0], DEFINITIONS[zeta], DEFINITIONS[kappa]),
 )
 groups_two_solids = (
@@ -117,7 +117,7 @@ groups_two_solids = (
 groups_compliant = (
     _scaled(
         "groups-compliant",
-        _one.model.roughness_at_wear,
+        _one.roughness_at_wear,
         _one.pressure_of_bearing_wear,
         GROUPS_COMPLIANT,
     ),

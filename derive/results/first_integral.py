@@ -38,7 +38,7 @@ UNSATURATED = Hypothesis(
 
 def _line(law: ContactLaw) -> Judgement:
     """Return that closure and roughness lie on a line that the load shifts."""
-    model = bearing_only(law).model
+    model = bearing_only(law)
     parents = (model.closure, model.roughness_at_wear, model.wear_of_pin)
     return Insert(*stated("closure-line"))(*parents, assume(SLOPED), name="line of closure")
 
@@ -46,7 +46,7 @@ def _line(law: ContactLaw) -> Judgement:
 closure_line = _line(GENERAL)
 
 log_odds = Logarithm(sp.Eq(sp.log(p / (p_max - p)), 8 - 4 * h / sigma))(
-    bearing_only().model.pressure, assume(UNSATURATED), name="log-odds of pressure"
+    bearing_only().pressure, assume(UNSATURATED), name="log-odds of pressure"
 )
 """Eq. (4) solved for the closure."""
 

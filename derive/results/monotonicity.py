@@ -47,9 +47,9 @@ def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgem
     ``apart``: whether h > 0 is supposed; by default where it is needed.
     """
     problem = bearing_only(law)
-    facts = [problem.model.roughness_of_bearing, assume(ROUGH_BEARING)]
+    facts = [problem.roughness_of_bearing, assume(ROUGH_BEARING)]
     if datum in WHILE_APART if apart is None else apart:
-        facts += [assume(APART), worn(problem.model)]
+        facts += [assume(APART), worn(problem)]
     return OneSign(datum)(problem.rigid, *facts, name=f"effect of {datum}")
 
 

@@ -44,8 +44,8 @@ s, x, y = sp.symbols("s x y", positive=True)
 
 problem = two_solids()
 equation = substitute(
-    problem.model.pressure,
-    problem.model.closure,
+    problem.pressure,
+    problem.closure,
     problem.deflection,
     name="equation for the pressure",
 )

@@ -26,8 +26,9 @@ from ..note.governing import ROUGH_BEARING
 from ..rules.algebra import Consequence, Solve, discharge, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import LeadingTerm, LogarithmicGrowth
+from ..rules.growth import AtInfinity, unbounded
 from ..rules.inequalities import Arithmetic, Monotone
-from ..rules.limits import AtInfinity, forever, unbounded
+from ..rules.limits import forever
 from ..rules.reading import CONSTANT, SINE
 from ..rules.solutions import Integrated, Separate
 from ..symbols import rate, symbols, t
@@ -47,7 +48,7 @@ OVERLAP = Hypothesis(
 law = bearing_only().rigid
 """Eq. (13), solved for the rate."""
 
-grown, rough = bearing_only().model.roughness_of_bearing, assume(ROUGH_BEARING)
+grown, rough = bearing_only().roughness_of_bearing, assume(ROUGH_BEARING)
 """The roughness of the bearing, which has not vanished."""
 
 largest_wear = defined(M, K_c * V * T * p_max / (3 * H_c))
@@ -93,7 +94,7 @@ _falling = Consequence(sp.Eq(rate("u_c"), M / T / (1 + odds.subs(sigma_s, sigma_
 )
 _whole = sp.Integral(1 + odds, (sigma_s, sigma_c0, sigma_c))
 _time = Separate(sp.Eq(f_c * M * t / T, _whole))(
-    _falling, Solve(u_c)(grown, smoothing), bearing_only().model.start[4], rough, smoothing
+    _falling, Solve(u_c)(grown, smoothing), bearing_only().start[4], rough, smoothing
 )
 _cycles = Consequence(sp.Eq(f_c * M * N, _whole))(_time, defined(N, t / T, "number of cycles"))
 _by_parts = Integrated(sigma_s - sigma_s**2 / (4 * h_star) * odds, sigma_s / (2 * h_star) * odds)

@@ -93,7 +93,7 @@ coefficient_from_wear = Insert(
 )(wear_per_cycle, name="K_c from wear per cycle")
 """K_c from the asymptotic wear per cycle."""
 
-_model = bearing_only().model
+_model = bearing_only()
 slope_from_pressure = Insert(*stated("slope-from-pressure"))(
     log_odds,
     substitute(_model.closure, _model.wear_of_pin, assume(RIGID)),

@@ -46,7 +46,7 @@ BETWEEN = Hypothesis(
 )
 
 
-model = bearing_only().model
+model = bearing_only()
 off_limit, sloped = assume(OFF_LIMIT), assume(SLOPED)
 
 wear = Insert(stated("static-solution-compliant")[0])(

@@ -58,7 +58,7 @@ def _law(growth: sp.Expr) -> sp.Equality:
 
 
 sloped, moving, constant = map(assume, (SLOPED, MOVING, CONSTANT))
-start_of_wear, start_of_roughness = (bearing_only().model.start[place] for place in (1, 4))
+start_of_wear, start_of_roughness = (bearing_only().start[place] for place in (1, 4))
 
 worn = Solve(u_c)(grown, sloped)
 """The wear at a roughness."""

@@ -29,14 +29,15 @@ import sympy as sp
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, infer
 from ..laws import TANH, ContactLaw, r
-from ..note import condensed
+from ..note.condensed import Condensed, bearing_only
 from ..note.governing import ROUGH_BEARING, Model
 from ..rules.algebra import Consequence, Identity, Insert, discharge
 from ..rules.assumption import assume, defined
 from ..rules.calculus import grows, rigid
 from ..rules.drift import MEAN, logarithmic_drift
+from ..rules.growth import Diverges
 from ..rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
-from ..rules.limits import Diverges, Passes, accumulates, forever, vanishes
+from ..rules.limits import Passes, accumulates, forever, vanishes
 from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols
 from .regime_map import ROUGHENING
@@ -68,9 +69,9 @@ class SteadyState:
     bound: ClassVar[sp.Expr] = sigma_c0 / f_c + h_0 + U
 
     @property
-    def model(self) -> Model:
+    def model(self) -> Condensed:
         """Bearing wear only, as in section 4."""
-        return condensed.bearing_only(self.law).model
+        return bearing_only(self.law)
 
     @cached_property
     def worn(self) -> Judgement:
@@ -90,12 +91,12 @@ class SteadyState:
     @cached_property
     def rate_at_wear(self) -> Judgement:
         """Eq. (13), solved for the rate."""
-        return self.rough(condensed.bearing_only(self.law).rigid).named("wear rate")
+        return self.rough(self.model.rigid).named("wear rate")
 
     @cached_property
     def pressure_at_wear(self) -> Judgement:
         """The pressure in terms of wear and load."""
-        return self.rough(rigid(condensed.bearing_only(self.law).pressure_of_bearing_wear))
+        return self.rough(rigid(self.model.pressure_of_bearing_wear))
 
     @cached_property
     def deviation(self) -> Judgement:

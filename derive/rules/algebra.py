@@ -38,7 +38,9 @@ class Substitute(Rule):
             known = equality(definition)
             if not claim.relation.has(known.lhs):
                 raise RuleError(f"{known.lhs} does not occur in {claim.relation}")
-            if known.lhs in bound_in(claim.relation) | {getattr(claim, "variable", None)}:
+            variable = getattr(claim, "variable", t)
+            taken = {variable} & known.relation.free_symbols - {t}
+            if taken or known.lhs in bound_in(claim.relation) | {variable} - {t}:
                 raise RuleError(f"missing premise: {known.lhs} may take every value")
             claim = _put(claim, known)
         return Conclusion(claim)

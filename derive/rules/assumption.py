@@ -22,10 +22,16 @@ from .reading import at_an_instant, clocks, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
-_CLOCKS = {t: symbol("T") * symbol("tau"), symbol("N"): t / symbol("T")}
-"""What the times are that have a definition."""
-_GIVEN = DATA | {"m", "s_0"}
-"""What has a meaning already: the data, and what belongs to the expansion."""
+_MEANT = {
+    t: symbol("T") * symbol("tau"),
+    symbol("N"): t / symbol("T"),
+    symbol("f_aa"): symbol("f_a"),
+    symbol("f_cc"): symbol("f_c"),
+    symbol("rho"): symbol("f_c") * symbol("u_cum"),
+}
+"""What the model and the expansion speak of, where it may be defined, and as what."""
+_GIVEN = DATA | {"tau", "omega", "m", "s_0", "p_s", "u_s", "sigma_s"}
+"""What has a meaning already: data, and what rules speak of or integrate over."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +79,8 @@ def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> Non
         return
     if not name.is_Symbol or name.name in _GIVEN or value.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
-    if name in (*_CLOCKS, symbol("tau")) and value != _CLOCKS.get(name):
-        raise RuleError(f"missing premise: {name} is another time, t = T tau or N = t/T")
+    if value != _MEANT.get(name, value):
+        raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
     rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
     change = inserted(sp.Add(*rates), premises).doit()
     varies = clocks(relation.rhs) or any(d.has(t) for d in value.atoms(sp.Derivative))
@@ -96,7 +102,7 @@ def _solvable(relation: sp.Equality) -> bool:
     fields = {f for f in functions(whole) if f.func not in FIELDS}
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
     free = () if functions(whole) or tends else whole.free_symbols
-    names = {s for s in free if s.name not in _GIVEN | CLOCKS}
+    names = {s for s in free if s.name not in _GIVEN | CLOCKS and s not in _MEANT}
     own = {
         part: sp.Dummy(real=True) for part in (*rates, *fields - {d.expr for d in rates}, *names)
     }

@@ -22,15 +22,25 @@ from functools import cache
 
 import sympy as sp
 
-from ..averaging import collected, mean, turning
+from ..averaging import collected, mean, turning, z
 from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import require_defined
-from .reading import LOAD, SINE, T, clocks, constant, equality, fields, require_hypothesis
+from .proving import continuity, holds, require_defined, smooth
+from .reading import (
+    LOAD,
+    SINE,
+    T,
+    clocks,
+    constant,
+    equality,
+    fields,
+    functions,
+    require_hypothesis,
+)
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
@@ -53,14 +63,22 @@ def powers(pressure: sp.Expr, order: int) -> tuple[sp.Expr, ...]:
     """Return the coefficients of 1/sigma^n in a pressure ``F(u_c, U_a)``.
 
     With sigma = sigma_c0 + f_c u_c and b_0 = sigma_c0/f_c - h_0 the ratio h/sigma is a
-    polynomial in 1/sigma whose first coefficient is 1/f_c.
+    polynomial in 1/sigma whose first coefficient is 1/f_c.  RuleError unless F is smooth at
+    infinity and tends to what is not zero and does not vary.
     """
     small = sp.Dummy("1/sigma", positive=True)
     wear = (1 / small - sigma_c0) / f_c
     at_large = pressure.subs({u_c: wear, h_0: sigma_c0 / f_c - b_0})
     law = at_large.replace(lambda e: isinstance(e, sp.Function) and e.has(small), _in_lowest_terms)
+    near = sp.Dummy(real=True)
+    goals = [goal.subs(near, 0) for goal in continuity(law.xreplace({small: near}), {near})]
+    if not smooth(law, small) or not all(holds(goal, frozenset([f_c > 0])) for goal in goals):
+        raise RuleError(f"missing premise: {pressure} is smooth at infinity")
     terms = (sp.diff(law, small, n) / sp.factorial(n) for n in range(order + 1))
-    return tuple(term.subs(small, 0).doit() for term in terms)
+    steady, *others = (term.subs(small, 0).doit() for term in terms)
+    if fields(steady) or not holds(sp.Ne(steady, 0)):
+        raise RuleError(f"missing premise: {steady} is the limit of {pressure}")
+    return steady, *others
 
 
 def _in_lowest_terms(function: sp.Expr) -> sp.Expr:
@@ -150,6 +168,8 @@ class Averaging(Rule):
             raise RuleError(f"missing premise: {law.relation} is of an oscillation")
         require_defined(value, *premises)
         rest = sp.expand(inserted(law.rhs, premises[1:]))
+        if not _periodic(rest.xreplace(waves)):
+            raise RuleError(f"missing premise: {rest} has the period 1")
         if name == whole:
             slope = turning(sp.diff(value, tau) - rest, tau)
             right = law.lhs != whole and mean(turning(value, tau)) == 0 == slope
@@ -166,6 +186,13 @@ class Averaging(Rule):
         if (name := self.claim.lhs).is_Symbol:
             return f"The mean of {labels[0]} over a cycle is zero{known}: solve for {write(name)}."
         return f"Integrate {labels[0]} over the phase{known}; the mean of an oscillation is zero."
+
+
+def _periodic(expr: sp.Expr) -> bool:
+    """Return whether an expression is a polynomial in sines and cosines of 2 pi n tau."""
+    terms = (term.as_coeff_exponent(z) for term in sp.Add.make_args(turning(expr, tau)))
+    still = all(power.is_Integer and not factor.has(z, tau) for factor, power in terms)
+    return still and not functions(expr) and clocks(expr) <= {tau}
 
 
 def _definitions(law: sp.Expr) -> set[sp.Equality]:

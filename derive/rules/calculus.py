@@ -129,7 +129,7 @@ class RigidLimit(Rule):
         apart = [h.relation.subs(LOAD, LOAD + U_c) for h in others]
         loads = [r for r in apart if r.has(U_c.func) or r.atoms(LOAD.func) - {LOAD} or r == sp.true]
         loads += given.relation.atoms(LOAD.func) - {LOAD}
-        if loads or given.relation.has(U_c) or any(h.relation.has(k) for h in others):
+        if loads or given.relation.has(U_c.func) or any(h.relation.has(k) for h in others):
             raise RuleError("missing premise: nothing else is said of the load, of U_c and of k")
         deeper = {k: 1 / small, LOAD: LOAD + small * p}
         sides = [side.subs(deeper, simultaneous=True) for side in (given.lhs, given.rhs)]

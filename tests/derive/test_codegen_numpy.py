@@ -19,7 +19,7 @@ from derive.codegen.sources import source
 from derive.faults import UsageError
 from derive.laws import LAWS, ContactLaw, r
 from derive.note.condensed import Condensed
-from derive.note.governing import Model, Pin
+from derive.note.governing import Pin
 from derive.program import margin_program
 from derive.program.gradient import by_constant
 from derive.program.root import tail
@@ -59,7 +59,7 @@ def signed(variant: Variant, name: str):
     found = in_parameters(variant, name)
     for opening in (False, True) if variant.pin.wears else (False,):
         sign = 1 if opening else -1
-        yield Model(variant.law, opening, variant.pin), found.subs(pin_wear_sign, sign)
+        yield Condensed(variant.law, opening, variant.pin), found.subs(pin_wear_sign, sign)
 
 
 # What the code computes
@@ -118,7 +118,7 @@ def test_rate_is_the_derived_right_hand_side(variant):
         if variant.compliant:
             wanted = substitute(model.wear_laws[2], model.slip).claim.rhs
         else:
-            wanted = substitute(Condensed(model).rigid, model.slip).claim.rhs
+            wanted = substitute(model.rigid, model.slip).claim.rhs
         assert is_zero(found - plain(wanted))
 
 
@@ -126,7 +126,7 @@ def test_rate_is_the_derived_right_hand_side(variant):
 def test_residual_is_the_general_implicit_form(variant):
     """(9): the residual at the pressure that belongs to a wear rate."""
     for model, found in signed(variant, "residual"):
-        wanted = Condensed(model).pressure_of_bearing_wear.claim
+        wanted = model.pressure_of_bearing_wear.claim
         assert is_zero(found - plain(wanted.lhs - wanted.rhs))
 
 

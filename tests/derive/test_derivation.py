@@ -17,6 +17,7 @@ from derive.hypotheses import Kind
 from derive.kernel import Judgement, RuleError, chain, infer, replayed
 from derive.laws import EXPONENTIAL, GENERAL, LAWS, TANH
 from derive.note import condensed, governing
+from derive.note.condensed import Condensed
 from derive.note.governing import Model, Pin
 from derive.note.problems import problem_i, problem_ii, undetermined
 from derive.rules.assumption import Assume, assume
@@ -99,7 +100,7 @@ def test_no_wrong_step_passes(part):
         assert str(refusal.value), (written, what)
 
 
-def _sections_2_and_3(model: Model) -> tuple[Equation, ...]:
+def _sections_2_and_3(model: Condensed) -> tuple[Equation, ...]:
     return numbered(governing.results(model) | condensed.results(model))
 
 
@@ -108,9 +109,9 @@ HYPOTHESES = [(name, None) for name in ("closure", "support", "roughness", "pres
 ]
 
 
-def _with_wrong(name: str, place: int | None, what: int) -> Model:
+def _with_wrong(name: str, place: int | None, what: int) -> Condensed:
     """Return a model in which one hypothesis is mutated, before anything is derived from it."""
-    model = Model()
+    model = Condensed()
     stated = getattr(model, name)
     target = stated if place is None else stated[place]
     wrong = [claim for _, claim in mutants(target.relation) if not same(claim, target.relation)]
@@ -131,13 +132,13 @@ def test_a_wrong_hypothesis_shows_in_sections_2_and_3(name, place, what):
 
 
 def test_printed_forms_of_sections_2_and_3_follow():
-    for equation in _sections_2_and_3(Model()):
+    for equation in _sections_2_and_3(Condensed()):
         assert equation.agrees, equation.id
         assert equation.status in (Status.DEFINITION, Status.DERIVED)
 
 
 def test_a_physical_sign_is_told_from_the_printed_one():
-    parted = {e.id for e in _sections_2_and_3(Model(opening=True)) if not e.agrees}
+    parted = {e.id for e in _sections_2_and_3(Condensed(opening=True)) if not e.agrees}
     assert parted == {"7a", "8"}
 
 
@@ -146,14 +147,14 @@ def test_a_physical_sign_is_told_from_the_printed_one():
     ("pin", "opening"), [(pin, opening) for pin in Pin for opening in sorted({False, pin.wears})]
 )
 def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening):
-    problem = condensed.Condensed(Model(law, opening, pin))
+    problem = Condensed(law, opening, pin)
     for step in chain(problem.scalar, problem.rigid):
         assert replayed(step) is None, step.relation
 
 
 def test_a_law_is_written_once():
     """The exponential law's condensed problem, made by hand, is the derived one."""
-    problem = condensed.Condensed(Model(LAWS["exponential"], pin=Pin.ABSENT))
+    problem = Condensed(LAWS["exponential"], pin=Pin.ABSENT)
     h_0, u_c, U_a, sigma_c0, f_c = symbols("h_0 u_c U_a sigma_c0 f_c")
     p_max, K_c, V, H_c = symbols("p_max K_c V H_c")
     by_hand = K_c * V * p_max / (3 * H_c) * sp.exp(-(h_0 + u_c - U_a) / (sigma_c0 + f_c * u_c))

@@ -18,7 +18,7 @@ from derive.rules.algebra import Identity
 from derive.rules.assumption import assume
 from derive.rules.limits import forever
 from derive.rules.proving import LAW
-from derive.symbols import initial, rate, symbols, t
+from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import end, equal, supposed
 
 u_c, U_a, U_c, h, p, sigma = symbols("u_c U_a U_c h p sigma")
@@ -176,11 +176,15 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(f_c * POSITIVE, 0), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(kappa + p_max, 0), "is a new name"),
     (Kind.DEFINITION, equal(SWAYS, (1 + WIGGLE**2) / T), "is a new name"),  # tan(t/T)
-    (Kind.DEFINITION, equal(N, t / (2 * T)), "another time"),  # u_c = C t
+    (Kind.DEFINITION, equal(N, t / (2 * T)), "N is t/T"),  # u_c = C t
+    (Kind.DEFINITION, equal(symbol("omega"), C / T), "is a new name"),  # it is pi n/30
+    (Kind.DEFINITION, equal(symbol("f_cc"), 0), "f_cc is f_c"),  # the roughness grows
+    (Kind.DEFINITION, equal(symbol("rho"), h_0), "rho is f_c"),  # of the slow time
+    (Kind.DEFINITION, equal(symbol("p_s"), p_max / 2), "is a new name"),  # int 1/(p_s - p_max)
     (Kind.DEFINITION, equal(2 * C, f_c * h_0), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
-    (Kind.DEFINITION, equal(t, 5), "another time"),  # t = 4
-    (Kind.DEFINITION, equal(N, u_c / h_0), "another time"),  # u_c = -h_0 t/T
+    (Kind.DEFINITION, equal(t, 5), "t is T"),  # t = 4
+    (Kind.DEFINITION, equal(N, u_c / h_0), "N is t/T"),  # u_c = -h_0 t/T
 )
 CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.STATE, sp.Eq(u_c, C * t)),
@@ -197,6 +201,7 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(N, t / T)),
     (Kind.MODEL, contact(ContactLaw("", kinked(1 + r**2), sp.S.Zero, ""))),
     (Kind.DEFINITION, equal(f_c * b_0, 0)),
+    (Kind.DEFINITION, equal(symbol("f_cc"), f_c)),
     (Kind.DEFINITION, equal(f_c * WIGGLE, 0)),
     (Kind.DEFINITION, equal(kappa + b_0, 0)),
     (Kind.DEFINITION, equal(SWAYS, (1 + u_c**2) / T)),

@@ -121,13 +121,15 @@ FAMILIES = (
         "the datum of a slope": ("every value", given(equal(SLOPE, h_0)), eq(f_c, 1)),
         # theta = 1: G = 3, not 3/2
         "capture by an integral": ("for every", integral(b_0), eq(b_0, theta)),
-        "capture by a limit": ("for every", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
+        "capture by a limit": ("every value", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
         # d(h_0 N)/dt is h_0/T
         "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
         "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
         # G(0) = 1
         "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, initial("G"))),
+        # G = q/N, for one N
+        "a length that grows with N": ("may take every value", logarithmic(), eq(q, N * G)),
     }),
     Family(lambda unknown, *known: Solve(unknown)(*known), (
         (h_0, eq(u_a, h_0)), (rate("G"), eq(T * rate("G") + G, theta)),
@@ -301,6 +303,6 @@ FAMILIES = (
         "two laws": ("contradict", lambda: substitute(touching(TANH), touching(EXPONENTIAL))),
     }),
     Family(each, (lambda: defined(b_0, U_a, "", CONSTANTLY),), {
-        "t = 5, by definition": ("another time", lambda: defined(t, sp.Integer(5))),  # t = 4
+        "t = 5, by definition": ("t is T", lambda: defined(t, sp.Integer(5))),  # t = 4
     }),
 )  # fmt: skip

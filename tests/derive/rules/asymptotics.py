@@ -6,7 +6,7 @@ import sympy as sp
 
 from derive.claims import Drift, Oscillation
 from derive.kernel import infer
-from derive.rules.algebra import substitute
+from derive.rules.algebra import Consequence, substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.averages import EXPANSION, Averaging, OrderEquation, SlowTime, term_of
 from derive.rules.drift import LeadingTerm, first_order, logarithmic_drift
@@ -74,6 +74,12 @@ def averaged(factor):
 def wave_of_wave():
     known = Averaging(sp.Eq(w_1, FIRST_WAVE))(first_order_terms(), averaged_as(FIRST_DRIFT))
     return Averaging(sp.Eq(w_1, sp.integrate(FIRST_WAVE, tau)))(known)
+
+
+def mean_of(right, mean):
+    """Return c_1 from its equation, which has another right side."""
+    law = equal(sp.Derivative(w_1, tau), rho * (right - c_1))
+    return Averaging(equal(c_1, mean))(Consequence(law)(given(law), expansion_premises()[-1]))
 
 
 def of_another_pressure():
@@ -152,7 +158,13 @@ FAMILIES = (
         "a drift that is 0/0 for f_c = 1": ("f_c - 1",
             sp.Eq(c_1, FIRST_DRIFT + (f_c**2 - 1) / (f_c - 1) - f_c - 1)),
     }),
+    Family(mean_of, ((U * sp.cos(2 * sp.pi * tau), 0), (h_0 * q, h_0 * q)), {
+        "the mean over half a wave": ("the period 1", U * sp.cos(sp.pi * tau), 0),
+        "the mean of a field": ("the period 1", h_0 * G, h_0 * G),  # G = tau
+    }),
     Family(averaged, (1 + q,), {
+        "a limit that varies with the load": ("is the limit of", 1 + U_a / (2 * U)),
+        "a pressure that vanishes": ("smooth at infinity", 1 / (1 + u_c**2 / q**2)),
         "a pressure that varies with the phase": ("at given", 1 + sp.sin(2 * sp.pi * tau) / 2),
     }),
     Family(each, (first_order_terms,), {

@@ -87,6 +87,13 @@ def beside(*facts):
     return Insert(equal(u_cum, h_0 * f_c))(GROWING, *facts)
 
 
+def deflected():
+    """Return that the support is deflected one period later, as it always is."""
+    known = one_period_later(Solve(U_c)(assume(SPRINGS)))
+    there = later(U_c)
+    return Insert(equal(later(p) / (k * there), 1))(known, Arithmetic(sp.Ne(there, 0))(known))
+
+
 def pressed(closure):
     """Return that what lies between the solids is positive: it is p/k."""
     inside = closure.claim.lhs - h_0 + later(U_a)
@@ -142,6 +149,7 @@ FAMILIES = (
         "k -> oo with U_c held fixed": ("equilibrium", eq(R_a, k * b * L * (U_c - U))),
         "k -> oo under a bounded load": ("nothing else is said", opened(BOUNDED)),
         "words about the load": ("nothing else is said", opened(said(sp.true, Kind.LOAD))),
+        "a deflection one period later": ("nothing else is said", deflected()),  # 0 = 1
         # 0/0
         "what is pressed one period later": ("nothing else is said", pressed(LATER)),
         "k times an equation": ("continuous for k", Multiply(k)(opened())),
