@@ -2,7 +2,6 @@
 
 import gc
 import os
-import re
 import shutil
 from collections.abc import Callable, Iterator
 
@@ -41,18 +40,19 @@ def _need_tool(*names: str) -> str:
     pytest.skip(reason)
 
 
-#: Tests that need the catalogue of equations, the paper made of it, or the browser.
-_OF_THE_CATALOGUE = re.compile(
-    r"tests/(wear/report/|wear/test_(cli_re|explorer|regime_map)|test_|derive/(?!test_codegen))"
-)
+#: Where the paper is written or the whole catalogue is derived, dearest first.
+_OF_THE_CATALOGUE = ("tests/wear/report/", "tests/wear/test_cli_re", "tests/test_", "tests/derive/")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Give the tests of the catalogue to one process, which derives it once; xdist begins with the
-    largest group, and gives the rest to whoever is free."""
-    for item in items:
-        if _OF_THE_CATALOGUE.match(item.nodeid):
-            item.add_marker(pytest.mark.xdist_group("catalogue"))
+    """Put the tests that need the catalogue first: of two processes one begins with them, and the
+    other, which need not derive it, with the rest."""
+
+    def place(item: pytest.Item) -> int:
+        starts = map(item.nodeid.startswith, _OF_THE_CATALOGUE)
+        return next((n for n, here in enumerate(starts) if here), len(_OF_THE_CATALOGUE))
+
+    items.sort(key=place)
 
 
 @pytest.fixture(scope="session")
