@@ -36,14 +36,8 @@ from ..results.steady_state import (
 from ..rules.algebra import Identity, Insert, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
-from ..rules.limits import (
-    AtInfinity,
-    Diverges,
-    Passes,
-    forever,
-    later,
-    one_period_later,
-)
+from ..rules.growth import AtInfinity, Diverges
+from ..rules.limits import Passes, forever, later, one_period_later
 from ..rules.reading import PERIODIC
 from ..symbols import rate, symbols, t
 

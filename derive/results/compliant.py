@@ -23,8 +23,9 @@ from ..laws import GENERAL, TANH, ContactLaw, r
 from ..rules.algebra import Insert, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
+from ..rules.growth import AtInfinity, Diverges
 from ..rules.inequalities import Arithmetic
-from ..rules.limits import AtInfinity, Diverges, Passes, forever
+from ..rules.limits import Passes, forever
 from ..symbols import rate, symbols
 from .first_integral import UNSATURATED
 from .steady_state import SteadyState, drift, named_limit, roughness

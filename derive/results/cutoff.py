@@ -39,8 +39,8 @@ from ..note.governing import ROUGH_BEARING
 from ..rules.algebra import Alike, Consequence, Identity, Insert, Solve, discharge, substitute
 from ..rules.assumption import assume
 from ..rules.calculus import RIGID, differentiate
+from ..rules.growth import intermittent
 from ..rules.inequalities import Arithmetic, Monotone
-from ..rules.limits import intermittent
 from ..rules.proving import DIFFERENTIABLE
 from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols, t

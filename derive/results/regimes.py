@@ -26,8 +26,9 @@ from ..note.governing import ROUGH_BEARING
 from ..rules.algebra import Consequence, Solve, discharge, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import LeadingTerm, LogarithmicGrowth
+from ..rules.growth import AtInfinity, unbounded
 from ..rules.inequalities import Arithmetic, Monotone
-from ..rules.limits import AtInfinity, forever, unbounded
+from ..rules.limits import forever
 from ..rules.reading import CONSTANT, SINE
 from ..rules.solutions import Integrated, Separate
 from ..symbols import rate, symbols, t

@@ -35,8 +35,9 @@ from ..rules.algebra import Consequence, Identity, Insert, discharge
 from ..rules.assumption import assume, defined
 from ..rules.calculus import grows, rigid
 from ..rules.drift import MEAN, logarithmic_drift
+from ..rules.growth import Diverges
 from ..rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
-from ..rules.limits import Diverges, Passes, accumulates, forever, vanishes
+from ..rules.limits import Passes, accumulates, forever, vanishes
 from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols
 from .regime_map import ROUGHENING

@@ -31,8 +31,9 @@ from ..note import condensed
 from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
+from ..rules.growth import AtInfinity, unbounded
 from ..rules.inequalities import Arithmetic
-from ..rules.limits import AtInfinity, Passes, forever, unbounded
+from ..rules.limits import Passes, forever
 from ..symbols import rate, symbols
 from .steady_state import BOUNDED_LOAD, drift
 

@@ -10,6 +10,7 @@ Contents
     inequalities  between reals, and from one quantity to another
     calculus      from rates to wear; the rigid support; scaled time
     limits        t -> oo
+    growth        wear without bound, and what follows
     drift         how limits are approached
     solutions     solutions of the differential equation, and their inverses
     averages      averaging over a sine load

@@ -17,7 +17,8 @@ from ..claims import Asymptotic
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import symbols, t
 from ..zero import is_zero
-from .limits import bounds, in_terms_of, in_time
+from .growth import bounds
+from .limits import in_terms_of, in_time
 from .proving import continuous, facts_of, holds, require, require_defined, smooth
 from .reading import (
     CONTINUOUS,

@@ -115,12 +115,17 @@ def constant(expr: sp.Expr) -> bool:
     return not moving and not expr.atoms(sp.Derivative, sp.Integral, sp.Limit) - _slopes(expr)
 
 
+def fixed(expr: sp.Basic) -> bool:
+    """Return whether an expression is made of constants alone."""
+    return constant(expr) and not fields(expr)
+
+
 def require_constants(expr: sp.Basic, variable: sp.Symbol, *premises: Judgement) -> None:
     """Raise RuleError unless what does not vary in the expression of a limit has a value.
 
     The rest need have one only near the end.
     """
-    if constant(expr) and not fields(expr) and not expr.has(variable):
+    if fixed(expr) and not expr.has(variable):
         require_defined(expr, *premises)
     elif not bound(expr):
         for part in expr.args:

@@ -34,6 +34,7 @@ from .reading import (
     constant,
     equality,
     fields,
+    fixed,
     one_integral,
     rate_law,
     replaced,
@@ -89,8 +90,8 @@ def _require_root(value: sp.Expr, u: sp.Expr, *premises: Judgement) -> None:
     p = sp.Dummy("p", positive=True)
     value = value.xreplace({PRESSURE: p})
     moving = {unknown: unknown for unknown in (p, u, LOAD)}
-    fixed = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
-    known = constant(fixed) and not fields(fixed) and smooth(value, p)
+    still = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
+    known = fixed(still) and smooth(value, p)
     increases = known and sign(1 - sp.diff(value, p), facts_of(premises)) == 1
     if not increases or not continuous(value, moving, *premises):
         raise RuleError(f"missing premise: {PRESSURE} is the one root of an equation")

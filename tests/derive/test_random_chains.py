@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from derive.falsifier.judgements import tried
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Judgement, Rule, RuleError, infer
-from derive.rules import algebra, calculus, data, drift, inequalities, limits, solutions
+from derive.rules import algebra, calculus, data, drift, growth, inequalities, limits, solutions
 from derive.rules.assumption import Assume, assume
 from derive.rules.limits import forever, later
 from derive.rules.reading import CONSTANT, PERIODIC
@@ -89,7 +89,7 @@ FREE: tuple[Callable[[], Rule], ...] = (
     calculus.Grows,
     calculus.Differentiate,
     limits.OnePeriodLater,
-    limits.Unbounded,
+    growth.Unbounded,
     limits.Vanishes,
     limits.Accumulates,
     drift.FirstOrder,
@@ -110,8 +110,8 @@ rules = st.one_of(
     st.builds(calculus.ParameterLimit, expressions, st.sampled_from([f_c, b_0, h_0])),
     st.builds(data.Differentiated, equations, st.sampled_from([f_c, h_0])),
     st.builds(data.OneSign, st.sampled_from([f_c, h_0, C])),
-    st.builds(limits.Diverges, expressions),
-    st.builds(limits.AtInfinity, ends, st.just(1 / u_c)),
+    st.builds(growth.Diverges, expressions),
+    st.builds(growth.AtInfinity, ends, st.just(1 / u_c)),
     st.builds(limits.Passes, ends),
     st.builds(solutions.Separate, equations),
     st.builds(solutions.Integrated, expressions),

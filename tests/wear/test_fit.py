@@ -49,6 +49,8 @@ def test_readings_are_those_of_the_file_in_mm(tmp_path):
                                               "line 4: cycles", "must ascend"]),
         ("cycles,wear_mm,standard_error_mm\n1,2,0\n", ["line 2: standard_error_mm", "one reading"]),
         ("cycles,wear_mm,load.value_mm,specimen\n1,2,0,a\n2,2,1,a\n", ["value_mm of specimen a"]),
+        ("Rig 3\n\ncycles;wear_mm\n1;2\n2;3;4\n", ["line 5: 3 entries, but the header has 2"]),
+        ("cycles;wear_um\n1.000;0,8\n2.000;1,2\n", ["line 2: 1.000 has a point"]),
     ],
 )  # fmt: skip
 def test_everything_that_is_wrong_with_a_file_is_said_at_once(tmp_path, text, words):
@@ -72,9 +74,6 @@ def test_readings_may_be_written_as_instruments_do(tmp_path):
     (only,) = read_readings(file)
     assert only.cycles.tolist() == [1.0, 1000.0]
     assert only.wear_mm.tolist() == [0.25e-3, 1.5e-3]
-    file.write_text(f"{head}cycles;wear_mm\n1;2\n2;3;4\n")
-    with pytest.raises(UsageError, match="line 5: 3 entries, but the header has 2"):
-        read_readings(file)
 
 
 def test_names_of_columns_may_have_capitals(tmp_path):
@@ -82,13 +81,6 @@ def test_names_of_columns_may_have_capitals(tmp_path):
     file.write_text("Rig 3\nCycles,Wear_um,Specimen\n1,2,A\n2,3,A\n")
     (only,) = read_readings(file)
     assert (only.name, only.wear_mm.tolist()) == ("A", [2e-3, 3e-3])
-
-
-def test_a_point_beside_decimal_commas_is_no_decimal_sign(tmp_path):
-    file = tmp_path / "wear.csv"
-    file.write_text("cycles;wear_um\n1.000;0,8\n2.000;1,2\n")
-    with pytest.raises(UsageError, match=r"line 2: 1\.000 has a point"):
-        read_readings(file)
 
 
 def test_a_file_without_a_header_is_refused_in_one_sentence(tmp_path):

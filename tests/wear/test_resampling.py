@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import wear
+from tests.wear.reference_scenes import made
 from wear.cycles import cycles_to_depth, sweep
 from wear.resampling import resampled
 
@@ -109,19 +110,8 @@ def test_spiky_rows_are_resolved_between_many_breakpoints():
     level[-1] = level[0]
     times = np.linspace(0.0, 0.06, 150)
     more = np.linspace(0.0, 0.06, 149 * 5 + 1)  # the same lines
-    found, again = (
-        wear.solve(
-            wear.load_scene("section4").with_(
-                {
-                    "load": wear.Table(
-                        tuple(at.tolist()), tuple(np.interp(at, times, level).tolist())
-                    )
-                }
-            ),
-            [1, 10**6],
-        )
-        for at in (times, more)
-    )
+    tables = [wear.Table(at, np.interp(at, times, level)) for at in (times, more)]
+    found, again = (wear.solve(made(load=table), [1, 10**6]) for table in tables)
     assert np.all(np.abs(found.u_c / again.u_c - 1.0) <= found.error + again.error)
     assert np.all(found.error < 1e-11)
 

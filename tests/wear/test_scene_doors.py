@@ -1,5 +1,6 @@
 """The same checks run on every way to a scene and to a load."""
 
+import json
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -117,20 +118,27 @@ def test_what_no_constructor_takes(make, problem):
     assert problem in str(caught.value)
 
 
-def test_changes_take_the_place_of_entries():
-    other = SECTION4.with_(
+def overridden(changes: dict[str, object]) -> Scene:
+    """Section 4 with `--set KEY = VALUE` for each change."""
+    return load_scene("section4", [f"{key} = {json.dumps(to)}" for key, to in changes.items()])
+
+
+@pytest.mark.parametrize("change", [SECTION4.with_, overridden])
+def test_changes_take_the_place_of_entries(change):
+    other = change(
         {
             "bearing.roughness_growth": 0.3,
             "contact.closure_in_sigma": 2.5,
+            "contact.ends_at_3_sigma": True,
             "support.stiffness_MPa_per_mm": 1e5,
-            "load.kind": "constant",
-            "load.value_mm": 1e-4,
+            "load.kind": "harmonics",
+            "load.sine_mm": [1e-4, 2e-4],
         }
     )
     assert other.bearing == replace(SECTION4.bearing, roughness_growth=0.3)
-    assert (other.contact.closure_mm, other.contact.closure_in_sigma) == (None, 2.5)
+    assert other.contact == Contact(300.0, None, 2.5, ends_at_3_sigma=True)
     assert other.support == Support(1e5)
-    assert other.load == Constant(1e-4, 0.06)
+    assert other.load == Harmonics(0.0, (), (1e-4, 2e-4), 0.06)
     assert other.name == "section4"
     assert other.with_({"support": None}).support is None
     assert SECTION4.bearing.roughness_growth == 0.25

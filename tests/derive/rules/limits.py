@@ -5,19 +5,9 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.rules.assumption import assume, defined
+from derive.rules.growth import AtInfinity, Diverges, intermittent, unbounded
 from derive.rules.inequalities import Arithmetic
-from derive.rules.limits import (
-    AtInfinity,
-    Diverges,
-    Passes,
-    accumulates,
-    forever,
-    intermittent,
-    later,
-    one_period_later,
-    unbounded,
-    vanishes,
-)
+from derive.rules.limits import Passes, accumulates, forever, later, one_period_later, vanishes
 from derive.rules.proving import LAW
 from derive.rules.reading import CONTINUOUS, PERIODIC
 from derive.symbols import rate, symbols, t

@@ -1,0 +1,257 @@
+"""Growth: wear without bound, and what functions of it tend to.
+
+Key results
+    Diverges         u >= c t + d with c > 0, and f > 0, give a + f u -> oo
+    unbounded        du/dt = F(u, load) with F > 0 and a bounded load gives u -> oo
+    AtInfinity       what a function of u and bounded fields tends to as u -> oo
+    intermittent     a rate that is on during a fraction d of every period adds d T R
+    bounds           what keeps a field between two constants
+References
+    Rudin, Principles of Mathematical Analysis, 1976, chapters 4 and 5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..symbols import t
+from ..zero import is_zero
+from .limits import in_time
+from .proving import LAW, continuity, continuous, facts_of, holds, require, require_defined
+from .reading import (
+    CONTINUOUS,
+    LOAD,
+    PERIODIC,
+    T,
+    constant,
+    equality,
+    fields,
+    fixed,
+    growing,
+    inequality,
+    rate_law,
+    require_hypothesis,
+)
+
+
+@dataclass(frozen=True)
+class Diverges(Rule):
+    """``u >= c t + d`` with constants c > 0 and d: ``a + f u -> oo`` for constants f > 0 and a."""
+
+    expr: sp.Expr
+    words = "By {0}, the wear grows without bound, and with it {expr}."
+    asks = ("the growth",)
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        growth = inequality(premises[0])
+        u, bound = growth.greater, growth.lesser
+        speed, slope = sp.diff(bound, t), sp.diff(self.expr, u)
+        steady = (speed, sp.expand(bound - speed * t), slope, sp.expand(self.expr - slope * u))
+        if fields(u) != {u} or not all(constant(e) and not fields(e) for e in steady):
+            raise RuleError(f"missing premise: {self.expr} is linear in what grows")
+        require_defined(self.expr, *premises)
+        for positive in (speed, slope):
+            require(sp.Gt(positive, 0), *premises)
+        return Conclusion(in_time(self.expr, sp.oo))
+
+
+def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
+    """Return relations that keep a field between two constants; RuleError where there are none."""
+    parts = (p for f in facts_of(premises) for p in (f.args if isinstance(f, sp.And) else (f,)))
+    found = []
+    for small, large in (
+        (p.lts, p.gts) for p in parts if isinstance(p, (sp.Ge, sp.Gt, sp.Le, sp.Lt))
+    ):
+        if small == sp.Abs(field) != field and fixed(large):
+            return (sp.Le(small, large, evaluate=False),)
+        if small == field and fixed(large):
+            found.append((1, sp.Le(field, large, evaluate=False)))
+        if large == field and fixed(small):
+            found.append((0, sp.Ge(field, small, evaluate=False)))
+    if field.is_nonnegative:
+        found.append((0, sp.Ge(field, 0, evaluate=False)))
+    if {side for side, _ in found} != {0, 1}:
+        raise RuleError(f"missing premise: {field.func} is bounded")
+    return tuple(relation for _, relation in found)
+
+
+def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judgement) -> None:
+    """Refuse a rate that is not positive and continuous wherever its fields may be.
+
+    They are taken for variables of which relations are known, and what is said of constants.
+    """
+    plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(rate)}
+    of_data = [h.relation for p in premises for h in p.hypotheses if fixed(h.relation)]
+    given = frozenset(r.xreplace(plain) for r in (*known, *of_data))
+    flat = rate.xreplace(plain)
+    goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
+    if not constant(flat) or not all(holds(goal, given) for goal in goals):
+        raise RuleError(f"missing premise: {rate} is positive and continuous")
+
+
+@dataclass(frozen=True)
+class Unbounded(Rule):
+    """``du/dt = F(u, a)`` with F positive and continuous, and bounded fields a: ``u -> oo``.
+
+    Were u, which increases, bounded, then u and a would stay in a compact set, on which F has a
+    positive minimum.  So F has to be positive where the bounds of a are attained, too.
+    """
+
+    words = (
+        "A positive, continuous rate {0} under a bounded load: were the wear bounded, the rate "
+        "would be bounded away from zero."
+    )
+    source = "extreme value theorem"
+    asks = ("the rate",)
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, *facts = premises
+        u, function = rate_law(law)
+        closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
+        always = (f for f in facts if all(fixed(h.relation) for h in f.hypotheses))
+        anywhere = [f.relation for f in always if fields(f.relation) <= {u}]
+        _require_positive(function, (*closed, *anywhere), *premises)
+        return Conclusion(in_time(u, sp.oo))
+
+
+unbounded = Unbounded()
+
+
+def expanded(expr: sp.Expr, small: sp.Symbol) -> tuple[int, sp.Expr]:
+    """Return n and an expression N(small), made of functions that are smooth where they have a
+    value, so that ``expr = small**-n N``; infinite parts of expr are powers of small.
+
+    >>> z = sp.Symbol("z", positive=True)
+    >>> expanded(sp.sqrt(1 + 4 / z**2), z)
+    (1, sqrt(z**2 + 4))
+    """
+    if not expr.has(small):
+        return 0, expr
+    if expr == small:
+        return -1, sp.S.One
+    if isinstance(expr, (sp.Add, sp.Mul)):
+        parts = [expanded(part, small) for part in expr.args]
+        if isinstance(expr, sp.Mul):
+            return sum(n for n, _ in parts), sp.Mul(*(e for _, e in parts))
+        order = max(n for n, _ in parts)
+        return order, sp.expand(sp.Add(*(small ** (order - n) * e for n, e in parts)))
+    if isinstance(expr, sp.Pow) and expr.exp.is_Rational:
+        order, inside = expanded(sp.expand(expr.base), small)
+        if (order * expr.exp).is_Integer:
+            return int(order * expr.exp), inside**expr.exp
+    if isinstance(expr, (sp.exp, sp.tanh, LAW)):
+        order, inside = expanded(sp.expand(expr.args[0]), small)
+        if order <= 0:
+            return 0, expr.func(small**-order * inside)
+    raise RuleError(f"missing premise: {expr} is a smooth function at infinity")
+
+
+@dataclass(frozen=True)
+class AtInfinity(Rule):
+    """The limit of a function of u and bounded fields, where ``u -> oo``.
+
+    The function is written as ``z^-n N(z, a)`` with ``z = 1/u``, or another ``small`` function of
+    u that tends to 0.  N is smooth at z = 0, so that Taylor's remainder is uniform in bounded a:
+    the first n coefficients must vanish, and the next is the limit, which is free of a.
+    """
+
+    claim: sp.Equality
+    small: sp.Expr
+    words = "By {0}, {small} tends to zero: expand in it, uniformly in bounded loads."
+    source = "Taylor's theorem"
+    asks = ("the growth",)
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        u, inside = growing(premises[0]), self.claim.lhs.args[0]
+        z = sp.Dummy("z", positive=True)
+        deep = self._deep(u, z, premises)
+        if not constant(inside.subs(dict.fromkeys(fields(inside), z))):
+            raise RuleError(f"missing premise: {inside} depends on {u} and bounded fields alone")
+        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(inside) if f != u}
+        for field in plain:
+            bounds(field, *premises)
+        flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
+        order, smooth = expanded(flat.subs(u, deep), z)
+        bent = (sp.Piecewise, LAW) if order > 1 else (sp.Piecewise,)
+        if smooth.has(*bent) or not continuous(smooth, {z: sp.S.Zero}, *premises):
+            raise RuleError(f"missing premise: {inside} is smooth at infinity")
+        for n in range(max(order, 0)):
+            if not is_zero(_taylor(smooth, z, n)):
+                raise RuleError(f"missing premise: {inside} is bounded")
+        value = sp.powsimp(_taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
+        if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
+            raise RuleError(f"missing premise: the limit is {value}")
+        require_defined(sp.Tuple(value, self.claim.rhs), *premises)
+        return Conclusion(in_time(inside, self.claim.rhs))
+
+    def _deep(self, u: sp.Expr, z: sp.Symbol, premises: tuple[Judgement, ...]) -> sp.Expr:
+        """Return u in terms of what is small, for ``z = 1/u`` and for ``z = exp(-c u)``."""
+        if self.small == 1 / u:
+            return 1 / z
+        inside = self.small.args[0] if isinstance(self.small, sp.exp) else u**2
+        fall = -sp.cancel(inside / u)
+        if not fixed(fall):
+            raise RuleError(f"missing premise: {self.small} -> 0 as {u} -> oo")
+        require(sp.Gt(fall, 0), *premises)
+        return -sp.log(z) / fall
+
+
+def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
+    return (sp.diff(expr, z, n) / sp.factorial(n)).subs(z, 0).doit()
+
+
+@dataclass(frozen=True)
+class Intermittent(Rule):
+    """A rate ``F(u, load)`` in contact, else 0, where contact depends on the load alone.
+
+    Premises: the rate, piecewise; the definition of d > 0, the fraction of the period in contact;
+    a lower bound of u; a periodic, continuous, bounded load.  F is positive and continuous, so that
+    u grows without bound, and tends to R as u -> oo: ``u(t + T) - u(t) -> d T R``.
+    """
+
+    words = "The limit of the rate in {0} holds during a fixed part of every period, by {others}."
+    source = "mean value theorem on the part of the period in contact"
+    asks = ("the rate", "the fraction in contact", "the least wear")
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        law, part, start, *_ = premises
+        (u, function), meaning, least = rate_law(law), equality(part), inequality(start)
+        for said in (PERIODIC.relation, CONTINUOUS):
+            require_hypothesis(said, *premises)
+        if least.greater != u or not fixed(least.lesser):
+            raise RuleError(f"missing premise: {u} stays above a constant")
+        (on, contact), *rest = sp.piecewise_fold(function).args
+        if not isinstance(contact, Relational) or [e for e, _ in rest] != [0]:
+            raise RuleError("missing premise: a rate that is 0 out of contact")
+        room = sp.expand(contact.gts - contact.lts)
+        level = room.subs(LOAD, 0)
+        slope = sp.cancel((room - level) / LOAD)
+        if (
+            not fixed(sp.Tuple(level, slope))
+            or slope == 0
+            or not isinstance(contact, (sp.Le, sp.Ge))
+        ):
+            raise RuleError("missing premise: contact depends on the load alone")
+        shares = (
+            sp.Integral(sp.Piecewise((1, c), (0, True)), (t, 0, T)) / T
+            for c in meaning.rhs.atoms(sp.Le, sp.Ge)
+            if sp.cancel((c.gts - c.lts) / room).is_positive
+        )
+        if meaning.rhs not in shares or not meaning.lhs.is_positive:
+            raise RuleError("missing premise: the fraction of the period in contact")
+        closed = [r for f in {LOAD, *fields(on)} - {u} for r in bounds(f, *premises)]
+        _require_positive(on, (*closed, sp.Ge(u, least.lesser)), *premises)
+        z = sp.Dummy("z", positive=True)
+        order, smooth = expanded(on.subs(u, 1 / z), z)
+        value = smooth.subs(z, 0)
+        if order != 0 or not continuous(smooth, {z: sp.S.Zero}, law) or fields(value):
+            raise RuleError("missing premise: the limit of the rate in contact")
+        return Conclusion(in_time(u.subs(t, t + T) - u, meaning.lhs * T * value))
+
+
+intermittent = Intermittent()
