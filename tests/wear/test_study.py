@@ -8,7 +8,8 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -303,6 +304,40 @@ def test_lost_workers_are_said_and_the_study_goes_on_to_the_same_bits(tmp_path):
     with ProcessPoolExecutor(2) as pool:
         part = study("section4", vary, [9000], tmp_path / "part.zarr", executor=pool)
     assert same(part, whole)
+
+
+class Confused(Executor):
+    """An executor whose futures fail as Dask's do while its scheduler goes away, or in a chunk."""
+
+    def __init__(self, module: str):
+        self.taken_apart = FunctionType(_taken_apart.__code__, {"__name__": module})
+
+    def submit(self, *_: Any, **__: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        try:
+            self.taken_apart((1, 2, 3, 4))
+        except ValueError as fault:
+            future.set_exception(fault)
+        return future
+
+
+def _taken_apart(answers: Any) -> None:
+    _kind, _fault, _traceback = answers
+
+
+@pytest.mark.parametrize(
+    ("module", "fault"),
+    [("distributed.cfexecutor", WorkersLost), ("wear.studies.rows", ValueError)],
+)
+def test_a_fault_of_the_executor_is_told_from_one_of_a_chunk(tmp_path, module, fault):
+    with pytest.raises(fault, match="too many values"):
+        study(
+            "section4",
+            f"{GROWTH}=0.1:0.3:4",
+            [9000],
+            tmp_path / "a.zarr",
+            executor=Confused(module),
+        )
 
 
 def _command(*words: str, rows: int = 8) -> list[str]:

@@ -15,6 +15,7 @@ from concurrent.futures import (
     wait,
 )
 from pathlib import Path
+from traceback import walk_tb
 from typing import TYPE_CHECKING
 
 from wear.faults import Faults, UsageError, WorkersLost
@@ -190,7 +191,7 @@ def _answers(
         while running:
             yield from _finished(running)
     except (Exception, asyncio.CancelledError) as fault:
-        if not (isinstance(fault, LOST) or type(fault).__module__.startswith(DASK)):
+        if not (isinstance(fault, LOST) or _of_dask(fault)):
             raise
         raise WorkersLost(
             f"the workers went away ({type(fault).__name__} {fault}); finished chunks are kept: "
@@ -199,6 +200,14 @@ def _answers(
     finally:
         for future in running:
             future.cancel()
+
+
+def _of_dask(fault: BaseException) -> bool:
+    """Whether a fault is Dask's own, by its class or by the function that raised it: where the
+    scheduler goes away at the wrong moment, Dask takes an answer apart as if it were a fault."""
+    frames = [frame for frame, _ in walk_tb(fault.__traceback__)]
+    raised_in = frames[-1].f_globals.get("__name__", "") if frames else ""
+    return any(name.startswith(DASK) for name in (type(fault).__module__, raised_in))
 
 
 def _finished(running: dict[Future[Answers], Chunk]) -> Iterator[tuple[Chunk, Answers]]:
