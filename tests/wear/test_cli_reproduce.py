@@ -17,6 +17,7 @@ from wear import processes, regime
 from wear.report import claims, paper, runs, typeset
 from wear.scene import load_scene
 
+PAPERS = Path(__file__).parents[2] / "docs" / "papers"
 ALWAYS = {
     "report.html", "report.tex", "equations.tex", "claims.json", "manifest.json",
     *(f"figure-{n}.{kind}" for n in ("2a", "2b", "3a", "3b") for kind in ("svg", "pdf")),
@@ -49,6 +50,10 @@ def test_the_main_job_writes_every_file(call, tmp_path):
     entries = json.loads((folder / "claims.json").read_text())
     assert [entry["id"] for entry in entries] == list(quick.CLAIMS)
     assert set(entries[0]) == {"id", "where", "statement", "verdict", "evidence"}
+    papers = json.loads((PAPERS / "claims.json").read_text(encoding="utf-8"))
+    derived = [entry for entry in entries if "checks hold" in entry["evidence"]]
+    assert derived
+    assert all(entry in papers for entry in derived), "see docs/papers/build.py"
 
 
 def _check_manifest(folder: Path) -> None:
