@@ -172,15 +172,19 @@ class LeadingTerm(Rule):
         slope = sp.diff(slope, small)
         if not constant(sp.Tuple(pace, claimed, slope)) or fields(sp.Tuple(pace, claimed, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
-        if sp.limit(_one_exponential(claimed), small, 0, "+") != sp.oo:
+        if _end(claimed, small) != sp.oo:
             raise RuleError(f"missing premise: {leading} grows without bound")
-        if sp.limit(_one_exponential(slope / sp.diff(claimed, small)), small, 0, "+") != 1:
+        if _end(slope / sp.diff(claimed, small), small) != 1:
             raise RuleError("missing premise: the quotient of the slopes tends to one")
         return Conclusion(Asymptotic(left, leading, s, sp.S.Zero))
 
 
-def _one_exponential(expr: sp.Expr) -> sp.Expr:
-    """Return a quotient of exponentials in one exponential of one argument."""
+def _end(expr: sp.Expr, small: sp.Dummy) -> sp.Expr:
+    """Return the limit for small -> 0+ of a quotient of exponentials, written as one exponential;
+    NaN where SymPy finds none."""
     expr = expr.replace(sp.exp, lambda argument: sp.exp(sp.expand(sp.cancel(argument))))
     expr = sp.powsimp(sp.expand(sp.together(expr)))
-    return sp.factor(sp.powsimp(expr))
+    try:
+        return sp.limit(sp.factor(sp.powsimp(expr)), small, 0, "+")
+    except NotImplementedError:
+        return sp.nan

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..claims import Inequality, claim_of
+from ..claims import Equivalence, Inequality, claim_of
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..zero import is_zero
 from .proving import continuity, facts_of, holds, require, require_defined, sign, smooth
@@ -124,6 +124,8 @@ class Threshold(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         said = claim_of(self.claim)
+        if not isinstance(said, Equivalence):
+            raise RuleError(f"missing premise: {self.claim} is an equivalence")
         demand, bound = said.left, said.right
         if self.variable in (demand.greater, demand.lesser):
             demand, bound = bound, demand

@@ -142,6 +142,7 @@ FAMILIES = (
         "a field beside it": ("is about", FEW + G**2),
         "fewer cycles for more wear": ("grows without bound", -FEW),
         "another factor": ("quotient of the slopes", 2 * FEW),
+        "what wavers": ("grows without bound", FEW + sp.sin(1 / sigma_c)),
         "a roughness of either trend": ("f_c", FEW, LOG_N, sp.Ne(f_c, 0)),
         "a name that may be zero": ("b_0", FEW + 1 / b_0),
     }),

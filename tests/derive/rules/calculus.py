@@ -76,9 +76,9 @@ def tied(*ties):
     return Insert(equal(u_cum, f_c**2 * L))(defined(u_cum, f_c * h_0), value)
 
 
-def exceeds(function, level, point, right=sp.Gt):
+def exceeds(function, level, point, right=sp.Gt, both=sp.Equivalent):
     """Compare a function with a level, and f_c with the point where it has that value."""
-    claim = sp.Equivalent(sp.Gt(function, level), right(f_c, point))
+    claim = both(sp.Gt(function, level), right(f_c, point))
     return Threshold(claim, f_c)(ROUGHENS)
 
 
@@ -254,6 +254,7 @@ FAMILIES = (
     }),
     Family(exceeds, ((f_c**2, epsilon**2, epsilon), (2 * f_c, epsilon, epsilon / 2)), {
         "strict if and only if not": ("strict on both", 2 * f_c, epsilon, epsilon / 2, sp.Ge),
+        "both at once": ("an equivalence", 2 * f_c, epsilon, epsilon / 2, sp.Gt, sp.And),
         "across a pole": ("Ne", 1 / (f_c - 1), epsilon, 1 + 1 / epsilon),
         "a threshold of either sign": ("b_0 > 0", 2 * f_c, 2 * b_0, b_0),
         "what decreases": ("increases with", -2 * f_c, -2 * q, q),
