@@ -31,8 +31,9 @@ def data_and_band(fit: Fit) -> Figure:
     curves = _curves(fit, cycles)
     ends = np.cumsum([len(specimen.cycles) for specimen in fit.model.specimens])[:-1]
     relative = fit.model.residuals.relative
+    size = COLUMN_AND_HALF if len(curves) > 1 else COLUMN
     with styled():
-        figure, axes = canvas(COLUMN_AND_HALF, COLUMN_AND_HALF)
+        figure, axes = canvas(size, size)
         axes.remove()
         top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
         for place, (specimen, (middle, low, high), residuals) in enumerate(
