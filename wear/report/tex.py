@@ -33,6 +33,7 @@ _PLAIN = {
     "tr_close": " \\\\\n", "th_close": "", "td_close": "", "link_close": "}", "document_close": "",
     "caption_open": "\n\\begin{table}[htbp]\\centering\\footnotesize\n\\caption{",
     "figures_open": "\n\\begin{figure}[htbp]\\centering\n", "figures_close": "\\end{figure}\n",
+    "hr": "\n\\clearpage\n",  # after the tables that still wait for a page
 }  # fmt: skip
 
 
