@@ -234,6 +234,13 @@ class Property(Claim):
         return sp.true
 
 
+@dataclass(frozen=True)
+class Continuity(Property):
+    """A field is continuous in time."""
+
+    field: sp.Expr
+
+
 def claim_of(relation: sp.Basic) -> Claim:
     """Return the typed claim of a SymPy relation.
 

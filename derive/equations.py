@@ -14,7 +14,7 @@ Key results
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
@@ -24,13 +24,11 @@ from types import MappingProxyType
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .claims import Limit
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, domain, plain
-from .language import certain, names
+from .kernel import Judgement, chain, domain
+from .language import defined_by, names
 from .rules.assumption import Assume
-from .rules.proving import holds, needs
-from .symbols import CLOCKS, DATA, QUANTITIES, t
+from .symbols import DATA, QUANTITIES
 from .typeset.display import latex
 from .typeset.present import presentable
 from .written import Names, evaluated, read
@@ -166,42 +164,28 @@ class Equation:
     def conditions(self) -> tuple[Hypothesis, ...]:
         """Return what a reader needs to know beside the equation of when it holds.
 
-        A name may be positive by the vocabulary: what it is defined as then has to be, and it has
-        to have a value.  The vocabulary does not tell the sign of other names.
+        The vocabulary does not tell the sign of names that it does not have.
         """
-        shown = tuple(h for h in self.hypotheses if h.shown)
-        defined = (h.relation for h in self.hypotheses if h.kind is Kind.DEFINITION)
-        names = tuple(r for r in defined if isinstance(r, sp.Equality) and r not in self.claims)
-        others = self.relation.free_symbols - {name.lhs for name in names}
-        own = sorted((s for s in others if s.name not in QUANTITIES), key=str)
-        signs = [s for name in names if (s := _sign(name.lhs)) and not self._follows(s)]
-        signs += filter(None, map(_sign, own))
-        given = frozenset(h.relation for h in self.hypotheses)
-        values = (goal for name in names for goal in needs(name) if not holds(goal, given))
-        ends = {part for name in names for part in certain(name.rhs) if isinstance(part, sp.Limit)}
-        words = (f"{plain(end.args[0])} has a limit" for end in ends - self._limits())
-        hidden = (
-            *signs,
-            *(Hypothesis(str(goal), goal) for goal in values),
-            *map(Hypothesis, words),
-        )
-        return tuple(dict.fromkeys((*shown, *hidden)))
+        told = QUANTITIES.keys() | {n for h in self._named for n in defined_by(h.relation)}
+        own = sorted((s for s in self.relation.free_symbols if s.name not in told), key=str)
+        signs = (replace(s, kind=Kind.PARAMETER) for s in map(domain, own) if s is not None)
+        return (*(h for h in self.hypotheses if h.shown), *signs)
 
-    def _limits(self) -> set[sp.Limit]:
-        """Return the limits that are derived from what the equation rests on."""
-        given = set(self.hypotheses)
-        apart = (s.claim for s in self.steps if given.issuperset(s.hypotheses))
-        return {claim.term for claim in apart if isinstance(claim, Limit)}
+    @cached_property
+    def definitions(self) -> tuple[Hypothesis, ...]:
+        """Return what the names mean that the equation and its conditions have: each definition
+        on which it rests, but those that it states itself."""
+        said = [self.relation, *(h.relation for h in self.hypotheses if h.shown)]
+        rest, found = self._named, list[Hypothesis]()
+        while new := [h for h in rest if defined_by(h.relation) & _names(said)]:
+            rest = [h for h in rest if h not in new]
+            found += new
+            said = [h.relation for h in new]
+        return tuple(h for h in found if h.relation not in self.claims)
 
-    def _follows(self, sign: Hypothesis) -> bool:
-        """Return whether the sign of a name follows from what is derived of it, and else holds."""
-        name, given = sign.relation.args[0], set(self.hypotheses)
-        apart = (s for s in self.steps if given.issuperset(s.hypotheses) and not _used(name, s))
-        derived = (s.relation for s in apart)
-        values = (r for r in derived if isinstance(r, sp.Equality) and r.lhs == name)
-        said = (r for r in (*values, *(h.relation for h in given)) if not r.has(t))
-        known = frozenset(r.xreplace({name: _ANY}) for r in said)
-        return holds(sign.relation.func(_ANY, 0), known)
+    @property
+    def _named(self) -> list[Hypothesis]:
+        return [h for h in self.hypotheses if h.kind is Kind.DEFINITION]
 
     @property
     def hypotheses(self) -> tuple[Hypothesis, ...]:
@@ -234,25 +218,6 @@ class Equation:
         return Status.DERIVED
 
 
-_ANY = sp.Symbol("value", real=True)
-
-
-def _used(name: sp.Symbol, step: Judgement) -> bool:
-    """Return whether another name is defined by one: so its sign may have gone into a step."""
-    return any(
-        h.kind is Kind.DEFINITION
-        and isinstance(h.relation, sp.Equality)
-        and h.relation.rhs.has(name)
-        for h in step.hypotheses
-    )
-
-
-def _sign(name: sp.Basic) -> Hypothesis | None:
-    """Return the sign of a name which does not vary, where it has one."""
-    sign = domain(name) if name.is_Symbol and name.name not in CLOCKS else None
-    return sign and replace(sign, kind=Kind.PARAMETER)
-
-
 def numbered(results: Mapping[str, Proved]) -> tuple[Equation, ...]:
     """Return the equations that state results, which are given by id."""
     return tuple(
@@ -267,6 +232,10 @@ def numbered(results: Mapping[str, Proved]) -> tuple[Equation, ...]:
         for identifier, proved in results.items()
         for texts in (TEXTS[identifier],)
     )
+
+
+def _names(relations: Iterable[sp.Basic]) -> set[str]:
+    return {name for relation in relations for name, _ in names(relation)}
 
 
 def _agree(written: tuple[sp.Basic, ...], claims: tuple[sp.Basic, ...]) -> bool:

@@ -31,11 +31,14 @@ from .claims import Claim
 from .hypotheses import Hypothesis, Kind
 from .language import defined_by, fault, names
 from .note.model import subject
-from .symbols import QUANTITIES, t
+from .reals import contradictory
+from .symbols import QUANTITIES, symbols, t
 from .time_limit import time_limit
 
 _ROOM = "derive.rules."
 _TOKEN = object()
+WEARING = frozenset(symbols("u_a u_c sigma_a sigma_c"))
+"""Fields that have rates, by Archard's law; others where a premise says so."""
 LIMIT_S = 60.0
 """Seconds of CPU time after which a symbolic step is given up."""
 
@@ -207,7 +210,7 @@ def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypot
     hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
     _require_language(made.claim.relation, *hypotheses)
     _require_names(hypotheses)
-    _require_one_model(hypotheses)
+    _require_model(hypotheses)
     return hypotheses, made.claim
 
 
@@ -226,21 +229,35 @@ def _require_names(hypotheses: tuple[Hypothesis, ...]) -> None:
         names -= done
 
 
-def _require_one_model(hypotheses: tuple[Hypothesis, ...]) -> None:
-    """Refuse two equations of the model for one quantity, and one for a quantity that is zero.
+def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
+    """Refuse hypotheses that nothing satisfies: anything would follow from them.
 
-    Nobody is told of them beside a result, so nobody would see that they contradict each other.
+    They hold at every time: closed relations at the start too, and where fields that wear are
+    equal, their rates are.  Of two equations of the model for one quantity no reader is told.
     """
     equalities = [h for h in hypotheses if isinstance(h.relation, sp.Equality)]
     given = [subject(h.relation) for h in equalities if h.kind is Kind.MODEL]
-    zero = {h.relation.lhs.func for h in equalities if h.relation.rhs == 0 and _now(h.relation.lhs)}
-    begun = {h.relation.lhs.func for h in equalities if h.kind is Kind.INITIAL and h.relation.rhs}
-    if len(set(given)) < len(given) or zero & {*given, *begun}:
-        raise RuleError("two equations of the model contradict each other")
+    if len(set(given)) < len(given) or contradictory(_at_times(hypotheses)):
+        raise RuleError("the hypotheses contradict each other")
 
 
-def _now(expr: sp.Basic) -> bool:
-    return isinstance(expr, AppliedUndef) and expr.args == (t,)
+def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
+    """Return what hypotheses say now, at the start, and of rates."""
+    now = (h.relation for h in hypotheses if h.relation is not sp.true)
+    return frozenset(said for relation in now for said in (relation, *_implied(relation)))
+
+
+@cache
+def _implied(relation: sp.Basic) -> tuple[sp.Basic, ...]:
+    """Return what a closed relation between fields at every time says at the start, of rates."""
+    fields = relation.atoms(AppliedUndef)
+    other = relation.has(sp.Derivative, sp.Integral, sp.Limit) or {f.args for f in fields} != {(t,)}
+    if other or not isinstance(relation, (sp.Eq, sp.Ge, sp.Le)):
+        return ()
+    start = relation.subs(t, 0)
+    if isinstance(relation, sp.Eq) and fields <= WEARING:
+        return start, sp.Eq(*(sp.diff(side, t) for side in relation.args), evaluate=False)
+    return (start,)
 
 
 def _require_language(*parts: object) -> None:

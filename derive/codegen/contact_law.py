@@ -11,7 +11,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ..laws import ContactLaw, r, released
-from ..rules.proving import sign
+from ..reals import sign
 from ..zero import is_zero
 from .formulas import Formula, formula_module
 

@@ -19,9 +19,9 @@ from .. import catalogue
 from ..equations import Status
 from ..hypotheses import Kind
 from ..laws import TANH, r
+from ..reals import sign
 from ..results import validity
 from ..rules.algebra import Solve
-from ..rules.proving import sign
 from ..symbols import symbols
 from ..typeset.present import presentable
 from ..verification import verify

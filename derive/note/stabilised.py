@@ -25,6 +25,7 @@ import sympy as sp
 from ..equations import Proved
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
+from ..loads import PERIODIC
 from ..results.steady_state import (
     closure,
     drift,
@@ -38,7 +39,6 @@ from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
 from ..rules.growth import AtInfinity, Diverges
 from ..rules.limits import Passes, forever, later, one_period_later
-from ..rules.reading import PERIODIC
 from ..symbols import rate, symbols, t
 
 h_0, U_a, u_c = symbols("h_0 U_a u_c")

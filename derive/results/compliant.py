@@ -105,7 +105,7 @@ def drift_coefficient(law: ContactLaw) -> Judgement:
     steady = CompliantSteadyState(law)
     decline = -sp.diff(law.phi, r).subs(r, 1 / f_c) / law.ratio(1 / f_c)
     claim = sp.Eq(A, decline * (sigma_c0 / f_c - h_0 + U_mean - p_inf / k) / f_c)
-    definition = defined(A, steady.drift.claim.term)
+    definition = defined(A, steady.drift.claim.term, "", steady.drift)
     return Insert(claim)(definition, steady.drift, name="drift")
 
 

@@ -34,15 +34,14 @@ from ..equations import stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH
+from ..loads import CONTINUOUS, DIFFERENTIABLE, PERIODIC
 from ..note.condensed import bearing_only
 from ..note.governing import ROUGH_BEARING
 from ..rules.algebra import Alike, Consequence, Identity, Insert, Solve, discharge, substitute
-from ..rules.assumption import assume
+from ..rules.assumption import assume, defined
 from ..rules.calculus import RIGID, differentiate
 from ..rules.growth import intermittent
 from ..rules.inequalities import Arithmetic, Monotone
-from ..rules.proving import DIFFERENTIABLE
-from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols, t
 from .regime_map import OUTGROWN, ROUGHER, THIRD
 from .steady_state import BOUNDED_LOAD, closure, named_limit, roughness, wear_rate, worn
@@ -119,10 +118,13 @@ sliding_rate = Insert(*stated("sliding-rate"))(
 """While h = 3 sigma is kept, wear follows the load."""
 
 _inside = sp.Piecewise((1, sp.Ge(3 * sigma_c0 - h_0 + U_a, 0)), (0, True))
+_part = sp.Integral(_inside, (t, 0, T)) / T
+_touches = Hypothesis("the load makes contact for some time", sp.Gt(_part, 0), kind=Kind.STATE)
+_continuous = assume(CONTINUOUS)
 _law = substitute(model.wear_laws[2], substitute(model.pressure_with_cutoff, *geometry), third)
 _limit = intermittent(
     discharge(_law, ROUGH_BEARING, model.roughness_of_bearing, worn(model), third),
-    _defined("fraction of the period in contact", sp.Eq(d, sp.Integral(_inside, (t, 0, T)) / T)),
+    defined(d, _part, "fraction of the period in contact", _continuous, assume(_touches)),
     worn(model),
     *map(assume, (PERIODIC, CONTINUOUS, BOUNDED_LOAD)),
 )

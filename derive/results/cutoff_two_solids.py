@@ -19,7 +19,7 @@ import sympy as sp
 
 from ..claims import FirstZero
 from ..hypotheses import Hypothesis
-from ..rules.algebra import Identity, Insert
+from ..rules.algebra import Identity, substitute
 from ..rules.assumption import assume, defined
 from ..rules.solutions import FirstRoot
 from ..symbols import symbols
@@ -53,14 +53,12 @@ margin_curvature = Identity(
 """The second derivative of the margin."""
 
 _wear = sp.Symbol("u", positive=True)
-_at_wear = room.subs(u_stop, _wear)
-_facts = tuple(map(assume, (STARTS, LOST, POSSIBLE, OPENING)))
-arrest_depth_two_solids = Insert(sp.Eq(u_stop, _product / (sp.sqrt(discriminant) - _half)))(
-    FirstRoot(6 * sigma_stop.subs(u_stop, _wear) - _at_wear)(
-        defined(u_stop, FirstZero(_at_wear, _wear), "first wear without margin at the peak"),
-        *_facts,
-    ),
-    *_facts,
+_lost = FirstZero(room.subs(u_stop, _wear), _wear)
+_smoother = 6 * sigma_stop.subs(u_stop, _wear) - _lost.args[0]
+_root = FirstRoot(_lost, _smoother)(*map(assume, (STARTS, LOST, POSSIBLE, OPENING)))
+arrest_depth_two_solids = substitute(
+    defined(u_stop, _lost, "first wear without margin at the peak", _root),
+    _root,
     name="arrest depth",
 )
 """The first zero of the margin at the peak of the load."""

@@ -22,6 +22,7 @@ import sympy as sp
 from ..claims import Drift, Oscillation, landau_o
 from ..equations import stated
 from ..kernel import Judgement, plain
+from ..loads import SINE
 from ..note.stabilised import asymptote
 from ..rules.assumption import assume, defined
 from ..rules.averages import (
@@ -33,8 +34,8 @@ from ..rules.averages import (
     SlowTime,
     term_of,
 )
-from ..rules.reading import SINE
 from ..symbols import symbol, symbols
+from .regime_map import ROUGHENING
 from .steady_state import steady_state
 
 (f_c,) = symbols("f_c")
@@ -43,9 +44,10 @@ rho, m = symbols("rho m")
 
 MEANING = "sigma = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...)"
 
-offset = defined(*OFFSET.args)
-saturation = defined(*SATURATION.args)
-growth = defined(rho, f_c * u_cum)
+_roughens = assume(ROUGHENING)
+offset = defined(*OFFSET.args, "", _roughens)
+saturation = defined(*SATURATION.args, "", _roughens)
+growth = defined(rho, f_c * u_cum, "", _roughens)
 
 
 def order(n: int) -> Judgement:
@@ -56,6 +58,7 @@ def order(n: int) -> Judgement:
             name,
             term_of(kind, k, pressure.claim.rhs),
             f"{plain(name)} by definition, in {MEANING}",
+            _roughens,
         )
         for k in range(1, n + 1)
         for kind, name in ((Drift, symbol(f"c_{k}")), (Oscillation, symbol(f"w_{k}")))

@@ -21,6 +21,7 @@ from ..claims import landau_o
 from ..equations import stated
 from ..hypotheses import Hypothesis, Kind
 from ..laws import TANH
+from ..loads import CONSTANT, SINE
 from ..note.condensed import bearing_only
 from ..note.governing import ROUGH_BEARING
 from ..rules.algebra import Consequence, Solve, discharge, substitute
@@ -29,7 +30,6 @@ from ..rules.drift import LeadingTerm, LogarithmicGrowth
 from ..rules.growth import AtInfinity, unbounded
 from ..rules.inequalities import Arithmetic, Monotone
 from ..rules.limits import forever
-from ..rules.reading import CONSTANT, SINE
 from ..rules.solutions import Integrated, Separate
 from ..symbols import rate, symbols, t
 from .regime_map import KEPT, SMOOTHING
@@ -89,6 +89,7 @@ _falling = Consequence(sp.Eq(rate("u_c"), M / T / (1 + odds.subs(sigma_s, sigma_
         h_0 - sigma_c0 / f_c - U_a,
         "gap where the roughness would vanish",
         assume(CONSTANT),
+        smoothing,
     ),
     name="rate at a roughness",
 )

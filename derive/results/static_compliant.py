@@ -17,11 +17,11 @@ import sympy as sp
 from ..equations import stated
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
+from ..loads import CONSTANT
 from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume
-from ..rules.reading import CONSTANT
-from ..rules.solutions import Integrated, Separate
+from ..rules.solutions import Integrated, Separate, follows
 from ..symbols import initial, rate, symbols, t
 from .first_integral import SLOPED, UNSATURATED, first_integral_compliant, log_odds
 from .regime_map import KEPT
@@ -37,12 +37,8 @@ def odds_of(pressure: sp.Expr) -> sp.Expr:
     return sp.log(pressure / (p_max - pressure))
 
 
-START = Hypothesis("the first pressure is below p_max", sp.Lt(p_start, p_max), kind=Kind.STATE)
 OFF_LIMIT = Hypothesis(
     "the pressure is not that of steady wear", sp.Ne(odds_of(p) - 8 + 4 / f_c, 0), kind=Kind.STATE
-)
-BETWEEN = Hypothesis(
-    "no pressure before is that of steady wear", OFF_LIMIT.relation.subs(p, p_s), kind=Kind.STATE
 )
 
 
@@ -72,26 +68,30 @@ _rate = Consequence(sp.Eq(rate("u_c"), 2 * C * p / p_max))(
     model.wear_laws[2], half_rate, name="rate at a pressure"
 )
 
+_continuous = follows(
+    model.pressure_of_bearing_wear, model.roughness_at_wear, assume(CONSTANT), name="continuity"
+)
+"""The pressure takes all values between the first and the present one."""
+
 
 def _time(wear: Judgement, primitive: sp.Expr, rest: sp.Expr, *facts: Judgement) -> Judgement:
     """Return the time, 2 C dt = (p_max/p) du, integrated by means of a primitive.
 
     It is counted from the first pressure p(0).
     """
-    below = assume(UNSATURATED), assume(START)
+    facts = assume(UNSATURATED), _continuous, *facts
     logarithm = sp.Function("L", real=True)(p_s)
     worn = wear.claim.rhs.subs(p, p_s).subs(odds_of(p_s), logarithm)
     known = {sp.diff(logarithm, p_s): p_max / (p_s * (p_max - p_s)), logarithm: odds_of(p_s)}
     slope = p_max / p_s * sp.diff(worn, p_s).subs(known).subs(p, p_s)
     claim = sp.Eq(2 * C * t, sp.Integral(slope, (p_s, p_start, p)))
-    root = bearing_only().pressure_of_bearing_wear, model.roughness_at_wear
-    time = Separate(claim)(_rate, wear, *root, assume(CONSTANT), *below, *facts)
-    return Integrated(primitive, rest)(time, *below, *facts, name="time")
+    time = Separate(claim)(_rate, wear, *facts)
+    return Integrated(primitive, rest)(time, *facts, name="time")
 
 
 _rough = (f_c * wear.claim.rhs + sigma_c0).subs(p, p_s)
 _by_parts, _rest = p_max * _rough / (f_c * p_s), p_max * _rough / (f_c * p_s**2)
-time = _time(wear, _by_parts, _rest, assume(BETWEEN), sloped)
+time = _time(wear, _by_parts, _rest, off_limit, sloped)
 """The time at a pressure."""
 
 static_solution_compliant = (wear, time, load_offset, half_rate)

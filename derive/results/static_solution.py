@@ -21,10 +21,10 @@ import sympy as sp
 
 from ..equations import stated
 from ..hypotheses import Hypothesis
+from ..loads import CONSTANT
 from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Insert, Multiply, Solve, substitute
 from ..rules.assumption import assume, defined
-from ..rules.reading import CONSTANT
 from ..rules.solutions import Integrated, Lambert, Separate
 from ..symbols import rate, symbols, t
 from .first_integral import SLOPED
@@ -36,10 +36,11 @@ ell, u_s, sigma, sigma_s = symbols("ell u_s sigma sigma_s")
 
 MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(beta, 0))
 
+sloped, moving, constant = map(assume, (SLOPED, MOVING, CONSTANT))
 half_rate = defined(C, K_c * V * p_max / (6 * H_c))
-load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a), "", assume(CONSTANT))
-limit_argument = defined(x_inf, 4 - 2 / f_c)
-scale = defined(ell, sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8), "", assume(CONSTANT))
+load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a), "", constant, sloped)
+limit_argument = defined(x_inf, 4 - 2 / f_c, "", sloped)
+scale = defined(ell, sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8), "", constant)
 
 
 odds = sp.exp(-2 * x_inf - 2 * beta / sigma_s)
@@ -57,7 +58,6 @@ def _law(growth: sp.Expr) -> sp.Equality:
     return sp.Eq(rate("u_c"), 2 * C / (1 + growth))
 
 
-sloped, moving, constant = map(assume, (SLOPED, MOVING, CONSTANT))
 start_of_wear, start_of_roughness = (bearing_only().start[place] for place in (1, 4))
 
 worn = Solve(u_c)(grown, sloped)

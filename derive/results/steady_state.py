@@ -29,6 +29,7 @@ import sympy as sp
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, infer
 from ..laws import TANH, ContactLaw, r
+from ..loads import CONTINUOUS, PERIODIC
 from ..note.condensed import Condensed, bearing_only
 from ..note.governing import ROUGH_BEARING, Model
 from ..rules.algebra import Consequence, Identity, Insert, discharge
@@ -38,7 +39,6 @@ from ..rules.drift import MEAN, logarithmic_drift
 from ..rules.growth import Diverges
 from ..rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
 from ..rules.limits import Passes, accumulates, forever, vanishes
-from ..rules.reading import CONTINUOUS, PERIODIC
 from ..symbols import rate, symbols
 from .regime_map import ROUGHENING
 
@@ -199,12 +199,13 @@ def steady_state(law: ContactLaw = TANH) -> SteadyState:
 
 def named_limit(symbol: sp.Expr, limit: Judgement, name: str) -> Judgement:
     """Return the value of a symbol that is defined as a limit."""
-    definition = defined(symbol, limit.claim.term)
+    definition = defined(symbol, limit.claim.term, "", limit)
     return Insert(sp.Eq(symbol, limit.claim.value))(definition, limit, name=name)
 
 
 def drift(approach: Judgement) -> Judgement:
     """Return the logarithmic drift under a periodic load, from the approach of the rate."""
-    mean = defined(MEAN.lhs, MEAN.rhs, "mean of the load")
-    load = (assume(PERIODIC), assume(CONTINUOUS), mean)
+    continuous = assume(CONTINUOUS)
+    mean = defined(MEAN.lhs, MEAN.rhs, "mean of the load", continuous)
+    load = (assume(PERIODIC), continuous, mean)
     return logarithmic_drift(approach, *load, name="logarithmic drift")

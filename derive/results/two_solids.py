@@ -61,7 +61,7 @@ class TwoSolids:
     def definitions(self) -> tuple[Judgement, Judgement, Judgement]:
         """q, g and p_1."""
         return (
-            defined(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2)),
+            defined(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2), "", assume(NEVER_SMOOTH)),
             defined(g, 1 + kappa if self.opening else 1 - kappa),
             defined(p_1, f_a * kappa * sigma_a0 + f_c * sigma_c0),
         )
@@ -79,8 +79,7 @@ class TwoSolids:
     def rough(self) -> Judgement:
         """The roughness does not vanish, whatever the wear."""
         roughening, _, cross = self.definitions
-        never = assume(NEVER_SMOOTH)
-        return Arithmetic(sp.Gt(squared, 0))(self.separation, roughening, cross, never)
+        return Arithmetic(sp.Gt(squared, 0))(self.separation, roughening, cross)
 
     @cached_property
     def rate_at_wear(self) -> Judgement:

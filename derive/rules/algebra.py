@@ -18,9 +18,10 @@ from ..claims import Claim, Equality, Equivalence, Inequality, Limit, claim_of
 from ..hypotheses import Hypothesis
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, listed, plain
 from ..language import bound_in
+from ..reals import holds
 from ..symbols import t
 from ..zero import is_zero
-from .proving import holds, require, require_defined, smooth
+from .proving import require, require_defined, smooth
 from .reading import clocks, constant, equality, replaced, require_constants
 
 

@@ -9,16 +9,18 @@ from functools import cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Equality, Limit, Property, claim_of, landau_o
+from ..claims import Equality, Limit, Property, Term, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, plain
+from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
 from ..laws import r
 from ..note.model import FIELDS, belongs, law_of
+from ..reals import holds, sign
 from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import sign, smooth_everywhere
-from .reading import at_an_instant, clocks, fields, functions
+from .averages import require_expansion
+from .proving import facts_of, smooth_everywhere, told, undefined
+from .reading import at_an_instant, clocks, fields, fixed, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
@@ -59,9 +61,8 @@ class Assume(Rule):
         claim = Property(said.text) if relation is sp.true else claim_of(relation)
         if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
             raise RuleError(f"{said.text}: no equation")
-        if named and isinstance(claim, (Equality, Limit)):
-            _require_name(claim.relation, premises)
-        return Conclusion(claim, adds=(said,))
+        adds = _supposed(claim.relation, premises) if named and relation is not sp.true else ()
+        return Conclusion(claim, adds=(said, *adds))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         return f"Hypothesis: {self.hypothesis.text}."
@@ -72,32 +73,57 @@ def _falls(law: sp.Expr) -> bool:
     return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 
 
-def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:
+def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[Hypothesis, ...]:
+    """Return what a definition supposes and the premises do not prove: that what it stands for
+    has a value, of the sign of its name.
+
+    So every value of all else allows one of the name, of which a reader need not be told.
+    RuleError where no relation says what is supposed, or what is defined is no new name.
+    """
+    name, value = relation.args
+    implicit, sign = None if name.is_Symbol else _solvable(relation), domain(name)
+    if implicit is None:
+        _require_name(name, value, premises)
+    whole = value if implicit is None else implicit
+    terms = {term: sp.Dummy() for term in whole.atoms(Term)}
+    for term in terms:
+        require_expansion(term, *premises)
+    goals = [*undefined(whole.xreplace(terms), *premises)]
+    if implicit is None and sign is not None and not clocks(name):
+        above = sign.relation.func
+        if not holds(above(inserted(value, premises), 0), facts_of(premises)):
+            goals.append(above(value, 0, evaluate=False))
+    for goal in goals:
+        if goal == sp.false or goal.has(sp.zoo, sp.Dummy):
+            raise RuleError(f"missing premise: {told(goal)}")
+    kinds = (Kind.PARAMETER if fixed(goal) else Kind.STATE for goal in goals)
+    return tuple(Hypothesis(plain(g), g, kind=kind) for g, kind in zip(goals, kinds, strict=True))
+
+
+def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]) -> None:
     """Refuse to define what is given, or a constant by what varies."""
-    name, value = relation.lhs, at_an_instant(relation.rhs)
-    if not name.is_Symbol and _solvable(relation):
-        return
-    if not name.is_Symbol or name.name in _GIVEN or value.has(name):
+    now = at_an_instant(value)
+    if not name.is_Symbol or name.name in _GIVEN or now.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
-    if value != _MEANT.get(name, value):
+    if now != _MEANT.get(name, now):
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
-    rates = [sp.diff(value, f) * sp.Derivative(f, t) for f in fields(value)]
+    rates = [sp.diff(now, f) * sp.Derivative(f, t) for f in fields(now)]
     change = inserted(sp.Add(*rates), premises).doit()
-    varies = clocks(relation.rhs) or any(d.has(t) for d in value.atoms(sp.Derivative))
+    varies = clocks(value) or any(d.has(t) for d in now.atoms(sp.Derivative))
     if not clocks(name) and (varies or not is_zero(change)):
-        raise RuleError(f"missing premise: {value} is constant")
+        raise RuleError(f"missing premise: {now} is constant")
 
 
-def _solvable(relation: sp.Equality) -> bool:
-    """Return whether an equation, or what tends to a limit by one, has a solution whatever the
-    data and the other fields: of these it says nothing.
+def _solvable(relation: sp.Equality) -> sp.Expr | None:
+    """Return an equation, or what tends to a limit by one, with a variable for each thing of
+    one's own, if it has a solution whatever the data and the other fields; else None.
 
     It is linear in fields of one's own, or in names.  Either zero solves it, or one of them, of
     any sign, has a factor that is never zero, and the equation has it at no other time.
     """
     tends = isinstance(relation.lhs, sp.Limit)
     if tends and relation.lhs.args[1:3] != (t, sp.oo):
-        return False
+        return None
     whole = relation.lhs.args[0] - relation.rhs if tends else relation.lhs - relation.rhs
     fields = {f for f in functions(whole) if f.func not in FIELDS}
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
@@ -110,16 +136,17 @@ def _solvable(relation: sp.Equality) -> bool:
     slopes = {part: sp.diff(flat, name) for part, name in own.items()}
     beside = any(flat.has(d.expr.func) for d in rates)  # the solution may not last
     if beside or any(slope.has(*own.values()) for slope in slopes.values()):
-        return False
+        return None
     heads = [getattr(part, "expr", part).func for part in own]
     rests = not any(part.is_positive for part in own)
-    return (rests and flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0) or any(
+    solved = (rests and flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0) or any(
         slope.is_nonzero
         and (part.is_Symbol or heads.count(getattr(part, "expr", part).func) == 1)
         and getattr(part, "expr", part).args in ((), (t,), (symbol("tau"),))
         and not part.is_nonnegative
         for part, slope in slopes.items()
     )
+    return flat if solved else None
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:
@@ -128,7 +155,8 @@ def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgemen
 
 
 def defined(symbol: sp.Expr, value: sp.Expr, text: str = "", *steady: Judgement) -> Judgement:
-    """Return the definition of a name; further premises say that what varies here does not."""
+    """Return the definition of a name; further premises say that what varies here does not, and
+    that the value exists and has the sign of the name."""
     relation = sp.Eq(symbol, value, evaluate=False)
     text = text or f"{symbol} by definition"
     return infer(Assume(Hypothesis(text, relation, kind=Kind.DEFINITION)), *steady)

@@ -26,21 +26,13 @@ from ..averaging import collected, mean, turning, z
 from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
+from ..loads import LOAD, SINE
+from ..reals import holds
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import continuity, holds, require_defined, smooth
-from .reading import (
-    LOAD,
-    SINE,
-    T,
-    clocks,
-    constant,
-    equality,
-    fields,
-    functions,
-    require_hypothesis,
-)
+from .proving import continuity, facts_of, require_defined, smooth
+from .reading import T, clocks, constant, equality, fields, functions, require_hypothesis
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
@@ -66,19 +58,35 @@ def powers(pressure: sp.Expr, order: int) -> tuple[sp.Expr, ...]:
     polynomial in 1/sigma whose first coefficient is 1/f_c.  RuleError unless F is smooth at
     infinity and tends to what is not zero and does not vary.
     """
-    small = sp.Dummy("1/sigma", positive=True)
-    wear = (1 / small - sigma_c0) / f_c
-    at_large = pressure.subs({u_c: wear, h_0: sigma_c0 / f_c - b_0})
-    law = at_large.replace(lambda e: isinstance(e, sp.Function) and e.has(small), _in_lowest_terms)
-    near = sp.Dummy(real=True)
-    goals = [goal.subs(near, 0) for goal in continuity(law.xreplace({small: near}), {near})]
-    if not smooth(law, small) or not all(holds(goal, frozenset([f_c > 0])) for goal in goals):
-        raise RuleError(f"missing premise: {pressure} is smooth at infinity")
-    terms = (sp.diff(law, small, n) / sp.factorial(n) for n in range(order + 1))
+    at_large = pressure.subs({u_c: (ROUGHNESS - sigma_c0) / f_c, h_0: sigma_c0 / f_c - b_0})
+    return _coefficients(at_large, order, frozenset([f_c > 0]))
+
+
+def _coefficients(law: sp.Expr, order: int, facts: frozenset[sp.Basic]) -> tuple[sp.Expr, ...]:
+    """Return the coefficients of a law in powers of one over the roughness."""
+    small, near = sp.Dummy("1/sigma", positive=True), sp.Dummy(real=True)
+    inverse = law.subs(ROUGHNESS, 1 / small)
+    at_large = inverse.replace(
+        lambda e: isinstance(e, sp.Function) and e.has(small), _in_lowest_terms
+    )
+    goals = [goal.subs(near, 0) for goal in continuity(at_large.xreplace({small: near}), {near})]
+    if not smooth(at_large, small) or not all(holds(goal, facts) for goal in goals):
+        raise RuleError(f"missing premise: {law} is smooth at infinity")
+    terms = (sp.diff(at_large, small, n) / sp.factorial(n) for n in range(order + 1))
     steady, *others = (term.subs(small, 0).doit() for term in terms)
-    if fields(steady) or not holds(sp.Ne(steady, 0)):
-        raise RuleError(f"missing premise: {steady} is the limit of {pressure}")
+    if fields(steady) or clocks(steady) or not holds(sp.Ne(steady, 0), facts):
+        raise RuleError(f"missing premise: {steady} is the limit of {law}")
     return steady, *others
+
+
+def require_expansion(term: Term, *premises: Judgement) -> None:
+    """Raise RuleError unless a formal solution has this coefficient: the law has the period 1,
+    is smooth at infinity and tends to what is not zero and does not vary."""
+    order, law, roughness, phase, _ = term.args
+    turning = law.subs(sp.sin(2 * sp.pi * phase), sp.Dummy(real=True))
+    if (roughness, phase) != (ROUGHNESS, tau) or functions(law) or clocks(turning):
+        raise RuleError(f"missing premise: {law} has the period 1")
+    _coefficients(turning, int(order), facts_of(premises))
 
 
 def _in_lowest_terms(function: sp.Expr) -> sp.Expr:

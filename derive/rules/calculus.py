@@ -17,11 +17,11 @@ import sympy as sp
 from ..claims import Equality, Inequality, Limit
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..loads import LOAD
 from ..note.model import SUPPORT
 from ..symbols import DATA, symbols, t
 from .proving import continuous, require_defined, smooth
 from .reading import (
-    LOAD,
     clocks,
     constant,
     equality,

@@ -17,11 +17,13 @@ from ..claims import Equality, Inequality
 from ..hypotheses import Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import defined_by, names
+from ..loads import LOAD
+from ..reals import holds
 from ..symbols import DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import facts_of, holds, require_defined, smooth
-from .reading import LOAD, equality, functions
+from .proving import facts_of, require_defined, smooth
+from .reading import equality, functions
 
 PRESSURE, PRESSURE_MAX = symbols("p p_max")
 _OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)

@@ -15,16 +15,14 @@ import sympy as sp
 
 from ..claims import Asymptotic
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..loads import CONTINUOUS, LOAD, PERIODIC, SINE
+from ..reals import holds
 from ..symbols import symbols, t
 from ..zero import is_zero
 from .growth import bounds
 from .limits import in_terms_of, in_time
-from .proving import continuous, facts_of, holds, require, require_defined, smooth
+from .proving import continuous, facts_of, require, require_defined, smooth
 from .reading import (
-    CONTINUOUS,
-    LOAD,
-    PERIODIC,
-    SINE,
     T,
     constant,
     equality,

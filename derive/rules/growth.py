@@ -19,14 +19,13 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..loads import CONTINUOUS, LOAD, PERIODIC
+from ..reals import LAW, holds
 from ..symbols import t
 from ..zero import is_zero
 from .limits import in_time
-from .proving import LAW, continuity, continuous, facts_of, holds, require, require_defined
+from .proving import continuity, continuous, facts_of, require, require_defined
 from .reading import (
-    CONTINUOUS,
-    LOAD,
-    PERIODIC,
     T,
     constant,
     equality,

@@ -16,8 +16,9 @@ import sympy as sp
 
 from ..claims import Equivalence, Inequality, claim_of
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..reals import holds, sign
 from ..zero import is_zero
-from .proving import continuity, facts_of, holds, require, require_defined, sign, smooth
+from .proving import continuity, facts_of, require, require_defined, smooth
 from .reading import inequality
 
 

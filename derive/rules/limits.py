@@ -20,11 +20,12 @@ from sympy.core.function import AppliedUndef
 from ..claims import Equality, Limit
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound
+from ..loads import LOAD
+from ..reals import LAW
 from ..symbols import t
 from ..zero import is_zero
-from .proving import LAW, continuous, require_defined
+from .proving import continuous, require_defined
 from .reading import (
-    LOAD,
     T,
     between,
     clocks,

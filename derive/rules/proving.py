@@ -1,78 +1,47 @@
-"""Side conditions: relations between reals, decided by proof from facts.
+"""Side conditions: what premises give, and where an expression has a value.
 
 Overview
-    ``holds`` asks z3 whether the facts and the negated goal contradict each other in the reals.
-    What is no polynomial is opaque: a square root is known by its square, an exponential, a
-    hyperbolic tangent, the contact law and its slope by their range, a constant by a ball.  A
-    quotient whose denominator vanishes is any number, so that no answer rests on it.
-    ``require_defined`` asks that denominators, roots, logarithms have a value.
+    What a premise claims and supposes are facts; ``derive.reals`` decides what follows from them.
+    ``require_defined`` asks that denominators, roots, logarithms and integrals have a value.
 Key results
-    holds(goal, facts)       whether the relation follows; False proves nothing
-    sign(expr, facts)        1, -1 or None
+    facts_of                 what premises give
     require                  RuleError unless a relation follows from premises
     require_defined          RuleError unless every part of an expression has a value
-    needs                    the relations where an expression has a value
+    undefined                the relations that are missing
     continuous               whether an expression is continuous at a point
-References
-    de Moura, Bjorner, Z3: an efficient SMT solver, TACAS 2008; Jovanovic, de Moura, Solving
-    nonlinear arithmetic, IJCAR 2012.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from functools import cache
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
-import flint
 import sympy as sp
-import z3
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
+from sympy.functions.elementary.piecewise import ExprCondPair
 
-from ..claims import Asymptotic, FirstZero, Limit, Property, Term, landau_o
-from ..hypotheses import Hypothesis, Kind
-from ..kernel import Judgement, RuleError
+from ..claims import Asymptotic, Continuity, FirstZero, Limit, Property, Term, landau_o
+from ..hypotheses import Hypothesis
+from ..kernel import WEARING, Judgement, RuleError
 from ..language import bound, certain
-from ..laws import GENERAL
-from ..symbols import rate, symbol, symbols, t
+from ..loads import CONTINUOUS, DIFFERENTIABLE, LOAD
+from ..reals import LAW, holds, is_slope_of_law
+from ..symbols import t
 
-LAW = GENERAL.phi.func
-"""The unspecified contact law: positive, continuously differentiable, of negative slope."""
-
-WEARING = symbols("u_a u_c sigma_a sigma_c")
-"""Fields that have rates, by Archard's law; others where a premise says so."""
-_RATE_OF_LOAD = rate("U_a")
-_PRESSURE = symbol("p_s")
-"""The pressure over which is integrated: what is said of it holds over the whole integral."""
-DIFFERENTIABLE = Hypothesis(
-    "differentiable load",
-    sp.Eq(_RATE_OF_LOAD, _RATE_OF_LOAD, evaluate=False),
-    r"\text{differentiable load}",
-    Kind.LOAD,
-)
-"""It says that the rate has a value."""
-
-EFFORT = 3_000_000
-"""Steps of z3 after which a side condition counts as not proved; no matter of time."""
-
-_BALL = {sp.exp: flint.arb.exp, sp.log: flint.arb.log, sp.tanh: flint.arb.tanh}
-#: Functions that are continuous wherever they have a value.
-_CONTINUOUS = (sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Abs, LAW, sp.Symbol)
+#: What cuts an integral into finitely many pieces, on each of which it is continuous.
+_PIECES = (sp.Piecewise, ExprCondPair, Relational)
 #: Functions that are differentiable wherever they have a value; roots but at 0.
 _SMOOTH = (
     *(sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Ei, sp.LambertW, AppliedUndef),
     *(sp.Symbol, sp.Number, sp.NumberSymbol),
 )
+#: Functions that are continuous wherever they have a value.
+_CONTINUOUS = (
+    *(sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Ei, sp.LambertW, sp.sin, sp.cos, sp.Abs),
+    *(LAW, sp.Symbol),
+)
 #: Functions that have a value at every real argument.
 _TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
-_RELATIONS = {
-    sp.Equality: lambda a, b: a == b,
-    sp.Unequality: lambda a, b: a != b,
-    sp.StrictGreaterThan: lambda a, b: a > b,
-    sp.GreaterThan: lambda a, b: a >= b,
-    sp.StrictLessThan: lambda a, b: a < b,
-    sp.LessThan: lambda a, b: a <= b,
-}
 
 
 def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
@@ -80,11 +49,38 @@ def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
     claim has a value."""
     found: set[sp.Basic] = set()
     for premise in premises:
-        if not isinstance(premise.claim, (Asymptotic, Property)):
+        if isinstance(premise.claim, Continuity):
+            found.add(steady(premise.claim.field))
+        elif not isinstance(premise.claim, (Asymptotic, Property)):
             found.add(premise.relation)
         found |= {need for part in _parts((premise,)) for need in _need(part)} - {sp.false}
         found |= {h.relation for h in premise.hypotheses if h.relation is not sp.true}
-    return frozenset(found)
+    said = {h for premise in premises for h in premise.hypotheses}
+    return frozenset(found | set(map(steady, _continuous_fields(said, found))))
+
+
+def steady(field: sp.Basic) -> sp.Basic:
+    """Return what stands for a field being continuous in time."""
+    return sp.Ne(field, sp.zoo, evaluate=False)
+
+
+def _continuous_fields(said: set[Hypothesis], facts: set[sp.Basic]) -> set[sp.Basic]:
+    """Return the fields that are continuous: those that wear, and what equals a continuous
+    expression; the load where a hypothesis says so."""
+    found = {LOAD} if {CONTINUOUS, DIFFERENTIABLE} & said else set[sp.Basic]()
+    values = [f for f in facts if isinstance(f, sp.Equality) and isinstance(f.lhs, AppliedUndef)]
+    while new := {f.lhs for f in values if _unbroken(f.rhs, t, found)} - found:
+        found |= new
+    return found
+
+
+def _unbroken(expr: sp.Expr, variable: sp.Basic, fields: Collection[sp.Basic] = ()) -> bool:
+    """Return whether an expression is continuous in a variable wherever it has a value."""
+    if not expr.has(variable) or expr in fields or expr in WEARING:
+        return True
+    return isinstance(expr, _CONTINUOUS) and all(
+        _unbroken(part, variable, fields) for part in expr.args
+    )
 
 
 def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
@@ -98,151 +94,6 @@ def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
     }
 
 
-@cache
-def holds(goal: sp.Basic, facts: frozenset[sp.Basic] = frozenset()) -> bool:
-    """Return True where the goal follows from facts; False proves nothing.
-
-    >>> x, y = sp.symbols("x y", real=True)
-    >>> holds(x + y > 0, frozenset([x > 1, sp.Abs(y) <= 1])), holds(x + y > 0)
-    (True, False)
-    """
-    if goal in (sp.true, sp.false):
-        return bool(goal)
-    if goal in facts:
-        return True
-    if goal.has(sp.tanh) and goal.has(sp.exp):
-        goal = goal.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x)))
-    for known in (_relevant(goal, facts), facts):
-        translator, solver = _Translator(), z3.Solver()
-        solver.set("rlimit", EFFORT)
-        wanted = translator.relation(goal)
-        given = [r for r in map(translator.relation, sorted(known, key=str)) if r is not None]
-        if wanted is None:
-            return False
-        solver.add(*given, *translator.known, z3.Not(wanted))
-        if solver.check() == z3.unsat:
-            return True
-    return False
-
-
-def _relevant(goal: sp.Basic, facts: frozenset[sp.Basic]) -> frozenset[sp.Basic]:
-    """Return the facts about nothing but what the goal is about: most goals need no others."""
-    atoms = _unknowns(goal)
-    return frozenset(fact for fact in facts if _unknowns(fact) <= atoms)
-
-
-@cache
-def _unknowns(expr: sp.Basic) -> frozenset[sp.Basic]:
-    return frozenset(expr.atoms(sp.Symbol, AppliedUndef))
-
-
-class _Translator:
-    """Relations as z3 takes them; ``known`` collects what is known of opaque parts."""
-
-    def __init__(self) -> None:
-        self.names: dict[sp.Basic, z3.ArithRef] = {}
-        self.known: list[z3.BoolRef] = []
-
-    def relation(self, relation: sp.Basic) -> z3.BoolRef | None:
-        """Return a relation, None for one of a kind that is not of the reals."""
-        if isinstance(relation, (sp.And, sp.Or, sp.Not, sp.Equivalent)):
-            parts = [self.relation(part) for part in relation.args]
-            if None in parts:
-                return None
-            if isinstance(relation, sp.Equivalent):
-                return parts[0] == parts[1]
-            return {sp.And: z3.And, sp.Or: z3.Or, sp.Not: z3.Not}[type(relation)](*parts)
-        if not isinstance(relation, Relational) or relation.has(sp.oo, sp.zoo, sp.nan, sp.I):
-            return None
-        return _RELATIONS[type(relation)](*map(self.number, relation.args))
-
-    def number(self, expr: sp.Expr) -> z3.ArithRef:
-        """Return an expression, opaque where it is no polynomial, quotient or root."""
-        if isinstance(expr, sp.Rational):
-            return z3.Q(int(expr.p), int(expr.q))
-        if isinstance(expr, sp.Add):
-            return z3.Sum(*map(self.number, expr.args))
-        if isinstance(expr, sp.Mul):
-            return z3.Product(*map(self.number, expr.args))
-        if isinstance(expr, sp.Pow) and expr.exp.is_Integer:
-            base = self.number(expr.base)
-            power = z3.Product(*[base] * abs(int(expr.exp)))
-            return power if expr.exp > 0 else 1 / power
-        if isinstance(expr, sp.Pow) and expr.exp.is_Rational and expr.exp.q == 2:
-            return self.number(sp.Pow(_Root(expr.base), expr.exp.p))
-        if isinstance(expr, sp.exp):
-            expr = sp.exp(sp.expand(expr.args[0]))
-        if isinstance(expr, sp.Abs):
-            inside = self.number(expr.args[0])
-            return z3.If(inside >= 0, inside, -inside)
-        if expr not in self.names:
-            self.names[expr] = z3.Real(f"x{len(self.names)}")
-            self._opaque(expr, self.names[expr])
-        return self.names[expr]
-
-    def _opaque(self, expr: sp.Expr, name: z3.ArithRef) -> None:
-        """State what is known of an opaque part."""
-        if isinstance(expr, _Root):
-            inside = self.number(expr.args[0])
-            self.known.append(z3.Implies(inside >= 0, z3.And(name >= 0, name * name == inside)))
-        elif isinstance(expr, sp.tanh):
-            signs = {"is_positive": name > 0, "is_negative": name < 0}
-            self.known += [name > -1, name < 1]
-            self.known += [known for given, known in signs.items() if getattr(expr.args[0], given)]
-        elif isinstance(expr, (sp.sin, sp.cos)):
-            self.known += [name >= -1, name <= 1]
-        elif isinstance(expr, (sp.exp, LAW)):
-            self.known.append(name > 0)
-        elif is_slope_of_law(expr):
-            self.known.append(name < 0)
-        elif isinstance(expr, (sp.Max, sp.Min)):
-            inside = [self.number(part) for part in expr.args]
-            above = [name >= i if isinstance(expr, sp.Max) else name <= i for i in inside]
-            self.known += [*above, z3.Or(*(name == i for i in inside))]
-        if isinstance(expr, (sp.Symbol, AppliedUndef)):
-            signs = {"is_positive": name > 0, "is_negative": name < 0, "is_nonnegative": name >= 0}
-            self.known += [known for given, known in signs.items() if getattr(expr, given)]
-        if expr is sp.pi or (type(expr) in _BALL and expr.args[0].is_Rational):
-            self.known += [name > _rational(expr, -1), name < _rational(expr, 1)]
-
-
-class _Root(sp.Expr):
-    """The square root of its argument, kept apart."""
-
-
-def _rational(expr: sp.Expr, side: int) -> z3.ArithRef:
-    """Return a rational number below (-1) or above (1) a constant, from a ball that holds it."""
-    if expr is sp.pi:
-        ball = flint.arb.pi()
-    else:
-        ball = _BALL[type(expr)](flint.arb(flint.fmpq(expr.args[0].p, expr.args[0].q)))
-    man, exp = (ball.lower() if side < 0 else ball.upper()).man_exp()
-    value = sp.Integer(int(man)) * sp.Integer(2) ** int(exp)
-    return z3.Q(int(value.p), int(value.q))
-
-
-def is_slope_of_law(expr: sp.Basic) -> bool:
-    """Return whether an expression is the first derivative of the unspecified contact law."""
-    if isinstance(expr, sp.Subs):
-        return len(expr.variables) == 1 and is_slope_of_law(expr.expr)
-    return isinstance(expr, sp.Derivative) and (
-        expr.derivative_count == 1 and expr.expr == LAW(expr.variables[0])
-    )
-
-
-def sign(expr: sp.Expr, facts: frozenset[sp.Basic] = frozenset()) -> int | None:
-    """Return 1 or -1 for an expression that is proved to be positive or negative, else None.
-
-    >>> y = sp.Symbol("y", real=True)
-    >>> sign(1 + sp.tanh(y)), sign(sp.tanh(y) - 1), sign(y), sign(1 - y / sp.sqrt(1 + y**2))
-    (1, -1, None, 1)
-    """
-    for found, goal in ((1, sp.Gt(expr, 0)), (-1, sp.Lt(expr, 0))):
-        if holds(goal, facts):
-            return found
-    return None
-
-
 def require(goal: sp.Basic, *premises: Judgement) -> None:
     """Raise RuleError unless a relation follows from premises, and has a value."""
     require_defined(goal, *premises)
@@ -252,36 +103,69 @@ def require(goal: sp.Basic, *premises: Judgement) -> None:
 
 def require_defined(expr: sp.Basic, *premises: Judgement) -> None:
     """Raise RuleError unless every part of an expression has a value under the premises."""
+    for goal in undefined(expr, *premises):
+        raise RuleError(f"missing premise: {told(goal)}")
+
+
+def told(goal: sp.Basic) -> str:
+    """Return a relation in words where it stands for a value, or for continuity."""
+    if not goal.has(sp.zoo):
+        return str(goal)
+    field = isinstance(goal.lhs, AppliedUndef)
+    return f"{goal.lhs} {'is continuous' if field else 'has a value'}"
+
+
+def undefined(expr: sp.Basic, *premises: Judgement) -> Iterator[sp.Basic]:
+    """Yield the relations that give parts of an expression a value and do not follow."""
     facts = facts_of(premises)
-    for goal in _needed(expr, _parts(premises)):
+    for goal in _needed(expr, _parts(premises), facts):
         if not holds(goal, facts):
-            raise RuleError(f"missing premise: {goal}")
+            yield goal
 
 
-def needs(expr: sp.Basic) -> set[sp.Basic]:
-    """Return the relations where an expression has a value, but for limits and integrals in it.
-
-    >>> f_c = sp.Symbol("f_c", real=True)
-    >>> needs(1 + sp.sqrt(f_c)), needs(sp.tanh(f_c))
-    ({f_c >= 0}, set())
-    """
-    return {need for part in certain(expr) for need in _need(part) if not need.has(sp.zoo)}
-
-
-def _needed(expr: sp.Basic, known: Collection[sp.Basic]) -> list[sp.Basic]:
+def _needed(
+    expr: sp.Basic, known: Collection[sp.Basic], facts: Collection[sp.Basic] = ()
+) -> list[sp.Basic]:
     """Return the relations that give every part of an expression a value."""
     if expr in known:
         return []
     parts = () if isinstance(expr, sp.Derivative) else expr.args
-    hidden = {x: sp.Dummy(**x.assumptions0) for x in bound(expr) - {t, _PRESSURE}}
+    hidden = {x: sp.Dummy(**x.assumptions0) for x in bound(expr) - {t}}
     parts = tuple(part.xreplace(hidden) for part in parts)  # of these no premise speaks
-    goals = [goal for part in parts for goal in _needed(part, known)]
+    goals = [goal for part in parts for goal in _needed(part, known, facts)]
     if isinstance(expr, sp.Integral) and [len(limit) for limit in expr.limits] == [3]:
         s, *ends = expr.xreplace(hidden).limits[0]
-        outside = (sp.And(*(relation(s, end) for end in ends)) for relation in (sp.Lt, sp.Gt))
-        beyond = tuple(outside)
+        beyond = [sp.And(*(relation(s, end) for end in ends)) for relation in (sp.Lt, sp.Gt)]
+        beyond += [sp.Not(fact) for fact in _between(s, *ends, facts)]
         goals = [sp.Or(goal, *beyond) if goal.has(s) else goal for goal in goals]
+        goals += _integrable(parts[0], s)
     return [*goals, *_need(expr)]
+
+
+def _between(
+    s: sp.Symbol, first: sp.Expr, last: sp.Expr, facts: Collection[sp.Basic]
+) -> list[sp.Basic]:
+    """Return what is known of the values between that of a continuous field at first and now.
+
+    By the intermediate value theorem it takes them all, and what is said of it holds always.
+    """
+    start = last.subs(t, 0)
+    begun = first == start or sp.Eq(start, first) in facts
+    if not begun or not (last in WEARING or steady(last) in facts):
+        return []
+    said = (f for f in facts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
+    met = (fact.xreplace({last: s}) for fact in said)
+    return [fact for fact in met if not fact.has(t, sp.zoo)]
+
+
+def _integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
+    """Return the relations where pieces of an integrand are continuous."""
+    if isinstance(body, AppliedUndef) and not isinstance(body, LAW) and body.has(s):
+        now = body.func(t)
+        return [] if now in WEARING else [steady(now), *_integrable(body.args[0], s)]
+    if body.has(s) and not isinstance(body, (*_CONTINUOUS, *_PIECES)):
+        return [sp.Ne(body, sp.zoo, evaluate=False)]
+    return [goal for part in body.args for goal in _integrable(part, s)]
 
 
 def _need(expr: sp.Basic) -> list[sp.Basic]:

@@ -15,15 +15,15 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..claims import Claim, Conjunction, Drift, Equality, Inequality, Limit
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import Hypothesis
 from ..kernel import Judgement, RuleError
 from ..language import bound
+from ..reals import LAW
 from ..symbols import CLOCKS, symbol, t
-from .proving import LAW, require_defined
+from .proving import require_defined
 
 C = TypeVar("C", bound=Claim)
 T = symbol("T")
-LOAD = symbol("U_a")
 
 
 def _read(judgement: Judgement, kind: type[C]) -> C:
@@ -177,24 +177,3 @@ def require_hypothesis(said: sp.Basic | Hypothesis, *premises: Judgement) -> Non
     known = {h for premise in premises for h in premise.hypotheses}
     if said not in known | {h.relation for h in known}:
         raise RuleError(f"missing premise: {getattr(said, 'text', said)}")
-
-
-PERIODIC = Hypothesis(
-    "load of period T",
-    sp.Eq(LOAD.subs(t, t + T), LOAD),
-    r"\text{load of period}\; T",
-    Kind.LOAD,
-)
-CONTINUOUS = Hypothesis("continuous load", kind=Kind.LOAD)
-CONSTANT = Hypothesis(
-    "constant load",
-    sp.Eq(LOAD, LOAD.subs(t, 0)),
-    r"\text{constant load}",
-    Kind.LOAD,
-)
-SINE = Hypothesis(
-    "load U sin(2 pi t/T)",
-    sp.Eq(LOAD, symbol("U") * sp.sin(2 * sp.pi * t / T)),
-    r"U_a = U \sin{\left(2 \pi t/T\right)}",
-    Kind.LOAD,
-)

@@ -1,6 +1,7 @@
 """Solutions of the differential equation: variables separated, integrals by parts, inverses.
 
 Key results
+    Follows       the one root of the equation of the pressure is continuous
     Separate      c t = int g(y) dy, where rate and wear are functions of y alone
     Integrated    a part of an integral, or all of it, by a primitive
     Lambert       w e^w = x gives w = W(x)
@@ -14,27 +15,17 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..claims import Equality, FirstZero
-from ..kernel import Conclusion, Judgement, Rule, RuleError, plain
+from ..claims import Continuity, Equality, FirstZero
+from ..kernel import WEARING, Conclusion, Judgement, Rule, RuleError, plain
+from ..loads import CONSTANT, LOAD
+from ..reals import holds, sign
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .proving import (
-    WEARING,
-    continuous,
-    facts_of,
-    holds,
-    require,
-    require_defined,
-    sign,
-    smooth,
-)
+from .proving import continuous, facts_of, require, require_defined, smooth, steady
 from .reading import (
-    CONSTANT,
-    LOAD,
     constant,
     equality,
     fields,
-    fixed,
     one_integral,
     rate_law,
     replaced,
@@ -45,12 +36,38 @@ PRESSURE = symbol("p")
 
 
 @dataclass(frozen=True)
+class Follows(Rule):
+    """The one root of ``p = R(p, u, load)`` is continuous, where ``p - R`` increases in p."""
+
+    words = "The pressure is the one root of {0}, and follows wear and load continuously."
+    source = "implicit function theorem"
+    asks = ("the equation of the pressure",)
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        given, facts = equality(premises[0]), facts_of(premises)
+        p = sp.Dummy("p", positive=True)
+        value = given.rhs.xreplace({PRESSURE: p})
+        moving = {unknown: unknown for unknown in (p, *fields(value))}
+        still = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
+        known = given.lhs == PRESSURE and constant(still) and smooth(value, p)
+        increases = known and sign(1 - sp.diff(value, p), facts) == 1
+        if not increases or not continuous(value, moving, *premises):
+            raise RuleError(f"missing premise: {PRESSURE} is the one root of an equation")
+        for field in fields(value) - {*WEARING}:
+            if steady(field) not in facts:
+                raise RuleError(f"missing premise: {field} is continuous")
+        return Conclusion(Continuity(f"{PRESSURE.func} is continuous", PRESSURE))
+
+
+follows = Follows()
+
+
+@dataclass(frozen=True)
 class Separate(Rule):
     """``du/dt = Q(y)`` and ``u = G(y)`` give ``c t = int g(s) ds`` from y(0) to y, ``g Q = c G'``.
 
     Premises: the rate, then u in terms of y, unless y is u, and y(0), unless the integral begins
-    with this name.  y is a wear or a roughness, which has a rate, or the pressure: a premise says
-    that it is the one root of ``p = R(p, u)``, where ``p - R`` increases, so it is continuous.
+    with this name.  y is continuous: a wear, a roughness, or what a premise says to be so.
     """
 
     claim: sp.Equality
@@ -64,11 +81,9 @@ class Separate(Rule):
         require_hypothesis(CONSTANT.relation, *premises)
         known = {e.lhs: e.rhs for e in (p.claim for p in others) if isinstance(e, Equality)}
         (s, first, y), wear = integral.limits[0], known.get(u, u)
-        start = y.subs(t, 0)
-        if y not in (*WEARING, PRESSURE) or known.get(start, start) != first:
+        start, facts = y.subs(t, 0), facts_of(premises)
+        if not {y, steady(y)} & {*WEARING, *facts} or known.get(start, start) != first:
             raise RuleError(f"missing premise: {start} = {first}, of what moves")
-        if y == PRESSURE:
-            _require_root(known.get(y, y), u, *premises)
         require_defined(self.claim, *premises)
         moving, load = sp.Dummy(**s.assumptions0), sp.Dummy(real=True)
         rate, wear = (e.xreplace({y: moving, LOAD: load}) for e in (rate, wear))
@@ -77,24 +92,12 @@ class Separate(Rule):
         whole = sp.Tuple(rate, wear, pace, g)
         if fields(whole) or not constant(whole) or not all(map(smooth, whole)):
             raise RuleError(f"missing premise: {self.claim.rhs} by smooth functions of {y} alone")
-        slope, facts = sp.diff(wear, moving), facts_of(premises)
+        slope = sp.diff(wear, moving)
         if not any(holds(sp.Ne(e.xreplace({moving: y}), 0), facts) for e in (slope, rate)):
             raise RuleError(f"missing premise: {u} moves with {y}")
         if not is_zero(g * rate - pace * slope):
             raise RuleError(f"missing premise: {law.relation} separates into {self.claim}")
         return Conclusion(Equality(*self.claim.args))
-
-
-def _require_root(value: sp.Expr, u: sp.Expr, *premises: Judgement) -> None:
-    """Refuse unless the pressure is the one root of ``p = R(p, u, load)``, so that it follows u."""
-    p = sp.Dummy("p", positive=True)
-    value = value.xreplace({PRESSURE: p})
-    moving = {unknown: unknown for unknown in (p, u, LOAD)}
-    still = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
-    known = fixed(still) and smooth(value, p)
-    increases = known and sign(1 - sp.diff(value, p), facts_of(premises)) == 1
-    if not increases or not continuous(value, moving, *premises):
-        raise RuleError(f"missing premise: {PRESSURE} is the one root of an equation")
 
 
 @dataclass(frozen=True)
@@ -148,20 +151,19 @@ class Lambert(Rule):
 class FirstRoot(Rule):
     """The first positive zero x of f, where ``f w = a_0 + 2 a_1 x + a_2 x^2`` with w > 0.
 
-    With ``a_0 > 0``, ``D = a_1^2 - a_2 a_0 >= 0`` and ``sqrt(D) > a_1`` it is
-    ``a_0/(sqrt(D) - a_1)``: the other root is negative or lies beyond.  The premise defines x.
+    With ``a_0 > 0``, ``D = a_1^2 - a_2 a_0 >= 0`` and ``sqrt(D) > a_1`` it exists, and is
+    ``a_0/(sqrt(D) - a_1)``: the other root is negative or lies beyond.
     """
 
+    zero: FirstZero
     factor: sp.Expr
     words = "The first root of a quadratic equation, from {all}."
     source = "the quadratic formula, in the form without cancellation"
-    asks = ("the definition",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        meaning = equality(premises[0])
-        if not isinstance(meaning.rhs, FirstZero):
-            raise RuleError("missing premise: the definition of a first zero")
-        function, x = meaning.rhs.args
+        if not isinstance(self.zero, FirstZero):
+            raise RuleError(f"missing premise: {self.zero} is a first zero")
+        function, x = self.zero.args
         z = sp.Dummy("x", positive=True)
         product = sp.Poly(sp.expand(function * self.factor).subs(x, z), z)
         a_2, twice, a_0 = (product.coeff_monomial(z**n) for n in (2, 1, 0))
@@ -173,4 +175,4 @@ class FirstRoot(Rule):
         require(sp.Gt(self.factor.subs(x, z), 0), *premises)
         for goal in (sp.Gt(a_0, 0), sp.Ge(inside, 0), sp.Gt(inside, a_1 * sp.Abs(a_1))):
             require(goal, *premises)
-        return Conclusion(Equality(meaning.lhs, a_0 / (sp.sqrt(inside) - a_1)))
+        return Conclusion(Equality(self.zero, a_0 / (sp.sqrt(inside) - a_1)))

@@ -16,6 +16,7 @@ from sympy.core.relational import Relational
 from derive.claims import Drift, Oscillation
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Judgement
+from derive.loads import CONSTANT, CONTINUOUS, PERIODIC, SINE
 from derive.results.expansion import expansion
 from derive.results.steady_state import BOUNDED_LOAD, steady_state
 from derive.rules.algebra import Insert, Solve, discharge, forget
@@ -34,7 +35,6 @@ from derive.rules.data import Differentiated
 from derive.rules.drift import MEAN, LogarithmicGrowth, logarithmic_drift
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
-from derive.rules.reading import CONSTANT, CONTINUOUS, PERIODIC, SINE
 from derive.rules.solutions import Separate
 from derive.symbols import initial, rate, symbol, symbols, t
 

@@ -12,11 +12,11 @@ from derive.claims import Asymptotic, Equality, Limit
 from derive.equations import Equation
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Judgement, RuleError
+from derive.loads import CONSTANT, PERIODIC
 from derive.results import validity
 from derive.rules.algebra import Insert
 from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
-from derive.rules.reading import CONSTANT, PERIODIC
 from derive.symbols import symbols, t
 from derive.typeset.mathml import display
 from tests.derive.rules.algebra import defined_as

@@ -14,10 +14,10 @@ from derive.hypotheses import Kind
 from derive.kernel import RuleError, replayed
 from derive.laws import TANH, ContactLaw, r
 from derive.note.model import contact
+from derive.reals import LAW
 from derive.rules.algebra import Identity
 from derive.rules.assumption import assume
 from derive.rules.limits import forever
-from derive.rules.proving import LAW
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import end, equal, supposed
 

@@ -16,10 +16,10 @@ from hypothesis import strategies as st
 from derive.falsifier.judgements import tried
 from derive.hypotheses import Hypothesis, Kind
 from derive.kernel import Judgement, Rule, RuleError, infer
+from derive.loads import CONSTANT, PERIODIC
 from derive.rules import algebra, calculus, data, drift, growth, inequalities, limits, solutions
 from derive.rules.assumption import Assume, assume
 from derive.rules.limits import forever, later
-from derive.rules.reading import CONSTANT, PERIODIC
 from derive.symbols import initial, rate, symbols, t
 
 u_c, u_a, U_a, h, G = symbols("u_c u_a U_a h G")

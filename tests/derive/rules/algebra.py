@@ -7,6 +7,7 @@ import sympy as sp
 from derive.claims import FirstZero
 from derive.hypotheses import Kind
 from derive.laws import EXPONENTIAL, TANH
+from derive.loads import CONTINUOUS, DIFFERENTIABLE
 from derive.note.model import ARCHARD, CLOSURE, contact
 from derive.note.model import START as STARTS
 from derive.rules.algebra import (
@@ -26,8 +27,6 @@ from derive.rules.assumption import assume, defined
 from derive.rules.calculus import RIGID, SPRINGS, ParameterLimit, differentiate
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
-from derive.rules.proving import DIFFERENTIABLE
-from derive.rules.reading import CONTINUOUS
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
     APART,

@@ -7,6 +7,7 @@ import sympy as sp
 from derive.hypotheses import Kind
 from derive.kernel import infer
 from derive.laws import GENERAL, r
+from derive.loads import DIFFERENTIABLE
 from derive.rules.algebra import Insert, Multiply, Solve, substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.calculus import (
@@ -27,7 +28,6 @@ from derive.rules.inequalities import (
     Threshold,
 )
 from derive.rules.limits import later, one_period_later
-from derive.rules.proving import DIFFERENTIABLE
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
     BOUNDED,

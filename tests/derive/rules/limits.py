@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import sympy as sp
 
+from derive.loads import CONTINUOUS, PERIODIC
+from derive.reals import LAW
 from derive.rules.assumption import assume, defined
 from derive.rules.growth import AtInfinity, Diverges, intermittent, unbounded
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import Passes, accumulates, forever, later, one_period_later, vanishes
-from derive.rules.proving import LAW
-from derive.rules.reading import CONTINUOUS, PERIODIC
 from derive.symbols import rate, symbols, t
 from tests.derive.judgements import (
     APART,

@@ -23,12 +23,12 @@ from derive import rules
 from derive.kernel import Judgement, Rule, RuleError, infer, replayed
 from derive.language import names
 from derive.laws import ContactLaw, r
+from derive.reals import sign
 from derive.results.steady_state import steady_state
 from derive.rules.algebra import restrict, substitute
 from derive.rules.assumption import assume
 from derive.rules.calculus import differentiate
 from derive.rules.limits import later, one_period_later
-from derive.rules.proving import sign
 from derive.rules.reading import replaced
 from derive.symbols import rate, symbol, symbols, t
 from derive.zero import is_zero

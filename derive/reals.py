@@ -1,0 +1,202 @@
+"""Relations between reals, decided by proof.
+
+Overview
+    ``holds`` asks z3 whether the facts and the negated goal contradict each other in the reals.
+    What is no polynomial is opaque: a square root is known by its square, an exponential, a
+    hyperbolic tangent, the contact law and its slope by their range, a constant by a ball.  A
+    quotient whose denominator vanishes is any number, so that no answer rests on it.
+Key results
+    holds(goal, facts)       whether the relation follows; False proves nothing
+    sign(expr, facts)        1, -1 or None
+    contradictory(facts)     whether nothing satisfies them; False proves nothing
+References
+    de Moura, Bjorner, Z3: an efficient SMT solver, TACAS 2008; Jovanovic, de Moura, Solving
+    nonlinear arithmetic, IJCAR 2012.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import flint
+import sympy as sp
+import z3
+from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
+
+from .laws import GENERAL
+
+LAW = GENERAL.phi.func
+"""The unspecified contact law: positive, continuously differentiable, of negative slope."""
+
+EFFORT = 3_000_000
+"""Steps of z3 after which a side condition counts as not proved; no matter of time."""
+
+_BALL = {sp.exp: flint.arb.exp, sp.log: flint.arb.log, sp.tanh: flint.arb.tanh}
+_RELATIONS = {
+    sp.Equality: lambda a, b: a == b,
+    sp.Unequality: lambda a, b: a != b,
+    sp.StrictGreaterThan: lambda a, b: a > b,
+    sp.GreaterThan: lambda a, b: a >= b,
+    sp.StrictLessThan: lambda a, b: a < b,
+    sp.LessThan: lambda a, b: a <= b,
+}
+
+
+@cache
+def holds(goal: sp.Basic, facts: frozenset[sp.Basic] = frozenset()) -> bool:
+    """Return True where the goal follows from facts; False proves nothing.
+
+    >>> x, y = sp.symbols("x y", real=True)
+    >>> holds(x + y > 0, frozenset([x > 1, sp.Abs(y) <= 1])), holds(x + y > 0)
+    (True, False)
+    """
+    if goal in (sp.true, sp.false):
+        return bool(goal)
+    if goal in facts:
+        return True
+    if goal.has(sp.tanh) and goal.has(sp.exp):
+        goal = goal.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x)))
+    return any(_refuted(known, goal) for known in (_relevant(goal, facts), facts))
+
+
+@cache
+def contradictory(facts: frozenset[sp.Basic]) -> bool:
+    """Return True where no real numbers satisfy all facts; False proves nothing.
+
+    >>> x = sp.Symbol("x", real=True)
+    >>> contradictory(frozenset([sp.Eq(2 * x, 0), x > 1])), contradictory(frozenset([x > 1]))
+    (True, False)
+    """
+    return _refuted(facts)
+
+
+def _refuted(facts: frozenset[sp.Basic], goal: sp.Basic | None = None) -> bool:
+    """Return whether facts, and that the goal does not hold, contradict each other."""
+    translator, solver = _Translator(), z3.Solver()
+    solver.set("rlimit", EFFORT)
+    wanted = z3.BoolVal(False) if goal is None else translator.relation(goal)
+    if wanted is None:
+        return False
+    given = (translator.relation(fact) for fact in sorted(facts, key=str))
+    known = [relation for relation in given if relation is not None]
+    solver.add(*known, *translator.known, z3.Not(wanted))
+    return bool(solver.check() == z3.unsat)
+
+
+def _relevant(goal: sp.Basic, facts: frozenset[sp.Basic]) -> frozenset[sp.Basic]:
+    """Return the facts about nothing but what the goal is about: most goals need no others."""
+    atoms = _unknowns(goal)
+    return frozenset(fact for fact in facts if _unknowns(fact) <= atoms)
+
+
+@cache
+def _unknowns(expr: sp.Basic) -> frozenset[sp.Basic]:
+    return frozenset(expr.atoms(sp.Symbol, AppliedUndef))
+
+
+class _Translator:
+    """Relations as z3 takes them; ``known`` collects what is known of opaque parts."""
+
+    def __init__(self) -> None:
+        self.names: dict[sp.Basic, z3.ArithRef] = {}
+        self.known: list[z3.BoolRef] = []
+
+    def relation(self, relation: sp.Basic) -> z3.BoolRef | None:
+        """Return a relation, None for one of a kind that is not of the reals."""
+        if isinstance(relation, (sp.And, sp.Or, sp.Not, sp.Equivalent)):
+            parts = [self.relation(part) for part in relation.args]
+            if None in parts:
+                return None
+            if isinstance(relation, sp.Equivalent):
+                return parts[0] == parts[1]
+            return {sp.And: z3.And, sp.Or: z3.Or, sp.Not: z3.Not}[type(relation)](*parts)
+        if not isinstance(relation, Relational) or relation.has(sp.oo, sp.zoo, sp.nan, sp.I):
+            return None
+        return _RELATIONS[type(relation)](*map(self.number, relation.args))
+
+    def number(self, expr: sp.Expr) -> z3.ArithRef:
+        """Return an expression, opaque where it is no polynomial, quotient or root."""
+        if isinstance(expr, sp.Rational):
+            return z3.Q(int(expr.p), int(expr.q))
+        if isinstance(expr, sp.Add):
+            return z3.Sum(*map(self.number, expr.args))
+        if isinstance(expr, sp.Mul):
+            return z3.Product(*map(self.number, expr.args))
+        if isinstance(expr, sp.Pow) and expr.exp.is_Integer:
+            base = self.number(expr.base)
+            power = z3.Product(*[base] * abs(int(expr.exp)))
+            return power if expr.exp > 0 else 1 / power
+        if isinstance(expr, sp.Pow) and expr.exp.is_Rational and expr.exp.q == 2:
+            return self.number(sp.Pow(_Root(expr.base), expr.exp.p))
+        if isinstance(expr, sp.exp):
+            expr = sp.exp(sp.expand(expr.args[0]))
+        if isinstance(expr, sp.Abs):
+            inside = self.number(expr.args[0])
+            return z3.If(inside >= 0, inside, -inside)
+        if expr not in self.names:
+            self.names[expr] = z3.Real(f"x{len(self.names)}")
+            self._opaque(expr, self.names[expr])
+        return self.names[expr]
+
+    def _opaque(self, expr: sp.Expr, name: z3.ArithRef) -> None:
+        """State what is known of an opaque part."""
+        if isinstance(expr, _Root):
+            inside = self.number(expr.args[0])
+            self.known.append(z3.Implies(inside >= 0, z3.And(name >= 0, name * name == inside)))
+        elif isinstance(expr, sp.tanh):
+            signs = {"is_positive": name > 0, "is_negative": name < 0}
+            self.known += [name > -1, name < 1]
+            self.known += [known for given, known in signs.items() if getattr(expr.args[0], given)]
+        elif isinstance(expr, (sp.sin, sp.cos)):
+            self.known += [name >= -1, name <= 1]
+        elif isinstance(expr, (sp.exp, LAW)):
+            self.known.append(name > 0)
+        elif is_slope_of_law(expr):
+            self.known.append(name < 0)
+        elif isinstance(expr, (sp.Max, sp.Min)):
+            inside = [self.number(part) for part in expr.args]
+            above = [name >= i if isinstance(expr, sp.Max) else name <= i for i in inside]
+            self.known += [*above, z3.Or(*(name == i for i in inside))]
+        if isinstance(expr, (sp.Symbol, AppliedUndef)):
+            signs = {"is_positive": name > 0, "is_negative": name < 0, "is_nonnegative": name >= 0}
+            self.known += [known for given, known in signs.items() if getattr(expr, given)]
+        if expr is sp.pi or (type(expr) in _BALL and expr.args[0].is_Rational):
+            self.known += [name > _rational(expr, -1), name < _rational(expr, 1)]
+
+
+class _Root(sp.Expr):
+    """The square root of its argument, kept apart."""
+
+
+def _rational(expr: sp.Expr, side: int) -> z3.ArithRef:
+    """Return a rational number below (-1) or above (1) a constant, from a ball that holds it."""
+    if expr is sp.pi:
+        ball = flint.arb.pi()
+    else:
+        ball = _BALL[type(expr)](flint.arb(flint.fmpq(expr.args[0].p, expr.args[0].q)))
+    man, exp = (ball.lower() if side < 0 else ball.upper()).man_exp()
+    value = sp.Integer(int(man)) * sp.Integer(2) ** int(exp)
+    return z3.Q(int(value.p), int(value.q))
+
+
+def is_slope_of_law(expr: sp.Basic) -> bool:
+    """Return whether an expression is the first derivative of the unspecified contact law."""
+    if isinstance(expr, sp.Subs):
+        return len(expr.variables) == 1 and is_slope_of_law(expr.expr)
+    return isinstance(expr, sp.Derivative) and (
+        expr.derivative_count == 1 and expr.expr == LAW(expr.variables[0])
+    )
+
+
+def sign(expr: sp.Expr, facts: frozenset[sp.Basic] = frozenset()) -> int | None:
+    """Return 1 or -1 for an expression that is proved to be positive or negative, else None.
+
+    >>> y = sp.Symbol("y", real=True)
+    >>> sign(1 + sp.tanh(y)), sign(sp.tanh(y) - 1), sign(y), sign(1 - y / sp.sqrt(1 + y**2))
+    (1, -1, None, 1)
+    """
+    for found, goal in ((1, sp.Gt(expr, 0)), (-1, sp.Lt(expr, 0))):
+        if holds(goal, facts):
+            return found
+    return None
