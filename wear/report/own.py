@@ -31,9 +31,9 @@ from wear.report import drawing
 from wear.report.document import Document, drawn
 from wear.report.equations import shown
 from wear.report.explorer_derived import holding
-from wear.report.manifest import versions
 from wear.report.markup import markup, number
 from wear.report.number import Number
+from wear.report.publish import versions
 from wear.report.text import read
 from wear.request import obstacle
 from wear.scene import Scene
