@@ -33,7 +33,7 @@ def execute(options: argparse.Namespace) -> Answer:  # noqa: ARG001  # it has no
             "status": e.status.value,
             "conditions": list(dict.fromkeys(c.text for c in e.conditions)),
         }
-        for e in catalogue.equations()
+        for e in catalogue.all_equations()
     ]
     return Answer(rows, lambda: "\n".join(_lines(rows)))
 
