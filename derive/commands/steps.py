@@ -1,14 +1,18 @@
-"""`derive steps`: how an equation follows from the governing ones."""
+"""`derive steps`: the steps from the governing equations to one.
+
+examples:
+  derive steps 10           every step from the hypotheses to (10)
+  derive steps 21 --json    with rule, parents, assumptions and status of each
+"""
 
 from __future__ import annotations
 
-import argparse
 import textwrap
 from collections.abc import Hashable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
-from derive.command_line import Answer, declare
+from derive.command_line import Answer, Options, Parser, declare
 from derive.commands import arguments
 
 if TYPE_CHECKING:
@@ -16,19 +20,13 @@ if TYPE_CHECKING:
 
 _INDENT = " " * 5
 
-SUMMARY = "the steps from the governing equations to one"
-EXAMPLE = """\
-  derive steps 10           every step from the hypotheses to (10)
-  derive steps 21 --json    with rule, parents, assumptions and status of each
-"""
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare the id."""
     declare(parser, "ID", "an equation, as `derive list` names it")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Check the chain of steps."""
     from derive.kernel import identity
 

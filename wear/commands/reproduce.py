@@ -1,8 +1,12 @@
-"""`wear reproduce`: the main job, from the governing equations to the report."""
+"""`wear reproduce`: derive, solve and judge everything: the report.
+
+examples:
+  wear reproduce               writes report/report.html and all that belongs to it
+  wear reproduce -o elsewhere  into another folder
+"""
 
 from __future__ import annotations
 
-import argparse
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -10,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, Options, Parser
 from wear import processes
 from wear.commands import arguments
 
@@ -19,19 +23,13 @@ if TYPE_CHECKING:
     from wear.report.claims import Entry
     from wear.report.typeset import Typeset
 
-SUMMARY = "derive, solve and judge everything: the report"
-EXAMPLE = """\
-  wear reproduce               writes report/report.html and all that belongs to it
-  wear reproduce -o elsewhere  into another folder
-"""
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare the folder."""
     arguments.add_folder(parser, "folder (default: %(default)s)", "report")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Derive, verify, solve, judge, and write the report."""
     arguments.read(options).stop_if_any()
     folder = options.output
