@@ -29,7 +29,7 @@ def equations(ids: list[str]) -> tuple[Equation, ...]:
             faults.append(str(fault))
     if faults:
         raise UsageError("\n".join(faults))
-    return tuple(found) if ids else catalogue.equations()
+    return tuple(found) if ids else catalogue.all_equations()
 
 
 def answer(options: Options, document: object, text: str) -> Answer:

@@ -31,7 +31,7 @@ def execute(options: Options) -> Answer:  # noqa: ARG001  # it has none
             "status": e.status.value,
             "conditions": list(dict.fromkeys(c.text for c in e.conditions)),
         }
-        for e in catalogue.equations()
+        for e in catalogue.all_equations()
     ]
     return Answer(rows, lambda: "\n".join(_lines(rows)))
 

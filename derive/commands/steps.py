@@ -8,7 +8,7 @@ examples:
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
@@ -28,8 +28,10 @@ def add_arguments(parser: Parser) -> None:
 
 def execute(options: Options) -> Answer:
     """Check the chain of steps."""
+    from derive.kernel import identity
+
     (found,) = arguments.equations([options.id])
-    numbers = {id(step): number for number, step in enumerate(found.steps, start=1)}
+    numbers = {identity(step): number for number, step in enumerate(found.steps, start=1)}
     rows = [_row(step, numbers) for step in found.steps]
     fails = any(row["status"] == "fails" for row in rows)
     return Answer(
@@ -39,17 +41,18 @@ def execute(options: Options) -> Answer:
     )
 
 
-def _row(step: Judgement, numbers: Mapping[int, int]) -> dict[str, Any]:
+def _row(step: Judgement, numbers: Mapping[Hashable, int]) -> dict[str, Any]:
     import sympy as sp
 
     from derive.check import checks
     from derive.coq.record import proved_by_coq
+    from derive.kernel import identity
     from derive.typeset.display import latex
 
-    parents = [numbers[id(parent)] for parent in step.parents]
+    parents = [numbers[identity(parent)] for parent in step.parents]
     outcomes = checks(step)
     return {
-        "step": numbers[id(step)],
+        "step": numbers[identity(step)],
         "name": step.name or None,
         "claim": sp.sstr(step.relation),
         "latex": latex(step.relation),

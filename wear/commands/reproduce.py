@@ -58,7 +58,7 @@ def _reproduce(
     folder: Path, progress: Callable[[str], None]
 ) -> tuple[dict[str, str | bytes], Verification, tuple[Entry, ...], Typeset]:
     """Make everything: the files by name, the checks, the ledger, and what came of the PDF."""
-    from derive.catalogue import equations
+    from derive.catalogue import all_equations
     from derive.note.claim_checks import SYMBOLIC
     from derive.verification import checked_at, verified
     from wear.report.claims import SIMULATED, as_json, decided, ledger
@@ -68,7 +68,7 @@ def _reproduce(
 
     with processes.assistant() as ask:
         begun = {claim: ask(decided, claim) for claim in SYMBOLIC}
-        catalogue = equations()
+        catalogue = all_equations()
         checked = [ask(checked_at, place) for place in range(len(catalogue))]
         runs = run(lambda what: progress(f"solving: {what}"))
         solved = ledger(lambda *claim: progress(f"judging claim {claim[-1]}"), tuple(SIMULATED))
