@@ -15,7 +15,8 @@ from wear.cycles import sweep
 from wear.faults import UsageError
 from wear.load import Block, Blocks, Constant, Force, Harmonics, Load, Sine, Table
 from wear.parameters import parameters_of
-from wear.scene import KEYS, Scene, load_scene
+from wear.scene import Scene, load_scene
+from wear.scene.variant import KEYS
 from wear.sensitivities import gradients, sensitivity
 
 FloatArray = NDArray[np.float64]
