@@ -25,7 +25,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, domain
+from .kernel import Judgement, chain, domain, identity
 from .language import defined_by, names
 from .rules.assumption import Assume
 from .symbols import DATA, QUANTITIES
@@ -157,8 +157,8 @@ class Equation:
 
     @property
     def steps(self) -> tuple[Judgement, ...]:
-        """Return the chain of statements from the governing equations to this one."""
-        return chain(*self.statements)
+        """Return the chain of statements from the governing equations to this one, each once."""
+        return tuple({identity(step): step for step in chain(*self.statements)}.values())
 
     @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:
