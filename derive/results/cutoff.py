@@ -120,13 +120,12 @@ sliding_rate = Insert(*stated("sliding-rate"))(
 _inside = sp.Piecewise((1, sp.Ge(3 * sigma_c0 - h_0 + U_a, 0)), (0, True))
 _part = sp.Integral(_inside, (t, 0, T)) / T
 _touches = Hypothesis("the load makes contact for some time", sp.Gt(_part, 0), kind=Kind.STATE)
-_continuous = assume(CONTINUOUS)
 _law = substitute(model.wear_laws[2], substitute(model.pressure_with_cutoff, *geometry), third)
 _limit = intermittent(
     discharge(_law, ROUGH_BEARING, model.roughness_of_bearing, worn(model), third),
-    defined(d, _part, "fraction of the period in contact", _continuous, assume(_touches)),
+    defined(d, _part, "fraction of the period in contact", *map(assume, (CONTINUOUS, _touches))),
     worn(model),
-    *map(assume, (PERIODIC, CONTINUOUS, BOUNDED_LOAD)),
+    *map(assume, (PERIODIC, BOUNDED_LOAD)),
 )
 one_third = Insert(sp.Eq(u_cum, d * K_c * V * T * p_max * TANH.ratio(sp.Integer(3)) / (3 * H_c)))(
     named_limit(u_cum, _limit, ""), name="wear per cycle for f_c = 1/3"

@@ -205,7 +205,5 @@ def named_limit(symbol: sp.Expr, limit: Judgement, name: str) -> Judgement:
 
 def drift(approach: Judgement) -> Judgement:
     """Return the logarithmic drift under a periodic load, from the approach of the rate."""
-    continuous = assume(CONTINUOUS)
-    mean = defined(MEAN.lhs, MEAN.rhs, "mean of the load", continuous)
-    load = (assume(PERIODIC), continuous, mean)
-    return logarithmic_drift(approach, *load, name="logarithmic drift")
+    mean = defined(MEAN.lhs, MEAN.rhs, "mean of the load", assume(CONTINUOUS))
+    return logarithmic_drift(approach, assume(PERIODIC), mean, name="logarithmic drift")

@@ -19,7 +19,7 @@ from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import require_expansion
-from .proving import facts_of, smooth_everywhere, told, undefined
+from .proving import facts_of, integrable, smooth, smooth_everywhere, told, undefined
 from .reading import at_an_instant, clocks, fields, fixed, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -88,10 +88,13 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     terms = {term: sp.Dummy() for term in whole.atoms(Term)}
     for term in terms:
         require_expansion(term, *premises)
+    facts = facts_of(premises)
     goals = [*undefined(whole.xreplace(terms), *premises)]
+    if relation.has(sp.Derivative):  # what has a rate is continuous, or that of no field
+        goals += [goal for goal in integrable(whole, t) if goal not in facts]
     if implicit is None and sign is not None and not clocks(name):
         above = sign.relation.func
-        if not holds(above(inserted(value, premises), 0), facts_of(premises)):
+        if not holds(above(inserted(value, premises), 0), facts):
             goals.append(above(value, 0, evaluate=False))
     for goal in goals:
         if goal == sp.false or goal.has(sp.zoo, sp.Dummy):
@@ -110,7 +113,8 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
     rates = [sp.diff(now, f) * sp.Derivative(f, t) for f in fields(now)]
     change = inserted(sp.Add(*rates), premises).doit()
     varies = clocks(value) or any(d.has(t) for d in now.atoms(sp.Derivative))
-    if not clocks(name) and (varies or not is_zero(change)):
+    steps = fields(now) and not smooth(now, *fields(now))
+    if not clocks(name) and (varies or steps or not is_zero(change)):
         raise RuleError(f"missing premise: {now} is constant")
 
 

@@ -15,7 +15,7 @@ import sympy as sp
 
 from ..claims import Asymptotic
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..loads import CONTINUOUS, LOAD, PERIODIC, SINE
+from ..loads import LOAD, PERIODIC, SINE
 from ..reals import holds
 from ..symbols import symbols, t
 from ..zero import is_zero
@@ -80,7 +80,7 @@ first_order = FirstOrder()
 class LogarithmicDrift(Rule):
     """``t (du/dt - R) - a(U_a) -> 0``, a linear: ``(u - R t)/ln(t/T) -> a(<U_a>)``.
 
-    The load is periodic and integrable, as it is continuous; <U_a> is its mean over a period.
+    The load is periodic; <U_a> is its mean over a period, so that it is integrable.
     """
 
     words = "Integrate {0} over many periods: the mean adds up to a logarithm."
@@ -89,7 +89,7 @@ class LogarithmicDrift(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         approach = limit_in_time(premises[0])
-        for said in (PERIODIC.relation, MEAN, CONTINUOUS):
+        for said in (PERIODIC.relation, MEAN):
             require_hypothesis(said, *premises)
         (rate,) = approach.expr.atoms(sp.Derivative) - _laws(approach.expr)
         u, now, load = field_of_rate(rate), sp.Dummy(), sp.Dummy()

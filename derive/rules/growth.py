@@ -19,7 +19,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..loads import CONTINUOUS, LOAD, PERIODIC
+from ..loads import LOAD, PERIODIC
 from ..reals import LAW, holds
 from ..symbols import t
 from ..zero import is_zero
@@ -209,7 +209,7 @@ class Intermittent(Rule):
     """A rate ``F(u, load)`` in contact, else 0, where contact depends on the load alone.
 
     Premises: the rate, piecewise; the definition of d > 0, the fraction of the period in contact;
-    a lower bound of u; a periodic, continuous, bounded load.  F is positive and continuous, so that
+    a lower bound of u; a periodic, bounded load.  F is positive and continuous, so that
     u grows without bound, and tends to R as u -> oo: ``u(t + T) - u(t) -> d T R``.
     """
 
@@ -220,8 +220,7 @@ class Intermittent(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, part, start, *_ = premises
         (u, function), meaning, least = rate_law(law), equality(part), inequality(start)
-        for said in (PERIODIC.relation, CONTINUOUS):
-            require_hypothesis(said, *premises)
+        require_hypothesis(PERIODIC.relation, *premises)
         if least.greater != u or not fixed(least.lesser):
             raise RuleError(f"missing premise: {u} stays above a constant")
         (on, contact), *rest = sp.piecewise_fold(function).args

@@ -138,7 +138,7 @@ def _needed(
         beyond = [sp.And(*(relation(s, end) for end in ends)) for relation in (sp.Lt, sp.Gt)]
         beyond += [sp.Not(fact) for fact in _between(s, *ends, facts)]
         goals = [sp.Or(goal, *beyond) if goal.has(s) else goal for goal in goals]
-        goals += _integrable(parts[0], s)
+        goals += integrable(parts[0], s)
     return [*goals, *_need(expr)]
 
 
@@ -158,14 +158,14 @@ def _between(
     return [fact for fact in met if not fact.has(t, sp.zoo)]
 
 
-def _integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
+def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
     """Return the relations where pieces of an integrand are continuous."""
     if isinstance(body, AppliedUndef) and not isinstance(body, LAW) and body.has(s):
         now = body.func(t)
-        return [] if now in WEARING else [steady(now), *_integrable(body.args[0], s)]
+        return [] if now in WEARING else [steady(now), *integrable(body.args[0], s)]
     if body.has(s) and not isinstance(body, (*_CONTINUOUS, *_PIECES)):
         return [sp.Ne(body, sp.zoo, evaluate=False)]
-    return [goal for part in body.args for goal in _integrable(part, s)]
+    return [goal for part in body.args for goal in integrable(part, s)]
 
 
 def _need(expr: sp.Basic) -> list[sp.Basic]:

@@ -147,15 +147,15 @@ def drifting(approach: sp.Expr = APPROACH) -> Judgement:
 
 
 def drift_premises(approach: sp.Expr = APPROACH) -> tuple[Judgement, ...]:
-    mean = defined(MEAN.lhs, MEAN.rhs)
-    return tends(approach, sp.S.Zero), assume(PERIODIC), assume(CONTINUOUS), mean
+    mean = defined(MEAN.lhs, MEAN.rhs, "", assume(CONTINUOUS))
+    return tends(approach, sp.S.Zero), assume(PERIODIC), mean
 
 
 def expansion_premises(name: str = "c_1") -> tuple[Judgement, ...]:
     """Return the pressure, the load, b_0, theta, and names for c_1 and w_1."""
     pressure = steady_state().pressure_at_wear
     names = (
-        defined(symbol(called), term_of(kind, 1, pressure.claim.rhs))
+        defined(symbol(called), term_of(kind, 1, pressure.claim.rhs), "", ROUGHENS)
         for called, kind in ((name, Drift), ("w_1", Oscillation))
     )
     return pressure, assume(SINE), defined(*OFFSET.args), defined(*SATURATION.args), *names
@@ -174,5 +174,7 @@ def averaged_as(claim: sp.Expr, name: str = "c_1") -> Judgement:
 def slow_time() -> Judgement:
     """Return the slow time by the definitions of c_1 to c_4."""
     known, pressure = expansion.claim, steady_state().pressure_at_wear.claim.rhs
-    drifts = [defined(symbol(f"c_{n}"), term_of(Drift, n, pressure)) for n in (1, 2, 3, 4)]
+    drifts = [
+        defined(symbol(f"c_{n}"), term_of(Drift, n, pressure), "", ROUGHENS) for n in (1, 2, 3, 4)
+    ]
     return SlowTime(sp.Eq(known.lhs, known.rhs))(*drifts, assume(EXPANSION))

@@ -27,6 +27,7 @@ from derive.rules.assumption import assume, defined
 from derive.rules.calculus import RIGID, SPRINGS, ParameterLimit, differentiate
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
+from derive.rules.solutions import FirstRoot
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
     APART,
@@ -67,9 +68,10 @@ x, y = sp.symbols("x y", real=True)
 v = sp.Function("v", real=True)(tau)
 
 SIDES = eq(h, u_a)
+TRIVIAL = sp.Ge(h_0, 0, evaluate=False)
 ABOVE, AT_ONE, EXACTLY_ONE = gt(h, f_c), eq(f_c, 1), eq(2 * f_c, 2)
 FALLS = ParameterLimit(f_c / M, M)()
-MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)
+MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T, "", assume(CONTINUOUS))
 SOLVED = Solve(u_a)(eq(f_c * u_a, h_0), ROUGHENS)
 SPECIAL = substitute(eq(h, f_c * u_a), AT_ONE)
 SPEED = Multiply(T / q)(RATE)
@@ -147,9 +149,9 @@ FAMILIES = (
     ), {
         "neither equality nor inequality": ("is an equality or", q, ne(h, u_a)),
         "an inequality times either sign": ("f_c > 0", f_c, ge(u_a, h_0)),  # f_c = -1
-        "a factor that is no limit": ("zoo", sp.Limit(sp.sin(y), y, sp.oo)),
+        "a factor that is no limit": ("has a value", sp.Limit(sp.sin(y), y, sp.oo)),
         "a primitive": ("two ends", sp.Integral(x, x)),
-        "a factor that is no zero": ("zoo", FirstZero(y**2 + 1, y)),
+        "a factor that is no zero": ("has a value", FirstZero(y**2 + 1, y)),
         "a factor that is a rate": ("Derivative", rate("h")),  # h jumps
         "1/theta over -1 to 1, for theta > 0": ("Ne", sp.Integral(1 / theta, (theta, -1, 1)), SIDES,
             given(theta > 0)),
@@ -192,7 +194,7 @@ FAMILIES = (
         "zero is not one": ("no identity", equal(sp.log(f_c**2) - sp.log(f_c**2), 1)),
         "no equation": ("is an equality", sp.Ge(f_c, q)),
         # y = -1: imaginary
-        "a Bessel function of half an order": ("zoo",
+        "a Bessel function of half an order": ("has a value",
             equal(sp.besseli(sp.S.Half, y) + 0, sp.besseli(sp.S.Half, y))),
     }),
     Family(lambda inside, value, *known: Logarithm(equal(sp.log(inside), value))(*known), (
@@ -262,7 +264,7 @@ FAMILIES = (
     }),
     Family(forgotten, ((equal(b_0, sp.log(h_0 + 1)), sp.Gt(h_0, -1, evaluate=False)),), {
         "b_0 = ln f_c, forgotten": ("f_c > 0", equal(b_0, sp.log(f_c)), sp.Gt(f_c, 0)),  # f_c = -1
-        "a positive name": ("may be -1", equal(q, -1), sp.Ge(h_0, 0, evaluate=False)),
+        "a positive name": ("may be", equal(q, h_0 - L), sp.Ge(h_0, 0, evaluate=False)),  # q > 0
     }),
     # ---- names
     Family(lambda claim, *said: Arithmetic(claim)(*said), (
@@ -301,7 +303,42 @@ FAMILIES = (
         # one of them alone
         "two laws": ("contradict", lambda: substitute(touching(TANH), touching(EXPONENTIAL))),
     }),
-    Family(each, (lambda: defined(b_0, U_a, "", CONSTANTLY),), {
-        "t = 5, by definition": ("t is T", lambda: defined(t, sp.Integer(5))),  # t = 4
+    Family(lambda claim, *known: Arithmetic(claim)(*known), (
+        (equal(symbol("U_c"), 0), eq(2 * symbol("U_c"), 0)), (sp.Ge(u_c, -h_0), gt(u_c, 0)),
+    ), {
+        # no p > 0 is k U_c
+        "a rigid support in another spelling": ("contradict", TRIVIAL, assume(SPRINGS),
+            eq(2 * symbol("U_c"), 0)),
+        "a wear that does not begin at 0": ("contradict", TRIVIAL, START,
+            ge(u_c, h_0 + L)),
+        "a pin that wears and is as it was": ("contradict", TRIVIAL, PIN_WEARS,
+            eq(2 * u_a - h_0, h_0)),
+        "data of which there are none": ("contradict", TRIVIAL, gt(f_c**2, 1),
+            lt(sp.Abs(f_c), 1)),
+    }),
+    # ---- what a definition supposes
+    Family(lambda name, value, *known: defined(name, value, "", *known), (
+        (b_0, U_a, CONSTANTLY), (b_0, 1 / f_c), (u_cum, f_c * h_0),
+        (u_stop, FirstZero(q - y, y), FirstRoot(FirstZero(q - y, y), sp.S.One)()),
+        (b_0, forever(u_a), tends(u_a, h_0)), (b_0, sp.Integral(u_c, (t, 0, T))),
+        (U_mean, sp.Integral(U_a, (t, 0, T)) / T, assume(DIFFERENTIABLE)),
+        (U_mean, sp.Integral(h, (t, 0, T)) / T, eq(h, h_0 - u_c)),
+    ), {
+        "t = 5, by definition": ("t is T", t, sp.Integer(5)),  # t = 4
+        # u_cum > 0
+        "a positive name for what is negative": ("contradict", u_cum, -h_0),
+        "the first zero of what has none": ("has a value", u_stop, FirstZero(q + y, y)),
+        "a limit that need not exist": ("has a value", b_0, forever(U_a)),  # sin t
+        "a limit at infinity": ("has a value", b_0, forever(u_c), tends(u_c, sp.oo)),
+        "the mean of what has none": ("is continuous", U_mean, sp.Integral(U_a, (t, 0, T)) / T),
+        "the mean of a rate": ("has a value", b_0, sp.Integral(rate("u_c"), (t, 0, T))),
+        "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
+    }),
+    Family(defined_as, (
+        equal(rate("G"), u_c / T), equal(rate("G"), 0), equal(G * q, -f_c),
+    ), {
+        # a square load
+        "what has the load for its rate": ("is continuous", equal(rate("G"), U_a / T)),
+        "what has the rate of the load": ("has a value", equal(rate("G"), rate("U_a"))),
     }),
 )  # fmt: skip

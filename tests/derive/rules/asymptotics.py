@@ -67,8 +67,8 @@ def averaged(factor):
     known, sine, *constants, _, _ = expansion_premises()
     pressure = known.claim.rhs * factor
     drift, wave = (term_of(kind, 1, pressure) for kind in (Drift, Oscillation))
-    names = defined(c_1, drift), defined(w_1, wave)
-    return OrderEquation(sp.S.One)(eq(p, pressure), sine, *constants, *names, ROUGHENS)
+    names = defined(c_1, drift, "", ROUGHENS), defined(w_1, wave, "", ROUGHENS)
+    return OrderEquation(sp.S.One)(eq(p, pressure), sine, *constants, *names)
 
 
 def wave_of_wave():
@@ -85,7 +85,9 @@ def mean_of(right, mean):
 def of_another_pressure():
     *premises, _, wave = expansion_premises()
     other = premises[0].claim.rhs.subs(h_0, 2 * h_0)
-    return OrderEquation(sp.S.One)(*premises, defined(c_1, term_of(Drift, 1, other)), wave)
+    return OrderEquation(sp.S.One)(
+        *premises, defined(c_1, term_of(Drift, 1, other), "", ROUGHENS), wave
+    )
 
 
 def slow(added=sp.S.Zero, without=None, left=None):
@@ -166,7 +168,8 @@ FAMILIES = (
     Family(averaged, (1 + q,), {
         "a limit that varies with the load": ("is the limit of", 1 + U_a / (2 * U)),
         "a pressure that vanishes": ("smooth at infinity", 1 / (1 + u_c**2 / q**2)),
-        "a pressure that varies with the phase": ("at given", 1 + sp.sin(2 * sp.pi * tau) / 2),
+        "a pressure that varies with the phase": ("is the limit of",
+            1 + sp.sin(2 * sp.pi * tau) / 2),
     }),
     Family(each, (first_order_terms,), {
         "no term of the expansion": ("is of an oscillation",
@@ -184,6 +187,8 @@ FAMILIES = (
             lambda: OrderEquation(sp.Integer(2))(*expansion_premises())),
         "an oscillation for a drift": ("is constant",
             lambda: defined(c_1, term_of(Oscillation, 1, U_a))),
+        "a coefficient of what has no period": ("has the period",
+            lambda: defined(c_1, term_of(Drift, 1, 2 + sp.exp(-tau)), "", ROUGHENS)),
         "the drift of another pressure": ("the drift c_1", of_another_pressure),
         "a slow time without drifts": ("c_3 and c_4", lambda: SlowTime(sp.Eq(L, m))()),
         "drifts that vanish": ("c_3 and c_4", vanishing_drifts),

@@ -48,8 +48,8 @@ def some_of_the_time(contact=TOUCHING, on=C, off=sp.S.Zero, part=None, least=sp.
     share = (
         sp.Integral(sp.Piecewise((1, contact if part is None else part), (0, True)), (t, 0, T)) / T
     )
-    loads = assume(PERIODIC), assume(CONTINUOUS), BOUNDED
-    return intermittent(law, defined(d, share), ge(u_c, least), *loads, *facts)
+    named = defined(d, share, "", assume(CONTINUOUS))
+    return intermittent(law, named, ge(u_c, least), assume(PERIODIC), BOUNDED, *facts)
 
 
 ODD = LAW(q / u_c) - LAW(-q / u_c) - 2 * q / u_c * sp.diff(LAW(y), y).subs(y, 0)
@@ -67,7 +67,7 @@ FAMILIES = (
         "u_c = C t, one period later": ("at one time", eq(u_c, C * t)),  # C (t + T)
         # U_a = t
         "a mean over the first period": ("at one time",
-            defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)),
+            defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T, "", assume(CONTINUOUS))),
         # G = t: lim_{t->0} G(t + T) = T
         "a limit at the start": ("at one time", tends(G, theta, sp.S.Zero)),
         "the first rate": ("at one time", eq(sp.Subs(du, t, 0), C)),  # u_c = C t e^(-t/T)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.claims import FirstZero
+from derive.loads import CONTINUOUS
 from derive.rules.algebra import Insert
-from derive.rules.assumption import defined
-from derive.rules.solutions import FirstRoot, Integrated, Lambert, Separate
+from derive.rules.assumption import assume
+from derive.rules.solutions import FirstRoot, Integrated, Lambert, Separate, follows
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
     APART,
@@ -58,7 +59,7 @@ def bent(bend):
     wear, root = h_0 * (s + bend * s**2 - begin), p_max * (u_c / h_0 + begin - bend * s**2)
     slope = h_0 / (C * p_s) * (1 + 2 * bend * p_s / p_max)
     claim = equal(t, sp.Integral(slope, (p_s, initial("p"), p)))
-    return Separate(claim)(eq(du, C * s), eq(u_c, wear), eq(p, root), CONSTANTLY)
+    return Separate(claim)(eq(du, C * s), eq(u_c, wear), follows(eq(p, root), CONSTANTLY))
 
 
 def by_pin(speed, wear, *facts):
@@ -116,6 +117,19 @@ FAMILIES = (
         # from p to p_max - p, where the wear is the same
         "a pressure that may jump": ("the one root", -1),
     }),
+    Family(follows, (
+        (eq(p, p_max * (U_a - u_c) / h_0), CONSTANTLY), (eq(p, q * U_a), assume(CONTINUOUS)),
+    ), {
+        "a pressure that jumps with the load": ("U_a.* is continuous", eq(p, q * U_a)),
+    }),
+    Family(lambda *facts: Integrated(p_s - p_max * sp.log(p_max - p_s))(
+        eq(G, sp.Integral(1 + p_max / (p_max - p_s), (p_s, initial("p"), p))), *facts), (
+        (follows(eq(p, q * U_a), assume(CONTINUOUS)), given(p < p_max)),
+    ), {
+        # from p_max/2 to 2 p_max in a jump
+        "between values of a pressure that jumps": ("p_max", given(p < p_max)),
+        "beyond the largest pressure": ("p_max", follows(eq(p, q * U_a), assume(CONTINUOUS))),
+    }),
     Family(lambda primitive, body, s=p_s, low=1,
         *facts: Integrated(primitive)(eq(G, sp.Integral(body, (s, low, 2))), *facts), (
         (p_s**2 / 2, p_s), (-1 / p_s, p_s**-2),
@@ -134,9 +148,9 @@ FAMILIES = (
         "W with 0/0": ("Ne", q + sp.Abs(GAP), eq(q * sp.exp(q), theta)),
         "an exponential of another": ("w e", q, eq(q * sp.exp(h), theta)),
     }),
-    Family(lambda function,
-        factor=sp.S.One: FirstRoot(factor)(defined(u_stop, FirstZero(function, x))), (
-        h_star - x,
+    Family(lambda function, factor=sp.S.One, *facts: FirstRoot(FirstZero(function, x),
+        factor)(*facts), (
+        h_star - x, (f_c - x, sp.S.One, ROUGHENS),
     ), {
         "a cubic": ("is quadratic", h_star - x**3),
         "a pole before the root": ("Ne", (h_star - x) / (x - 1), x - 1),
@@ -144,8 +158,7 @@ FAMILIES = (
         "a start below the root": ("f_c > 0", f_c - x),
         "a factor that vanishes there": ("missing premise", h_star - x, h_star - x),
     }),
-    Family(FirstRoot(sp.S.One), (), {
-        "no first zero": ("a first zero", eq(u_stop, h_star)),
-        "a bound of a zero": ("no equality", ge(u_stop, h_star)),
+    Family(lambda zero: FirstRoot(zero, sp.S.One)(), (), {
+        "no first zero": ("is a first zero", h_star),
     }),
 )  # fmt: skip
