@@ -137,6 +137,7 @@ increment = defined(
     later(u_inf) - u_inf,
     "",
     _defined("a stabilised response", sp.Eq(later(rate("u_inf")), rate("u_inf"))),
+    assume(Hypothesis("wear goes on", sp.Gt(later(u_inf) - u_inf, 0), kind=Kind.SETTING)),
 )
 """(20): the wear of one cycle of the asymptotic response."""
 
