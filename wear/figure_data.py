@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.binding import bind
 from wear.fitting.readings import Specimen
 from wear.generated import reaction
 from wear.history import History
 from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
 

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import counted
+from wear.binding import bind
 from wear.cycles import cycles_until, sweep, wear_after
 from wear.load import Block, Blocks, Constant, Harmonics, Sine
-from wear.model import bind
 from wear.scene import Scene
 
 CYCLES = np.array([1.0, 2.0, 6.0, 20.0, 1e3, 1e5, 1e8, 1e12])
