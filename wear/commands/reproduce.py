@@ -21,7 +21,7 @@ from wear.commands import arguments
 if TYPE_CHECKING:
     from derive.verification import Verification
     from wear.report.claims import Entry
-    from wear.report.typeset import Typeset
+    from wear.report.publish import Typeset
 
 
 def add_arguments(parser: Parser) -> None:
@@ -62,9 +62,8 @@ def _reproduce(
     from derive.note.claim_checks import SYMBOLIC
     from derive.verification import checked_at, verified
     from wear.report.claims import SIMULATED, as_json, decided, ledger
-    from wear.report.manifest import manifest
     from wear.report.paper import drawings, paper
-    from wear.report.publish import published
+    from wear.report.publish import manifest, published
     from wear.report.runs import run
 
     with processes.assistant() as ask:
@@ -83,7 +82,8 @@ def _reproduce(
         contents, typeset = published(paper(catalogue, verification, runs, judged, figures))
         contents["claims.json"] = terminal.json_text(as_json(judged))
         command = f"wear reproduce -o {folder.name}"
-        contents["manifest.json"] = terminal.json_text(manifest(contents, runs, command))
+        scenes = {name: case.scene for name, case in runs.cases.items()}
+        contents["manifest.json"] = terminal.json_text(manifest(contents, scenes, command))
     return contents, verification, judged, typeset
 
 

@@ -25,15 +25,15 @@ from derive.files import write_atomically
 from derive.verification import Verification, checked, parts, verified
 from tests.wear.report import quick
 from tests.wear.report.test_html import Outline
-from wear.report import claims, reconcile
+from wear.report import claims, note
 from wear.report.document import Document
 from wear.report.html import page
 from wear.report.note import CUTOFF, required
 from wear.report.number import Number
 from wear.report.paper import paper as written
+from wear.report.publish import typeset
 from wear.report.tex import report
 from wear.report.text import inline
-from wear.report.typeset import typeset
 from wear.scene import Scene
 
 _TEXT = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
@@ -202,7 +202,7 @@ def _changed(value: Any, random: np.random.Generator) -> Any:
 
 def test_the_evidence_for_a_claim_has_no_typed_result():
     typed = re.compile(r"\d\.\d|\d[eE]-?\d|\d{3}")
-    for module in (claims, reconcile, derive.note.claim_checks):
+    for module in (claims, note, derive.note.claim_checks):
         for node in ast.walk(ast.parse(Path(module.__file__).read_text(encoding="utf-8"))):
             if isinstance(node, ast.JoinedStr):
                 words = "".join(p.value for p in node.values if isinstance(p, ast.Constant))
