@@ -44,7 +44,8 @@ if TYPE_CHECKING:
     from wear.orbit.general import count_cycles
     from wear.plots import plot, plot_pressure
     from wear.regime import Asymptote, asymptote
-    from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
+    from wear.scene import Scene, load_scene
+    from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
     from wear.sensitivities import Sensitivities, gradients, sensitivity
     from wear.solver import solve
     from wear.studies.figures import picture, ten_percent_life
@@ -65,7 +66,8 @@ _HOMES = {
     "wear.orbit.general": "count_cycles",
     "wear.plots": "plot plot_pressure",
     "wear.regime": "Asymptote asymptote",
-    "wear.scene": "Bearing Contact Motion Pin Scene Support load_scene",
+    "wear.scene": "Scene load_scene",
+    "wear.scene.tables": "Bearing Contact Motion Pin Support",
     "wear.sensitivities": "Sensitivities gradients sensitivity",
     "wear.solver": "solve",
     "wear.studies.figures": "picture ten_percent_life",

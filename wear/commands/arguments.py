@@ -53,7 +53,7 @@ def built_in_names() -> Sequence[str]:
 
 def _entries() -> Sequence[str]:
     """Return the beginnings of what `--set` takes, but for the load, whose keys vary."""
-    from wear.scene import Bearing, Contact, Motion, Pin, Support
+    from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 
     tables = (Bearing, Pin, Contact, Support, Motion)
     return [f"{table.place}.{name}=" for table in tables for name in table.entries]

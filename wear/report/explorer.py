@@ -29,7 +29,8 @@ from wear.model import bind
 from wear.parameters import AREA
 from wear.report.html import TEMPLATES, asset, style
 from wear.resampling import resampled
-from wear.scene import KEYS, Scene, builtin_names, load_scene
+from wear.scene import Scene, builtin_names, load_scene
+from wear.scene.variant import KEYS
 from wear.solver import solve
 
 CHECKED = ("section3", "section4", "section5", "section4-cutoff", "soft-support", "large-swing")
