@@ -30,7 +30,7 @@ from sympy.core.function import AppliedUndef
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
 from .language import defined_by, fault, names
-from .note.model import subject
+from .note.model import CLOSURE, subject
 from .reals import contradictory
 from .symbols import QUANTITIES, symbols, t
 from .time_limit import time_limit
@@ -233,8 +233,12 @@ def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
     """Refuse hypotheses that nothing satisfies: anything would follow from them.
 
     They hold at every time: closed relations at the start too, and where fields that wear are
-    equal, their rates are.  Of two equations of the model for one quantity no reader is told.
+    equal, their rates are.  Of two equations of the model for one quantity no reader is told,
+    nor of the first closure in (6), which contradicts (1) where the load does not begin at zero.
     """
+    of_closure = [h for h in hypotheses if h.relation.has(CLOSURE[True].lhs.func)]
+    if len(of_closure) > 1 and any(h.kind is Kind.INITIAL for h in of_closure):
+        raise RuleError("h(0) = h_0, and more is said of h: two equations of the model")
     equalities = [h for h in hypotheses if isinstance(h.relation, sp.Equality)]
     given = [subject(h.relation) for h in equalities if h.kind is Kind.MODEL]
     if len(set(given)) < len(given) or contradictory(_at_times(hypotheses)):

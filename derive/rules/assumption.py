@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -12,14 +11,13 @@ from sympy.core.function import AppliedUndef
 from ..claims import Equality, Limit, Property, Term, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
-from ..laws import r
 from ..note.model import FIELDS, belongs, law_of
-from ..reals import holds, sign
+from ..reals import holds
 from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import require_expansion
-from .proving import facts_of, integrable, smooth, smooth_everywhere, told, undefined
+from .proving import facts_of, falls, integrable, smooth, told, undefined
 from .reading import at_an_instant, clocks, fields, fixed, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -56,7 +54,7 @@ class Assume(Rule):
         if not belongs(kind, relation):
             raise RuleError(f"{said.text}: no equation of the model")
         law = law_of(relation) if kind is Kind.MODEL else None
-        if law is not None and not _falls(law):
+        if law is not None and not falls(law):
             raise RuleError(f"missing premise: {law} is positive and smooth and decreases")
         claim = Property(said.text) if relation is sp.true else claim_of(relation)
         if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
@@ -66,11 +64,6 @@ class Assume(Rule):
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         return f"Hypothesis: {self.hypothesis.text}."
-
-
-@cache
-def _falls(law: sp.Expr) -> bool:
-    return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 
 
 def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[Hypothesis, ...]:

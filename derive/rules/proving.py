@@ -14,6 +14,7 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -24,8 +25,9 @@ from ..claims import Asymptotic, Continuity, FirstZero, Limit, Property, Term, l
 from ..hypotheses import Hypothesis
 from ..kernel import WEARING, Judgement, RuleError
 from ..language import bound, certain
+from ..laws import r
 from ..loads import CONTINUOUS, DIFFERENTIABLE, LOAD
-from ..reals import LAW, holds, is_slope_of_law
+from ..reals import LAW, holds, is_slope_of_law, sign
 from ..symbols import t
 
 #: What cuts an integral into finitely many pieces, on each of which it is continuous.
@@ -101,9 +103,12 @@ def require(goal: sp.Basic, *premises: Judgement) -> None:
         raise RuleError(f"missing premise: {goal}")
 
 
-def require_defined(expr: sp.Basic, *premises: Judgement) -> None:
-    """Raise RuleError unless every part of an expression has a value under the premises."""
-    for goal in undefined(expr, *premises):
+def require_defined(expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = ()) -> None:
+    """Raise RuleError unless every part of an expression has a value under the premises.
+
+    Where it is asked near the end of a limit, ``near`` has a value there, too.
+    """
+    for goal in undefined(expr, *premises, near=near):
         raise RuleError(f"missing premise: {told(goal)}")
 
 
@@ -115,12 +120,15 @@ def told(goal: sp.Basic) -> str:
     return f"{goal.lhs} {'is continuous' if field else 'has a value'}"
 
 
-def undefined(expr: sp.Basic, *premises: Judgement) -> Iterator[sp.Basic]:
-    """Yield the relations that give parts of an expression a value and do not follow."""
-    facts = facts_of(premises)
-    for goal in _needed(expr, _parts(premises), facts):
-        if not holds(goal, facts):
-            yield goal
+def undefined(
+    expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = ()
+) -> Iterator[sp.Basic]:
+    """Yield the relations that would give every part of an expression a value, and do not follow
+    from premises, or from what gives ``near`` a value."""
+    ends = {part for whole in near for part in certain(whole)}
+    facts = facts_of(premises).union(*map(_need, ends))
+    needed = _needed(expr, _parts(premises) | ends, facts)
+    return (goal for goal in needed if not holds(goal, facts))
 
 
 def _needed(
@@ -198,15 +206,22 @@ def _need(expr: sp.Basic) -> list[sp.Basic]:
     return [unknown] if partial and not isinstance(expr, AppliedUndef) else []
 
 
-def continuous(expr: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgement) -> bool:
+def continuous(
+    expr: sp.Expr,
+    at: Mapping[sp.Basic, sp.Expr],
+    *premises: Judgement,
+    but: Collection[sp.Basic] = (),
+) -> bool:
     """Return whether an expression is continuous in some unknowns at a point.
 
-    It must be made of continuous functions, which have a value at the point and near it.
+    It must be made of continuous functions, which have a value at the point and near it; what
+    premises say of the quantities ``but`` is no fact there.
     """
     plain = {unknown: sp.Dummy(real=True) for unknown in at}
-    goals = continuity(expr.xreplace(plain), set(plain.values()), _parts(premises))
+    known = {part for part in _parts(premises) if not part.has(*but)}
+    goals = continuity(expr.xreplace(plain), set(plain.values()), known)
     points = [goal.subs({plain[unknown]: end for unknown, end in at.items()}) for goal in goals]
-    facts = facts_of(premises)
+    facts = frozenset(fact for fact in facts_of(premises) if not fact.has(*but))
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
 
 
@@ -236,6 +251,12 @@ def smooth_everywhere(expr: sp.Expr) -> bool:
     [True, False]
     """
     return smooth(expr) and all(map(holds, map(_strict, _needed(expr, ()))))
+
+
+@cache
+def falls(law: sp.Expr) -> bool:
+    """Return whether a contact law ``phi(r)`` is positive and smooth and decreases."""
+    return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 
 
 def _strict(goal: sp.Basic) -> sp.Basic:
