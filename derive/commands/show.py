@@ -39,6 +39,7 @@ def document(found: Equation) -> dict[str, Any]:
         "printed_latex": found.printed_latex or None,
         "srepr": sp.srepr(found.relation),
         "conditions": list(dict.fromkeys(c.text for c in found.conditions)),
+        "definitions": [{"text": h.text, "latex": h.latex} for h in found.definitions],
         "hypotheses": [
             {"kind": h.kind.value, "text": h.text, "latex": h.latex} for h in found.hypotheses
         ],
@@ -56,6 +57,8 @@ def _text(found: Equation) -> str:
     for claim in found.claims:
         lines += [sp.pretty(claim, **style), ""]
     lines += sentences(found.conditions)
+    for definition in found.definitions:
+        lines += ["", f"{definition.text}:", "", sp.pretty(definition.relation, **style)]
     if found.printed and not found.agrees:
         lines += ["", "as printed in the note (does not hold):", ""]
         lines += [sp.pretty(claim, **style) for claim in found.printed]

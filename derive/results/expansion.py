@@ -45,8 +45,8 @@ rho, m = symbols("rho m")
 MEANING = "sigma = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...)"
 
 _roughens = assume(ROUGHENING)
-offset = defined(*OFFSET.args, "", _roughens)
-saturation = defined(*SATURATION.args, "", _roughens)
+offset = defined(OFFSET.lhs, OFFSET.rhs, "", _roughens)
+saturation = defined(SATURATION.lhs, SATURATION.rhs, "", _roughens)
 growth = defined(rho, f_c * u_cum, "", _roughens)
 
 

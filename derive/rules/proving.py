@@ -142,9 +142,9 @@ def _needed(
     parts = tuple(part.xreplace(hidden) for part in parts)  # of these no premise speaks
     goals = [goal for part in parts for goal in _needed(part, known, facts)]
     if isinstance(expr, sp.Integral) and [len(limit) for limit in expr.limits] == [3]:
-        s, *ends = expr.xreplace(hidden).limits[0]
-        beyond = [sp.And(*(relation(s, end) for end in ends)) for relation in (sp.Lt, sp.Gt)]
-        beyond += [sp.Not(fact) for fact in _between(s, *ends, facts)]
+        s, low, high = expr.xreplace(hidden).limits[0]
+        beyond = [sp.And(relation(s, low), relation(s, high)) for relation in (sp.Lt, sp.Gt)]
+        beyond += [sp.Not(fact) for fact in _between(s, low, high, facts)]
         goals = [sp.Or(goal, *beyond) if goal.has(s) else goal for goal in goals]
         goals += integrable(parts[0], s)
     return [*goals, *_need(expr)]

@@ -123,8 +123,9 @@ def _with_wrong(name: str, place: int | None, what: int) -> Condensed:
 @pytest.mark.parametrize("what", [0, 1])
 def test_a_wrong_hypothesis_shows_in_sections_2_and_3(name, place, what):
     """What follows from a wrong hypothesis is not what the note prints, or nothing follows."""
-    model, as_printed = _with_wrong(name, place, what), False
+    as_printed = False
     with suppress(RuleError):
+        model = _with_wrong(name, place, what)
         as_printed = all(equation.agrees for equation in _sections_2_and_3(model))
     assert not as_printed
 
