@@ -11,11 +11,11 @@ import pytest
 from scipy.io import netcdf_file
 
 from wear import direct
+from wear.binding import bind
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history_files import write_inside
 from wear.inside import fields_inside
 from wear.load import Block, Blocks, Constant, Sine, Table
-from wear.model import bind
 from wear.quantities import unit_of
 from wear.scene import Scene
 from wear.solver import solve
@@ -83,11 +83,6 @@ def test_json_has_the_keys_of_the_contract(section3, compliant):
     assert json.loads(json.dumps(document, allow_nan=False)) == document
     assert document["bearing_wear_mm"] == section3.u_c.tolist()
     assert set(compliant.as_json()) == CONTRACT | {"bearing_displacement_mm"}
-
-
-def test_json_has_none_for_what_does_not_exist(section3):
-    unknown = dataclasses.replace(section3, error=np.full(4, np.nan))
-    assert unknown.as_json()["error_estimate"] == [None] * 4
 
 
 def test_csv_reads_back_exactly(section3, tmp_path):
