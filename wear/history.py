@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear import history_files
+from wear.binding import bind
 from wear.cycle_pressures import CyclePressures, cycle_pressures
 from wear.history_files import States
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.quantities import COLUMNS, columns_of, unit_of
 from wear.scene import Scene
@@ -154,10 +154,9 @@ class History:
 
     def plot(self, *, logarithmic: bool = True) -> Figure:
         """Return a Matplotlib figure of wear, roughness and pressure over the cycles."""
-        from wear.figure_data import panels_of
-        from wear.figures import history
+        from wear.plots import plot
 
-        return history(panels_of([self]), logarithmic=logarithmic)
+        return plot({"": self}, logarithmic=logarithmic)
 
     def __repr__(self) -> str:
         reached = "no cycle reached"

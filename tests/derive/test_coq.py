@@ -1,7 +1,5 @@
 """The export to Coq: what is stated, what is proved, and that wrong statements are not."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil
@@ -81,7 +79,7 @@ def test_what_is_not_closed_has_a_reason():
 
 
 def test_the_record_is_of_these_statements():
-    made = export.Export(catalogue.equations())
+    made = export.Export(catalogue.all_equations())
     assert made.unrecorded == ""
     assert len(record()) == len(made.steps)
 

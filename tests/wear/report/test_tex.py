@@ -1,7 +1,5 @@
 """LaTeX: compiles without a warning that matters, and carries the same numbers as the page."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -13,8 +11,8 @@ from derive.files import write_atomically
 from tests.wear.report.conftest import document
 from wear.report import tex
 from wear.report.document import Document, Equation
-from wear.report.tex_text import escape, verbatim
-from wear.report.typeset import typeset, warnings
+from wear.report.publish import typeset, warnings
+from wear.report.tex import escape, verbatim
 
 
 def _write(folder: Path, sources: Mapping[str, str | bytes]) -> Path:
