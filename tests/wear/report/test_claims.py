@@ -6,22 +6,10 @@ import pytest
 
 from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Verdict
-from wear.report import claims, note, reconcile
+from tests.references import VERDICTS
+from wear.report import claims, note
 from wear.report.claims import SIMULATED, as_json, ledger
 
-VERDICTS = {
-    "C16": Verdict.CONDITIONAL,
-    "C17": Verdict.NOT_REPRODUCIBLE,
-    "C33": Verdict.CONFIRMED,
-    "C34": Verdict.NOT_REPRODUCIBLE,
-    "C35": Verdict.NOT_REPRODUCIBLE,
-    "C36": Verdict.NOT_REPRODUCIBLE,
-    "C37": Verdict.NOT_REPRODUCIBLE,
-    "C38": Verdict.REFUTED,
-    "C39": Verdict.CONDITIONAL,
-    "C40": Verdict.INCONSISTENT,
-    "C41": Verdict.INCONSISTENT,
-}
 FIGURES = {
     "C16": ("0.00109746298",),
     "C17": ("cycle 491", "6.2218e-04"),
@@ -65,7 +53,7 @@ def test_true_numbers_would_be_confirmed(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_another_f_c_reconciles_the_printed_numbers() -> None:
-    found = reconcile.reconciliation()
+    found = note.reconciliation()
     assert found.value == pytest.approx(0.41729339833096945516, rel=1e-14)
     assert found.misfit == pytest.approx(-0.0040, abs=2e-4)
-    assert reconcile.slope_for_simulation() == pytest.approx(found.value, rel=1e-3)
+    assert note.slope_for_simulation() == pytest.approx(found.value, rel=1e-3)
