@@ -27,6 +27,7 @@ from .balls import (
     BITS,
     ZERO,
     Moment,
+    NoValue,
     Number,
     Undecided,
     Undefined,
@@ -96,7 +97,7 @@ class Model:
         self._known: dict[object, Number] = {}
         self._formulas: dict[tuple[sp.Expr, int], sp.Expr] = {}
         self._windows: dict[tuple[sp.Limit, int], Windows] = {}
-        self.satisfied: dict[object, bool] = {}
+        self.satisfied: dict[object, bool | None] = {}
 
     @cached_property
     def states(self) -> dict[sp.Expr, int]:
@@ -166,7 +167,7 @@ class Model:
         try:
             return compiled(expr)(Moment(self, at))
         except Undefined as reason:
-            raise Undecided(f"the model has no value for {expr}") from reason
+            raise NoValue(f"the model has no value for {expr}") from reason
 
     def formula(self, field: sp.Expr, order: int) -> sp.Expr:
         """Return what a field, or its derivative, is computed from; jumps have no slope."""

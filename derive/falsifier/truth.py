@@ -29,6 +29,7 @@ from .balls import (
     ZERO,
     Moment,
     NearZero,
+    NoValue,
     Number,
     Undecided,
     Undefined,
@@ -51,7 +52,8 @@ _COMPARED = {"==": eq, "!=": ne, "<": lt, "<=": le, ">": gt, ">=": ge}
 
 @dataclass(frozen=True)
 class Truth:
-    """Whether a relation holds in a model; None where no time decides.  ``where``: a witness."""
+    """Whether a relation holds in a model; None where no time decides.  ``where``: a witness, or
+    what has no value in the model."""
 
     holds: bool | None
     where: str = ""
@@ -175,6 +177,9 @@ def truth(relation: sp.Basic, model: Model) -> Truth:
         except (Undefined, NearZero) as reason:
             if isinstance(reason, Undefined) or number < EARLY:
                 return Truth(False, f"{when}{reason}")  # later an exponential may be that small
+        except NoValue as reason:
+            if number < EARLY:
+                return Truth(None, str(reason))
         except (ArithmeticError, ValueError, RecursionError):
             doubtful = doubtful or number < EARLY
     return Truth(True if decided and not doubtful else None)
