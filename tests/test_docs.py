@@ -1,7 +1,5 @@
 """The documentation: every code block runs, every link leads somewhere, nothing needs a network."""
 
-from __future__ import annotations
-
 import importlib.util
 import io
 import json

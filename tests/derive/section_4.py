@@ -1,7 +1,5 @@
 """Expressions with the data of the note's section 4, beside numbers found independently."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mpmath

@@ -1,7 +1,5 @@
 """The verdicts that mathematics alone reaches, and that they would change with their grounds."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest

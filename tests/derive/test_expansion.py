@@ -1,7 +1,5 @@
 """The long-time expansion: its order by the fall of what it leaves, on histories to 24 digits."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import mpmath

@@ -1,7 +1,5 @@
 """Sensitivities and identification against the reference values of section 4."""
 
-from __future__ import annotations
-
 import pytest
 import sympy as sp
 

@@ -1,7 +1,5 @@
 """Section 4 and what replaces its false steps, against numbers that were found independently."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import mpmath

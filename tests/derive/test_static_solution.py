@@ -1,7 +1,5 @@
 """The static solutions against reference values of 18 to 38 digits."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import mpmath

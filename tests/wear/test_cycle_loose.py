@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from tests.judges import honest
 from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import counted
+from wear.binding import bind
 from wear.cycles import cycles_until, sweep, wear_after
 from wear.load import Block, Blocks, Constant, Harmonics, Sine
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
 

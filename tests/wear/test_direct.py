@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from wear import direct
 from wear.benchmark.methods import with_defaults
+from wear.binding import bind
 from wear.direct.problem import Setting, problem, widest_step
 from wear.direct.step import Meter, leg
 from wear.load import Constant, Sine
-from wear.model import bind
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 

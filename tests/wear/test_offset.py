@@ -1,7 +1,5 @@
 """The offset B: reference values, and the steady state read off the count of cycles."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Long-time behaviour: published values, every regime, and agreement with the solver."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

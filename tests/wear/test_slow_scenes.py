@@ -14,9 +14,9 @@ from tests.references import DATA
 from tests.wear.test_cycle_count import between
 from tests.wear.test_cycle_cutoff import loads, supported, with_load
 from wear import cycles as count
+from wear.binding import bind
 from wear.faults import AccuracyError
 from wear.load import Sine, Table
-from wear.model import bind
 from wear.regime import asymptote
 from wear.scene import Scene
 from wear.solver import solve

@@ -1,7 +1,5 @@
 """The ledger: the verdicts that need the note's scenes, their figures, and that they can change."""
 
-from __future__ import annotations
-
 import pytest
 
 from derive.note.claim_checks import SYMBOLIC
