@@ -19,6 +19,7 @@ import numpy as np
 from wear.loss_of_contact.requests import COARSE, Asking, Request
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.rows import take
 from wear.orbit.abel import Frame
 from wear.orbit.iterates import cell_of
 from wear.orbit.panels import CHECKS, SPLIT
@@ -84,7 +85,7 @@ class Increments(NamedTuple):
     def _located(self, z: FloatArray) -> tuple[IntArray, FloatArray]:
         """Return the panel that holds each z (k,), or the nearest, and the position on it."""
         i = cell_of(self.frame.starts, z)
-        return i, self.frame.take(i).positions(z[:, None])[:, 0]
+        return i, take(self.frame, i).positions(z[:, None])[:, 0]
 
     def at(self, z: FloatArray) -> FloatArray:
         """Return the wear (mm) that a cycle adds from each z (any shape)."""

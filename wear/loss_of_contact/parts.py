@@ -12,6 +12,7 @@ from wear.loss_of_contact.plan import Problem
 from wear.loss_of_contact.roundoff import Roundoff
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray
+from wear.numerics.rows import take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
@@ -117,7 +118,7 @@ class OnPanels(NamedTuple):
             misfit[table.u >= self.series.frame.starts[-1]] = 0.0  # there the residual says it all
         missed = SAFETY * (np.repeat(self.residual, parts) + misfit) * table.gain + table.missed
         if len(panels.series) > 1:
-            apart = abel.matching_defect(panels.take(slice(-1)), panels.take(slice(1, None)))
+            apart = abel.matching_defect(take(panels, slice(-1)), take(panels, slice(1, None)))
             missed[parts - 1 : -1 : parts] += SAFETY * apart
         terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
         of_density = ROUNDOFF * np.repeat(terms, parts)

@@ -29,6 +29,7 @@ from wear.numerics.gauss import (
     integral,
     mesh,
     running,
+    running_integral,
 )
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
@@ -64,11 +65,13 @@ class SplittableRates(Rates, Protocol):
 
 class InitialGuess(NamedTuple):
     """An approximate solution: the `increment` at the nodes (..., k, q, m), and the `rate` (same
-    shape, per unit of time) at states that are less by `shift` (broadcasts) than they will be."""
+    shape, per unit of time) at states that are less by `shift` (broadcasts) than they will be; the
+    expected `contraction` (..., k) of the error by the first step from it."""
 
     increment: FloatArray
     rate: FloatArray
     shift: FloatArray
+    contraction: FloatArray
 
 
 class CycleSolution(NamedTuple):
@@ -84,22 +87,12 @@ class CycleSolution(NamedTuple):
     converged: BoolArray
     iteration_error: FloatArray
 
-    def take(self, which: IntArray) -> CycleSolution:
-        """Return the solution of some scenes."""
-        return CycleSolution(
-            self.increment[which],
-            self.inside[which],
-            self.rate[which],
-            self.evaluations,
-            self.converged[which],
-            self.iteration_error[which],
-        )
-
     def guess(self, m: int) -> InitialGuess:
         """Return this solution as a guess for `m` nodes on each interval."""
         matrix = between_nodes(self.inside.shape[-1], m)
         shift = np.zeros_like(self.inside[..., :1, :1])
-        return InitialGuess(self.inside @ matrix, self.rate @ matrix, shift)
+        unknown = np.ones(self.inside.shape[:-2])
+        return InitialGuess(self.inside @ matrix, self.rate @ matrix, shift, unknown)
 
 
 def solve(
@@ -131,18 +124,14 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
     lengths, u = rates.over.lengths[..., None], starts[..., None, None]
     evaluations = 0
     if guess is None:
-        before = rates.rate_per_interval(u)
-        evaluations = before.size
-        v, contraction = _damped_guess(starts, running(before))
-        shift = v
-    else:
-        v, before, shift = guess.increment, guess.rate * lengths, guess.shift
-        contraction = np.ones(starts.shape)
+        guess = guess_without_feedback(starts, rates.rate_per_interval(u) / lengths, rates.over)
+        evaluations = guess.rate.size
+    v, before, shift, contraction = guess._replace(rate=guess.rate * lengths)
     inside, rate_found, error = np.empty_like(v), np.empty_like(v), np.empty(starts.shape)
-    active, last = starts.shape[-1], None
+    active, last, expected = starts.shape[-1], None, before
     for iteration in range(MOST_ITERATIONS):
         state = u + v
-        rate = rates.rate_per_interval(state, before)
+        rate = rates.rate_per_interval(state, expected)
         evaluations += rate.size
         slope = rate - before
         slope *= shift
@@ -153,12 +142,12 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
         residual -= v
         step = _linear_solution(slope, residual)
         v = v + step
+        slope *= step
+        expected = rate + slope
         change = np.max(np.abs(step).reshape(*step.shape[:-2], -1), axis=-1)
         change /= np.abs(v[..., -1, -1]) + TINY
-        if last is not None:
-            contraction = change / last
-        elif guess is None:
-            contraction = np.maximum(contraction, change)  # the prediction may be too good
+        # The prediction for the first step may be too good.
+        contraction = np.maximum(contraction, change) if last is None else change / last
         predicted = change * np.minimum(contraction, 1.0)
         done = predicted <= rates.tolerance
         if iteration > PATIENCE:
@@ -168,11 +157,10 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
         if left < active:
             error[..., left:active] = predicted[..., left:]
             inside[..., left:active, :, :] = v[..., left:, :, :]
-            part = (..., slice(left, None), slice(None), slice(None))
-            rate_found[..., left:active, :, :] = (rate[part] + slope[part] * step[part]) / lengths
+            rate_found[..., left:active, :, :] = expected[..., left:, :, :] / lengths
         if left == 0:
             break
-        v, before, shift, u = (x[..., :left, :, :] for x in (v, rate, step, u))
+        v, before, shift, u, expected = (x[..., :left, :, :] for x in (v, rate, step, u, expected))
         last, active = np.minimum(change, 1.0)[..., :left] + TINY, left
     converged = np.all(error <= rates.tolerance, axis=-1)[..., None]
     everywhere = np.repeat(converged, lengths.shape[-2], axis=-1)
@@ -180,14 +168,14 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
     return CycleSolution(increment, inside, rate_found, evaluations, everywhere, error)
 
 
-def _damped_guess(starts: FloatArray, frozen: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the increments from the `starts` (..., k), estimated from those without feedback,
-    `frozen` (..., k, q, m), and the expected contraction of the first step (..., k), zero where
-    that is not known.
+def guess_without_feedback(starts: FloatArray, rate: FloatArray, over: Mesh) -> InitialGuess:
+    """Return a guess from the `rate` (..., k, q, m) that there would be at the states (..., k) of
+    the `starts`.
 
     If the rate fell by a factor e over the increment 1/a, the increment would be
     ln(1 + a frozen)/a.
     """
+    frozen = running_integral(rate, over)
     ends = frozen[..., -1, -1]
     feedback = np.zeros(starts.shape)
     if starts.shape[-1] > 2:
@@ -198,7 +186,8 @@ def _damped_guess(starts: FloatArray, frozen: FloatArray) -> tuple[FloatArray, F
         feedback[~np.isfinite(feedback)] = 0.0
         np.clip(feedback, -1.0, 20.0, out=feedback)
     shape = (feedback / (2 * ends + TINY))[..., None, None]
-    return frozen / (1.0 + shape * frozen), feedback**2
+    increment = frozen / (1.0 + shape * frozen)
+    return InitialGuess(increment, rate, increment, feedback**2)
 
 
 def _linear_solution(slope: FloatArray, residual: FloatArray) -> FloatArray:

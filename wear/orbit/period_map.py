@@ -22,12 +22,14 @@ from wear.numerics.collocation import (
     CycleSolution,
     InitialGuess,
     endpoint_defect,
+    guess_without_feedback,
     solve,
     truncation_error,
     unresolved,
 )
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
 from wear.numerics.initial_value import SAFETY, Rules, StoppedError, integrate
+from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase do not show what they miss
@@ -158,21 +160,31 @@ class PeriodMap(NamedTuple):
         known = None if near is None else near / lengths
         return self.equation.rate(u, self.forcing, known) * lengths
 
-    def advance(self, starts: FloatArray, guess: InitialGuess | None = None) -> CycleSolution:
-        """Return the increments of a cycle from each start (scenes, k)."""
+    def advance(
+        self,
+        starts: FloatArray,
+        guess: InitialGuess | None = None,
+        frozen: FloatArray | None = None,
+    ) -> CycleSolution:
+        """Return the increments of a cycle from each start (scenes, k), from a guess or from the
+        rate without feedback, `frozen` (scenes, k, q, m), if one of them is known."""
         runs = []
         for some in self._in_cache(starts):
-            near = None if guess is None else InitialGuess(*(array[some] for array in guess))
-            runs.append(solve(self.take(some), starts[some], near))
-        return joined(runs)
+            part, near = self.take(some), None if guess is None else take(guess, some)
+            if frozen is not None:
+                near = guess_without_feedback(starts[some], frozen[some], part.over)
+            runs.append(solve(part, starts[some], near))
+        return stacked(runs)._replace(evaluations=sum(run.evaluations for run in runs))
+
+    def rate_without_feedback(self, u: FloatArray) -> FloatArray:
+        """Return the rate (scenes, k, q, m) in cycles if it stayed that at each state (scenes, k)
+        of their starts."""
+        parts = [self.take(some).rate(u[some, :, None, None]) for some in self._in_cache(u)]
+        return np.concatenate(parts)
 
     def increment_without_feedback(self, u: FloatArray) -> FloatArray:
-        """Return the increments (scenes, k) if the rate stayed that at each state (scenes, k)."""
-        parts = []
-        for some in self._in_cache(u):
-            part = self.take(some)
-            parts.append(integral(part.rate(u[some, :, None, None]), part.over))
-        return np.concatenate(parts)
+        """Return what cycles with that rate would add (scenes, k)."""
+        return integral(self.rate_without_feedback(u), self.over)
 
     def consecutive(self, starts: FloatArray, number: int) -> CycleSolution:
         """Return so many cycles on end from each start (scenes,), all at once on copies of the
@@ -287,20 +299,6 @@ def period_map(
     return PeriodMap(equation, over, equation.forcing(over.phases), tolerance)
 
 
-def joined(runs: Sequence[CycleSolution]) -> CycleSolution:
-    """Return the solutions of some scenes after the other."""
-    if len(runs) == 1:
-        return runs[0]
-    return CycleSolution(
-        np.concatenate([run.increment for run in runs]),
-        np.concatenate([run.inside for run in runs]),
-        np.concatenate([run.rate for run in runs]),
-        sum(run.evaluations for run in runs),
-        np.concatenate([run.converged for run in runs]),
-        np.concatenate([run.iteration_error for run in runs]),
-    )
-
-
 def by_size(breakpoints: Sequence[FloatArray]) -> Iterator[tuple[IntArray, FloatArray]]:
     """Return the scenes grouped by their number of breakpoints (q + 1,), and these as edges."""
     sizes = np.array([len(edges) for edges in breakpoints])
@@ -323,12 +321,8 @@ def resolved(
         which, edges = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
         scenes = equation.take(which)
         found = period_map(scenes, edges, size.phase_nodes, size.iteration_tolerance)
-        marks = []
-        for some in found._in_cache(states):
-            part = found.take(some)
-            rate = part.rate(states[which[some], :, None, None])
-            marks.append(unresolved(rate, part.over, size.phase_tolerance))
-        marked = np.concatenate(marks)
+        rate = found.rate_without_feedback(states[which])
+        marked = unresolved(rate, found.over, size.phase_tolerance)
         if found.full:
             marked[:] = False
         calm = np.flatnonzero(~marked.any(axis=1))

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.rows import take
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import PeriodMap, Settings
 
@@ -39,10 +40,6 @@ class Transient(NamedTuple):
     def last_increment(self) -> FloatArray:
         """Return what the last cycle has added (s,)."""
         return self.states[:, -1] - self.states[:, -2]
-
-    def take(self, which: IntArray) -> Transient:
-        """Return some of the scenes."""
-        return Transient(*(array[which] for array in self))
 
     def then(self, increment: FloatArray, *each: FloatArray) -> Transient:
         """Return some cycles more (s, j)."""
@@ -94,7 +91,7 @@ def extended(
         which = np.array([i])
         alone = maps.take(which)
         *cycle, evaluations = alone.violent_cycle(float(begun.last[i]), float(limit[i]), size)
-        more = begun.take(which).then(*(np.array([[value]]) for value in cycle))
+        more = take(begun, which).then(*(np.array([[value]]) for value in cycle))
         yield Extended(which, alone, more, evaluations, BLOCK + 1)
     marked = maps.unresolved(starts, run, size) & sound[:, None]
     if maps.full:
@@ -102,7 +99,7 @@ def extended(
     calm = np.flatnonzero(sound & ~marked.any(axis=1))
     evaluations = run.evaluations
     if len(calm):
-        some, found, starts = maps.take(calm), run.take(calm), starts[calm]
+        some, found, starts = maps.take(calm), take(run, calm), starts[calm]
         fine = some.finer(size)
         judge = fine.advance(starts, found.guess(size.finer_nodes))
         evaluations += judge.evaluations
@@ -118,11 +115,11 @@ def extended(
         each = found.increment, missed, derivative, some.response(found.increment, derivative)
         good = np.flatnonzero(~coarse)
         if len(good):
-            more = begun.take(calm[good]).then(*(array[good] for array in each))
+            more = take(begun, calm[good]).then(*(array[good] for array in each))
             yield Extended(calm[good], some.take(good), more, evaluations, 2 * BLOCK * len(calm))
             evaluations = 0
     rest = np.flatnonzero(marked.any(axis=1))
     for which, finer in maps.take(rest).refined(marked[rest]) if len(rest) else ():
         group = rest[which]
-        yield Extended(group, finer, begun.take(group), evaluations, 0)
+        yield Extended(group, finer, take(begun, group), evaluations, 0)
         evaluations = 0
