@@ -226,7 +226,9 @@ class Jobs:
 
     def _transient_error(self, which: IntArray, transient: Transient) -> FloatArray:
         """Return the errors (s, k + 1) of the integrated cycles."""
-        rounding = self.problem.take(which).roundoff(transient.states)
+        rounding = np.empty(transient.states.shape)
+        if transient.cycles:
+            rounding = self.problem.take(which).roundoff(transient.states)
         start_error = self.request.start_error[which]
         return transient.error(start_error, np.maximum(rounding[:, 1:], rounding[:, :-1]))
 

@@ -142,7 +142,7 @@ def _judged(
     short = _cycles_if_cut(taken, share) < size.panel_nodes
     evaluations = ahead.evaluations + judge.evaluations
     increments = ahead.increment.size + judge.increment.size
-    marked: BoolArray = ~ahead.converged
+    marked = np.asarray(~ahead.converged)
     hazy = np.flatnonzero(by_phase > allowed)
     if len(hazy):
         shares = allowed[hazy, None, None] / (TAIL_SHARE * marked.shape[1])
@@ -155,10 +155,12 @@ def _judged(
         increments += again.increment.size
         apart = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
         # Only what the two maps differ by is a fault of the phase.
-        at_fault = ~(apart < np.maximum(allowed[worst] / 4, residual[worst] / 10))[:, None]
+        at_fault = np.asarray(apart >= np.maximum(allowed[worst] / 4, residual[worst] / 10))[
+            :, None
+        ]
         rough = at_fault & some.unresolved_phase(again.rate, size.phase_tolerance)
         marked[worst] |= rough
-        marked[worst] |= at_fault & ~marked[worst].any(axis=1)[:, None]
+        marked[worst] |= at_fault & ~np.any(marked[worst], axis=1, keepdims=True)
     kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()
     panels = SolvedPanels(scene, density, residual, short, kept)
     return Judged(panels, share, marked, evaluations, increments)
