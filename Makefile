@@ -25,7 +25,7 @@ test: $(VENV)/installed-test ## run all checks: style, types, import walls, test
 	$(BIN)/ruff format --check || status=1; \
 	$(BIN)/lint-imports --no-logo || status=1; \
 	$(BIN)/mypy & types=$$!; \
-	$(BIN)/python -m pytest -n 2 --dist worksteal || status=1; \
+	$(BIN)/python -m pytest -n 2 || status=1; \
 	wait $$types || status=1; \
 	exit $$status
 

@@ -13,12 +13,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .catalogue import equation
+    from .catalogue import all_equations, equation
     from .verification import verify
 
-__all__ = ["equation", "verify"]
+__all__ = ["all_equations", "equation", "verify"]
 
-_HOMES = {"equation": "catalogue", "verify": "verification"}
+_HOMES = {"all_equations": "catalogue", "equation": "catalogue", "verify": "verification"}
 
 
 def __getattr__(name: str) -> Any:

@@ -54,7 +54,7 @@ class UnknownEquationError(KeyError):
         return str(self.args[0])
 
 
-def equations() -> tuple[Equation, ...]:
+def all_equations() -> tuple[Equation, ...]:
     """Return the note's equations in their order, then the results beyond it."""
     return (*_of_the_note().values(), *map(_beyond, _MODULES))
 

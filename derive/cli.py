@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 
 from derive import command_line, terminal
@@ -23,7 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return command_line.main(parser(), arguments, {UsageError: terminal.USAGE})
 
 
-def parser() -> argparse.ArgumentParser:
+def parser() -> command_line.Parser:
     """Return the parser of the whole command line."""
     description = "The equations of wear under cyclic contact, derived and checked by machine."
     return command_line.parser("derive", description, EXAMPLES, COMMANDS)

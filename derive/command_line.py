@@ -1,10 +1,9 @@
 """Command lines of several commands: what one is, and the parser of all of them.
 
 Overview
-    A command is a module that has its name.  ``SUMMARY`` says what it does, in a line, and
-    ``EXAMPLE`` shows command lines below its help; ``add_arguments(parser)`` declares its
-    arguments, but for `--json`, which all have; ``execute(options)`` does the work and returns an
-    ``Answer``.
+    A command is a module that has its name.  Its docstring is its help: what it does, in a line,
+    and examples; ``add_arguments(parser)`` declares its arguments, but for `--json`, which all
+    have; ``execute(options)`` does the work and returns an ``Answer``.
 Key results
     Answer     what a command has to say
     Parser     gathers the faults of arguments
@@ -27,6 +26,9 @@ from types import ModuleType
 from typing import Any
 
 from derive import completion, terminal
+
+Options = argparse.Namespace
+"""The values of the arguments of a command, by their names."""
 
 OF_THE_REPORT = ("matplotlib", "math_core", "markdown_it")
 """What only figures and reports need: the extra `report`."""
@@ -107,7 +109,7 @@ def declare(
         completion.suggest(action, words)
 
 
-def parser(program: str, description: str, examples: str, names: str) -> argparse.ArgumentParser:
+def parser(program: str, description: str, examples: str, names: str) -> Parser:
     """Return the parser of a whole command line, of the commands with these `names` in the modules
     of `program.commands`."""
     whole = Parser(
@@ -121,11 +123,13 @@ def parser(program: str, description: str, examples: str, names: str) -> argpars
     branches = whole.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name in names.split():
         command: Any = import_module(f"{program}.commands.{name}")
+        about, _, examples = command.__doc__.partition(".\n\n")
+        summary = about.partition(": ")[2]
         branch = branches.add_parser(
             name_of(command),
-            help=command.SUMMARY,
-            description=f"{command.SUMMARY[0].upper()}{command.SUMMARY[1:]}.",
-            epilog=f"examples:\n{command.EXAMPLE}",
+            help=summary,
+            description=f"{summary[0].upper()}{summary[1:]}.",
+            epilog=examples,
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )

@@ -26,7 +26,7 @@ from sympy.core.function import AppliedUndef
 
 from .claims import Limit
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, domain, plain
+from .kernel import Judgement, chain, domain, identity, plain
 from .language import certain, names
 from .rules.assumption import Assume
 from .rules.proving import holds, needs
@@ -159,8 +159,8 @@ class Equation:
 
     @property
     def steps(self) -> tuple[Judgement, ...]:
-        """Return the chain of statements from the governing equations to this one."""
-        return chain(*self.statements)
+        """Return the chain of statements from the governing equations to this one, each once."""
+        return tuple({identity(step): step for step in chain(*self.statements)}.values())
 
     @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:

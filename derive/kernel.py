@@ -276,6 +276,12 @@ def replayed(judgement: Judgement) -> str | None:
     )
 
 
+def identity(step: Judgement) -> Hashable:
+    """Return what makes two steps the same."""
+    parents = tuple((parent.hypotheses, parent.claim) for parent in step.parents)
+    return (step.rule, step.hypotheses, step.claim, parents)
+
+
 def chain(*judgements: Judgement) -> tuple[Judgement, ...]:
     """Return the judgements and all that they rest on, each once, premises first.
 

@@ -89,9 +89,9 @@ def _reason(identifier: str, statement: Judgement, condition: Hypothesis) -> Rea
 
 def main() -> None:
     """Write the table of the note's equations anew."""
-    from .catalogue import equations
+    from .catalogue import all_equations
 
-    of_the_note = [found for found in equations() if found.id[0].isdigit()]
+    of_the_note = [found for found in all_equations() if found.id[0].isdigit()]
     rows = [asdict(row) for row in renewed(of_the_note, table() if TABLE.exists() else ())]
     TABLE.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 

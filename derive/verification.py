@@ -16,10 +16,10 @@ from dataclasses import dataclass
 from functools import cache, partial
 from typing import NamedTuple
 
-from .catalogue import equation, equations
+from .catalogue import all_equations, equation
 from .check import Check, checks, on_models, reasons_of
 from .equations import Equation, Status
-from .kernel import Judgement
+from .kernel import Judgement, identity
 
 
 @dataclass(frozen=True)
@@ -80,20 +80,13 @@ class Outcome(NamedTuple):
     steps: tuple[tuple[Check, ...], ...]
 
 
-def identity(step: Judgement) -> Hashable:
-    """Return what makes two steps the same."""
-    parents = tuple((parent.hypotheses, parent.claim) for parent in step.parents)
-    return (step.rule, step.hypotheses, step.claim, parents)
-
-
 def parts(equations: Sequence[Equation]) -> list[Part]:
     """Return the work of checking equations, nothing twice."""
     claimed = frozenset(identity(claim) for each in equations for claim in each.statements)
     seen: set[Hashable] = set()
     found = []
     for one in equations:
-        steps = {identity(step): step for step in one.steps}
-        new = {key: step for key, step in steps.items() if key not in seen}
+        new = {key: step for step in one.steps if (key := identity(step)) not in seen}
         seen |= new.keys()
         found.append(Part(one, new, claimed & new.keys()))
     return found
@@ -117,7 +110,7 @@ def checked_at(place: int) -> Outcome:
 
 @cache
 def _catalogue() -> list[Part]:
-    return parts(equations())
+    return parts(all_equations())
 
 
 def _by_step(work: Sequence[Part], found: Sequence[Outcome]) -> dict[Hashable, tuple[Check, ...]]:
@@ -154,7 +147,7 @@ def verify(
     takes minutes.
     """
     named = (identifiers,) if isinstance(identifiers, str) else identifiers
-    chosen = [equation(identifier) for identifier in named] or list(equations())
+    chosen = [equation(identifier) for identifier in named] or list(all_equations())
     work = [part._replace(claimed=frozenset(part.steps)) for part in parts(chosen)]
     found = []
     for number, part in enumerate(work):

@@ -40,9 +40,7 @@ print("every check passed:", verdict.passed)
 # Not every equation of the note survives that. Those that do not hold as printed:
 
 # %%
-from derive.catalogue import equations
-
-for found in equations():
+for found in derive.all_equations():
     if found.status.value == "corrected":
         print(f"({found.id})  {found.remark}")
 
@@ -98,11 +96,13 @@ print("growth per decade, as a multiple of A ln 10:")
 print(*(f"{step:.4f}" for step in steps))
 
 # %% What is left of the wear without the straight line, over the logarithm of the cycles
-from wear.figure_data import WEAR, Line, Panel
-from wear.figures import history as drawn
+from matplotlib.figure import Figure
 
-shown = Line("left of $u_c$", cycles.astype(float), left)
-drawn([Panel(WEAR, (shown,))], logarithmic=True)
+drawn = Figure((5.0, 3.0), layout="constrained")
+axes = drawn.subplots()
+axes.semilogx(cycles, 1e3 * left, "o-")
+axes.set(xlabel="Cycles $N$", ylabel="$u_c$ without the line (µm)")
+drawn
 
 # %% [markdown]
 # ## Many scenes at once

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
+from xdist.remote import Producer
+from xdist.scheduler import LoadScopeScheduling
 
 from tests.browser import Page, browser
 
@@ -40,19 +42,39 @@ def _need_tool(*names: str) -> str:
     pytest.skip(reason)
 
 
-#: Where the paper is written or the whole catalogue is derived, dearest first.
-_OF_THE_CATALOGUE = ("tests/wear/report/", "tests/wear/test_cli_re", "tests/test_", "tests/derive/")
+#: Tests of the paper, of the ledger that it quotes and of the browser that shows it.
+_OF_THE_PAPER = (
+    "tests/wear/report/",
+    "tests/derive/test_claims.py",
+    "tests/test_docs.py",
+    "tests/wear/test_cli_re",
+    "tests/wear/test_explorer.py",
+)
+_DEAREST = (*_OF_THE_PAPER, "tests/derive/", "tests/wear/test_study.py", "tests/wear/test_bench")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put the tests that need the catalogue first: of two processes one begins with them, and the
-    other, which need not derive it, with the rest."""
+    """Put the files that take longest first, so that all processes end at about the same time."""
 
     def place(item: pytest.Item) -> int:
-        starts = map(item.nodeid.startswith, _OF_THE_CATALOGUE)
-        return next((n for n, here in enumerate(starts) if here), len(_OF_THE_CATALOGUE))
+        starts = map(item.nodeid.startswith, _DEAREST)
+        return next((n for n, here in enumerate(starts) if here), len(_DEAREST))
 
     items.sort(key=place)
+
+
+class _ByFile(LoadScopeScheduling):
+    """Give all tests of a file to one process, which makes once what they share; the tests of the
+    paper count as one file. (Marks of groups do not reach pytest-xdist 3.8 from pytest 9.2.)"""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return "paper" if nodeid.startswith(_OF_THE_PAPER) else nodeid.split("::")[0]
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> _ByFile:
+    """Return how tests are shared among processes: by file, in the order of collection."""
+    config.option.loadscopereorder = False
+    return _ByFile(config, log)
 
 
 @pytest.fixture(scope="session")

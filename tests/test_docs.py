@@ -200,6 +200,16 @@ def test_every_example_is_used():
     assert not unused
 
 
+def test_examples_need_no_more_than_the_two_packages():
+    found = [
+        f"{name_of(page)}: {line}"
+        for page in (*PAGES, *SCRIPTS)
+        for line in page.read_text(encoding="utf-8").splitlines()
+        if re.search(r"^\W*(?:from|import) (?:wear|derive)\.", line)
+    ]
+    report("\n".join(found))
+
+
 @pytest.mark.usefixtures("workplace")
 @pytest.mark.parametrize("script", SCRIPTS, ids=name_of)
 def test_a_notebook_is_what_its_script_gives(script, need_tool):

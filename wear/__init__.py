@@ -42,8 +42,10 @@ if TYPE_CHECKING:
     )
     from wear.model import bind, bind_many
     from wear.orbit.general import count_cycles
+    from wear.plots import plot, plot_pressure
     from wear.regime import Asymptote, asymptote
-    from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
+    from wear.scene import Scene, load_scene
+    from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
     from wear.sensitivities import Sensitivities, gradients, sensitivity
     from wear.solver import solve
     from wear.studies.figures import picture, ten_percent_life
@@ -62,8 +64,10 @@ _HOMES = {
     "wear.load": "Block Blocks Constant Force ForceTable Harmonics HistoryLoad Sine Table",
     "wear.model": "bind bind_many",
     "wear.orbit.general": "count_cycles",
+    "wear.plots": "plot plot_pressure",
     "wear.regime": "Asymptote asymptote",
-    "wear.scene": "Bearing Contact Motion Pin Scene Support load_scene",
+    "wear.scene": "Scene load_scene",
+    "wear.scene.tables": "Bearing Contact Motion Pin Support",
     "wear.sensitivities": "Sensitivities gradients sensitivity",
     "wear.solver": "solve",
     "wear.studies.figures": "picture ten_percent_life",
@@ -78,8 +82,8 @@ __all__ = [
     "Motion", "Pin", "Reached", "Scene", "SceneError", "Sensitivities", "Sine", "Specimen",
     "Support", "Table", "UsageError", "WearError", "WorkersLost", "asymptote", "bind",
     "bind_many", "count_cycles", "cycles_to_depth", "cycles_until", "fields_inside", "fit",
-    "gradients", "load_scene", "picture", "posterior", "read_readings", "sensitivity",
-    "sobol_indices", "solve", "study", "sweep", "ten_percent_life",
+    "gradients", "load_scene", "picture", "plot", "plot_pressure", "posterior", "read_readings",
+    "sensitivity", "sobol_indices", "solve", "study", "sweep", "ten_percent_life",
 ]  # fmt: skip
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 
 from derive import command_line, terminal
@@ -34,7 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return command_line.main(parser(), arguments, EXPECTED)
 
 
-def parser() -> argparse.ArgumentParser:
+def parser() -> command_line.Parser:
     """Return the parser of the whole command line."""
     description = "Wear of bearings under cyclic contact, for any number of cycles."
     return command_line.parser("wear", description, EXAMPLES, COMMANDS)

@@ -39,15 +39,8 @@ class Line:
     family: int = 0
     variant: int = 0
 
-    def positive(self) -> Line:
-        """Return the part that a logarithmic axis can show."""
-        return self._where(self.x > 0.0)
-
-    def pressed(self) -> Line:
-        """Return the part with values above zero."""
-        return self._where(self.y > 0.0)
-
-    def _where(self, shown: NDArray[np.bool_]) -> Line:
+    def where(self, shown: NDArray[np.bool_]) -> Line:
+        """Return the part that is shown (n,), by a logarithmic axis say."""
         return replace(self, x=self.x[shown], y=self.y[shown])
 
 
@@ -183,7 +176,7 @@ def points_of(
 
 def spans_decades(lines: Sequence[Line]) -> bool:
     """Return whether all values after the fresh state are positive and span two decades or more."""
-    values = np.concatenate([line.positive().y for line in lines])
+    values = np.concatenate([line.y[line.x > 0.0] for line in lines])
     return bool(values.min() > 0.0 and values.max() >= 100.0 * values.min())
 
 

@@ -18,7 +18,6 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
@@ -27,7 +26,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
-from matplotlib.typing import ColorType, LineStyleType
+from matplotlib.typing import LineStyleType
+from scipy.optimize import isotonic_regression
 
 from wear.numerics.gauss import FloatArray
 
@@ -42,6 +42,7 @@ GREY = "#6b7480"
 HALO = withStroke(linewidth=2.0, foreground=PAPER)
 """Keeps names legible on top of lines and colours."""
 
+LEAST_GAP = 0.08  # between the names of lines, of the height of the axes
 _MILLIMETRES_PER_INCH = 25.4
 _SETTINGS = mpl.rc_params_from_file(
     str(files("wear").joinpath("data", "wear.mplstyle")), use_default_template=False
@@ -55,15 +56,8 @@ _FORMATS: Mapping[str, dict[str, Any]] = {
 }
 
 
-@dataclass(frozen=True)
-class Stroke:
-    """How a line is drawn."""
-
-    colour: ColorType
-    marker: str
-    dash: LineStyleType
-    face: ColorType
-
+Stroke = dict[str, Any]
+"""How a line is drawn: its color, linestyle, marker and markerfacecolor, as matplotlib has them."""
 
 _FAMILIES: tuple[tuple[str, str], ...] = (
     ("#0072B2", "o"),
@@ -81,7 +75,8 @@ def stroke(family: int, variant: int = 0) -> Stroke:
     """Colour and marker by family (seven, then again), dash by variant (solid, dashed, dotted);
     the markers of variants are hollow."""
     colour, marker = _FAMILIES[family % len(_FAMILIES)]
-    return Stroke(colour, marker, _DASHES[variant % len(_DASHES)], PAPER if variant else colour)
+    dash, face = _DASHES[variant % len(_DASHES)], PAPER if variant else colour
+    return {"color": colour, "linestyle": dash, "marker": marker, "markerfacecolor": face}
 
 
 @contextmanager
@@ -108,32 +103,21 @@ def canvas(width: float, height: float) -> tuple[Figure, Axes]:
     return figure, axes
 
 
-def label_ends(
-    axes: Axes, ends: Sequence[tuple[float, str, Stroke]], least_gap: float = 0.08
-) -> None:
+def label_ends(axes: Axes, ends: Sequence[tuple[float, str, Stroke]]) -> None:
     """Name lines at their right ends, outside the axes, each behind a sample of its stroke.
 
     `ends` has the y value, the name and the stroke of each line. Names keep the order of the ends
-    and stay `least_gap` of the axes' height apart. Call when the limits are final.
+    and stay `LEAST_GAP` of the axes' height apart. Call when the limits are final.
     """
     to_axes = axes.transData + axes.transAxes.inverted()
     heights = np.array([to_axes.transform((axes.get_xlim()[1], y))[1] for y, _, _ in ends])
     order = np.argsort(heights, kind="stable")
-    for height, index in zip(spread(heights[order], least_gap), order, strict=True):
+    for height, index in zip(spread(heights[order], LEAST_GAP), order, strict=True):
         _, name, look = ends[index]
         axes.plot(
-            [1.03, 1.085, 1.14],
-            [float(height)] * 3,
-            color=look.colour,
-            linestyle=look.dash,
-            marker=look.marker,
-            markerfacecolor=look.face,
-            markevery=[1],
-            transform=axes.transAxes,
-            clip_on=False,
-            scalex=False,
-            scaley=False,
-        )
+            [1.03, 1.085, 1.14], [float(height)] * 3, markevery=[1], transform=axes.transAxes,
+            clip_on=False, scalex=False, scaley=False, **look,
+        )  # fmt: skip
         axes.text(1.16, float(height), name, transform=axes.transAxes, va="center")
 
 
@@ -154,15 +138,7 @@ def spread(heights: FloatArray, gap: float) -> FloatArray:
     array([0.1, 0.4, 0.6])
     """
     steps = gap * np.arange(len(heights))
-    blocks: list[tuple[float, int]] = []  # pool adjacent violators: mean and size
-    for height in heights - steps:
-        mean, size = float(height), 1
-        while blocks and blocks[-1][0] > mean:
-            earlier, count = blocks.pop()
-            mean, size = (earlier * count + mean * size) / (count + size), count + size
-        blocks.append((mean, size))
-    means, sizes = zip(*blocks, strict=True)
-    apart = np.repeat(means, sizes) + steps
+    apart = isotonic_regression(heights - steps).x + steps
     return np.asarray(np.maximum(np.minimum(apart, 1.0 - steps[::-1]), steps), dtype=np.float64)
 
 
@@ -175,11 +151,6 @@ def _settle(figure: Figure) -> None:
         layout.execute(figure)
         with mpl.rc_context({"figure.constrained_layout.use": False}):
             figure.set_layout_engine(None)
-
-
-def svg(figure: Figure) -> str:
-    """Return the figure as SVG text."""
-    return encoded(figure, ".svg").decode()
 
 
 def encoded(figure: Figure, suffix: str) -> bytes:

@@ -56,7 +56,6 @@ def history(
     *,
     abscissa: Abscissa = Abscissa.CYCLES,
     logarithmic: bool = False,
-    width: float = COLUMN,
 ) -> Figure:
     """Panels one above the other, lengths in mm and pressures in MPa, along one abscissa.
 
@@ -66,11 +65,11 @@ def history(
     """
     height = 0.66 if len(shown) == 1 else 0.44 * len(shown)
     with styled():
-        figure, rows = panels(len(shown), 1, width, height * width)
+        figure, rows = panels(len(shown), 1, COLUMN, height * COLUMN)
         for axes, panel in zip(rows, shown, strict=True):
             if panel.quantity is PRESSURE:
                 pressed = tuple(
-                    line.pressed() for line in panel.lines if line.y[line.x > 0.0].any()
+                    line.where(line.y > 0.0) for line in panel.lines if line.y[line.x > 0.0].any()
                 )
                 if pressed and spans_decades(pressed):
                     panel = replace(panel, lines=pressed)
@@ -83,10 +82,10 @@ def history(
     return figure
 
 
-def pressure_in_cycles(lines: Sequence[Line], *, width: float = COLUMN) -> Figure:
+def pressure_in_cycles(lines: Sequence[Line]) -> Figure:
     """Contact pressure in MPa over the phase in [0, 1] of chosen cycles, one line a cycle."""
     with styled():
-        figure, axes = canvas(width, 0.6 * width)
+        figure, axes = canvas(COLUMN, 0.6 * COLUMN)
         _draw(axes, lines, 1.0)
         axes.set(xlabel=r"Phase in the cycle", ylabel=PRESSURE.label)
         axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * max(float(line.y.max()) for line in lines)))
@@ -94,25 +93,29 @@ def pressure_in_cycles(lines: Sequence[Line], *, width: float = COLUMN) -> Figur
     return figure
 
 
-def speed_against_error(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
+def speed_against_error(methods: Sequence[Method]) -> Figure:
     """Draw seconds against true relative error, both logarithmic; accuracy grows to the right."""
-    figure = _speed(methods, "True relative error of the wear", "missed its tolerance", width)
+    figure = _speed(methods, "True relative error of the wear", "missed its tolerance")
     figure.axes[0].invert_xaxis()
     return figure
 
 
-def speed_against_cycles(methods: Sequence[Method], *, width: float = PAGE) -> Figure:
+def speed_against_cycles(methods: Sequence[Method]) -> Figure:
     """Draw seconds to equal true error against the number of cycles, both logarithmic."""
-    return _speed(methods, "Cycles  $N$", "expected, not run", width)
+    return _speed(methods, "Cycles  $N$", "expected, not run")
 
 
-def _speed(methods: Sequence[Method], quantity: str, failed: str, width: float) -> Figure:
+def _speed(methods: Sequence[Method], quantity: str, failed: str) -> Figure:
     with styled():
-        figure, axes = canvas(width, 0.5 * width)
+        figure, axes = canvas(PAGE, 0.5 * PAGE)
         for family, method in enumerate(methods):
             again = family // 7  # colours come again, with another marker
-            look = replace(stroke(family, again), marker=stroke(family + 2 * again).marker)
-            _draw_method(axes, method, look)
+            dash, mark = stroke(0, again)["linestyle"], stroke(family + 2 * again)["marker"]
+            look = stroke(family) | {"linestyle": dash, "marker": mark}
+            axes.loglog(method.x, method.seconds, linewidth=0.9, label=method.name, **look)
+            x, seconds = method.x[method.failed], method.seconds[method.failed]
+            hollow = {"linestyle": "", "markersize": 5.5, "markerfacecolor": PAPER}
+            axes.loglog(x, seconds, **look | hollow)
         if any(method.failed.any() for method in methods):
             axes.plot([], [], "o", color=INK, markerfacecolor=PAPER, label=failed)
         axes.set(xlabel=quantity, ylabel="Processor time (s)")
@@ -121,23 +124,17 @@ def _speed(methods: Sequence[Method], quantity: str, failed: str, width: float) 
     return figure
 
 
-def tornado(
-    keys: Sequence[str],
-    elasticity: FloatArray,
-    labels: Sequence[str],
-    *,
-    width: float = COLUMN_AND_HALF,
-) -> Figure:
+def tornado(keys: Sequence[str], elasticity: FloatArray, labels: Sequence[str]) -> Figure:
     """Elasticities (k, n) of the numbers with these keys as bars, the largest on top; a set of bars
     for each of the n labels. What is no number has no bar."""
     values = np.nan_to_num(elasticity)
     order = np.argsort(np.max(np.abs(values), axis=1))
     thick = 0.8 / len(labels)
     with styled():
-        figure, axes = canvas(width, 12.0 + (2.5 + 1.8 * len(labels)) * len(keys))
+        figure, axes = canvas(COLUMN_AND_HALF, 12.0 + (2.5 + 1.8 * len(labels)) * len(keys))
         for place, label in enumerate(labels):
             at = np.arange(len(keys)) + thick * ((len(labels) - 1) / 2 - place)
-            axes.barh(at, values[order, place], thick, color=stroke(place).colour, label=label)
+            axes.barh(at, values[order, place], thick, color=stroke(place)["color"], label=label)
         axes.axvline(0.0, color=INK, linewidth=0.6)
         axes.set_yticks(np.arange(len(keys)), [words_of(keys[i]) for i in order])
         axes.set_ylim(-0.6, len(keys) - 0.4)
@@ -146,37 +143,26 @@ def tornado(
     return figure
 
 
-def _draw_method(axes: Axes, method: Method, look: Stroke) -> None:
-    style = {"color": look.colour, "marker": look.marker}
-    axes.loglog(
-        method.x, method.seconds, linestyle=look.dash, linewidth=0.9, label=method.name, **style
-    )
-    x, seconds = method.x[method.failed], method.seconds[method.failed]
-    axes.loglog(x, seconds, linestyle="", markersize=5.5, markerfacecolor=PAPER, **style)
-
-
 def _panel(axes: Axes, panel: Panel, logarithmic: bool) -> None:
     lines, scale = panel.lines, panel.quantity.scale
     if logarithmic:
         axes.set_xscale("log")
-        lines = tuple(line.positive() for line in lines)
+        lines = tuple(line.where(line.x > 0.0) for line in lines)
     for line in panel.behind:
-        _plot(axes, line, scale, linewidth=0.9, zorder=1)
+        _plot(axes, line, scale, linewidth=0.9, zorder=1, marker="")
     _draw(axes, lines, scale)
     axes.set_ylabel(panel.quantity.label)
     limits = [panel.limit] if panel.limit is not None else []
     _frame(axes, (*lines, *panel.points), scale, limits)
     for points in panel.points:
-        _plot(
-            axes, points, scale, linestyle="", marker=_look(points).marker, markerfacecolor=PAPER,
-            markersize=5.0, zorder=4, clip_on=False,
-        )  # fmt: skip
+        hollow = {"linestyle": "", "markerfacecolor": PAPER}
+        _plot(axes, points, scale, markersize=5.0, zorder=4, clip_on=False, **hollow)
     for limit in limits:
         axes.axhline(limit * scale, color=INK, linewidth=0.7, linestyle=(0, (5.0, 2.0)))
         axes.text(0.01, limit * scale, "limit", transform=axes.get_yaxis_transform(), va="bottom")
     looks = [(line, _look(line)) for line in lines]
-    looks += [(line, replace(_look(line), marker="")) for line in panel.behind]
-    looks += [(line, replace(_look(line), dash="", face=PAPER)) for line in panel.points]
+    looks += [(line, _look(line) | {"marker": ""}) for line in panel.behind]
+    looks += [(line, _look(line) | hollow) for line in panel.points]
     label_ends(axes, [(float(line.y[-1]) * scale, line.name, look) for line, look in looks])
 
 
@@ -185,19 +171,14 @@ def _look(line: Line) -> Stroke:
 
 
 def _plot(axes: Axes, line: Line, scale: float, **style: Any) -> None:
-    look = _look(line)
-    style = {"linestyle": look.dash, **style}
-    axes.plot(line.x, line.y * scale, color=look.colour, **style)
+    axes.plot(line.x, line.y * scale, **_look(line) | style)
 
 
 def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:
     """Lines with a few markers each, shifted from line to line so that they do not coincide."""
     for position, line in enumerate(lines):
         start = _MARK_EVERY * (position + 0.5) / len(lines)
-        _plot(
-            axes, line, scale, marker=_look(line).marker, markerfacecolor=_look(line).face,
-            markevery=(start, _MARK_EVERY), clip_on=False,
-        )  # fmt: skip
+        _plot(axes, line, scale, markevery=(start, _MARK_EVERY), clip_on=False)
 
 
 def _frame(axes: Axes, lines: Sequence[Line], scale: float, limits: Sequence[float] = ()) -> None:

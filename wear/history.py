@@ -154,10 +154,9 @@ class History:
 
     def plot(self, *, logarithmic: bool = True) -> Figure:
         """Return a Matplotlib figure of wear, roughness and pressure over the cycles."""
-        from wear.figure_data import panels_of
-        from wear.figures import history
+        from wear.plots import plot
 
-        return history(panels_of([self]), logarithmic=logarithmic)
+        return plot({"": self}, logarithmic=logarithmic)
 
     def __repr__(self) -> str:
         reached = "no cycle reached"

@@ -19,7 +19,8 @@ import numpy as np
 
 from wear import own_laws, pressure_root
 from wear.faults import UsageError
-from wear.scene import Scene, VariantKey, as_scene
+from wear.scene import Scene, as_scene
+from wear.scene.variant import VariantKey
 
 Real = Any  # a float or an array of floats
 Fields = Any  # the named tuple of a generated module: the fields that its variant has, mm and MPa

@@ -20,7 +20,8 @@ from wear.load import Blocks, Load
 from wear.load.spans import Span
 from wear.model import Real, Summed, bind, bind_many
 from wear.numerics.gauss import FloatArray, IntArray
-from wear.scene import KEYS, Scene
+from wear.scene import Scene
+from wear.scene.variant import KEYS
 from wear.words import did_you_mean
 
 Gradient = Callable[[Real, Real, Summed], dict[str, Real]]

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
 from derive import files
-from derive.command_line import Answer, declare
+from derive.command_line import Answer, Options, Parser, declare
 from derive.faults import UsageError
 
 if TYPE_CHECKING:
     from derive.equations import Equation
 
 
-def add_ids(parser: argparse.ArgumentParser) -> None:
+def add_ids(parser: Parser) -> None:
     """Declare any number of ids; none means all equations."""
     declare(parser, "[ID ...]", "an equation (default: all)", dest="ids")
 
@@ -30,10 +29,10 @@ def equations(ids: list[str]) -> tuple[Equation, ...]:
             faults.append(str(fault))
     if faults:
         raise UsageError("\n".join(faults))
-    return tuple(found) if ids else catalogue.equations()
+    return tuple(found) if ids else catalogue.all_equations()
 
 
-def answer(options: argparse.Namespace, document: object, text: str) -> Answer:
+def answer(options: Options, document: object, text: str) -> Answer:
     """Return an answer whose text is printed, or written whole to the file of `--output`."""
     if options.json or options.output is None:
         return Answer(document, lambda: text)

@@ -1,26 +1,24 @@
-"""`derive code`: the generated right-hand side of a variant, for a program of one's own."""
+"""`derive code`: source code of a variant of the model, for a solver of your own.
 
-from __future__ import annotations
-
-import argparse
-import difflib
-
-from derive.command_line import Answer, declare
-from derive.commands import arguments
-from derive.faults import UsageError
-
-TARGETS = ("numpy", "c", "header", "fortran", "javascript")  # known before SymPy is imported
-
-SUMMARY = "source code of a variant of the model, for a solver of your own"
-EXAMPLE = """\
+examples:
   derive code rigid_bearing                          section 4 of the note, in NumPy
   derive code rigid_worn_rough --target c            section 3, in C
   derive code exponential/rigid_bearing              another contact law
   derive code --list                                 the variants
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+import difflib
+
+from derive.command_line import Answer, Options, Parser, declare
+from derive.commands import arguments
+from derive.faults import UsageError
+
+TARGETS = ("numpy", "c", "header", "fortran", "javascript")  # known before SymPy is imported
+
+
+def add_arguments(parser: Parser) -> None:
     """Declare the variant and the language."""
     about = "a variant (--list names them), or LAW/VARIANT (default law: tanh)"
     declare(parser, "[VARIANT]", about, _short_names)
@@ -42,7 +40,7 @@ def _short_names() -> tuple[str, ...]:
     return tuple(name.removeprefix("tanh/") for name in variant_names())
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Print or write the source."""
     from derive.codegen.sources import source
     from derive.program import program

@@ -1,23 +1,21 @@
-"""`derive export`: the derivation for a proof assistant."""
+"""`derive export`: the steps as lemmas for a proof assistant.
 
-from __future__ import annotations
-
-import argparse
-from pathlib import Path
-
-from derive import terminal
-from derive.command_line import Answer, declare
-from derive.commands import arguments
-from derive.faults import UsageError
-
-SUMMARY = "the steps as lemmas for a proof assistant"
-EXAMPLE = """\
+examples:
   derive export -o proof            every step as a lemma, and the theorems they cite
   derive export -o proof --check    compile them too; status 1 where Coq differs from the record
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+from pathlib import Path
+
+from derive import terminal
+from derive.command_line import Answer, Options, Parser, declare
+from derive.commands import arguments
+from derive.faults import UsageError
+
+
+def add_arguments(parser: Parser) -> None:
     """Declare target, folder and --check."""
     arguments.add_ids(parser)
     about = "proof assistant (default: %(default)s)"
@@ -26,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     declare(parser, "--check", "compile the files and compare with the record")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Write the files, and have them compiled."""
     from derive.coq import export
 

@@ -1,21 +1,19 @@
-"""`derive generate`: write the generated modules of wear."""
+"""`derive generate`: write the generated modules of wear.
 
-from __future__ import annotations
-
-import argparse
-from pathlib import Path
-
-from derive import terminal
-from derive.command_line import Answer, declare
-
-SUMMARY = "write the generated modules of wear"
-EXAMPLE = """\
+examples:
   derive generate            bring wear/generated up to date
   derive generate --check    write nothing; status 1 if it is out of date
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+from pathlib import Path
+
+from derive import terminal
+from derive.command_line import Answer, Options, Parser, declare
+
+
+def add_arguments(parser: Parser) -> None:
     """Declare --check."""
     declare(parser, "--check", "write nothing; status 1 when out of date")
 
@@ -25,7 +23,7 @@ def folder() -> Path:
     return Path(__file__).resolve().parents[2] / "wear" / "generated"
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Write, or tell what would be written."""
     from derive import generate
 

@@ -1,29 +1,27 @@
-"""`derive latex`: the equations as macros for a report."""
+r"""`derive latex`: equations as LaTeX macros.
+
+examples:
+  derive latex -o equations.tex      all equations; then \input{equations} and \EqWearPerCycle
+  derive latex 21 22                 two of them, to the terminal
+  derive latex 21 --derivation       how (21) follows, as prose with equations
+  derive latex --law 'exp(-r/2)'     the equations of a bearing with a contact law of its own
+  derive latex 21 --width 246pt      for a column of 246 pt: \EqWearPerCycle or \EqNote{21}
+"""
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from derive.command_line import Answer, declare
+from derive.command_line import Answer, Options, Parser, declare
 from derive.commands import arguments
 from derive.faults import UsageError
 
 if TYPE_CHECKING:
     from derive.equations import Equation
 
-SUMMARY = "equations as LaTeX macros"
-EXAMPLE = r"""
-  derive latex -o equations.tex      all equations; then \input{equations} and \EqWearPerCycle
-  derive latex 21 22                 two of them, to the terminal
-  derive latex 21 --derivation       how (21) follows, as prose with equations
-  derive latex --law 'exp(-r/2)'     the equations of a bearing with a contact law of its own
-  derive latex 21 --width 246pt      for a column of 246 pt: \EqWearPerCycle or \EqNote{21}
-""".lstrip("\n")
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare ids and the file."""
     arguments.add_ids(parser)
     declare(parser, "-o, --output FILE", "write to a file")
@@ -34,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     declare(parser, "--law FORMULA", about)
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Print or write the macros."""
     from derive.typeset.macros import WIDTH, macro_name, macros, room
 
@@ -61,7 +59,7 @@ def _of_law(formula: str) -> Sequence[Equation]:
     return equations_of(Variant(law, False, Pin.ABSENT), opening=False)
 
 
-def _derivation(options: argparse.Namespace, width: float) -> Answer:
+def _derivation(options: Options, width: float) -> Answer:
     """Print or write the derivation of one equation, told with those before it in the catalogue."""
     from derive.catalogue import equations_up_to
     from derive.typeset.derivation import prose

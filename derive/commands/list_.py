@@ -1,27 +1,25 @@
-"""`derive list`: every equation with its status."""
+"""`derive list`: every equation: id, status, section, title.
+
+examples:
+  derive list            ids, sections, titles and what the machine says of each
+  derive list --json     the same for another program
+"""
 
 from __future__ import annotations
 
-import argparse
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from derive import terminal
-from derive.command_line import Answer
-
-SUMMARY = "every equation: id, status, section, title"
-EXAMPLE = """\
-  derive list            ids, sections, titles and what the machine says of each
-  derive list --json     the same for another program
-"""
+from derive.command_line import Answer, Options, Parser
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare nothing: the list takes no arguments."""
 
 
-def execute(options: argparse.Namespace) -> Answer:  # noqa: ARG001  # it has none
+def execute(options: Options) -> Answer:  # noqa: ARG001  # it has none
     """Return the catalogue."""
     from derive import catalogue
 
@@ -33,7 +31,7 @@ def execute(options: argparse.Namespace) -> Answer:  # noqa: ARG001  # it has no
             "status": e.status.value,
             "conditions": list(dict.fromkeys(c.text for c in e.conditions)),
         }
-        for e in catalogue.equations()
+        for e in catalogue.all_equations()
     ]
     return Answer(rows, lambda: "\n".join(_lines(rows)))
 

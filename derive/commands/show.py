@@ -1,27 +1,25 @@
-"""`derive show`: one equation, in a form of choice."""
+"""`derive show`: one equation, with its conditions.
 
-from __future__ import annotations
-
-import argparse
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
-
-from derive import terminal
-from derive.command_line import Answer, declare
-from derive.commands import arguments
-
-if TYPE_CHECKING:
-    from derive.equations import Equation
-
-SUMMARY = "one equation, with its conditions"
-EXAMPLE = """\
+examples:
   derive show 21                 for the terminal
   derive show 21 --as latex      for a report
   derive show 21 --as srepr      the SymPy relation, for another program
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from derive import terminal
+from derive.command_line import Answer, Options, Parser, declare
+from derive.commands import arguments
+
+if TYPE_CHECKING:
+    from derive.equations import Equation
+
+
+def add_arguments(parser: Parser) -> None:
     """Declare the id and the form."""
     declare(parser, "ID", "an equation, as `derive list` names it")
     forms, about = ",".join(_WRITERS), "form (default: %(default)s)"
@@ -87,7 +85,7 @@ _WRITERS: dict[str, Callable[[Equation], str]] = {
 }
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Return the equation."""
     (found,) = arguments.equations([options.id])
     return Answer(document(found), lambda: _WRITERS[options.form](found))

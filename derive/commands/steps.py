@@ -1,14 +1,18 @@
-"""`derive steps`: how an equation follows from the governing ones."""
+"""`derive steps`: the steps from the governing equations to one.
+
+examples:
+  derive steps 10           every step from the hypotheses to (10)
+  derive steps 21 --json    with rule, parents, assumptions and status of each
+"""
 
 from __future__ import annotations
 
-import argparse
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
-from derive.command_line import Answer, declare
+from derive.command_line import Answer, Options, Parser, declare
 from derive.commands import arguments
 
 if TYPE_CHECKING:
@@ -16,22 +20,18 @@ if TYPE_CHECKING:
 
 _INDENT = " " * 5
 
-SUMMARY = "the steps from the governing equations to one"
-EXAMPLE = """\
-  derive steps 10           every step from the hypotheses to (10)
-  derive steps 21 --json    with rule, parents, assumptions and status of each
-"""
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare the id."""
     declare(parser, "ID", "an equation, as `derive list` names it")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Check the chain of steps."""
+    from derive.kernel import identity
+
     (found,) = arguments.equations([options.id])
-    numbers = {id(step): number for number, step in enumerate(found.steps, start=1)}
+    numbers = {identity(step): number for number, step in enumerate(found.steps, start=1)}
     rows = [_row(step, numbers) for step in found.steps]
     fails = any(row["status"] == "fails" for row in rows)
     return Answer(
@@ -41,17 +41,18 @@ def execute(options: argparse.Namespace) -> Answer:
     )
 
 
-def _row(step: Judgement, numbers: Mapping[int, int]) -> dict[str, Any]:
+def _row(step: Judgement, numbers: Mapping[Hashable, int]) -> dict[str, Any]:
     import sympy as sp
 
     from derive.check import checks
     from derive.coq.record import proved_by_coq
+    from derive.kernel import identity
     from derive.typeset.display import latex
 
-    parents = [numbers[id(parent)] for parent in step.parents]
+    parents = [numbers[identity(parent)] for parent in step.parents]
     outcomes = checks(step)
     return {
-        "step": numbers[id(step)],
+        "step": numbers[identity(step)],
         "name": step.name or None,
         "claim": sp.sstr(step.relation),
         "latex": latex(step.relation),

@@ -1,33 +1,31 @@
-"""`derive verify`: run every check again."""
+"""`derive verify`: check every step of equations again.
 
-from __future__ import annotations
-
-import argparse
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
-
-from derive import terminal
-from derive.command_line import Answer, declare
-from derive.commands import arguments
-
-if TYPE_CHECKING:
-    from derive.verification import Verdict
-
-SUMMARY = "check every step of equations again"
-EXAMPLE = """\
+examples:
   derive verify             every check of every equation; status 1 if one does not hold
   derive verify 8 10 21     those on which these equations rest
   derive verify --deep 13   what fails without each hypothesis, as models show
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from derive import terminal
+from derive.command_line import Answer, Options, Parser, declare
+from derive.commands import arguments
+
+if TYPE_CHECKING:
+    from derive.verification import Verdict
+
+
+def add_arguments(parser: Parser) -> None:
     """Declare ids, and whether hypotheses are dropped."""
     arguments.add_ids(parser)
     declare(parser, "--deep", "drop each hypothesis in turn, too (minutes)")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Run the checks."""
     from derive.verification import verify
 

@@ -15,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ..catalogue import equations
+from ..catalogue import all_equations
 from .export import HEAD, Export, compiled
 from .record import RECORD, Row, record
 from .steps import Step
@@ -28,7 +28,7 @@ _SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default T
 def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
     """Return the record after a session, and what failed because it cites what failed."""
     hopeful: dict[str, Row] = known | {h: {"closed": True} for h in hoped}
-    before = Export(equations(), known)
+    before = Export(all_equations(), known)
     made = Export(before.equations, hopeful)
     texts = {}
     for step in made.steps:
@@ -82,7 +82,7 @@ def _session(made: Export, lemmas: str) -> str:
 def main() -> None:
     """Try what is open, again where that changes what can be cited, and write the record."""
     rows = dict(record())
-    made = Export(equations(), rows)
+    made = Export(all_equations(), rows)
     hoped = {s.key for s in made.steps} - {h for h, row in rows.items() if row["closed"]}
     while hoped:
         rows, hoped = attempt(rows, hoped)

@@ -77,7 +77,8 @@ def _result(value: Any) -> dict[str, Any]:
     from wear import figure_style
 
     if isinstance(value, Figure):
-        data = {"image/svg+xml": _lines(figure_style.svg(value)), "text/plain": ["<Figure>"]}
+        drawn = figure_style.encoded(value, ".svg").decode()
+        data = {"image/svg+xml": _lines(drawn), "text/plain": ["<Figure>"]}
     elif hasattr(value, "_repr_latex_"):
         data = {"text/latex": _lines(value._repr_latex_()), "text/plain": _lines(repr(value))}
     else:

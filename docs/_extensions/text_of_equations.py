@@ -7,7 +7,7 @@ from itertools import groupby
 from mathml_renderer import anchor
 
 from derive import reasons
-from derive.catalogue import equation, equations
+from derive.catalogue import all_equations, equation
 from derive.equations import Equation, Status
 from derive.symbols import QUANTITIES
 from derive.typeset.macros import macro_name
@@ -29,7 +29,7 @@ def displayed(*identifiers: str) -> str:
 
 def catalogue() -> str:
     """Every equation: what is said of it, its conditions, its form."""
-    found = equations()
+    found = all_equations()
     states = [s for s in MEANING if any(e.status is s for e in found)]
     counts = [
         f"- *{status.value}* ({sum(e.status is status for e in found)}): {MEANING[status]}"

@@ -117,14 +117,10 @@ def figure(rows: list[Row]) -> bytes:
             own = [row for row in rows if (row.kind, row.cycles) == (kind, number)]
             look = stroke(family, 0)
             x = np.array([row.integrated for row in own])
-            axes.loglog(
-                x,
-                [row.error for row in own],
-                look.marker,
-                color=look.colour,
-                label=f"{kind}, {in_short(number, 5)} cycles",
-            )
-            axes.loglog(x, [row.predicted for row in own], "-", color=look.colour, linewidth=0.8)
+            dots = look | {"linestyle": "", "label": f"{kind}, {in_short(number, 5)} cycles"}
+            axes.loglog(x, [row.error for row in own], **dots)
+            lines = look | {"marker": "", "linewidth": 0.8}
+            axes.loglog(x, [row.predicted for row in own], **lines)
         axes.set(xlabel="Cycles integrated", ylabel="Relative error of the wear")
         axes.legend()
     return encoded(drawn, ".svg")

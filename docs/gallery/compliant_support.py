@@ -19,14 +19,6 @@ scenes = {
 for name, scene in scenes.items():
     print(f"{name:<11} {wear.asymptote(scene).wear_per_cycle_mm:.9e} mm per cycle in the end")
 
-# %% Bearing wear for three stiffnesses over the logarithm of the cycles
-from wear.figure_data import WEAR, Line, Panel
-from wear.figures import history as drawn
-
-cycles = [round(10 ** (k / 4)) for k in range(17)]
-lines = [
-    Line(name, history.cycles.astype(float), history.u_c, family)
-    for family, (name, scene) in enumerate(scenes.items())
-    for history in [wear.solve(scene, sorted(set(cycles)))]
-]
-drawn([Panel(WEAR, tuple(lines))], logarithmic=True)
+# %% Wear, roughness and pressure for three stiffnesses over the logarithm of the cycles
+cycles = sorted({round(10 ** (k / 4)) for k in range(17)})
+wear.plot({name: wear.solve(scene, cycles) for name, scene in scenes.items()})

@@ -12,17 +12,18 @@
 # %%
 import ctypes
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
 
 import wear
-from derive.cli import main
 
 with tempfile.TemporaryDirectory() as folder:
     source, library = Path(folder) / "wear_model.c", Path(folder) / "wear_model.so"
-    main(["code", "rigid_bearing", "--target", "c", "-o", str(source)])
+    command = ["code", "rigid_bearing", "--target", "c", "-o", source]
+    subprocess.run([sys.executable, "-m", "derive", *command], check=True)
     subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-o", library, source, "-lm"], check=True)
     model = ctypes.CDLL(str(library))
 number, pointer = ctypes.c_double, ctypes.POINTER(ctypes.c_double)
@@ -79,12 +80,14 @@ print(f"one node, one cycle: {1e6 * flat[0]:.2f} nm")
 print(f"wear.solve:          {1e6 * wear.solve(scene, 1).u_c[0]:.2f} nm")
 
 # %% Wear over the width of the bearing after 1, 5 and 20 cycles, deeper where the pin is lower
-from wear.figure_data import BEARING_WEAR, Line, Panel
-from wear.figures import history
+from matplotlib.figure import Figure
 
 across = np.linspace(0.0, 20.0, 21)
 depths = dict(enumerate(cycles(20, tilt=2e-5 * across, stiffness=3e5, increments=40), start=1))
-lines = [Line(f"after {n} cycles", across, depths[n], k) for k, n in enumerate((1, 5, 20))]
-drawn = history([Panel(BEARING_WEAR, tuple(lines))])
-drawn.axes[0].set_xlabel("Across the bearing  (mm)")
+drawn = Figure((5.0, 3.0), layout="constrained")
+axes = drawn.subplots()
+for n in (1, 5, 20):
+    axes.plot(across, 1e3 * depths[n], label=f"after cycle {n}")
+axes.set(xlabel="Across the bearing (mm)", ylabel="Bearing wear (µm)")
+axes.legend()
 drawn

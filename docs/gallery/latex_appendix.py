@@ -8,14 +8,15 @@
 # [in a LaTeX report](../how-to/latex-report.md).
 
 # %%
+import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
-from derive.cli import main
-
 with tempfile.TemporaryDirectory() as folder:
     file = Path(folder) / "appendix.tex"
-    main(["latex", "8", "--derivation", "--width", "246pt", "-o", str(file)])
+    command = ["latex", "8", "--derivation", "--width", "246pt", "-o", file]
+    subprocess.run([sys.executable, "-m", "derive", *command], check=True)
     lines = file.read_text(encoding="utf-8").splitlines()
 start = next(n for n, line in enumerate(lines) if "Step" in line)
 print(f"{len(lines)} lines, of which")

@@ -14,14 +14,6 @@ cut = law.with_({"contact.ends_at_3_sigma": True})
 for name, scene in (("by the equations", law), ("by the text", cut)):
     print(f"{name:<17} {wear.asymptote(scene).regime}")
 
-# %% Bearing wear with and without loss of contact over the logarithm of the cycles
-from wear.figure_data import WEAR, Line, Panel
-from wear.figures import history as drawn
-
+# %% Wear, roughness and pressure with and without loss of contact, and the share of contact
 cycles = [round(10 ** (k / 4)) for k in range(2, 17)]
-lines = [
-    Line(name, history.cycles.astype(float), history.u_c, family)
-    for family, (name, scene) in enumerate((("without end", law), ("with loss", cut)))
-    for history in [wear.solve(scene, cycles)]
-]
-drawn([Panel(WEAR, tuple(lines))], logarithmic=True)
+wear.plot({"without end": wear.solve(law, cycles), "with loss": wear.solve(cut, cycles)})

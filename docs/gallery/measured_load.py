@@ -14,7 +14,4 @@ for cycle, depth in zip([1, 10**6], wear.solve(scene, [1, 10**6]).u_c, strict=Tr
     print(f"{cycle:>8}  {1e3 * depth:.5f} µm")
 
 # %% Contact pressure over the phase of the first, the hundredth and the ten thousandth cycle
-from wear.figure_data import pressure_inside
-from wear.figures import pressure_in_cycles
-
-pressure_in_cycles(pressure_inside(scene, [0, 100, 10_000]))
+wear.plot_pressure(scene, [0, 100, 10_000])

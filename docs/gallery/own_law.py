@@ -20,15 +20,8 @@ for name, scene in scenes.items():
     limit = wear.asymptote(scene)
     print(f"{name:21}  {limit.pressure_MPa:.4g} MPa in the end")
 
-# %% Bearing wear over the logarithm of the cycles under two contact laws
+# %% Wear, roughness and pressure over the logarithm of the cycles under two contact laws
 import numpy as np
 
-from wear.figure_data import BEARING_WEAR, Line, Panel
-from wear.figures import history
-
 cycles = np.unique(np.rint(np.geomspace(1, 10**5, 60)))
-lines = (
-    Line(name, cycles, wear.solve(scene, cycles, rtol=1e-6).u_c, family)
-    for family, (name, scene) in enumerate(scenes.items())
-)
-history([Panel(BEARING_WEAR, tuple(lines))], logarithmic=True)
+wear.plot({name: wear.solve(scene, cycles, rtol=1e-6) for name, scene in scenes.items()})

@@ -23,15 +23,5 @@ history = wear.solve(scene, cycles)
 for cycle, depth in zip(cycles[::4], history.u_c[::4], strict=True):
     print(f"{cycle:>9}  {1e3 * depth:8.4f} µm")
 
-# %% Bearing wear and roughness over the logarithm of the cycles
-from wear.figure_data import ROUGHNESS, WEAR, Line, Panel
-from wear.figures import history as drawn
-
-x = history.cycles.astype(float)
-drawn(
-    [
-        Panel(WEAR, (Line("bearing", x, history.u_c),)),
-        Panel(ROUGHNESS, (Line("bearing", x, history.sigma_c),)),
-    ],
-    logarithmic=True,
-)
+# %% Wear, roughness and pressure over the logarithm of the cycles
+history.plot()

@@ -81,7 +81,7 @@ def test_what_is_not_closed_has_a_reason():
 
 
 def test_the_record_is_of_these_statements():
-    made = export.Export(catalogue.equations())
+    made = export.Export(catalogue.all_equations())
     assert made.unrecorded == ""
     assert len(record()) == len(made.steps)
 

@@ -43,14 +43,14 @@ have to be derived when tests are collected."""
 def _steps() -> list[Judgement]:
     """Return the steps of all equations, each claim by each rule once."""
     found: dict[tuple[sp.Basic, str], Judgement] = {}
-    for equation in catalogue.equations():
+    for equation in catalogue.all_equations():
         for step in equation.steps:
             found.setdefault((step.relation, repr(step.rule)), step)
     return [step for step in found.values() if not isinstance(step.rule, Assume)]
 
 
 def test_the_note_is_there_in_its_order():
-    ids = [equation.id for equation in catalogue.equations()]
+    ids = [equation.id for equation in catalogue.all_equations()]
     assert [i for i in ids if i[0].isdigit()] == NOTE
     assert sorted(ids) == sorted(TEXTS)
 
@@ -58,7 +58,7 @@ def test_the_note_is_there_in_its_order():
 @pytest.mark.parametrize("part", PARTS)
 def test_no_model_breaks_an_equation(part):
     """Of several results of one kind the first is tried; ``derive verify`` tries every step."""
-    for found in catalogue.equations()[part :: len(PARTS)]:
+    for found in catalogue.all_equations()[part :: len(PARTS)]:
         tried = found.statements if found.id in NOTE else found.statements[:1]
         outcomes = [outcome for claim in tried for outcome in on_models(claim)]
         assert [outcome for outcome in outcomes if not outcome.passed] == [], found.id
@@ -66,7 +66,7 @@ def test_no_model_breaks_an_equation(part):
 
 @pytest.mark.parametrize("part", PARTS)
 def test_what_is_typeset_is_what_was_derived(part):
-    for equation in catalogue.equations()[part :: len(PARTS)]:
+    for equation in catalogue.all_equations()[part :: len(PARTS)]:
         assert len(equation.shown) == len(equation.claims), equation.id
         assert equation.typeset_agrees, equation.id
         if not equation.where:
@@ -197,6 +197,6 @@ def test_a_sentence_has_no_raw_formula():
 
 
 def test_no_step_cites_a_system_that_collects_relations():
-    steps = Derivations(catalogue.equations()).steps("bearing-rate")
+    steps = Derivations(catalogue.all_equations()).steps("bearing-rate")
     assert not any("[eq:problem-" in step.sentence for step in steps)
     assert "Integrate [eq:7f] over time, from [eq:6]." in [step.sentence for step in steps]

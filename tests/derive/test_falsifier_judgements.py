@@ -23,7 +23,7 @@ def test_a_condition_of_the_threshold_is_needed():
 
 def test_the_table_of_reasons_is_of_these_equations():
     """`python -m derive.reasons` renews it."""
-    of_the_note = [found for found in catalogue.equations() if found.id[0].isdigit()]
+    of_the_note = [found for found in catalogue.all_equations() if found.id[0].isdigit()]
     assert outdated(of_the_note, table()) == []
 
 

@@ -37,7 +37,7 @@ def _too_wide(log: str) -> list[float]:
 @pytest.mark.parametrize("head", _HEAD.values(), ids=_HEAD.keys())
 def test_all_macros_compile_elsewhere(head, tmp_path, need_tool):
     engine = need_tool("pdflatex")
-    equations = catalogue.equations()
+    equations = catalogue.all_equations()
     (tmp_path / "equations.tex").write_text(macros(equations), encoding="utf-8")
     shown = (rf"\begin{{equation}}\{macro_name(e)}\end{{equation}}" for e in equations)
     log = _log(tmp_path, engine, head, "\n".join(shown))
@@ -76,7 +76,7 @@ def test_a_law_has_no_ids_and_is_read_by_its_grammar(arguments, capsys):
 def test_every_equation_fits_a_column(width, tmp_path, need_tool):
     """Beside its number, by its name and by its id; so does every step of its derivation."""
     engine = need_tool("pdflatex")
-    equations = catalogue.equations()
+    equations = catalogue.all_equations()
     (tmp_path / "equations.tex").write_text(macros(equations, room(width)), encoding="utf-8")
     shown = (
         rf"\begin{{equation}}\{macro_name(e)}\tag{{D.10}}\end{{equation}}\[\EqNote{{{e.id}}}\]"
@@ -119,7 +119,7 @@ def test_names_can_be_guessed():
     """Words of the id, the number spelled out, or the word for an equation that is quoted most."""
     assert macro_name(catalogue.equation("7c")) == "EqSevenC"
     assert macro_name(catalogue.equation("static-solution")) == "EqStaticSolution"
-    for equation in catalogue.equations():
+    for equation in catalogue.all_equations():
         words = [word for word in equation.id.split("-") if word.isalpha()]
         if not equation.id[0].isdigit():
             assert macro_name(equation).lower() == "eq" + "".join(words)

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from wear.load import Constant, Load, Sine
-from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support
+from wear.scene import Scene
+from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 
 REFERENCE: dict[str, dict[int, float]] = {
     name: {int(cycles): float(wear) for cycles, wear in row.items()}

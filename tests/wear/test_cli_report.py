@@ -13,7 +13,7 @@ import pytest
 from wear import solve
 from wear.cli import main
 from wear.load import Block, Blocks, Sine
-from wear.report import own, typeset
+from wear.report import own, publish
 from wear.report.document import Figure
 from wear.report.text import inline
 from wear.scene import load_scene
@@ -27,7 +27,7 @@ def undrawn(monkeypatch):
 
 
 def test_the_files_and_what_they_say(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(typeset.shutil, "which", lambda _: None)
+    monkeypatch.setattr(publish.shutil, "which", lambda _: None)
     scene = tmp_path / "mine.toml"
     text = load_scene("section4-cutoff").to_toml()
     scene.write_text(re.sub(r'title = ".*"', 'title = "A *bearing* of mine, 50 %"', text))
@@ -101,7 +101,7 @@ repeat = true
 def test_an_engineers_way_from_a_record_and_readings_to_a_report(tmp_path, capsys, monkeypatch):
     """401 noisy rows as LabVIEW writes them, fifteen readings; and the report."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(typeset.shutil, "which", lambda _: None)
+    monkeypatch.setattr(publish.shutil, "which", lambda _: None)
     noise = 0.010 * np.random.default_rng(3).standard_normal(401)
     times = np.arange(401) * 0.15
     path = 0.5 * np.sin(2.0 * np.pi * times / 60.03) + 0.2 + noise

@@ -14,7 +14,7 @@ from derive import verification
 from derive.check import Check
 from tests.wear.report import quick
 from wear import processes, regime
-from wear.report import claims, paper, runs, typeset
+from wear.report import claims, paper, publish, runs
 from wear.scene import load_scene
 
 PAPERS = Path(__file__).parents[2] / "docs" / "papers"
@@ -34,7 +34,7 @@ def shortened(monkeypatch):
     monkeypatch.setattr(claims, "ledger", lambda *_, **__: quick.few_claims())
     monkeypatch.setattr(paper, "paper", lambda *_: quick.paper())
     monkeypatch.setattr(paper, "drawings", lambda _: {})
-    monkeypatch.setattr(typeset.shutil, "which", lambda _: None)
+    monkeypatch.setattr(publish.shutil, "which", lambda _: None)
 
 
 @pytest.mark.usefixtures("shortened")

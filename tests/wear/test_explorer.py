@@ -14,7 +14,7 @@ from derive.codegen.sources import definitions
 from tests.derive.exact import made, variant_of
 from tests.programs import run
 from wear.cli import main
-from wear.report import explorer, explorer_data, explorer_derived
+from wear.report import explorer, explorer_derived
 from wear.scene import builtin_names, load_scene, parse_scene
 
 READY = "document.documentElement?.dataset.ready >= 1"
@@ -178,7 +178,7 @@ def test_loads_are_those_of_python(kind, tmp_path, need_tool):
     """Displacement and its slope, and the wear that they make, in the page's own functions."""
     (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.03,1e-4\n0.06,0\n")
     scene = own_scene(tmp_path, LOADS[kind])
-    data = explorer_data.scene_data(scene)
+    data = explorer.scene_data(scene)
     assert f'kind = "{data["load"]["kind"]}"' in LOADS[kind]
     phases = np.linspace(0.0, 1.0, 40, endpoint=False) + 0.003
     text = definitions(made(variant_of("tanh", "rigid_bearing")))
@@ -559,8 +559,7 @@ def test_a_noisy_record_and_readings_are_shown(tmp_path, window):
     assert window.run("document.querySelectorAll('#plot-wear .dot').length") == 2
     scene = load_scene(str(tmp_path / "mine.toml"))
     found, merged = (
-        wear.solve(each, [10_000], rtol=1e-4).pressures
-        for each in (scene, explorer_data.opened(scene))
+        wear.solve(each, [10_000], rtol=1e-4).pressures for each in (scene, explorer.opened(scene))
     )
     assert number(text(window, "value-mean-now")) == pytest.approx(found.mean[0], rel=1e-3)
     assert number(text(window, "value-peak-now")) == pytest.approx(merged.peak[0], rel=1e-3)

@@ -14,21 +14,10 @@ from tests.wear.test_scene_faults import GOOD
 from wear.faults import SceneError, UsageError
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
 from wear.model import bind
-from wear.scene import (
-    Bearing,
-    Contact,
-    Motion,
-    Pin,
-    Scene,
-    Support,
-    VariantKey,
-    builtin_names,
-    contact_laws,
-    hard_names,
-    load_scene,
-    parse_scene,
-)
+from wear.scene import Scene, builtin_names, hard_names, load_scene, parse_scene
 from wear.scene.notices import CONTACT_REACH
+from wear.scene.tables import Bearing, Contact, Motion, Pin, Support, contact_laws
+from wear.scene.variant import VariantKey
 
 MINIMAL = GOOD.partition("\n")[2].partition("kind")[0]  # neither title nor load
 SINE = 'kind = "sine"\namplitude_mm = 5e-4\nperiod_s = 0.06\n'

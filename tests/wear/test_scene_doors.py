@@ -11,7 +11,8 @@ import pytest
 
 from wear.faults import SceneError
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
-from wear.scene import Bearing, Contact, Motion, Pin, Scene, Support, load_scene
+from wear.scene import Scene, load_scene
+from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 
 SECTION4 = load_scene("section4")
 

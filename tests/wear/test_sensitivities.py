@@ -15,7 +15,8 @@ from wear.cycles import sweep
 from wear.faults import UsageError
 from wear.load import Block, Blocks, Constant, Force, Harmonics, Load, Sine, Table
 from wear.parameters import parameters_of
-from wear.scene import KEYS, Scene, load_scene
+from wear.scene import Scene, load_scene
+from wear.scene.variant import KEYS
 from wear.sensitivities import gradients, sensitivity
 
 FloatArray = NDArray[np.float64]
@@ -92,6 +93,18 @@ def test_derivatives_are_those_of_differences_within_the_estimates(name: str) ->
     scale = np.maximum(np.abs(reference), found.wear[0])
     assert np.all(estimate <= 1e-9 * scale)
     assert np.all(uncertainty <= 1e-8 * scale)
+
+
+def test_a_loose_count_of_violent_cycles_has_derivatives_within_their_estimates() -> None:
+    """With this wear coefficient the wear of the first instants changes the rate a thousandfold."""
+    scene = load_scene("section4").with_(
+        {"bearing.wear_coefficient": 25.6, "bearing.roughness_growth": 0.1365}
+    )
+    keys = ["bearing.wear_coefficient"]
+    loose = gradients([scene], keys, CYCLES[:3], 1e-7)
+    (reference,), _ = _differences(scene, keys, CYCLES[:3])
+    assert np.all(np.abs(25.6 * loose.derivative[0, 0] - reference) <= 1e-9 * reference)
+    assert np.all(loose.error[0] <= 1e-9 * loose.derivative[0])
 
 
 LOADS: dict[str, tuple[Load | Blocks, dict[str, Load | Blocks]]] = {

@@ -6,7 +6,6 @@ are known. A command reports the faults of all its arguments and of its scene in
 
 from __future__ import annotations
 
-import argparse
 import math
 import re
 from argparse import ArgumentTypeError
@@ -15,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files
-from derive.command_line import declare
+from derive.command_line import Options, Parser, declare
 from wear.faults import Faults
 from wear.quantities import MOST_CYCLES
 from wear.words import did_you_mean, shown
@@ -31,9 +30,7 @@ _THOUSANDS = re.compile(r"0\d+|\d{1,3}(\.\d{3})+")
 """What a comma leaves of 9,000, and 9.000: not to be read as 9 and 0, or as 9."""
 
 
-def add_scene(
-    parser: argparse.ArgumentParser, default: str | None = None, *, several: bool = False
-) -> None:
+def add_scene(parser: Parser, default: str | None = None, *, several: bool = False) -> None:
     """Declare the scene or scenes, which may be left out if there is a default, and `--set`."""
     about = "a built-in scene (wear scenes lists them) or a TOML file"
     if default is not None:
@@ -56,13 +53,13 @@ def built_in_names() -> Sequence[str]:
 
 def _entries() -> Sequence[str]:
     """Return the beginnings of what `--set` takes, but for the load, whose keys vary."""
-    from wear.scene import Bearing, Contact, Motion, Pin, Support
+    from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 
     tables = (Bearing, Pin, Contact, Support, Motion)
     return [f"{table.place}.{name}=" for table in tables for name in table.entries]
 
 
-def add_readings(parser: argparse.ArgumentParser, help: str) -> None:
+def add_readings(parser: Parser, help: str) -> None:
     """Declare a file of readings of the scene, of which `read` makes `options.readings`."""
     parser.set_defaults(readings=())
     declare(parser, "--data FILE.csv", help)
@@ -86,7 +83,7 @@ def one_of(choices: Callable[[], Sequence[str]]) -> Callable[[str], str]:
 
 
 def add_choice(
-    parser: argparse.ArgumentParser,
+    parser: Parser,
     usage: str,
     choices: Callable[[], Sequence[str]],
     help: str,
@@ -96,16 +93,14 @@ def add_choice(
     declare(parser, usage, help, choices, type=one_of(choices), **about)
 
 
-def add_rtol(
-    parser: argparse.ArgumentParser, low: float, default: str, of: str = " of the wear"
-) -> None:
+def add_rtol(parser: Parser, low: float, default: str, of: str = " of the wear") -> None:
     """Declare the requested accuracy, down to the lowest that can be asked for."""
     about = f"requested relative accuracy{of} (default: %(default)s)"
     declare(parser, "--rtol RTOL", about, type=number(low, 0.1), default=default)
 
 
 def add_cycles(
-    parser: argparse.ArgumentParser,
+    parser: Parser,
     help: str,
     default: str | None = None,
     usage: str = "--cycles N,...",
@@ -114,12 +109,12 @@ def add_cycles(
     declare(parser, usage, help, type=cycles, default=default)
 
 
-def add_depth(parser: argparse.ArgumentParser, help: str) -> None:
+def add_depth(parser: Parser, help: str) -> None:
     """Declare a wear depth in mm."""
     declare(parser, "--until-wear MM", help, type=number(1e-30, 1e30))
 
 
-def add_folder(parser: argparse.ArgumentParser, help: str, default: str | None = None) -> None:
+def add_folder(parser: Parser, help: str, default: str | None = None) -> None:
     """Declare the folder to be written to."""
     declare(parser, "-o, --output DIR", help, type=folder, default=default)
 
@@ -208,7 +203,7 @@ def refuse_implausible(notices: Sequence[str], faults: Faults) -> None:
     faults += [notice for notice in notices if notice.startswith(WORD)]
 
 
-def read(options: argparse.Namespace) -> Faults:
+def read(options: Options) -> Faults:
     """Put the scene, or the scenes, and their readings in the place of their names; return what is
     wrong with these and with all other arguments.
 
@@ -225,7 +220,7 @@ def read(options: argparse.Namespace) -> Faults:
     return faults
 
 
-def _scene(name: str, options: argparse.Namespace, faults: Faults) -> Scene | None:
+def _scene(name: str, options: Options, faults: Faults) -> Scene | None:
     from wear.faults import SceneError
     from wear.scene import load_scene
 

@@ -1,25 +1,24 @@
-"""`wear asymptote`: what becomes of the wear in the long run."""
+"""`wear asymptote`: what becomes of the wear in the long run.
+
+examples:
+  wear asymptote section4           regime, wear per cycle, pressure, logarithm
+  wear asymptote section4-cutoff    where and in which cycle the wear stops
+  wear asymptote section4 --set bearing.roughness_growth=0.3 --json
+"""
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, Options, Parser
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.regime import Asymptote
 
-SUMMARY = "what becomes of the wear in the long run"
-EXAMPLE = """\
-  wear asymptote section4           regime, wear per cycle, pressure, logarithm
-  wear asymptote section4-cutoff    where and in which cycle the wear stops
-  wear asymptote section4 --set bearing.roughness_growth=0.3 --json
-"""
 
 _LABELS: Mapping[str, tuple[str, str]] = {
     "regime": ("regime", ""),
@@ -34,12 +33,12 @@ _LABELS: Mapping[str, tuple[str, str]] = {
 }
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare the scene."""
     arguments.add_scene(parser)
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Print the regime of a scene and its constants."""
     from wear.regime import asymptote
 

@@ -1,8 +1,14 @@
-"""`wear bench`: speed against true error, and the hard cases."""
+"""`wear bench`: speed against true error, and the hard cases.
+
+examples:
+  wear bench                         own methods and SciPy's, about a minute
+  wear bench --peers -o speed        with heyoka, diffrax, ... as installed; files into speed/
+  wear bench --quick --json          one scene, ten seconds
+  wear bench --hard                  the hard cases: how each method fails
+"""
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator, Sequence
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -10,7 +16,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
-from derive.command_line import Answer, declare
+from derive.command_line import Answer, Options, Parser, declare
 from wear.commands import arguments
 from wear.faults import UsageError
 
@@ -21,16 +27,8 @@ if TYPE_CHECKING:
 PEERS = Path(__file__).parents[2] / "docs" / "bench"
 HARD_SECONDS, HARD_SECONDS_QUICK = 2.0, 0.3
 
-SUMMARY = "speed against true error, and the hard cases"
-EXAMPLE = """\
-  wear bench                         own methods and SciPy's, about a minute
-  wear bench --peers -o speed        with heyoka, diffrax, ... as installed; files into speed/
-  wear bench --quick --json          one scene, ten seconds
-  wear bench --hard                  the hard cases: how each method fails
-"""
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare what to measure and how long."""
     about = (
         "also cycle jumps and averaging, and what is installed of heyoka, diffrax, JiTCODE, "
@@ -44,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_folder(parser, "write tables, raw CSV, JSON and the figure there")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Measure, print, write."""
     faults = arguments.read(options)
     if options.hard and options.peers:
@@ -53,7 +51,7 @@ def execute(options: argparse.Namespace) -> Answer:
     return _hard(options) if options.hard else _speed(options)
 
 
-def _speed(options: argparse.Namespace) -> Answer:
+def _speed(options: Options) -> Answer:
     from wear.benchmark import results as output
     from wear.benchmark.machine import footer
 
@@ -72,7 +70,7 @@ def _speed(options: argparse.Namespace) -> Answer:
     return Answer(document, lambda: "\n".join(lines))
 
 
-def _measure(options: argparse.Namespace) -> Result:
+def _measure(options: Options) -> Result:
     from wear import benchmark
     from wear.benchmark.machine import import_seconds, machine
     from wear.benchmark.methods import CYCLES, FEW, ONE, cases, names
@@ -143,7 +141,7 @@ def _figures(result: Result) -> dict[str, bytes]:
     return {f"{name}.svg": encoded(figure, ".svg") for name, figure in drawn.items()}
 
 
-def _hard(options: argparse.Namespace) -> Answer:
+def _hard(options: Options) -> Answer:
     from wear.benchmark import hard
     from wear.benchmark.machine import footer, machine
     from wear.benchmark.results import csv_text

@@ -1,26 +1,23 @@
-"""`wear cite`: what to cite, as BibTeX."""
+"""`wear cite`: what to cite, as BibTeX.
 
-from __future__ import annotations
-
-import argparse
-
-from derive.command_line import Answer
-from wear.cite import REFERENCES, bibtex
-from wear.commands import arguments
-
-SUMMARY = "what to cite, as BibTeX"
-EXAMPLE = """\
+examples:
   wear cite > derive-wear.bib     all entries, each with when to cite it
   wear cite note derive-wear      the note and this software
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+from derive.command_line import Answer, Options, Parser
+from wear.cite import REFERENCES, bibtex
+from wear.commands import arguments
+
+
+def add_arguments(parser: Parser) -> None:
     known, about = tuple(REFERENCES), f"one of {', '.join(REFERENCES)} (default: all)"
     arguments.add_choice(parser, "[KEY ...]", lambda: known, about, dest="references")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     arguments.read(options).stop_if_any()
     chosen = [REFERENCES[key] for key in options.references or REFERENCES]
     document = [entry._asdict() for entry in chosen]

@@ -1,36 +1,35 @@
-"""`wear claims`: the ledger of the note's claims, each decided by a computation of this run."""
+"""`wear claims`: the claims of the published note, each decided by a computation.
+
+examples:
+  wear claims               every claim of the note, with verdict and evidence
+  wear claims C24 C36       two of them
+  wear claims --json        the same for another program
+"""
 
 from __future__ import annotations
 
-import argparse
 import textwrap
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, Options, Parser
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.report.claims import Entry
 
-SUMMARY = "the claims of the published note, each decided by a computation"
-EXAMPLE = """\
-  wear claims               every claim of the note, with verdict and evidence
-  wear claims C24 C36       two of them
-  wear claims --json        the same for another program
-"""
 _WIDTH, _INDENT = 96, " " * 5
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare the ids of claims."""
     about = "a claim, C1 to C41 (default: all)"
     arguments.add_choice(parser, "[ID ...]", _known, about, dest="ids")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Decide the claims."""
     from wear.report.claims import as_json, ledger
 

@@ -1,22 +1,19 @@
-"""`wear explore`: a page on which the parameters of a scene can be moved."""
+"""`wear explore`: an interactive page: the wear follows the parameters.
 
-from __future__ import annotations
-
-import argparse
-
-from derive import files, terminal
-from derive.command_line import Answer, declare
-from wear.commands import arguments
-
-SUMMARY = "an interactive page: the wear follows the parameters"
-EXAMPLE = """\
+examples:
   wear explore                          section4 of the note, into explorer.html
   wear explore scene.toml -o mine.html  a scene of your own, beside the built-in ones
   wear explore section4 --set contact.ends_at_3_sigma=true
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+from derive import files, terminal
+from derive.command_line import Answer, Options, Parser, declare
+from wear.commands import arguments
+
+
+def add_arguments(parser: Parser) -> None:
     arguments.add_scene(parser, default="section4")
     arguments.add_readings(parser, "show readings: columns cycles, wear_mm or wear_um")
     about = "the page to write (default: %(default)s)"
@@ -25,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     from wear.report.explorer import page
 
     faults = arguments.read(options)

@@ -1,8 +1,16 @@
-"""`wear figure`: wear, roughness and pressure of a scene against cycles, or inside them."""
+"""`wear figure`: wear, roughness and pressure against cycles.
+
+examples:
+  wear figure section4 -o wear.pdf                          9000 cycles
+  wear figure section4 -o wear.svg --cycles 1e8 --log       on a logarithmic axis
+  wear figure scene.toml -o wear.png --set contact.ends_at_3_sigma=true
+  wear figure mild.toml hard.toml -o both.svg --until-wear 2e-3 --axis hours
+  wear figure scene.toml -o wear.pdf --data readings.csv    with what was measured
+  wear figure section4 -o pulses.svg --inside 0,10,100      the pressure within three cycles
+"""
 
 from __future__ import annotations
 
-import argparse
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -10,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
-from derive.command_line import Answer, declare
+from derive.command_line import Answer, Options, Parser, declare
 from wear.commands import arguments, run_output
 from wear.faults import Faults
 
@@ -23,18 +31,8 @@ LAST = 9000  # cycle shown, unless the load ends before or readings go on
 MOST_AT_ONCE = 7  # scenes or cycles in one figure: as many as there are colours
 ABSCISSAE = ("cycles", "hours", "distance")
 
-SUMMARY = "wear, roughness and pressure against cycles"
-EXAMPLE = """\
-  wear figure section4 -o wear.pdf                          9000 cycles
-  wear figure section4 -o wear.svg --cycles 1e8 --log       on a logarithmic axis
-  wear figure scene.toml -o wear.png --set contact.ends_at_3_sigma=true
-  wear figure mild.toml hard.toml -o both.svg --until-wear 2e-3 --axis hours
-  wear figure scene.toml -o wear.pdf --data readings.csv    with what was measured
-  wear figure section4 -o pulses.svg --inside 0,10,100      the pressure within three cycles
-"""
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare the scenes, the file and the range of cycles."""
     arguments.add_scene(parser, several=True)
     about = "a .pdf, .png or .svg file"
@@ -56,7 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_cycles(parser, about, usage="--inside N,...")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Solve the scenes and draw them."""
     faults = arguments.read(options)
     scenes, inside, output = options.scene, options.inside, options.output
@@ -82,7 +80,7 @@ def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int
     return max(read) if read else min(LAST, *(most_cycles(scene.load) for scene in scenes))
 
 
-def _against_cycles(options: argparse.Namespace, last: int) -> Answer:
+def _against_cycles(options: Options, last: int) -> Answer:
     from wear.figure_data import Abscissa, panels_of, points_of
     from wear.figures import history
     from wear.life import cycles_until

@@ -1,32 +1,31 @@
-"""`wear fit`: the parameters of a scene from measured wear, and how certain they are."""
+"""`wear fit`: parameters of a scene from measured wear.
+
+examples:
+  wear fit readings.csv scene.toml --free bearing.wear_coefficient
+  wear fit readings.csv scene.toml --free bearing.wear_coefficient bearing.roughness_growth \\
+      --free-each bearing.roughness_mm --ignore load_g --forecast 1e5,1e6 -o fitted
+"""
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
-from derive.command_line import Answer, declare
+from derive.command_line import Answer, Options, Parser, declare
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from wear.fitting.fit import Fit
     from wear.numerics.gauss import FloatArray
 
-SUMMARY = "parameters of a scene from measured wear"
-EXAMPLE = """\
-  wear fit readings.csv scene.toml --free bearing.wear_coefficient
-  wear fit readings.csv scene.toml --free bearing.wear_coefficient bearing.roughness_growth \\
-      --free-each bearing.roughness_mm --ignore load_g --forecast 1e5,1e6 -o fitted
-"""
 ERRORS = ("relative", "absolute")
 QUANTILES = (0.025, 0.5, 0.975)  # of the posterior
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare data, scene, what is free and what is asked."""
     about = (
         "columns cycles and wear_mm or wear_um; if need be standard_error_mm, specimen, and "
@@ -48,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_folder(parser, "write fit.json, fitted.toml and the figures there")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Fit."""
     import numpy as np
 

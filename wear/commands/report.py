@@ -1,24 +1,22 @@
-"""`wear report`: the report of a scene of one's own, as a page, LaTeX and PDF."""
+"""`wear report`: the report of a scene of one's own.
 
-from __future__ import annotations
-
-import argparse
-import shlex
-from pathlib import Path
-
-from derive import files, terminal
-from derive.command_line import Answer
-from wear.commands import arguments
-
-SUMMARY = "the report of a scene of one's own"
-EXAMPLE = """\
+examples:
   wear report scene.toml              into the folder scene-report
   wear report section4 -o elsewhere   model, data, equations, wear, life
   wear report scene.toml --data readings.csv      and what was measured
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+import shlex
+from pathlib import Path
+
+from derive import files, terminal
+from derive.command_line import Answer, Options, Parser
+from wear.commands import arguments
+
+
+def add_arguments(parser: Parser) -> None:
     """Declare the scene and the folder."""
     arguments.add_scene(parser)
     about = "compare readings with the prediction: columns cycles, wear_mm or wear_um, specimen"
@@ -26,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     arguments.add_folder(parser, "folder (default: NAME-report)")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Solve the scene and write its report."""
     name = options.scene
     arguments.read(options).stop_if_any()

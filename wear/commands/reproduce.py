@@ -1,8 +1,12 @@
-"""`wear reproduce`: the main job, from the governing equations to the report."""
+"""`wear reproduce`: derive, solve and judge everything: the report.
+
+examples:
+  wear reproduce               writes report/report.html and all that belongs to it
+  wear reproduce -o elsewhere  into another folder
+"""
 
 from __future__ import annotations
 
-import argparse
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -10,28 +14,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive import files, terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, Options, Parser
 from wear import processes
 from wear.commands import arguments
 
 if TYPE_CHECKING:
     from derive.verification import Verification
     from wear.report.claims import Entry
-    from wear.report.typeset import Typeset
-
-SUMMARY = "derive, solve and judge everything: the report"
-EXAMPLE = """\
-  wear reproduce               writes report/report.html and all that belongs to it
-  wear reproduce -o elsewhere  into another folder
-"""
+    from wear.report.publish import Typeset
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare the folder."""
     arguments.add_folder(parser, "folder (default: %(default)s)", "report")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Derive, verify, solve, judge, and write the report."""
     arguments.read(options).stop_if_any()
     folder = options.output
@@ -60,18 +58,17 @@ def _reproduce(
     folder: Path, progress: Callable[[str], None]
 ) -> tuple[dict[str, str | bytes], Verification, tuple[Entry, ...], Typeset]:
     """Make everything: the files by name, the checks, the ledger, and what came of the PDF."""
-    from derive.catalogue import equations
+    from derive.catalogue import all_equations
     from derive.note.claim_checks import SYMBOLIC
     from derive.verification import checked_at, verified
     from wear.report.claims import SIMULATED, as_json, decided, ledger
-    from wear.report.manifest import manifest
     from wear.report.paper import drawings, paper
-    from wear.report.publish import published
+    from wear.report.publish import manifest, published
     from wear.report.runs import run
 
     with processes.assistant() as ask:
         begun = {claim: ask(decided, claim) for claim in SYMBOLIC}
-        catalogue = equations()
+        catalogue = all_equations()
         checked = [ask(checked_at, place) for place in range(len(catalogue))]
         runs = run(lambda what: progress(f"solving: {what}"))
         solved = ledger(lambda *claim: progress(f"judging claim {claim[-1]}"), tuple(SIMULATED))
@@ -85,7 +82,8 @@ def _reproduce(
         contents, typeset = published(paper(catalogue, verification, runs, judged, figures))
         contents["claims.json"] = terminal.json_text(as_json(judged))
         command = f"wear reproduce -o {folder.name}"
-        contents["manifest.json"] = terminal.json_text(manifest(contents, runs, command))
+        scenes = {name: case.scene for name, case in runs.cases.items()}
+        contents["manifest.json"] = terminal.json_text(manifest(contents, scenes, command))
     return contents, verification, judged, typeset
 
 

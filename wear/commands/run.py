@@ -1,21 +1,6 @@
-"""`wear run`: the state of a scene after given numbers of cycles."""
+"""`wear run`: the state of a scene after given numbers of cycles.
 
-from __future__ import annotations
-
-import argparse
-import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
-
-from derive import terminal
-from derive.command_line import Answer, declare
-from wear.commands import arguments, run_inside, run_output
-
-if TYPE_CHECKING:
-    from wear.life import Life
-
-SUMMARY = "the state of a scene after given numbers of cycles"
-EXAMPLE = """\
+examples:
   wear run section4                                    a table
   wear run section4 --cycles 1,9000,1e8 --rtol 1e-12   the wear after 1e8 cycles, 12 digits
   wear run section4 --set bearing.roughness_growth=0.3  with one entry changed
@@ -24,8 +9,21 @@ EXAMPLE = """\
   wear run section4 --cycles 0:8999 --phases 100 -o inside.nc        900,000 states
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from derive import terminal
+from derive.command_line import Answer, Options, Parser, declare
+from wear.commands import arguments, run_inside, run_output
+
+if TYPE_CHECKING:
+    from wear.life import Life
+
+
+def add_arguments(parser: Parser) -> None:
     arguments.add_scene(parser)
     about = "numbers of cycles, 0 for the fresh state; 0:9000 for all from 0 to 9000"
     arguments.add_cycles(parser, f"{about} (default: %(default)s)", "1,10,100,1000,10000")
@@ -49,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     declare(parser, "-o, --output FILE", about, type=arguments.file(*run_output.SUFFIXES))
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     from wear.faults import AccuracyError, Interrupted
     from wear.life import cycles_until
     from wear.request import obstacle

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive import terminal
-from derive.command_line import Answer
+from derive.command_line import Answer, Options
 from wear.faults import Faults
 
 if TYPE_CHECKING:
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".csv", ".nc")
 
 
-def check(options: argparse.Namespace, faults: Faults) -> None:
+def check(options: Options, faults: Faults) -> None:
     """Add what stands against states inside the cycles."""
     from wear.load.spans import most_cycles
     from wear.request import obstacle

@@ -1,27 +1,24 @@
-"""`wear scenes`: the built-in scenes."""
+"""`wear scenes`: the built-in scenes.
 
-from __future__ import annotations
-
-import argparse
-
-from derive.command_line import Answer, declare
-from wear.commands import arguments
-
-SUMMARY = "the built-in scenes"
-EXAMPLE = """\
+examples:
   wear scenes                                 names and titles
   wear scenes --describe section4             what it is, and its data
   wear scenes --describe section4 > own.toml  to start a scene of your own
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+from derive.command_line import Answer, Options, Parser, declare
+from wear.commands import arguments
+
+
+def add_arguments(parser: Parser) -> None:
     names, about = arguments.built_in_names, "a built-in scene (default: all)"
     arguments.add_choice(parser, "[SCENE ...]", names, about, dest="names")
     declare(parser, "--describe", "show each as a scene file")
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     from wear.scene import load_scene
 
     arguments.read(options).stop_if_any()

@@ -1,30 +1,28 @@
-"""`wear sensitivity`: how the wear depends on every number of the scene."""
+"""`wear sensitivity`: how the wear depends on every number of the scene.
 
-from __future__ import annotations
-
-import argparse
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
-
-import numpy as np
-
-from derive import files, terminal
-from derive.command_line import Answer, declare
-from wear.commands import arguments
-
-if TYPE_CHECKING:
-    from wear.sensitivities import Sensitivities
-
-SUMMARY = "how the wear depends on every number of the scene"
-EXAMPLE = """\
+examples:
   wear sensitivity section4                             elasticities, a table
   wear sensitivity section4 --cycles 1,9000,1e8 --json  with derivatives and error estimates
   wear sensitivity section4 --until-wear 1e-3           of the cycles to a wear depth, too
   wear sensitivity scene.toml -o tornado.png            a tornado diagram
 """
 
+from __future__ import annotations
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from derive import files, terminal
+from derive.command_line import Answer, Options, Parser, declare
+from wear.commands import arguments
+
+if TYPE_CHECKING:
+    from wear.sensitivities import Sensitivities
+
+
+def add_arguments(parser: Parser) -> None:
     """Declare the scene, the numbers of cycles and the file."""
     arguments.add_scene(parser)
     about = "numbers of cycles (default: %(default)s)"
@@ -36,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     declare(parser, "-o, --output FILE", about, type=written)
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Find how the wear depends on the numbers of a scene."""
     from wear.sensitivities import sensitivity
 

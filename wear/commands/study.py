@@ -1,26 +1,6 @@
-"""`wear study`: many scenes that differ in a few numbers, on this machine or on a cluster."""
+"""`wear study`: many scenes that differ in a few numbers.
 
-from __future__ import annotations
-
-import argparse
-import logging
-import time
-from collections.abc import Iterator
-from concurrent.futures import Executor
-from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
-from pathlib import Path
-from typing import TYPE_CHECKING
-
-from derive import files, terminal
-from derive.command_line import Answer, declare
-from wear import processes
-from wear.commands import arguments
-
-if TYPE_CHECKING:
-    from wear.studies.rows import Study
-
-SUMMARY = "many scenes that differ in a few numbers"
-EXAMPLE = """\
+examples:
   wear study section4 --vary bearing.roughness_growth=0.1:0.4:31 \\
       --vary bearing.wear_coefficient=1e-8:1e-5:31:log --cycles 1e6 -o map.zarr
   wear study section4 --vary "bearing.hardness_MPa=normal(200,15)" --design sobol \\
@@ -32,11 +12,30 @@ EXAMPLE = """\
 
 The same command again goes on where it stopped.
 """
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derive import files, terminal
+from derive.command_line import Answer, Options, Parser, declare
+from wear import processes
+from wear.commands import arguments
+
+if TYPE_CHECKING:
+    from wear.studies.rows import Study
+
 LONGEST_WAIT = 10  # seconds for a scheduler to answer
 TRIED, LONG_ENOUGH = 64, 0.5  # rows that a dry run solves; s, else it solves more at once
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     """Declare the scene, what varies, what is asked, and where it runs."""
     from wear.studies.design import DESIGNS
 
@@ -67,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     declare(parser, "--figure FILE", about, type=arguments.file(*arguments.PICTURES))
 
 
-def execute(options: argparse.Namespace) -> Answer:
+def execute(options: Options) -> Answer:
     """Run a study, or say what it takes."""
     from wear.studies.run import prepare, run
 

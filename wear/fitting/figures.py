@@ -40,9 +40,9 @@ def data_and_band(fit: Fit) -> Figure:
             zip(fit.model.specimens, curves, np.split(-fit.residuals, ends), strict=True)
         ):
             look = stroke(place, place // 7)
-            drawn = {"color": look.colour, "marker": look.marker, "mfc": look.face, "ls": ""}
-            top.fill_between(cycles, low, high, color=look.colour, alpha=0.15, lw=0)
-            top.plot(cycles, middle, color=look.colour, ls=look.dash)
+            drawn = look | {"linestyle": ""}
+            top.fill_between(cycles, low, high, color=look["color"], alpha=0.15, lw=0)
+            top.plot(cycles, middle, **look | {"marker": ""})
             wear = specimen.wear_mm * _MICROMETRES_PER_MM
             top.plot(specimen.cycles, wear, label=specimen.name, **drawn)
             bottom.plot(specimen.cycles, residuals, **drawn)
@@ -75,7 +75,7 @@ def profiles(fit: Fit) -> Figure:
         cells = figure.subplots(rows, columns, squeeze=False, sharey=True).ravel()
         for cell, index in zip(cells, drawn, strict=False):
             parameter, profile = fit.parameters[index], fit.profiles[index]
-            cell.plot(profile.values, profile.roots, "o-", color=stroke(0).colour, ms=3)
+            cell.plot(profile.values, profile.roots, "o-", color=stroke(0)["color"], ms=3)
             cell.axhline(fit.quantile, color=GREY, lw=0.6)
             cell.set(ylim=(0.0, 1.5 * fit.quantile), xlabel=_label(parameter))
             if parameter.positive and profile.values[-1] > _DECADE * profile.values[0]:
@@ -103,7 +103,7 @@ def corner(fit: Fit, samples: FloatArray) -> Figure:
         cells = figure.subplots(len(pair), len(pair), squeeze=False, sharex="col")
         for place, index in enumerate(pair):
             cell, values = cells[place, place], _shown(fit.parameters[index], samples[:, index])
-            cell.hist(values, _BINS, color=stroke(0).colour, histtype="step")
+            cell.hist(values, _BINS, color=stroke(0)["color"], histtype="step")
             cell.set_yticks([])
             cells[-1, place].set_xlabel(_label(fit.parameters[index], log=True))
         if len(pair) == 2:

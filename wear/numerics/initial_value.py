@@ -62,14 +62,15 @@ class Rules(NamedTuple):
 class Reached(NamedTuple):
     """What there is at the ends of some intervals (k,), all since the start: the `increment`, its
     `error`, the `derivative` of the state with respect to that at the start, the `response` of the
-    state to a relative error of the rate, at most; and the number of right-hand sides evaluated
-    since the ends before."""
+    state to a relative error of the rate, at most. Since the ends before: the number of right-hand
+    sides evaluated, and the `edges` (q + 1,) of the intervals that they took."""
 
     increment: FloatArray
     error: FloatArray
     derivative: FloatArray
     response: FloatArray
     evaluations: int
+    edges: FloatArray
 
     def then(self, more: Reached) -> Reached:
         """Return what `more` is that has started where this ends."""
@@ -80,6 +81,7 @@ class Reached(NamedTuple):
             derivative * more.derivative,
             self.response[-1] * more.derivative + more.response,
             self.evaluations + more.evaluations,
+            np.append(self.edges[:-1], more.edges),
         )
 
     def take(self, which: BoolArray) -> Reached:
@@ -90,6 +92,7 @@ class Reached(NamedTuple):
             self.derivative[which],
             self.response[which],
             self.evaluations,
+            self.edges,
         )
 
 
@@ -138,7 +141,7 @@ def integrate(
     todo = [_Intervals(edges, np.ones(len(edges) - 1, dtype=bool))] if len(edges) > 1 else []
     shortest, size = SHORTEST * np.max(np.diff(edges), initial=0.0), FIRST_AT_ONCE
     zero, one = np.zeros(1), np.ones(1)
-    done, evaluations = Reached(zero, zero, one, zero, 0), 0
+    done = Reached(zero, zero, one, zero, 0, edges[:1])
     while todo:
         if time.monotonic() > deadline:
             raise TimeoutError
@@ -147,8 +150,8 @@ def integrate(
             now, rest = now.parted(size)
             todo.append(rest)
         attempt = _attempt(sampled, now, state, rules, roundoff(state), limit)
-        evaluations += attempt.evaluations
-        if evaluations > most:
+        done = done._replace(evaluations=done.evaluations + attempt.evaluations)
+        if done.evaluations > most:
             raise StoppedError(state)
         if attempt.part is None:
             size = max(1, len(now.asked) // 2)
@@ -160,8 +163,8 @@ def integrate(
             continue
         part = done.then(attempt.part)
         if attempt.asked.any():
-            yield part.take(attempt.asked)._replace(evaluations=evaluations)
-            evaluations = 0
+            yield part.take(attempt.asked)
+            part = part._replace(evaluations=0, edges=part.edges[-1:])
         done = part.take(np.arange(len(attempt.asked)) == len(attempt.asked) - 1)
         if attempt.easy:
             size = min(2 * size, MOST_AT_ONCE)
@@ -234,7 +237,8 @@ def _judged(
     missed = SAFETY * np.abs(np.cumsum(judged) - increment) + np.cumsum(hidden)
     left = float(run.iteration_error[0, 0] + judge.iteration_error[0, 0]) * increment[-1]
     error = missed + (left + blur * increment) * np.exp(most)
-    return Reached(increment, error, np.exp(growth), increment * np.exp(most), 0)
+    response = increment * np.exp(most)
+    return Reached(increment, error, np.exp(growth), response, 0, coarse.over.edges.ravel())
 
 
 def _on_each(values: FloatArray, over: Mesh) -> FloatArray:

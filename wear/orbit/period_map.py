@@ -28,7 +28,7 @@ from wear.numerics.collocation import (
     unresolved,
 )
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
-from wear.numerics.initial_value import SAFETY, Rules, StoppedError, integrate
+from wear.numerics.initial_value import SAFETY, Reached, Rules, StoppedError, integrate
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
@@ -231,15 +231,9 @@ class PeriodMap(NamedTuple):
         """Return what a cycle of one scene adds to the state `start`, what of that is missed, the
         derivative dP/du, the response to a relative error of the rate, and the number of right-hand
         sides, by cutting the mesh wherever that is needed; the state stops short of the `limit`."""
-
-        def sampled(edges: FloatArray, m: int, tolerance: float) -> PeriodMap:
-            return period_map(self.equation, edges[None], m, tolerance)
-
-        rules = Rules(size.phase_nodes, size.finer_nodes, size.endpoint_tolerance)
         evaluations, found = 0, [0.0, np.inf, 1.0, 0.0]
-        edges = self.over.edges.ravel()
         try:
-            for last in integrate(sampled, edges, start, rules, limit=limit, most=MOST_VIOLENT):
+            for last in self._integrated(start, limit, size):
                 evaluations += last.evaluations
                 found = [float(array[-1]) for array in last[:4]]
         except StoppedError as end:
@@ -247,6 +241,23 @@ class PeriodMap(NamedTuple):
             return reached - start, np.inf, 1.0, 0.0, evaluations
         increment, error, derivative, response = found
         return increment, error / SAFETY, derivative, response, evaluations
+
+    def cut_for(self, start: float, size: Settings) -> PeriodMap:
+        """Return the map of one scene on a mesh that resolves a cycle from the state `start`,
+        however violent, or raise a `StoppedError`."""
+        parts = [last.edges for last in self._integrated(start, np.inf, size)]
+        edges = np.unique(np.concatenate(parts))
+        return period_map(self.equation, edges[None], size.phase_nodes, self.tolerance)
+
+    def _integrated(self, start: float, limit: float, size: Settings) -> Iterator[Reached]:
+        """Integrate a cycle of one scene from the state `start`, part after part."""
+
+        def sampled(edges: FloatArray, m: int, tolerance: float) -> PeriodMap:
+            return period_map(self.equation, edges[None], m, tolerance)
+
+        rules = Rules(size.phase_nodes, size.finer_nodes, size.endpoint_tolerance)
+        edges = self.over.edges.ravel()
+        return integrate(sampled, edges, start, rules, limit=limit, most=MOST_VIOLENT)
 
     def endpoint_defect(self, starts: FloatArray, run: CycleSolution) -> FloatArray:
         """Return what each interval may hide (scenes, k, q) of the cycles from the `starts`."""

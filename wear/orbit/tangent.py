@@ -16,6 +16,7 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol, cast
 
 import numpy as np
@@ -23,6 +24,7 @@ import numpy as np
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution
 from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_integral
+from wear.numerics.initial_value import StoppedError
 from wear.numerics.rows import take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
@@ -192,19 +194,29 @@ def _in_transient(
 def _of_cycles(
     maps: PeriodMap, starts: FloatArray, size: Settings
 ) -> tuple[Linearised, Linearised]:
-    """Return the linearised cycles from each start (rows, 1), on the mesh and on a finer one."""
+    """Return the linearised cycles from each start (rows, 1), on the mesh and on a finer one; each
+    that the mesh does not resolve on one of its own, and no numbers if there is none."""
     run = maps.advance(starts)
-    marked = maps.unresolved(starts, run, size)
-    marked[:] &= not maps.full
+    found = _linearised_twice(maps, starts, run, size)
+    for row in np.flatnonzero(maps.unresolved(starts, run, size).any(axis=1))[:, None]:
+        try:
+            better = maps.take(row).cut_for(float(starts[row, 0].item()), size)
+        except StoppedError:
+            again: Sequence[FloatArray] = [np.array(np.nan)] * len(found)
+        else:
+            again = _linearised_twice(better, starts[row], better.advance(starts[row]), size)
+        for whole, part in zip(found, again, strict=True):
+            whole[row] = part
+    return Linearised(*found[:2]), Linearised(*found[2:])
+
+
+def _linearised_twice(
+    maps: PeriodMap, starts: FloatArray, run: CycleSolution, size: Settings
+) -> list[FloatArray]:
+    """Return both derivatives by the cycles `run` from the `starts`, and both by a finer map."""
     fine = maps.finer(size)
     judge = fine.advance(starts, run.guess(size.finer_nodes))
-    coarse, finer = linearised(maps, starts, run), linearised(fine, starts, judge)
-    for row in np.flatnonzero(marked.any(axis=1))[:, None]:
-        _, better = next(maps.take(row).refined(marked[row]))
-        again = _of_cycles(better, starts[row], size)
-        for whole, part in zip((*coarse, *finer), (*again[0], *again[1]), strict=True):
-            whole[row] = part
-    return coarse, finer
+    return [*linearised(maps, starts, run), *linearised(fine, starts, judge)]
 
 
 def _on_panels(

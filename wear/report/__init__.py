@@ -4,9 +4,9 @@ Contents
     paper.md, paper; scene.md, own              what the reports say, and their numbers
     text, document, number                     Markdown with values, labels numbered
     equations, markup                          equations with titles; plain text as Markdown
-    writer, html, tex, templates, svg          the writer and its two forms
-    typeset, publish, manifest                 the files of a report
-    runs, claims, reconcile                    what is computed for it
+    writer, html, tex, templates               the writer and its two forms
+    publish                                    the files of a report
+    note, runs, claims                         what is computed for it
     figures_of_note, drawing                   its figures
     explorer                                   the interactive page
 """

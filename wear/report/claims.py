@@ -22,7 +22,6 @@ from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Claim, Finding, Verdict
 from wear.report import note
 from wear.report.note import PRINTED
-from wear.report.reconcile import reconciliation, slope_for_simulation
 from wear.solver import solve
 
 LEAST_SLOPE = 1.0 / 8.0
@@ -100,7 +99,7 @@ def simulated_wear() -> Finding:
     evidence = f"the solution gives {found:.6e} mm, printed {PRINTED.simulated_mm:.2e} mm"
     if met:
         return Finding(Verdict.CONFIRMED, evidence)
-    slope = f"which it would give with f_c = {slope_for_simulation():.8g} (see C36)"
+    slope = f"which it would give with f_c = {note.slope_for_simulation():.8g} (see C36)"
     return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}, {slope}")
 
 
@@ -116,7 +115,7 @@ def formula_wear() -> Finding:
         return Finding(Verdict.CONFIRMED, evidence)
     return Finding(
         Verdict.NOT_REPRODUCIBLE,
-        f"{evidence}; {reconciliation().sentence}; any other datum would have to change by "
+        f"{evidence}; {note.reconciliation().sentence}; any other datum would have to change by "
         f"the whole factor: no plausible single change explains both printed values",
     )
 

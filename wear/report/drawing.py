@@ -45,7 +45,7 @@ def of_scene(scene: Scene) -> Figure:
     paths, label = _paths(scene)
     with styled():
         figure, [left, right] = panels(1, 2, COLUMN, 0.72 * COLUMN)
-        bearing, pin = stroke(0).colour, stroke(1).colour
+        bearing, pin = stroke(0)["color"], stroke(1)["color"]
         surface = sigma_c * waves / np.std(waves)
         above = closure - (0.0 if scene.given_load else paths[0][1][0])
         lower = above + sigma_a * others / np.std(others)
@@ -89,7 +89,7 @@ def _profile(seed: float, height: float) -> tuple[NDArray[np.float64], NDArray[n
 
 
 def _solids(axes: Axes) -> None:
-    bearing, pin = stroke(0).colour, stroke(1).colour
+    bearing, pin = stroke(0)["color"], stroke(1)["color"]
     x, lower = _profile(0.3, _PIN)
     axes.fill_between(x, lower, _TOP, color=pin, alpha=0.18, linewidth=0.0)
     axes.plot(x, lower, color=pin)
@@ -133,7 +133,7 @@ def _closure(axes: Axes) -> None:
 
 
 def _displacements(axes: Axes) -> None:
-    bearing, pin = stroke(0).colour, stroke(1).colour
+    bearing, pin = stroke(0)["color"], stroke(1)["color"]
     for x, top, name, colour, side in (
         (_RIGHT + 0.5, 6.5, r"$U_a$ pin moves", pin, 0.15),
         (_RIGHT + 0.5, 5.6, r"$u_a$ pin wears", pin, 0.15),

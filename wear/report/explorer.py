@@ -5,27 +5,64 @@ Overview
     how it is integrated stands in ``assets/explorer.solve.js``.  When it loads it computes the
     wear of some scenes itself and compares it with the values that Python found.
 Key results
-    page    the whole file
+    page            the whole file
+    opened          the scene that it opens at, with no more rows of its load than needed
+    scene_data      a scene in the numbers that the sliders show
+    check_data      wear and wear rates of a scene, computed in Python
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from wear import own_laws
+from wear.faults import AccuracyError, UsageError
 from wear.fitting.readings import Specimen
-from wear.report import explorer_data
-from wear.report.explorer_data import GROUPS
+from wear.load import Constant, Harmonics, Load, Sine, Table
+from wear.load.tables import as_table
+from wear.model import bind
+from wear.parameters import AREA
 from wear.report.html import TEMPLATES, asset, style
-from wear.scene import KEYS, Scene, builtin_names, load_scene
+from wear.resampling import resampled
+from wear.scene import Scene, builtin_names, load_scene
+from wear.scene.variant import KEYS
+from wear.solver import solve
 
 CHECKED = ("section3", "section4", "section5", "section4-cutoff", "soft-support", "large-swing")
 AGREEMENT = {"wear": 1e-7, "rate": 1e-12}
 """Largest relative distances from Python: the page's own tolerance, and roundoff."""
 
 SCRIPTS = ("explorer.solve.js", "explorer.plot.js", "explorer.scene.js", "explorer.page.js")
+CYCLES = (1, 10, 100, 1000, 10000)
+MICROMETRES = 1e3  # in a mm
+SMALL = ("sigma_c0", "sigma_a0", "h_0", "U")
+"""Lengths that the page shows in micrometres."""
+PLOTTED = 4e-3
+"""Relative accuracy of the wear for which the rows of a measured load are merged: a quarter of it
+moves no pixel."""
+GROUPS: Mapping[str, Mapping[str, tuple[float, float]]] = {
+    "Bearing": {
+        "K_c": (1e-08, 0.0001),
+        "H_c": (50, 5000.0),
+        "sigma_c0": (0.0001, 0.001),
+        "f_c": (-0.05, 0.6),
+    },
+    "Pin": {
+        "K_a": (1e-08, 0.0001),
+        "H_a": (50, 5000.0),
+        "sigma_a0": (1e-05, 0.0005),
+        "f_a": (-0.05, 0.6),
+    },
+    "Contact": {"p_max": (10, 3000.0), "h_0": (0.0002, 0.002)},
+    "Support": {"k": (10000.0, 10000000.0)},
+    "Load and motion": {"U": (1e-05, 0.002), "T": (0.001, 1), "R": (1, 100), "n": (10, 10000.0)},
+}
+"""The parameters of the sliders, and between which values they move."""
 
 
 def page(scene: Scene, specimens: Sequence[Specimen] = ()) -> str:
@@ -54,14 +91,14 @@ def _data(
     first: Scene, derived: Mapping[str, Any], specimens: Sequence[Specimen]
 ) -> dict[str, Any]:
     scenes = {name: load_scene(name) for name in builtin_names()}
-    first = explorer_data.opened(first)
+    first = opened(first)
     if first.name not in scenes or scenes[first.name] != first:
         name = f"{first.name} (changed)" if first.name in scenes else first.name
         first = replace(first, name=name)
         scenes = {first.name: first} | scenes
-    shown = [explorer_data.scene_data(scene) for scene in scenes.values()]
+    shown = [scene_data(scene) for scene in scenes.values()]
     next(each for each in shown if each["name"] == first.name)["readings"] = [
-        [float(n), float(wear) * explorer_data.MICROMETRES]
+        [float(n), float(wear) * MICROMETRES]
         for each in specimens
         for n, wear in zip(each.cycles, each.wear_mm, strict=True)
     ]
@@ -71,7 +108,97 @@ def _data(
         "scenes": shown,
         "parameters": derived["parameters"],
         "keys": KEYS,
-        "checks": explorer_data.checked([*(scenes[name] for name in CHECKED), *own]),
+        "checks": checked([*(scenes[name] for name in CHECKED), *own]),
         "agreement": AGREEMENT,
         "cutoff": derived["cutoff"],
     }
+
+
+def opened(scene: Scene) -> Scene:
+    """Return a scene whose load has as few rows as a plot needs; its description says so.
+
+    Raises
+    ------
+    UsageError
+        if the contact law is the scene's own.
+    """
+    if own_laws.is_own(scene.contact.law):
+        raise UsageError("the explorer has the contact laws of the package alone")
+    fewer = resampled(scene, PLOTTED)
+    peaks = "The peak of the pressure is that of the merged rows." if fewer.error else ""
+    described = " ".join([scene.description, *(f"{said}." for said in fewer.notices), peaks])
+    return replace(fewer.scene, description=described.strip())
+
+
+def scene_data(scene: Scene) -> dict[str, Any]:
+    """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
+    other = load_scene("section3").parameters() | {"k": 1e5}
+    numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
+    key = scene.variant
+    return {
+        "name": scene.name,
+        "title": scene.title or scene.name,
+        "description": " ".join(scene.description.split()),
+        "law": key.law,
+        "pin": key.pin,
+        "compliant": scene.support is not None,
+        "opening": scene.contact.pin_wear_opens_gap,
+        "cutoff": key.ends_at_3_sigma,
+        "parameters": {name: numbers[name] for group in GROUPS.values() for name in group},
+        "load": _load_data(scene.periodic_load)
+        | ({"area": {name: numbers[name] for name in AREA}} if scene.given_load else {}),
+    }
+
+
+def _size(load: Load) -> float:
+    """The amplitude of a sine; any other load is multiplied by the number on its slider."""
+    return load.amplitude_mm if isinstance(load, Sine) else 1.0
+
+
+def _load_data(load: Load) -> dict[str, Any]:
+    """Return the load, its rows over one period if it has any, and where a step must end."""
+    if isinstance(load, Sine | Constant | Harmonics):
+        stops = (0.25, 0.75) if isinstance(load, Sine) else load.peaks
+        return as_table(load) | {"stops": [] if isinstance(load, Constant) else list(stops)}
+    phases = sorted({0.0, 1.0, *load.kinks})
+    return {
+        "kind": "table" if isinstance(load, Table) else "force",
+        "file": getattr(getattr(load, "source", None), "file", ""),
+        "period_s": load.period,
+        "phase": phases,
+        "value": [float(load(phase)) for phase in phases],
+        "stops": list(load.kinks),
+    }
+
+
+def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
+    """Return wear after cycles, and wear rates along the way, as Python computes them."""
+    history = solve(scene, cycles, rtol=1e-10)
+    model = bind(scene)
+    phases = np.linspace(0.0, 1.0, 7)
+    depths = np.concatenate([[0.0], history.u_c])
+    rates = []
+    for depth in depths:
+        loads = scene.periodic_load(phases)
+        found = model.rate(np.full_like(loads, depth), loads)
+        if model.ends_at_3_sigma and not model.compliant:
+            found = np.where(model.margin(depth, loads) >= 0.0, found, 0.0)
+        rates += [[float(depth), float(a), float(b)] for a, b in zip(loads, found, strict=True)]
+    return {
+        "scene": scene.name,
+        "cycles": list(cycles),
+        "wear_mm": history.u_c.tolist(),
+        "rates": rates,
+    }
+
+
+def checked(scenes: Iterable[Scene]) -> list[dict[str, Any]]:
+    """Return the check data of the scenes whose wear Python finds to the last digits wanted."""
+    found = []
+    for scene in scenes:
+        try:
+            interrupted = scene.contact.ends_at_3_sigma and scene.support is None
+            found.append(check_data(scene, CYCLES[:3] if interrupted else CYCLES))
+        except AccuracyError:
+            continue
+    return found

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 
 from derive.laws import LAWS, TANH
 from derive.typeset import mathml
-from wear.report.explorer_data import GROUPS, MICROMETRES, SMALL
+from wear.report.explorer import GROUPS, MICROMETRES, SMALL
 
 FILE = "explorer.derived.json"
 

@@ -105,23 +105,14 @@ def approach(found: Approach) -> Figure:
             ((found.excess, "wear per cycle"), (found.pressure_excess, "pressure"))
         ):
             look = stroke(family, family)
-            axes.loglog(
-                found.cycles, excess, color=look.colour, linestyle="", marker=look.marker,
-                markerfacecolor=look.face, markersize=5.5 - family, label=name,
-            )  # fmt: skip
+            dots = look | {"linestyle": "", "markersize": 5.5 - family}
+            axes.loglog(found.cycles, excess, label=name, **dots)
         axes.axvline(note.PRINTED.cycles, color=INK, linewidth=0.7, linestyle=(0, (4.0, 2.0)))
         axes.axhline(note.PRINTED.criterion, color=INK, linewidth=0.7, linestyle=(0, (1.0, 1.5)))
-        axes.text(
-            note.PRINTED.cycles,
-            0.97,
-            " the note's cycle",
-            transform=axes.get_xaxis_transform(),
-            va="top",
-        )
-        axes.text(
-            0.02, note.PRINTED.criterion, "the note's criterion",
-            transform=axes.get_yaxis_transform(), va="bottom",
-        )  # fmt: skip
+        across, up = axes.get_xaxis_transform(), axes.get_yaxis_transform()
+        axes.text(note.PRINTED.cycles, 0.97, " the note's cycle", transform=across, va="top")
+        said = "the note's criterion"
+        axes.text(0.02, note.PRINTED.criterion, said, transform=up, va="bottom")
         axes.set(xlabel=r"Cycles  $N$", ylabel="Relative excess over the limit")
         axes.legend(loc="upper right")
     return figure
@@ -144,10 +135,8 @@ def wear_curve(runs: Runs) -> Figure:
         figure, axes = canvas(COLUMN, 0.72 * COLUMN)
         for width, line in lines:
             look = stroke(line.family, line.variant)
-            axes.loglog(
-                line.x, line.y * WEAR.scale, color=look.colour, linestyle=look.dash,
-                linewidth=width, label=line.name,
-            )  # fmt: skip
+            plain = look | {"marker": "", "linewidth": width}
+            axes.loglog(line.x, line.y * WEAR.scale, label=line.name, **plain)
         mark = note.PRINTED.cycles
         axes.axvline(mark, color=GREY, linewidth=0.6, linestyle=(0, (4.0, 2.0)))
         across = axes.get_xaxis_transform()

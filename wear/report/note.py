@@ -1,4 +1,9 @@
-"""The examples of the note: scenes and asymptotes, each made once, and what the note prints."""
+"""The examples of the note: scenes and asymptotes, each made once, and what the note prints.
+
+Its numbers for section 4 do not agree with each other.  All data but f_c enter (21) as factors; one
+f_c gives the wear per cycle that is printed, and the simulation with it tells how well the printed
+simulated value, which no fit has seen, comes out: the `reconciliation`.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.equation import equation_of
+from wear.generated import asymptotics as formula
 from wear.orbit.period_map import resolved, settings
 from wear.regime import Asymptote, asymptote
 from wear.scene import Scene, load_scene
@@ -69,3 +75,54 @@ def increments(scene: Scene, wear: FloatArray) -> FloatArray:
 def increments_after(scene: Scene, *cycles: int) -> FloatArray:
     """Return the wear (mm) of the cycle that follows each number of cycles."""
     return increments(scene, solve(scene, cycles, rtol=RTOL).u_c)
+
+
+class Reconciliation(NamedTuple):
+    """The f_c with which (21) gives the printed wear per cycle, and the simulated one (mm)."""
+
+    value: float
+    simulated_mm: float
+
+    @property
+    def misfit(self) -> float:
+        """Relative distance of the simulated wear from the printed one."""
+        return self.simulated_mm / PRINTED.simulated_mm - 1.0
+
+    @property
+    def sentence(self) -> str:
+        """The change and how well it does."""
+        distance = self.simulated_mm / PRINTED.formula_mm - 1.0
+        was = scene("section4").bearing.roughness_growth
+        return (
+            f"f_c = {self.value:.8g} instead of {was:g} would give "
+            f"{PRINTED.formula_mm:.2e} mm by (21) and {self.simulated_mm:.4e} mm by the solution, "
+            f"{100 * self.misfit:+.2f} % from the printed one and {100 * distance:+.2f} % from "
+            "(21)"
+        )
+
+
+def _simulated(slope: float) -> float:
+    """Return the wear (mm) of the cycle after the printed number of cycles with an f_c."""
+    changed = scene("section4").with_({"bearing.roughness_growth": slope})
+    return float(increments_after(changed, PRINTED.cycles)[0])
+
+
+@cache
+def reconciliation() -> Reconciliation:
+    """Return the f_c for which (21) gives the printed value: the threshold of that share."""
+    numbers = scene("section4").parameters()
+    data = {name: numbers[name] for name in ("T", "K_c", "H_c", "R", "n")}
+    largest = formula.wear_per_cycle(**data, p_inf=numbers["p_max"])
+    slope = float(formula.slope_threshold(epsilon=PRINTED.formula_mm / largest))
+    return Reconciliation(slope, _simulated(slope))
+
+
+@cache
+def slope_for_simulation() -> float:
+    """Return the f_c with which the simulation gives the printed simulated value."""
+    from scipy.optimize import brentq
+
+    least = scene("section4").bearing.roughness_growth
+    return float(
+        brentq(lambda slope: _simulated(slope) - PRINTED.simulated_mm, least, 0.5, rtol=1e-10)
+    )

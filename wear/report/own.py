@@ -19,7 +19,6 @@ from derive.variant_equations import equations_of
 from wear import figures
 from wear.faults import UsageError
 from wear.figure_data import WEAR, Abscissa, Line, Panel, panels_of, points_of, pressure_inside
-from wear.figure_style import COLUMN_AND_HALF
 from wear.fitting.readings import Specimen
 from wear.history import History
 from wear.life import Reached, cycles_until
@@ -31,9 +30,9 @@ from wear.report import drawing
 from wear.report.document import Document, drawn
 from wear.report.equations import shown
 from wear.report.explorer_derived import holding
-from wear.report.manifest import versions
 from wear.report.markup import markup, number
 from wear.report.number import Number
+from wear.report.publish import versions
 from wear.report.text import read
 from wear.request import obstacle
 from wear.scene import Scene
@@ -177,7 +176,7 @@ def _tornado(found: Sensitivities) -> Figure:
     most = np.argsort(-np.max(np.abs(np.nan_to_num(found.elasticity)), axis=1))[:_BARS]
     labels = [f"$N = {n}$" for n in found.cycles]
     keys = [found.keys[i] for i in most]
-    return figures.tornado(keys, found.elasticity[most], labels, width=COLUMN_AND_HALF)
+    return figures.tornado(keys, found.elasticity[most], labels)
 
 
 def _compared(specimens: Sequence[Specimen], predicted: Sequence[History]) -> dict[str, Any]:

@@ -44,7 +44,7 @@ from wear.report.claims import Entry
 from wear.report.document import Document, Figure, drawn
 from wear.report.document import Equation as Shown
 from wear.report.equations import capital, shown
-from wear.report.manifest import versions
+from wear.report.publish import versions
 from wear.report.runs import STATIC_CYCLES, Runs
 from wear.report.text import parsed
 

@@ -1,14 +1,59 @@
-"""A document as the files that a reader gets."""
+r"""A document as the files that a reader gets, ``report.pdf`` among them where TeX is found; and
+``manifest.json``: what is needed to make them again, and to see that they are the same."""
 
 from __future__ import annotations
 
+import hashlib
+import os
+import platform
+import re
+import shutil
+import subprocess
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from derive.files import write_atomically
+from wear.benchmark.machine import installed
 from wear.report import html, tex
 from wear.report.document import Document
-from wear.report.typeset import Typeset, typeset
+from wear.scene import Scene
+
+#: Packages whose version can change a digit or a page.
+PACKAGES = (
+    "derive-wear",
+    "numpy",
+    "scipy",
+    "sympy",
+    "mpmath",
+    "python-flint",
+    "matplotlib",
+    "math-core",
+)
+
+#: What the log of a good report does not have. Underfull boxes are harmless.
+_WARNING = re.compile(
+    r"^(?:LaTeX|Package|Class)\b[^\n:]*? Warning: .*|^pdfTeX warning.*"
+    r"|^Overfull \\[hv]box \((\d+\.?\d*)pt.*|^! .*",
+    re.MULTILINE,
+)
+_RERUNS = 3
+
+
+@dataclass(frozen=True)
+class Typeset:
+    """The PDF if there is one, the warnings that matter, and a line for the user."""
+
+    pdf: bytes | None
+    warnings: tuple[str, ...]
+    notice: str
+
+    @property
+    def said(self) -> tuple[str, ...]:
+        """Return the line, if any, and the warnings."""
+        return (self.notice, *self.warnings) if self.notice else self.warnings
 
 
 def published(document: Document) -> tuple[dict[str, str | bytes], Typeset]:
@@ -25,3 +70,65 @@ def published(document: Document) -> tuple[dict[str, str | bytes], Typeset]:
     if outcome.pdf is not None:
         contents["report.pdf"] = outcome.pdf
     return contents, outcome
+
+
+def typeset(source: Path, timeout: float = 120.0) -> Typeset:
+    """Run pdfTeX beside the source until its references settle.
+
+    Never runs shell escapes. A missing engine and a failed run are a notice, not an error.
+    """
+    engine = shutil.which("pdflatex")
+    if engine is None:
+        return Typeset(
+            None, (), "no TeX engine on the PATH: install texlive-latex-recommended for report.pdf"
+        )
+    command = [engine, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
+    for _ in range(_RERUNS):
+        try:
+            done = subprocess.run(
+                [*command, source.name],
+                cwd=source.parent,
+                env={**os.environ, "max_print_line": "1000"},  # else the log breaks its lines
+                capture_output=True,
+                timeout=timeout,
+            )
+        except subprocess.TimeoutExpired:
+            return Typeset(None, (), f"TeX did not finish within {timeout:g} s")
+        log = source.with_suffix(".log").read_text(encoding="utf-8", errors="replace")
+        if done.returncode != 0:
+            faults = [line for line in warnings(log) if line.startswith("!")]
+            return Typeset(None, warnings(log), f"no report.pdf, TeX says: {' '.join(faults[:1])}")
+        if "Rerun to" not in log and "Table widths have changed" not in log:
+            break
+    return Typeset(source.with_suffix(".pdf").read_bytes(), warnings(log), "")
+
+
+def warnings(log: str) -> tuple[str, ...]:
+    r"""The lines of a TeX log that matter: warnings, errors, boxes too wide by more than 1 pt.
+
+    >>> warnings("Overfull \\hbox (0.4pt too wide) in x\nOverfull \\hbox (9.1pt too wide) in y")
+    ('Overfull \\hbox (9.1pt too wide) in y',)
+    """
+    return tuple(
+        match[0] for match in _WARNING.finditer(log) if match[1] is None or float(match[1]) > 1.0
+    )
+
+
+def manifest(
+    contents: Mapping[str, str | bytes], scenes: Mapping[str, Scene], command: str
+) -> dict[str, Any]:
+    """Return versions, platform in general terms, command, scenes, and the SHA-256 of every
+    file."""
+    bare = {n: each.encode() if isinstance(each, str) else each for n, each in contents.items()}
+    return {
+        "command": command,
+        "versions": versions(),
+        "platform": {"system": platform.system(), "machine": platform.machine()},
+        "scenes": {name: scene.to_tables() for name, scene in sorted(scenes.items())},
+        "sha256": {name: hashlib.sha256(bare[name]).hexdigest() for name in sorted(bare)},
+    }
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python and of the packages in use; those not installed are left out."""
+    return {"python": platform.python_version(), **installed(PACKAGES)}

@@ -29,7 +29,6 @@ from wear.load import Constant
 from wear.model import bind
 from wear.regime import Asymptote
 from wear.report import note
-from wear.report.reconcile import Reconciliation, reconciliation
 from wear.scene import Scene, hard_names
 from wear.solver import solve
 
@@ -102,7 +101,7 @@ class Runs:
     approach: Approach
     decay: Decay
     printed_increment: float
-    reconciliation: Reconciliation
+    reconciliation: note.Reconciliation
     threshold_excess: float
     phases: Phases
     static_distance: float
@@ -139,7 +138,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
         approach=_approach("section4", _DECADES),
         decay=_decay(note.scene("section3")),
         printed_increment=float(note.increments_after(application, note.PRINTED.cycles)[0]),
-        reconciliation=reconciliation(),
+        reconciliation=note.reconciliation(),
         threshold_excess=float(_approach("section4", [round(note.required(predicted))]).excess[0]),
         phases=_steady_phases(cases["section4"]),
         static_distance=_static_distance(application),

@@ -18,7 +18,6 @@ import jinja2
 from derive.typeset.breaking import broken
 from wear.cite import listed
 from wear.report.document import Document
-from wear.report.tex_text import escape, verbatim
 from wear.report.writer import Writer
 
 #: Characters of ``\footnotesize\ttfamily`` in a line of text.
@@ -35,6 +34,38 @@ _PLAIN = {
     "figures_open": "\n\\begin{figure}[htbp]\\centering\n", "figures_close": "\\end{figure}\n",
     "hr": "\n\\clearpage\n",  # after the tables that still wait for a page
 }  # fmt: skip
+
+_FORMS = str.maketrans(
+    {
+        "\\": r"\textbackslash{}",
+        "{": r"\{",
+        "}": r"\}",
+        "$": r"\$",
+        "&": r"\&",
+        "#": r"\#",
+        "%": r"\%",
+        "_": r"\_",
+        "^": r"\textasciicircum{}",
+        "~": r"\textasciitilde{}",
+        "<": r"\textless{}",
+        ">": r"\textgreater{}",
+        "|": r"\textbar{}",
+        '"': r"\textquotedbl{}",
+        "\u2009": r"\,",
+        "\u202f": r"\,",
+        "\u2010": "-",
+        "\u2011": r"\mbox{-}",
+        "\u2212": r"\ensuremath{-}",
+        "→": r"\ensuremath{\to}",
+        "≤": r"\ensuremath{\le}",
+        "≥": r"\ensuremath{\ge}",
+        "≈": r"\ensuremath{\approx}",
+        "∞": r"\ensuremath{\infty}",
+    }
+)
+_TYPED = "\u00a0\u2013\u2014\u2018\u2019\u201c\u201d\u2026·×±°µ²³"
+"""Signs that LaTeX sets as they are typed."""
+_LATIN = range(0x00C0, 0x0180)
 
 
 def report(document: Document) -> dict[str, str | bytes]:
@@ -70,6 +101,37 @@ def equations(document: Document) -> str:
 def _writer(document: Document) -> Writer:
     """Return what writes tokens by ``templates/blocks.tex``."""
     return Writer(document, _TEMPLATES.get_template("blocks.tex"), _PLAIN)
+
+
+def escape(text: str) -> str:
+    r"""The text for LaTeX with utf8 input and T1 fonts.
+
+    >>> print(escape("5 % of p_max – Éric & Söhne"))
+    5 \% of p\_max – Éric \& Söhne
+
+    Raises `ValueError` for a character without a form; formulas belong between dollar signs.
+    """
+    for character in text:
+        known = character.isascii() or character in _TYPED or ord(character) in _LATIN
+        if not known and ord(character) not in _FORMS:
+            raise ValueError(
+                f"no LaTeX form for {character!r} (U+{ord(character):04X}) in {text!r}: "
+                "write it as a formula or add it to the table in wear.report.tex"
+            )
+    return text.translate(_FORMS)
+
+
+def verbatim(code: str, width: int) -> str:
+    """Code for a `verbatim` environment: lines cut at `width`, the rest indented below."""
+    if "\\end{verbatim}" in code:
+        raise ValueError("a listing cannot hold the end of its own environment")
+    lines = []
+    for line in code.rstrip("\n").split("\n"):
+        while len(line) > width:
+            lines.append(line[:width])
+            line = "    " + line[width:]
+        lines.append(line)
+    return "\n".join(lines)
 
 
 def _code(text: str) -> str:

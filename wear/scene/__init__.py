@@ -2,8 +2,9 @@
 
 A `Scene` is frozen and holds the numbers of the file, in mm, s, MPa and rpm. Every way to one
 checks it: the constructor, `dataclasses.replace`, `Scene.with_`, `Scene.from_dict`, `load_scene`.
-Its tables and entries, with their units, domains and meanings, are the classes of this module and
-of `wear.load`; the validation and the reference page of the documentation both read them there.
+Its tables and entries, with their units, domains and meanings, are the classes of
+`wear.scene.tables` and `wear.load`; the validation and the reference page of the documentation both
+read them there.
 """
 
 from __future__ import annotations
@@ -15,214 +16,22 @@ import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
+from pydantic import Field, PlainValidator, ValidationError, model_validator
 
-from wear import own_laws
-from wear.checked import (
-    Finding,
-    Flag,
-    NonNegative,
-    OneOf,
-    Positive,
-    Prose,
-    Real,
-    SceneTable,
-    Text,
-    all_wrong,
-    choice,
-    problems,
-    table,
-    wrong,
-)
+from wear.checked import Finding, Prose, SceneTable, Text, all_wrong, problems, table
 from wear.faults import Fault, SceneError, UsageError
 from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
 from wear.load.rows import read_bytes
 from wear.load.tables import as_table, load_from
-from wear.scene.text import MOST_BYTES, Source, read_tables, set_entry
+from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
+from wear.scene.text import MOST_BYTES, PARTS, Source, read_tables, set_entry
+from wear.scene.variant import KEYS, OF_PIN, VariantKey
 from wear.words import did_you_mean, is_path, shown
 
 SCENES = Path(__file__).parents[1].joinpath("scenes")
-TABLE_NAMES = {"bearing", "pin", "contact", "support", "motion", "load"}
 NO_ENTRY = Field(exclude=True, repr=False)
-CLOSURES = ("closure_mm", "closure_in_sigma")
-
-
-def contact_laws() -> tuple[str, ...]:
-    """Return the contact laws that can run: the packages of generated code, one a law."""
-    found = Path(__file__).parents[1].joinpath("generated").glob("[a-z]*/__init__.py")
-    return tuple(sorted(module.parent.name for module in found))
-
-
-def _law(raw: object, info: ValidationInfo) -> str:
-    """Return the name of a contact law of the package, or of one that is given by its formula."""
-    if isinstance(raw, str) and own_laws.is_own(raw):
-        raw = {"phi": raw.removeprefix(own_laws.PREFIX)}
-    if not isinstance(raw, Mapping):
-        return choice(raw, contact_laws())
-    text = raw.get("phi")
-    if raw.keys() == {"file"} and isinstance(raw["file"], str):
-        text = _formula(raw["file"], (info.context or {}).get("folder"))
-    elif raw.keys() != {"phi"} or not isinstance(text, str):
-        raise wrong("is no contact law", 'write law = { phi = "..." } or law = { file = "..." }')
-    try:
-        return own_laws.named(text)
-    except UsageError as fault:
-        raise wrong(str(fault), "see the page on contact laws") from None
-
-
-def _formula(name: str, folder: Path | None) -> str:
-    """Return the text of a file beside the scene, less what follows # in a line."""
-    if folder is None:
-        raise wrong(f"{shown(name)}: there is no folder to look in", "load the scene by its path")
-    data = read_bytes(folder / name, MOST_BYTES)
-    if isinstance(data, tuple):
-        raise wrong(f"{shown(name)}: {data[0]}", data[1])
-    lines = data.decode("utf-8", "replace").splitlines()
-    text = " ".join(line.partition("#")[0].strip() for line in lines).strip()
-    return text.removeprefix("phi").strip().removeprefix("=")
-
-
-@table("bearing")
-class Bearing(SceneTable):
-    """The bearing (index c), which wears."""
-
-    hardness_MPa: Positive = Field(description="hardness H_c")
-    wear_coefficient: Positive = Field(description="Archard's wear coefficient K_c")
-    roughness_mm: NonNegative = Field(
-        description="surface roughness sigma_c0 before any wear (not zero on both solids)"
-    )
-    roughness_growth: Real = Field(
-        description="f_c = d sigma_c / d u_c, change of roughness with own wear"
-    )
-
-
-@table("pin")
-class Pin(SceneTable):
-    """The pin (index a); without this table it is smooth and does not wear."""
-
-    hardness_MPa: Positive = Field(description="hardness H_a")
-    wear_coefficient: NonNegative = Field(description="Archard's wear coefficient K_a")
-    roughness_mm: NonNegative = Field(
-        description="surface roughness sigma_a0 before any wear (not zero on both solids)"
-    )
-    roughness_growth: Real = Field(
-        description="f_a = d sigma_a / d u_a, change of roughness with own wear"
-    )
-
-
-@table("contact")
-class Contact(SceneTable):
-    """How closure and roughness make a pressure; exactly one of the two closures is given."""
-
-    max_pressure_MPa: Positive = Field(description="largest contact pressure p_max")
-    closure_mm: NonNegative | None = Field(
-        default=None, description="initial closure h_0 (unloaded, if the support is compliant)"
-    )
-    closure_in_sigma: NonNegative | None = Field(
-        default=None,
-        description="h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
-    )
-    law: Annotated[str, OneOf(contact_laws()), PlainValidator(_law)] = Field(
-        default="tanh",
-        description='contact law p/p_max = phi(h/sigma): a name, { phi = "..." } in r = h/sigma, '
-        'or { file = "..." } with the formula in a file beside the scene',
-    )
-    ends_at_3_sigma: Flag = Field(
-        default=False,
-        description="true: no pressure for h > 3 sigma, the text under (4); false: as in (8)",
-    )
-    pin_wear_opens_gap: Flag = Field(
-        default=False,
-        description="true: the physical sign of u_a; false: Eq. (1) as printed",
-    )
-    width_mm: Positive | None = Field(
-        default=None, description="contact width b; with length_mm, R_a = p b L is reported"
-    )
-    length_mm: Positive | None = Field(default=None, description="contact length L")
-    friction_coefficient: NonNegative | None = Field(
-        default=None,
-        description="coefficient of friction mu; sliding distance and friction work are reported",
-    )
-
-    @classmethod
-    def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
-        """Yield the faults of closures and of the contact's two lengths."""
-        match [key in given for key in CLOSURES]:
-            case [False, False]:
-                yield "", f"{' or '.join(CLOSURES)} is missing", "give one of the two"
-            case [True, True]:
-                yield CLOSURES[1], f"{' and '.join(CLOSURES)} are both given", "keep one of the two"
-        for one, other in (("width_mm", "length_mm"), ("length_mm", "width_mm")):
-            if one in given and other not in given:
-                yield "", f"{other} is missing", f"give it too, or drop {one}"
-
-
-@table("support")
-class Support(SceneTable):
-    """The springs under the bearing; without this table the support is rigid."""
-
-    stiffness_MPa_per_mm: Positive = Field(description="stiffness k per area")
-
-
-@table("motion")
-class Motion(SceneTable):
-    """The rotation of the pin."""
-
-    radius_mm: Positive = Field(description="pin radius R")
-    speed_rpm: Positive = Field(description="rotation speed n")
-
-
-KEYS: Mapping[str, tuple[str, str]] = {
-    "K_c": ("bearing", "wear_coefficient"),
-    "H_c": ("bearing", "hardness_MPa"),
-    "sigma_c0": ("bearing", "roughness_mm"),
-    "f_c": ("bearing", "roughness_growth"),
-    "K_a": ("pin", "wear_coefficient"),
-    "H_a": ("pin", "hardness_MPa"),
-    "sigma_a0": ("pin", "roughness_mm"),
-    "f_a": ("pin", "roughness_growth"),
-    "p_max": ("contact", "max_pressure_MPa"),
-    "h_0": ("contact", "closure_mm"),
-    "k": ("support", "stiffness_MPa_per_mm"),
-    "R": ("motion", "radius_mm"),
-    "n": ("motion", "speed_rpm"),
-}
-"""Table and key of each parameter in a scene file, by symbol, but those of the load."""
-_OF_PIN = {
-    "bearing": (),
-    "rough": ("sigma_a0",),
-    "worn": ("K_a", "H_a"),
-    "worn_rough": ("K_a", "H_a", "sigma_a0", "f_a"),
-}
-"""The parameters of the pin that are modelled, by its state."""
-
-
-class VariantKey(NamedTuple):
-    """Which generated module a scene needs: `wear.generated.<law>.<module>`; `name` is the
-    variant's for users.
-
-    >>> key = VariantKey("tanh", "compliant", "worn_rough", ends_at_3_sigma=True)
-    >>> key.module, key.name
-    ('compliant_worn_rough', 'compliant_worn_rough_ends_at_3_sigma')
-    """
-
-    law: str
-    support: Literal["rigid", "compliant"]
-    pin: Literal["bearing", "rough", "worn", "worn_rough"]
-    ends_at_3_sigma: bool
-    given_load: bool = False
-
-    @property
-    def module(self) -> str:
-        return f"{self.support}_{self.pin}"
-
-    @property
-    def name(self) -> str:
-        if self.given_load:
-            return f"given_load_{self.pin}"
-        return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
 
 @table("")
@@ -280,7 +89,7 @@ class Scene(SceneTable):
             form = "{'bearing.roughness_growth': 0.3}"
             raise UsageError(f"changes: give a mapping such as {form}") from None
         from_file = "load.file" in changes or getattr(self.load, "source", None) is not None
-        if not named <= TABLE_NAMES or ("load" in named and (from_file or "load" in changes)):
+        if not named <= {*PARTS} or ("load" in named and (from_file or "load" in changes)):
             tables = self.to_tables() | ({} if "load" in named else {"load": self.load})
             for entry, value in changes.items():
                 set_entry(tables, tuple(entry.split(".")), value, keep=changes)
@@ -377,7 +186,7 @@ class Scene(SceneTable):
         >>> sorted(load_scene("section4").parameters())
         ['H_c', 'K_c', 'R', 'T', 'f_c', 'h_0', 'n', 'p_max', 'sigma_c0']
         """
-        pin = _OF_PIN[self._pin_state]
+        pin = OF_PIN[self._pin_state]
         numbers: dict[str, float] = {}
         for symbol, (name, key) in KEYS.items():
             part = getattr(self, name)
@@ -404,7 +213,7 @@ class Scene(SceneTable):
         A load from a CSV file is given by the file's name and checksum, not by its rows.
         """
         tables: dict[str, Any] = {"title": self.title, "description": self.description}
-        for name in ("bearing", "pin", "contact", "support", "motion", "load"):
+        for name in PARTS:
             if entries := self._entries(name):
                 tables[name] = entries
         return tables

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import TINY
+from wear.scene.text import PARTS
 
 if TYPE_CHECKING:
     from wear.scene import Scene
@@ -94,7 +95,7 @@ def entries_of(scene: Scene) -> dict[str, float]:
     """Return the numbers of a scene that have a range, by their keys in the scene file."""
     return {
         f"{name}.{key}": value
-        for name in ("bearing", "pin", "contact", "support", "motion", "load")
+        for name in PARTS
         for key in RANGES
         if (value := getattr(getattr(scene, name), key, None)) is not None
     }

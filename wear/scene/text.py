@@ -19,9 +19,11 @@ from wear.words import shown
 MOST_BYTES = 256 * 1024
 LONGEST_LINE = 4096  # tomllib's time grows with the square of a dotted key's length
 
+PARTS = ("bearing", "pin", "contact", "support", "motion", "load")
+"""The tables of a scene."""
+
 _HEADER = re.compile(r"\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
 _ENTRY = re.compile(r"\s*([A-Za-z0-9_\-\"'. \t]+?)\s*=")
-_TABLE_PATHS = {(name,) for name in ("bearing", "pin", "contact", "support", "motion", "load")}
 _AT_LINE = re.compile(r"\s*\(at line (\d+), column (\d+)\)")
 
 
@@ -172,7 +174,7 @@ def _read_override(option: str) -> tuple[Path, object] | Fault:
         remedy = f"did you mean {owner}.{path[0]}?"
         return Fault(f"--set {shown(option)}", None, "", "", "the table is missing", remedy)
     value = _override_value(raw.strip())
-    if path in _TABLE_PATHS and not isinstance(value, dict):
+    if len(path) == 1 and path[0] in PARTS and not isinstance(value, dict):
         known = next(([*each.entries] for each in TABLES if (each.place,) == path), [])
         known = ["kind"] if path == ("load",) else known
         problem = f"{path[0]} is a table with several entries"

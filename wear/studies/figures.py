@@ -49,7 +49,7 @@ def lines(results: xarray.Dataset, key: str) -> Figure:
             look = stroke(place)
             wear = results["bearing_wear_mm"].isel(cycle=place).values * _MICROMETRES_PER_MM
             axes.plot(
-                results[key].values, wear, color=look.colour, label=f"{in_short(cycles)} cycles"
+                results[key].values, wear, color=look["color"], label=f"{in_short(cycles)} cycles"
             )
         _scale(axes, "x", results[key].values)
         _scale(axes, "y", results["bearing_wear_mm"].values)
@@ -102,7 +102,7 @@ def life(results: xarray.Dataset) -> Figure:
         top, bottom = figure.subplots(2, 1)
         _band(top, results)
         look = stroke(1)
-        bottom.step(count[finite], share[finite], where="post", color=look.colour)
+        bottom.step(count[finite], share[finite], where="post", color=look["color"])
         if finite.any():
             _scale(bottom, "x", count[finite])
         bottom.set_ylim(0.0, 1.0)
@@ -110,7 +110,7 @@ def life(results: xarray.Dataset) -> Figure:
         bottom.set_ylabel("Share of contacts")
         if (share[finite] >= _FAILED).any():
             ten = ten_percent_life(results)
-            bottom.plot([ten], [_FAILED], "x", color=look.colour)
+            bottom.plot([ten], [_FAILED], "x", color=look["color"])
             note = f"10 % life: {in_short(ten)} cycles"
             bottom.annotate(note, (ten, _FAILED), (6, -2), textcoords="offset points", va="top")
     return figure
@@ -128,7 +128,7 @@ def indices(found: xarray.Dataset) -> Figure:
                 np.stack([last[f"{name}_low"].values, last[f"{name}_high"].values]) - value
             )
             look = stroke(0 if offset > 0 else 1)
-            axes.barh(place + offset, value, 0.36, xerr=ends, color=look.colour, label=words)
+            axes.barh(place + offset, value, 0.36, xerr=ends, color=look["color"], label=words)
         axes.set_yticks(place, [key.split(".")[-1].replace("_", " ") for key in last["key"].values])
         axes.set_xlabel("Share of the variance of the wear")
         axes.legend()
@@ -151,9 +151,9 @@ def _band(axes: Axes, results: xarray.Dataset) -> None:
     wear = results["bearing_wear_mm"].values[results["status"].values == 0]
     low, lower, middle, upper, high = np.quantile(wear, _SHARES, axis=0) * _MICROMETRES_PER_MM
     cycles, look = results["cycle"].values, stroke(0)
-    axes.fill_between(cycles, low, high, color=look.colour, alpha=0.2, lw=0, label="90 %")
-    axes.fill_between(cycles, lower, upper, color=look.colour, alpha=0.4, lw=0, label="50 %")
-    axes.plot(cycles, middle, color=look.colour, marker=look.marker, label="median")
+    axes.fill_between(cycles, low, high, color=look["color"], alpha=0.2, lw=0, label="90 %")
+    axes.fill_between(cycles, lower, upper, color=look["color"], alpha=0.4, lw=0, label="50 %")
+    axes.plot(cycles, middle, color=look["color"], marker=look["marker"], label="median")
     _scale(axes, "x", cycles)
     _scale(axes, "y", np.concatenate([low, high]))
     axes.set_xlabel("Cycles  $N$")

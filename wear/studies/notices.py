@@ -9,7 +9,6 @@ import numpy as np
 
 from wear.model import bound, generated
 from wear.numerics.gauss import FloatArray
-from wear.scene import KEYS, VariantKey
 from wear.scene.plausibility import (
     WORD,
     Doubt,
@@ -18,6 +17,7 @@ from wear.scene.plausibility import (
     doubts_of_results,
     entries_of,
 )
+from wear.scene.variant import KEYS, VariantKey
 
 if TYPE_CHECKING:
     from wear.studies.rows import Study

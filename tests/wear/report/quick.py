@@ -9,10 +9,11 @@ from collections.abc import Sequence
 from functools import cache
 from unittest.mock import patch
 
-from derive.catalogue import equations
+from derive.catalogue import all_equations
 from derive.check import Check
 from derive.equations import Equation
-from derive.verification import Verification, identity
+from derive.kernel import identity
+from derive.verification import Verification
 from wear.report.claims import Entry, ledger
 from wear.report.document import Document
 from wear.report.paper import drawings
@@ -46,5 +47,5 @@ def runs() -> Runs:
 @cache
 def paper() -> Document:
     """The paper on these."""
-    found = equations()
+    found = all_equations()
     return written(found, trusted(found), runs(), few_claims(), drawings(runs()))

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from derive.typeset import mathml
 from derive.typeset.breaking import LIMIT, broken
 from derive.typeset.formula import parse, rows, source, width
-from wear.report.typeset import typeset
+from wear.report.publish import typeset
 
 S = r"\left(\sigma_c^0 + f_c u_c\right)"
 LATER = r"\left(\sigma_c^0 + f_c u_c(t + T)\right)"

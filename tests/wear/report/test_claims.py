@@ -6,7 +6,7 @@ import pytest
 
 from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Verdict
-from wear.report import claims, note, reconcile
+from wear.report import claims, note
 from wear.report.claims import SIMULATED, as_json, ledger
 
 VERDICTS = {
@@ -65,7 +65,7 @@ def test_true_numbers_would_be_confirmed(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_another_f_c_reconciles_the_printed_numbers() -> None:
-    found = reconcile.reconciliation()
+    found = note.reconciliation()
     assert found.value == pytest.approx(0.41729339833096945516, rel=1e-14)
     assert found.misfit == pytest.approx(-0.0040, abs=2e-4)
-    assert reconcile.slope_for_simulation() == pytest.approx(found.value, rel=1e-3)
+    assert note.slope_for_simulation() == pytest.approx(found.value, rel=1e-3)

@@ -56,7 +56,7 @@ def test_lines_of_figures_stand_out(scheme: str) -> None:
     """Ink becomes that of the page; all other colours stay."""
     colours = _schemes()[scheme]
     for family in range(_FAMILIES):
-        shown = stroke(family).colour
+        shown = stroke(family)["color"]
         assert isinstance(shown, str)
         seen = colours["ink"] if shown == INK else shown
         assert contrast(seen, colours["paper"]) >= GRAPHICS, shown

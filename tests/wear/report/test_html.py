@@ -13,7 +13,7 @@ import pytest
 
 from derive.typeset import mathml
 from tests.wear.report.conftest import document
-from wear.report import html, svg
+from wear.report import html
 from wear.report.number import Number
 
 _VOID = {"meta", "link", "br", "img", "hr", "mspace", "path", "use", "rect", "stop", "circle"}
@@ -136,8 +136,8 @@ def test_numbers_of_numpy_are_numbers():
 
 
 def test_two_figures_with_the_same_ids_do_not_meet():
-    drawing = '<svg viewBox="0 0 1 1"><defs><g id="a"/></defs><use xlink:href="#a"/></svg>'
-    first, second = svg.inline(drawing, "fig:1", "one"), svg.inline(drawing, "fig:2", "two")
+    picture = '<svg viewBox="0 0 1 1"><defs><g id="a"/></defs><use xlink:href="#a"/></svg>'
+    first, second = html.drawing(picture, "fig:1", "one"), html.drawing(picture, "fig:2", "two")
     assert 'id="fig-1-a"' in first
     assert '"#fig-1-a"' in first
     assert not set(re.findall(r'id="(.*?)"', first)) & set(re.findall(r'id="(.*?)"', second))

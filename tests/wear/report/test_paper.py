@@ -19,21 +19,21 @@ import numpy as np
 import pytest
 
 import derive.note.claim_checks
-from derive.catalogue import equations
+from derive.catalogue import all_equations
 from derive.check import Check
 from derive.files import write_atomically
 from derive.verification import Verification, checked, parts, verified
 from tests.wear.report import quick
 from tests.wear.report.test_html import Outline
-from wear.report import claims, reconcile
+from wear.report import claims, note
 from wear.report.document import Document
 from wear.report.html import page
 from wear.report.note import CUTOFF, required
 from wear.report.number import Number
 from wear.report.paper import paper as written
+from wear.report.publish import typeset
 from wear.report.tex import report
 from wear.report.text import inline
-from wear.report.typeset import typeset
 from wear.scene import Scene
 
 _TEXT = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
@@ -72,14 +72,14 @@ def test_no_number_in_the_text_is_typed():
 
 
 def test_the_paper_holds_together(paper):
-    assert len(paper.marks) > len(equations())
+    assert len(paper.marks) > len(all_equations())
 
 
 def test_every_equation_stands_in_it_once(paper):
     """Those that say the same stand there under the number of the first."""
     shown = Counter(equation.id for equation in paper.shown)
     assert max(shown.values()) == 1
-    assert {f"eq:{e.id}" for e in equations()} <= set(paper.marks)
+    assert {f"eq:{e.id}" for e in all_equations()} <= set(paper.marks)
     formulas = Counter((e.latex, e.title.partition(",")[2]) for e in paper.shown)
     assert [formula for formula, times in formulas.items() if times > 1] == []
 
@@ -98,13 +98,13 @@ def test_works_are_numbered_in_the_order_in_which_the_text_cites_them(paper):
 
 
 def test_equations_of_the_note_have_its_numbers(paper):
-    for equation in equations():
+    for equation in all_equations():
         if re.fullmatch(r"\d+[a-g]?", equation.id):
             assert paper.marks[f"eq:{equation.id}"].number == equation.id
 
 
 def test_corrected_equations_show_the_printed_form_beside(paper):
-    agrees = {equation.id: equation.agrees for equation in equations()}
+    agrees = {equation.id: equation.agrees for equation in all_equations()}
     for equation in paper.shown:
         assert bool(equation.printed) == (not agrees[equation.id])
 
@@ -159,7 +159,7 @@ _CONSTANT = re.compile(
 
 
 def test_a_changed_run_changes_every_number(paper):
-    found = equations()
+    found = all_equations()
     trusted = quick.trusted(found)
     checks = tuple(Check(kind, False, "") for kind in ("proof", "falsifier", "coq", "dimensions"))
     changed = Verification(
@@ -202,7 +202,7 @@ def _changed(value: Any, random: np.random.Generator) -> Any:
 
 def test_the_evidence_for_a_claim_has_no_typed_result():
     typed = re.compile(r"\d\.\d|\d[eE]-?\d|\d{3}")
-    for module in (claims, reconcile, derive.note.claim_checks):
+    for module in (claims, note, derive.note.claim_checks):
         for node in ast.walk(ast.parse(Path(module.__file__).read_text(encoding="utf-8"))):
             if isinstance(node, ast.JoinedStr):
                 words = "".join(p.value for p in node.values if isinstance(p, ast.Constant))
@@ -216,7 +216,7 @@ def test_a_constant_that_the_regime_lacks_is_an_error():
 
 def test_the_verification_finds_a_wrong_step():
     """A judgement whose claim was changed fails, and is named."""
-    (good,) = (e for e in equations() if e.id == "7c")
+    (good,) = (e for e in all_equations() if e.id == "7c")
     (judgement,) = good.statements
     wrong, claim = copy.copy(judgement), judgement.claim
     object.__setattr__(wrong, "claim", dataclasses.replace(claim, rhs=2 * claim.rhs))
@@ -228,12 +228,12 @@ def test_the_verification_finds_a_wrong_step():
 
 
 def test_steps_that_are_the_same_are_checked_once():
-    (closure, again) = (e for e in equations() if e.id in ("1", "7a"))
+    (closure, again) = (e for e in all_equations() if e.id in ("1", "7a"))
     assert verified([closure, again]).steps == 1
 
 
 def test_parts_that_were_checked_elsewhere_are_put_together():
-    chosen = [e for e in equations() if e.id in ("1", "7a", "7c")]
+    chosen = [e for e in all_equations() if e.id in ("1", "7a", "7c")]
     answers = [partial(checked, part) for part in parts(chosen)]
     assert verified(chosen, answers) == verified(chosen)
 

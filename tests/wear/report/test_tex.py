@@ -13,8 +13,8 @@ from derive.files import write_atomically
 from tests.wear.report.conftest import document
 from wear.report import tex
 from wear.report.document import Document, Equation
-from wear.report.tex_text import escape, verbatim
-from wear.report.typeset import typeset, warnings
+from wear.report.publish import typeset, warnings
+from wear.report.tex import escape, verbatim
 
 
 def _write(folder: Path, sources: Mapping[str, str | bytes]) -> Path:
