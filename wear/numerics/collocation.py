@@ -6,7 +6,6 @@ Overview
     all its digits. Arrays are (scenes, starts, intervals, nodes).
 Key results
     iterate             Newton's method for all intervals at once
-    solve               the same, interval by interval where that diverges
     truncation_error    quadrature error of every interval, from its Legendre coefficients
     endpoint_defect     what lies hidden between the ends of an interval and its nodes
 References
@@ -23,11 +22,9 @@ import numpy as np
 from wear.numerics.gauss import (
     BoolArray,
     FloatArray,
-    IntArray,
     Mesh,
     between_nodes,
     integral,
-    mesh,
     running,
     running_integral,
 )
@@ -55,14 +52,6 @@ class Rates(Protocol):
         (..., k, 1, 1) if frozen; `near` is an approximation to it."""
 
 
-class SplittableRates(Rates, Protocol):
-    """Rates of scenes, each of which can be taken by itself, and each interval as well."""
-
-    def take(self, rows: IntArray) -> SplittableRates: ...
-
-    def interval(self, i: int) -> SplittableRates: ...
-
-
 class InitialGuess(NamedTuple):
     """An approximate solution: the `increment` at the nodes (..., k, q, m), and the `rate` (same
     shape, per unit of time) at states that are less by `shift` (broadcasts) than they will be; the
@@ -77,8 +66,8 @@ class InitialGuess(NamedTuple):
 class CycleSolution(NamedTuple):
     """The `increment` (..., k) over the mesh from each start; at the nodes (..., k, q, m) the
     increment since the start, `inside`, and the `rate`; the number of right-hand sides evaluated;
-    on which intervals (..., q) the iteration converged; and the relative `iteration_error` (..., k)
-    of the increments."""
+    whether the iteration converged (...) from all starts; and the relative `iteration_error`
+    (..., k) of the increments."""
 
     increment: FloatArray
     inside: FloatArray
@@ -93,25 +82,6 @@ class CycleSolution(NamedTuple):
         shift = np.zeros_like(self.inside[..., :1, :1])
         unknown = np.ones(self.inside.shape[:-2])
         return InitialGuess(self.inside @ matrix, self.rate @ matrix, shift, unknown)
-
-
-def solve(
-    rates: SplittableRates, starts: FloatArray, guess: InitialGuess | None = None
-) -> CycleSolution:
-    """Return the solution over the mesh from each start (scenes, k).
-
-    All intervals at once where the iteration converges, that is, where the state changes its own
-    rate moderately within the mesh; else one interval after the other.
-    """
-    found = iterate(rates, starts, guess)
-    rows = np.flatnonzero(~found.converged.all(axis=-1))
-    if len(rows) == 0 or found.converged.shape[-1] == 1:
-        return found
-    again = _interval_by_interval(rates.take(rows), starts[rows])
-    for whole, part in zip(found, again, strict=True):
-        if isinstance(whole, np.ndarray):
-            whole[rows] = part
-    return found._replace(evaluations=found.evaluations + again.evaluations)
 
 
 def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None) -> CycleSolution:
@@ -162,10 +132,9 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
             break
         v, before, shift, u, expected = (x[..., :left, :, :] for x in (v, rate, step, u, expected))
         last, active = np.minimum(change, 1.0)[..., :left] + TINY, left
-    converged = np.all(error <= rates.tolerance, axis=-1)[..., None]
-    everywhere = np.repeat(converged, lengths.shape[-2], axis=-1)
+    converged = np.all(error <= rates.tolerance, axis=-1)
     increment = integral(rate_found, rates.over)
-    return CycleSolution(increment, inside, rate_found, evaluations, everywhere, error)
+    return CycleSolution(increment, inside, rate_found, evaluations, converged, error)
 
 
 def guess_without_feedback(starts: FloatArray, rate: FloatArray, over: Mesh) -> InitialGuess:
@@ -200,25 +169,6 @@ def _linear_solution(slope: FloatArray, residual: FloatArray) -> FloatArray:
     x *= factor
     x += residual
     return x
-
-
-def _interval_by_interval(rates: SplittableRates, starts: FloatArray) -> CycleSolution:
-    """Iterate on each interval of the mesh in its turn."""
-    parts: list[CycleSolution] = []
-    added, evaluations = np.zeros(starts.shape), 0
-    for i in range(rates.over.lengths.shape[-1]):
-        part = iterate(rates.interval(i), starts + added)
-        parts.append(part._replace(inside=added[..., None, None] + part.inside))
-        added = added + part.increment
-        evaluations += part.evaluations
-    return CycleSolution(
-        added,
-        np.concatenate([part.inside for part in parts], axis=-2),
-        np.concatenate([part.rate for part in parts], axis=-2),
-        evaluations,
-        np.concatenate([part.converged for part in parts], axis=-1),
-        np.sum([part.iteration_error for part in parts], axis=0),
-    )
 
 
 def truncation_error(rate: FloatArray, over: Mesh) -> FloatArray:
@@ -263,18 +213,3 @@ def endpoint_defect(
     missed: FloatArray = defect * (defect / largest) * over.lengths
     missed[defect < NOISE_AT_ENDS * largest] = 0.0
     return missed
-
-
-def hidden(
-    rate: FloatArray, left: FloatArray, right: FloatArray, over: Mesh, tolerance: float
-) -> BoolArray:
-    """Return which intervals (..., q) may hide more than the tolerance permits at their ends."""
-    missed = endpoint_defect(rate, left, right, over)
-    found: BoolArray = np.any(missed > tolerance * integral(rate, over)[..., None], axis=-2)
-    return found
-
-
-def refined(over: Mesh, marked: BoolArray) -> Mesh:
-    """Return the mesh with the `marked` intervals (q,) cut in two."""
-    middles = (over.edges[:-1] + over.edges[1:])[marked] / 2
-    return mesh(np.sort(np.concatenate([over.edges, middles])), len(over.rule.nodes))

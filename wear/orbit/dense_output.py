@@ -197,14 +197,13 @@ def _resolved(
     and the map that resolves the rate at every phase: first as if the rate did not feel the state
     within the cycle, which costs least, then as it is."""
     tolerance = max(rtol, ROUNDOFF)
-    frozen = starts[None, :, None, None]
-    marked = _unresolved(maps.rate(frozen), maps.over, tolerance)
+    marked = _unresolved(maps.rate_without_feedback(starts[None]), maps.over, tolerance)
     while marked.any() and not maps.full:
         ((_, maps),) = maps.refined(marked)
-        marked = _unresolved(maps.rate(frozen), maps.over, tolerance)
+        marked = _unresolved(maps.rate_without_feedback(starts[None]), maps.over, tolerance)
     while True:
         run = maps.advance(starts[None])
-        marked = _unresolved(run.rate, maps.over, tolerance) | ~run.converged
+        marked = _unresolved(run.rate, maps.over, tolerance) | ~run.converged[:, None]
         if not marked.any() or maps.full:
             lost = 0.0 if run.converged.all() else np.nan
             return maps, _at_phases(run, maps.over, phases) + lost

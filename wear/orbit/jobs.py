@@ -207,7 +207,7 @@ class Jobs:
         np.add.at(cycles, scene[usable], plan.cycles[usable])
         # Where the rate rises panels become short again, perhaps far ahead.
         ready = all_usable | (cycles > MOST_FIRST - number)
-        over = ~ready & ((number >= MOST_FIRST) | self.request.late)
+        over = ~ready & ((number >= MOST_FIRST) | (self.request.late and number > 0))
         if over.any():
             yield self._without_panels(job, np.flatnonzero(over))
         self._add(job.take(np.flatnonzero(~ready & ~over), number + BLOCK))

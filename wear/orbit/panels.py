@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.collocation import CycleSolution, InitialGuess
+from wear.numerics.collocation import CycleSolution, InitialGuess, unresolved
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
@@ -142,11 +142,11 @@ def _judged(
     short = _cycles_if_cut(taken, share) < size.panel_nodes
     evaluations = ahead.evaluations + judge.evaluations
     increments = ahead.increment.size + judge.increment.size
-    marked = np.asarray(~ahead.converged)
+    marked = np.repeat(~ahead.converged[:, None], coarse.over.lengths.shape[-1], axis=1)
     hazy = np.flatnonzero(by_phase > allowed)
     if len(hazy):
         shares = allowed[hazy, None, None] / (TAIL_SHARE * marked.shape[1])
-        marked[hazy] |= coarse.take(hazy).unresolved_phase(ahead.rate[hazy], shares)
+        marked[hazy] |= unresolved(ahead.rate[hazy], coarse.take(hazy).over, shares)
     worst = np.flatnonzero(~(residual <= allowed))
     if len(worst):
         some = coarse.take(worst)
@@ -155,10 +155,9 @@ def _judged(
         increments += again.increment.size
         apart = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
         # Only what the two maps differ by is a fault of the phase.
-        at_fault = np.asarray(apart >= np.maximum(allowed[worst] / 4, residual[worst] / 10))[
-            :, None
-        ]
-        rough = at_fault & some.unresolved_phase(again.rate, size.phase_tolerance)
+        alike = np.less(apart, np.maximum(allowed[worst] / 4, residual[worst] / 10))
+        at_fault = ~alike[:, None]  # also where one of them is no number
+        rough = at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
         marked[worst] |= rough
         marked[worst] |= at_fault & ~np.any(marked[worst], axis=1, keepdims=True)
     kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()

@@ -86,7 +86,7 @@ def extended(
     run = maps.consecutive(begun.last, BLOCK)
     states = begun.last[:, None] + np.cumsum(run.increment, axis=1)
     starts = np.concatenate([begun.last[:, None], states[:, :-1]], axis=1)
-    sound = run.converged.all(axis=1) & (states[:, -1] < limit)
+    sound = run.converged & (states[:, -1] < limit)
     for i in np.flatnonzero(~sound).tolist():
         which = np.array([i])
         alone = maps.take(which)
@@ -107,7 +107,7 @@ def extended(
         # What both meshes miss, and what the iterations of the judge have left.
         missed += np.sum(fine.endpoint_defect(starts, judge), axis=2)
         missed += judge.iteration_error * judge.increment
-        missed[~judge.converged.all(axis=1)] = np.inf
+        missed[~judge.converged] = np.inf
         coarse = np.any(missed > tolerance[calm, None] * states[calm], axis=1)
         coarse &= not maps.full
         marked[calm[coarse]] = True
