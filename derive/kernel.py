@@ -30,7 +30,7 @@ from sympy.core.function import AppliedUndef
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
 from .language import defined_by, fault, names
-from .note.model import subject
+from .note.model import CLOSURE, subject
 from .symbols import QUANTITIES, t
 from .time_limit import time_limit
 
@@ -230,7 +230,11 @@ def _require_one_model(hypotheses: tuple[Hypothesis, ...]) -> None:
     """Refuse two equations of the model for one quantity, and one for a quantity that is zero.
 
     Nobody is told of them beside a result, so nobody would see that they contradict each other.
+    The first closure in (6) contradicts (1) where the load does not begin at zero.
     """
+    of_closure = [h for h in hypotheses if h.relation.has(CLOSURE[True].lhs.func)]
+    if len(of_closure) > 1 and any(h.kind is Kind.INITIAL for h in of_closure):
+        raise RuleError("h(0) = h_0, and more is said of h: two equations of the model")
     equalities = [h for h in hypotheses if isinstance(h.relation, sp.Equality)]
     given = [subject(h.relation) for h in equalities if h.kind is Kind.MODEL]
     zero = {h.relation.lhs.func for h in equalities if h.relation.rhs == 0 and _now(h.relation.lhs)}

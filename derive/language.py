@@ -86,8 +86,12 @@ def _fault(node: sp.Basic) -> str | None:
         return _fault_of_name(node, node.name)
     if kind not in _HEADS:
         return f"{kind.__name__} is of no kind that a claim may hold"
-    if kind is sp.Limit:
-        return _fault_of_limit(node)
+    if kind is sp.Limit and node != sp.Limit(*node.args[:3]):
+        return f"{node} is no limit from above"
+    if not all(variable.is_Symbol for variable in bound(node)):
+        return f"{node} is by no variable"
+    if fixed := _held_fixed(node):
+        return f"{node} holds {fixed} fixed"
     if kind is sp.Integral and any(len(limits) != 3 for limits in node.limits):
         return f"{node} has no two ends"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _varies(node.rhs, node.lhs.args[1]):
@@ -102,15 +106,23 @@ def _varies(value: sp.Expr, variable: sp.Symbol) -> bool:
     return not clocks.isdisjoint(s.name for s in value.free_symbols)
 
 
-def _fault_of_limit(whole: sp.Limit) -> str | None:
-    """Return what is wrong with a limit: in a datum, only data may stay as they are."""
-    expr, variable, point = whole.args[:3]
-    if whole != sp.Limit(expr, variable, point):
-        return f"{whole} is no limit from above"
-    others = {s.name for s in expr.free_symbols - {variable}} - DATA
-    if variable != t and (expr.has(AppliedUndef) or (others and variable.name in DATA)):
-        return f"{whole} is no limit of a function of data alone"
-    return None
+def _held_fixed(node: sp.Basic) -> str:
+    """Return what varies with the variable that a node binds, other than that variable.
+
+    With a clock all clocks vary; with a datum fields and names do.
+    """
+    if not isinstance(node, (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, FirstZero)):
+        return ""
+    body, taken = node.args[0], {str(variable) for variable in bound(node)}
+    others = {s.name for s in body.free_symbols} - taken
+    if isinstance(node, sp.Derivative) and body.is_Symbol and taken <= DATA:
+        return ""  # the slope of a name
+    found = others & CLOCKS if taken & CLOCKS else set()
+    if not taken.isdisjoint(DATA):
+        found |= others - DATA
+    if taken != {"t"} and (isinstance(node, sp.Limit) or not taken.isdisjoint(DATA)):
+        found |= {str(field) for field in body.atoms(AppliedUndef)}
+    return ", ".join(sorted(found))
 
 
 def _leaves_domain(node: sp.Basic) -> str | None:

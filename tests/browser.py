@@ -1,7 +1,5 @@
 """Chromium, driven through its debugging protocol over a pipe: no port, no further package."""
 
-from __future__ import annotations
-
 import json
 import os
 import select

@@ -2,6 +2,7 @@
 
 import gc
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator
 
@@ -64,11 +65,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 class _ByFile(LoadScopeScheduling):
-    """Give all tests of a file to one process, which makes once what they share; the tests of the
-    paper count as one file. (Marks of groups do not reach pytest-xdist 3.8 from pytest 9.2.)"""
+    """Give all tests of a file, and of files whose names begin alike, to one process, which makes
+    once what they share; so those of the paper. (Marks of groups do not reach pytest-xdist 3.8
+    from pytest 9.2.)"""
 
     def _split_scope(self, nodeid: str) -> str:
-        return "paper" if nodeid.startswith(_OF_THE_PAPER) else nodeid.split("::")[0]
+        of_the_paper = nodeid.startswith(_OF_THE_PAPER)
+        return "paper" if of_the_paper else re.match(r"[^:]*/test_[a-z]+|[^:]*", nodeid)[0]
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> _ByFile:

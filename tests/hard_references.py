@@ -9,8 +9,6 @@ contact so weak that wear is linear in it (an integral of the exponential, a Bes
 for 1e9 cycles the long-time expansion of the wear, started from the reference value at 1e8.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

@@ -9,8 +9,6 @@ Conventions of the pages
     ``...``       stands for any text, in both
 """
 
-from __future__ import annotations
-
 import doctest
 import io
 import os

@@ -1,7 +1,5 @@
 """The documentation: every code block runs, every link leads somewhere, nothing needs a network."""
 
-from __future__ import annotations
-
 import importlib.util
 import io
 import json
@@ -20,9 +18,8 @@ import pytest
 
 from derive.note.claims import Verdict
 from tests import pages
-from tests.derive import test_claims as symbolic
 from tests.programs import ended
-from tests.wear.report import test_claims as simulated
+from tests.references import VERDICTS
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -33,17 +30,8 @@ PAGES = [
 SCRIPTS = [DOCS / "tour.py", *sorted((DOCS / "gallery").glob("*.py"))]
 LAW_PAGE = DOCS / "how-to" / "own-contact-law.md"
 NEEDS = {"finite-elements.md": "gfortran", "latex-report.md": "pdflatex", "fe_coupling.py": "gcc"}
-NOT_RUN = {
-    "",
-    "text",
-    "sh",
-    "{math}",
-    "{toctree}",
-    "{eval-rst}",
-    "{include}",
-    "{code-block}",
-    "{literalinclude}",
-}
+NOT_RUN = {"text", "sh", "{math}", "{toctree}", "{eval-rst}", "{include}"}
+NOT_RUN |= {"{code-block}", "{literalinclude}"}
 
 
 def name_of(page: Path) -> str:
@@ -102,7 +90,7 @@ for command in {[tuple(command) for command in entry]!r}:
 def test_every_block_is_of_a_kind_that_is_checked(page):
     found = pages.blocks(page.read_text(encoding="utf-8"))
     targets = set(re.findall(r"^(\w+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M))
-    unknown = {b.language for b in found} - {"console", "pycon"} - NOT_RUN
+    unknown = {b.language for b in found} - {"", "console", "pycon"} - NOT_RUN
     assert not unknown
     for block in found:
         if block.language == "sh":
@@ -115,7 +103,7 @@ def test_every_block_is_of_a_kind_that_is_checked(page):
 
 
 def test_the_readme_counts_the_verdicts_that_other_tests_hold():
-    counts = Counter([*symbolic.VERDICTS.values(), *simulated.VERDICTS.values()])
+    counts = Counter(VERDICTS.values())
     said = (
         f"of its {counts.total()} claims {counts[Verdict.CONFIRMED]} are confirmed, "
         f"{counts[Verdict.CONDITIONAL]} under conditions that it does not state, "
@@ -131,9 +119,8 @@ def test_the_papers_are_what_their_templates_give():
     build = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(build)
     claims = json.loads((DOCS / "papers" / "claims.json").read_text(encoding="utf-8"))
-    verdicts = {**symbolic.VERDICTS, **simulated.VERDICTS}
     assert {claim["id"]: claim["verdict"] for claim in claims} == {
-        name: verdict.value for name, verdict in verdicts.items()
+        name: verdict.value for name, verdict in VERDICTS.items()
     }
     for name, text in build.built(claims).items():
         assert (DOCS / "papers" / name).read_text(encoding="utf-8") == text, name

@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from wear.binding import bind, bind_many
     from wear.cycles import cycles_to_depth, sweep
     from wear.faults import (
         AccuracyError,
@@ -40,7 +41,6 @@ if TYPE_CHECKING:
         Sine,
         Table,
     )
-    from wear.model import bind, bind_many
     from wear.orbit.general import count_cycles
     from wear.plots import plot, plot_pressure
     from wear.regime import Asymptote, asymptote
@@ -62,7 +62,7 @@ _HOMES = {
     "wear.inside": "fields_inside",
     "wear.life": "Life Reached cycles_until",
     "wear.load": "Block Blocks Constant Force ForceTable Harmonics HistoryLoad Sine Table",
-    "wear.model": "bind bind_many",
+    "wear.binding": "bind bind_many",
     "wear.orbit.general": "count_cycles",
     "wear.plots": "plot plot_pressure",
     "wear.regime": "Asymptote asymptote",

@@ -29,9 +29,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.binding import bound, generated
 from wear.faults import UsageError
 from wear.load import Constant, Harmonics, Sine
-from wear.model import bound, generated
 from wear.scene import Scene
 
 Ball = Any  # flint.arb

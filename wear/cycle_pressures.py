@@ -17,10 +17,11 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
+from wear.binding import bind
 from wear.inside import Inside, fields_inside
 from wear.load import Blocks, HistoryLoad, Load
 from wear.load.spans import span
-from wear.model import Model, bind
+from wear.model import Model
 from wear.numerics.gauss import FloatArray, Mesh, mesh
 from wear.numerics.tolerances import ROUNDOFF
 from wear.scene import Scene

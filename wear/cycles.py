@@ -19,13 +19,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.binding import bind
 from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of, growth
 from wear.faults import Faults
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
-from wear.model import Model, bind
+from wear.model import Model
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.iterates import Iterates
 from wear.orbit.plan import LEAST

@@ -13,8 +13,9 @@ from itertools import pairwise
 
 import numpy as np
 
+from wear.binding import bind, bind_many
 from wear.load import Load, sampled
-from wear.model import Model, bind, bind_many
+from wear.model import Model
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import ROUNDOFF, SMALLEST, TINY
 from wear.scene import Scene

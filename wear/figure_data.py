@@ -5,19 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wear.binding import bind
 from wear.fitting.readings import Specimen
 from wear.generated import reaction
-from wear.history import History
 from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
+
+if TYPE_CHECKING:
+    from wear.history import History
 
 PHASES = 800  # of a cycle, besides the peaks of the load
 _SECONDS_PER_HOUR = 3600.0

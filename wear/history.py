@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear import history_files
+from wear.binding import bind
 from wear.cycle_pressures import CyclePressures, cycle_pressures
 from wear.history_files import States
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.quantities import COLUMNS, columns_of, unit_of
 from wear.scene import Scene

@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 
 from wear import cycles as engine
+from wear.binding import bind
 from wear.faults import AccuracyError, Faults
 from wear.load import Blocks
 from wear.load.spans import most_cycles
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
 from wear.regime import Asymptote, asymptote

@@ -7,20 +7,16 @@ ends at h = 3 sigma the margin of contact.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from itertools import islice
 from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear import own_laws, pressure_root
+from wear import pressure_root
 from wear.faults import UsageError
-from wear.scene import Scene, as_scene
-from wear.scene.variant import VariantKey
 
 Real = Any  # a float or an array of floats
 Fields = Any  # the named tuple of a generated module: the fields that its variant has, mm and MPa
@@ -254,40 +250,6 @@ class Model:
         )
 
 
-def generated(key: VariantKey) -> ModuleType:
-    """Return the generated module of a variant."""
-    if own_laws.is_own(key.law):
-        return own_laws.module(key.law, key.module)
-    return import_module(f"wear.generated.{key.law}.{key.module}")
-
-
-def bound(module: ModuleType, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Bound:
-    """Return a generated module with its numbers; the sign is for a pin that wears."""
-    data = module.Parameters._make(numbers[name] for name in module.Parameters._fields)
-    signs = (pin_wear_sign,) if "K_a" in module.Parameters._fields else ()
-    return Bound(module, module.bind(data, *signs), data, signs)
-
-
-def _bind(key: VariantKey, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Model:
-    loss = None
-    if key.given_load:
-        from wear.given_load import Area, GivenLoad
-
-        numbers = {"k": np.full_like(numbers["R"], np.inf), **numbers}  # rigid without springs
-        area = Area(numbers["b"], numbers["L"])
-        return GivenLoad(bound(generated(key), numbers, pin_wear_sign), area=area)
-    if key.ends_at_3_sigma:
-        margin = import_module(f"wear.generated.margin_{key.pin}")
-        loss = bound(margin, numbers, pin_wear_sign)
-    return Model(bound(generated(key), numbers, pin_wear_sign), loss)
-
-
-def bind(scene: Scene | str | os.PathLike[str]) -> Model:
-    """Return the model of one scene, or of its name or path."""
-    scene = as_scene(scene)
-    return _bind(scene.variant, scene.parameters(), scene.pin_wear_sign)
-
-
 def stacked(models: Sequence[Model]) -> Model:
     """Return one model of those of many scenes of one variant; its constants have shape
     (scenes,)."""
@@ -300,24 +262,3 @@ def stacked(models: Sequence[Model]) -> Model:
 
     losses = [model.loss for model in models if model.loss is not None]
     return Model(joined([model.bound for model in models]), joined(losses) if losses else None)
-
-
-def bind_many(scenes: Sequence[Scene]) -> Model:
-    """Return one model of many scenes; its constants have shape (scenes, 1).
-
-    Raises
-    ------
-    UsageError
-        if the scenes need different variants.
-    """
-    if len({scene.variant for scene in scenes}) != 1:
-        raise UsageError("scenes that are solved together must model the same things")
-    rows = [scene.parameters() for scene in scenes]
-    names = set.intersection(*map(set, rows))
-    columns = {name: _column(row[name] for row in rows) for name in names}
-    signs = _column(scene.pin_wear_sign for scene in scenes)
-    return _bind(scenes[0].variant, columns, signs)
-
-
-def _column(values: Iterable[float]) -> Real:
-    return np.array([[value] for value in values], dtype=float)

@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.binding import bind
 from wear.cycles import count_cycles
 from wear.loss_of_contact.arrest import TabulatedCount
-from wear.model import bind
 from wear.numerics.rows import take
 from wear.orbit.infinity import SteadyState, steady_state
 from wear.orbit.iterates import Iterates, cells

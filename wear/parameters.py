@@ -15,10 +15,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.binding import bind, bind_many
 from wear.equation import WearEquation
 from wear.load import Blocks, Load
 from wear.load.spans import Span
-from wear.model import Real, Summed, bind, bind_many
+from wear.model import Real, Summed
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.scene import Scene
 from wear.scene.variant import KEYS

@@ -25,12 +25,12 @@ from typing import Any
 import numpy as np
 
 from wear import own_laws
+from wear.binding import bind
 from wear.counted import FADES
 from wear.cycles import count_cycles
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.load import Load
-from wear.model import bind
 from wear.offset import offset
 from wear.quantities import MOST_CYCLES
 from wear.scene import Scene, as_scene

@@ -14,9 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.binding import bind
 from wear.equation import WearEquation, growth
 from wear.load import ForceTable, Table
-from wear.model import Model, bind
+from wear.model import Model
 from wear.numerics.gauss import FloatArray, Mesh, mesh
 from wear.numerics.tolerances import TINY
 from wear.scene import Scene

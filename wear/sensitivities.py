@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wear.binding import bind
 from wear.cycles import groups
 from wear.faults import Faults, UsageError
 from wear.load import Constant
@@ -25,7 +26,7 @@ from wear.loss_of_contact.count import Wanted, counted_stages
 from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import edge_of_contact
 from wear.loss_of_contact.tangent import stage_tangents
-from wear.model import Model, bind
+from wear.model import Model
 from wear.numerics.gauss import FloatArray
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents

@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 
 from wear import direct, records
+from wear.binding import bind
 from wear.cycles import wear_after
 from wear.faults import AccuracyError, Interrupted
 from wear.history import History
 from wear.load import HistoryLoad
-from wear.model import Model, bind
+from wear.model import Model
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
 from wear.request import checked_request, is_smooth_history, obstacle

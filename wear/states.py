@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from wear.binding import bind
 from wear.direct.cutoff import pressure_share, roundoff
 from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.load.spans import span
-from wear.model import Fields, Model, bind
+from wear.model import Fields, Model
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
 from wear.scene.plausibility import implausible_results

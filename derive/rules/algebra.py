@@ -21,7 +21,7 @@ from ..language import bound_in
 from ..symbols import t
 from ..zero import is_zero
 from .proving import holds, require, require_defined, smooth
-from .reading import clocks, constant, equality, replaced, require_constants
+from .reading import constant, equality, replaced
 
 
 @dataclass(frozen=True)
@@ -107,10 +107,7 @@ class Restrict(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, condition = premises
         relation = condition.relation
-        taken = bound_in(first.relation) & relation.free_symbols
-        if not clocks(relation) - {t}:
-            taken -= {t}
-        if taken:
+        if taken := bound_in(first.relation) & relation.free_symbols - {t}:
             raise RuleError(f"missing premise: {relation} for every {sp.Tuple(*taken)}")
         written = (relation, getattr(relation, "reversed", relation))
         claim = first.claim.map(
@@ -206,9 +203,11 @@ class Consequence(Rule):
         first, *others = premises
         claim = claim_of(self.claim)
         taken = {claim.variable} - {t} if isinstance(claim, Limit) else set()
-        if isinstance(claim, Limit):
-            require_constants(claim.expr, claim.variable, *premises)
         require_defined(claim.value if isinstance(claim, Limit) else self.claim, *premises)
+        if isinstance(claim, Limit) and isinstance(first.claim, Limit):
+            deep = {v: sp.Dummy(**v.assumptions0) for v in taken}  # of it no premise speaks
+            near = [first.claim.expr.xreplace(deep)]
+            require_defined(claim.expr.xreplace(deep), *premises, near=near)
         if any(taken & other.relation.free_symbols for other in others):
             raise RuleError(f"missing premise: {self.claim} for every {claim.variable}")
         places, sides = _inside(self.claim), _inside(first.relation)

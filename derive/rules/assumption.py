@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -12,12 +11,11 @@ from sympy.core.function import AppliedUndef
 from ..claims import Equality, Limit, Property, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, plain
-from ..laws import r
 from ..note.model import FIELDS, belongs, law_of
 from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import sign, smooth_everywhere
+from .proving import falls
 from .reading import at_an_instant, clocks, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -54,7 +52,7 @@ class Assume(Rule):
         if not belongs(kind, relation):
             raise RuleError(f"{said.text}: no equation of the model")
         law = law_of(relation) if kind is Kind.MODEL else None
-        if law is not None and not _falls(law):
+        if law is not None and not falls(law):
             raise RuleError(f"missing premise: {law} is positive and smooth and decreases")
         claim = Property(said.text) if relation is sp.true else claim_of(relation)
         if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
@@ -65,11 +63,6 @@ class Assume(Rule):
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         return f"Hypothesis: {self.hypothesis.text}."
-
-
-@cache
-def _falls(law: sp.Expr) -> bool:
-    return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 
 
 def _require_name(relation: sp.Equality, premises: tuple[Judgement, ...]) -> None:

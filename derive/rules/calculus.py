@@ -19,7 +19,7 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..note.model import SUPPORT
 from ..symbols import DATA, symbols, t
-from .proving import continuous, require_defined, smooth
+from .proving import continuous, require, require_defined, smooth
 from .reading import (
     LOAD,
     clocks,
@@ -132,8 +132,9 @@ class RigidLimit(Rule):
         if loads or given.relation.has(U_c.func) or any(h.relation.has(k) for h in others):
             raise RuleError("missing premise: nothing else is said of the load, of U_c and of k")
         deeper = {k: 1 / small, LOAD: LOAD + small * p}
+        said = k, LOAD, U_c  # of which a premise speaks at finite stiffness
         sides = [side.subs(deeper, simultaneous=True) for side in (given.lhs, given.rhs)]
-        if not all(continuous(side, {small: sp.S.Zero}, first) for side in sides):
+        if not all(continuous(side, {small: sp.S.Zero}, first, but=said) for side in sides):
             raise RuleError(f"missing premise: {given.relation} is continuous for k -> oo")
         left, right = (side.subs(small, 0) for side in sides)
         return Conclusion(Equality(left, right), adds=(RIGID,), discharges=(SPRINGS,))
@@ -160,6 +161,7 @@ class ChangeClock(Rule):
             raise RuleError(f"missing premise: {factor} is constant")
         rate = sp.Derivative(scaled.lhs, t)
         require_defined(rate, *premises)
+        require(sp.Ne(factor, 0), *premises)
         return Conclusion(Equality(rate, factor / T * sp.Derivative(moving[0], tau)))
 
 

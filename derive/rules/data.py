@@ -17,13 +17,15 @@ from ..claims import Equality, Inequality
 from ..hypotheses import Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import defined_by, names
+from ..laws import r
 from ..symbols import DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import facts_of, holds, require_defined, smooth
+from .proving import facts_of, falls, holds, require_defined, smooth
 from .reading import LOAD, equality, functions
 
-PRESSURE, PRESSURE_MAX = symbols("p p_max")
+PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
+_SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
 _OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)
 
 
@@ -35,10 +37,14 @@ def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
     definitions = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
     for hypothesis in hypotheses:
         relation, kind = hypothesis.relation, hypothesis.kind
-        about = _data_of(relation, definitions)
-        of_data = not relation.atoms(AppliedUndef) and kind is not Kind.DEFINITION
-        kept = parameter.name in about and (of_data or kind in (Kind.PARAMETER, Kind.STATE))
-        if (kept or _ties(relation, kind, definitions)) and not isinstance(relation, _OPEN):
+        if kind in (Kind.DEFINITION, Kind.INITIAL, Kind.MODEL) and relation.atoms(AppliedUndef):
+            continue
+        if functions(relation):
+            kept = not _leaves_data_free(relation)
+        else:
+            about = parameter.name in _data_of(relation, definitions)
+            kept = about and kind is not Kind.DEFINITION and not isinstance(relation, _OPEN)
+        if kept:
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
 
 
@@ -51,15 +57,15 @@ def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> set[str]:
     return about & DATA
 
 
-def _ties(relation: sp.Basic, kind: Kind, definitions: Collection[sp.Basic]) -> bool:
-    """Return whether a relation gives a field a value by data, so that two may tie these."""
-    if kind in (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION) or not functions(relation):
-        return False
-    bounds_load = isinstance(relation, sp.LessThan) and relation.lhs == sp.Abs(LOAD)
-    if bounds_load and relation.rhs.is_positive:
-        return False
-    law = isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
-    return bool(_data_of(relation.rhs / PRESSURE_MAX if law else relation, definitions))
+def _leaves_data_free(relation: sp.Basic) -> bool:
+    """Return whether fields that satisfy a relation exist for any data: it is a contact law, a
+    bound of the load, or a setting."""
+    if isinstance(relation, sp.LessThan):
+        return relation.lhs == sp.Abs(LOAD) and bool(relation.rhs.is_positive)
+    if not isinstance(relation, sp.Equality) or relation.lhs != PRESSURE:
+        return relation in _SETTINGS
+    law = (relation.rhs / PRESSURE_MAX).subs(h, r * sigma)
+    return law.free_symbols <= {r} and falls(law)
 
 
 @dataclass(frozen=True)

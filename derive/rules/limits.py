@@ -17,12 +17,12 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Equality, Limit
+from ..claims import Asymptotic, Equality, Limit
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound
 from ..symbols import t
 from ..zero import is_zero
-from .proving import LAW, continuous, require_defined
+from .proving import LAW, continuous, require_defined, undefined
 from .reading import (
     LOAD,
     T,
@@ -34,7 +34,6 @@ from .reading import (
     fixed,
     growing,
     limit_in_time,
-    require_constants,
 )
 
 
@@ -68,7 +67,7 @@ class OnePeriodLater(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = premises[0].claim
-        if not _at_one_time(claim.relation):
+        if isinstance(claim, Asymptotic) or not _at_one_time(claim.relation):
             raise RuleError(f"missing premise: {claim.relation} is about fields at one time")
         return Conclusion(claim.map(later))
 
@@ -118,17 +117,8 @@ class Passes(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         whole = self.claim.lhs.args[0]
-        expr, known, ends = whole, list[Equality](), dict[sp.Symbol, sp.Expr]()
-        meaning: dict[sp.Symbol, sp.Expr] = {}
-        for premise in premises:
-            if isinstance(premise.claim, Equality):
-                known.append(premise.claim)
-                expr = expr.subs(premise.claim.lhs, premise.claim.rhs)
-        rewritten = expr
-        for premise in premises:
-            if not isinstance(premise.claim, Limit):
-                continue
-            given = limit_in_time(premise)
+        ends, meaning = dict[sp.Symbol, sp.Expr](), dict[sp.Symbol, sp.Expr]()
+        for given in (limit_in_time(p) for p in premises if isinstance(p.claim, Limit)):
             part, end = given.expr, given.value
             if given.value == sp.oo:
                 part, end = 1 / part, sp.S.Zero
@@ -136,20 +126,38 @@ class Passes(Rule):
                 raise RuleError(f"missing premise: the limit of {given.expr} is finite")
             for quantity in (part, later(part)) if _at_one_time(part) else (part,):
                 stand_in = sp.Dummy(real=True)
-                expr = in_terms_of(expr, quantity, stand_in)
                 ends[stand_in], meaning[stand_in] = end, quantity
-        back = expr
+        rewritten = _rewritten(whole, premises)
+        expr = back = _in_terms(rewritten, meaning)
         for stand_in, quantity in reversed(meaning.items()):
             back = back.subs(stand_in, quantity)
         if not constant(expr) or fields(expr) or not is_zero(back - rewritten):
             raise RuleError(f"missing premise: the limit of all that varies in {whole}")
         if not continuous(expr, ends, *premises):
             raise RuleError(f"missing premise: {whole} is continuous at {(*ends.values(),)}")
-        require_constants(whole, t, *premises)
+        for goal in undefined(whole, *premises, near=meaning.values()):
+            side = _in_terms(_rewritten(goal.args[0], premises), meaning)
+            kept = 1 / side if isinstance(goal, sp.Ne) else sp.log(side)
+            if goal.args[1] != 0 or not continuous(kept, ends, *premises):
+                raise RuleError(f"missing premise: {goal} at {(*ends.values(),)}")
         require_defined(self.claim.rhs, *premises)
         if not is_zero(expr.subs(ends) - self.claim.rhs):
             raise RuleError(f"missing premise: the limit of {whole} is {expr.subs(ends)}")
         return Conclusion(in_time(whole, self.claim.rhs))
+
+
+def _rewritten(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
+    """Return an expression with what premises say is equal."""
+    for claim in (premise.claim for premise in premises):
+        if isinstance(claim, Equality):
+            expr = expr.subs(claim.lhs, claim.rhs)
+    return expr
+
+
+def _in_terms(expr: sp.Expr, meaning: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+    for name, quantity in meaning.items():
+        expr = in_terms_of(expr, quantity, name)
+    return expr
 
 
 def in_terms_of(expr: sp.Expr, quantity: sp.Expr, name: sp.Symbol) -> sp.Expr:

@@ -20,7 +20,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cache
 
 import flint
@@ -33,7 +33,7 @@ from ..claims import Asymptotic, FirstZero, Limit, Property, Term, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, RuleError
 from ..language import bound, certain
-from ..laws import GENERAL
+from ..laws import GENERAL, r
 from ..symbols import rate, symbol, symbols, t
 
 LAW = GENERAL.phi.func
@@ -250,12 +250,24 @@ def require(goal: sp.Basic, *premises: Judgement) -> None:
         raise RuleError(f"missing premise: {goal}")
 
 
-def require_defined(expr: sp.Basic, *premises: Judgement) -> None:
-    """Raise RuleError unless every part of an expression has a value under the premises."""
-    facts = facts_of(premises)
-    for goal in _needed(expr, _parts(premises)):
-        if not holds(goal, facts):
-            raise RuleError(f"missing premise: {goal}")
+def require_defined(expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = ()) -> None:
+    """Raise RuleError unless every part of an expression has a value under the premises.
+
+    Where it is asked near the end of a limit, ``near`` has a value there, too.
+    """
+    for goal in undefined(expr, *premises, near=near):
+        raise RuleError(f"missing premise: {goal}")
+
+
+def undefined(
+    expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = ()
+) -> Iterator[sp.Basic]:
+    """Yield the relations that would give every part of an expression a value, and do not follow
+    from premises, or from what gives ``near`` a value."""
+    ends = {part for whole in near for part in certain(whole)}
+    facts = facts_of(premises).union(*map(_need, ends))
+    needed = _needed(expr, _parts(premises) | ends)
+    return (goal for goal in needed if not holds(goal, facts))
 
 
 def needs(expr: sp.Basic) -> set[sp.Basic]:
@@ -314,15 +326,22 @@ def _need(expr: sp.Basic) -> list[sp.Basic]:
     return [unknown] if partial and not isinstance(expr, AppliedUndef) else []
 
 
-def continuous(expr: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgement) -> bool:
+def continuous(
+    expr: sp.Expr,
+    at: Mapping[sp.Basic, sp.Expr],
+    *premises: Judgement,
+    but: Collection[sp.Basic] = (),
+) -> bool:
     """Return whether an expression is continuous in some unknowns at a point.
 
-    It must be made of continuous functions, which have a value at the point and near it.
+    It must be made of continuous functions, which have a value at the point and near it; what
+    premises say of the quantities ``but`` is no fact there.
     """
     plain = {unknown: sp.Dummy(real=True) for unknown in at}
-    goals = continuity(expr.xreplace(plain), set(plain.values()), _parts(premises))
+    known = {part for part in _parts(premises) if not part.has(*but)}
+    goals = continuity(expr.xreplace(plain), set(plain.values()), known)
     points = [goal.subs({plain[unknown]: end for unknown, end in at.items()}) for goal in goals]
-    facts = facts_of(premises)
+    facts = frozenset(fact for fact in facts_of(premises) if not fact.has(*but))
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
 
 
@@ -352,6 +371,12 @@ def smooth_everywhere(expr: sp.Expr) -> bool:
     [True, False]
     """
     return smooth(expr) and all(map(holds, map(_strict, _needed(expr, ()))))
+
+
+@cache
+def falls(law: sp.Expr) -> bool:
+    """Return whether a contact law ``phi(r)`` is positive and smooth and decreases."""
+    return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 
 
 def _strict(goal: sp.Basic) -> sp.Basic:

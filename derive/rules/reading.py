@@ -19,7 +19,7 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement, RuleError
 from ..language import bound
 from ..symbols import CLOCKS, symbol, t
-from .proving import LAW, require_defined
+from .proving import LAW
 
 C = TypeVar("C", bound=Claim)
 T = symbol("T")
@@ -120,18 +120,6 @@ def fixed(expr: sp.Basic) -> bool:
     return constant(expr) and not fields(expr)
 
 
-def require_constants(expr: sp.Basic, variable: sp.Symbol, *premises: Judgement) -> None:
-    """Raise RuleError unless what does not vary in the expression of a limit has a value.
-
-    The rest need have one only near the end.
-    """
-    if fixed(expr) and not expr.has(variable):
-        require_defined(expr, *premises)
-    elif not bound(expr):
-        for part in expr.args:
-            require_constants(part, variable, *premises)
-
-
 def clocks(expr: sp.Basic) -> set[sp.Basic]:
     """Return the symbols in an expression that vary in time, and time itself outside of fields."""
     still = {part: sp.Dummy() for part in expr.atoms(AppliedUndef, Drift) if not _by_clock(part)}
@@ -159,9 +147,7 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
     """
     found = (node for node in sp.preorder_traversal(expr) if node.has(old) and node != old)
     touched = [node for node in found if bound(node)]
-    taken = {v for node in touched for v in bound(node)}
-    if not (clocks(old) | clocks(new)) - {t}:
-        taken -= {t}
+    taken = {v for node in touched for v in bound(node)} - {t}
     of_data = any(isinstance(node, sp.Derivative) and bound(node) != {t} for node in touched)
     if of_data or taken & (old.free_symbols | new.free_symbols):
         raise RuleError(f"missing premise: {old} = {new} for every {sp.Tuple(*taken)}")

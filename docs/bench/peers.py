@@ -97,9 +97,9 @@ def equation(scene: Scene) -> Equation:
     UnsuitableError
         unless it is one smooth differential equation under a sine load.
     """
+    from wear.binding import bind
     from wear.direct.problem import problem, widest_step
     from wear.load import Sine
-    from wear.model import bind
 
     if (
         scene.support is not None

@@ -1,7 +1,5 @@
 """Generated sources in other languages: compiled, loaded and called."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Callable, Sequence
 from pathlib import Path

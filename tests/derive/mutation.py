@@ -1,7 +1,5 @@
 """Wrong versions of a claim: a sign, a factor, an exponent, a missing term, a reversed relation."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import sympy as sp

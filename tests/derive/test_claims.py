@@ -1,7 +1,5 @@
 """The verdicts that mathematics alone reaches, and that they would change with their grounds."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest
@@ -13,39 +11,7 @@ from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Verdict
 from derive.note.governing import Model
 from derive.symbols import symbol
-
-VERDICTS = {
-    "C1": Verdict.INCONSISTENT,
-    "C2": Verdict.CONFIRMED,
-    "C3": Verdict.CONFIRMED,
-    "C4": Verdict.INCONSISTENT,
-    "C5": Verdict.CONFIRMED,
-    "C6": Verdict.CONFIRMED,
-    "C7": Verdict.INCONSISTENT,
-    "C8": Verdict.CONDITIONAL,
-    "C9": Verdict.CONDITIONAL,
-    "C10": Verdict.CONFIRMED,
-    "C11": Verdict.CONFIRMED,
-    "C12": Verdict.CONFIRMED,
-    "C13": Verdict.CONFIRMED,
-    "C14": Verdict.CONDITIONAL,
-    "C15": Verdict.CONFIRMED,
-    "C18": Verdict.INCONSISTENT,
-    "C19": Verdict.INCONSISTENT,
-    "C20": Verdict.CONFIRMED,
-    "C21": Verdict.CONFIRMED,
-    "C22": Verdict.CONDITIONAL,
-    "C23": Verdict.CONDITIONAL,
-    "C24": Verdict.REFUTED,
-    "C25": Verdict.CONDITIONAL,
-    "C26": Verdict.CONDITIONAL,
-    "C27": Verdict.REFUTED,
-    "C28": Verdict.CONFIRMED,
-    "C29": Verdict.CONDITIONAL,
-    "C30": Verdict.CONFIRMED,
-    "C31": Verdict.CONDITIONAL,
-    "C32": Verdict.REFUTED,
-}
+from tests.references import VERDICTS
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -1,7 +1,5 @@
 """Generated NumPy modules: true to the derivation, accurate to roundoff, always the same."""
 
-from __future__ import annotations
-
 import random
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """C, Fortran and JavaScript: compiled, run, and as accurate as the NumPy code."""
 
-from __future__ import annotations
-
 import ctypes
 import decimal
 import importlib

@@ -1,7 +1,5 @@
 """The command `derive`, as it is installed."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace

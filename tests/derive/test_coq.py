@@ -1,7 +1,5 @@
 """The export to Coq: what is stated, what is proved, and that wrong statements are not."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """Every step of every derivation proves itself, and no wrong step can."""
 
-from __future__ import annotations
-
 import re
 from contextlib import suppress
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Dimensionless groups: the numbers of them, and that scenes with equal groups wear alike."""
 
-from __future__ import annotations
-
 import pytest
 import sympy as sp
 

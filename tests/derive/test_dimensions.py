@@ -1,7 +1,5 @@
 """Dimensions are checked from the vocabulary, on both sides of everything."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

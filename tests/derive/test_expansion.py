@@ -1,10 +1,6 @@
 """The long-time expansion: its order by the fall of what it leaves, on histories to 24 digits."""
 
-from __future__ import annotations
-
-import json
 from itertools import pairwise
-from pathlib import Path
 
 import mpmath
 import pytest
@@ -18,26 +14,25 @@ from derive.results import expansion
 from derive.results.compliant import drift_coefficient
 from derive.symbols import symbols
 from derive.zero import is_zero
+from tests.derive.section_4 import SECTION_4, M, agrees, number
+from tests.references import VALUES
 
-VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
 sigma_c0, h_0, f_c, U, k = symbols("sigma_c0 h_0 f_c U k")
 b_0, theta, rho, tau, p_inf, U_mean = symbols("b_0 theta rho tau p_inf U_mean")
 
-DATA = {sigma_c0: sp.Rational("3.6e-4"), h_0: sp.Rational("1.08e-3"), U: sp.Rational("5e-4")}
-M = 44 * sp.pi / 10**6
 HALF = {1000: "u(1000T)", 100000: "u(100000T)"}
 """Cycles for which the wear at f_c = 1/2 is known to 24 digits."""
 
 
 def _of_section_4(statement: Judgement, slope: sp.Expr) -> mpmath.mpf:
-    known = {**DATA, f_c: slope, tau: sp.S.Zero}
     saturation = sp.tanh(4 - 2 / slope)
     names = {
-        b_0: (sigma_c0 / f_c - h_0).subs(known),
+        b_0: SECTION_4[sigma_c0] / slope - SECTION_4[h_0],
         theta: saturation,
         rho: slope * M * (1 + saturation) / 2,
     }
-    return mpmath.mpf(sp.N(statement.claim.rhs.subs(names).subs(known), 40))
+    known = {f_c: slope, tau: sp.S.Zero}
+    return mpmath.mpf(number(statement.claim.rhs.subs(names), known))
 
 
 def _offset(wear: mpmath.mpf, cycles: int, slope: sp.Expr, order: int) -> mpmath.mpf:
@@ -47,7 +42,7 @@ def _offset(wear: mpmath.mpf, cycles: int, slope: sp.Expr, order: int) -> mpmath
         c[n] = _of_section_4(expansion.drift(n), slope)
     waves = [_of_section_4(expansion.oscillation(n), slope) for n in (1, 2)][: order - 1]
     growth = mpmath.mpf(sp.N(slope * M * (1 + sp.tanh(4 - 2 / slope)) / 2, 40))
-    start = mpmath.mpf(sp.N(DATA[sigma_c0], 40))
+    start = mpmath.mpf(sp.N(SECTION_4[sigma_c0], 40))
     roughness = start + mpmath.mpf(sp.N(slope, 40)) * wear
     m = roughness
     for _ in range(20):
@@ -76,9 +71,9 @@ def test_what_the_expansion_leaves_falls_with_its_order(order: int) -> None:
 
 
 def test_the_drift_of_section_4() -> None:
-    coefficient = _of_section_4(expansion.drift(1), sp.Rational(1, 4)) * 4
-    expected = mpmath.mpf(VALUES["sec4_f0.25"]["A_log_mm"])
-    assert abs(coefficient / expected - 1) < 1e-28
+    with mpmath.workdps(45):
+        coefficient = _of_section_4(expansion.drift(1), sp.Rational(1, 4)) * 4
+    assert agrees(coefficient, VALUES["sec4_f0.25"]["A_log_mm"], digits=28)
 
 
 def test_the_limit_and_the_expansion_give_one_drift() -> None:
@@ -91,7 +86,7 @@ def test_the_limit_and_the_expansion_give_one_drift() -> None:
 def test_where_the_drift_is_least() -> None:
     """Of bearings that start at h_0 = 3 sigma_0."""
     claim = drift_coefficient(TANH).claim.rhs.subs({h_0: 3 * sigma_c0, U_mean: 0, p_inf: 0})
-    drift = claim.subs(DATA)
+    drift = claim.subs({name: SECTION_4[name] for name in (sigma_c0, U)})
     known = VALUES["identification"]
     turning = sp.Float(known["f_turning_of_A_log(h0=3s0)"], 30)
     assert abs(sp.N(drift.subs(f_c, turning) / sp.Float(known["A_min"], 30) - 1, 30)) < 1e-17
@@ -99,12 +94,10 @@ def test_where_the_drift_is_least() -> None:
 
 
 def test_a_softer_support_lowers_the_drift() -> None:
-    rigid = {**DATA, f_c: sp.Rational(1, 4), U_mean: 0, p_inf: sp.Rational(1, 10)}
-    claim = drift_coefficient(TANH).claim.rhs
-    values = [sp.N(claim.subs(rigid).subs(k, stiffness), 30) for stiffness in (10**4, 10**6, 10**9)]
-    limit = sp.N(claim.subs(rigid).subs(k, sp.oo), 30)
+    claim = drift_coefficient(TANH).claim.rhs.subs({**SECTION_4, p_inf: sp.Rational(1, 10)})
+    *values, limit = (sp.N(claim.subs(k, at), 30) for at in (10**4, 10**6, 10**9, sp.oo))
     assert all(low < high for low, high in pairwise([*values, limit]))
-    assert abs(limit / sp.Float(VALUES["sec4_f0.25"]["A_log_mm"], 30) - 1) < 1e-25
+    assert agrees(limit, VALUES["sec4_f0.25"]["A_log_mm"], digits=25)
 
 
 def test_averaging_in_closed_form_for_any_load() -> None:

@@ -1,7 +1,5 @@
 """The first integral stays what it is along histories that no step of its proof has seen."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """Only rules make judgements; what is forged or changed is refused, or found."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable, Iterator
 

@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
-from derive.claims import landau_o
+from derive.claims import FirstZero, landau_o
 from derive.hypotheses import Kind
 from derive.kernel import RuleError, replayed
 from derive.laws import TANH, ContactLaw, r
@@ -107,7 +107,20 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Function("count", integer=True)(t), "no real quantity"),  # 1/2
     (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
     (sp.Function("u_c", real=True)(t, x), "of no kind"),
-    (sp.Limit(u_c / k, k, sp.oo), "data alone"),
+    (sp.Limit(u_c / k, k, sp.oo), "fixed"),
+    (sp.Derivative(u_c, f_c), "fixed"),
+    (sp.Derivative(h, T), "fixed"),  # one period later, T is captured
+    (sp.Derivative(h, u_c), "by no variable"),
+    (sp.Integral(u_c, (f_c, 0, 1)), "fixed"),
+    (sp.Integral(b_0, (f_c, 0, 1)), "fixed"),  # b_0 = L f_c
+    (sp.Integral(u_c * T, (T, 1, 2)), "fixed"),
+    (FirstZero(b_0 - h_0, h_0), "fixed"),
+    (sp.Subs(b_0, f_c, 1), "fixed"),
+    (sp.Integral(N, (t, 0, T)), "fixed"),  # T/2, not N T
+    (sp.Integral(PHASED, (t, 0, T)), "fixed"),
+    (sp.Integral(U_a, (tau, 0, 1)), "fixed"),
+    (sp.Limit(u_c * N, t, sp.oo), "fixed"),
+    (sp.Integral(sp.Piecewise((1, N * U_a >= h_0), (0, True)), (t, 0, T)), "fixed"),
     (sp.Integral(1 / q, (q, 0, 1)), "q is never 0"),  # infinite
     (sp.Integral(U_a, (t, -T, T)), "t is never -T"),  # nobody says what the load was
     (U_a.subs(t, t - T), "t is never -T"),
@@ -119,6 +132,11 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
     sp.log(1 + kappa),
     sp.Rational(1, 10**20),
     sp.Limit(sp.sign(theta), theta, 0),
+    sp.Integral(f_c * h_0, (f_c, 0, 1)),
+    sp.Derivative(b_0, f_c),
+    sp.Derivative(PHASED, tau),
+    sp.Integral(U_a * b_0, (t, 0, T)),
+    sp.Integral(x * u_c, (x, 0, 1)),
     sp.Symbol("f_x", positive=True) + sp.Symbol("U_x", positive=True),
     sp.Symbol("lambda", real=True) * sp.Symbol("x_bar", real=True),
     LAW(r),

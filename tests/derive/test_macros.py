@@ -1,7 +1,5 @@
 """Macros in documents of other people: they compile there, and stay in the column of an article."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Directions of effects: proved for every law, and only under the hypotheses stated."""
 
-from __future__ import annotations
-
 import pytest
 import sympy as sp
 

@@ -1,7 +1,5 @@
 """The nomenclature has the symbols of its equations and no others, and nothing LaTeX chokes on."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """Plain text is read as words, formulas and numbers; nothing gets lost on the way."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,10 +1,6 @@
 """The static solutions against reference values of 18 to 38 digits."""
 
-from __future__ import annotations
-
-import json
 from itertools import pairwise
-from pathlib import Path
 
 import mpmath
 import pytest
@@ -13,24 +9,23 @@ import sympy as sp
 from derive.kernel import Judgement
 from derive.results import static_compliant, static_solution
 from derive.symbols import symbols, t
+from tests.derive.section_4 import SECTION_4, M, agrees, number
+from tests.references import VALUES
 
-VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
 h_0, U_a, u_c, sigma_c0, f_c, C, beta, x_inf = symbols("h_0 U_a u_c sigma_c0 f_c C beta x_inf")
 (ell,) = symbols("ell")
 p, p_max, k = symbols("p p_max k")
 
-M = 44 * sp.pi / 10**6
-SECTION_4 = {sigma_c0: sp.Rational("3.6e-4"), h_0: sp.Rational("1.08e-3"), C: M / 2}
+CYCLES = {C: M / 2}
 """Time is counted in cycles: C T = M/2."""
 SCALE = static_solution.scale.claim.rhs
 
 
 def _number(statement: Judgement, slope: str, load: str, more: dict[sp.Expr, sp.Expr]) -> sp.Expr:
-    known = {**SECTION_4, f_c: sp.Rational(slope), U_a: sp.Rational(load), **more}
     offset = 2 * (sigma_c0 / f_c - h_0 + U_a)
-    names = {beta: offset, x_inf: 4 - 2 / f_c, ell: SCALE}
     time = t * statement.claim.rhs / statement.claim.lhs
-    return sp.N(time.subs(names).subs(known), 40)
+    plain = time.subs({beta: offset, x_inf: 4 - 2 / f_c, ell: SCALE})
+    return number(plain, {**CYCLES, U_a: sp.Rational(load), **more}, f_c=slope)
 
 
 @pytest.mark.parametrize(
@@ -44,14 +39,13 @@ def _number(statement: Judgement, slope: str, load: str, more: dict[sp.Expr, sp.
 )
 def test_cycles_to_a_wear(slope: str, load: str, key: str) -> None:
     found = _number(static_solution.time, slope, load, {u_c: sp.Rational("3e-4")})
-    assert abs(found / sp.Float(VALUES["static"][key], 40) - 1) < 1e-28
+    assert agrees(found, VALUES["static"][key], digits=28)
 
 
 def test_wear_after_cycles_without_change_of_roughness() -> None:
-    known = {**SECTION_4, U_a: sp.S.Zero, t: sp.Integer(100)}
-    found = sp.N(static_solution.static_wear_smooth.claim.rhs.subs(ell, SCALE).subs(known), 40)
-    expected = sp.Float(VALUES["static"]["u_f0(100 cycles,Ua=0)"], 40)
-    assert abs(found / expected - 1) < 1e-28
+    known = {**CYCLES, U_a: sp.S.Zero, t: sp.Integer(100)}
+    found = number(static_solution.static_wear_smooth.claim.rhs.subs(ell, SCALE), known)
+    assert agrees(found, VALUES["static"]["u_f0(100 cycles,Ua=0)"], digits=28)
 
 
 def test_the_smooth_solution_is_the_limit_of_the_rough_one() -> None:
@@ -67,8 +61,7 @@ def test_the_smooth_solution_is_the_limit_of_the_rough_one() -> None:
 
 def test_cycles_on_a_compliant_support() -> None:
     """Parametric in the pressure: the two pressures are roots of the wear."""
-    stiffness = {k: sp.Integer(10**6), p_max: sp.Integer(300)}
-    known = {**SECTION_4, **stiffness, f_c: sp.Rational("0.25"), U_a: sp.S.Zero}
+    known = {**SECTION_4, **CYCLES, k: sp.Integer(10**6), U_a: sp.S.Zero}
     offset = 2 * (sigma_c0 / f_c - h_0 + U_a)
     wear = sp.lambdify(p, static_compliant.wear.claim.rhs.subs(beta, offset).subs(known), "mpmath")
     with mpmath.workdps(40):
@@ -82,7 +75,7 @@ def test_cycles_on_a_compliant_support() -> None:
         )
         found = sp.lambdify(p, time, "mpmath")(last)
         key = "finite_k(k=1e6MPa/mm,f=.25,Ua=0) tau(u=3e-4)"
-        assert abs(found / mpmath.mpf(VALUES["static"][key]) - 1) < mpmath.mpf("1e-19")
+        assert agrees(found, VALUES["static"][key], digits=19)
 
 
 def test_the_scaled_form_equals_the_plain_one_where_both_can_be_evaluated() -> None:

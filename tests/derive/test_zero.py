@@ -1,7 +1,5 @@
 """The zero test says zero only of what is zero."""
 
-from __future__ import annotations
-
 import pytest
 import sympy as sp
 from hypothesis import given

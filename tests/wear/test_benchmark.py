@@ -16,9 +16,9 @@ from wear import benchmark, cli
 from wear.benchmark import Effort, Status, judge, results
 from wear.benchmark.machine import footer, machine, missing
 from wear.benchmark.methods import CYCLES, OWN, Answer, Case, Method, UnsuitableError, cases, names
+from wear.binding import bind
 from wear.commands import bench
 from wear.direct.problem import problem
-from wear.model import bind
 from wear.scene import load_scene
 
 peers, jumps = bench.load_peers("peers"), bench.load_peers("jumps")

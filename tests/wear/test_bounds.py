@@ -1,7 +1,5 @@
 """Rigorous bounds: they contain references and solutions, and are as tight as promised."""
 
-from __future__ import annotations
-
 import pytest
 import sympy as sp
 from hypothesis import given, settings

@@ -1,7 +1,5 @@
 """`wear report`: the report of a scene of one's own."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """`wear reproduce`, `wear asymptote`, `wear figure`."""
 
-from __future__ import annotations
-
 import dataclasses
 import hashlib
 import json

@@ -1,7 +1,5 @@
 """`wear sensitivity`."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -5,9 +5,9 @@ from numpy.testing import assert_allclose
 
 from tests.wear.reference_scenes import REFERENCE, reference_scene
 from wear import cycles as count
+from wear.binding import bind
 from wear.cycles import cycles_until, wear_after
 from wear.load import Block, Blocks, Sine
-from wear.model import bind
 
 
 def test_equal_blocks_are_one_load() -> None:

@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 from tests.judges import ROUNDING, honest, true_wear
 from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear import cycles as count
+from wear.binding import bind
 from wear.load import Constant, Harmonics
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
 

@@ -10,9 +10,9 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
+from wear.binding import bind
 from wear.cycle_pressures import cycle_pressures
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
-from wear.model import bind
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 

@@ -1,6 +1,5 @@
 """Direct integration: against references, against itself, against what must not change."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -10,10 +9,10 @@ from hypothesis import strategies as st
 
 from wear import direct
 from wear.benchmark.methods import with_defaults
+from wear.binding import bind
 from wear.direct.problem import Setting, problem, widest_step
 from wear.direct.step import Meter, leg
 from wear.load import Constant, Sine
-from wear.model import bind
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 
@@ -108,30 +107,6 @@ def test_wear_coefficient_and_period_trade_off(factor):
     slow, fast = made(1e-5 * factor), made(1e-5, load=Sine(5e-4, 0.06 * factor))
     one, other = (integrate(scene, [1, 5], 1e-8) for scene in (slow, fast))
     np.testing.assert_allclose(one.u, other.u, rtol=2e-8)
-
-
-@dataclasses.dataclass(frozen=True)
-class Late:
-    """A sine that starts whole cycles later: the same load."""
-
-    load: Sine
-    by: int
-
-    def __call__(self, phase):
-        return self.load(np.asarray(phase) - self.by)
-
-    def slope(self, phase):
-        return self.load.slope(np.asarray(phase) - self.by)
-
-    def __getattr__(self, name):
-        return getattr(self.load, name)
-
-
-def test_a_shift_by_whole_cycles_changes_nothing():
-    scene = reference_scene("S1")
-    result = integrate(scene, [1, 20], 1e-9)
-    late = direct.integrate(bind(scene), Late(scene.load, 7), [1, 20], 1e-9)
-    np.testing.assert_allclose(late.u, result.u, rtol=1e-11)
 
 
 @settings(max_examples=12)

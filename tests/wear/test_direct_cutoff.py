@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from wear import cycles as count
 from wear import direct
+from wear.binding import bind
 from wear.direct.cutoff import Mode, first_mode, is_arrested, pieces, pressure_share
 from wear.direct.problem import problem
 from wear.load import Constant, Harmonics, Sine, Table
-from wear.model import bind
 from wear.scene import Scene
 
 from .reference_scenes import made

@@ -1,7 +1,5 @@
 """The explorer: a page that works alone, agrees with Python and answers to its controls."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Figures: what is drawn is what was given, in every run the same, legible without colour."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from typing import Any

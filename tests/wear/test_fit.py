@@ -1,7 +1,5 @@
 """Identification: what the data say of the parameters, how surely, and what they leave open."""
 
-from __future__ import annotations
-
 import copy
 import json
 from pathlib import Path

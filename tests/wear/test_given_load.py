@@ -13,9 +13,9 @@ import pytest
 import wear
 from derive.note.problems import problem_i
 from derive.symbols import symbol
+from wear.binding import bind
 from wear.cycles import cycles_to_depth, sweep
 from wear.inside import fields_inside
-from wear.model import bind
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 AREA = {"contact.width_mm": 20.0, "contact.length_mm": 30.0}

@@ -11,11 +11,11 @@ import pytest
 from scipy.io import netcdf_file
 
 from wear import direct
+from wear.binding import bind
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.history_files import write_inside
 from wear.inside import fields_inside
 from wear.load import Block, Blocks, Constant, Sine, Table
-from wear.model import bind
 from wear.quantities import unit_of
 from wear.scene import Scene
 from wear.solver import solve

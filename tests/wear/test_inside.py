@@ -12,12 +12,12 @@ from numpy.testing import assert_allclose
 from tests.judges import static_wear
 from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear import inside
+from wear.binding import bind
 from wear.cycles import count_cycles, wear_after
 from wear.equation import equation_of
 from wear.faults import UsageError
 from wear.inside import Inside, fields_inside
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import Rules, integrate
 from wear.orbit.period_map import PeriodMap, period_map

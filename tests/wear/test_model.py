@@ -7,8 +7,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from wear.binding import bind, bind_many, bound
 from wear.faults import UsageError
-from wear.model import Model, bind, bind_many, bound
+from wear.model import Model
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 

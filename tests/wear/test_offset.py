@@ -1,14 +1,11 @@
 """The offset B: reference values, and the steady state read off the count of cycles."""
 
-from __future__ import annotations
-
 import dataclasses
-import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.references import VALUES
 from tests.wear.reference_scenes import made
 from wear.load import Harmonics
 from wear.offset import offset
@@ -16,7 +13,6 @@ from wear.regime import Asymptote, asymptote
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 
-VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
 CONSTANTS = VALUES["asymptotic_constants"]
 HALF, FOUR_TENTHS = made(f_c=0.5), made(1e-4, 0.4)
 

@@ -1,7 +1,5 @@
 """Contact laws of a scene's own: read, never executed, derived, and kept for this user."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path

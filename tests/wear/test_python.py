@@ -3,8 +3,6 @@
 `typed_script.py` is checked by mypy along with the packages (`make test`).
 """
 
-from __future__ import annotations
-
 import re
 import runpy
 from collections.abc import Callable

@@ -18,9 +18,9 @@ from tests.judges import ROUNDING, honest, problem
 from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import between
 from wear import direct, records
+from wear.binding import bind
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.load import Constant, HistoryLoad
-from wear.model import bind
 from wear.numerics.collocation import iterate
 from wear.numerics.gauss import FloatArray
 from wear.outcome import Outcome

@@ -1,10 +1,6 @@
 """Long-time behaviour: published values, every regime, and agreement with the solver."""
 
-from __future__ import annotations
-
-import json
 import math
-from pathlib import Path
 from typing import Any
 
 import mpmath
@@ -13,14 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.references import VALUES
 from wear import cycles
 from wear.counted import Counted
 from wear.generated import asymptotics as formula
 from wear.regime import Asymptote, asymptote
 from wear.scene import load_scene
 from wear.solver import solve
-
-VALUES = json.loads((Path(__file__).parents[1] / "data" / "values.json").read_text())
 
 
 def _asymptote(name: str, *overrides: str) -> Asymptote:

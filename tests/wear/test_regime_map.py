@@ -1,7 +1,5 @@
 """The derived map of regimes and the regimes that scenes are told meet, everywhere."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

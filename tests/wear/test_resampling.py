@@ -1,7 +1,5 @@
 """Rows of a measured load that are merged: what is left, and that the error is known."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

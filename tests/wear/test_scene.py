@@ -11,9 +11,9 @@ import sympy as sp
 from derive.laws import LAWS
 from derive.note.governing import Model, sigma_a, sigma_c
 from tests.wear.test_scene_faults import GOOD
+from wear.binding import bind
 from wear.faults import SceneError, UsageError
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
-from wear.model import bind
 from wear.scene import Scene, builtin_names, hard_names, load_scene, parse_scene
 from wear.scene.notices import CONTACT_REACH
 from wear.scene.tables import Bearing, Contact, Motion, Pin, Support, contact_laws

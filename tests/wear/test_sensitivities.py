@@ -1,7 +1,5 @@
 """Derivatives of the wear with respect to the numbers of a scene."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 from typing import Any

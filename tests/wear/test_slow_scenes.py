@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,17 +10,18 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tests.judges import honest, true_wear
+from tests.references import DATA
 from tests.wear.test_cycle_count import between
 from tests.wear.test_cycle_cutoff import loads, supported, with_load
 from wear import cycles as count
+from wear.binding import bind
 from wear.faults import AccuracyError
 from wear.load import Sine, Table
-from wear.model import bind
 from wear.regime import asymptote
 from wear.scene import Scene
 from wear.solver import solve
 
-SLOW = json.loads((Path(__file__).parents[1] / "data" / "slow.json").read_text())
+SLOW = json.loads((DATA / "slow.json").read_text())
 CYCLES: list[int] = SLOW["cycles"]
 RESOLVED = 1e-11
 MOST_CYCLES_INTEGRATED = 4000

@@ -10,8 +10,8 @@ from scipy.integrate import quad
 
 from tests import judges
 from tests.wear.reference_scenes import REFERENCE, made, reference_scene
+from wear.binding import bind
 from wear.load import Constant
-from wear.model import bind
 from wear.report.runs import static_wear
 from wear.scene import Scene
 from wear.solver import solve

@@ -1,7 +1,5 @@
 """Studies: designs, whole chunks or none, the same bits however they come about."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

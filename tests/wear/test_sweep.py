@@ -11,9 +11,9 @@ from numpy.testing import assert_allclose
 
 from tests.judges import honest
 from tests.wear.reference_scenes import REFERENCE, made, reference_scene
+from wear.binding import bind
 from wear.cycles import cycles_to_depth, sweep, wear_after
 from wear.load import Block, Blocks, Constant, Harmonics, Load, Sine, Table
-from wear.model import bind
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene, load_scene
 

@@ -16,9 +16,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
+from wear.binding import bind
 from wear.faults import AccuracyError, Interrupted, UsageError
 from wear.load import Blocks, HistoryLoad
-from wear.model import bind
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 

@@ -46,10 +46,10 @@ def execute(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
     """Write the states inside the cycles, and tell how many they are and how accurate."""
     import numpy as np
 
+    from wear.binding import bind
     from wear.faults import Interrupted
     from wear.history_files import write_inside
     from wear.inside import fields_inside
-    from wear.model import bind
 
     worst, done = 0.0, 0
 

@@ -4,16 +4,19 @@ parameters."""
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, PAGE, canvas, stroke, styled
-from wear.fitting.fit import Fit
 from wear.fitting.model import Parameter
 from wear.fitting.profiles import moved
 from wear.numerics.gauss import FloatArray
 from wear.quantities import label_of
+
+if TYPE_CHECKING:
+    from wear.fitting.fit import Fit
 
 _MICROMETRES_PER_MM = 1e3
 _POINTS = 40  # of a curve

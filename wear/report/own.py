@@ -21,7 +21,7 @@ from wear.faults import UsageError
 from wear.figure_data import WEAR, Abscissa, Line, Panel, panels_of, points_of, pressure_inside
 from wear.fitting.readings import Specimen
 from wear.history import History
-from wear.life import Reached, cycles_until
+from wear.life import cycles_until
 from wear.load import Blocks, HistoryLoad
 from wear.load.spans import most_cycles
 from wear.own_laws import PREFIX, is_own
@@ -31,7 +31,6 @@ from wear.report.document import Document, drawn
 from wear.report.equations import shown
 from wear.report.explorer_derived import holding
 from wear.report.markup import markup, number
-from wear.report.number import Number
 from wear.report.publish import versions
 from wear.report.text import read
 from wear.request import obstacle
@@ -47,8 +46,6 @@ _LAST = 10**8
 _POINTS = 120  # of a curve
 _EARLY = 1000  # cycles whose sensitivities stand beside those of the last
 _BARS = 15
-_EXACT = 1e6  # numbers of cycles below are shown in full
-_MICROMETRES = WEAR.scale
 
 
 def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Document:
@@ -66,7 +63,7 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         "limit": limit,
         "curve": curve,
         "quantities": QUANTITIES,
-        "mm": _MICROMETRES,
+        "mm": WEAR.scale,
         "kind": scene.to_tables()["load"]["kind"],
         "written": number,
         "notices": _notices(scene, limit, curve),
@@ -145,21 +142,15 @@ def _notices(scene: Scene, limit: Asymptote | None, curve: History) -> list[str]
     return [markup(said) for said in dict.fromkeys(found) if not said.startswith("auto: ")]
 
 
-def _life(scene: Scene) -> Iterator[tuple[Number, Number | str, Number | str]]:
+def _life(scene: Scene) -> Iterator[tuple[float, float, str, float]]:
+    """Yield depths (mm), after how many cycles each is reached, in what way, and in how many hours;
+    what is not known is no number."""
     depths = [depth * scene.initial_roughness for depth in _DEPTHS]
     found = cycles_until(scene, depths, rtol=1e-8)
-    for depth, cycles, way in zip(depths, found.cycles, found.reached, strict=True):
-        known = way in (Reached.COUNTED, Reached.EXTRAPOLATED)
-        hours = float("nan")
-        if known and (cycles <= most_cycles(scene.load)):
-            hours = float(Abscissa.HOURS.of(scene, np.array([cycles]))[0])
-        yield (
-            Number(depth * _MICROMETRES, "initial roughness", 4),
-            Number(round(cycles) if cycles < _EXACT else cycles, "life of this scene", 5)
-            if known
-            else way.value,
-            Number(hours, "life of this scene", 4) if np.isfinite(hours) else "–",
-        )
+    loaded = np.where(found.cycles <= most_cycles(scene.load), found.cycles, np.nan)
+    hours = Abscissa.HOURS.of(scene, loaded).tolist()
+    ways = [way.value for way in found.reached]
+    return zip(depths, found.cycles.tolist(), ways, hours, strict=True)
 
 
 def _sensitivities(scene: Scene, cycles: list[int]) -> Sensitivities | None:
@@ -180,23 +171,16 @@ def _tornado(found: Sensitivities) -> Figure:
 
 
 def _compared(specimens: Sequence[Specimen], predicted: Sequence[History]) -> dict[str, Any]:
-    """Return the readings beside the prediction, and how they scatter about it."""
-    rows: list[tuple[str, list[Number]]] = []
-    ratios = []
-    for each, history in zip(specimens, predicted, strict=True):
-        meant = history.u_c[np.searchsorted(history.cycles, each.cycles)]
-        for cycle, wear, found in zip(each.cycles, each.wear_mm, meant, strict=True):
-            ratios.append(wear / found)
-            numbers = (wear * _MICROMETRES, found * _MICROMETRES, wear / found)
-            shown = [Number(float(x), "readings", 4) for x in numbers]
-            rows.append((each.name, [Number(int(cycle), "readings"), *shown]))
-    logarithms = np.log([ratio for ratio in ratios if ratio > 0.0] or [1.0])
-    scatter = 100.0 * float(np.std(logarithms))
-    return {
-        "readings": rows,
-        "ratio": Number(float(np.exp(np.mean(logarithms))), "readings", 3),
-        "scatter": Number(scatter, "readings", 2, "%"),
-    }
+    """Return the readings beside the prediction (mm), and how they scatter about it."""
+    rows = [
+        (each.name, *numbers)
+        for each, history in zip(specimens, predicted, strict=True)
+        for meant in [history.u_c[np.searchsorted(history.cycles, each.cycles)]]
+        for numbers in zip(each.cycles.astype(int), each.wear_mm, meant, strict=True)
+    ]
+    ratios = np.array([wear / meant for _, _, wear, meant in rows if wear > 0.0] or [1.0])
+    ratio, scatter = np.exp(np.mean(np.log(ratios))), np.std(np.log(ratios))
+    return {"readings": rows, "ratio": ratio, "scatter": scatter}
 
 
 def _predicted(scene: Scene, specimen: Specimen) -> History:

@@ -27,16 +27,8 @@ from derive.typeset.display import inline
 from derive.typeset.nomenclature import occurring, unit
 from derive.typeset.present import presentable
 from derive.verification import Verification
-from wear.benchmark.machine import footer
+from wear.benchmark import results
 from wear.benchmark.methods import cases
-from wear.benchmark.results import (
-    DIGITS,
-    READER,
-    committed,
-    curves_by_cycles,
-    sentences,
-    speed_table,
-)
 from wear.figures import speed_against_cycles
 from wear.generated import asymptotics
 from wear.report import drawing, figures_of_note, note
@@ -92,9 +84,11 @@ def paper(
         "resolutions": RESOLUTIONS,
         "regimes": list(_regimes()),
         "hard": list(_hard(runs)),
-        "speed": _speed(),
-        "symbols": [_symbol(name) for name in _MODEL],
-        "further_symbols": [_symbol(name) for name in _further(equations)],
+        "speed": results,
+        "measured": results.committed(),
+        "unit": unit,
+        "symbols": _MODEL,
+        "further_symbols": _further(equations),
         "versions": versions(),
         "derivations": derivations,
         "origins": {
@@ -119,7 +113,11 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
                 {f"§\u2009{name[-1]}": runs.cases[name].scene for name in note.EXAMPLES}
             ),
             "approach": figures_of_note.approach(runs.approach),
-            "speed": speed_against_cycles(curves_by_cycles(committed().runs, READER, DIGITS[0])),
+            "speed": speed_against_cycles(
+                results.curves_by_cycles(
+                    results.committed().runs, results.READER, results.DIGITS[0]
+                )
+            ),
             "figure-2a": figures_of_note.wear_of_both(runs),
             "figure-2b": figures_of_note.roughness_of_both(runs),
             "figure-3a": figures_of_note.wear_and_asymptote(runs),
@@ -149,17 +147,6 @@ def _elasticity(equations: Sequence[Equation], runs: Runs) -> float:
     return float(found.subs({symbol: data[symbol.name] for symbol in found.free_symbols}))
 
 
-def _speed() -> dict[str, Any]:
-    """Return the benchmark as the documentation has it."""
-    measured, digits = committed(), DIGITS[0]
-    return {
-        "digits": digits,
-        "table": speed_table(measured.runs, READER, digits),
-        "sentences": sentences(measured.runs, READER, digits),
-        "machine": footer(measured.facts),
-    }
-
-
 def _regimes() -> Iterator[tuple[str, str, str, str]]:
     """Yield the rows of the map by which the software decides."""
     for regime in REGIMES:
@@ -182,12 +169,6 @@ def _hard(runs: Runs) -> Iterator[dict[str, Any]]:
         wear = float(found.u_c[-1])
         error = max(abs(wear / true[name] - 1.0), ROUNDOFF)
         yield {"name": name, "found": found, "wear": wear, "error": error}
-
-
-def _symbol(name: str) -> tuple[str, str, str]:
-    """Return the LaTeX, the meaning and the unit of a quantity."""
-    quantity = QUANTITIES[name]
-    return quantity.latex, quantity.meaning, unit(quantity)
 
 
 def _further(equations: Sequence[Equation]) -> list[str]:

@@ -22,11 +22,11 @@ import sympy as sp
 
 from derive.equations import stated
 from derive.symbols import symbols
+from wear.binding import bind
 from wear.bounds import Enclosure, static_bounds, wear_bounds
 from wear.generated import reaction
 from wear.history import History
 from wear.load import Constant
-from wear.model import bind
 from wear.regime import Asymptote
 from wear.report import note
 from wear.scene import Scene, hard_names

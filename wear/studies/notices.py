@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from wear.model import bound, generated
+from wear.binding import bound, generated
 from wear.numerics.gauss import FloatArray
 from wear.scene.plausibility import (
     WORD,

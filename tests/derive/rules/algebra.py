@@ -64,6 +64,7 @@ h_0, f_c, C, T, N, q, b, b_0, M, L = symbols("h_0 f_c C T N q b b_0 M L")
 theta, x_inf, u_cum, kappa, U_mean, u_stop, tau = symbols(
     "theta x_inf u_cum kappa U_mean u_stop tau"
 )
+dU = rate("U_a")
 x, y = sp.symbols("x y", real=True)
 v = sp.Function("v", real=True)(tau)
 
@@ -124,8 +125,8 @@ FAMILIES = (
         "capture by a limit": ("every value", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
         # d(h_0 N)/dt is h_0/T
-        "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
-        "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
+        "another clock under the rate": ("N fixed", RATE, eq(u_c, h_0 * N)),
+        "another clock under the mean": ("tau fixed", MEAN_LOAD, eq(U_a, h_0 * v)),
         # G(0) = 1
         "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, initial("G"))),
         # G = q/N, for one N
@@ -166,7 +167,6 @@ FAMILIES = (
             integral(sp.Piecewise((1, theta < 0), (0, True))), given(theta < 0)),
         # int_-1^2 |theta|
         "a modulus under an integral": ("for every", integral(sp.Abs(theta)), ge(theta, 0)),
-        "a branch for N times the load": ("for every", *in_contact(N * U_a >= h_0)),
         "no branch": ("has no branch", eq(h, q), ROUGHENS),
         "a branch for less": ("has no branch", eq(p, sp.Piecewise((q, h <= L), (0, True))),
             le(h, 2 * L)),
@@ -206,19 +206,24 @@ FAMILIES = (
         (equal(sp.Limit(h_0 / M, M, sp.oo), 0), FALLS, eq(f_c, h_0)),
         (equal(sp.Limit(T / M, M, sp.oo), 0), ParameterLimit(b / M, M)(), eq(T, b)),
         (end(G + GAP, theta), tends(G, theta), APART),
+        (end((h**2 - u_a**2) / (h - u_a), q), tends(h + u_a, q), ne(h, u_a)),  # h = u_a
+        (end(2 * h_0 / u_c / 2, 0), tends(h_0 / u_c, sp.S.Zero)),
     ), {
         # u_a = 2, L = 1
         "more parts than the premise": ("does not become", sp.And(sp.Le(-G, h_0), sp.Lt(u_a, L)),
             le(-G, L), eq(L, h_0)),
         # theta = 0
         "an angle that is the scaled rate": ("does not become", sp.Eq(theta, C * T / q), SPEED),
+        # U_a jumps
+        "another form of a limit, with a rate": ("Derivative",
+            end(G + (dU + 1) * (dU - 1) - dU**2, q), tends(G, q + 1)),
         "another form of a limit, with 0/0": ("Ne", end(G + GAP, theta), tends(G, theta)),
         "divided by what may vanish": ("Ne", sp.Eq(h / f_c, u_a / f_c), SIDES),
         # lim M/M = 1
         "capture by the limit of another form": ("for every M",
             equal(sp.Limit(sp.S.One, M, sp.oo), 0), FALLS, eq(f_c, M)),
         # b_0 = sigma_c0/f_c - h_0
-        "a name held fixed while a datum grows": ("data alone",
+        "a name held fixed while a datum grows": ("b_0 fixed",
             equal(sp.Limit(b_0 / h_0, h_0, sp.oo), 0), ParameterLimit(L / h_0, h_0)(), eq(b_0, L)),
     }),
     Family(lambda left, right, join=sp.Equivalent: Alike(join(left, right, evaluate=False))(), (
@@ -292,6 +297,9 @@ FAMILIES = (
             called(CLOSURE[True], Kind.MODEL), called(CLOSURE[False], Kind.MODEL)),
         "a pin that wears and does not": ("contradict", equal(h_0, 5 * L), PIN_WEARS,
             differentiate(eq(u_a, 0))),
+        # the load begins at U_a(0) = 1: it need not be U_a = 0
+        "a first closure, and the closure": ("more is said of h", equal(initial("h"), h_0),
+            called(STARTS[0], Kind.INITIAL), eq(h, h_0 - U_a)),
         "a rough pin that is smooth": ("contradict", equal(h, h_0),
             called(STARTS[3], Kind.INITIAL), SMOOTH_PIN, eq(h, h_0)),
     }),

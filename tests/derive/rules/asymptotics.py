@@ -119,8 +119,8 @@ FAMILIES = (
     }),
     Family(drifting, ((), t * (du - C * q) - U_a), {
         # u_c - C t ~ int U_a/T
-        "a drift that grows with N": ("linear in the load", t * (du - C) - N * U_a),
-        "a drift from a speed that grows": ("linear in the load", t * (du - C * N) - U_a),
+        "a drift that grows with N": ("N fixed", t * (du - C) - N * U_a),
+        "a drift from a speed that grows": ("N fixed", t * (du - C * N) - U_a),
         "a faster approach": ("linear in the load", t**2 * (du - C) - U_a),
         "the square of the load": ("linear in the load", t * (du - C) - U_a**2 / U),
         "another field than the load": ("linear in the load", t * (du - C) - u_a),

@@ -7,6 +7,8 @@ import sympy as sp
 from derive.hypotheses import Kind
 from derive.kernel import infer
 from derive.laws import GENERAL, r
+from derive.note.model import ARCHARD
+from derive.note.model import START as STARTS
 from derive.rules.algebra import Insert, Multiply, Solve, substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.calculus import (
@@ -52,7 +54,8 @@ from tests.derive.judgements import (
 u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
 h_0, f_c, C, T, N, q, k, b, b_0, M, L = symbols("h_0 f_c C T N q k b b_0 M L")
 sigma_c0, u_cum, theta, x_inf, tau, omega = symbols("sigma_c0 u_cum theta x_inf tau omega")
-U, U_max, p_max, R_a, epsilon = symbols("U U_max p_max R_a epsilon")
+U, U_max, p_max, R_a, epsilon, sigma = symbols("U U_max p_max R_a epsilon sigma")
+K_a, K_c, H_a, H_c, sigma_a0 = symbols("K_a K_c H_a H_c sigma_a0")
 y = sp.Symbol("y", real=True)
 v, w = (sp.Function(name, real=True)(tau) for name in "vw")
 WIGGLE, WOBBLE = (sp.Function(name, real=True)(t) for name in ("wiggle", "wobble"))
@@ -94,12 +97,35 @@ def deflected():
     return Insert(equal(later(p) / (k * there), 1))(known, Arithmetic(sp.Ne(there, 0))(known))
 
 
+def unit():
+    """Return that p/k over what lies between the solids is 1: it is p/k."""
+    inside, known = h - h_0 + U_a, opened()
+    return Insert(equal(p / (k * inside), 1))(known, Arithmetic(sp.Ne(inside, 0))(known))
+
+
 def pressed(closure):
     """Return that what lies between the solids is positive: it is p/k."""
-    inside = closure.claim.lhs - h_0 + later(U_a)
+    inside = closure.claim.lhs - h_0 + (U_a if closure.claim.lhs == h else later(U_a))
     return Insert(equal(sp.Abs(inside) / inside, 1))(closure, Arithmetic(sp.Ne(inside, 0))(closure))
 
 
+def of_one_start():
+    """Return u_cum = f_c sigma_c0, as both solids are equally rough at first."""
+    first = said(STARTS[3], Kind.INITIAL), said(STARTS[4], Kind.INITIAL)
+    value = Arithmetic(equal(sigma_a0, sigma_c0))(
+        *first, eq(initial("sigma_a"), initial("sigma_c"))
+    )
+    return Insert(equal(u_cum, f_c * sigma_c0))(defined(u_cum, f_c * sigma_a0), value)
+
+
+def of_one_wear():
+    """Return u_cum = h_0 K_c, as both solids wear equally."""
+    rates = said(ARCHARD[0], Kind.MODEL), said(ARCHARD[2], Kind.MODEL)
+    value = Arithmetic(equal(K_a * H_c / H_a, K_c))(*rates, differentiate(eq(u_a, u_c)))
+    return Insert(equal(u_cum, h_0 * K_c))(defined(u_cum, h_0 * K_a * H_c / H_a), value)
+
+
+IN_START = sp.Derivative(u_cum, sigma_a0)
 FACTORS = defined(theta, f_c), defined(b_0, h_0 / L)
 FIELDS = tuple(
     said(equal(field, value), Kind.DEFINITION)
@@ -115,7 +141,6 @@ FAMILIES = (
         # u_c(0) = 5 h_0
         "an initial value that is only bounded": ("no equality", eq(du, f_c * da),
             ge(initial("u_c"), h_0)),
-        "slopes in a datum": ("no rate", eq(sp.Derivative(u_c, f_c), sp.Derivative(u_a, f_c))),
         # v = tau: u_c = int tau du_a
         "integrated with a factor v(tau)": ("is constant", eq(du, v * da)),
         "integrated with a field": ("is constant", eq(du, u_a * da)),
@@ -127,9 +152,6 @@ FAMILIES = (
     ), {
         "the number of cycles held fixed": ("constant", ge(du, C * N)),  # u_c = C t^2/(2 T)
         "a bound v(tau) of the rate": ("constant", ge(du, C * v)),  # v = e^-tau
-        # G = omega T
-        "a derivative with respect to the period": ("no rate", ge(sp.Derivative(G, T), omega),
-            eq(initial("G"), 0)),
         "the bound of a second derivative": ("no rate", ge(sp.Derivative(u_c, (t, 2)), C / T)),
         # u_c(0) = 0
         "a start that is only bounded": ("no equality", ge(du, C), le(initial("u_c"), h_0)),
@@ -152,10 +174,13 @@ FAMILIES = (
         "a deflection one period later": ("nothing else is said", deflected()),  # 0 = 1
         # 0/0
         "what is pressed one period later": ("nothing else is said", pressed(LATER)),
+        "what is pressed": ("continuous for k", pressed(opened())),
+        "what is pressed, in units of itself": ("continuous for k", unit()),  # 0 = 1
         "k times an equation": ("continuous for k", Multiply(k)(opened())),
     }),
     Family(lambda scaled, clock=CYCLING: change_clock(scaled, clock), (SCALED, eq(u_c, q * v)), {
         "time in periods, with a factor N": ("constant", eq(u_c, N * h_0 * v)),  # u_c = h_0 tau v
+        "the rate of v, times what may vanish": ("b_0/T|b_0, 0", eq(u_c, b_0 * v)),  # v jumps
         "time in periods, with a field": ("constant", eq(u_c, h * v)),
         "the rate of what jumps": ("Derivative", eq(h, h_0 * v)),  # h = h_0 v, a square wave
         # the left side is 0 to SymPy
@@ -176,7 +201,7 @@ FAMILIES = (
     Family(lambda claim, known=GROWING, datum=f_c,
         *facts: Differentiated(claim, datum)(known, *facts), (
         equal(SLOPE, h_0), (equal(IN_H_0, f_c), defined(u_cum, f_c * h_0), h_0),
-        (equal(SLOPE, h_0), beside(*FACTORS, eq(p, p_max * sp.tanh(h / u_c)))),
+        (equal(SLOPE, h_0), beside(*FACTORS, eq(p, p_max * sp.exp(-h / sigma)))),
         (equal(SLOPE, h_0), beside(*FIELDS, BOUNDED)),
     ), {
         "no datum": ("of the data", equal(sp.Derivative(u_cum, b_0), 0), GROWING, b_0),
@@ -207,8 +232,13 @@ FAMILIES = (
             tied(*FIELDS, eq(WIGGLE, WOBBLE)), h_0),
         "a load below what is negative": ("may vary", equal(IN_H_0, 0),
             tied(said(sp.Le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2), Kind.LOAD)), h_0),
-        "two starts that tie h_0 and f_c": ("may vary", equal(IN_H_0, 0),
-            tied(said(equal(initial("h"), h_0), Kind.INITIAL), eq(initial("h"), f_c * L)), h_0),
+        # the slope is f_c
+        "two starts that are equal": ("may vary", equal(IN_START, 0), of_one_start(), sigma_a0),
+        # the slope is h_0 H_c/H_a
+        "two wears that are equal": ("may vary", equal(sp.Derivative(u_cum, K_a), 0),
+            of_one_wear(), K_a),
+        "a pressure that is a roughness": ("may vary", equal(SLOPE, h_0),
+            beside(eq(p, p_max * sp.sqrt(h / sigma)))),
     }),
     Family(OneSign(h_0), ((eq(du, C * f_c * h_0), ROUGHENS),), {
         "the slope of a root": ("Ne|> 0", eq(G, sp.sqrt(h_0))),

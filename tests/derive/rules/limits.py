@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.rules.assumption import assume, defined
+from derive.rules.drift import LeadingTerm
 from derive.rules.growth import AtInfinity, Diverges, intermittent, unbounded
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import Passes, accumulates, forever, later, one_period_later, vanishes
@@ -28,12 +29,17 @@ from tests.derive.judgements import (
     tends,
 )
 
-u_c, u_a, U_a, h, G, sigma = symbols("u_c u_a U_a h G sigma")
+u_c, u_a, U_a, h, G, sigma, sigma_c = symbols("u_c u_a U_a h G sigma sigma_c")
 h_0, sigma_c0, f_c, C, T, N, q, b_0, L = symbols("h_0 sigma_c0 f_c C T N q b_0 L")
 h_star, U, U_mean, theta, tau, d = symbols("h_star U U_mean theta tau d")
 y = sp.Symbol("y", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
+
+
+def leading_term():
+    return LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c)))(eq(G, q / sigma_c))
+
 
 MEAN = sp.Integral(U_a, (t, 0, T)) / (T * h_0)
 FADING, LATER_ON, TOUCHING = sp.exp(-u_c / sigma_c0), sp.exp(t / T), sp.Ge(U_a, b_0)
@@ -71,6 +77,8 @@ FAMILIES = (
         # G = t: lim_{t->0} G(t + T) = T
         "a limit at the start": ("at one time", tends(G, theta, sp.S.Zero)),
         "the first rate": ("at one time", eq(sp.Subs(du, t, 0), C)),  # u_c = C t e^(-t/T)
+        # sigma_c is small for moments, and not one period later
+        "a leading term": ("at one time", leading_term()),
     }),
     Family(lambda expr, least, *facts: Diverges(expr)(ge(u_c, least), *facts), (
         (u_c, h_0 + C * t), (q * u_c - h_0, C * t), (u_c * (1 + sp.Abs(GAP)), C * t, APART),
@@ -104,8 +112,8 @@ FAMILIES = (
         "h/u_c with h held fixed": ("h is bounded", h / u_c),  # h = u_c
         "T u_c'/u_c": ("bounded fields alone", T * du / u_c),  # u_c = L e^(t/T)
         "time held fixed as u_c grows": ("bounded fields alone", C * t / u_c),  # u_c = C t
-        "cycles held fixed as u_c grows": ("bounded fields alone", h_0 * N / u_c),  # u_c = h_0 t/T
-        "v(tau) over what grows": ("bounded fields alone", h_0 * v / u_c),  # v = u_c/h_0
+        "cycles held fixed as u_c grows": ("N fixed", h_0 * N / u_c),  # u_c = h_0 t/T
+        "v(tau) over what grows": ("tau fixed", h_0 * v / u_c),  # v = u_c/h_0
         "U_a has no limit": ("cannot be a limit", U_a + h_0**2 / u_c, U_a, BOUNDED),  # U sin t
         "a logarithm of what grows": ("smooth function at", sp.log(u_c) / u_c),
         "the load divides": ("is smooth", 1 / (U_a + h_0 / u_c), 0, BOUNDED),
@@ -143,6 +151,8 @@ FAMILIES = (
         (later(G + q * sp.tanh(u_c)), theta, tends(G + q * sp.tanh(u_c), theta)),
         (G + NOTHING, theta, tends(G, theta), eq(b_0, 0), APART),
         (2 * u_c - 2 * C * t, 2 * h_0, tends(u_c - C * t, h_0)),
+        ((u_c**2 - h**2) / (u_c - h) - 2 * h, theta, tends(u_c - h, theta), ne(theta, 0)),
+        (sp.log(G), sp.log(q), tends(G, q)),
     ), {
         # G = h_0/u_c
         "u_c G/(h_0 + u_c G)": ("continuous at", G / (h_0 / u_c + G), 1, tends(G, 0), DEEP),
@@ -159,6 +169,11 @@ FAMILIES = (
         "a first value, one period later": ("the limit of all", later(G) + sp.Limit(G, t, 0),
             theta, tends(G + sp.Limit(G, t, 0), theta)),
         "a limit that passes, with b_0/0": ("Ne", G + NOTHING, theta, tends(G, theta), eq(b_0, 0)),
+        # u_c = h
+        "the limit of a sum, with 0/0": ("Ne", (u_c**2 - h**2) / (u_c - h) - 2 * h, theta,
+            tends(u_c - h, theta)),
+        "the limit of a sum of logarithms": ("continuous at", sp.log(G) + G, theta + sp.log(theta),
+            tends(G, theta)),
         "a limit of -oo": ("is finite", 2 * G, -sp.oo, tends(G, -sp.oo)),
         # h_0 = L
         "a limit that passes, with 0/0": ("Ne", 2 * G, 2 * theta + GAP / L, tends(G, theta)),
@@ -185,7 +200,7 @@ FAMILIES = (
         "contact by the wear": ("the load alone", sp.Ge(U_a, u_c)),
         # later for half of a period
         "contact where t U_a exceeds a level": ("the load alone", sp.Ge(t * U_a, h_0 * T)),
-        "a fraction that depends on the cycle": ("is constant", sp.Ge(U_a, b_0 * N)),
+        "a fraction that depends on the cycle": ("N fixed", sp.Ge(U_a, b_0 * N)),
         "another fraction": ("fraction of the period", TOUCHING, C, 0, sp.Ge(U_a, 2 * b_0)),
         # u_c < C T
         "a rate in contact that fades": ("positive and continuous", TOUCHING, C / (1 + N) ** 2),

@@ -1,7 +1,5 @@
 """A document with every kind of block and mark, for the tests of both writers."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path

@@ -3,8 +3,6 @@
 The true functions are bound when this module is read: tests put the stand-ins in their place.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 from unittest.mock import patch

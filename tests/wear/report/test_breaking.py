@@ -1,7 +1,5 @@
 """Breaking: nothing is lost, nothing is left too wide, nothing is broken without need."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

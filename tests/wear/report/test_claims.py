@@ -1,27 +1,13 @@
 """The ledger: the verdicts that need the note's scenes, their figures, and that they can change."""
 
-from __future__ import annotations
-
 import pytest
 
 from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Verdict
+from tests.references import VERDICTS
 from wear.report import claims, note
 from wear.report.claims import SIMULATED, as_json, ledger
 
-VERDICTS = {
-    "C16": Verdict.CONDITIONAL,
-    "C17": Verdict.NOT_REPRODUCIBLE,
-    "C33": Verdict.CONFIRMED,
-    "C34": Verdict.NOT_REPRODUCIBLE,
-    "C35": Verdict.NOT_REPRODUCIBLE,
-    "C36": Verdict.NOT_REPRODUCIBLE,
-    "C37": Verdict.NOT_REPRODUCIBLE,
-    "C38": Verdict.REFUTED,
-    "C39": Verdict.CONDITIONAL,
-    "C40": Verdict.INCONSISTENT,
-    "C41": Verdict.INCONSISTENT,
-}
 FIGURES = {
     "C16": ("0.00109746298",),
     "C17": ("cycle 491", "6.2218e-04"),

@@ -1,7 +1,5 @@
 """What a reader needs: everything is mentioned, every symbol is explained, nothing is left over."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Contrast of everything that is read or told apart, in both schemes and on paper (WCAG 2.2)."""
 
-from __future__ import annotations
-
 import re
 from importlib.resources import files
 

@@ -1,7 +1,5 @@
 """What the text becomes: marks, numbers, labels, and what refers to what."""
 
-from __future__ import annotations
-
 import jinja2
 import pytest
 from hypothesis import given

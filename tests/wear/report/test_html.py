@@ -1,7 +1,5 @@
 """The page: whole, linked, readable by machines, and the same numbers as everywhere."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections import Counter

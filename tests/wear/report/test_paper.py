@@ -1,7 +1,5 @@
 """The paper: complete, held together by its references, without a number that nobody computed."""
 
-from __future__ import annotations
-
 import ast
 import copy
 import dataclasses

@@ -1,7 +1,5 @@
 """All files of a report, and nothing else."""
 
-from __future__ import annotations
-
 from importlib.resources import files
 
 from wear.report import explorer_derived

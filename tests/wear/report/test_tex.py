@@ -1,7 +1,5 @@
 """LaTeX: compiles without a warning that matters, and carries the same numbers as the page."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import replace
