@@ -37,6 +37,23 @@ PATIENCE = 8  # iterations that may diverge at first
 NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
 
 
+class Tangent(NamedTuple):
+    """The `rate` at a state, its `slope`, and a `step` from there."""
+
+    rate: FloatArray
+    slope: FloatArray
+    step: FloatArray
+
+    @property
+    def end(self) -> FloatArray:
+        """Return the rate after the step, nearly."""
+        return self.rate + self.slope * self.step
+
+    def on(self, starts: slice) -> Tangent:
+        """Return the same for some of the starts (..., k, q, m)."""
+        return Tangent(*(array[..., starts, :, :] for array in self))
+
+
 class Rates(Protocol):
     """The rate f on a mesh."""
 
@@ -47,9 +64,9 @@ class Rates(Protocol):
     def tolerance(self) -> float:
         """Return the relative error of the increment at which the iteration may end."""
 
-    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+    def rate_per_interval(self, u: FloatArray, near: Tangent | None = None) -> FloatArray:
         """Return the rate times the length of each interval at states `u` (..., k, q, m), or
-        (..., k, 1, 1) if frozen; `near` is an approximation to it."""
+        (..., k, 1, 1) if frozen; a tangent that ends there may help."""
 
 
 class InitialGuess(NamedTuple):
@@ -98,10 +115,10 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
         evaluations = guess.rate.size
     v, before, shift, contraction = guess._replace(rate=guess.rate * lengths)
     inside, rate_found, error = np.empty_like(v), np.empty_like(v), np.empty(starts.shape)
-    active, last, expected = starts.shape[-1], None, before
+    active, last, tangent = starts.shape[-1], None, Tangent(before, shift, np.zeros_like(shift))
     for iteration in range(MOST_ITERATIONS):
         state = u + v
-        rate = rates.rate_per_interval(state, expected)
+        rate = rates.rate_per_interval(state, tangent)
         evaluations += rate.size
         slope = rate - before
         slope *= shift
@@ -112,8 +129,7 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
         residual -= v
         step = _linear_solution(slope, residual)
         v = v + step
-        slope *= step
-        expected = rate + slope
+        tangent = Tangent(rate, slope, step)
         change = np.max(np.abs(step).reshape(*step.shape[:-2], -1), axis=-1)
         change /= np.abs(v[..., -1, -1]) + TINY
         # The prediction for the first step may be too good.
@@ -127,10 +143,11 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
         if left < active:
             error[..., left:active] = predicted[..., left:]
             inside[..., left:active, :, :] = v[..., left:, :, :]
-            rate_found[..., left:active, :, :] = expected[..., left:, :, :] / lengths
+            rate_found[..., left:active, :, :] = tangent.on(slice(left, None)).end / lengths
         if left == 0:
             break
-        v, before, shift, u, expected = (x[..., :left, :, :] for x in (v, rate, step, u, expected))
+        tangent, v, u = tangent.on(slice(left)), v[..., :left, :, :], u[..., :left, :, :]
+        before, _, shift = tangent
         last, active = np.minimum(change, 1.0)[..., :left] + TINY, left
     converged = np.all(error <= rates.tolerance, axis=-1)
     increment = integral(rate_found, rates.over)

@@ -21,6 +21,7 @@ from wear.numerics.collocation import (
     NOISE,
     CycleSolution,
     InitialGuess,
+    Tangent,
     endpoint_defect,
     guess_without_feedback,
     iterate,
@@ -101,9 +102,13 @@ class Equation(Protocol):
         """Return g at phases (scenes, ...), in the same shape."""
 
     def rate(
-        self, u: FloatArray, forcing: FloatArray, near: FloatArray | None = None
+        self,
+        u: FloatArray,
+        forcing: FloatArray,
+        lengths: FloatArray | float = 1.0,
+        near: Tangent | None = None,
     ) -> FloatArray:
-        """Return du/dphase, sought from a rate `near` by if that helps."""
+        """Return du/dphase times `lengths`; the end of a tangent `near` may help."""
 
     def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:
         """Return the derivative of the rate with respect to u."""
@@ -146,11 +151,9 @@ class PeriodMap(NamedTuple):
         tolerance = max(NOISE, self.tolerance / 100)
         return period_map(self.equation, self.over.edges[:, 0], size.finer_nodes, tolerance)
 
-    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
-        """Return the rate times the length of each interval, sought from one `near` by."""
-        lengths = self.over.lengths[..., None]
-        known = None if near is None else near / lengths
-        return self.equation.rate(u, self.forcing, known) * lengths
+    def rate_per_interval(self, u: FloatArray, near: Tangent | None = None) -> FloatArray:
+        """Return the rate times the length of each interval."""
+        return self.equation.rate(u, self.forcing, self.over.lengths[..., None], near)
 
     def advance(
         self,
