@@ -25,6 +25,7 @@ from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution
 from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_integral
 from wear.numerics.initial_value import StoppedError
+from wear.numerics.rows import take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
@@ -295,7 +296,7 @@ def _at_cells(
     panel = cell // of_panel
     offset, length = table.offset[cell, None], table.length[cell, None]
     y = length * x
-    own = panels.take(panel)
+    own = take(panels, panel)
     t = own.frame.positions(table.u[cell, None] + offset * np.expm1(y))
     basis = chebyshev_values(t, panels.series.shape[1])
     level, shape = abel.level_and_shape(own.series)
