@@ -24,7 +24,15 @@ from ..reals import LAW, holds
 from ..symbols import t
 from ..zero import is_zero
 from .limits import in_time
-from .proving import continuity, continuous, facts_of, require, require_defined
+from .proving import (
+    continuity,
+    continuous,
+    facts_of,
+    require,
+    require_defined,
+    stays,
+    undefined,
+)
 from .reading import (
     T,
     constant,
@@ -176,6 +184,10 @@ class AtInfinity(Rule):
             bounds(field, *premises)
         flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
         order, smooth = expanded(flat.subs(u, deep), z)
+        for goal in undefined(inside, *premises):
+            _, side = expanded(goal.args[0].xreplace(plain).subs(u, deep), z)
+            if not stays(goal, side, {z: sp.S.Zero}, *premises):
+                raise RuleError(f"missing premise: {goal} as {u} -> oo")
         bent = (sp.Piecewise, LAW) if order > 1 else (sp.Piecewise,)
         if smooth.has(*bent) or not continuous(smooth, {z: sp.S.Zero}, *premises):
             raise RuleError(f"missing premise: {inside} is smooth at infinity")
