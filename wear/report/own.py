@@ -52,7 +52,8 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     """Return the report of a scene, with what was measured on `specimens` of it."""
     limit = None if isinstance(scene.load, Blocks | HistoryLoad) else asymptote(scene)
     curve = _solved(scene)
-    pressed = None if limit is None else pressure_inside(scene, _begun(int(curve.cycles[-1])))
+    begun = [n for n in _INSIDE if n < curve.cycles[-1]] or [0]
+    pressed = None if limit is None else pressure_inside(scene, begun)
     equations = shown(_equations(scene, limit))
     predicted = [_predicted(scene, each) for each in specimens]
     found = _sensitivities(
@@ -116,10 +117,6 @@ def _along(last: int) -> list[int]:
 
 def _is_round(cycle: int) -> bool:
     return str(cycle).strip("0") == "1"
-
-
-def _begun(last: int) -> list[int]:
-    return [n for n in _INSIDE if n < last] or [0]
 
 
 def _equations(scene: Scene, limit: Asymptote | None) -> list[derived.Equation]:

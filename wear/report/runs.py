@@ -126,7 +126,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
         progress(name)
         cases[name] = _case(name, note.RTOL)
         cases[name + note.CUTOFF] = _case(name + note.CUTOFF, CUTOFF_RTOL)
-    application = note.scene("section4")
+    application, later = note.scene("section4"), _DECADES[1::2]
     progress("approach to the asymptote")
     predicted = note.limit("section4").cycles_to_stabilise["mean_rate_within_1e-6"]
     progress("closed solutions and bounds")
@@ -136,7 +136,7 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     return Runs(
         cases=MappingProxyType(cases),
         approach=_approach("section4", _DECADES),
-        decay=_decay(note.scene("section3")),
+        decay=Decay(np.array(later, float), note.increments_after(note.scene("section3"), *later)),
         printed_increment=float(note.increments_after(application, note.PRINTED.cycles)[0]),
         reconciliation=note.reconciliation(),
         threshold_excess=float(_approach("section4", [round(note.required(predicted))]).excess[0]),
@@ -176,11 +176,6 @@ def _approach(name: str, decades: tuple[int, ...] | list[int]) -> Approach:
         pressure_excess=history.p / note.required(end.pressure_MPa) - 1.0,
         predicted=drift / (cycles * per_cycle),
     )
-
-
-def _decay(scene: Scene) -> Decay:
-    cycles = _DECADES[1::2]
-    return Decay(np.array(cycles, dtype=float), note.increments_after(scene, *cycles))
 
 
 def _steady_phases(case: Case) -> Phases:
