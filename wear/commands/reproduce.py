@@ -85,7 +85,7 @@ def _reproduce(
         contents, typeset = published(paper(catalogue, verification, runs, judged, figures))
         contents["claims.json"] = terminal.json_text(as_json(judged))
         command = f"wear reproduce -o {folder.name}"
-        scenes = {name: case.scene for name, case in runs.cases.items()}
+        scenes = {name: history.definition for name, history in runs.histories.items()}
         contents["manifest.json"] = terminal.json_text(manifest(contents, scenes, command))
     return contents, verification, judged, typeset
 
