@@ -29,6 +29,7 @@ from wear.history import History
 from wear.load import Constant
 from wear.regime import Asymptote
 from wear.report import note
+from wear.request import cycles_along
 from wear.scene import Scene, hard_names
 from wear.solver import solve
 
@@ -95,11 +96,12 @@ class Runs:
 
 def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     """Make every run; ``progress`` is told what comes next."""
-    histories = {}
+    histories, last = {}, note.PRINTED.cycles
+    shown = cycles_along(1, last, 80, np.linspace(0, last, 91))
     for name in SCENES:
         progress(name)
         for case, rtol in ((name, note.RTOL), (name + note.CUTOFF, CUTOFF_RTOL)):
-            histories[case] = solve(note.scene(case), figure_cycles(), rtol=rtol)
+            histories[case] = solve(note.scene(case), shown, rtol=rtol)
     application, later = note.scene("section4"), _DECADES[1::2]
     decay = note.increments_after(note.scene("section3"), *later)
     progress("approach to the asymptote")
@@ -123,13 +125,6 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
         wear_bounds=tight,
         hard=tuple(solve(name, [_HARD_CYCLES], rtol=HARD_RTOL) for name in hard_names()),
     )
-
-
-def figure_cycles() -> tuple[int, ...]:
-    """Numbers of cycles up to the note's last, dense where the wear changes quickly."""
-    last = note.PRINTED.cycles
-    chosen = np.concatenate([[0], np.geomspace(1, last, 80), np.linspace(0, last, 91)])
-    return tuple(sorted({int(cycle) for cycle in np.rint(chosen)}))
 
 
 def _approach(name: str, decades: tuple[int, ...] | list[int]) -> Approach:
