@@ -87,7 +87,7 @@ def test_an_interrupt_leaves_nothing_behind(call, tmp_path, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(claims, "ledger", interrupted)
+    monkeypatch.setattr(claims, "decided", interrupted)
     folder = tmp_path / "report"
     assert call("reproduce", "-o", str(folder))[0] == 130
     assert not folder.exists()
