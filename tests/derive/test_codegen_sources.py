@@ -191,20 +191,20 @@ def test_fortran_does_not_take_two_names_for_one():
 # Every variant compiles, without a warning
 
 
-def test_every_c_source_is_clean(need_tool, tmp_path):
-    compiler = need_tool("gcc")
+@pytest.mark.parametrize(
+    ("language", "compiler", "options"),
+    [
+        ("c", "gcc", ("-std=c99", "-pedantic", "-Wextra")),
+        ("fortran", "gfortran", ("-std=f2008", "-ffree-form")),
+    ],
+)
+def test_every_source_is_clean(language, compiler, options, need_tool, tmp_path):
+    program = need_tool(compiler)
     for index, variant in enumerate(VARIANTS):
-        (tmp_path / f"{index}.c").write_text(source(exact.made(variant), "c"))
-    files = sorted(map(str, tmp_path.glob("*.c")))
-    run(compiler, "-std=c99", "-pedantic", "-Wextra", *FLAGS, "-fsyntax-only", *files)
-
-
-def test_every_fortran_source_is_clean(need_tool, tmp_path):
-    compiler = need_tool("gfortran")
-    for index, variant in enumerate(VARIANTS):
-        (tmp_path / f"{index}.f90").write_text(source(exact.made(variant), "fortran"))
-    files = sorted(map(str, tmp_path.glob("*.f90")))
-    run(compiler, "-std=f2008", *FLAGS, "-fsyntax-only", *files, cwd=tmp_path)
+        (tmp_path / f"{index}.{language}").write_text(source(exact.made(variant), language))
+    files = sorted(map(str, tmp_path.glob(f"*.{language}")))
+    kind = {"c": "c", "fortran": "f95"}[language]
+    run(program, *options, *FLAGS, "-fsyntax-only", "-x", kind, *files, cwd=tmp_path)
 
 
 def test_every_javascript_source_is_a_module(need_tool, tmp_path):

@@ -7,7 +7,10 @@ from derive.falsifier.judgements import tried, without
 from derive.reasons import outdated, table
 
 
-@pytest.mark.parametrize("identifier", ["7c", "8", "13", "share", "threshold", "deviation"])
+@pytest.mark.parametrize(
+    "identifier",
+    ["7c", "8", "13", "share", "threshold", "deviation", "compliant-pressure", "groups-one-solid"],
+)
 def test_models_agree_with_an_equation(identifier: str):
     for statement in catalogue.equation(identifier).statements:
         answer = tried(statement)

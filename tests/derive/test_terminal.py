@@ -47,11 +47,6 @@ def test_our_own_faults_are_not_hidden():
         terminal.run("wear run", stop(ZeroDivisionError()), {SceneError: 2})
 
 
-@pytest.mark.parametrize("status", [0, 1, 3])
-def test_the_status_is_that_of_the_work(status):
-    assert terminal.run("derive verify", lambda: status, {}) == status
-
-
 def test_a_reader_that_has_seen_enough_is_no_fault():
     code = """
 from derive import terminal
@@ -215,11 +210,3 @@ def test_bash_completes(parser, need_tool, words, offered, tmp_path, monkeypatch
     (tmp_path / "mine of today.toml").touch()
     monkeypatch.chdir(tmp_path)
     assert complete(completion.bash(parser), *words) == offered
-
-
-def test_the_version_is_that_of_the_distribution(parser, capsys):
-    with pytest.raises(SystemExit) as stopped:
-        parser.parse_args(["--version"])
-    assert stopped.value.code == 0
-    name, version = capsys.readouterr().out.split()
-    assert (name, version[0].isdigit()) == ("toy", True)

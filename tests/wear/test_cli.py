@@ -195,8 +195,3 @@ def test_the_completion_knows_commands_scenes_and_options(call, need_tool):
     ask = "COMP_WORDS=(wear scenes section4); COMP_CWORD=2; _wear_complete; echo ${COMPREPLY[@]}"
     offered = run("bash", "-c", f"{script}\n{ask}", env={"PATH": os.environ["PATH"]}).split()
     assert offered == [name for name in builtin_names() if name.startswith("section4")]
-
-
-def test_claims_end_with_a_count_of_verdicts(call):
-    *_, last = call("claims", "C1", "C2")[1].splitlines()
-    assert re.fullmatch(r"2 claims: 1 \w+, 1 \w+", last)

@@ -116,19 +116,6 @@ def test_the_asymptote_has_the_keys_of_the_contract(call, name):
     assert found["regime"] == regime.asymptote(load_scene(name)).regime
 
 
-def test_the_asymptote_is_printed_with_units(call):
-    status, shown, _ = call("asymptote", "section4", "--set", "bearing.roughness_growth=0.5")
-    assert status == 0
-    assert "steady" in shown
-    assert "6.911503838e-05 mm" in shown  # half of M: p_inf/p_max = 1/2 at f_c = 1/2
-
-
-def test_what_does_not_apply_is_not_printed(call):
-    shown = call("asymptote", "chatter")[1]
-    assert "wear stops in cycle  3" in shown
-    assert "coefficient of ln N" not in shown
-
-
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png"])
 def test_a_figure_is_written(call, tmp_path, suffix):
     file = tmp_path / f"wear{suffix}"

@@ -1,16 +1,13 @@
 """The messages that a user reads when something is wrong."""
 
-from wear.faults import MOST_FAULTS_SHOWN, AccuracyError, Fault, SceneError
+from wear.faults import MOST_FAULTS_SHOWN, Fault, SceneError
 
 
-def test_fault_without_line_or_table() -> None:
-    fault = Fault("scene.toml", None, "", "load", "missing", "add a table [load]")
-    assert str(fault) == "scene.toml: load: missing; add a table [load]"
-
-
-def test_fault_of_a_whole_file() -> None:
-    fault = Fault("scene.toml", None, "", "", "is empty", "start from a built-in scene")
-    assert str(fault) == "scene.toml: is empty; start from a built-in scene"
+def test_a_fault_names_what_it_has() -> None:
+    whole = Fault("scene.toml", None, "", "", "is empty", "start from a built-in scene")
+    assert str(whole) == "scene.toml: is empty; start from a built-in scene"
+    lacking = Fault("scene.toml", None, "", "load", "missing", "add a table [load]")
+    assert str(lacking) == "scene.toml: load: missing; add a table [load]"
 
 
 def test_scene_error_tells_all_faults() -> None:
@@ -25,7 +22,3 @@ def test_scene_error_does_not_flood_the_terminal() -> None:
     assert len(lines) == MOST_FAULTS_SHOWN + 1
     assert lines[-1] == f"... and {200 - MOST_FAULTS_SHOWN} more faults"
     assert len(SceneError(faults).faults) == 200
-
-
-def test_accuracy_error_keeps_the_best_result() -> None:
-    assert AccuracyError("reached 1e-9 only").best is None

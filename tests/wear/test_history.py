@@ -85,11 +85,6 @@ def test_json_has_the_keys_of_the_contract(section3, compliant):
     assert set(compliant.as_json()) == CONTRACT | {"bearing_displacement_mm"}
 
 
-def test_json_has_none_for_what_does_not_exist(section3):
-    unknown = dataclasses.replace(section3, error=np.full(4, np.nan))
-    assert unknown.as_json()["error_estimate"] == [None] * 4
-
-
 def test_csv_reads_back_exactly(section3, tmp_path):
     section3.write(tmp_path / "wear.csv")
     lines = (tmp_path / "wear.csv").read_text(encoding="utf-8").splitlines()

@@ -247,11 +247,6 @@ def test_names_that_lead_nowhere(tmp_path: Path) -> None:
     assert fault(large).problem == "is larger than 256 KiB"
 
 
-def test_control_characters_of_a_file_do_not_reach_the_terminal() -> None:
-    fault = only_fault(GOOD + '"\\u001b[31m" = 1\n')
-    assert "\x1b" not in str(fault)
-
-
 # CSV files of loads
 
 HEAD = "t_s,U_a_mm\n"

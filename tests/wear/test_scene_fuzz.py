@@ -55,12 +55,6 @@ def read(data: bytes | str, *overrides: str) -> Scene | SceneError:
 
 
 @settings(max_examples=300)
-@given(st.binary(max_size=200))
-def test_any_bytes(data: bytes) -> None:
-    check_answer(read(data))
-
-
-@settings(max_examples=300)
 @given(st.text(st.sampled_from("[]{}='\"#.,\n\\ ae_1-+"), max_size=80))
 def test_texts_that_look_like_toml(text: str) -> None:
     check_answer(read(text))

@@ -122,9 +122,6 @@ def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call):
 @pytest.mark.parametrize(
     "line",
     [
-        "run section4 --cycles abc",
-        "run section4 --cycles 1e400",
-        "run section4 --cycles -5",
         "run section4 --rtol 1",
         "run section4 --rtol nan",
         "run section4 --method 3",

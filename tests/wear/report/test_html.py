@@ -39,6 +39,13 @@ class Outline(HTMLParser):
         if tag not in _VOID:
             assert self._open.pop() == tag
 
+    def can_be_followed(self) -> bool:
+        """Whether one heading comes first, none skips a level, and cells of heads have a scope."""
+        levels = [int(tag[1]) for tag, _ in self.tags if re.fullmatch(r"h[1-6]", tag)]
+        steady = all(b <= a + 1 for a, b in pairwise(levels))
+        scoped = all(a.get("scope") in {"row", "col"} for a in self.of("th"))
+        return levels[0] == levels.count(1) == 1 and steady and scoped
+
     def of(self, *names: str) -> list[dict[str, str | None]]:
         return [attributes for tag, attributes in self.tags if tag in names]
 
@@ -95,11 +102,7 @@ def test_screen_readers_find_their_way(outline):
     assert outline.of("html")[0]["lang"] == "en"
     assert all(len(outline.of(landmark)) == 1 for landmark in ("nav", "main"))
     assert next(a for a in outline.of("a"))["href"] == "#content"
-    levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h[1-6]", tag)]
-    assert levels[0] == 1
-    assert levels.count(1) == 1
-    assert all(b <= a + 1 for a, b in pairwise(levels))
-    assert all(a.get("scope") in {"row", "col"} for a in outline.of("th"))
+    assert outline.can_be_followed()
     assert all(a["role"] == "img" and a["aria-label"] for a in outline.of("svg"))
 
 

@@ -23,6 +23,7 @@ from derive.files import write_atomically
 from derive.verification import Verification, checked, parts, verified
 from tests.wear.report import quick
 from tests.wear.report.test_html import Outline
+from tests.wear.report.test_tex import numbers_labels_as_the_page_does
 from wear.report import claims, note
 from wear.report.document import Document
 from wear.report.html import page
@@ -287,22 +288,12 @@ def test_the_paper_compiles_and_numbers_as_the_page_does(paper, tmp_path, need_t
         write_atomically(tmp_path / name, content)
     outcome = typeset(tmp_path / "report.tex")
     assert (outcome.notice, outcome.warnings) == ("", ())
-    auxiliary = (tmp_path / "report.aux").read_text(encoding="utf-8")
-    numbers = dict(re.findall(r"\\newlabel\{([^}@]+)\}\{\{\{?([^}]*)\}", auxiliary))
-    named = ("claim", "derivation", "work")
-    assert numbers == {
-        label: mark.number
-        for label, mark in paper.marks.items()
-        if mark.kind not in named and mark.target == label
-    }
+    assert numbers_labels_as_the_page_does(tmp_path / "report.tex", paper)
 
 
 def test_screen_readers_find_their_way_in_it(paper):
     outline = Outline(page(paper))
-    levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h[1-6]", tag)]
-    assert levels[0] == 1
-    assert all(b <= a + 1 for a, b in pairwise(levels))
-    assert all(a.get("scope") in {"row", "col"} for a in outline.of("th"))
+    assert outline.can_be_followed()
     described = [a["aria-label"] or "" for a in outline.of("svg")]
     assert all(len(text.split()) >= 8 for text in described)
     assert len(set(described)) == len(described)

@@ -44,15 +44,20 @@ def test_the_pdf_is_the_same_in_every_run(sample, compiled, tmp_path):
     assert again == first
 
 
-def test_tex_numbers_every_label_as_the_page_does(sample, compiled):
-    auxiliary = compiled[0].with_suffix(".aux").read_text(encoding="utf-8")
+def numbers_labels_as_the_page_does(report: Path, document: Document) -> bool:
+    """Whether TeX gave equations, figures, tables and sections the numbers of the page."""
+    auxiliary = report.with_suffix(".aux").read_text(encoding="utf-8")
     numbers = dict(re.findall(r"\\newlabel\{([^}@]+)\}\{\{\{?([^}]*)\}", auxiliary))
     named = ("claim", "derivation", "work")  # these have names, not numbers
-    assert numbers == {
+    return numbers == {
         label: mark.number
-        for label, mark in sample.marks.items()
+        for label, mark in document.marks.items()
         if mark.kind not in named and mark.target == label
     }
+
+
+def test_tex_numbers_every_label_as_the_page_does(sample, compiled):
+    assert numbers_labels_as_the_page_does(compiled[0], sample)
 
 
 def test_equations_can_be_put_into_another_report(sample, tmp_path, need_tool):
