@@ -16,7 +16,7 @@ from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import TINY
 from wear.orbit import abel
 from wear.orbit.panels import FASTER, SPLIT, Layout
-from wear.orbit.period_map import PeriodMap, Settings, by_size, period_map
+from wear.orbit.period_map import IN_CACHE, PeriodMap, Settings, by_size, period_map
 from wear.orbit.problem import Problem, Request
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
@@ -90,7 +90,8 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         number += len(scene)
         cut &= number < MOST_PLANNED * maps.scenes
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
-        done.append(take(Planned(Layout(scene, frame, rate), cycles), ~cut))
+        kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
+        done.append(take(Planned(Layout(scene, frame, kept), cycles), ~cut))
         frame, scene = stacked(take(frame, cut).cut(SPLIT)), np.tile(scene[cut], 2)
     if len(done) == 1:
         return done[0]
