@@ -74,7 +74,7 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
     nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
     done: list[Planned] = []
     number = 0
-    while len(scene):
+    while True:
         some = maps.take(scene)
         rate = some.rate_without_feedback(frame.states(nodes))
         frozen = integral(rate, some.over)
@@ -92,6 +92,8 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
         kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
         done.append(take(Planned(Layout(scene, frame, kept), cycles), ~cut))
+        if not cut.any():
+            break
         frame, scene = stacked(take(frame, cut).cut(SPLIT)), np.tile(scene[cut], 2)
     if len(done) == 1:
         return done[0]
