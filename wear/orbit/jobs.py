@@ -134,8 +134,8 @@ class Jobs:
         limit, tolerance = self.limit[job.which], self.tolerance[job.which]
         for more in extended(job.maps, job.transient, limit, self.size, tolerance):
             which = job.which[more.which]
-            spent = job.spent[more.which] + more.evaluations / len(which)
-            self.cost = self.cost.plus(more.increments, more.evaluations)
+            spent = job.spent[more.which] + more.cost.rhs_evaluations / len(which)
+            self.cost = self.cost.plus(*more.cost)
             fresh = Job(which, more.maps, more.transient, job.needed, job.worst[more.which], spent)
             late = self.request.late and more.transient.cycles >= BLOCK
             ended = np.full(len(which), late)
@@ -156,8 +156,8 @@ class Jobs:
         which, number, tolerance = job.which, job.transient.cycles, self.tolerance[job.which]
         fine = job.maps.finer(self.size)
         filled = fill(job.maps, fine, job.layout, self.size, tolerance, self.keep)
-        self.cost = self.cost.plus(filled.increments, filled.evaluations)
-        spent = job.spent + filled.evaluations / len(which)
+        self.cost = self.cost.plus(*filled.cost)
+        spent = job.spent + filled.cost.rhs_evaluations / len(which)
         scene, residual = filled.panels.scene, filled.panels.residual
         worst = np.zeros(len(which))
         np.maximum.at(worst, scene, np.where(np.isnan(residual), np.inf, residual))
