@@ -39,6 +39,10 @@ class Undecided(ArithmeticError):  # noqa: N818
     """The balls are too wide, or the model cannot say."""
 
 
+class NoValue(Undecided):
+    """The model itself gives a quantity no value."""
+
+
 class NearZero(Undecided):
     """A divisor is a ball around 0, very narrow: 0 itself, as far as can be said."""
 

@@ -107,8 +107,7 @@ def drawn(
     if model is not None:
         for quantity in quantities(sp.Tuple(*wanted)):
             if not any(known in model.values for known in of(quantity)[:2]):
-                draw = test_function if quantity.args else _value
-                model.values[quantity] = draw(quantity, seed, quantity in free)
+                model.values[quantity] = _draw(quantity, seed, quantity in free)
     return model
 
 
@@ -136,25 +135,23 @@ def _made(
     the data that are ``moving``."""
     chance, draft = random.Random(seed), _Draft(moving)
     parts = [p for relation in relations for p in _parts(relation, chance)]
-    parts.sort(key=lambda part: not isinstance(part, sp.Eq))
     still = {f: sp.Symbol(f"{_name(f)}(0)", real=True) for f in map(_constant, parts) if f}
     draft.values.update(still)
     parts = [p if p.has(sp.Derivative) else p.xreplace(still) for p in parts]
-    pending = [_imposed(part, chance, seed % WILD == WILD - 1) for part in parts]
-    _assign([p for p in pending if p is not None], draft, chance, slopes)
+    for equations in (True, False):  # an inequality is met by what no equation determines
+        these = (part for part in parts if isinstance(part, sp.Eq) == equations)
+        imposed = (_imposed(part, chance, seed % WILD == WILD - 1) for part in these)
+        _assign([part for part in imposed if part is not None], draft, chance, slopes)
     values = draft.values
-    unknown = quantities(sp.Tuple(*relations, *slopes, T, U, *values.values()))
-    for datum in (q for q in unknown if not q.args and q not in values):
-        values[datum] = _value(datum, seed, datum in free)
-    for varying in sorted((q for q in unknown if q.args), key=str):
-        _, rate, start = of(varying)
-        if rate in values:
-            least = sp.S.One if varying.is_positive else sp.S.Zero
-            first = _value(varying, seed, varying in free)
-            values.setdefault(start, first if chance.random() < 0.5 else least)
-        elif varying not in values:
-            about = [p for p in parts if {q for q in quantities(p) if q.args} == {varying}]
-            values[varying] = _fitting(varying, seed, varying in free, about, values)
+    unknown = quantities(sp.Tuple(*relations, *slopes, T, U, *values.values())) - values.keys()
+    for quantity in sorted(unknown, key=lambda q: (bool(q.args), str(q))):
+        _, *rate = of(quantity)[:2]
+        if rate and rate[0] in values:
+            least = sp.S.One if quantity.is_positive else sp.S.Zero
+            first = _value(quantity, seed, quantity in free)
+            values.setdefault(quantity.subs(t, 0), first if chance.random() < 0.5 else least)
+        else:
+            values[quantity] = _fitting(quantity, seed, quantity in free, parts, values)
     return _model(draft)
 
 
@@ -174,21 +171,27 @@ def _constant(part: sp.Basic) -> sp.Expr | None:
 
 
 def _fitting(
-    varying: sp.Expr,
+    quantity: sp.Expr,
     seed: int,
     outside: bool,
-    about: list[sp.Basic],
+    said: list[sp.Basic],
     values: dict[sp.Expr, sp.Expr],
 ) -> sp.Expr:
-    """Return a test function of which holds what is said of it alone; the last one tried if none
-    is found."""
+    """Draw a number or a test function of which holds what is said of it, as far as others are
+    known; the last one tried if none is found."""
     others = {known: value for known, value in values.items() if known in quantities(known)}
+    about = [
+        relation
+        for relation in said
+        if quantity in quantities(relation)
+        and not any(q.args for q in quantities(relation) - {quantity})
+    ]
     for attempt in range(12 if about else 1):
-        made = test_function(varying, seed + 97 * attempt, outside)
-        if varying.subs(t, 0) in values:
-            made = made - made.subs(t, 0) + values[varying.subs(t, 0)]
-        alone = Model({**others, varying: made})
-        if all(truth(relation, alone).holds for relation in about):
+        made = _draw(quantity, seed + 97 * attempt, outside)
+        if quantity.subs(t, 0) in values:
+            made = made - made.subs(t, 0) + values[quantity.subs(t, 0)]
+        alone = Model({**others, quantity: made})
+        if all(truth(relation, alone).holds is not False for relation in about):
             break
     return made
 
@@ -269,22 +272,24 @@ def _assign(
     What is differentiated with respect to data (``slopes``) must follow from the data.
     """
     rest = []
+    bent = chance.choice(equations) if equations and chance.random() < 0.6 else None
     for equation in equations:
         offers = list(solutions(equation))
         if slopes:
             offers = [offer for offer in offers if offer[0] in slopes] or offers[:1]
         if not offers:
             continue
-        factors = [s for s in _coefficients(equation) if s not in draft.values]
-        if factors and chance.random() < 0.2:
-            draft.values[chance.choice(factors)] = sp.S.Zero
-            continue
-        if chance.random() < 0.2:
+        if equation is bent:
+            factors = [s for s in _coefficients(equation) if s not in draft.values]
+            if factors and chance.random() < 0.5:
+                draft.values[chance.choice(factors)] = sp.S.Zero
+                continue
             chance.shuffle(offers)
-        if not any(draft.takes(*offer, looped=False) for offer in offers):
+        if not draft.takes(*offers[0], looped=False):
             rest.append(offers)
     for offers in rest:
-        any(draft.takes(*offer, looped=True) for offer in offers)
+        if not draft.takes(*offers[0], looped=True):
+            any(draft.takes(*offer, looped=False) for offer in offers[1:])
 
 
 @cache
@@ -341,6 +346,11 @@ def _polynomial(expr: sp.Expr, unknown: sp.Symbol) -> bool:
     if not expr.has(unknown) or expr == unknown:
         return True
     return isinstance(expr, (sp.Add, sp.Mul)) and all(_polynomial(a, unknown) for a in expr.args)
+
+
+def _draw(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
+    """Draw a number or a test function of time, outside of its domain if asked."""
+    return (test_function if quantity.args else _value)(quantity, seed, outside)
 
 
 def _value(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:

@@ -27,6 +27,7 @@ from .balls import (
     BITS,
     ZERO,
     Moment,
+    NoValue,
     Number,
     Undecided,
     Undefined,
@@ -96,7 +97,7 @@ class Model:
         self._known: dict[object, Number] = {}
         self._formulas: dict[tuple[sp.Expr, int], sp.Expr] = {}
         self._windows: dict[tuple[sp.Limit, int], Windows] = {}
-        self.satisfied: dict[object, bool] = {}
+        self.satisfied: dict[object, bool | None] = {}
 
     @cached_property
     def states(self) -> dict[sp.Expr, int]:
@@ -143,7 +144,7 @@ class Model:
         if order == 0 and field in self.states:
             return self._state(field, at)
         if order == 0 and field is self.loop:
-            return self._root(float(arb(at)))
+            return self._root(at)
         return self._valued(self.formula(field, order), at)
 
     def _state(self, field: sp.Expr, at: Number) -> Number:
@@ -154,9 +155,9 @@ class Model:
         value = arb(float(values[place]))
         return value + arb(0, (abs(value) * _TRUSTED + float(rounding[place])).upper())
 
-    def _root(self, at: float) -> arb:
-        states = self.motion.at(at)[0] if self.states else np.zeros(0)
-        (y,) = self.system.root(np.array([at]), states[:, None])
+    def _root(self, at: Number) -> arb:
+        states = np.array([[float(ball(self._state(f, at)).mid())] for f in self.states])
+        (y,) = self.system.root(np.array([float(arb(at))]), states)
         if not np.isfinite(y):
             raise Undecided("a loop without a root")
         return arb(float(y), 1e-11 * abs(float(y)) + 1e-14)
@@ -166,7 +167,7 @@ class Model:
         try:
             return compiled(expr)(Moment(self, at))
         except Undefined as reason:
-            raise Undecided(f"the model has no value for {expr}") from reason
+            raise NoValue(f"the model has no value for {expr}") from reason
 
     def formula(self, field: sp.Expr, order: int) -> sp.Expr:
         """Return what a field, or its derivative, is computed from; jumps have no slope."""

@@ -13,6 +13,7 @@ Key results
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import chain
 from operator import eq, ge, gt, le, lt, ne
 from typing import TYPE_CHECKING
 
@@ -25,8 +26,10 @@ from ..symbols import t
 from .balls import (
     BITS,
     NOTHING,
+    ZERO,
     Moment,
     NearZero,
+    NoValue,
     Number,
     Undecided,
     Undefined,
@@ -49,7 +52,8 @@ _COMPARED = {"==": eq, "!=": ne, "<": lt, "<=": le, ">": gt, ">=": ge}
 
 @dataclass(frozen=True)
 class Truth:
-    """Whether a relation holds in a model; None where no time decides.  ``where``: a witness."""
+    """Whether a relation holds in a model; None where no time decides.  ``where``: a witness, or
+    what has no value in the model."""
 
     holds: bool | None
     where: str = ""
@@ -114,12 +118,15 @@ def _compared(
         outcome = _at_infinity(relation, left, right, moment, variable)
         if outcome is not None:
             return outcome
-    a, b = (compiled(side, variable)(moment) for side in (left, right))
-    gap = a - b
+    terms = [
+        [compiled(term, variable)(moment) for term in sp.Add.make_args(side)]
+        for side in (left, right)
+    ]
+    gap = sum(terms[0], ZERO) - sum(terms[1], ZERO)
     if isinstance(gap, fmpq) or gap.is_zero() or not gap.contains(0):
         return bool(_COMPARED[relation.rel_op](_sign(gap), 0))
     gap = ball(gap)
-    size = max(_size(side, moment, variable) for side in (left, right))
+    size = max(abs(ball(term)).upper() for term in chain(*terms))
     if not final and gap.rad() <= _ROUNDING * size:
         return None  # perhaps more digits part them
     close = gap.rad() <= max(_AGREE * size, NOTHING)
@@ -128,12 +135,6 @@ def _compared(
     if close and isinstance(relation, sp.Ne):
         return False
     return None
-
-
-def _size(side: sp.Expr, moment: Moment, variable: sp.Symbol) -> arb:
-    """Return the size of the largest term."""
-    terms = sp.Add.make_args(side)
-    return max(abs(ball(compiled(term, variable)(moment))).upper() for term in terms)
 
 
 def _sign(gap: fmpq | arb) -> int:
@@ -176,6 +177,9 @@ def truth(relation: sp.Basic, model: Model) -> Truth:
         except (Undefined, NearZero) as reason:
             if isinstance(reason, Undefined) or number < EARLY:
                 return Truth(False, f"{when}{reason}")  # later an exponential may be that small
+        except NoValue as reason:
+            if number < EARLY:
+                return Truth(None, str(reason))
         except (ArithmeticError, ValueError, RecursionError):
             doubtful = doubtful or number < EARLY
     return Truth(True if decided and not doubtful else None)

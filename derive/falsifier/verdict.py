@@ -19,13 +19,15 @@ import sympy as sp
 from flint import fmpq
 from sympy.core.function import AppliedUndef
 
-from ..symbols import t
+from ..symbols import symbol, t
 from .balls import fraction
 from .draws import LAWS, WILD, drawn, slopes_over_data, with_law
 from .models import Model, quantities, reached
 from .truth import truth
 
 _ORDERS = (sp.Gt, sp.Ge, sp.Lt, sp.Le)
+_T, _TAU = symbol("T"), symbol("tau")
+_CLOCK = sp.Eq(t, _T * _TAU)
 DRAWS = 60
 """Seeds tried for a judgement."""
 ENOUGH = 12
@@ -49,12 +51,14 @@ class Counterexample:
 class Answer:
     """What the models say of a judgement.
 
-    ``models`` satisfied the hypotheses; ``decided`` of these gave the claim a truth value.
+    ``models`` satisfied the hypotheses; ``decided`` of these gave the claim a truth value; of
+    ``doubtful`` ones it is not known whether they satisfy the hypotheses.
     """
 
     counterexample: Counterexample | None
     models: int
     decided: int
+    doubtful: int = 0
 
     @property
     def passed(self) -> bool:
@@ -63,14 +67,16 @@ class Answer:
 
     @property
     def vacuous(self) -> bool:
-        """Whether no model satisfies the hypotheses."""
-        return self.models == 0
+        """Whether every model violates a hypothesis."""
+        return self.models == self.doubtful == 0
 
     def __str__(self) -> str:
         if self.counterexample is not None:
             return f"false for {self.counterexample}"
         if self.vacuous:
-            return "vacuous as far as models go: none of those drawn satisfies the hypotheses"
+            return "vacuous as far as models go: all that are drawn violate the hypotheses"
+        if not self.models:
+            return "not tried: of no model it is known whether it satisfies the hypotheses"
         return f"holds in {self.decided} of {self.models} models of the hypotheses, fails in none"
 
 
@@ -79,19 +85,25 @@ def falsify(
     claim: sp.Basic,
     draws: int = DRAWS,
     enough: int = ENOUGH,
-    dropped: sp.Basic = sp.false,
+    dropped: sp.Basic | None = None,
 ) -> Answer:
     """Return whether some model satisfies the hypotheses and not the claim.
 
     Of ``dropped``, a hypothesis or the domain of a quantity, the models satisfy the contrary.
     """
-    free = quantities(dropped) if _is_domain(dropped) else frozenset[sp.Expr]()
-    hypotheses = tuple(h for h in hypotheses if h != dropped)
-    imposed = (*((dropped.negated,) if isinstance(dropped, _ORDERS) else ()), *hypotheses)
-    models = decided = 0
-    for trial in _models((*hypotheses, dropped, claim), imposed, draws, free):
+    hypotheses = imposed = tuple(hypotheses)
+    free = frozenset[sp.Expr]()
+    if dropped is not None:
+        hypotheses = imposed = tuple(h for h in hypotheses if h != dropped)
+        free = quantities(dropped) if _is_domain(dropped) else free
+        imposed = (*((dropped.negated,) if isinstance(dropped, _ORDERS) else ()), *hypotheses)
+    absent = sp.false if dropped is None else dropped
+    models = decided = doubtful = 0
+    for trial in _models((*hypotheses, absent, claim), imposed, draws, free):
         *given, without, claimed = trial.relations
-        if not trial.fits(given, free) or truth(without, trial.model).holds is not False:
+        fits = trial.fits(given, free)
+        doubtful += fits is None
+        if not fits or truth(without, trial.model).holds is not False:
             continue
         models += 1
         outcome = truth(claimed, trial.model)
@@ -103,7 +115,7 @@ def falsify(
         decided += outcome.holds is True
         if decided >= (enough if trial.model.states else 3 * enough):
             break
-    return Answer(None, models, decided)
+    return Answer(None, models, decided, doubtful)
 
 
 @dataclass(frozen=True)
@@ -114,7 +126,7 @@ class _Trial:
     relations: tuple[sp.Basic, ...]
     seed: int
 
-    def fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool:
+    def fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool | None:
         """Return whether the model satisfies the hypotheses, and all quantities lie where their
         symbols say; asked once for several claims, while its fields are known for as long."""
         asked = tuple(given), free, frozenset(self._varied()), self.model.times
@@ -123,13 +135,19 @@ class _Trial:
             known[asked] = self._fits(given, free)
         return known[asked]
 
-    def _fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool:
+    def _fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool | None:
         fixed = {h.lhs for h in given if isinstance(h, sp.Eq) and h.rhs.is_number}
         bounded = quantities(sp.Tuple(*self.relations)) - fixed.union(free)
         demands = sorted((*given, *map(domain, bounded)), key=self._rests_on_a_limit)
-        return all(truth(demand, self.model).holds for demand in demands) and all(
-            truth(demand, moved).holds for moved in self._moved() for demand in given
-        )
+        asked = [(demand, self.model) for demand in demands]
+        asked += [(demand, moved) for moved in self._moved() for demand in given]
+        doubtful = False
+        for demand, model in asked:
+            found = truth(demand, model)
+            if found.holds is False or found.where:
+                return False
+            doubtful |= found.holds is None
+        return None if doubtful else True
 
     def _rests_on_a_limit(self, relation: sp.Basic) -> bool:
         """Return whether a relation costs more than others."""
@@ -196,7 +214,9 @@ def _in_time(
 ) -> tuple[sp.Basic, ...]:
     """Write relations without the names of what varies: N for t/T, say."""
     for named in imposed:
-        if (
+        if named == _CLOCK:
+            relations = tuple(sp.true if r == named else _unscaled(r) for r in relations)
+        elif (
             isinstance(named, sp.Eq)
             and isinstance(named.lhs, sp.Symbol)
             and t in named.rhs.free_symbols
@@ -204,6 +224,13 @@ def _in_time(
             written = (r.subs(named.lhs, named.rhs) if r != named else sp.true for r in relations)
             relations = tuple(written)
     return relations
+
+
+def _unscaled(relation: sp.Basic) -> sp.Basic:
+    """Write the fields of scaled time as fields of time."""
+    fields = {f: f.func(t) for f in relation.atoms(AppliedUndef) if f.args == (_TAU,)}
+    rates = {f.diff(_TAU): _T * now.diff(t) for f, now in fields.items()}
+    return relation.xreplace(rates).xreplace(fields).xreplace({_TAU: t / _T})
 
 
 def domain(quantity: sp.Expr) -> sp.Basic:

@@ -29,6 +29,20 @@ def test_hypotheses_that_exclude_each_other_are_vacuous():
     assert falsify((sp.Gt(f_c, 1), sp.Lt(f_c, 0)), sp.Eq(h_0, 1)).vacuous
 
 
+def test_a_condition_against_the_model_is_vacuous_however_it_is_spelled():
+    """A support under pressure is deflected."""
+    p, U_c, k = symbols("p U_c k")
+    law = sp.Eq(p, p_max * sp.exp(-(h_0 + U_c) / h_0))
+    for condition in (sp.Eq(U_c, 0), sp.Eq(2 * U_c, 0), sp.Le(p, 0)):
+        said = (law, sp.Eq(k * U_c - p, 0), condition)
+        assert "vacuous" in str(falsify(said, sp.Eq(h_0, 1)))
+
+
+def test_what_models_cannot_decide_is_not_vacuous():
+    unknown = sp.Eq(h_0, sp.besselj(0, p_max))
+    assert "not tried" in str(falsify((unknown,), sp.Eq(h_0, 1)))
+
+
 def test_the_same_counterexample_is_found_again():
     case = CASES[0]
     assert falsify(case.given, case.false) == falsify(case.given, case.false)

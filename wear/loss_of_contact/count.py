@@ -19,7 +19,7 @@ import numpy as np
 
 from wear.counted import FADES, STOPS, Counted, End
 from wear.load import Load
-from wear.loss_of_contact.arrest import TO_ROUNDOFF, TabulatedCount, Unresolved
+from wear.loss_of_contact.arrest import TabulatedCount, Unresolved
 from wear.loss_of_contact.grazing import limit_wear_of
 from wear.loss_of_contact.increments import fitted
 from wear.loss_of_contact.parts import OneByOne, OnPanels, walked
@@ -54,7 +54,7 @@ JUDGED = 1e-2  # of the tolerance of a cycle: that of the cycle that judges it
 MOST_GUESSES = 10  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
-COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
+COEFFICIENTS, FEWER_COEFFICIENTS = 24, 24  # of a panel of increments, for many and for few digits
 
 
 class Wanted(NamedTuple):
@@ -138,17 +138,13 @@ class _Way:
         number = COEFFICIENTS if problem.rtol < 1e-8 else FEWER_COEFFICIENTS
         known, cost = yield from fitted(spans, number, problem.size.residual_tolerance / 2)
         self.cost = self.cost.plus(*cost)
-        if known and known[-1][0].tends:
-            (span, series), limit = known[-1], spans[-1].coordinate.origin
-            width = -np.log(TO_ROUNDOFF * limit * series.end)
-            known[-1] = span._replace(end=limit), series.on_a_line(float(width))
-        self.stretches = [stretch(span, series, problem) for span, series in known]
+        self.stretches = [stretch(series, problem) for series in known]
 
     def _along(self, cycles: float) -> bool:
         """Go along a stretch on which the increments are known, if this is one."""
         for here in self.stretches:
-            if here.span.start <= self.wear < here.span.end:
-                z = float(here.span.coordinate.at(np.array(self.wear)))
+            if here.series.span.start <= self.wear < here.series.span.end:
+                z = float(here.series.span.coordinate.at(np.array(self.wear)))
                 counted = here.counted
                 if counted is not None and z < counted.first:
                     return self._walk(here, counted.first, cycles)
@@ -166,7 +162,7 @@ class _Way:
         if ran < 1.0 and not limit_wear:
             return False
         self.parts += [part] if part else []
-        wear = float(here.span.coordinate.wear(np.array(z_after)))
+        wear = float(here.series.span.coordinate.wear(np.array(z_after)))
         self.wear, self.done = limit_wear.wear if limit_wear else wear, self.done + ran
         self.over = self.arrested = self.fades = limit_wear is not None
         return True
@@ -174,7 +170,7 @@ class _Way:
     def _walk(self, here: Stretch, end: float, cycles: float) -> bool:
         """Go on cycle by cycle until z passes `end`."""
         most = min(cycles, MOST_AT_ONCE)
-        if self.ahead_of is not None and not here.span.tends:
+        if self.ahead_of is not None and not here.series.span.tends:
             *before, last = here.series.walk(self.wear, end, most)
             if before:
                 self.wear, self.done = last, self.done + len(before)
@@ -183,9 +179,9 @@ class _Way:
         found = walked(here.series, self.wear, end, most)
         if not found.added:
             return False
-        if here.span.tends and end == here.series.end and len(found.wear) <= most:
-            rest = here.span.end - found.wear[-1]
-            found.wear.extend([here.span.end, here.span.end])
+        if here.series.span.tends and end == here.end and len(found.wear) <= most:
+            rest = here.series.span.end - found.wear[-1]
+            found.wear.extend([here.series.span.end, here.series.span.end])
             found.added.extend([rest, 0.0])
             found.missed.extend([0.0, 0.0])
             found.growth.extend([0.0, 1.0])

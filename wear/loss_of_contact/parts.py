@@ -7,11 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.loss_of_contact.arrest import LimitWear, TabulatedCount
-from wear.loss_of_contact.increments import Increments, frame_of, middle
+from wear.loss_of_contact.increments import EASED, Increments, cut
 from wear.loss_of_contact.plan import Problem
 from wear.loss_of_contact.roundoff import Roundoff
-from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
+from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import FloatArray
+from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
@@ -71,7 +72,6 @@ class OnPanels(NamedTuple):
     residual: FloatArray
     series: Increments
     limit_wear: LimitWear | None
-    line: bool
 
     @property
     def ran(self) -> float:
@@ -113,11 +113,9 @@ class OnPanels(NamedTuple):
         parts = len(table.length) // len(panels.series)
         ends = self.series.missed(np.append(table.u, self.last))
         misfit = np.maximum(ends[1:], ends[:-1])
-        if self.line:
-            misfit[table.u >= self.series.frame.starts[-1]] = 0.0  # there the residual says it all
         missed = SAFETY * (np.repeat(self.residual, parts) + misfit) * table.gain + table.missed
         if len(panels.series) > 1:
-            apart = abel.matching_defect(panels.take(slice(-1)), panels.take(slice(1, None)))
+            apart = abel.matching_defect(take(panels, slice(-1)), take(panels, slice(1, None)))
             missed[parts - 1 : -1 : parts] += SAFETY * apart
         terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
         of_density = ROUNDOFF * np.repeat(terms, parts)
@@ -128,59 +126,30 @@ class OnPanels(NamedTuple):
 
 
 def solved(
-    series: Increments, begin: float, end: float, size: Settings
+    series: Increments, edges: FloatArray, size: Settings
 ) -> tuple[abel.Panels, FloatArray, bool]:
-    """Solve Abel's equation from one z to another; return also the residual off the nodes, and
-    whether it is poor on a panel that holds too few cycles to be cut."""
+    """Solve Abel's equation on panels between values of z, cut where that is needed; return also
+    the residual off the nodes, and whether it is poor on a panel that holds too few cycles to be
+    cut."""
     coordinate, m = series.coordinate, size.panel_nodes
-    shift = coordinate.shift
-    starts, ends = np.array([begin]), np.array([end])
-    done: list[tuple[float, float, FloatArray, float]] = []
+    frame = abel.frame(coordinate.shift, edges[:-1], edges[1:])
+    done: list[tuple[abel.Panels, FloatArray]] = []
     poor = False
     for rounds in range(MOST_CUTS):
-        across = np.log1p((ends - starts) / (starts + shift))
-        frame = frame_of(coordinate, starts, across)
-        nodes = frame.states(chebyshev_nodes(m))
-        steps = coordinate.step(nodes, series.at(nodes))
+        nodes, checks = np.hsplit(frame.states(np.append(chebyshev_nodes(m), CHECKS)), [m])
+        steps, more = (coordinate.step(z, series.at(z)) for z in (nodes, checks))
         panels = abel.solve(frame, steps)
-        checks = frame.states(CHECKS)
-        more = coordinate.step(checks, series.at(checks))
         residual = np.max(np.abs(abel.residual(panels, CHECKS, more)), axis=1)
-        allowed = np.full(len(starts), size.residual_tolerance)
+        allowed = np.full(len(residual), size.residual_tolerance)
         if coordinate.ahead:
-            allowed *= np.clip(coordinate.origin * starts, 1.0, 10.0)
-        number = across / 2 * np.mean((nodes + shift) / steps, axis=1)
+            allowed *= np.clip(coordinate.origin * frame.starts, 1.0, EASED)
+        number = frame.widths / 2 * np.mean((nodes + coordinate.shift) / steps, axis=1)
         short = number <= ENOUGH * m
         poor |= bool(np.any(~(residual <= allowed) & short))
         bad = ~(residual <= allowed) & ~short & (rounds < MOST_CUTS - 1)
-        done += list(
-            zip(starts[~bad], across[~bad], panels.series[~bad], residual[~bad], strict=True)
-        )
+        done.append(take((panels, residual), ~bad))
         if not bad.any():
             break
-        middles = np.array(
-            [middle(shift, *ends_of) for ends_of in zip(starts[bad], ends[bad], strict=True)]
-        )
-        starts, ends = np.append(starts[bad], middles), np.append(middles, ends[bad])
-    done.sort(key=lambda panel: float(panel[0]))
-    starts, across, coefficients, residual = map(np.array, zip(*done, strict=True))
-    return abel.Panels(frame_of(coordinate, starts, across), coefficients), residual, poor
-
-
-def on_a_line(
-    panels: abel.Panels, residual: FloatArray, series: Increments
-) -> tuple[abel.Panels, FloatArray]:
-    """Return the panels with one more, to the end of the series, on which the density dn/dy in
-    y = ln z goes on as a power of z: 0, 1/2 or 1, as decay is geometric or algebraic. What the last
-    e-fold differs from that by is its residual."""
-    start, width = float(series.frame.starts[-1]), float(series.frame.widths[-1])
-    last = float(panels.frame.widths[-1])
-    t = np.array([1.0 - 2.0 * min(1.0, last) / last, 1.0])
-    before, level = chebyshev_values(t, panels.series.shape[1]) @ panels.series[-1]
-    found = 1.0 + (level - before) / min(1.0, last)
-    slope = float(np.clip(np.round(2 * found) / 2, 0.0, 1.0))
-    line = np.zeros((1, panels.series.shape[1]))
-    line[0, :2] = level + (slope - 1) * width / 2, (slope - 1) * width / 2
-    frame = panels.frame.with_panel(start, width)
-    more = abel.Panels(frame, np.concatenate([panels.series, line]))
-    return more, np.append(residual, abs(found - slope))
+        frame = cut(take(frame, bad))
+    every = stacked(done)
+    return *take(every, np.argsort(every[0].frame.starts)), poor

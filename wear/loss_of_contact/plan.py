@@ -6,6 +6,7 @@ misfit of the series and the residual of Abel's equation report.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +33,10 @@ BEFORE = 0.95  # of the way to a grazing wear: the longest last cycle on a serie
 NEXT = 0.05  # of an increment: how near to a branch point a series ends
 GRAIN = 4096.0  # roundoffs of the wear: the smallest distance at which cycles are counted
 FACTOR, STEPS = 0.25, 21  # of distances at which one looks ahead
+NEAR, NEARER = 8, 10  # of these: there a power of the distance shows
+ROOT = 0.5
+LEAST_LEFT = 1e-5  # of the distance to a limit wear: from there to it a series in its root goes on
+RESOLVED = 1e3  # times the uncertainty of the limit wear: a distance that is known
 AHEAD = 1.3  # of the cycles asked for: how far one looks ahead
 
 
@@ -142,10 +147,12 @@ def _looks(
 def _outwards(problem: Problem, last: Grazing | None, begin: float, end: float) -> list[Span]:
     """Return the span from the wear `begin` to `end` (mm), beyond the `last` grazing wear."""
     if last is None or begin > last.at + problem.scale:
-        span = Span(Coordinate(0.0, False, SHIFT * problem.scale), begin, end)
+        shift = SHIFT * problem.scale
+        span = Span(Coordinate(0.0, False, shift), begin, end, 1.0, shift)
     else:
         beyond = last.at + max(BEGINS * last.added, GRAIN * ROUNDOFF * last.at)
-        span = Span(Coordinate(last.behind), max(begin, beyond), end)
+        root = math.sqrt(SHIFT * problem.scale)
+        span = Span(Coordinate(last.behind), max(begin, beyond), end, 0.5, root)
     return [span] if span.start < span.end else []
 
 
@@ -154,12 +161,19 @@ def _towards(
 ) -> list[Span]:
     """Return the span from the wear `half` (mm) on the way to a grazing wear; a cycle adds so much
     (k,) where so much is `left`, mm."""
-    coordinate = Coordinate(stop.before, True)
+    coordinate, root = Coordinate(stop.before, True), math.sqrt(SHIFT * problem.scale)
+    falls = math.log(added[NEAR] / added[NEARER]) / ((NEARER - NEAR) * -math.log(FACTOR))
+    power = round(2 * falls) / 2 if math.isfinite(falls) else ROOT
     if problem.limit_wear is not None and stop.at == problem.limit_wear.wear:
         calm = added < ENDS * left
-        end = problem.limit_wear.wear - problem.limit_wear.nearest
-        begin = stop.at - float(left[np.argmax(calm)]) if calm.any() else end
-        return [Span(coordinate, begin, end, stop.uncertainty, True)] if begin < end else []
+        if not calm.any():
+            return []
+        first = float(left[np.argmax(calm)])
+        nearest = max(LEAST_LEFT * first, RESOLVED * stop.uncertainty)
+        vanishes = 2 * min(max(power, 1.0), 2.0)
+        ends = stop.at - first, stop.at - nearest
+        span = Span(coordinate, *ends, -0.5, root, stop.uncertainty, vanishes, True)
+        return [span] if nearest < first else []
     least = np.maximum(added / BEFORE - (stop.at - stop.before), NEXT * added)
     least = np.maximum(least + 2 * added**2 / problem.scale, GRAIN * ROUNDOFF * stop.at)
     enough = left >= least
@@ -167,7 +181,8 @@ def _towards(
         return []
     nearest = len(left) - 1 if enough.all() else int(np.argmin(enough)) - 1
     end = stop.before - float(min(left[nearest], least[nearest]))
-    return [Span(coordinate, half, end, stop.uncertainty)] if half < end else []
+    way = (1.0, 0.0) if power else (-0.5, root)
+    return [Span(coordinate, half, end, *way, stop.uncertainty)] if half < end else []
 
 
 def look_ahead(problem: Problem, start: float, cycles: float) -> Asking[float]:
