@@ -16,6 +16,7 @@ import numpy as np
 from wear.binding import bind, bind_many
 from wear.load import Load, sampled
 from wear.model import Model
+from wear.numerics.collocation import Tangent
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import ROUNDOFF, SMALLEST, TINY
 from wear.scene import Scene
@@ -56,12 +57,19 @@ class WearEquation:
         return sampled(self.loads, phases)
 
     def rate(
-        self, u: FloatArray, forcing: FloatArray, near: FloatArray | None = None
+        self,
+        u: FloatArray,
+        forcing: FloatArray,
+        lengths: FloatArray | float = 1.0,
+        near: Tangent | None = None,
     ) -> FloatArray:
-        """Return the wear per cycle in mm at wear (scenes, starts, intervals, nodes) under a
-        displacement, both in mm, sought from a rate `near` by."""
-        known = near / self._period if self.model.compliant and near is not None else None
-        rate: FloatArray = self._model.rate(u, forcing, known) * self._period
+        """Return the wear in mm per cycle, times `lengths`, at wear (scenes, starts, intervals,
+        nodes) under a displacement, both in mm. On springs the pressure is sought from that at the
+        end of a tangent."""
+        times = self._period * lengths
+        known = near.end / times if self.model.compliant and near is not None else None
+        rate: FloatArray = self._model.rate(u, forcing, known)
+        rate *= times
         return rate
 
     def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:

@@ -18,6 +18,7 @@ import numpy as np
 from wear.binding import bind
 from wear.cycles import count_cycles
 from wear.loss_of_contact.arrest import TabulatedCount
+from wear.numerics.rows import take
 from wear.orbit.infinity import SteadyState, steady_state
 from wear.orbit.iterates import Iterates, cells
 from wear.scene import Scene
@@ -52,7 +53,7 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
         table = table.in_z
     if not isinstance(table, Iterates) or table.cells is None or table.panels is None:
         return None
-    panel = table.panels.take(slice(-1, None))
+    panel = take(table.panels, slice(-1, None))
     if not _contact_lasts(scene, float(panel.frame.starts[0])):
         return None
     size = len(table.cells.u) // len(table.panels.series)  # cells of a panel

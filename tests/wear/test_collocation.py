@@ -70,13 +70,6 @@ def test_values_at_finer_nodes():
     assert_allclose(coarse**4 @ c.between_nodes(5, 8), fine**4, atol=1e-15)
 
 
-def test_an_interval_of_a_mesh_is_a_mesh():
-    over = c.mesh(np.array([0.0, 0.3, 1.0]), 5)
-    part = over.interval(1)
-    assert part.edges.tolist() == [0.3, 1.0]
-    assert_allclose(part.phases[0], 0.3 + 0.7 * c.gauss(5).nodes)
-
-
 @pytest.mark.parametrize("m", [24, 48])
 def test_a_constant_has_no_chebyshev_tail(m):
     """Errors of n^2 roundoffs in T_n made one, and cost pressures their last three digits."""

@@ -59,7 +59,8 @@ def test_a_good_guess_saves_rates_and_a_bad_one_does_no_harm() -> None:
     assert_allclose(good.increment, plain.increment, rtol=3e-15)
     assert good.evaluations <= 2 * starts.size * finer.forcing.size
     shape = (1, 3, *finer.forcing.shape[2:])
-    bad = InitialGuess(np.full(shape, 1e-4), np.full(shape, 1e-3), np.full(shape, 1e-5))
+    increment, rate, shift = (np.full(shape, value) for value in (1e-4, 1e-3, 1e-5))
+    bad = InitialGuess(increment, rate, shift, np.ones((1, 3)))
     assert_allclose(finer.advance(starts, bad).increment, plain.increment, rtol=3e-15)
 
 

@@ -105,6 +105,26 @@ def test_a_loose_count_of_violent_cycles_has_derivatives_within_their_estimates(
     assert np.all(loose.error[0] <= 1e-9 * loose.derivative[0])
 
 
+def test_a_number_of_cycles_at_which_a_piece_of_the_count_begins_has_an_estimate() -> None:
+    """The count of this scene has a cell that begins after 300 cycles."""
+    scene = load_scene("section4").with_(
+        {
+            "bearing.wear_coefficient": 5.0506897588495285e-08,
+            "bearing.roughness_growth": -0.09999918392455485,
+            "bearing.roughness_mm": 0.00011492843911961973,
+            "contact.max_pressure_MPa": 146.59315619142515,
+            "contact.closure_in_sigma": 2.52266939310735,
+            "contact.ends_at_3_sigma": True,
+            "load.amplitude_mm": 0.00022593265947748125,
+            "support.stiffness_MPa_per_mm": 1068717.9241815845,
+        }
+    )
+    found = gradients(
+        [scene], ["load.amplitude_mm"], np.array([1.0, 10.0, 300.0, 9000.0, 1e6, 1e9, 1e12])
+    )
+    assert np.all(found.error[0] <= 1e-9 * np.abs(found.derivative[0]))
+
+
 LOADS: dict[str, tuple[Load | Blocks, dict[str, Load | Blocks]]] = {
     "harmonics": (
         Harmonics(1e-5, (1e-4, 2e-5), (4e-4,), 0.06),

@@ -22,6 +22,7 @@ SLOWEST = 1e-3  # of the mean wear per cycle: what the last readings may add
 LOOKS = 49  # at the wear of a start, to be compared with the readings
 FOLLOWED = 3  # starts
 ACCURACY = 1e-3  # of the variance: how closely the least sum of squares is sought
+CRAWLING = 0.01  # of the variance: a gain that is not sought further once a step fails
 MOST_STEPS = 60
 DAMPING, HOPELESS = 1e-3, 1e8  # of a Gauss-Newton step: first, and where none descends
 
@@ -43,7 +44,8 @@ def descend(
     points = np.clip(starts, low, high)
     off, slope = model(points)
     costs = np.sum(off**2, axis=1)
-    damping, todo = np.full(len(points), DAMPING), np.arange(len(points))
+    damping, gain = np.tile([[DAMPING], [np.inf]], len(points))
+    todo = np.arange(len(points))
     for _ in range(MOST_STEPS):
         say(f"least sum of squares: {costs.min():.6g}, searches left: {len(todo)}")
         J = slope[todo]
@@ -55,8 +57,10 @@ def descend(
         trial_off, trial_slope = model(trial)
         trial_costs = np.sum(trial_off**2, axis=1)
         better = trial_costs < costs[todo]
-        little = np.abs(costs[todo] - trial_costs) <= ACCURACY * costs[todo] / off.shape[1]
-        won = todo[better]
+        variance, won = costs[todo] / off.shape[1], todo[better]
+        gain[won] = (costs[todo] - trial_costs)[better]
+        little = np.abs(costs[todo] - trial_costs) <= ACCURACY * variance
+        little |= ~better & (gain[todo] <= CRAWLING * variance)
         points[won], costs[won] = trial[better], trial_costs[better]
         off[won], slope[won] = trial_off[better], trial_slope[better]
         damping[todo] *= np.where(better, 0.1, 8.0)

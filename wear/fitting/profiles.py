@@ -16,6 +16,7 @@ import numpy as np
 from wear.fitting.estimate import FARTHEST, LEAST, Estimate
 from wear.fitting.least_squares import descend
 from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.tolerances import TINY
 
 SHARES = (0.5, 1.0)  # of the quantile, at which a profile is drawn
 NEAR = 0.01  # of the quantile: how closely an end is sought
@@ -85,21 +86,24 @@ class _Ends:
             say(f"ends of intervals: {len(todo)} left to be found")
             number, before, own = self.number[todo], self.points[todo], np.arange(len(todo))
             most = np.maximum(level + slack[todo], self._root(off[todo]))
-            linear = Linearised.of(off[todo], slope[todo] * found.scale)
-            step = linear.farthest(number, self.side[todo], found.chi_square + level**2)
+            linear = Linearised.of(off[todo], slope[todo] * found.scale, number)
+            step = linear.farthest(self.side[todo], found.chi_square + level**2)
             step *= np.minimum(1.0, longest[todo] / np.max(np.abs(step), axis=1))[:, None]
-            trial = np.clip(before + step * found.scale, low, high)
+            # Cut off at a bound it would leave the valley: it ends there as a whole.
+            room = np.where(step > 0.0, high - before, before - low) / found.scale
+            step *= np.minimum(1.0, np.min(room / (np.abs(step) + TINY), axis=1))[:, None]
+            trial = before + step * found.scale
             trial_off, trial_slope = found.model(trial)
             bad = self._root(trial_off) > most
-            if bad.any():  # the valley bends: the step is corrected for that
-                step += linear.correction(number, step, trial_off)
-                trial[bad] = np.clip(before + step * found.scale, low, high)[bad]
+            if bad.any():  # the valley bends: the other parameters follow
+                near = Linearised.of(trial_off[bad], trial_slope[bad] * found.scale, number[bad])
+                trial[bad] = np.clip(trial[bad] + near.followed() * found.scale, low, high)
                 trial_off[bad], trial_slope[bad] = found.model(trial[bad])
             self._remember(trial, trial_off)
             root = self._root(trial_off)
             good = root <= most
             longest[todo] *= np.where(good, LONGER, SHORTER)
-            slack[todo] *= np.where(root > level, SHORTER, 1.0)
+            slack[todo] *= np.where(good & (root > level), SHORTER, 1.0)
             way, moved_by = (np.abs(trial - x)[own, number] for x in (found.theta, before))
             there = (np.abs(root - level) <= NEAR * level) & (moved_by <= NEAR * way)
             won = todo[good]
@@ -138,45 +142,40 @@ class _Ends:
 
 
 class Linearised(NamedTuple):
-    """Points (k,) with the model linearised there: the residuals `off` (k, n), their `slope`
-    (k, n, p) and the inverse `covariance` (k, p, p) of its square."""
+    """The model linearised at points (k,), in each of which one parameter is moved: the step `down`
+    (k, p) to the `least` sum of squares (k,), the step `along` (k, p) by which the others follow
+    the one as it moves by 1, and by how much (k,) it varies where the sum is larger by 1."""
 
-    off: FloatArray
-    slope: FloatArray
-    covariance: FloatArray
+    down: FloatArray
+    least: FloatArray
+    along: FloatArray
+    width: FloatArray
+    number: IntArray
 
     @classmethod
-    def of(cls, off: FloatArray, slope: FloatArray) -> Linearised:
-        """Return the same for residuals with this slope."""
+    def of(cls, off: FloatArray, slope: FloatArray, number: IntArray) -> Linearised:
+        """Return the same for residuals `off` (k, n) with this `slope` (k, n, p), if parameters of
+        these numbers (k,) are moved."""
         _, values, rows = np.linalg.svd(slope, full_matrices=False)
         part = np.swapaxes(rows, 1, 2) / np.maximum(values, LEAST * values[:, :1])[:, None]
-        return cls(off, slope, part @ np.swapaxes(part, 1, 2))
+        covariance = part @ np.swapaxes(part, 1, 2)
+        gradient = np.einsum("knp,kn->kp", slope, off)
+        down = -np.einsum("kpq,kq->kp", covariance, gradient)
+        least = np.sum(off**2, axis=1) + np.sum(gradient * down, axis=1)
+        across = covariance[np.arange(len(number)), number]
+        own = np.take_along_axis(across, number[:, None], axis=1)
+        return cls(down, least, across / own, np.sqrt(own[:, 0]), number)
 
-    def farthest(self, number: IntArray, side: FloatArray, limit: float) -> FloatArray:
-        """Return the steps (k, p) to where parameters of these numbers (k,) are farthest to a
-        `side` (k,) with a sum of squares of `limit`."""
-        gradient = np.einsum("knp,kn->kp", self.slope, self.off)
-        down = -np.einsum("kpq,kq->kp", self.covariance, gradient)
-        least = np.sum(self.off**2, axis=1) + np.sum(gradient * down, axis=1)
-        across, own = self._across(number)
-        way = side * np.sqrt(np.maximum(limit - least, 0.0) / own)
-        return np.asarray(down + way[:, None] * across)
+    def farthest(self, side: FloatArray, limit: float) -> FloatArray:
+        """Return the steps (k, p) to where the parameters are farthest to a `side` (k,) with a sum
+        of squares of `limit`."""
+        way = side * self.width * np.sqrt(np.maximum(limit - self.least, 0.0))
+        return np.asarray(self.down + way[:, None] * self.along)
 
-    def correction(self, number: IntArray, step: FloatArray, off: FloatArray) -> FloatArray:
-        """Return by how much the parameters but those of the numbers (k,) are to follow a `step`
-        (k, p) to make up for what the residuals `off` (k, n) after it differ from linear ones."""
-        missed = off - self.off - np.einsum("knp,kp->kn", self.slope, step)
-        gradient = np.einsum("knp,kn->kp", self.slope, missed)
-        across, own = self._across(number)
-        back = np.sum(across * gradient, axis=1) / own
-        return np.asarray(
-            back[:, None] * across - np.einsum("kpq,kq->kp", self.covariance, gradient)
-        )
-
-    def _across(self, number: IntArray) -> tuple[FloatArray, FloatArray]:
-        every = np.arange(len(number))
-        across = self.covariance[every, number]
-        return across, across[every, number]
+    def followed(self) -> FloatArray:
+        """Return the steps (k, p) to the least sum of squares that leave the parameters."""
+        own = np.take_along_axis(self.down, self.number[:, None], axis=1)
+        return np.asarray(self.down - own * self.along)
 
 
 def _linear(found: Estimate, index: int) -> Profile:

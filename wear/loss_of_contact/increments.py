@@ -19,7 +19,8 @@ import numpy as np
 
 from wear.loss_of_contact.requests import COARSE, Asking, Request
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.rows import stacked, take
 from wear.orbit import abel
 from wear.orbit.abel import Frame
 from wear.orbit.iterates import cell_of
@@ -107,16 +108,11 @@ class Increments(NamedTuple):
         """Return the coordinate z of the span."""
         return self.span.coordinate
 
-    def take(self, which: BoolArray | IntArray) -> Increments:
-        """Return some of the panels."""
-        frame, *columns = self[1:]
-        return Increments(self.span, frame.take(which), *(column[which] for column in columns))
-
     def _located(self, z: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
         """Return the panel that holds each z (k,), or the nearest, the position on it, and w."""
         w = z**self.span.power
         i = cell_of(self.frame.starts, w)
-        return i, self.frame.take(i).positions(w[:, None])[:, 0], w
+        return i, take(self.frame, i).positions(w[:, None])[:, 0], w
 
     def at(self, z: FloatArray) -> FloatArray:
         """Return the wear (mm) that a cycle adds from each z (any shape)."""
@@ -181,9 +177,9 @@ def fitted(
             checks = _allowed(spans[i], at[:, number:], tolerance)
             off = np.max(fresh.misfit / checks, axis=1)
             again = ~(off <= 1.0) & (rounds < MOST_ROUNDS - 1)
-            found[i].append(fresh.take(~again & (off <= USABLE)))
-            halves, far_off = cut(frames[i].take(again)), np.tile(off[again] > FAR_OFF, 2)
-            frames[i] = joined([halves.take(~far_off), cut(halves.take(far_off))])
+            found[i].append(take(fresh, ~again & (off <= USABLE)))
+            halves, far_off = cut(take(frames[i], again)), np.tile(off[again] > FAR_OFF, 2)
+            frames[i] = stacked([take(halves, ~far_off), cut(take(halves, far_off))])
     return [known for parts in found for known in _joined(parts)], cost
 
 
@@ -213,16 +209,14 @@ def _allowed(span: Span, wear: FloatArray, tolerance: float) -> FloatArray:
 
 def _joined(parts: list[Increments]) -> list[Increments]:
     """Return the panels of a span, those that follow each other together."""
-    span = parts[0].span
-    frames, *columns = zip(*(part[1:] for part in parts), strict=True)
-    frame = joined(frames)
-    every = Increments(span, frame, *map(np.concatenate, columns))
+    every = stacked(parts)
+    span, frame = every.span, every.frame
     order = np.argsort(frame.starts)
     starts, ends = frame.starts[order], frame.ends[order]
     gaps = np.flatnonzero(starts[1:] > ends[:-1] * (1 + SAME)) + 1
     known, near = [], SAME * (span.end - span.start)
     for run in np.split(order, gaps) if len(order) else []:
-        mine = every.take(run)
+        mine = take(every, run)
         begin, end = np.sort(span.wear(np.array([mine.frame.starts[0], mine.frame.ends[-1]])))
         begin = span.start if begin <= span.start + near else begin
         whole = end >= span.end - near
@@ -238,9 +232,4 @@ def cut(frame: Frame) -> Frame:
     """Return every panel cut in two."""
     middle = frame.x_of(frame.widths[:, None] / 2)[:, 0] / frame.x_ends
     share = np.where((frame.c > 0.0) & (frame.widths < WIDE), SPLIT, middle)
-    return joined(frame.cut(share))
-
-
-def joined(frames: Sequence[Frame]) -> Frame:
-    """Return the panels of all the frames."""
-    return Frame(*map(np.concatenate, zip(*frames, strict=True)))
+    return stacked(frame.cut(share))

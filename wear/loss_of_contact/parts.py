@@ -7,11 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.loss_of_contact.arrest import LimitWear, TabulatedCount
-from wear.loss_of_contact.increments import EASED, Increments, cut, joined
+from wear.loss_of_contact.increments import EASED, Increments, cut
 from wear.loss_of_contact.plan import Problem
 from wear.loss_of_contact.roundoff import Roundoff
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import FloatArray
+from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
@@ -114,7 +115,7 @@ class OnPanels(NamedTuple):
         misfit = np.maximum(ends[1:], ends[:-1])
         missed = SAFETY * (np.repeat(self.residual, parts) + misfit) * table.gain + table.missed
         if len(panels.series) > 1:
-            apart = abel.matching_defect(panels.take(slice(-1)), panels.take(slice(1, None)))
+            apart = abel.matching_defect(take(panels, slice(-1)), take(panels, slice(1, None)))
             missed[parts - 1 : -1 : parts] += SAFETY * apart
         terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
         of_density = ROUNDOFF * np.repeat(terms, parts)
@@ -146,12 +147,9 @@ def solved(
         short = number <= ENOUGH * m
         poor |= bool(np.any(~(residual <= allowed) & short))
         bad = ~(residual <= allowed) & ~short & (rounds < MOST_CUTS - 1)
-        done.append((panels.take(~bad), residual[~bad]))
+        done.append(take((panels, residual), ~bad))
         if not bad.any():
             break
-        frame = cut(frame.take(bad))
-    every, residuals = zip(*done, strict=True)
-    frame = joined([part.frame for part in every])
-    order = np.argsort(frame.starts)
-    coefficients = np.concatenate([part.series for part in every])[order]
-    return abel.Panels(frame.take(order), coefficients), np.concatenate(residuals)[order], poor
+        frame = cut(take(frame, bad))
+    every = stacked(done)
+    return *take(every, np.argsort(every[0].frame.starts)), poor

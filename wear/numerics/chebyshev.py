@@ -11,9 +11,11 @@ import numpy as np
 from wear.numerics.gauss import FloatArray
 
 
+@lru_cache(maxsize=32)
 def chebyshev_nodes(m: int) -> FloatArray:
     """Return the m roots of the Chebyshev polynomial T_m, rising."""
     nodes: FloatArray = -np.cos(np.pi * (np.arange(m) + 0.5) / m)
+    nodes.setflags(write=False)
     return nodes
 
 

@@ -6,7 +6,6 @@ Overview
     all its digits. Arrays are (scenes, starts, intervals, nodes).
 Key results
     iterate             Newton's method for all intervals at once
-    solve               the same, interval by interval where that diverges
     truncation_error    quadrature error of every interval, from its Legendre coefficients
     endpoint_defect     what lies hidden between the ends of an interval and its nodes
 References
@@ -23,12 +22,11 @@ import numpy as np
 from wear.numerics.gauss import (
     BoolArray,
     FloatArray,
-    IntArray,
     Mesh,
     between_nodes,
     integral,
-    mesh,
     running,
+    running_integral,
 )
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
@@ -37,6 +35,23 @@ GRAIN = 4 * ROUNDOFF  # of the state: smaller steps give no slope, for they drow
 MOST_ITERATIONS = 60
 PATIENCE = 8  # iterations that may diverge at first
 NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
+
+
+class Tangent(NamedTuple):
+    """The `rate` at a state, its `slope`, and a `step` from there."""
+
+    rate: FloatArray
+    slope: FloatArray
+    step: FloatArray
+
+    @property
+    def end(self) -> FloatArray:
+        """Return the rate after the step, nearly."""
+        return self.rate + self.slope * self.step
+
+    def on(self, starts: slice) -> Tangent:
+        """Return the same for some of the starts (..., k, q, m)."""
+        return Tangent(*(array[..., starts, :, :] for array in self))
 
 
 class Rates(Protocol):
@@ -49,33 +64,27 @@ class Rates(Protocol):
     def tolerance(self) -> float:
         """Return the relative error of the increment at which the iteration may end."""
 
-    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
+    def rate_per_interval(self, u: FloatArray, near: Tangent | None = None) -> FloatArray:
         """Return the rate times the length of each interval at states `u` (..., k, q, m), or
-        (..., k, 1, 1) if frozen; `near` is an approximation to it."""
-
-
-class SplittableRates(Rates, Protocol):
-    """Rates of scenes, each of which can be taken by itself, and each interval as well."""
-
-    def take(self, rows: IntArray) -> SplittableRates: ...
-
-    def interval(self, i: int) -> SplittableRates: ...
+        (..., k, 1, 1) if frozen; a tangent that ends there may help."""
 
 
 class InitialGuess(NamedTuple):
     """An approximate solution: the `increment` at the nodes (..., k, q, m), and the `rate` (same
-    shape, per unit of time) at states that are less by `shift` (broadcasts) than they will be."""
+    shape, per unit of time) at states that are less by `shift` (broadcasts) than they will be; the
+    expected `contraction` (..., k) of the error by the first step from it."""
 
     increment: FloatArray
     rate: FloatArray
     shift: FloatArray
+    contraction: FloatArray
 
 
 class CycleSolution(NamedTuple):
     """The `increment` (..., k) over the mesh from each start; at the nodes (..., k, q, m) the
     increment since the start, `inside`, and the `rate`; the number of right-hand sides evaluated;
-    on which intervals (..., q) the iteration converged; and the relative `iteration_error` (..., k)
-    of the increments."""
+    whether the iteration converged (...) from all starts; and the relative `iteration_error`
+    (..., k) of the increments."""
 
     increment: FloatArray
     inside: FloatArray
@@ -84,41 +93,12 @@ class CycleSolution(NamedTuple):
     converged: BoolArray
     iteration_error: FloatArray
 
-    def take(self, which: IntArray) -> CycleSolution:
-        """Return the solution of some scenes."""
-        return CycleSolution(
-            self.increment[which],
-            self.inside[which],
-            self.rate[which],
-            self.evaluations,
-            self.converged[which],
-            self.iteration_error[which],
-        )
-
     def guess(self, m: int) -> InitialGuess:
         """Return this solution as a guess for `m` nodes on each interval."""
         matrix = between_nodes(self.inside.shape[-1], m)
         shift = np.zeros_like(self.inside[..., :1, :1])
-        return InitialGuess(self.inside @ matrix, self.rate @ matrix, shift)
-
-
-def solve(
-    rates: SplittableRates, starts: FloatArray, guess: InitialGuess | None = None
-) -> CycleSolution:
-    """Return the solution over the mesh from each start (scenes, k).
-
-    All intervals at once where the iteration converges, that is, where the state changes its own
-    rate moderately within the mesh; else one interval after the other.
-    """
-    found = iterate(rates, starts, guess)
-    rows = np.flatnonzero(~found.converged.all(axis=-1))
-    if len(rows) == 0 or found.converged.shape[-1] == 1:
-        return found
-    again = _interval_by_interval(rates.take(rows), starts[rows])
-    for whole, part in zip(found, again, strict=True):
-        if isinstance(whole, np.ndarray):
-            whole[rows] = part
-    return found._replace(evaluations=found.evaluations + again.evaluations)
+        unknown = np.ones(self.inside.shape[:-2])
+        return InitialGuess(self.inside @ matrix, self.rate @ matrix, shift, unknown)
 
 
 def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None) -> CycleSolution:
@@ -131,18 +111,14 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
     lengths, u = rates.over.lengths[..., None], starts[..., None, None]
     evaluations = 0
     if guess is None:
-        before = rates.rate_per_interval(u)
-        evaluations = before.size
-        v, contraction = _damped_guess(starts, running(before))
-        shift = v
-    else:
-        v, before, shift = guess.increment, guess.rate * lengths, guess.shift
-        contraction = np.ones(starts.shape)
+        guess = guess_without_feedback(starts, rates.rate_per_interval(u) / lengths, rates.over)
+        evaluations = guess.rate.size
+    v, before, shift, contraction = guess._replace(rate=guess.rate * lengths)
     inside, rate_found, error = np.empty_like(v), np.empty_like(v), np.empty(starts.shape)
-    active, last = starts.shape[-1], None
+    active, last, tangent = starts.shape[-1], None, Tangent(before, shift, np.zeros_like(shift))
     for iteration in range(MOST_ITERATIONS):
         state = u + v
-        rate = rates.rate_per_interval(state, before)
+        rate = rates.rate_per_interval(state, tangent)
         evaluations += rate.size
         slope = rate - before
         slope *= shift
@@ -153,12 +129,11 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
         residual -= v
         step = _linear_solution(slope, residual)
         v = v + step
+        tangent = Tangent(rate, slope, step)
         change = np.max(np.abs(step).reshape(*step.shape[:-2], -1), axis=-1)
         change /= np.abs(v[..., -1, -1]) + TINY
-        if last is not None:
-            contraction = change / last
-        elif guess is None:
-            contraction = np.maximum(contraction, change)  # the prediction may be too good
+        # The prediction for the first step may be too good.
+        contraction = np.maximum(contraction, change) if last is None else change / last
         predicted = change * np.minimum(contraction, 1.0)
         done = predicted <= rates.tolerance
         if iteration > PATIENCE:
@@ -168,26 +143,25 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
         if left < active:
             error[..., left:active] = predicted[..., left:]
             inside[..., left:active, :, :] = v[..., left:, :, :]
-            part = (..., slice(left, None), slice(None), slice(None))
-            rate_found[..., left:active, :, :] = (rate[part] + slope[part] * step[part]) / lengths
+            rate_found[..., left:active, :, :] = tangent.on(slice(left, None)).end / lengths
         if left == 0:
             break
-        v, before, shift, u = (x[..., :left, :, :] for x in (v, rate, step, u))
+        tangent, v, u = tangent.on(slice(left)), v[..., :left, :, :], u[..., :left, :, :]
+        before, _, shift = tangent
         last, active = np.minimum(change, 1.0)[..., :left] + TINY, left
-    converged = np.all(error <= rates.tolerance, axis=-1)[..., None]
-    everywhere = np.repeat(converged, lengths.shape[-2], axis=-1)
+    converged = np.all(error <= rates.tolerance, axis=-1)
     increment = integral(rate_found, rates.over)
-    return CycleSolution(increment, inside, rate_found, evaluations, everywhere, error)
+    return CycleSolution(increment, inside, rate_found, evaluations, converged, error)
 
 
-def _damped_guess(starts: FloatArray, frozen: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the increments from the `starts` (..., k), estimated from those without feedback,
-    `frozen` (..., k, q, m), and the expected contraction of the first step (..., k), zero where
-    that is not known.
+def guess_without_feedback(starts: FloatArray, rate: FloatArray, over: Mesh) -> InitialGuess:
+    """Return a guess from the `rate` (..., k, q, m) that there would be at the states (..., k) of
+    the `starts`.
 
     If the rate fell by a factor e over the increment 1/a, the increment would be
     ln(1 + a frozen)/a.
     """
+    frozen = running_integral(rate, over)
     ends = frozen[..., -1, -1]
     feedback = np.zeros(starts.shape)
     if starts.shape[-1] > 2:
@@ -198,7 +172,8 @@ def _damped_guess(starts: FloatArray, frozen: FloatArray) -> tuple[FloatArray, F
         feedback[~np.isfinite(feedback)] = 0.0
         np.clip(feedback, -1.0, 20.0, out=feedback)
     shape = (feedback / (2 * ends + TINY))[..., None, None]
-    return frozen / (1.0 + shape * frozen), feedback**2
+    increment = frozen / (1.0 + shape * frozen)
+    return InitialGuess(increment, rate, increment, feedback**2)
 
 
 def _linear_solution(slope: FloatArray, residual: FloatArray) -> FloatArray:
@@ -211,25 +186,6 @@ def _linear_solution(slope: FloatArray, residual: FloatArray) -> FloatArray:
     x *= factor
     x += residual
     return x
-
-
-def _interval_by_interval(rates: SplittableRates, starts: FloatArray) -> CycleSolution:
-    """Iterate on each interval of the mesh in its turn."""
-    parts: list[CycleSolution] = []
-    added, evaluations = np.zeros(starts.shape), 0
-    for i in range(rates.over.lengths.shape[-1]):
-        part = iterate(rates.interval(i), starts + added)
-        parts.append(part._replace(inside=added[..., None, None] + part.inside))
-        added = added + part.increment
-        evaluations += part.evaluations
-    return CycleSolution(
-        added,
-        np.concatenate([part.inside for part in parts], axis=-2),
-        np.concatenate([part.rate for part in parts], axis=-2),
-        evaluations,
-        np.concatenate([part.converged for part in parts], axis=-1),
-        np.sum([part.iteration_error for part in parts], axis=0),
-    )
 
 
 def truncation_error(rate: FloatArray, over: Mesh) -> FloatArray:
@@ -274,18 +230,3 @@ def endpoint_defect(
     missed: FloatArray = defect * (defect / largest) * over.lengths
     missed[defect < NOISE_AT_ENDS * largest] = 0.0
     return missed
-
-
-def hidden(
-    rate: FloatArray, left: FloatArray, right: FloatArray, over: Mesh, tolerance: float
-) -> BoolArray:
-    """Return which intervals (..., q) may hide more than the tolerance permits at their ends."""
-    missed = endpoint_defect(rate, left, right, over)
-    found: BoolArray = np.any(missed > tolerance * integral(rate, over)[..., None], axis=-2)
-    return found
-
-
-def refined(over: Mesh, marked: BoolArray) -> Mesh:
-    """Return the mesh with the `marked` intervals (q,) cut in two."""
-    middles = (over.edges[:-1] + over.edges[1:])[marked] / 2
-    return mesh(np.sort(np.concatenate([over.edges, middles])), len(over.rule.nodes))

@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray, gauss
+from wear.numerics.gauss import FloatArray, Gauss, gauss
 
 ACROSS_A_CYCLE = 6  # Gauss nodes where the density changes by less than a factor 2 in a cycle
 ACROSS_A_FAST_CYCLE = 12  # good to rounding for a factor of 1e3
@@ -45,10 +45,6 @@ class Frame(NamedTuple):
     c: FloatArray
     starts: FloatArray
     widths: FloatArray
-
-    def take(self, which: slice | IntArray | BoolArray) -> Frame:
-        """Return some of the panels."""
-        return Frame(self.c[which], self.starts[which], self.widths[which])
 
     def with_panel(self, start: float, width: float) -> Frame:
         """Return one panel more, of the same scale as the last."""
@@ -119,10 +115,6 @@ class Panels(NamedTuple):
 
     frame: Frame
     series: FloatArray
-
-    def take(self, which: slice | IntArray | BoolArray) -> Panels:
-        """Return some of the panels."""
-        return Panels(self.frame.take(which), self.series[which])
 
 
 def frame(c: float | FloatArray, starts: FloatArray, ends: FloatArray) -> Frame:

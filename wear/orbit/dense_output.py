@@ -15,6 +15,7 @@ from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebysh
 from wear.numerics.collocation import CycleSolution
 from wear.numerics.gauss import BoolArray, FloatArray, Mesh, integral
 from wear.numerics.initial_value import SAFETY, Rules, StoppedError, integrate
+from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Iterates, cell_of
@@ -52,12 +53,6 @@ class _Panels(NamedTuple):
     missed: FloatArray
     off: FloatArray
 
-    def take(self, which: BoolArray) -> _Panels:
-        """Return some of the panels."""
-        return _Panels(
-            self.frame.take(which), self.series[which], self.missed[which], self.off[which]
-        )
-
 
 class DenseOutput(NamedTuple):
     """How the state of one scene grows within cycles up to some phases, ready for interpolation.
@@ -84,7 +79,7 @@ class DenseOutput(NamedTuple):
             panel = np.where(early, -1, cell_of(frame.starts, starts))
             for p in np.unique(panel[~early]):
                 chosen = panel == p
-                t = frame.take(slice(p, p + 1)).positions(starts[None, chosen])[0]
+                t = take(frame, slice(p, p + 1)).positions(starts[None, chosen])[0]
                 columns[chosen] = chebyshev_values(t, series.shape[1]) @ series[p]
                 missed[chosen], off[chosen] = of_panels[p], off_panels[p]
         if not self.observed:
@@ -159,14 +154,10 @@ def _on_panels(
         if not cut.any() or rounds == MOST_ROUNDS - 1:
             done.append(fresh)
             break
-        done.append(fresh.take(~cut))
-        first, second = frame.take(cut).cut(SPLIT)
-        frame = abel.Frame(*(np.concatenate(pair) for pair in zip(first, second, strict=True)))
-    frames = zip(*(part.frame for part in done), strict=True)
-    frame = abel.Frame(*(np.concatenate(arrays) for arrays in frames))
-    order = np.argsort(frame.starts)
-    rest = (np.concatenate(arrays)[order] for arrays in zip(*(p[1:] for p in done), strict=True))
-    return _Panels(frame.take(order), *rest)
+        done.append(take(fresh, ~cut))
+        frame = stacked(take(frame, cut).cut(SPLIT))
+    panels = stacked(done)
+    return take(panels, np.argsort(panels.frame.starts))
 
 
 def _violent(
@@ -206,14 +197,13 @@ def _resolved(
     and the map that resolves the rate at every phase: first as if the rate did not feel the state
     within the cycle, which costs least, then as it is."""
     tolerance = max(rtol, ROUNDOFF)
-    frozen = starts[None, :, None, None]
-    marked = _unresolved(maps.rate(frozen), maps.over, tolerance)
+    marked = _unresolved(maps.rate_without_feedback(starts[None]), maps.over, tolerance)
     while marked.any() and not maps.full:
         ((_, maps),) = maps.refined(marked)
-        marked = _unresolved(maps.rate(frozen), maps.over, tolerance)
+        marked = _unresolved(maps.rate_without_feedback(starts[None]), maps.over, tolerance)
     while True:
         run = maps.advance(starts[None])
-        marked = _unresolved(run.rate, maps.over, tolerance) | ~run.converged
+        marked = _unresolved(run.rate, maps.over, tolerance) | ~run.converged[:, None]
         if not marked.any() or maps.full:
             lost = 0.0 if run.converged.all() else np.nan
             return maps, _at_phases(run, maps.over, phases) + lost

@@ -21,6 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.numerics.collocation import Tangent
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import Rows
@@ -60,9 +61,13 @@ class _General:
         return phases
 
     def rate(
-        self, u: FloatArray, forcing: FloatArray, near: FloatArray | None = None
+        self,
+        u: FloatArray,
+        forcing: FloatArray,
+        lengths: FloatArray | float = 1.0,
+        near: Tangent | None = None,
     ) -> FloatArray:
-        return self.period * np.asarray(self.f(u, self.period * forcing))
+        return self.period * lengths * np.asarray(self.f(u, self.period * forcing))
 
     def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:
         apart = DIFFERENCE * (np.abs(u) + self.scale)

@@ -19,6 +19,7 @@ import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, gauss
+from wear.numerics.rows import take
 from wear.numerics.tolerances import TINY
 from wear.orbit.abel import Panels, level_and_shape
 from wear.orbit.panels import PanelCycles
@@ -222,7 +223,7 @@ class Iterates(NamedTuple):
             table = Cells(*(array[..., chosen] for array in table))
             each = len(panels.series) // len(self.transient)
             mine = (rows[:, None] * each + np.arange(each)).ravel()
-            panels, cycles = panels.take(mine), tuple(part.take(mine) for part in cycles)
+            panels, cycles = take(panels, mine), take(cycles, mine)
         return Iterates(
             self.transient[rows],
             self.transient_error[rows],

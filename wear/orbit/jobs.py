@@ -12,37 +12,29 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.numerics.tolerances import ROUNDOFF, TINY
+from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.rows import stacked, take
+from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
-from wear.orbit.panels import SolvedPanels, fill
+from wear.orbit.panels import Layout, SolvedPanels, fill
 from wear.orbit.period_map import PeriodMap, period_map, resolved, settings
-from wear.orbit.plan import LEAST, MARGIN, before_the_first, enough_before, look_ahead, planned
+from wear.orbit.plan import (
+    FRAME_SCALE,
+    LEAST,
+    MARGIN,
+    before_the_first,
+    enough_before,
+    look_ahead,
+    planned,
+)
 from wear.orbit.problem import Cost, Problem, Request
 from wear.orbit.transient import BLOCK, SAFETY, Transient, extended, no_cycle
 
 SAMPLES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0])  # of the way: there a mesh must suit
-FRAME_SCALE = 12.0  # of the coordinate of panels, over the scale: one serves to infinity
-SMALL = 0.5  # step in ln(u + scale): then panels may begin with it
-APART = 1e-3  # of the state and its scale: states between which a change is taken
-SHARP = 0.3  # change of the logarithm of the density within a cycle
-FAR_TOO_WIDE = 1e-2  # residual of a panel that was not planned
 MOST_FIRST = 120  # cycles integrated one by one in a segment
 MOST_EVALUATIONS = 20_000_000  # of a scene: then the estimate shows what is missed
 NEARLY_THERE = 10.0  # times the residual that is asked for
-
-
-class Layout(NamedTuple):
-    """Panels, each of a `scene` (panels,)."""
-
-    scene: IntArray
-    frame: abel.Frame
-
-    def take(self, rows: IntArray) -> Layout:
-        """Return the panels of some scenes, rising, which are counted anew."""
-        chosen = np.isin(self.scene, rows)
-        return Layout(np.searchsorted(rows, self.scene[chosen]), self.frame.take(chosen))
 
 
 class Job(NamedTuple):
@@ -69,7 +61,7 @@ class Job(NamedTuple):
         return Job(
             self.which[rows],
             self.maps.take(rows),
-            self.transient.take(rows),
+            take(self.transient, rows),
             needed,
             self.worst[rows],
             self.spent[rows],
@@ -112,29 +104,25 @@ class Jobs:
 
     def _joined(self, jobs: list[Job]) -> Job:
         """Return jobs with the same key as one."""
-        which, worst, spent = (
-            np.concatenate(arrays)
-            for arrays in zip(*((job.which, job.worst, job.spent) for job in jobs), strict=True)
-        )
-        edges = [job.maps.over.edges[:, 0] for job in jobs]
-        edges = [
-            np.repeat(own, len(job.which), 0) if len(own) == 1 else own
-            for own, job in zip(edges, jobs, strict=True)
-        ]
-        m, tolerance = len(jobs[0].maps.over.rule.nodes), jobs[0].maps.tolerance
+        edges = [_edges(job.maps, np.arange(len(job.which))) for job in jobs]
+        which, first = np.concatenate([job.which for job in jobs]), jobs[0]
+        m, tolerance = len(first.maps.over.rule.nodes), first.maps.tolerance
         maps = period_map(self.problem.take(which), np.concatenate(edges), m, tolerance)
-        parts = zip(*(job.transient for job in jobs), strict=True)
-        transient = Transient(*(np.concatenate(arrays) for arrays in parts))
-        layout = None
-        if jobs[0].layout is not None:
-            offsets = np.cumsum([0, *(len(job.which) for job in jobs)])
-            layouts = [job.layout for job in jobs if job.layout is not None]
-            frames = zip(*(own.frame for own in layouts), strict=True)
-            layout = Layout(
-                np.concatenate([own.scene + at for own, at in zip(layouts, offsets, strict=False)]),
-                abel.Frame(*(np.concatenate(arrays) for arrays in frames)),
-            )
-        return Job(which, maps, transient, jobs[0].needed, worst, spent, layout)
+        offsets = np.cumsum([0, *(len(job.which) for job in jobs[:-1])])
+        layouts = [
+            job.layout._replace(scene=job.layout.scene + at)
+            for job, at in zip(jobs, offsets, strict=True)
+            if job.layout is not None
+        ]
+        return Job(
+            which,
+            maps,
+            stacked([job.transient for job in jobs]),
+            first.needed,
+            np.concatenate([job.worst for job in jobs]),
+            np.concatenate([job.spent for job in jobs]),
+            stacked(layouts) if layouts else None,
+        )
 
     def _extended(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
         """Integrate more cycles; return scenes that have come to an end by them."""
@@ -158,20 +146,12 @@ class Jobs:
         """Solve Abel's equation on panels; return scenes that are counted, and send the others to
         where they are refined."""
         if job.layout is None:
-            if job.transient.cycles:
-                yield from self._planned(job)
-                return
-            gentle = self._is_gentle(job)
-            self._add(job.take(np.flatnonzero(~gentle), BLOCK))
-            job = job.take(np.flatnonzero(gentle), 0)
-            if len(job.which) == 0:
-                return
-            job = job._replace(layout=Layout(np.arange(len(job.which)), self._frame(job)))
+            yield from self._planned(job)
+            return
         which, number, tolerance = job.which, job.transient.cycles, self.tolerance[job.which]
-        widest = np.inf if number else FAR_TOO_WIDE
         assert job.layout is not None
-        fine, (scene, frame) = job.maps.finer(self.size), job.layout
-        filled = fill(job.maps, fine, scene, frame, self.size, tolerance, widest, self.keep)
+        fine = job.maps.finer(self.size)
+        filled = fill(job.maps, fine, job.layout, self.size, tolerance, self.keep)
         self.cost = self.cost.plus(filled.increments, filled.evaluations)
         spent = job.spent + filled.evaluations / len(which)
         scene, residual = filled.panels.scene, filled.panels.residual
@@ -190,14 +170,14 @@ class Jobs:
         finer = np.flatnonzero(marked & ~accepted)
         for group, maps in job.maps.take(finer).refined(filled.marked[finer]) if len(finer) else ():
             rows = finer[group]
-            layout = Layout(filled.panels.scene, filled.panels.density.frame).take(rows)
+            layout = _of(Layout(filled.panels.scene, filled.panels.density.frame), rows)
             fresh = job.take(rows, number)._replace(maps=maps, worst=worst[rows], spent=spent[rows])
             self._add(fresh._replace(layout=layout))
         # Panels that can be cut no more: too few cycles lie behind them.
         rest = np.flatnonzero(~accepted & ~marked)
         more = job.take(rest, max(BLOCK, 2 * number))
         self._add(more._replace(worst=worst[rest], spent=spent[rest]))
-        for rows, counted in counts or self._counted(job, filled.panels.take(accepted[scene])):
+        for rows, counted in counts or self._counted(job, take(filled.panels, accepted[scene])):
             kept = np.flatnonzero(accepted[rows])
             if len(kept):
                 yield which[rows[kept]], counted if len(kept) == len(rows) else counted.take(kept)
@@ -217,34 +197,27 @@ class Jobs:
         plan = planned(job.maps, scenes, self._frame(job), self.size)
         # Far beyond the cycles asked for the rate may vanish altogether: there is no density.
         wanted = MARGIN * np.maximum(self.request.cycles[job.which], LEAST)
-        plan = plan.take(~enough_before(plan.cycles / wanted[plan.scene], plan.scene))
-        usable = before_the_first(plan.cycles < self.size.panel_nodes, plan.scene)
+        scene = plan.layout.scene
+        plan = take(plan, ~enough_before(plan.cycles / wanted[scene], scene))
+        scene = plan.layout.scene
+        usable = before_the_first(plan.cycles < self.size.panel_nodes, scene)
         all_usable = np.full(len(scenes), True)
-        all_usable[plan.scene[~usable]] = False
+        all_usable[scene[~usable]] = False
         cycles = np.zeros(len(scenes))
-        np.add.at(cycles, plan.scene[usable], plan.cycles[usable])
+        np.add.at(cycles, scene[usable], plan.cycles[usable])
         # Where the rate rises panels become short again, perhaps far ahead.
         ready = all_usable | (cycles > MOST_FIRST - number)
-        over = ~ready & ((number >= MOST_FIRST) | self.request.late)
+        over = ~ready & ((number >= MOST_FIRST) | (self.request.late and number > 0))
         if over.any():
             yield self._without_panels(job, np.flatnonzero(over))
         self._add(job.take(np.flatnonzero(~ready & ~over), number + BLOCK))
         rows = np.flatnonzero(ready)
-        layout = Layout(plan.scene[usable], plan.frame.take(usable)).take(rows)
+        layout = _of(take(plan.layout, usable), rows)
         self._add(job.take(rows, number)._replace(layout=layout))
-
-    def _is_gentle(self, job: Job) -> BoolArray:
-        """Return where (s,) a cycle is a small step that changes its own rate little."""
-        last, scale = job.transient.last, self.scale[job.which]
-        beside = last + APART * (last + scale)
-        frozen = job.maps.increment_without_feedback(np.stack([last, beside], axis=1))
-        step = np.log1p(frozen[:, 0] / (last + scale))
-        change = np.abs(np.log(frozen[:, 1] / frozen[:, 0])) / APART * step
-        return (frozen[:, 0] > TINY) & (step <= SMALL) & (change <= SHARP)
 
     def _without_panels(self, job: Job, rows: IntArray) -> tuple[IntArray, Iterates]:
         """Return the integrated cycles alone."""
-        which, transient = job.which[rows], job.transient.take(rows)
+        which, transient = job.which[rows], take(job.transient, rows)
         error = self._transient_error(which, transient)
         none = np.empty((len(rows), 0))
         limit = self.limit[which]
@@ -253,7 +226,9 @@ class Jobs:
 
     def _transient_error(self, which: IntArray, transient: Transient) -> FloatArray:
         """Return the errors (s, k + 1) of the integrated cycles."""
-        rounding = self.problem.take(which).roundoff(transient.states)
+        rounding = np.empty(transient.states.shape)
+        if transient.cycles:
+            rounding = self.problem.take(which).roundoff(transient.states)
         start_error = self.request.start_error[which]
         return transient.error(start_error, np.maximum(rounding[:, 1:], rounding[:, :-1]))
 
@@ -263,9 +238,9 @@ class Jobs:
         scenes, inverse, counts = np.unique(panels.scene, return_inverse=True, return_counts=True)
         for number in np.unique(counts).tolist():
             rows = scenes[counts == number]
-            which, transient = job.which[rows], job.transient.take(rows)
+            which, transient = job.which[rows], take(job.transient, rows)
             error = self._transient_error(which, transient)
-            some = panels.take(counts[inverse] == number)
+            some = take(panels, counts[inverse] == number)
             table = cells(some.density, float(transient.cycles), len(rows))
             roundoff = self.problem.take(which).roundoff
             missed = count_error(some, table, roundoff, len(rows))
@@ -298,8 +273,8 @@ def count_error(
     lost += table.missed.reshape(shape)
     each = len(panels.scene) // scenes
     for k in range(1, each):
-        before = panels.density.take(slice(k - 1, None, each))
-        after = panels.density.take(slice(k, None, each))
+        before = take(panels.density, slice(k - 1, None, each))
+        after = take(panels.density, slice(k, None, each))
         # It shifts the count at once, and so belongs to what was missed before.
         lost[:, k * of_panel - 1] += SAFETY * abel.matching_defect(before, after)
     u = np.concatenate([table.u.reshape(shape), table.ends.reshape(shape)[:, -1:]], axis=1)
@@ -308,6 +283,12 @@ def count_error(
     of_density = np.repeat(terms, of_panel).reshape(shape)
     lost += (np.maximum(rounding[:, 1:], rounding[:, :-1]) + of_density) * gain
     return np.concatenate([np.zeros((scenes, 1)), np.cumsum(lost, axis=1)], axis=1)
+
+
+def _of(layout: Layout, rows: IntArray) -> Layout:
+    """Return the panels of some scenes, rising, which are counted anew."""
+    some = take(layout, np.isin(layout.scene, rows))
+    return some._replace(scene=np.searchsorted(rows, some.scene))
 
 
 def _edges(maps: PeriodMap, rows: IntArray) -> FloatArray:

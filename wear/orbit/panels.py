@@ -13,8 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.collocation import CycleSolution, InitialGuess
+from wear.numerics.collocation import CycleSolution, InitialGuess, unresolved
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.rows import stacked, take
 from wear.orbit import abel
 from wear.orbit.period_map import TAIL_SHARE, PeriodMap, Settings
 
@@ -26,16 +27,21 @@ MOST_ROUNDS = 12  # of refinement
 MOST_PANELS = 200  # of a scene
 
 
+class Layout(NamedTuple):
+    """Panels, each of a `scene` (panels,), and the `rate` (panels, k, q, m) without feedback in
+    cycles from their nodes, if it is known."""
+
+    scene: IntArray
+    frame: abel.Frame
+    rate: FloatArray | None = None
+
+
 class PanelCycles(NamedTuple):
     """Cycles from some positions of panels: the `increment` (panels, k), and what has been added
     `inside` (panels, k, q, m), at the nodes of phase."""
 
     increment: FloatArray
     inside: FloatArray
-
-    def take(self, which: slice | BoolArray | IntArray) -> PanelCycles:
-        """Return those of some of the panels."""
-        return PanelCycles(self.increment[which], self.inside[which])
 
 
 class SolvedPanels(NamedTuple):
@@ -49,16 +55,6 @@ class SolvedPanels(NamedTuple):
     residual: FloatArray
     short: BoolArray
     cycles: tuple[PanelCycles, ...] = ()
-
-    def take(self, which: BoolArray | IntArray) -> SolvedPanels:
-        """Return some of the panels."""
-        return SolvedPanels(
-            self.scene[which],
-            self.density.take(which),
-            self.residual[which],
-            self.short[which],
-            tuple(each.take(which) for each in self.cycles),
-        )
 
 
 class Judged(NamedTuple):
@@ -85,77 +81,54 @@ class Filled(NamedTuple):
 def fill(
     coarse: PeriodMap,
     fine: PeriodMap,
-    scene: IntArray,
-    frame: abel.Frame,
+    layout: Layout,
     size: Settings,
     tolerance: FloatArray,
-    widest: float,
     keep: bool,
 ) -> Filled:
-    """Solve Abel's equation on panels, each of a `scene` (panels,), and cut those with a residual
-    above the `tolerance` (scenes,). Faults of a panel with a residual above `widest` say nothing
-    about the phase. The cycles of panels are kept if that is asked for."""
+    """Solve Abel's equation on panels, and cut those with a residual above the `tolerance`
+    (scenes,). The cycles of panels are kept if that is asked for."""
     done: list[SolvedPanels] = []
     marked = np.zeros((len(tolerance), coarse.over.lengths.shape[-1]), dtype=bool)
     evaluations = increments = 0
     for rounds in range(MOST_ROUNDS):
-        judged = _judged(coarse, fine, scene, frame, size, tolerance, widest, keep)
-        fresh = judged.panels
+        judged = _judged(coarse, fine, layout, size, tolerance, keep)
+        fresh, (scene, frame, _) = judged.panels, layout
         evaluations += judged.evaluations
         increments += judged.increments
         np.logical_or.at(marked, scene, judged.marked)
         bad = ~(fresh.residual <= tolerance[scene])
         # Beyond a panel that cannot be cut nothing is wanted; the phase is to be refined first.
         end = np.full(len(marked), np.inf)
-        stuck = [part.take(part.short & ~(part.residual <= tolerance[part.scene])) for part in done]
-        for part in [*stuck, fresh.take(bad & fresh.short)]:
-            np.minimum.at(end, part.scene, part.density.frame.starts)
+        for part in [*done, fresh]:
+            stuck = part.short & ~(part.residual <= tolerance[part.scene])
+            np.minimum.at(end, part.scene[stuck], part.density.frame.starts[stuck])
         unclear = np.any(marked, axis=1)
         cut = bad & ~fresh.short & (frame.starts < end[scene]) & ~unclear[scene]
         number = sum(len(part.scene) for part in done) + len(scene)
         if rounds == MOST_ROUNDS - 1 or number > MOST_PANELS * len(marked) or not cut.any():
             done.append(fresh)
             break
-        done.append(fresh.take(~cut))
-        first, second = frame.take(cut).cut(judged.share[cut])
-        frame = abel.Frame(*(np.concatenate(pair) for pair in zip(first, second, strict=True)))
-        scene = np.tile(scene[cut], 2)
-    return Filled(_in_order(done), marked, evaluations, increments)
-
-
-def _in_order(parts: list[SolvedPanels]) -> SolvedPanels:
-    """Return all the panels, scene by scene and rising."""
-    frames = zip(*(part.density.frame for part in parts), strict=True)
-    joined = SolvedPanels(
-        np.concatenate([part.scene for part in parts]),
-        abel.Panels(
-            abel.Frame(*(np.concatenate(arrays) for arrays in frames)),
-            np.concatenate([part.density.series for part in parts]),
-        ),
-        np.concatenate([part.residual for part in parts]),
-        np.concatenate([part.short for part in parts]),
-        tuple(
-            PanelCycles(*(np.concatenate(arrays) for arrays in zip(*each, strict=True)))
-            for each in zip(*(part.cycles for part in parts), strict=True)
-        ),
-    )
-    return joined.take(np.lexsort((joined.density.frame.starts, joined.scene)))
+        done.append(take(fresh, ~cut))
+        layout = Layout(np.tile(scene[cut], 2), stacked(take(frame, cut).cut(judged.share[cut])))
+    panels = stacked(done)
+    order = np.lexsort((panels.density.frame.starts, panels.scene))
+    return Filled(take(panels, order), marked, evaluations, increments)
 
 
 def _judged(
     coarse: PeriodMap,
     fine: PeriodMap,
-    scene: IntArray,
-    frame: abel.Frame,
+    layout: Layout,
     size: Settings,
     tolerance: FloatArray,
-    widest: float,
     keep: bool,
 ) -> Judged:
     """Solve Abel's equation with the coarse map, and test it off the nodes with the fine one."""
+    scene, frame, frozen = layout
     coarse, fine, allowed = coarse.take(scene), fine.take(scene), tolerance[scene]
     nodes, checks = chebyshev_nodes(size.panel_nodes), frame.states(CHECKS)
-    ahead = coarse.advance(frame.states(nodes))
+    ahead = coarse.advance(frame.states(nodes), frozen=frozen)
     density = abel.solve(frame, ahead.increment)
     judge = fine.advance(checks, at_checks(ahead, size.finer_nodes))
     residuals = np.abs(abel.residual(density, CHECKS, judge.increment))
@@ -169,13 +142,12 @@ def _judged(
     short = _cycles_if_cut(taken, share) < size.panel_nodes
     evaluations = ahead.evaluations + judge.evaluations
     increments = ahead.increment.size + judge.increment.size
-    wide = ~(residual <= widest) if np.isfinite(widest) else np.full(len(scene), False)
-    marked = np.logical_not(ahead.converged) & ~wide[:, None]
-    hazy = np.flatnonzero((by_phase > allowed) & ~wide)
+    marked = np.repeat(~ahead.converged[:, None], coarse.over.lengths.shape[-1], axis=1)
+    hazy = np.flatnonzero(by_phase > allowed)
     if len(hazy):
         shares = allowed[hazy, None, None] / (TAIL_SHARE * marked.shape[1])
-        marked[hazy] |= coarse.take(hazy).unresolved_phase(ahead.rate[hazy], shares)
-    worst = np.flatnonzero(~(residual <= allowed) & ~wide)
+        marked[hazy] |= unresolved(ahead.rate[hazy], coarse.take(hazy).over, shares)
+    worst = np.flatnonzero(~(residual <= allowed))
     if len(worst):
         some = coarse.take(worst)
         again = some.advance(checks[worst])
@@ -183,10 +155,11 @@ def _judged(
         increments += again.increment.size
         apart = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
         # Only what the two maps differ by is a fault of the phase.
-        at_fault = ~(apart < np.maximum(allowed[worst] / 4, residual[worst] / 10))[:, None]
-        rough = at_fault & some.unresolved_phase(again.rate, size.phase_tolerance)
+        alike = np.less(apart, np.maximum(allowed[worst] / 4, residual[worst] / 10))
+        at_fault = ~alike[:, None]  # also where one of them is no number
+        rough = at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
         marked[worst] |= rough
-        marked[worst] |= at_fault & ~marked[worst].any(axis=1)[:, None]
+        marked[worst] |= at_fault & ~np.any(marked[worst], axis=1, keepdims=True)
     kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()
     panels = SolvedPanels(scene, density, residual, short, kept)
     return Judged(panels, share, marked, evaluations, increments)

@@ -12,7 +12,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -21,13 +21,16 @@ from wear.numerics.collocation import (
     NOISE,
     CycleSolution,
     InitialGuess,
+    Tangent,
     endpoint_defect,
-    solve,
+    guess_without_feedback,
+    iterate,
     truncation_error,
     unresolved,
 )
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
 from wear.numerics.initial_value import SAFETY, Reached, Rules, StoppedError, integrate
+from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase do not show what they miss
@@ -75,7 +78,7 @@ def settings(rtol: float, breakpoints: Sequence[FloatArray] = ()) -> Settings:
         phase_tolerance=max(2 * min(rtol, COARSEST), ROUNDOFF),
         endpoint_tolerance=max(1e-2 * min(rtol, COARSEST), ROUNDOFF),
         panel_nodes=panel_nodes,
-        tail_tolerance=max(rtol / 4, 1e-12),
+        tail_tolerance=max(4 * rtol, 1e-12),
         residual_tolerance=max(min(rtol, LOOSEST) / 4, 30 * ROUNDOFF),
         iteration_tolerance=NOISE,
     )
@@ -99,9 +102,13 @@ class Equation(Protocol):
         """Return g at phases (scenes, ...), in the same shape."""
 
     def rate(
-        self, u: FloatArray, forcing: FloatArray, near: FloatArray | None = None
+        self,
+        u: FloatArray,
+        forcing: FloatArray,
+        lengths: FloatArray | float = 1.0,
+        near: Tangent | None = None,
     ) -> FloatArray:
-        """Return du/dphase, sought from a rate `near` by if that helps."""
+        """Return du/dphase times `lengths`; the end of a tangent `near` may help."""
 
     def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:
         """Return the derivative of the rate with respect to u."""
@@ -144,35 +151,38 @@ class PeriodMap(NamedTuple):
         tolerance = max(NOISE, self.tolerance / 100)
         return period_map(self.equation, self.over.edges[:, 0], size.finer_nodes, tolerance)
 
-    def interval(self, i: int) -> PeriodMap:
-        """Return the part over one interval of the mesh."""
-        return self._replace(over=self.over.interval(i), forcing=self.forcing[:, :, i : i + 1])
+    def rate_per_interval(self, u: FloatArray, near: Tangent | None = None) -> FloatArray:
+        """Return the rate times the length of each interval."""
+        return self.equation.rate(u, self.forcing, self.over.lengths[..., None], near)
 
-    def rate(self, u: FloatArray) -> FloatArray:
-        """Return the rate per cycle at states u (scenes, k, q, m) or (scenes, k, 1, 1)."""
-        return self.equation.rate(u, self.forcing)
-
-    def rate_per_interval(self, u: FloatArray, near: FloatArray | None = None) -> FloatArray:
-        """Return the rate times the length of each interval, sought from one `near` by."""
-        lengths = self.over.lengths[..., None]
-        known = None if near is None else near / lengths
-        return self.equation.rate(u, self.forcing, known) * lengths
-
-    def advance(self, starts: FloatArray, guess: InitialGuess | None = None) -> CycleSolution:
-        """Return the increments of a cycle from each start (scenes, k)."""
+    def advance(
+        self,
+        starts: FloatArray,
+        guess: InitialGuess | None = None,
+        frozen: FloatArray | None = None,
+    ) -> CycleSolution:
+        """Return the increments of a cycle from each start (scenes, k), from a guess or from the
+        rate without feedback, `frozen` (scenes, k, q, m), if one of them is known."""
         runs = []
         for some in self._in_cache(starts):
-            near = None if guess is None else InitialGuess(*(array[some] for array in guess))
-            runs.append(solve(self.take(some), starts[some], near))
-        return joined(runs)
+            part, near = self.take(some), None if guess is None else take(guess, some)
+            if frozen is not None:
+                near = guess_without_feedback(starts[some], frozen[some], part.over)
+            runs.append(iterate(part, starts[some], near))
+        return stacked(runs)._replace(evaluations=sum(run.evaluations for run in runs))
 
-    def increment_without_feedback(self, u: FloatArray) -> FloatArray:
-        """Return the increments (scenes, k) if the rate stayed that at each state (scenes, k)."""
+    def rate_without_feedback(self, u: FloatArray) -> FloatArray:
+        """Return the rate (scenes, k, q, m) in cycles if it stayed that at each state (scenes, k)
+        of their starts."""
         parts = []
         for some in self._in_cache(u):
             part = self.take(some)
-            parts.append(integral(part.rate(u[some, :, None, None]), part.over))
+            parts.append(part.equation.rate(u[some, :, None, None], part.forcing))
         return np.concatenate(parts)
+
+    def increment_without_feedback(self, u: FloatArray) -> FloatArray:
+        """Return what cycles with that rate would add (scenes, k)."""
+        return integral(self.rate_without_feedback(u), self.over)
 
     def consecutive(self, starts: FloatArray, number: int) -> CycleSolution:
         """Return so many cycles on end from each start (scenes,), all at once on copies of the
@@ -184,7 +194,7 @@ class PeriodMap(NamedTuple):
             over=mesh(np.concatenate(edges, axis=-1), m),
             forcing=np.tile(self.forcing, (1, 1, number, 1)),
         )
-        run = solve(tiled, starts[:, None])
+        run = iterate(tiled, starts[:, None])
         shape = (len(starts), number, q, m)
         rate = run.rate.reshape(shape)
         increment = integral(rate, over)
@@ -194,7 +204,7 @@ class PeriodMap(NamedTuple):
             run.inside.reshape(shape) - before[..., None, None],
             rate,
             run.evaluations,
-            np.all(run.converged.reshape(shape[:-1]), axis=1),
+            run.converged,
             np.repeat(run.iteration_error, number, axis=1),
         )
 
@@ -258,14 +268,10 @@ class PeriodMap(NamedTuple):
     def unresolved(self, starts: FloatArray, run: CycleSolution, size: Settings) -> BoolArray:
         """Return which intervals (scenes, q) do not resolve the rate in the cycles from the
         `starts`, or hide a change of it at an end."""
-        found = unresolved(run.rate, self.over, size.phase_tolerance) | ~run.converged
+        found = unresolved(run.rate, self.over, size.phase_tolerance) | ~run.converged[:, None]
         hidden = self.endpoint_defect(starts, run)
         allowed = size.endpoint_tolerance * run.increment[..., None]
         return np.asarray(found | np.any(hidden > allowed, axis=1))
-
-    def unresolved_phase(self, rate: FloatArray, tolerance: float | FloatArray) -> BoolArray:
-        """Return which intervals (scenes, q) do not resolve the rate (scenes, k, q, m)."""
-        return unresolved(rate, self.over, tolerance)
 
     def phase_error(self, run: CycleSolution) -> FloatArray:
         """Return the relative errors (scenes, k) of increments by the mesh of phase, roughly.
@@ -280,7 +286,7 @@ class PeriodMap(NamedTuple):
         (scenes, q) cut in two."""
         edges = np.broadcast_to(self.over.edges[:, 0], (len(marked), marked.shape[1] + 1))
         m = len(self.over.rule.nodes)
-        for which, finer in _grouped([(np.arange(len(marked)), edges, marked)]):
+        for which, finer in _cut_alike(edges, marked):
             yield which, period_map(self.equation.take(which), finer, m, self.tolerance)
 
     def _in_cache(self, starts: FloatArray) -> Iterator[slice]:
@@ -296,20 +302,6 @@ def period_map(
     """Return the period map with m nodes on each interval between edges (scenes, q + 1)."""
     over = mesh(edges[:, None], m)
     return PeriodMap(equation, over, equation.forcing(over.phases), tolerance)
-
-
-def joined(runs: Sequence[CycleSolution]) -> CycleSolution:
-    """Return the solutions of some scenes after the other."""
-    if len(runs) == 1:
-        return runs[0]
-    return CycleSolution(
-        np.concatenate([run.increment for run in runs]),
-        np.concatenate([run.inside for run in runs]),
-        np.concatenate([run.rate for run in runs]),
-        sum(run.evaluations for run in runs),
-        np.concatenate([run.converged for run in runs]),
-        np.concatenate([run.iteration_error for run in runs]),
-    )
 
 
 def by_size(breakpoints: Sequence[FloatArray]) -> Iterator[tuple[IntArray, FloatArray]]:
@@ -334,39 +326,33 @@ def resolved(
         which, edges = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
         scenes = equation.take(which)
         found = period_map(scenes, edges, size.phase_nodes, size.iteration_tolerance)
-        marks = []
-        for some in found._in_cache(states):
-            part = found.take(some)
-            rate = part.rate(states[which[some], :, None, None])
-            marks.append(unresolved(rate, part.over, size.phase_tolerance))
-        marked = np.concatenate(marks)
+        rate = found.rate_without_feedback(states[which])
+        marked = unresolved(rate, found.over, size.phase_tolerance)
         if found.full:
             marked[:] = False
         calm = np.flatnonzero(~marked.any(axis=1))
         if len(calm):
             yield which[calm], found.take(calm)
         rest = np.flatnonzero(marked.any(axis=1))
-        for group, finer in _grouped([(rest, edges[rest], marked[rest])]):
-            todo.setdefault(finer.shape[1], []).append((which[group], finer))
+        for group, finer in _cut_alike(edges[rest], marked[rest]):
+            todo.setdefault(finer.shape[1], []).append((which[rest[group]], finer))
 
 
-def _grouped(
-    parts: Iterable[tuple[IntArray, FloatArray, BoolArray]],
-) -> Iterator[tuple[IntArray, FloatArray]]:
-    """Return scenes with the `marked` intervals (scenes, q) of their meshes cut in two.
+def _cut_alike(edges: FloatArray, marked: BoolArray) -> Iterator[tuple[IntArray, FloatArray]]:
+    """Return which scenes then have as many intervals, and their edges (scenes, q + 1) with the
+    `marked` intervals (scenes, q) cut in two.
 
     Of many, the longest intervals are cut as well until their number is one of a few: scenes with
     as many intervals go together.
     """
-    for which, edges, marked in parts:
-        cuts = np.sum(marked, axis=1)
-        for more in np.unique(cuts).tolist():
-            some = cuts == more
-            finer = _cut(edges[some], marked[some])
-            if len(which) > 1:
-                wanted = finer.shape[1] - 1
-                finer = _cut_longest(finer, min((n for n in NUMBERS if n >= wanted), default=0))
-            yield which[some], finer
+    cuts = np.sum(marked, axis=1)
+    for more in np.unique(cuts).tolist():
+        which = np.flatnonzero(cuts == more)
+        finer = _cut(edges[which], marked[which])
+        if len(edges) > 1:
+            wanted = finer.shape[1] - 1
+            finer = _cut_longest(finer, min((n for n in NUMBERS if n >= wanted), default=0))
+        yield which, finer
 
 
 def _cut(edges: FloatArray, marked: BoolArray) -> FloatArray:

@@ -11,10 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes
-from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray, integral
+from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import TINY
 from wear.orbit import abel
-from wear.orbit.panels import FASTER, SPLIT
+from wear.orbit.panels import FASTER, SPLIT, Layout
 from wear.orbit.period_map import PeriodMap, Settings, by_size, period_map
 from wear.orbit.problem import Problem, Request
 
@@ -22,6 +23,8 @@ LEAST = 200.0  # the last panel reaches this count at least: panels are long aga
 MARGIN = 4.0  # of the look ahead, in cycles
 LONGEST, STEPS = 36.0, 60  # of the look ahead, in ln(1 + u/scale)
 AHEAD_NODES = 10  # on each interval of phase, to look ahead
+FRAME_SCALE = 12.0  # of the coordinate of panels, over the scale: one serves to infinity
+SMALL = 0.65  # of the state and its scale: a cycle that adds more changes the rate much
 SHARP = 0.3  # change of the logarithm of the density within a cycle
 MOST_LOG = 650.0  # of a density: its exponential is a number
 MOST_PLANNED = 150  # panels of a scene
@@ -57,16 +60,11 @@ def look_ahead(problem: Problem, request: Request) -> FloatArray:
 
 
 class Planned(NamedTuple):
-    """Panels, each of a `scene` (panels,), scene by scene and rising, and how many `cycles`
-    (panels,) each holds, roughly; none where a cycle changes its own rate much."""
+    """A `layout` of panels, scene by scene and rising, and how many `cycles` (panels,) each holds,
+    roughly; none where a cycle changes its own rate much."""
 
-    scene: IntArray
-    frame: abel.Frame
+    layout: Layout
     cycles: FloatArray
-
-    def take(self, which: BoolArray | IntArray) -> Planned:
-        """Return some of the panels."""
-        return Planned(self.scene[which], self.frame.take(which), self.cycles[which])
 
 
 def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> Planned:
@@ -77,7 +75,10 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
     done: list[Planned] = []
     number = 0
     while len(scene):
-        frozen = maps.take(scene).increment_without_feedback(frame.states(nodes))
+        some = maps.take(scene)
+        rate = some.rate_without_feedback(frame.states(nodes))
+        frozen = integral(rate, some.over)
+        violent = frozen[:, 0] > SMALL * (frame.starts + frame.c / FRAME_SCALE)
         density = np.minimum(-np.log(frozen + TINY), MOST_LOG)
         # Less a constant, whose rounding would look like a tail.
         tail = np.max(np.abs((density - density[:, :1]) @ analysis), axis=1)
@@ -88,17 +89,13 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         cut = (tail > size.tail_tolerance) | ((cycles > 2 * m) & ((at_end < m) | sharp))
         number += len(scene)
         cut &= number < MOST_PLANNED * maps.scenes
-        cycles = np.where(sharp, 0.0, np.minimum(cycles, at_end))
-        done.append(Planned(scene[~cut], frame.take(~cut), cycles[~cut]))
-        first, second = frame.take(cut).cut(SPLIT)
-        frame = abel.Frame(*(np.concatenate(pair) for pair in zip(first, second, strict=True)))
-        scene = np.tile(scene[cut], 2)
-    scene = np.concatenate([part.scene for part in done])
-    frames = zip(*(part.frame for part in done), strict=True)
-    frame = abel.Frame(*(np.concatenate(arrays) for arrays in frames))
-    order = np.lexsort((frame.starts, scene))
-    cycles = np.concatenate([part.cycles for part in done])
-    return Planned(scene[order], frame.take(order), cycles[order])
+        cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
+        done.append(take(Planned(Layout(scene, frame, rate), cycles), ~cut))
+        frame, scene = stacked(take(frame, cut).cut(SPLIT)), np.tile(scene[cut], 2)
+    if len(done) == 1:
+        return done[0]
+    plan = stacked(done)
+    return take(plan, np.lexsort((plan.layout.frame.starts, plan.layout.scene)))
 
 
 def enough_before(share: FloatArray, scene: IntArray) -> BoolArray:

@@ -8,6 +8,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.rows import take
 from wear.orbit.period_map import Equation, Rows
 
 
@@ -59,6 +60,4 @@ class Request(NamedTuple):
 
     def take(self, which: IntArray) -> Request:
         """Return some of the scenes."""
-        return Request(
-            self.cycles[which], self.start[which], self.start_error[which], self.deadline
-        )
+        return take(self, which)

@@ -25,6 +25,7 @@ from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution
 from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_integral
 from wear.numerics.initial_value import StoppedError
+from wear.numerics.rows import take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
@@ -34,6 +35,7 @@ from wear.orbit.problem import Problem
 from wear.orbit.segments import Orbit
 from wear.orbit.transient import SAFETY
 
+BESIDE = 0.1  # of a cell: over which the density tells its logarithmic derivative
 ITERATION_TOLERANCE = 1e-13  # of the period map: its derivatives have no more digits
 
 
@@ -294,7 +296,7 @@ def _at_cells(
     panel = cell // of_panel
     offset, length = table.offset[cell, None], table.length[cell, None]
     y = length * x
-    own = panels.take(panel)
+    own = take(panels, panel)
     t = own.frame.positions(table.u[cell, None] + offset * np.expm1(y))
     basis = chebyshev_values(t, panels.series.shape[1])
     level, shape = abel.level_and_shape(own.series)
@@ -316,14 +318,15 @@ def after_on_cells(
     u, _ = table.state_after(cycles.ravel(), flat)
     x = np.log1p((u - table.u[flat]) / table.offset[flat]) / table.length[flat]
     rule = gauss(NODES)
-    nodes = x[:, None] * np.append(rule.nodes, 1.0)
+    beside = np.where(x < 0.5, x + BESIDE, x - BESIDE)
+    nodes = np.column_stack([x[:, None] * rule.nodes, x, beside])
     density, rates = _at_cells(panels, table, sums.series, nodes, flat)
     # du/dn from the density itself: Newton's last step may be larger than rounding.
-    pace = table.length[flat] * (table.offset[flat] + u - table.u[flat]) / density[:, -1]
-    last = x * (1.0 - rule.nodes[-1]) * density[:, -1] + TINY  # cycles from the last node
-    bend = np.abs(np.log(density[:, -1] / density[:, -2]) / last).reshape(*cycles.shape, 1)
-    onward = np.abs(rates[:, -1]).reshape(*cycles.shape, -1)
-    density, rates = density[:, :-1] * (x[:, None] * rule.weights), rates[:, :-1]
+    pace = table.length[flat] * (table.offset[flat] + u - table.u[flat]) / density[:, -2]
+    bend = np.abs(np.log(density[:, -1] / density[:, -2])) / (BESIDE * density[:, -2])
+    bend = bend.reshape(*cycles.shape, 1)
+    onward = np.abs(rates[:, -2]).reshape(*cycles.shape, -1)
+    density, rates = density[:, :-2] * (x[:, None] * rule.weights), rates[:, :-2]
     rows = np.arange(scenes)[:, None]
     within = np.einsum("cg,cgk->ck", density, rates).reshape(*cycles.shape, -1)
     total = sums.start[rows, cell] + within

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.rows import take
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import PeriodMap, Settings
 
@@ -39,10 +40,6 @@ class Transient(NamedTuple):
     def last_increment(self) -> FloatArray:
         """Return what the last cycle has added (s,)."""
         return self.states[:, -1] - self.states[:, -2]
-
-    def take(self, which: IntArray) -> Transient:
-        """Return some of the scenes."""
-        return Transient(*(array[which] for array in self))
 
     def then(self, increment: FloatArray, *each: FloatArray) -> Transient:
         """Return some cycles more (s, j)."""
@@ -89,12 +86,12 @@ def extended(
     run = maps.consecutive(begun.last, BLOCK)
     states = begun.last[:, None] + np.cumsum(run.increment, axis=1)
     starts = np.concatenate([begun.last[:, None], states[:, :-1]], axis=1)
-    sound = run.converged.all(axis=1) & (states[:, -1] < limit)
+    sound = run.converged & (states[:, -1] < limit)
     for i in np.flatnonzero(~sound).tolist():
         which = np.array([i])
         alone = maps.take(which)
         *cycle, evaluations = alone.violent_cycle(float(begun.last[i]), float(limit[i]), size)
-        more = begun.take(which).then(*(np.array([[value]]) for value in cycle))
+        more = take(begun, which).then(*(np.array([[value]]) for value in cycle))
         yield Extended(which, alone, more, evaluations, BLOCK + 1)
     marked = maps.unresolved(starts, run, size) & sound[:, None]
     if maps.full:
@@ -102,7 +99,7 @@ def extended(
     calm = np.flatnonzero(sound & ~marked.any(axis=1))
     evaluations = run.evaluations
     if len(calm):
-        some, found, starts = maps.take(calm), run.take(calm), starts[calm]
+        some, found, starts = maps.take(calm), take(run, calm), starts[calm]
         fine = some.finer(size)
         judge = fine.advance(starts, found.guess(size.finer_nodes))
         evaluations += judge.evaluations
@@ -110,7 +107,7 @@ def extended(
         # What both meshes miss, and what the iterations of the judge have left.
         missed += np.sum(fine.endpoint_defect(starts, judge), axis=2)
         missed += judge.iteration_error * judge.increment
-        missed[~judge.converged.all(axis=1)] = np.inf
+        missed[~judge.converged] = np.inf
         coarse = np.any(missed > tolerance[calm, None] * states[calm], axis=1)
         coarse &= not maps.full
         marked[calm[coarse]] = True
@@ -118,11 +115,11 @@ def extended(
         each = found.increment, missed, derivative, some.response(found.increment, derivative)
         good = np.flatnonzero(~coarse)
         if len(good):
-            more = begun.take(calm[good]).then(*(array[good] for array in each))
+            more = take(begun, calm[good]).then(*(array[good] for array in each))
             yield Extended(calm[good], some.take(good), more, evaluations, 2 * BLOCK * len(calm))
             evaluations = 0
     rest = np.flatnonzero(marked.any(axis=1))
     for which, finer in maps.take(rest).refined(marked[rest]) if len(rest) else ():
         group = rest[which]
-        yield Extended(group, finer, begun.take(group), evaluations, 0)
+        yield Extended(group, finer, take(begun, group), evaluations, 0)
         evaluations = 0

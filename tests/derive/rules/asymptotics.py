@@ -56,9 +56,9 @@ def ordered(rest=U_a, law=LAW, end=sp.S.Zero, speed=STEADY):
     return first_order(eq(du, law), *limits, BOUNDED)
 
 
-def last(cycles=FEW, of=LOG_N, sign=FALLS):
+def last(cycles=FEW, of=LOG_N, sign=FALLS, beside=theta):
     """Apply LeadingTerm where N is as the reciprocal of the roughness, with one thing wrong."""
-    exact = eq(f_c * N, theta - h_star / sigma_c)
+    exact = eq(f_c * N, beside - h_star / sigma_c)
     return LeadingTerm(sp.Eq(of, cycles))(exact, given(sign))
 
 
@@ -140,6 +140,9 @@ FAMILIES = (
     Family(last, ((),), {
         "not the logarithm": ("is about", FEW, N),
         "a field beside it": ("is about", FEW + G**2),
+        # G = h_star/sigma_c + 1: N = theta - 1
+        "a field in the equation": ("is about", FEW, LOG_N, FALLS, G),
+        "time in the equation": ("is about", FEW, LOG_N, FALLS, t / T),
         "fewer cycles for more wear": ("grows without bound", -FEW),
         "another factor": ("quotient of the slopes", 2 * FEW),
         "what wavers": ("grows without bound", FEW + sp.sin(1 / sigma_c)),
