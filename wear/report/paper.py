@@ -77,7 +77,7 @@ def paper(
         "section": _section,
         "capital": capital,
         "conditions": [row for row in table() if row.model],
-        "examples": [runs.cases[name].scene for name in note.EXAMPLES],
+        "examples": [runs.histories[name].definition for name in note.EXAMPLES],
         "static_cycles": float(STATIC_CYCLES[-1]),
         "drift_distance": _drift_distance(runs),
         "elasticity": _elasticity(equations, runs),
@@ -110,7 +110,7 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
             "system": drawing.system(),
             "wear-curve": figures_of_note.wear_curve(runs),
             "regimes": figures_of_note.regimes(
-                {f"§\u2009{name[-1]}": runs.cases[name].scene for name in note.EXAMPLES}
+                {f"§\u2009{name[-1]}": runs.histories[name].definition for name in note.EXAMPLES}
             ),
             "approach": figures_of_note.approach(runs.approach),
             "speed": speed_against_cycles(
@@ -128,7 +128,7 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
 
 def _drift_distance(runs: Runs) -> float:
     """Relative difference of the wear from its asymptotic law at the last cycle solved."""
-    limit = runs.asymptote("section4")
+    limit = runs.asymptotes["section4"]
     cycle, wear = float(runs.approach.cycles[-1]), float(runs.approach.wear[-1])
     law = note.required(limit.wear_per_cycle_mm) * cycle + note.required(limit.offset_mm)
     law += note.required(limit.log_coefficient_mm) * float(np.log(cycle))
@@ -137,7 +137,7 @@ def _drift_distance(runs: Runs) -> float:
 
 def _elasticity(equations: Sequence[Equation], runs: Runs) -> float:
     """Return the elasticity of the wear per cycle in f_c, by its equation."""
-    limit, scene = runs.asymptote("section4"), runs.cases["section4"].scene
+    limit, scene = runs.asymptotes["section4"], runs.histories["section4"].definition
     data = {
         "f_c": scene.bearing.roughness_growth,
         "p_inf": note.required(limit.pressure_MPa),
