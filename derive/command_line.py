@@ -123,12 +123,12 @@ def parser(program: str, description: str, examples: str, names: str) -> Parser:
     branches = whole.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name in names.split():
         command: Any = import_module(f"{program}.commands.{name}")
-        about, _, examples = command.__doc__.partition(".\n\n")
+        about, _, examples = (command.__doc__ or "").partition(".\n\n")  # none with -OO
         summary = about.partition(": ")[2]
         branch = branches.add_parser(
             name_of(command),
             help=summary,
-            description=f"{summary[0].upper()}{summary[1:]}.",
+            description=f"{summary[:1].upper()}{summary[1:]}.",
             epilog=examples,
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,

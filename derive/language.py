@@ -111,9 +111,10 @@ def _held_fixed(node: sp.Basic) -> str:
 
     With a clock all clocks vary; with a datum fields and names do.
     """
-    if not isinstance(node, (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, FirstZero)):
+    if not isinstance(node, (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, FirstZero, Term)):
         return ""
-    body, taken = node.args[0], {str(variable) for variable in bound(node)}
+    body = node.args[1] if isinstance(node, Term) else node.args[0]
+    taken = {str(variable) for variable in bound(node)}
     others = {s.name for s in body.free_symbols} - taken
     if isinstance(node, sp.Derivative) and body.is_Symbol and taken <= DATA:
         return ""  # the slope of a name

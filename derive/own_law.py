@@ -3,10 +3,12 @@
 Overview
     The text is parsed by Python's own parser and read from the few nodes that the grammar
     allows: numbers, r, + - * / ^ and exp, tanh, sqrt.  That phi is positive and falls is proved,
-    its inflection is found, and of equal forms that which loses fewest digits is written out.
+    its inflection is found and, as far as may be, proved to be the only one, and of equal forms
+    that which loses fewest digits is written out.
 Key results
     normal      the text in one spelling, or what is wrong with it
     own_law     the contact law
+    turns_once  whether its curvature is proved to change its sign once at most
     file_of     the modules of its variants, and what to know of it
 """
 
@@ -155,6 +157,39 @@ def _inflection(phi: sp.Expr) -> sp.Expr:
         return near if curvature.subs(r, near) == 0 else place
 
 
+def turns_once(law: ContactLaw) -> bool:
+    """Return whether it is proved that the curvature changes its sign at the inflection alone.
+
+    A rational function of an exponential changes it at roots of a polynomial, which are counted
+    (Sturm); of others both signs are decided.
+
+    Raises
+    ------
+    UsageError
+        if it changes it elsewhere too.
+    """
+    import sympy as sp
+
+    from .laws import r
+    from .rules.proving import holds
+
+    place, curvature = law.inflection, sp.diff(law.phi, r, 2)
+    found = _of_exponentials(curvature)
+    if found and found[0].free_symbols == {found[1]}:
+        numerator = sp.fraction(sp.factor(found[0]))[0]
+        odd = [sp.Poly(f, found[1]) for f, n in sp.factor_list(numerator)[1] if n % 2]
+        if all(f.domain.is_ZZ or f.domain.is_QQ for f in odd):
+            turns = sum(f.count_roots(0) - (f.eval(0) == 0) for f in odd)
+            if turns != place.is_finite:
+                raise UsageError(f"phi turns between concave and convex {turns} times, not once")
+            return True
+    away = sp.Dummy(nonnegative=True)
+    if not place.is_finite:
+        return holds(sp.Ge(curvature, 0))
+    above, below = (curvature.subs(r, place + side * away) for side in (1, -1))
+    return holds(sp.Ge(above, 0)) and holds(sp.Le(below, 0))
+
+
 def _best(expression: sp.Expr) -> tuple[float, sp.Expr]:
     """Return the form of an expression that loses fewest digits, and its relative error."""
     import sympy as sp
@@ -173,19 +208,30 @@ def _falling(expression: sp.Expr) -> sp.Expr:
     another, so that nothing overflows and no digits cancel."""
     import sympy as sp
 
+    found = _of_exponentials(expression)
+    if found is None:
+        return expression
+    quotient, step, fall = found
+    return sp.factor(quotient).subs(step, sp.exp(fall))
+
+
+def _of_exponentials(expression: sp.Expr) -> tuple[sp.Expr, sp.Symbol, sp.Expr] | None:
+    """Return an expression as a rational function of one exponential that falls, the symbol of
+    that, and its exponent; None where it is none."""
+    import sympy as sp
+
     from .laws import r
 
     plain = expression.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x)))
     exponents = sorted((e.args[0] for e in plain.atoms(sp.exp)), key=sp.count_ops)
     if not exponents or not sp.diff(exponents[0], r).is_number:
-        return expression
+        return None
     fall = exponents[0] if sp.diff(exponents[0], r) < 0 else -exponents[0]
     powers = {each: sp.cancel(each / fall) for each in exponents}
     if not all(power.is_Integer for power in powers.values()):
-        return expression
+        return None
     step = sp.Dummy(positive=True)
-    quotient = plain.subs({sp.exp(each): step**power for each, power in powers.items()})
-    return sp.factor(quotient).subs(step, sp.exp(fall))
+    return plain.subs({sp.exp(each): step**n for each, n in powers.items()}), step, fall
 
 
 def _loss(form: sp.Expr, exact: sp.Expr) -> float:
@@ -228,12 +274,15 @@ def file_of(text: str, name: str) -> str:
     from .codegen.sources import source
     from .note.governing import Pin
     from .program import program
+    from .time_limit import time_limit
     from .variant import Variant
 
     law, loss = own_law(text)
     if name == "about.json":
-        about = {"phi": text, "inflection": str(law.inflection), "rounding_error": loss}
-        return json.dumps(about)
+        with time_limit(SECONDS, f"phi = {text}"):
+            proved = turns_once(law)
+        about = {"phi": text, "inflection": str(law.inflection), "inflection_proved": proved}
+        return json.dumps(about | {"rounding_error": loss})
     if name == "law.py":
         return contact_law.module(law)
     variants = [Variant(law, compliant, pin) for compliant in (False, True) for pin in Pin]

@@ -89,7 +89,9 @@ def pressure_in_cycles(lines: Sequence[Line]) -> Figure:
         _draw(axes, lines, 1.0)
         axes.set(xlabel=r"Phase in the cycle", ylabel=PRESSURE.label)
         axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * max(float(line.y.max()) for line in lines)))
-        _name_peaks(axes, lines)
+        for line in lines:  # named above their peaks
+            peak = int(np.argmax(line.y))
+            label_above(axes, line.name, (float(line.x[peak]), float(line.y[peak])), 3.0)
     return figure
 
 
@@ -191,10 +193,3 @@ def _frame(axes: Axes, lines: Sequence[Line], scale: float, limits: Sequence[flo
     low, high = min(0.0, *extremes) * scale, max(0.0, *extremes) * scale
     margin = 0.05 * (high - low) or 1.0
     axes.set_ylim(low - margin if low < 0.0 else 0.0, high + margin)
-
-
-def _name_peaks(axes: Axes, lines: Sequence[Line]) -> None:
-    """Names above the highest points, on a halo of paper."""
-    for line in lines:
-        peak = int(np.argmax(line.y))
-        label_above(axes, line.name, (float(line.x[peak]), float(line.y[peak])), 3.0)

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from derive import files
 from wear.faults import UsageError
-from wear.inside import Inside
-from wear.quantities import COLUMNS, columns_of, unit_of
+from wear.quantities import COLUMNS, unit_of
 from wear.words import is_path
 
 Attributes = Mapping[str, str]
@@ -42,19 +41,6 @@ class States(NamedTuple):
         }
         whole = np.broadcast_arrays(*found.values())
         return {name: values.ravel().tolist() for name, values in zip(found, whole, strict=True)}
-
-
-def write_inside(
-    parts: Iterable[Inside], path: str | os.PathLike[str], attributes: Attributes
-) -> None:
-    """Write the chunks of a history inside the cycles as they come, so that memory holds one at a
-    time, as `write` does."""
-
-    def states(part: Inside) -> States:
-        wear, error = {"bearing_wear_mm": part.u}, {"error_estimate": part.error}
-        return States(part.cycles, wear | columns_of(part.fields) | error, part.phases)
-
-    write(map(states, parts), path, attributes)
 
 
 def write(parts: Iterable[States], path: str | os.PathLike[str], attributes: Attributes) -> None:

@@ -16,6 +16,7 @@ from wear.numerics.initial_value import SAFETY
 from wear.numerics.tolerances import TINY
 from wear.orbit.dense_output import Added, DenseOutput, dense_output
 from wear.orbit.iterates import Iterates
+from wear.quantities import columns_of
 from wear.states import fields_under_load
 
 CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
@@ -32,6 +33,11 @@ class Inside(NamedTuple):
     u: FloatArray
     fields: Any
     error: FloatArray
+
+    def columns(self) -> dict[str, FloatArray]:
+        """Return the quantities by their names in files, (n, m), the error (n,)."""
+        wear, error = {"bearing_wear_mm": self.u}, {"error_estimate": self.error}
+        return wear | columns_of(self.fields) | error
 
 
 def fields_inside(

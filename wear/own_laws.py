@@ -73,7 +73,8 @@ def module(law: str, name: str) -> ModuleType:
 
 
 def about(law: str) -> dict[str, Any]:
-    """Return what is known of a law: its `inflection` and relative `rounding_error`."""
+    """Return what is known of a law: its `inflection`, whether that is the only one for certain
+    (`inflection_proved`), and its relative `rounding_error`."""
     found: dict[str, Any] = json.loads(_file(law, "about.json").read_text("utf-8"))
     return found
 

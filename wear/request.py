@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from wear import direct
 from wear.faults import Faults
@@ -40,6 +41,16 @@ def whole_cycles(
     if not several:
         faults.append("cycles: give at least one number of cycles")
     return tuple(wanted)
+
+
+def cycles_along(first: float, last: float, points: int, *others: ArrayLike) -> list[int]:
+    """Return numbers of cycles, the same share apart, for a curve; and `others`, in order.
+
+    >>> cycles_along(1, 1000, 4, [0, 500])
+    [0, 1, 10, 100, 500, 1000]
+    """
+    every = np.concatenate([np.geomspace(first, last, points), *map(np.asarray, others)])
+    return [int(cycle) for cycle in np.unique(np.rint(every))]
 
 
 def wear_depths(wear_mm: float | Iterable[float], faults: Faults) -> tuple[float, ...]:

@@ -70,16 +70,10 @@ def _mathml(found: Equation) -> str:
     return display(found.latex)
 
 
-def _srepr(found: Equation) -> str:
-    import sympy as sp
-
-    return str(sp.srepr(found.relation))
-
-
 _WRITERS: dict[str, Callable[[Equation], str]] = {
     "text": _text,
     "latex": lambda found: found.latex,
-    "srepr": _srepr,
+    "srepr": lambda found: str(document(found)["srepr"]),
     "mathml": _mathml,
     "json": lambda found: terminal.json_text(document(found)),
 }

@@ -19,7 +19,8 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..note.model import SUPPORT
 from ..symbols import DATA, symbols, t
-from .proving import continuous, require, require_defined, smooth
+from .growth import expanded
+from .proving import continuous, require, require_defined, smooth, stays, undefined
 from .reading import (
     LOAD,
     clocks,
@@ -184,7 +185,11 @@ class ParameterLimit(Rule):
         if functions(self.expr) or others - DATA:
             raise RuleError(f"missing premise: {self.expr} is a function of data alone")
         small = sp.Dummy("small", positive=True)
-        at_end = sp.together(self.expr.subs(self.variable, 1 / small))
-        if not continuous(at_end, {small: sp.S.Zero}, *premises):
+        inside, end = self.expr.subs(self.variable, 1 / small), {small: sp.S.Zero}
+        for goal in undefined(inside, *premises):
+            if not stays(goal, expanded(goal.args[0], small)[1], end, *premises):
+                raise RuleError(f"missing premise: {goal}")
+        at_end = sp.together(inside)
+        if not continuous(at_end, end, *premises):
             raise RuleError(f"missing premise: {self.expr} is continuous for {self.variable} -> oo")
         return Conclusion(Limit(self.expr, self.variable, sp.oo, at_end.subs(small, 0)))

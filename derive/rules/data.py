@@ -35,6 +35,8 @@ def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
         raise RuleError(f"missing premise: {expr} is a function of data alone")
     hypotheses = [hypothesis for premise in premises for hypothesis in premise.hypotheses]
     definitions = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
+    if len({r for r in (h.relation for h in hypotheses) if _is_law(r)}) > 1:
+        raise RuleError(f"missing premise: {parameter} may vary, but there are two contact laws")
     for hypothesis in hypotheses:
         relation, kind = hypothesis.relation, hypothesis.kind
         if kind in (Kind.DEFINITION, Kind.INITIAL, Kind.MODEL) and relation.atoms(AppliedUndef):
@@ -62,10 +64,14 @@ def _leaves_data_free(relation: sp.Basic) -> bool:
     bound of the load, or a setting."""
     if isinstance(relation, sp.LessThan):
         return relation.lhs == sp.Abs(LOAD) and bool(relation.rhs.is_positive)
-    if not isinstance(relation, sp.Equality) or relation.lhs != PRESSURE:
+    if not _is_law(relation):
         return relation in _SETTINGS
     law = (relation.rhs / PRESSURE_MAX).subs(h, r * sigma)
     return law.free_symbols <= {r} and falls(law)
+
+
+def _is_law(relation: sp.Basic) -> bool:
+    return isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
 
 
 @dataclass(frozen=True)

@@ -26,10 +26,12 @@ from .reading import (
     PERIODIC,
     SINE,
     T,
+    clocks,
     constant,
     equality,
     field_of_rate,
     fields,
+    fixed,
     limit_in_time,
     rate_law,
     require_hypothesis,
@@ -168,9 +170,10 @@ class LeadingTerm(Rule):
         small, facts = sp.Dummy("s", positive=True), facts_of(premises)
         fallen = (x for x in given.relation.free_symbols - {t} if holds(sp.Lt(x, 0), facts))
         flat = {s: small} | {x: -sp.Dummy(positive=True) for x in fallen}
-        claimed, slope = sp.exp(leading).xreplace(flat), (given.rhs / pace).xreplace(flat)
-        slope = sp.diff(slope, small)
-        if not constant(sp.Tuple(pace, claimed, slope)) or fields(sp.Tuple(pace, claimed, slope)):
+        claimed, cycles = (e.xreplace(flat) for e in (sp.exp(leading), given.rhs / pace))
+        slope = sp.diff(cycles, small)
+        moving = cycles.has(t) or clocks(cycles)  # of which the slope knows nothing
+        if moving or not fixed(sp.Tuple(pace, claimed, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
         if _end(claimed, small) != sp.oo:
             raise RuleError(f"missing premise: {leading} grows without bound")

@@ -22,7 +22,17 @@ from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..symbols import t
 from ..zero import is_zero
 from .limits import in_time
-from .proving import LAW, continuity, continuous, facts_of, holds, require, require_defined
+from .proving import (
+    LAW,
+    continuity,
+    continuous,
+    facts_of,
+    holds,
+    require,
+    require_defined,
+    stays,
+    undefined,
+)
 from .reading import (
     CONTINUOUS,
     LOAD,
@@ -177,6 +187,10 @@ class AtInfinity(Rule):
             bounds(field, *premises)
         flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
         order, smooth = expanded(flat.subs(u, deep), z)
+        for goal in undefined(inside, *premises):
+            _, side = expanded(goal.args[0].xreplace(plain).subs(u, deep), z)
+            if not stays(goal, side, {z: sp.S.Zero}, *premises):
+                raise RuleError(f"missing premise: {goal} as {u} -> oo")
         bent = (sp.Piecewise, LAW) if order > 1 else (sp.Piecewise,)
         if smooth.has(*bent) or not continuous(smooth, {z: sp.S.Zero}, *premises):
             raise RuleError(f"missing premise: {inside} is smooth at infinity")

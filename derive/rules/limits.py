@@ -22,7 +22,7 @@ from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound
 from ..symbols import t
 from ..zero import is_zero
-from .proving import LAW, continuous, require_defined, undefined
+from .proving import LAW, continuous, require_defined, stays, undefined
 from .reading import (
     LOAD,
     T,
@@ -34,6 +34,7 @@ from .reading import (
     fixed,
     growing,
     limit_in_time,
+    replaced,
 )
 
 
@@ -137,8 +138,7 @@ class Passes(Rule):
             raise RuleError(f"missing premise: {whole} is continuous at {(*ends.values(),)}")
         for goal in undefined(whole, *premises, near=meaning.values()):
             side = _in_terms(_rewritten(goal.args[0], premises), meaning)
-            kept = 1 / side if isinstance(goal, sp.Ne) else sp.log(side)
-            if goal.args[1] != 0 or not continuous(kept, ends, *premises):
+            if fields(side) or not stays(goal, side, ends, *premises):
                 raise RuleError(f"missing premise: {goal} at {(*ends.values(),)}")
         require_defined(self.claim.rhs, *premises)
         if not is_zero(expr.subs(ends) - self.claim.rhs):
@@ -150,7 +150,7 @@ def _rewritten(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
     """Return an expression with what premises say is equal."""
     for claim in (premise.claim for premise in premises):
         if isinstance(claim, Equality):
-            expr = expr.subs(claim.lhs, claim.rhs)
+            expr = replaced(expr, claim.lhs, claim.rhs)
     return expr
 
 

@@ -345,6 +345,15 @@ def continuous(
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
 
 
+def stays(
+    goal: sp.Basic, side: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgement
+) -> bool:
+    """Return whether what gives an expression a value holds near a point, where its left side is
+    another expression, and its right side 0."""
+    kept = 1 / side if isinstance(goal, sp.Ne) else sp.log(side)
+    return goal.args[1] == 0 and continuous(kept, at, *premises)
+
+
 def continuity(
     expr: sp.Expr, unknowns: set[sp.Basic], known: Collection[sp.Basic] = ()
 ) -> list[sp.Basic]:

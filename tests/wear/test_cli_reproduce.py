@@ -10,6 +10,7 @@ import pytest
 
 from derive import verification
 from derive.check import Check
+from derive.note import claims as note_claims
 from tests.wear.report import quick
 from wear import processes, regime
 from wear.report import claims, paper, publish, runs
@@ -29,7 +30,9 @@ def shortened(monkeypatch):
     monkeypatch.setattr(verification, "verified", lambda found, _: quick.trusted(found))
     alone = nullcontext(lambda task, *given: lambda: task(*given))
     monkeypatch.setattr(processes, "assistant", lambda: alone)
-    monkeypatch.setattr(claims, "ledger", lambda *_, **__: quick.few_claims())
+    few = {entry.claim.id: entry for entry in quick.few_claims()}
+    monkeypatch.setattr(claims, "decided", few.__getitem__)
+    monkeypatch.setattr(note_claims, "CLAIMS", few)
     monkeypatch.setattr(paper, "paper", lambda *_: quick.paper())
     monkeypatch.setattr(paper, "drawings", lambda _: {})
     monkeypatch.setattr(publish.shutil, "which", lambda _: None)
@@ -84,7 +87,7 @@ def test_an_interrupt_leaves_nothing_behind(call, tmp_path, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(claims, "ledger", interrupted)
+    monkeypatch.setattr(claims, "decided", interrupted)
     folder = tmp_path / "report"
     assert call("reproduce", "-o", str(folder))[0] == 130
     assert not folder.exists()

@@ -159,6 +159,7 @@ def test_what_is_no_law_is_a_fault(raw):
         ("sqrt(-1)*r", "no function of r"),
         ("-exp(-r)", "not proved to be positive|concave below"),
         ("1/(1 + r^2)", "concave below one value"),
+        ("1/(1 + exp(r)/3) + 1/(1 + 148*exp(20*r))/100", "3 times"),  # two within a quarter
         ("1/r", "kink"),
         ("exp(-r - sqrt(r^2)/2)", "kink"),
         ("exp(-r - sqrt(r^4 + r^2)/(2 + 2*r^2))", "kink"),
@@ -170,8 +171,10 @@ def test_what_the_theorems_ask_for_must_be_proved(text, problem):
         wear.solve(with_law(text), [1])
 
 
-def test_lost_digits_are_said():
+def test_lost_digits_and_what_is_not_proved_are_said():
     scene = with_law("(1 - r/sqrt(1 + r^2))/2 + exp(-r)")
+    assert any("is not proved" in notice for notice in scene.notices)
+    assert not any("is not proved" in notice for notice in with_law(ALGEBRAIC).notices)
     assert any("loses digits" in notice for notice in scene.notices)
     assert not any("loses digits" in notice for notice in with_law(ALGEBRAIC).notices)
 

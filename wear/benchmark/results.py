@@ -114,17 +114,15 @@ def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple
             )
             continue
         first, *others = ranking
-        text = (
-            f"For {digits} digits of the wear after {in_short(cycles, 5)} "
-            f"{'cycle' if cycles == 1 else 'cycles'} use {first.method}: "
-            f"it takes {duration(first.seconds)}"
-        )
+        rest = "nothing else got there in the time given to it"
         if others:
             ratio = others[0].seconds / first.seconds
-            text += f"; {others[0].method} takes {_rounded(ratio)} times as long."
-        else:
-            text += "; nothing else got there in the time given to it."
-        found.append(text)
+            rest = f"{others[0].method} takes {_rounded(ratio)} times as long"
+        found.append(
+            f"For {digits} digits of the wear after {in_short(cycles, 5)} "
+            f"{'cycle' if cycles == 1 else 'cycles'} use {first.method}: "
+            f"it takes {duration(first.seconds)}; {rest}."
+        )
     return tuple(found)
 
 
@@ -132,9 +130,8 @@ def silent_failures(runs: Sequence[Measurement]) -> tuple[Measurement, ...]:
     """Runs that were off by more than a percent and did not say so, the worst of each method and
     scene."""
     wrong = [run for run in runs if run.status is Status.WRONG]
-    worst: dict[tuple[str, str], Measurement] = {}
-    for run in sorted(wrong, key=lambda run: -abs(run.error)):
-        worst.setdefault((run.method, run.scene), run)
+    rising = sorted(wrong, key=lambda run: abs(run.error))
+    worst = {(run.method, run.scene): run for run in rising}
     return tuple(run for run in wrong if run is worst[run.method, run.scene])
 
 

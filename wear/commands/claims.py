@@ -31,11 +31,14 @@ def add_arguments(parser: Parser) -> None:
 
 def execute(options: Options) -> Answer:
     """Decide the claims."""
-    from wear.report.claims import as_json, ledger
+    from wear.report.claims import as_json, decided
 
     arguments.read(options).stop_if_any()
+    entries: list[Entry] = []
     with terminal.busy("deciding the claims") as tell:
-        entries = ledger(lambda done, total, claim: tell(f"{done}/{total} {claim}"), options.ids)
+        for number, claim in enumerate(chosen := options.ids or _known()):
+            tell(f"{number}/{len(chosen)} {claim}")
+            entries.append(decided(claim))
     return Answer(as_json(entries), lambda: "\n".join(_lines(entries)))
 
 

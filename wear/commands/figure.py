@@ -81,16 +81,19 @@ def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int
 
 
 def _against_cycles(options: Options, last: int) -> Answer:
+    import numpy as np
+
     from wear.figure_data import Abscissa, panels_of, points_of
     from wear.figures import history
     from wear.life import cycles_until
+    from wear.request import cycles_along
     from wear.solver import solve
 
     abscissa, limit = Abscissa[options.axis.upper()], options.until_wear
     runs = {Path(scene.name).stem: scene for scene in options.scene}
     if any(each.changes for each in options.readings):
         runs = {each.name: options.scene[0].with_(each.changes) for each in options.readings}
-    cycles = shown_cycles(last, logarithmic=options.log)
+    cycles = cycles_along(1, last, POINTS, [] if options.log else np.linspace(0, last, POINTS))
     with terminal.busy("counting cycles") as tell:
         found = [solve(scene, cycles, rtol=1e-6, progress=tell) for scene in runs.values()]
     wear, *others = panels_of(found, tuple(runs), abscissa)
@@ -109,16 +112,6 @@ def _against_cycles(options: Options, last: int) -> Answer:
     _write(drawn, options.output)
     notices = dict.fromkeys(n for each in found for n in run_output.worth_telling(each))
     return Answer(summary, lambda: "\n".join(lines), tuple(notices))
-
-
-def shown_cycles(last: int, *, logarithmic: bool) -> tuple[int, ...]:
-    """Numbers of cycles up to the last one, dense where the wear changes quickly."""
-    import numpy as np
-
-    chosen = {int(cycle) for cycle in np.rint(np.geomspace(1, last, POINTS))}
-    if not logarithmic:
-        chosen |= {int(cycle) for cycle in np.rint(np.linspace(0, last, POINTS))}
-    return tuple(sorted(chosen))
 
 
 def _write(drawn: object, output: Path) -> None:

@@ -60,8 +60,9 @@ def _reproduce(
     """Make everything: the files by name, the checks, the ledger, and what came of the PDF."""
     from derive.catalogue import all_equations
     from derive.note.claim_checks import SYMBOLIC
+    from derive.note.claims import CLAIMS
     from derive.verification import checked_at, verified
-    from wear.report.claims import SIMULATED, as_json, decided, ledger
+    from wear.report.claims import SIMULATED, as_json, decided
     from wear.report.paper import drawings, paper
     from wear.report.publish import manifest, published
     from wear.report.runs import run
@@ -71,18 +72,20 @@ def _reproduce(
         catalogue = all_equations()
         checked = [ask(checked_at, place) for place in range(len(catalogue))]
         runs = run(lambda what: progress(f"solving: {what}"))
-        solved = ledger(lambda *claim: progress(f"judging claim {claim[-1]}"), tuple(SIMULATED))
+        solved = {}
+        for claim in SIMULATED:
+            progress(f"judging claim {claim}")
+            solved[claim] = decided(claim)
         progress("drawing")
         figures = drawings(runs)
         progress("verifying the equations")
         verification = verified(catalogue, checked)
-        known = {entry.claim.id: entry for entry in solved}
-        judged = ledger(decide=lambda claim: known.get(claim) or begun[claim]())
+        judged = tuple(solved.get(claim) or begun[claim]() for claim in CLAIMS)
         progress("writing")
         contents, typeset = published(paper(catalogue, verification, runs, judged, figures))
         contents["claims.json"] = terminal.json_text(as_json(judged))
         command = f"wear reproduce -o {folder.name}"
-        scenes = {name: case.scene for name, case in runs.cases.items()}
+        scenes = {name: history.definition for name, history in runs.histories.items()}
         contents["manifest.json"] = terminal.json_text(manifest(contents, scenes, command))
     return contents, verification, judged, typeset
 

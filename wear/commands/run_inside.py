@@ -11,7 +11,6 @@ from derive.command_line import Answer, Options
 from wear.faults import Faults
 
 if TYPE_CHECKING:
-    from wear.inside import Inside
     from wear.scene import Scene
 
 SUFFIXES = (".csv", ".nc")
@@ -48,16 +47,16 @@ def execute(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
 
     from wear.binding import bind
     from wear.faults import Interrupted
-    from wear.history_files import write_inside
+    from wear.history_files import States, write
     from wear.inside import fields_inside
 
     worst, done = 0.0, 0
 
-    def parts() -> Iterator[Inside]:
+    def parts() -> Iterator[States]:
         nonlocal worst, done
         at, wanted = np.arange(phases) / phases, np.array(cycles, dtype=float)
         for part in fields_inside(bind(scene), scene.load, wanted, at, rtol):
-            yield part
+            yield States(part.cycles, part.columns(), part.phases)
             worst, done = max(worst, float(np.max(part.error))), done + len(part.cycles)
 
     attributes = {
@@ -67,7 +66,7 @@ def execute(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
         "rtol": repr(rtol),
     }
     try:
-        write_inside(parts(), output, attributes)
+        write(parts(), output, attributes)
     except KeyboardInterrupt:
         told = f"interrupted after {done} of {len(cycles)} cycles; {output} was not written"
         raise Interrupted(told, None) from None

@@ -17,10 +17,9 @@ from pydantic import Field
 
 from wear.checked import Positive, Real, table
 from wear.load.blocks import Block, Blocks
-from wear.load.harmonics import Harmonics, Smooth, Waves, derivative
+from wear.load.harmonics import Harmonics, Waves, derivative
 from wear.load.lines import ForceTable, HistoryLoad, Table
-from wear.load.phase import centred
-from wear.load.protocol import Load
+from wear.load.periodic import Load, Smooth, centred
 from wear.load.spans import Loading
 from wear.numerics.gauss import FloatArray
 

@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
 
 from wear.checked import Count, Finding, SceneTable, all_wrong, problems, table, wrong
-from wear.load.protocol import Load
+from wear.load.periodic import Load
 from wear.load.tables import PERIODIC, load_from
 from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES

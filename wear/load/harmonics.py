@@ -5,31 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from wear.checked import Positive, Real, Reals, SceneTable, table
-from wear.load.phase import centred, within_cycle
+from wear.checked import Positive, Real, Reals, table
+from wear.load.periodic import Smooth, centred, within_cycle
 from wear.numerics.gauss import FloatArray
 
 MOST_HARMONICS = 100
 FEW = 2  # harmonics: so many cost less as a polynomial
-
-
-@table("")
-class Smooth(SceneTable):
-    """A load without kinks, whose table has a `period_s`."""
-
-    kinks: ClassVar[tuple[float, ...]] = ()
-    if TYPE_CHECKING:
-        period_s: float
-
-    @property
-    def period(self) -> float:
-        return self.period_s
 
 
 @table("load", kind="harmonics")

@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, FiniteFloat, model_validator
 
 from wear.checked import Positive, SceneTable, all_wrong, listed, table
-from wear.load.phase import inside, within_cycle
+from wear.load.periodic import inside, within_cycle
 from wear.load.rows import ForceFile, HistoryFile, RowsFile, TableFile, order_faults, read_rows
 from wear.numerics.gauss import FloatArray
 from wear.quantities import unit_of

@@ -14,7 +14,7 @@ import numpy as np
 
 from wear.load.blocks import Blocks
 from wear.load.lines import HistoryLoad
-from wear.load.protocol import Load
+from wear.load.periodic import Load
 from wear.numerics.gauss import FloatArray
 
 FOREVER = 1 << 62

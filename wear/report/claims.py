@@ -5,7 +5,7 @@ Overview
     that need the note's scenes and their solution.  A check solves what the note solved and
     compares with what it prints.
 Key results
-    ledger           all claims, decided
+    decided          a claim, decided
     as_json          the ledger as the command prints it
 """
 
@@ -206,23 +206,6 @@ SIMULATED: Mapping[str, Callable[[], Finding]] = MappingProxyType(
 def decided(identifier: str) -> Entry:
     """Decide one claim."""
     return Entry(CLAIMS[identifier], {**SYMBOLIC, **SIMULATED}[identifier]())
-
-
-def ledger(
-    progress: Callable[[int, int, str], None] = lambda *_: None,
-    ids: Sequence[str] = (),
-    decide: Callable[[str], Entry] = decided,
-) -> tuple[Entry, ...]:
-    """Decide every claim (or those of the given ids), in the order of the note.
-
-    ``progress`` is told how many of how many are done, and which is next.
-    """
-    chosen = ids or list(CLAIMS)
-    entries = []
-    for number, identifier in enumerate(chosen):
-        progress(number, len(chosen), identifier)
-        entries.append(decide(identifier))
-    return tuple(entries)
 
 
 def as_json(entries: Sequence[Entry]) -> list[dict[str, str]]:

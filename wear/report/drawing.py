@@ -24,15 +24,38 @@ _TOP = 6.6
 
 def system() -> Figure:
     """The drawing, as wide as a column."""
+    middle, side = (_LEFT + _RIGHT) / 2.0, _RIGHT + 0.5
+    between, under = (_PIN + _BEARING) / 2.0, (_SPRINGS + _GROUND) / 2.0
+    bearing, pin = stroke(0)["color"], stroke(1)["color"]
+    moves = (
+        (6.5, r"$U_a$ pin moves", pin), (5.6, r"$u_a$ pin wears", pin),
+        (3.6, r"$u_c$ bearing wears", bearing), (2.7, r"$U_c$ bearing moves", bearing),
+    )  # fmt: skip
     with styled():
         figure, axes = canvas(COLUMN, 62.0)
         axes.set(xlim=(1.2, 11.6), ylim=(0.3, 7.85), aspect="equal")
         axes.axis("off")
         _solids(axes)
         _springs(axes)
-        _closure(axes)
-        _displacements(axes)
-        _loads(axes)
+        _arrow(axes, (side, _BEARING), (side, _PIN), style="<|-|>")
+        for x in (middle - 1.2, middle, middle + 1.2):
+            _arrow(axes, (x, _BEARING + 0.22), (x, _PIN - 0.2), size=6.0, linewidth=0.6)
+        for top, words, colour in moves:
+            _arrow(axes, (side, top), (side, top - 0.6), colour=colour)
+            axes.text(side + 0.15, top - 0.3, words, va="center")
+        _arrow(axes, (middle, 7.6), (middle, _TOP))
+        turn = Arc((middle, 5.85), 1.1, 1.0, theta1=20.0, theta2=300.0, color=INK, linewidth=0.8)
+        axes.add_patch(turn)
+        _arrow(axes, (middle + 0.27, 5.42), (middle + 0.4, 5.52))
+        for x, y, words, where in (
+            (2.5, 6.15, "pin", "left"), (2.5, 2.6, "bearing", "left"),
+            (_LEFT - 0.5, _PIN, r"$\sigma_a$", "right"),
+            (_LEFT - 0.5, _BEARING, r"$\sigma_c$", "right"),
+            (_LEFT - 0.05, under, "$k$", "right"), (side + 0.15, between, "$h$", "left"),
+            (middle + 0.12, between, "$p$", "left"), (middle + 0.15, 7.25, "$R_a$", "left"),
+            (middle, 5.85, r"$\omega$", "center"),
+        ):  # fmt: skip
+            axes.text(x, y, words, ha=where, va="center")
     return figure
 
 
@@ -104,10 +127,6 @@ def _solids(axes: Axes) -> None:
         axes.plot(
             [_LEFT - 0.4, _RIGHT + 0.75], [height, height], color=GREY, lw=0.6, ls=(0, (6, 2, 1, 2))
         )
-    axes.text(2.5, 6.15, "pin", va="center")
-    axes.text(2.5, 2.6, "bearing", va="center")
-    axes.text(_LEFT - 0.5, _PIN, r"$\sigma_a$", ha="right", va="center")
-    axes.text(_LEFT - 0.5, _BEARING, r"$\sigma_c$", ha="right", va="center")
 
 
 def _springs(axes: Axes) -> None:
@@ -120,59 +139,14 @@ def _springs(axes: Axes) -> None:
     axes.plot([_LEFT, _RIGHT], [_GROUND, _GROUND], color=INK)
     for x in np.linspace(_LEFT + 0.15, _RIGHT, 22):
         axes.plot([x, x - 0.2], [_GROUND, _GROUND - 0.22], color=INK, linewidth=0.5)
-    axes.text(_LEFT - 0.05, (_SPRINGS + _GROUND) / 2.0, r"$k$", ha="right", va="center")
-
-
-def _closure(axes: Axes) -> None:
-    _arrow(axes, (_RIGHT + 0.5, _BEARING), (_RIGHT + 0.5, _PIN), both=True)
-    axes.text(_RIGHT + 0.65, (_PIN + _BEARING) / 2.0, r"$h$", va="center")
-    middle = (_LEFT + _RIGHT) / 2.0
-    for x in (middle - 1.2, middle, middle + 1.2):
-        _arrow(axes, (x, _BEARING + 0.22), (x, _PIN - 0.2), thin=True)
-    axes.text(middle + 0.12, (_PIN + _BEARING) / 2.0, r"$p$", va="center")
-
-
-def _displacements(axes: Axes) -> None:
-    bearing, pin = stroke(0)["color"], stroke(1)["color"]
-    for x, top, name, colour, side in (
-        (_RIGHT + 0.5, 6.5, r"$U_a$ pin moves", pin, 0.15),
-        (_RIGHT + 0.5, 5.6, r"$u_a$ pin wears", pin, 0.15),
-        (_RIGHT + 0.5, 3.6, r"$u_c$ bearing wears", bearing, 0.15),
-        (_RIGHT + 0.5, 2.7, r"$U_c$ bearing moves", bearing, 0.15),
-    ):
-        _arrow(axes, (x, top), (x, top - 0.6), colour=str(colour))
-        axes.text(x + side, top - 0.3, name, va="center")
-
-
-def _loads(axes: Axes) -> None:
-    middle = (_LEFT + _RIGHT) / 2.0
-    _arrow(axes, (middle, 7.6), (middle, _TOP))
-    axes.text(middle + 0.15, 7.25, r"$R_a$", va="center")
-    axes.add_patch(
-        Arc((middle, 5.85), 1.1, 1.0, theta1=20.0, theta2=300.0, color=INK, linewidth=0.8)
-    )
-    _arrow(axes, (middle + 0.27, 5.42), (middle + 0.4, 5.52))
-    axes.text(middle, 5.85, r"$\omega$", ha="center", va="center")
 
 
 def _arrow(
-    axes: Axes,
-    start: tuple[float, float],
-    end: tuple[float, float],
-    *,
-    both: bool = False,
-    thin: bool = False,
-    colour: str = INK,
-) -> None:
-    axes.add_patch(
-        FancyArrowPatch(
-            start,
-            end,
-            arrowstyle="<|-|>" if both else "-|>",
-            mutation_scale=6.0 if thin else 8.0,
-            color=colour,
-            linewidth=0.6 if thin else 0.9,
-            shrinkA=0.0,
-            shrinkB=0.0,
-        )
-    )
+    axes: Axes, start: tuple[float, float], end: tuple[float, float], *, style: str = "-|>",
+    size: float = 8.0, linewidth: float = 0.9, colour: str = INK,
+) -> None:  # fmt: skip
+    drawn = FancyArrowPatch(
+        start, end, arrowstyle=style, mutation_scale=size, linewidth=linewidth, color=colour,
+        shrinkA=0.0, shrinkB=0.0,
+    )  # fmt: skip
+    axes.add_patch(drawn)

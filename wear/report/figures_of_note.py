@@ -63,7 +63,7 @@ def _both(runs: Runs, bearing: str, pin: str) -> tuple[Line, ...]:
     """A field of both solids of section 3; loss of contact is dashed."""
     lines = []
     for variant, name in enumerate(("section3", "section3" + note.CUTOFF)):
-        history = runs.history(name)
+        history = runs.histories[name]
         cycles = history.cycles.astype(float)
         said = ", loss of contact" * variant
         lines.append(Line(f"bearing{said}", cycles, getattr(history, bearing), 0, variant))
@@ -75,7 +75,7 @@ def wear_and_asymptote(runs: Runs) -> Figure:
     """Fig. 3a: the solution, with and without loss of contact, and a line of the slope (21)."""
     wear = _wear(runs, "section4", "solution", 0, 0)
     stopped = _wear(runs, "section4" + note.CUTOFF, "loss of contact", 0, 1)
-    per_cycle = note.required(runs.asymptote("section4").wear_per_cycle_mm)
+    per_cycle = note.required(runs.asymptotes["section4"].wear_per_cycle_mm)
     line = Line("slope (21)", wear.x, wear.y[-1] + per_cycle * (wear.x - wear.x[-1]), 1, 2)
     return figures.history([Panel(BEARING_WEAR, (wear, stopped), behind=(line,))])
 
@@ -84,14 +84,14 @@ def wear_coefficients(runs: Runs) -> Figure:
     """Fig. 3b: four wear coefficients, on an axis of ln N, one with loss of contact."""
     lines = []
     for family, name in enumerate(note.SECTION_5):
-        power = round(np.log10(runs.cases[name].scene.bearing.wear_coefficient))
+        power = round(np.log10(runs.histories[name].definition.bearing.wear_coefficient))
         lines.append(_wear(runs, name, rf"$K = 10^{{{power}}}$", family, 0))
     lines.append(_wear(runs, note.SECTION_5[1] + note.CUTOFF, r"$10^{-6}$, loss of contact", 1, 1))
     return figures.history([Panel(BEARING_WEAR, tuple(lines))], logarithmic=True)
 
 
 def _wear(runs: Runs, case: str, name: str, family: int, variant: int) -> Line:
-    history = runs.history(case)
+    history = runs.histories[case]
     return Line(name, history.cycles.astype(float), history.u_c, family, variant)
 
 
@@ -120,8 +120,8 @@ def approach(found: Approach) -> Figure:
 
 def wear_curve(runs: Runs) -> Figure:
     """Wear over all decades with what the note has for it: the curve of the first page."""
-    found, limit = runs.approach, runs.asymptote("section4")
-    stopped = runs.history("section4" + note.CUTOFF)
+    found, limit = runs.approach, runs.asymptotes["section4"]
+    stopped = runs.histories["section4" + note.CUTOFF]
     cycles = np.geomspace(1.0, found.cycles[-1], 200)
     held = np.interp(np.log(cycles), np.log(stopped.cycles[1:]), stopped.u_c[1:])
     per_cycle = note.required(limit.wear_per_cycle_mm)

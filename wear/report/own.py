@@ -32,8 +32,8 @@ from wear.report.equations import shown
 from wear.report.explorer_derived import holding
 from wear.report.markup import markup, number
 from wear.report.publish import versions
-from wear.report.text import read
-from wear.request import obstacle
+from wear.report.text import parsed, template
+from wear.request import cycles_along, obstacle
 from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
 from wear.sensitivities import Sensitivities, sensitivity
@@ -52,7 +52,8 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     """Return the report of a scene, with what was measured on `specimens` of it."""
     limit = None if isinstance(scene.load, Blocks | HistoryLoad) else asymptote(scene)
     curve = _solved(scene)
-    pressed = None if limit is None else pressure_inside(scene, _begun(int(curve.cycles[-1])))
+    begun = [n for n in _INSIDE if n < curve.cycles[-1]] or [0]
+    pressed = None if limit is None else pressure_inside(scene, begun)
     equations = shown(_equations(scene, limit))
     predicted = [_predicted(scene, each) for each in specimens]
     found = _sensitivities(
@@ -87,13 +88,13 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         drawings["sensitivities"] = _tornado(found)
     if specimens:
         drawings["readings"] = _readings_figure(scene, specimens, predicted)
-    return Document(read("scene.md", values), equations, drawn(drawings))
+    return Document(parsed(template("scene.md"), values), equations, drawn(drawings))
 
 
 def _solved(scene: Scene) -> History:
     """Return the state along cycles, powers of ten among them: as far as the load goes, and no
     further than the model is meant for."""
-    found = solve(scene, _along(min(_LAST, most_cycles(scene.load))), rtol=1e-10)
+    found = solve(scene, _to(min(_LAST, most_cycles(scene.load))), rtol=1e-10)
     ends = [n for n in range(1, len(found.cycles) + 1) if _is_round(found.cycles[n - 1])]
     meant = [
         int(found.cycles[n - 1])
@@ -104,22 +105,15 @@ def _solved(scene: Scene) -> History:
     ]
     if not meant or len(meant) == len(ends):
         return found
-    return solve(scene, _along(meant[-1]), rtol=1e-10)
+    return solve(scene, _to(meant[-1]), rtol=1e-10)
 
 
-def _along(last: int) -> list[int]:
-    """Numbers of cycles up to the last one, the same share apart."""
-    decades = [10**n for n in range(9) if 10**n < last]
-    cycles = np.concatenate([decades, np.geomspace(1, last, _POINTS)])
-    return [int(n) for n in np.unique(np.rint(cycles))]
+def _to(last: int) -> list[int]:
+    return cycles_along(1, last, _POINTS, [10**n for n in range(9) if 10**n < last])
 
 
 def _is_round(cycle: int) -> bool:
     return str(cycle).strip("0") == "1"
-
-
-def _begun(last: int) -> list[int]:
-    return [n for n in _INSIDE if n < last] or [0]
 
 
 def _equations(scene: Scene, limit: Asymptote | None) -> list[derived.Equation]:
@@ -185,10 +179,8 @@ def _compared(specimens: Sequence[Specimen], predicted: Sequence[History]) -> di
 
 def _predicted(scene: Scene, specimen: Specimen) -> History:
     """Return the wear at the readings of a specimen, and between."""
-    first, last = specimen.cycles[[0, -1]].tolist()
-    between = np.geomspace(first, last, _POINTS)
-    cycles = np.unique(np.rint(np.concatenate([specimen.cycles, between]))).astype(int)
-    return solve(scene.with_(specimen.changes), cycles.tolist(), rtol=1e-8)
+    cycles = cycles_along(*specimen.cycles[[0, -1]].tolist(), _POINTS, specimen.cycles)
+    return solve(scene.with_(specimen.changes), cycles, rtol=1e-8)
 
 
 def _readings_figure(

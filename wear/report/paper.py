@@ -10,7 +10,6 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -38,7 +37,7 @@ from wear.report.document import Equation as Shown
 from wear.report.equations import capital, shown
 from wear.report.publish import versions
 from wear.report.runs import STATIC_CYCLES, Runs
-from wear.report.text import parsed
+from wear.report.text import parsed, template
 
 ROUNDOFF = sys.float_info.epsilon
 """The relative resolution of a double: a smaller error cannot be seen."""
@@ -62,8 +61,8 @@ def paper(
     """Return the paper. Equations that its text does not name stand in the appendix."""
     displayed, derivations = shown(equations), Derivations(equations)
     sections = _by_section(equations, displayed)
-    template = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
-    text = template.partition("{#app:")[0]
+    whole = template("paper.md")
+    text = whole.partition("{#app:")[0]
     values = {
         "runs": runs,
         "note": note,
@@ -77,7 +76,7 @@ def paper(
         "section": _section,
         "capital": capital,
         "conditions": [row for row in table() if row.model],
-        "examples": [runs.cases[name].scene for name in note.EXAMPLES],
+        "examples": [runs.histories[name].definition for name in note.EXAMPLES],
         "static_cycles": float(STATIC_CYCLES[-1]),
         "drift_distance": _drift_distance(runs),
         "elasticity": _elasticity(equations, runs),
@@ -100,7 +99,7 @@ def paper(
         "sections": sections,
         "in_text": [name for names in _EQUATIONS.findall(text) for name in names.split()],
     }
-    return Document(parsed(template, values), displayed, figures)
+    return Document(parsed(whole, values), displayed, figures)
 
 
 def drawings(runs: Runs) -> Mapping[str, Figure]:
@@ -110,7 +109,7 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
             "system": drawing.system(),
             "wear-curve": figures_of_note.wear_curve(runs),
             "regimes": figures_of_note.regimes(
-                {f"§\u2009{name[-1]}": runs.cases[name].scene for name in note.EXAMPLES}
+                {f"§\u2009{name[-1]}": runs.histories[name].definition for name in note.EXAMPLES}
             ),
             "approach": figures_of_note.approach(runs.approach),
             "speed": speed_against_cycles(
@@ -128,7 +127,7 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
 
 def _drift_distance(runs: Runs) -> float:
     """Relative difference of the wear from its asymptotic law at the last cycle solved."""
-    limit = runs.asymptote("section4")
+    limit = runs.asymptotes["section4"]
     cycle, wear = float(runs.approach.cycles[-1]), float(runs.approach.wear[-1])
     law = note.required(limit.wear_per_cycle_mm) * cycle + note.required(limit.offset_mm)
     law += note.required(limit.log_coefficient_mm) * float(np.log(cycle))
@@ -137,7 +136,7 @@ def _drift_distance(runs: Runs) -> float:
 
 def _elasticity(equations: Sequence[Equation], runs: Runs) -> float:
     """Return the elasticity of the wear per cycle in f_c, by its equation."""
-    limit, scene = runs.asymptote("section4"), runs.cases["section4"].scene
+    limit, scene = runs.asymptotes["section4"], runs.histories["section4"].definition
     data = {
         "f_c": scene.bearing.roughness_growth,
         "p_inf": note.required(limit.pressure_MPa),

@@ -29,6 +29,7 @@ from wear.history import History
 from wear.load import Constant
 from wear.regime import Asymptote
 from wear.report import note
+from wear.request import cycles_along
 from wear.scene import Scene, hard_names
 from wear.solver import solve
 
@@ -48,14 +49,6 @@ _STATIC_DIGITS = 80  # the factors of the closed solution cancel
 _HARD_CYCLES = 100
 
 
-class Case(NamedTuple):
-    """A scene of the note, its states over the cycles of the figures, and its asymptote."""
-
-    scene: Scene
-    history: History
-    asymptote: Asymptote
-
-
 class Approach(NamedTuple):
     """How section 4 approaches its asymptote: arrays along ``cycles``.
 
@@ -71,62 +64,46 @@ class Approach(NamedTuple):
     predicted: note.FloatArray
 
 
-class Decay(NamedTuple):
-    """Wear (mm) of the cycle that follows each number of cycles, of two worn solids."""
-
-    cycles: note.FloatArray
-    increment: note.FloatArray
-
-
-class Phases(NamedTuple):
-    """Phases at which the rate is at its limit in every cycle, and how near it is there."""
-
-    phases: note.FloatArray
-    distance: float
-
-
 @dataclass(frozen=True)
 class Runs:
     """All runs of the report.
 
-    ``cases`` has the note's scenes by name, those with loss of contact under ``name.cutoff``.
-    ``printed_increment`` mm is the wear of the cycle that the note calls stabilised,
-    ``threshold_excess`` the relative excess over (21) at the cycle that the drift predicts for
-    the note's criterion. ``static_distance`` is the largest relative difference between closed
-    solution and solver under a constant load, and ``integrated`` that between the cycle count and
-    the integration of every cycle, by case. ``hard`` has the stress tests.
+    ``histories`` has the states of the note's scenes over the cycles of the figures by name, those
+    with loss of contact under ``name.cutoff``; ``asymptotes`` likewise. ``decay`` is the wear (mm)
+    of the cycle that follows each number of cycles, of two worn solids. ``printed_increment`` mm is
+    the wear of the cycle that the note calls stabilised, ``threshold_excess`` the relative excess
+    over (21) at the cycle that the drift predicts for the note's criterion. ``phase_distance`` is
+    the largest relative distance of the rate from its limit at the phases where it has it in every
+    cycle, ``static_distance`` the largest relative difference between closed solution and solver
+    under a constant load, and ``integrated`` that between the cycle count and the integration of
+    every cycle, by name. ``hard`` has the stress tests.
     """
 
-    cases: Mapping[str, Case]
+    histories: Mapping[str, History]
+    asymptotes: Mapping[str, Asymptote]
     approach: Approach
-    decay: Decay
+    decay: Mapping[int, float]
     printed_increment: float
     reconciliation: note.Reconciliation
     threshold_excess: float
-    phases: Phases
+    phase_distance: float
     static_distance: float
     integrated: Mapping[str, float]
     static_bounds: Enclosure
     wear_bounds: Enclosure
     hard: tuple[History, ...]
 
-    def history(self, name: str) -> History:
-        """The history of one case."""
-        return self.cases[name].history
-
-    def asymptote(self, name: str) -> Asymptote:
-        """Return the asymptote of one case."""
-        return self.cases[name].asymptote
-
 
 def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     """Make every run; ``progress`` is told what comes next."""
-    cases = {}
+    histories, last = {}, note.PRINTED.cycles
+    shown = cycles_along(1, last, 80, np.linspace(0, last, 91))
     for name in SCENES:
         progress(name)
-        cases[name] = _case(name, note.RTOL)
-        cases[name + note.CUTOFF] = _case(name + note.CUTOFF, CUTOFF_RTOL)
-    application = note.scene("section4")
+        for case, rtol in ((name, note.RTOL), (name + note.CUTOFF, CUTOFF_RTOL)):
+            histories[case] = solve(note.scene(case), shown, rtol=rtol)
+    application, later = note.scene("section4"), _DECADES[1::2]
+    decay = note.increments_after(note.scene("section3"), *later)
     progress("approach to the asymptote")
     predicted = note.limit("section4").cycles_to_stabilise["mean_rate_within_1e-6"]
     progress("closed solutions and bounds")
@@ -134,31 +111,19 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     (tight,) = wear_bounds(application, [note.PRINTED.cycles])
     progress("hard scenes")
     return Runs(
-        cases=MappingProxyType(cases),
+        histories=MappingProxyType(histories),
+        asymptotes=MappingProxyType({name: note.limit(name) for name in histories}),
         approach=_approach("section4", _DECADES),
-        decay=_decay(note.scene("section3")),
+        decay=dict(zip(later, decay.tolist(), strict=True)),
         printed_increment=float(note.increments_after(application, note.PRINTED.cycles)[0]),
         reconciliation=note.reconciliation(),
         threshold_excess=float(_approach("section4", [round(note.required(predicted))]).excess[0]),
-        phases=_steady_phases(cases["section4"]),
+        phase_distance=_phase_distance(histories["section4"]),
         static_distance=_static_distance(application),
-        integrated={name: _integrated(cases[name]) for name in INTEGRATED},
+        integrated={name: _integrated(histories[name]) for name in INTEGRATED},
         static_bounds=loose,
         wear_bounds=tight,
         hard=tuple(solve(name, [_HARD_CYCLES], rtol=HARD_RTOL) for name in hard_names()),
-    )
-
-
-def figure_cycles() -> tuple[int, ...]:
-    """Numbers of cycles up to the note's last, dense where the wear changes quickly."""
-    last = note.PRINTED.cycles
-    chosen = np.concatenate([[0], np.geomspace(1, last, 80), np.linspace(0, last, 91)])
-    return tuple(sorted({int(cycle) for cycle in np.rint(chosen)}))
-
-
-def _case(name: str, rtol: float) -> Case:
-    return Case(
-        note.scene(name), solve(note.scene(name), figure_cycles(), rtol=rtol), note.limit(name)
     )
 
 
@@ -178,20 +143,15 @@ def _approach(name: str, decades: tuple[int, ...] | list[int]) -> Approach:
     )
 
 
-def _decay(scene: Scene) -> Decay:
-    cycles = _DECADES[1::2]
-    return Decay(np.array(cycles, dtype=float), note.increments_after(scene, *cycles))
-
-
-def _steady_phases(case: Case) -> Phases:
+def _phase_distance(history: History) -> float:
     """Where U_a = h_0 - sigma_c0/f_c the rate is at its limit, whatever the wear."""
-    scene, load = case.scene, case.scene.periodic_load
+    scene, load = history.definition, history.definition.periodic_load
     level = scene.closure - scene.bearing.roughness_mm / scene.bearing.roughness_growth
     rising = float(np.arcsin(level / load.maximum) / (2.0 * np.pi))
     phases = np.sort(np.mod([rising, 0.5 - rising], 1.0))
-    rate = bind(scene).rate(case.history.u_c[:, None], load(phases)) * load.period
-    distance = np.max(np.abs(rate / note.required(case.asymptote.wear_per_cycle_mm) - 1.0))
-    return Phases(phases, float(distance))
+    rate = bind(scene).rate(history.u_c[:, None], load(phases)) * load.period
+    steady = note.required(note.limit("section4").wear_per_cycle_mm)
+    return float(np.max(np.abs(rate / steady - 1.0)))
 
 
 def static_wear(scene: Scene, cycles: Sequence[float], near: Sequence[float]) -> note.FloatArray:
@@ -220,9 +180,9 @@ def _static_distance(scene: Scene) -> float:
     return float(np.max(np.abs(closed / solved - 1.0)))
 
 
-def _integrated(case: Case) -> float:
+def _integrated(history: History) -> float:
     """Largest relative difference between two solvers over the first cycles."""
-    cycles = [int(n) for n in case.history.cycles if 0 < n <= INTEGRATED_CYCLES]
-    direct = solve(case.scene, cycles, rtol=CUTOFF_RTOL, method="DOP853")
-    counted = solve(case.scene, cycles, rtol=CUTOFF_RTOL, method="abel")
+    scene, cycles = history.definition, [n for n in history.cycles if 0 < n <= INTEGRATED_CYCLES]
+    direct = solve(scene, cycles, rtol=CUTOFF_RTOL, method="DOP853")
+    counted = solve(scene, cycles, rtol=CUTOFF_RTOL, method="abel")
     return float(np.max(np.abs(direct.u_c / counted.u_c - 1.0)))

@@ -35,34 +35,14 @@ _PLAIN = {
     "hr": "\n\\clearpage\n",  # after the tables that still wait for a page
 }  # fmt: skip
 
-_FORMS = str.maketrans(
-    {
-        "\\": r"\textbackslash{}",
-        "{": r"\{",
-        "}": r"\}",
-        "$": r"\$",
-        "&": r"\&",
-        "#": r"\#",
-        "%": r"\%",
-        "_": r"\_",
-        "^": r"\textasciicircum{}",
-        "~": r"\textasciitilde{}",
-        "<": r"\textless{}",
-        ">": r"\textgreater{}",
-        "|": r"\textbar{}",
-        '"': r"\textquotedbl{}",
-        "\u2009": r"\,",
-        "\u202f": r"\,",
-        "\u2010": "-",
-        "\u2011": r"\mbox{-}",
-        "\u2212": r"\ensuremath{-}",
-        "→": r"\ensuremath{\to}",
-        "≤": r"\ensuremath{\le}",
-        "≥": r"\ensuremath{\ge}",
-        "≈": r"\ensuremath{\approx}",
-        "∞": r"\ensuremath{\infty}",
-    }
-)
+_FORMS = str.maketrans({
+    "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#",
+    "%": r"\%", "_": r"\_", "^": r"\textasciicircum{}", "~": r"\textasciitilde{}",
+    "<": r"\textless{}", ">": r"\textgreater{}", "|": r"\textbar{}", '"': r"\textquotedbl{}",
+    "\u2009": r"\,", "\u202f": r"\,", "\u2010": "-", "\u2011": r"\mbox{-}",
+    "\u2212": r"\ensuremath{-}", "→": r"\ensuremath{\to}", "≤": r"\ensuremath{\le}",
+    "≥": r"\ensuremath{\ge}", "≈": r"\ensuremath{\approx}", "∞": r"\ensuremath{\infty}",
+})  # fmt: skip
 _TYPED = "\u00a0\u2013\u2014\u2018\u2019\u201c\u201d\u2026·×±°µ²³"
 """Signs that LaTeX sets as they are typed."""
 _LATIN = range(0x00C0, 0x0180)

@@ -30,7 +30,14 @@ def notices(scene: Scene) -> tuple[str, ...]:
 
 def _law_notices(scene: Scene) -> Iterator[str]:
     law = scene.contact.law
-    if own_laws.is_own(law) and (lost := own_laws.about(law)["rounding_error"]) > DIGITS_LOST:
+    if not own_laws.is_own(law):
+        return
+    if not own_laws.about(law)["inflection_proved"]:
+        yield (
+            f"that the contact law {law} turns from concave to convex once at most is not proved, "
+            "but seen at quarters of h/sigma between -30 and 30"
+        )
+    if (lost := own_laws.about(law)["rounding_error"]) > DIGITS_LOST:
         yield (
             f"the contact law {law} loses digits: its relative error is up to {lost:.1g} between "
             "h/sigma = -5 and 1e4; another way to write it may keep them"

@@ -56,9 +56,9 @@ def ordered(rest=U_a, law=LAW, end=sp.S.Zero, speed=STEADY):
     return first_order(eq(du, law), *limits, BOUNDED)
 
 
-def last(cycles=FEW, of=LOG_N, sign=FALLS):
+def last(cycles=FEW, of=LOG_N, sign=FALLS, beside=theta):
     """Apply LeadingTerm where N is as the reciprocal of the roughness, with one thing wrong."""
-    exact = eq(f_c * N, theta - h_star / sigma_c)
+    exact = eq(f_c * N, beside - h_star / sigma_c)
     return LeadingTerm(sp.Eq(of, cycles))(exact, given(sign))
 
 
@@ -74,6 +74,13 @@ def averaged(factor):
 def wave_of_wave():
     known = Averaging(sp.Eq(w_1, FIRST_WAVE))(first_order_terms(), averaged_as(FIRST_DRIFT))
     return Averaging(sp.Eq(w_1, sp.integrate(FIRST_WAVE, tau)))(known)
+
+
+def wave_of_acceleration():
+    turn = 2 * sp.pi * tau
+    law = equal(sp.Derivative(w_1, (tau, 2)), rho * U * sp.cos(turn))
+    known = Consequence(law)(given(law), expansion_premises()[-1])
+    return Averaging(equal(w_1, rho * U * sp.sin(turn) / (2 * sp.pi)))(known)
 
 
 def mean_of(right, mean):
@@ -140,6 +147,9 @@ FAMILIES = (
     Family(last, ((),), {
         "not the logarithm": ("is about", FEW, N),
         "a field beside it": ("is about", FEW + G**2),
+        # G = h_star/sigma_c + 1: N = theta - 1
+        "a field in the equation": ("is about", FEW, LOG_N, FALLS, G),
+        "time in the equation": ("is about", FEW, LOG_N, FALLS, t / T),
         "fewer cycles for more wear": ("grows without bound", -FEW),
         "another factor": ("quotient of the slopes", 2 * FEW),
         "what wavers": ("grows without bound", FEW + sp.sin(1 / sigma_c)),
@@ -172,6 +182,8 @@ FAMILIES = (
         "no term of the expansion": ("is of an oscillation",
             lambda: Averaging(sp.Eq(c_1, 0))(RATE)),
         "the wave of a wave": ("by the mean", wave_of_wave),  # w_1' is not w_1
+        # w_1 = -rho U cos(2 pi tau)/(4 pi^2)
+        "the wave of a second derivative": ("is of an oscillation", wave_of_acceleration),
         "half an order": ("number of an order",
             lambda: OrderEquation(sp.Rational(3, 2))(*expansion_premises())),
         "what remembers another start": ("is a new name",

@@ -193,6 +193,8 @@ FAMILIES = (
         (f_c * N / (1 + f_c * N), N, ROUGHENS),  # f_c = 0
         (h_0 ** (1 / N), N, gt(h_0, 0)),  # h_0 = 0
     ), {
+        # f_c = 0
+        "a quotient by what may vanish": ("Ne", (h_0 / f_c + 1) * f_c / h_0, h_0),
         "a field held fixed": ("data alone", u_c * h_0 / (1 + h_0), h_0),  # u_c depends on h_0
         "a name held fixed": ("data alone", b_0 / h_0, h_0),  # b_0 = sigma_c0/f_c - h_0
         "h(0) held fixed": ("data alone", initial("h") / h_0, h_0),  # h(0) = h_0
@@ -237,6 +239,9 @@ FAMILIES = (
         # the slope is h_0 H_c/H_a
         "two wears that are equal": ("may vary", equal(sp.Derivative(u_cum, K_a), 0),
             of_one_wear(), K_a),
+        # |U_a| <= U at no other f_c than 1/c, where h = c sigma
+        "two contact laws": ("two contact laws", equal(SLOPE, h_0),
+            beside(eq(p, p_max * sp.exp(-h / sigma)), eq(p, p_max / (1 + sp.exp(h / sigma))))),
         "a pressure that is a roughness": ("may vary", equal(SLOPE, h_0),
             beside(eq(p, p_max * sp.sqrt(h / sigma)))),
     }),

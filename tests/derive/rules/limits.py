@@ -37,6 +37,10 @@ v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
 
 
+PRODUCT = G * h + u_a * h
+SQUARES = (PRODUCT**2 - 1) / (PRODUCT + 1) - PRODUCT
+
+
 def leading_term():
     return LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c)))(eq(G, q / sigma_c))
 
@@ -116,11 +120,13 @@ FAMILIES = (
         "v(tau) over what grows": ("tau fixed", h_0 * v / u_c),  # v = u_c/h_0
         "U_a has no limit": ("cannot be a limit", U_a + h_0**2 / u_c, U_a, BOUNDED),  # U sin t
         "a logarithm of what grows": ("smooth function at", sp.log(u_c) / u_c),
-        "the load divides": ("is smooth", 1 / (U_a + h_0 / u_c), 0, BOUNDED),
+        "the load divides": ("U_a", 1 / (U_a + h_0 / u_c), 0, BOUNDED),
         "what grows itself": ("is bounded", u_c),
         "the second slope of a law": ("phi", *curved(2)),  # it may have none at 0
         # it is differentiable once
         "the second slope of a law, cancelled": ("is smooth", u_c**2 * ODD),
+        # U_a = 0
+        "a quotient by the load": ("U_a", h_0 / u_c + (1 / U_a + 1) * U_a - U_a, 1, BOUNDED),
         "a limit that is not reached": ("the limit is 0", q / u_c, 1),
         "a limit with 0/0": ("Ne", q / u_c, GAP),  # h_0 = L
     }),
@@ -172,8 +178,13 @@ FAMILIES = (
         # u_c = h
         "the limit of a sum, with 0/0": ("Ne", (u_c**2 - h**2) / (u_c - h) - 2 * h, theta,
             tends(u_c - h, theta)),
+        # h = -1/(G + u_a)
+        "a quotient by what another field makes zero": ("Ne", SQUARES, -1, tends(G + u_a, 0)),
         "the limit of a sum of logarithms": ("continuous at", sp.log(G) + G, theta + sp.log(theta),
             tends(G, theta)),
+        # b_0 = theta = 0: 1/2, not 0
+        "capture by an integral, in a limit": ("for every", G + sp.Integral(b_0, (theta, 0, 1)), q,
+            eq(b_0, theta), tends(G + sp.Integral(theta, (theta, 0, 1)), q)),
         "a limit of -oo": ("is finite", 2 * G, -sp.oo, tends(G, -sp.oo)),
         # h_0 = L
         "a limit that passes, with 0/0": ("Ne", 2 * G, 2 * theta + GAP / L, tends(G, theta)),
