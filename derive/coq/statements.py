@@ -103,6 +103,8 @@ def claim(judgement: Judgement) -> sp.Basic:
     relation = judgement.relation
     for slope in relation.atoms(sp.Derivative):
         if isinstance(slope.expr, sp.Symbol):
+            if not judgement.parents:
+                raise printer.UntranslatableError(f"{slope} of no function that is known")
             given = judgement.parents[0].relation.rhs
             function = sp.Derivative(given, *slope.variables, evaluate=False)
             relation = relation.func(

@@ -32,7 +32,12 @@ def _answer(relations: tuple[sp.Basic, ...], claim: sp.Basic) -> Answer:
 
 
 def _relations(judgement: Judgement) -> tuple[sp.Basic, ...]:
-    return tuple(h.relation for h in judgement.hypotheses if h.relation is not sp.true)
+    """Return the hypotheses; for a relation towards an end of a field, that it tends there."""
+    claim = judgement.claim
+    found = tuple(h.relation for h in judgement.hypotheses if h.relation is not sp.true)
+    if not isinstance(claim, Asymptotic) or isinstance(claim.variable, sp.Symbol):
+        return found
+    return *found, sp.Eq(sp.Limit(claim.variable, t, sp.oo), claim.point, evaluate=False)
 
 
 def _claimed(claim: Claim) -> sp.Basic:

@@ -34,6 +34,7 @@ from .reading import (
     fixed,
     growing,
     limit_in_time,
+    replaced,
 )
 
 
@@ -149,7 +150,7 @@ def _rewritten(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
     """Return an expression with what premises say is equal."""
     for claim in (premise.claim for premise in premises):
         if isinstance(claim, Equality):
-            expr = expr.subs(claim.lhs, claim.rhs)
+            expr = replaced(expr, claim.lhs, claim.rhs)
     return expr
 
 

@@ -12,6 +12,7 @@ from derive.coq import export, printer, refutations
 from derive.coq.record import proved_by_coq, record
 from derive.coq.statements import statement
 from derive.symbols import symbols, t
+from tests.derive.judgements import eq
 from tests.programs import ended
 
 h, sigma, p_max, U_a, f_c = symbols("h sigma p_max U_a f_c")
@@ -51,6 +52,11 @@ def test_terms_keep_their_structure(expr, written):
 def test_what_the_library_lacks_is_named():
     with pytest.raises(printer.UntranslatableError, match="besseli"):
         printer.term(sp.besseli(0, p_max))
+
+
+def test_the_slope_of_a_name_without_a_function_has_no_statement():
+    with pytest.raises(printer.UntranslatableError, match="no function"):
+        statement(eq(symbols("q")[0], sp.Derivative(p_max, symbols("k")[0])))
 
 
 def test_a_statement_has_the_hypotheses_as_premises():

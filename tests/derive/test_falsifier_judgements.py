@@ -1,10 +1,14 @@
 """Judgements of the chain are tried on models, and every hypothesis has a reason."""
 
 import pytest
+import sympy as sp
 
 from derive import catalogue
 from derive.falsifier.judgements import tried, without
 from derive.reasons import outdated, table
+from derive.rules.drift import LeadingTerm
+from derive.symbols import symbols
+from tests.derive.judgements import eq, gt
 
 
 @pytest.mark.parametrize(
@@ -16,6 +20,14 @@ def test_models_agree_with_an_equation(identifier: str):
         answer = tried(statement)
         assert answer.passed, str(answer)
         assert answer.decided
+
+
+def test_a_relation_towards_an_end_of_a_field_is_tried_where_the_field_tends_to_it():
+    G, q, sigma_c = symbols("G q sigma_c")
+    leading = LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c)))
+    answer = tried(leading(eq(G, q / sigma_c + 1 / q), gt(q, 0)))
+    assert answer.passed, str(answer)
+    assert answer.decided
 
 
 def test_a_condition_of_the_threshold_is_needed():

@@ -7,7 +7,7 @@ lack the same go on together, with those of other jobs that have come to the sam
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -244,8 +244,10 @@ class Jobs:
             error = self._transient_error(which, transient)
             some = take(panels, counts[inverse] == number)
             table = cells(some.density, float(transient.cycles), len(rows))
-            roundoff = self.problem.take(which).roundoff
-            missed = count_error(some, table, roundoff, len(rows))
+            begins, ends = (x.reshape(len(rows), -1) for x in (table.u, table.ends))
+            u = np.concatenate([begins, ends[:, -1:]], axis=1)
+            rounding = self.problem.take(which).roundoff(u)
+            missed = count_error(some.density, some.residual, table, rounding, len(rows))
             missed += error[:, -1:] / table.first_rate.reshape(len(rows), -1)[:, :1]
             counted = Iterates(
                 transient.states,
@@ -261,27 +263,23 @@ class Jobs:
 
 
 def count_error(
-    panels: SolvedPanels,
-    table: Cells,
-    roundoff: Callable[[FloatArray], FloatArray],
-    scenes: int,
+    panels: abel.Panels, residual: FloatArray, table: Cells, rounding: FloatArray, scenes: int
 ) -> FloatArray:
     """Return the error (scenes, cells + 1) of n where each cell starts and where the last ends: of
-    the density, where panels meet, by rounding."""
-    shape = (scenes, -1)
+    the density by the `residual` of each panel, where panels meet, by `rounding` of the rate there
+    (scenes, cells + 1)."""
+    shape, number = (scenes, -1), len(residual)
     gain = table.gain.reshape(shape)
-    of_panel = gain.size // len(panels.scene)
-    lost = SAFETY * np.repeat(panels.residual, of_panel).reshape(shape) * gain
+    of_panel = gain.size // number
+    lost = SAFETY * np.repeat(residual, of_panel).reshape(shape) * gain
     lost += table.missed.reshape(shape)
-    each = len(panels.scene) // scenes
+    each = number // scenes
     for k in range(1, each):
-        before = take(panels.density, slice(k - 1, None, each))
-        after = take(panels.density, slice(k, None, each))
+        before = take(panels, slice(k - 1, None, each))
+        after = take(panels, slice(k, None, each))
         # It shifts the count at once, and so belongs to what was missed before.
         lost[:, k * of_panel - 1] += SAFETY * abel.matching_defect(before, after)
-    u = np.concatenate([table.u.reshape(shape), table.ends.reshape(shape)[:, -1:]], axis=1)
-    rounding = roundoff(u)
-    terms = ROUNDOFF * np.sum(np.abs(panels.density.series), axis=1)  # of ln(density)
+    terms = ROUNDOFF * np.sum(np.abs(panels.series), axis=1)  # of ln(density)
     of_density = np.repeat(terms, of_panel).reshape(shape)
     lost += (np.maximum(rounding[:, 1:], rounding[:, :-1]) + of_density) * gain
     return np.concatenate([np.zeros((scenes, 1)), np.cumsum(lost, axis=1)], axis=1)

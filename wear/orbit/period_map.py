@@ -25,6 +25,7 @@ from wear.numerics.collocation import (
     endpoint_defect,
     guess_without_feedback,
     iterate,
+    solve,
     truncation_error,
     unresolved,
 )
@@ -151,6 +152,10 @@ class PeriodMap(NamedTuple):
         tolerance = max(NOISE, self.tolerance / 100)
         return period_map(self.equation, self.over.edges[:, 0], size.finer_nodes, tolerance)
 
+    def interval(self, i: int) -> PeriodMap:
+        """Return the part over one interval of the mesh."""
+        return self._replace(over=self.over.interval(i), forcing=self.forcing[:, :, i : i + 1])
+
     def rate_per_interval(self, u: FloatArray, near: Tangent | None = None) -> FloatArray:
         """Return the rate times the length of each interval."""
         return self.equation.rate(u, self.forcing, self.over.lengths[..., None], near)
@@ -168,7 +173,7 @@ class PeriodMap(NamedTuple):
             part, near = self.take(some), None if guess is None else take(guess, some)
             if frozen is not None:
                 near = guess_without_feedback(starts[some], frozen[some], part.over)
-            runs.append(iterate(part, starts[some], near))
+            runs.append(solve(part, starts[some], near))
         return stacked(runs)._replace(evaluations=sum(run.evaluations for run in runs))
 
     def rate_without_feedback(self, u: FloatArray) -> FloatArray:
