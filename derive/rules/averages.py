@@ -171,7 +171,8 @@ class Averaging(Rule):
         law, (name, value) = equality(premises[0]), self.claim.args
         said = {h.relation for h in premises[0].hypotheses}
         waves = {r.lhs: sp.S.Zero for r in said if isinstance(getattr(r, "rhs", 0), Oscillation)}
-        whole = law.lhs.args[0] if isinstance(law.lhs, sp.Derivative) else law.lhs
+        of_wave = isinstance(law.lhs, sp.Derivative) and law.lhs.variables == (tau,)
+        whole = law.lhs.args[0] if of_wave else law.lhs
         if whole not in waves or value.has(*waves):
             raise RuleError(f"missing premise: {law.relation} is of an oscillation")
         require_defined(value, *premises)

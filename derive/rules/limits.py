@@ -35,6 +35,7 @@ from .reading import (
     fixed,
     growing,
     limit_in_time,
+    replaced,
 )
 
 
@@ -150,7 +151,7 @@ def _rewritten(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
     """Return an expression with what premises say is equal."""
     for claim in (premise.claim for premise in premises):
         if isinstance(claim, Equality):
-            expr = expr.subs(claim.lhs, claim.rhs)
+            expr = replaced(expr, claim.lhs, claim.rhs)
     return expr
 
 

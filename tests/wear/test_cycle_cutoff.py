@@ -303,6 +303,21 @@ def test_a_phase_that_is_rounded_under_a_steep_load_is_no_lack_of_nodes():
     agrees_with_the_judge(scene, [1, 10], 1e-7)
 
 
+def test_what_newtons_method_leaves_of_a_cycle_is_in_the_estimate():
+    """It converges slowly where contact ends: what is left shrinks no faster than it did before."""
+    changes = {
+        "bearing.wear_coefficient": 5.4e-6,
+        "bearing.roughness_growth": 0.14,
+        "support.stiffness_MPa_per_mm": 1.3e4,
+    }
+    scene = load_scene("section4-cutoff").with_(changes)
+    model, load = bind(scene), scene.periodic_load
+    alone, first = (
+        count.wear_after(model, load, np.array(cycles), 1e-12) for cycles in ([1.0], [1.0, 1e5])
+    )
+    assert honest(alone.u_c, alone.error, first.u_c[:1], first.error[:1])
+
+
 def test_wear_that_hardly_changes_itself_is_counted_to_a_depth():
     """All the panels together are narrower than rounding."""
     numbers = {"bearing.wear_coefficient": 1e-30, "bearing.roughness_growth": 1e5}

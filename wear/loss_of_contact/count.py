@@ -54,7 +54,7 @@ JUDGED = 1e-2  # of the tolerance of a cycle: that of the cycle that judges it
 MOST_GUESSES = 10  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
-COEFFICIENTS, FEWER_COEFFICIENTS = 24, 24  # of a panel of increments, for many and for few digits
+COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
 
 
 class Wanted(NamedTuple):

@@ -16,6 +16,7 @@ from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
+from wear.orbit.jobs import count_error
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import Settings
 from wear.orbit.transient import SAFETY
@@ -110,17 +111,11 @@ class OnPanels(NamedTuple):
         junctions of panels, by `rounding` at the ends of cells."""
         table, panels = self.table, self.panels
         coordinate = self.series.coordinate
-        parts = len(table.length) // len(panels.series)
         ends = self.series.missed(np.append(table.u, self.last))
-        misfit = np.maximum(ends[1:], ends[:-1])
-        missed = SAFETY * (np.repeat(self.residual, parts) + misfit) * table.gain + table.missed
-        if len(panels.series) > 1:
-            apart = abel.matching_defect(take(panels, slice(-1)), take(panels, slice(1, None)))
-            missed[parts - 1 : -1 : parts] += SAFETY * apart
-        terms = np.sum(np.abs(panels.series), axis=1)  # of the logarithm of the density
-        of_density = ROUNDOFF * np.repeat(terms, parts)
-        missed += (rounding.larger + of_density) * table.gain
-        error = np.concatenate([[0.0], np.cumsum(missed)])
+        misfit = SAFETY * np.maximum(ends[1:], ends[:-1]) * table.gain
+        rounded = (rounding.rate + rounding.contact)[None]
+        error = count_error(panels, self.residual, table, rounded, 1)[0]
+        error += np.concatenate([[0.0], np.cumsum(misfit)])
         limit = np.array([problem.end])
         return TabulatedCount(coordinate, table, panels, error, self.limit_wear, limit)
 

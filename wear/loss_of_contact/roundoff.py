@@ -23,12 +23,6 @@ class Roundoff(NamedTuple):
     contact: FloatArray
 
     @property
-    def larger(self) -> FloatArray:
-        """Return the error (k - 1,) of rate and contact between each wear and the next."""
-        either = self.rate + self.contact
-        return np.asarray(np.maximum(either[1:], either[:-1]))
-
-    @property
     def of_cycles(self) -> FloatArray:
         """Return the relative error (k - 1,) of what cycles add from each wear to the next.
 

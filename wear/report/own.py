@@ -32,7 +32,7 @@ from wear.report.equations import shown
 from wear.report.explorer_derived import holding
 from wear.report.markup import markup, number
 from wear.report.publish import versions
-from wear.report.text import read
+from wear.report.text import parsed, template
 from wear.request import cycles_along, obstacle
 from wear.scene import Scene
 from wear.scene.plausibility import implausible_results
@@ -88,7 +88,7 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         drawings["sensitivities"] = _tornado(found)
     if specimens:
         drawings["readings"] = _readings_figure(scene, specimens, predicted)
-    return Document(read("scene.md", values), equations, drawn(drawings))
+    return Document(parsed(template("scene.md"), values), equations, drawn(drawings))
 
 
 def _solved(scene: Scene) -> History:

@@ -10,7 +10,6 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -38,7 +37,7 @@ from wear.report.document import Equation as Shown
 from wear.report.equations import capital, shown
 from wear.report.publish import versions
 from wear.report.runs import STATIC_CYCLES, Runs
-from wear.report.text import parsed
+from wear.report.text import parsed, template
 
 ROUNDOFF = sys.float_info.epsilon
 """The relative resolution of a double: a smaller error cannot be seen."""
@@ -62,8 +61,8 @@ def paper(
     """Return the paper. Equations that its text does not name stand in the appendix."""
     displayed, derivations = shown(equations), Derivations(equations)
     sections = _by_section(equations, displayed)
-    template = files("wear.report").joinpath("paper.md").read_text(encoding="utf-8")
-    text = template.partition("{#app:")[0]
+    whole = template("paper.md")
+    text = whole.partition("{#app:")[0]
     values = {
         "runs": runs,
         "note": note,
@@ -100,7 +99,7 @@ def paper(
         "sections": sections,
         "in_text": [name for names in _EQUATIONS.findall(text) for name in names.split()],
     }
-    return Document(parsed(template, values), displayed, figures)
+    return Document(parsed(whole, values), displayed, figures)
 
 
 def drawings(runs: Runs) -> Mapping[str, Figure]:

@@ -1,7 +1,7 @@
 r"""The text of a report: Markdown with values, read into tokens.
 
 Overview
-    A report is written in Markdown (``paper.md``) and filled in by Jinja2. `read` returns the
+    A report is written in Markdown (``paper.md``) and filled in by Jinja2. `parsed` returns the
     tokens of markdown-it, with what a writer needs to know of their neighbours; `wear.report.html`
     and `wear.report.tex` make a page and LaTeX of them.
 Marks, besides those of Markdown
@@ -64,19 +64,19 @@ def inline(tokens: Tokens) -> Iterator[Token]:
         yield from piece.children or ()
 
 
-def read(name: str, values: Mapping[str, Any]) -> Tokens:
-    """Return the text of a file of this package, filled in.
+def template(name: str) -> str:
+    """Return the text of a report by the name of its file, to be filled in."""
+    return files("wear.report").joinpath(name).read_text(encoding="utf-8")
+
+
+def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
+    """Return a text, filled in; where a number stands its token has it as `meta["number"]`.
 
     Raises
     ------
     jinja2.UndefinedError
         if the text asks for a value that is not there.
     """
-    return parsed(files("wear.report").joinpath(name).read_text(encoding="utf-8"), values)
-
-
-def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
-    """Return a text, filled in; where a number stands its token has it as `meta["number"]`."""
     numbers: list[Number] = []
 
     def shown(value: Any) -> Any:

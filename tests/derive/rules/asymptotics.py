@@ -76,6 +76,13 @@ def wave_of_wave():
     return Averaging(sp.Eq(w_1, sp.integrate(FIRST_WAVE, tau)))(known)
 
 
+def wave_of_acceleration():
+    turn = 2 * sp.pi * tau
+    law = equal(sp.Derivative(w_1, (tau, 2)), rho * U * sp.cos(turn))
+    known = Consequence(law)(given(law), expansion_premises()[-1])
+    return Averaging(equal(w_1, rho * U * sp.sin(turn) / (2 * sp.pi)))(known)
+
+
 def mean_of(right, mean):
     """Return c_1 from its equation, which has another right side."""
     law = equal(sp.Derivative(w_1, tau), rho * (right - c_1))
@@ -178,6 +185,8 @@ FAMILIES = (
         "no term of the expansion": ("is of an oscillation",
             lambda: Averaging(sp.Eq(c_1, 0))(RATE)),
         "the wave of a wave": ("by the mean", wave_of_wave),  # w_1' is not w_1
+        # w_1 = -rho U cos(2 pi tau)/(4 pi^2)
+        "the wave of a second derivative": ("is of an oscillation", wave_of_acceleration),
         "half an order": ("number of an order",
             lambda: OrderEquation(sp.Rational(3, 2))(*expansion_premises())),
         "what remembers another start": ("is a new name",

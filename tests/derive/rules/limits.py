@@ -182,6 +182,9 @@ FAMILIES = (
         "a quotient by what another field makes zero": ("Ne", SQUARES, -1, tends(G + u_a, 0)),
         "the limit of a sum of logarithms": ("continuous at", sp.log(G) + G, theta + sp.log(theta),
             tends(G, theta)),
+        # b_0 = theta = 0: 1/2, not 0
+        "capture by an integral, in a limit": ("for every", G + sp.Integral(b_0, (theta, 0, 1)), q,
+            eq(b_0, theta), tends(G + sp.Integral(theta, (theta, 0, 1)), q)),
         "a limit of -oo": ("is finite", 2 * G, -sp.oo, tends(G, -sp.oo)),
         # h_0 = L
         "a limit that passes, with 0/0": ("Ne", 2 * G, 2 * theta + GAP / L, tends(G, theta)),
@@ -203,6 +206,9 @@ FAMILIES = (
         (), (sp.Ge(2 * U_a, b_0 * q), C / (1 + q) ** 2),
         (TOUCHING, WITH_G, 0, None, 0, le(sp.Abs(G), q)),
     ), {
+        # sigma = q h_star/u_c: the rate is C (1 + 1/(1 + q))
+        "a rate in contact with a field that may fade": ("the rate in contact", TOUCHING,
+            C * (1 + 1 / (1 + sigma * u_c / h_star**2)), 0, None, 0, le(sigma, h_star)),
         # never after t = T U/h_0
         "contact while the load exceeds what grows": ("the load alone", sp.Ge(U_a, h_0 * t / T)),
         "contact by the wear": ("the load alone", sp.Ge(U_a, u_c)),
