@@ -179,7 +179,7 @@ def turns_once(law: ContactLaw) -> bool:
         numerator = sp.fraction(sp.factor(found[0]))[0]
         odd = [sp.Poly(f, found[1]) for f, n in sp.factor_list(numerator)[1] if n % 2]
         if all(f.domain.is_ZZ or f.domain.is_QQ for f in odd):
-            turns = sum(f.count_roots(0) - (f.eval(0) == 0) for f in odd)
+            turns = sum(f.count_roots(0) - (f.nth(0) == 0) for f in odd)
             if turns != place.is_finite:
                 raise UsageError(f"phi turns between concave and convex {turns} times, not once")
             return True

@@ -5,7 +5,8 @@ Overview
     the place of the load, what diverges that of the wear.  Growth, divergence, squeezing and
     accumulation cite the theorem of that name.
 Key results
-    proof    the lines that prove a claim about limits, or that follows from one
+    proof                             the lines of a proof by what is known to have a limit
+    diverges, accumulates, squeezed   of those that cite a theorem of the library
 """
 
 from __future__ import annotations
@@ -23,19 +24,14 @@ _T = symbol("T")
 
 
 def proof(step: Step) -> list[str]:
-    """Return the lines of a proof."""
+    """Return the lines of a proof by what is known to have a limit."""
     relation = step.relation
     if not relation.has(sp.Limit):
         return list(_named(step))
     left, right = relation.args
-    if isinstance(left, sp.Limit) and right == sp.oo:
-        return list(_diverges(step, left.args[0]))
-    if isinstance(left, sp.Limit) and not right.has(sp.Limit):
-        inside = left.args[0]
-        if lines := [*_accumulates(step, inside), *(_squeezed(step, inside) if right == 0 else ())]:
-            return lines
-        return [*_known(step), *_passes(step, inside)]
-    return _exists(step, left, right)
+    if right.has(sp.Limit) or not isinstance(left, sp.Limit):
+        return _exists(step, left, right)
+    return [*_known(step), *_passes(step, left.args[0])]
 
 
 def _named(step: Step) -> Iterator[str]:
@@ -53,45 +49,39 @@ def _named(step: Step) -> Iterator[str]:
                 return
 
 
-def _diverges(step: Step, inside: sp.Expr) -> Iterator[str]:
+def diverges(step: Step) -> Iterator[str]:
+    """What is affine in a wear that grows."""
     (growth,) = (s for s in step.frontier if s.timed)
     wear, bound = growth.relation.gts, growth.relation.lts
     flat = sp.Symbol("flat")
-    start = inside.xreplace({wear: flat}).subs(flat, 0)
-    slope = sp.diff(inside.xreplace({wear: flat}), flat)
-    speed = bound / t
-    yield f"apply (diverges_ext (fun t => {term(start)} + {_in(slope)} * {term(wear)})); [intros; ring |]."
+    inside = step.relation.lhs.args[0].xreplace({wear: flat})
+    start, slope, speed = map(term, (inside.subs(flat, 0), sp.diff(inside, flat), bound / t))
+    yield f"apply (diverges_ext (fun t => {start} + ({slope}) * {term(wear)})); [intros; ring |]."
     yield "apply diverges_affine; [positive |]."
-    yield f"apply (diverges_above _ 0 ({term(speed)})); [positive |]."
+    yield f"apply (diverges_above _ 0 ({speed})); [positive |]."
     yield f"intros t Ht; pose proof ({step.cited(growth)} t Ht) as P0; same_inequality P0."
 
 
-def _in(expr: sp.Expr) -> str:
-    return f"({term(expr)})"
+def accumulates(step: Step) -> Iterator[str]:
+    """The gain over a period, from the limit of the rate."""
+    limit = next(s for s in step.limits if s.relation.lhs.args[0].is_Derivative)
+    name = field(limit.relation.lhs.args[0].expr)
+    yield f"apply (tends_ext (fun t => {name} (t + T) - {name} t)); [intros; rewrite (Rplus_comm T); ring |]."
+    yield f"apply (tends_value _ (({term(limit.relation.rhs)}) * T)); [identity |]."
+    yield f"apply accumulates; [assumption | assumption | exact ({step.cited(limit)})]."
 
 
-def _accumulates(step: Step, inside: sp.Expr) -> Iterator[str]:
-    for limit in step.limits:
-        rate = limit.relation.lhs.args[0]
-        if isinstance(rate, sp.Derivative):
-            u = rate.expr
-            if sp.expand(inside - (u.subs(t, t + _T) - u)) == 0:
-                name = field(u)
-                yield f"apply (tends_ext (fun t => {name} (t + T) - {name} t)); [intros; rewrite (Rplus_comm T); ring |]."
-                yield f"apply (tends_value _ (({term(limit.relation.rhs)}) * T)); [identity |]."
-                yield f"apply accumulates; [assumption | assumption | exact ({step.cited(limit)})]."
-
-
-def _squeezed(step: Step, inside: sp.Expr) -> Iterator[str]:
-    between = [s for s in step.frontier if isinstance(s.relation, sp.And)]
-    diverging = [s for s in step.limits if s.relation.rhs == sp.oo]
-    if between and diverging:
-        size = diverging[0].relation.lhs.args[0]
-        above = next(part for part in between[0].relation.args if part.lts == inside)
-        bound = above.gts * size
-        yield f"apply (squeezed _ (fun t => {term(size)}) ({term(bound)})); [exact ({step.cited(diverging[0])}) |]."
-        yield f"intros t Ht; pose proof ({step.cited(between[0])} t (Rlt_le _ _ Ht)) as P0."
-        yield "unfold Rdiv in *; lra."
+def squeezed(step: Step) -> Iterator[str]:
+    """What lies between two multiples of the inverse of what diverges."""
+    inside = step.relation.lhs.args[0]
+    between = next(s for s in step.frontier if isinstance(s.relation, sp.And))
+    diverging = next(s for s in step.limits if s.relation.rhs == sp.oo)
+    size = diverging.relation.lhs.args[0]
+    above = next(part for part in between.relation.args if part.lts == inside)
+    bound = above.gts * size
+    yield f"apply (squeezed _ (fun t => {term(size)}) ({term(bound)})); [exact ({step.cited(diverging)}) |]."
+    yield f"intros t Ht; pose proof ({step.cited(between)} t (Rlt_le _ _ Ht)) as P0."
+    yield "unfold Rdiv in *; lra."
 
 
 def _known(step: Step) -> list[str]:

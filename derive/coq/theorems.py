@@ -6,7 +6,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
@@ -16,6 +16,7 @@ from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
 from ..rules.solutions import Integrated
 from ..symbols import symbol, t
+from . import limits
 from .printer import binder, field, term
 from .steps import Step
 
@@ -24,64 +25,39 @@ _WEAR = symbol("u_c")
 _RATIO = sp.Symbol("ratio", real=True)
 
 
-def proof(step: Step) -> list[str]:
-    """Return the lines of a proof by a general theorem."""
-    for way in (
-        _later,
-        _same_rate,
-        _separates,
-        _by_parts,
-        _threshold,
-        _grows,
-        _integrates,
-        _bounded_load,
-        _first_order,
-        _drift,
-        _derivative,
-        _lipschitz,
-        _logarithmic_slope,
-    ):
-        if lines := list(way(step)):
-            return lines
-    return []
-
-
 def _later(step: Step) -> Iterator[str]:
     """What holds at every time, one period later."""
-    if step.rule == "OnePeriodLater":
-        yield "intros t Ht; assert (HT : 0 <= T + t) by lra."
-        yield f"pose proof ({step.cited(step.frontier[0])} (T + t) HT) as P0."
-        yield "first [exact P0 | rewrite ?derive_later; exact P0]."
+    yield "intros t Ht; assert (HT : 0 <= T + t) by lra."
+    yield f"pose proof ({step.cited(step.frontier[0])} (T + t) HT) as P0."
+    yield "first [exact P0 | rewrite ?derive_later; exact P0]."
 
 
 def _same_rate(step: Step) -> Iterator[str]:
     """The rates of two sides that are equal at every time."""
-    if step.rule == "Differentiate":
-        given = step.parents[0]
-        rates = [f"(fun t => {term(side)})" for side in given.relation.args]
-        slopes = [term(sp.diff(side, t)) for side in given.relation.args]
-        for label, rate, slope in zip("AB", rates, slopes, strict=True):
-            yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; derived)."
-        yield "intros t Ht."
-        yield f"multiple (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) 1."
+    given = step.parents[0]
+    rates = [f"(fun t => {term(side)})" for side in given.relation.args]
+    slopes = [term(sp.diff(side, t)) for side in given.relation.args]
+    for label, rate, slope in zip("AB", rates, slopes, strict=True):
+        yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; derived)."
+    yield "intros t Ht."
+    yield f"multiple (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) 1."
 
 
 def _separates(step: Step) -> Iterator[str]:
     """Separated variables: g(y) y' is constant."""
-    if step.rule == "Separate":
-        pace, integral = term(step.relation.lhs / t), step.relation.rhs
-        s, start, y = integral.limits[0]
-        made, low, rate = _function(integral.function, s), _low(y), (sp.Derivative(y, t),)
-        first = next(h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start))
-        rates = (next(r for r in step.ancestors if r.relation.args[:1] == rate), step.frontier[0])
-        yield _continuous("C", made, s, y)
-        yield f"assert (D : forall t, 0 <= t -> {made} ({term(y)}) * Derive {field(y)} t = {pace})."
-        yield from ("{ intros t Ht.", *step.signs())
-        yield f"{step.stated(dict.fromkeys(rates))}cbv beta; insert; identity. }}"
-        yield f"assert (B : forall t, 0 <= t -> Rbar_lt {low} ({term(y)})) by (simpl; auto)."
-        yield "intros t Ht."
-        yield f"pose proof (separates {field(y)} {made} ({pace}) {low} smooth_{field(y)} B C D t Ht) as Q."
-        yield f"rewrite ({step.cited(first)}) in Q; refine (eq_trans _ Q); field; positive."
+    pace, integral = term(step.relation.lhs / t), step.relation.rhs
+    s, start, y = integral.limits[0]
+    made, low, rate = _function(integral.function, s), _low(y), (sp.Derivative(y, t),)
+    first = next(h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start))
+    rates = (next(r for r in step.ancestors if r.relation.args[:1] == rate), step.frontier[0])
+    yield _continuous("C", made, s, y)
+    yield f"assert (D : forall t, 0 <= t -> {made} ({term(y)}) * Derive {field(y)} t = {pace})."
+    yield from ("{ intros t Ht.", *step.signs())
+    yield f"{step.stated(dict.fromkeys(rates))}cbv beta; insert; identity. }}"
+    yield f"assert (B : forall t, 0 <= t -> Rbar_lt {low} ({term(y)})) by (simpl; auto)."
+    yield "intros t Ht."
+    yield f"pose proof (separates {field(y)} {made} ({pace}) {low} smooth_{field(y)} B C D t Ht) as Q."
+    yield f"rewrite ({step.cited(first)}) in Q; refine (eq_trans _ Q); field; positive."
 
 
 def _function(expr: sp.Expr, variable: sp.Symbol) -> str:
@@ -107,63 +83,45 @@ def _continuous(label: str, made: str, s: sp.Symbol, y: sp.Expr) -> str:
 def _by_parts(step: Step) -> Iterator[str]:
     """A part of an integral, by a primitive."""
     rule = step.judgement.rule
-    if isinstance(rule, Integrated):
-        given = step.frontier[0]
-        (integral,) = given.relation.atoms(sp.Integral)
-        s, *ends = integral.limits[0]
-        y, parts = ends[1], (rule.primitive, integral.function, rule.rest)
-        primitive, made, rest = (_function(part, s) for part in parts)
-        here = binder(s)
-        slope = f"is_derive {primitive} {here} ({made} {here} - {rest} {here})"
-        yield _continuous("C", made, s, y)
-        yield _continuous("E", rest, s, y)
-        yield _assured("D", slope, s, y, "cbv beta; derived")
-        yield from ("intros t Ht.", *step.signs())
-        a, b = (f"({term(end)})" for end in ends)
-        yield f"rewrite ({step.now(given)}), (by_parts {primitive} {made} {rest} {_low(y)} {a} {b}); [| simpl; trivial | simpl; trivial | exact D | exact C | exact E]."
-        yield "rewrite ?RInt_zero; unfold Rdiv; rewrite ?Rmult_0_r, ?Rmult_0_l, ?exp_0; identity."
+    assert isinstance(rule, Integrated)
+    given = step.frontier[0]
+    (integral,) = given.relation.atoms(sp.Integral)
+    s, *ends = integral.limits[0]
+    y, parts = ends[1], (rule.primitive, integral.function, rule.rest)
+    primitive, made, rest = (_function(part, s) for part in parts)
+    here = binder(s)
+    slope = f"is_derive {primitive} {here} ({made} {here} - {rest} {here})"
+    yield _continuous("C", made, s, y)
+    yield _continuous("E", rest, s, y)
+    yield _assured("D", slope, s, y, "cbv beta; derived")
+    yield from ("intros t Ht.", *step.signs())
+    a, b = (f"({term(end)})" for end in ends)
+    yield f"rewrite ({step.now(given)}), (by_parts {primitive} {made} {rest} {_low(y)} {a} {b}); [| simpl; trivial | simpl; trivial | exact D | exact C | exact E]."
+    yield "rewrite ?RInt_zero; unfold Rdiv; rewrite ?Rmult_0_r, ?Rmult_0_l, ?exp_0; identity."
 
 
 def _grows(step: Step) -> Iterator[str]:
     """A rate of at least c, from 0: u >= c t."""
-    relation = step.relation
-    if not isinstance(relation, (sp.Ge, sp.Le)) or not _atom(relation.gts):
-        return
-    for other in step.frontier:
-        bound = other.relation
-        if isinstance(bound, (sp.Ge, sp.Le)) and bound.gts == sp.Derivative(relation.gts, t):
-            name = field(relation.gts)
-            start = next(s for s in step.frontier if s.relation.lhs == relation.gts.subs(t, 0))
-            yield f"intros t Ht; pose proof (grows {name} _ smooth_{name} ({step.cited(other)}) t Ht) as P0."
-            yield f"rewrite ({step.cited(start)}) in P0; same_inequality P0."
-
-
-def _atom(expr: sp.Expr) -> bool:
-    return isinstance(expr, AppliedUndef)
+    grown = step.relation.gts
+    bound = next(s for s in step.frontier if s.relation.has(sp.Derivative(grown, t)))
+    start = next(s for s in step.frontier if s.relation.lhs == grown.subs(t, 0))
+    name = field(grown)
+    yield f"intros t Ht; pose proof (grows {name} _ smooth_{name} ({step.cited(bound)}) t Ht) as P0."
+    yield f"rewrite ({step.cited(start)}) in P0; same_inequality P0."
 
 
 def _integrates(step: Step) -> Iterator[str]:
     """y' = c x' with constant c: y = y(0) + c (x - x(0))."""
-    relation = step.relation
-    if not isinstance(relation, sp.Equality):
-        return
-    for other in step.frontier:
-        rate = other.relation
-        if (
-            isinstance(rate, sp.Equality)
-            and _atom(relation.lhs)
-            and rate.lhs == sp.Derivative(relation.lhs, t)
-        ):
-            driving = list(rate.rhs.atoms(sp.Derivative))
-            factor = sp.cancel(rate.rhs / driving[0]) if len(driving) == 1 else t
-            if factor.has(t):
-                return
-            y, x = field(relation.lhs), field(driving[0].expr)
-            values = [step.cited(s) for s in step.frontier if not s.timed]
-            yield "intros t Ht."
-            yield f"rewrite (integrates {y} {x} ({term(factor)}) smooth_{y} smooth_{x}); [| | exact Ht]."
-            yield "- " + "; ".join((*(f"rewrite ?({v})" for v in values), "identity."))
-            yield f"- intros s Hs; rewrite ({step.cited(other)} s Hs); identity."
+    slope = sp.Derivative(step.relation.lhs, t)
+    rate = next(s for s in step.frontier if s.relation.lhs == slope)
+    (driving,) = rate.relation.rhs.atoms(sp.Derivative)
+    factor = sp.cancel(rate.relation.rhs / driving)
+    y, x = field(step.relation.lhs), field(driving.expr)
+    values = [step.cited(s) for s in step.frontier if not s.timed]
+    yield "intros t Ht."
+    yield f"rewrite (integrates {y} {x} ({term(factor)}) smooth_{y} smooth_{x}); [| | exact Ht]."
+    yield "- " + "; ".join((*(f"rewrite ?({v})" for v in values), "identity."))
+    yield f"- intros s Hs; rewrite ({step.cited(rate)} s Hs); identity."
 
 
 @dataclass(frozen=True)
@@ -207,7 +165,7 @@ def _bounded(step: Step, affine: _Affine) -> Iterator[str]:
 
 def _bounded_load(step: Step) -> Iterator[str]:
     """What tends to 0 because only a bounded load stands over a roughness that diverges."""
-    if step.rule != "AtInfinity" or step.relation.rhs != 0:
+    if step.relation.rhs != 0:
         return
     claimed = step.relation.lhs.args[0]
     inside = sp.together(claimed)
@@ -229,8 +187,6 @@ def _bounded_load(step: Step) -> Iterator[str]:
 
 def _first_order(step: Step) -> Iterator[str]:
     """The rate to first order in 1/t, from that of h/sigma."""
-    if step.rule != "FirstOrder":
-        return
     law, deviation, ratio, limit = step.parents[:4]
     quantity, end = ratio.relation.lhs.args[0], ratio.relation.rhs
     function = in_terms_of(law.relation.rhs, quantity, _RATIO)
@@ -260,8 +216,6 @@ def _first_order(step: Step) -> Iterator[str]:
 
 def _drift(step: Step) -> Iterator[str]:
     """The logarithmic drift under a periodic, continuous load."""
-    if step.rule != "LogarithmicDrift":
-        return
     approach = step.parents[0]
     inside = approach.relation.lhs.args[0]
     rate = next(d for d in inside.atoms(sp.Derivative) if d.has(AppliedUndef) and t in d.variables)
@@ -284,8 +238,6 @@ def _drift(step: Step) -> Iterator[str]:
 
 def _derivative(step: Step) -> Iterator[str]:
     """The derivative of a result, taken by Coquelicot."""
-    if step.rule != "Differentiated":
-        return
     (slope,) = step.relation.atoms(sp.Derivative)
     value = term(sp.diff(slope.expr, *slope.variables))
     named = [
@@ -307,8 +259,6 @@ def _derivative(step: Step) -> Iterator[str]:
 
 def _lipschitz(step: Step) -> Iterator[str]:
     """An increase of tanh, which is at most that of its argument."""
-    if step.rule != "Lipschitz":
-        return
     low, high = sorted(step.relation.atoms(sp.tanh), key=sp.count_ops)
     yield "intros t Ht."
     for p in step.statement.premises:
@@ -326,21 +276,47 @@ def _lipschitz(step: Step) -> Iterator[str]:
 def _logarithmic_slope(step: Step) -> Iterator[str]:
     """The change of the logarithm of a function, whose slope is bounded by a multiple of it."""
     rule = step.judgement.rule
-    if isinstance(rule, LogarithmicSlope):
-        function = rule.function(_RATIO)
-        value, slope, bound = map(term, (function, sp.diff(function, _RATIO), rule.bound))
-        made, a, b = f"(fun ratio => {value})", term(rule.a), term(rule.b)
-        yield f"assert (A : forall ratio, 0 < {value}) by (intro; arithmetic)."
-        yield f"assert (B : forall ratio, is_derive {made} ratio ({slope})) by (intro; derived)."
-        yield f"assert (C : forall ratio, Rabs ({slope}) <= {bound} * ({value})) by (intro; arithmetic)."
-        yield f"intros t Ht; pose proof (log_slope _ _ _ ({a}) ({b}) A B C) as P0; cbv beta in P0; same_inequality P0."
+    assert isinstance(rule, LogarithmicSlope)
+    function = rule.function(_RATIO)
+    value, slope, bound = map(term, (function, sp.diff(function, _RATIO), rule.bound))
+    made, a, b = f"(fun ratio => {value})", term(rule.a), term(rule.b)
+    yield f"assert (A : forall ratio, 0 < {value}) by (intro; arithmetic)."
+    yield f"assert (B : forall ratio, is_derive {made} ratio ({slope})) by (intro; derived)."
+    yield f"assert (C : forall ratio, Rabs ({slope}) <= {bound} * ({value})) by (intro; arithmetic)."
+    yield f"intros t Ht; pose proof (log_slope _ _ _ ({a}) ({b}) A B C) as P0; cbv beta in P0; same_inequality P0."
 
 
 def _threshold(step: Step) -> Iterator[str]:
     """A level that an increasing function exceeds beyond one point, and not before."""
+    point, level = step.relation.args
+    if isinstance(point, sp.Gt) and point.gts.is_Symbol and level.gts.has(point.gts):
+        yield from (f"pose proof ({step.cited(s)})." for s in step.ancestors if not s.timed)
+        yield f"apply (threshold (fun {term(point.gts)} => {term(level.gts)}))."
+        yield "all: cbv beta; first [intros; increasing | positive | bounds; identity]."
+
+
+_BY_RULE: Mapping[str, Callable[[Step], Iterator[str]]] = {
+    "Accumulates": limits.accumulates,
+    "AtInfinity": _bounded_load,
+    "Differentiate": _same_rate,
+    "Differentiated": _derivative,
+    "Diverges": limits.diverges,
+    "FirstOrder": _first_order,
+    "Grows": _grows,
+    "Integrate": _integrates,
+    "Integrated": _by_parts,
+    "Lipschitz": _lipschitz,
+    "LogarithmicDrift": _drift,
+    "LogarithmicSlope": _logarithmic_slope,
+    "OnePeriodLater": _later,
+    "Separate": _separates,
+    "Vanishes": limits.squeezed,
+}
+"""The proofs by the name of the rule."""
+
+
+def proof(step: Step) -> list[str]:
+    """Return the lines of a proof by a general theorem, none where there is none for the step."""
     if isinstance(step.relation, sp.Equivalent):
-        point, level = step.relation.args
-        if isinstance(point, sp.Gt) and point.gts.is_Symbol and level.gts.has(point.gts):
-            yield from (f"pose proof ({step.cited(s)})." for s in step.ancestors if not s.timed)
-            yield f"apply (threshold (fun {term(point.gts)} => {term(level.gts)}))."
-            yield "all: cbv beta; first [intros; increasing | positive | bounds; identity]."
+        return list(_threshold(step))
+    return list(_BY_RULE[step.rule](step)) if step.rule in _BY_RULE else []

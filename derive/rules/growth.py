@@ -90,12 +90,18 @@ def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
     return tuple(relation for _, relation in found)
 
 
+def _plain(moving: Iterable[sp.Expr]) -> dict[sp.Expr, sp.Symbol]:
+    """Return variables of any value for fields: what holds of a field at each time is lost, as it
+    need not hold of what the field comes close to."""
+    return {field: sp.Dummy(str(field.func), real=True) for field in moving}
+
+
 def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judgement) -> None:
     """Refuse a rate that is not positive and continuous wherever its fields may be.
 
     They are taken for variables of which relations are known, and what is said of constants.
     """
-    plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(rate)}
+    plain = _plain(fields(rate))
     of_data = [h.relation for p in premises for h in p.hypotheses if fixed(h.relation)]
     given = frozenset(r.xreplace(plain) for r in (*known, *of_data))
     flat = rate.xreplace(plain)
@@ -124,7 +130,7 @@ class Unbounded(Rule):
         u, function = rate_law(law)
         closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
         always = (f for f in facts if all(fixed(h.relation) for h in f.hypotheses))
-        anywhere = [f.relation for f in always if fields(f.relation) <= {u}]
+        anywhere = [fact for fact in facts_of(always) if fields(fact) <= {u}]
         _require_positive(function, (*closed, *anywhere), *premises)
         return Conclusion(in_time(u, sp.oo))
 
@@ -182,7 +188,7 @@ class AtInfinity(Rule):
         deep = self._deep(u, z, premises)
         if not constant(inside.subs(dict.fromkeys(fields(inside), z))):
             raise RuleError(f"missing premise: {inside} depends on {u} and bounded fields alone")
-        plain = {f: sp.Dummy(str(f.func), real=True) for f in fields(inside) if f != u}
+        plain = _plain(fields(inside) - {u})
         for field in plain:
             bounds(field, *premises)
         flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
@@ -261,9 +267,10 @@ class Intermittent(Rule):
         closed = [r for f in {LOAD, *fields(on)} - {u} for r in bounds(f, *premises)]
         _require_positive(on, (*closed, sp.Ge(u, least.lesser)), *premises)
         z = sp.Dummy("z", positive=True)
-        order, smooth = expanded(on.subs(u, 1 / z), z)
+        plain = _plain(fields(on) - {u})
+        order, smooth = expanded(on.xreplace(plain).subs(u, 1 / z), z)
         value = smooth.subs(z, 0)
-        if order != 0 or not continuous(smooth, {z: sp.S.Zero}, law) or fields(value):
+        if order or not continuous(smooth, {z: sp.S.Zero}, law) or value.atoms(sp.Dummy):
             raise RuleError("missing premise: the limit of the rate in contact")
         return Conclusion(in_time(u.subs(t, t + T) - u, meaning.lhs * T * value))
 

@@ -206,6 +206,9 @@ FAMILIES = (
         (), (sp.Ge(2 * U_a, b_0 * q), C / (1 + q) ** 2),
         (TOUCHING, WITH_G, 0, None, 0, le(sp.Abs(G), q)),
     ), {
+        # sigma = q h_star/u_c: the rate is C (1 + 1/(1 + q))
+        "a rate in contact with a field that may fade": ("the rate in contact", TOUCHING,
+            C * (1 + 1 / (1 + sigma * u_c / h_star**2)), 0, None, 0, le(sigma, h_star)),
         # never after t = T U/h_0
         "contact while the load exceeds what grows": ("the load alone", sp.Ge(U_a, h_0 * t / T)),
         "contact by the wear": ("the load alone", sp.Ge(U_a, u_c)),
