@@ -16,7 +16,7 @@ from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import TINY
 from wear.orbit import abel
 from wear.orbit.panels import FASTER, SPLIT, Layout
-from wear.orbit.period_map import PeriodMap, Settings, by_size, period_map
+from wear.orbit.period_map import IN_CACHE, PeriodMap, Settings, by_size, period_map
 from wear.orbit.problem import Problem, Request
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
@@ -74,7 +74,7 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
     nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
     done: list[Planned] = []
     number = 0
-    while len(scene):
+    while True:
         some = maps.take(scene)
         rate = some.rate_without_feedback(frame.states(nodes))
         frozen = integral(rate, some.over)
@@ -90,7 +90,10 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         number += len(scene)
         cut &= number < MOST_PLANNED * maps.scenes
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
-        done.append(take(Planned(Layout(scene, frame, rate), cycles), ~cut))
+        kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
+        done.append(take(Planned(Layout(scene, frame, kept), cycles), ~cut))
+        if not cut.any():
+            break
         frame, scene = stacked(take(frame, cut).cut(SPLIT)), np.tile(scene[cut], 2)
     if len(done) == 1:
         return done[0]
