@@ -1,7 +1,10 @@
-"""Programs that tests run in processes of their own: Python, compilers, TeX."""
+"""Programs that tests run in processes of their own, and scripts that they read as modules."""
 
+import importlib.util
 import subprocess
 import sys
+from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 
@@ -20,3 +23,11 @@ def run(*command: Any, **options: Any) -> str:
 def python(code: str, **options: Any) -> str:
     """Run Python code in a fresh interpreter and return what it prints."""
     return run(sys.executable, "-c", code, **options)
+
+
+def module(path: Path) -> ModuleType:
+    """Return a script of the project, which belongs to no package, as a module."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    return made

@@ -1,6 +1,5 @@
 """The documentation: every code block runs, every link leads somewhere, nothing needs a network."""
 
-import importlib.util
 import io
 import json
 import os
@@ -18,7 +17,7 @@ import pytest
 
 from derive.note.claims import Verdict
 from tests import pages
-from tests.programs import ended
+from tests.programs import ended, module
 from tests.references import VERDICTS
 
 ROOT = Path(__file__).parents[1]
@@ -115,9 +114,7 @@ def test_the_readme_counts_the_verdicts_that_other_tests_hold():
 
 def test_the_papers_are_what_their_templates_give():
     """With the verdicts that other tests hold, and the evidence of the last report."""
-    spec = importlib.util.spec_from_file_location("build", DOCS / "papers" / "build.py")
-    build = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(build)
+    build = module(DOCS / "papers" / "build.py")
     claims = json.loads((DOCS / "papers" / "claims.json").read_text(encoding="utf-8"))
     assert {claim["id"]: claim["verdict"] for claim in claims} == {
         name: verdict.value for name, verdict in VERDICTS.items()
@@ -158,16 +155,8 @@ def test_every_file_that_is_named_exists(page):
     assert not [place for place in places if not (ROOT / place).exists()]
 
 
-@pytest.fixture(scope="module")
-def pictures():
-    """The script that takes the pictures."""
-    spec = importlib.util.spec_from_file_location("pictures", DOCS / "pictures.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_every_picture_is_retaken_and_used(pictures):
+def test_every_picture_is_retaken_and_used():
+    pictures = module(DOCS / "pictures.py")
     taken = {*pictures.OF_THE_REPORT, *pictures.OF_COMMANDS, *pictures.OF_THE_FIT, *pictures.DRAWN}
     kept = {path.name for path in (DOCS / "_static").iterdir() if path.suffix in (".png", ".svg")}
     assert taken == kept
@@ -203,13 +192,10 @@ def test_a_notebook_is_what_its_script_gives(script, need_tool):
     """Cells and outputs are those of a run now; figures agree to a hundredth of a point."""
     if script.name in NEEDS:
         need_tool(NEEDS[script.name])
-    sys.path.insert(0, str(DOCS / "_extensions"))
-    try:
-        from notebook import notebook
-    finally:
-        sys.path.pop(0)
     stored = json.loads(script.with_suffix(".ipynb").read_text(encoding="utf-8"))
-    current = notebook(script.read_text(encoding="utf-8"))
+    current = module(DOCS / "_extensions" / "notebook.py").notebook(
+        script.read_text(encoding="utf-8")
+    )
     figures = [[_figures(cell) for cell in made["cells"]] for made in (stored, current)]
     assert stored == current  # figures are taken out
     for old, new in zip(*figures, strict=True):

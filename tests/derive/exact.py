@@ -7,7 +7,6 @@ and intermediates.  That is what one unit of roundoff in each of them can make o
 
 from __future__ import annotations
 
-import importlib.util
 import math
 import random
 import tempfile
@@ -25,6 +24,7 @@ from derive.laws import released
 from derive.program import Program, program
 from derive.program.function import Function
 from derive.variant import VARIANTS, Variant
+from tests.programs import module
 
 UNITS = 8
 ROUNDOFF = 2.0**-53
@@ -315,10 +315,7 @@ def loaded(text: str) -> ModuleType:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "written.py"
         path.write_text(text)
-        spec = importlib.util.spec_from_file_location("written", path)
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-    return module
+        return module(path)
 
 
 def bound(module: ModuleType, at: Point) -> Any:

@@ -31,15 +31,7 @@ def test_list_has_what_the_contract_asks(capsys):
 def test_srepr_is_a_relation_with_the_names_of_the_contract(capsys):
     assert main(["show", "21", "--as", "srepr"]) == 0
     relation = read_back(capsys.readouterr().out)
-    assert {s.name for s in relation.free_symbols} == {
-        "u_cum",
-        "K_c",
-        "V",
-        "T",
-        "H_c",
-        "p_max",
-        "f_c",
-    }
+    assert " ".join(sorted(s.name for s in relation.free_symbols)) == "H_c K_c T V f_c p_max u_cum"
     assert same(relation, catalogue.equation("21").relation)
 
 
@@ -72,9 +64,9 @@ def test_steps_tell_rule_parents_assumptions_and_status(capsys):
 
 
 def test_verify_has_the_form_of_the_contract(capsys):
-    rows = _json(capsys, "verify", "8", "21")
+    rows = _json(capsys, "verify", "1", "7c")
     assert isinstance(rows, list)
-    assert [row["id"] for row in rows] == ["8", "21"]
+    assert [row["id"] for row in rows] == ["1", "7c"]
     for row in rows:
         assert all(check["passed"] is True and check["detail"] for check in row["checks"])
 

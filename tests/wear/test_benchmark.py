@@ -312,8 +312,9 @@ def test_the_command_gives_one_json_document(wear):
 
 
 def test_the_command_writes_its_files(wear, monkeypatch, tmp_path):
-    """With all that `--peers` adds but the packages of others, which are tried above."""
-    added = {"jumps": jumps, "peers": SimpleNamespace(PEERS=())}
+    """With one of the methods that `--peers` adds, all of which are tried above."""
+    one = SimpleNamespace(JUMPS=jumps.JUMPS[:1])
+    added = {"jumps": one, "peers": SimpleNamespace(PEERS=())}
     monkeypatch.setattr(bench, "load_peers", added.get)
     folder = tmp_path / "new"
     status, shown, _ = wear("--quick", "--peers", "-o", str(folder))

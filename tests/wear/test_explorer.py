@@ -40,19 +40,20 @@ def page(window, page_file):
 def put(page, name, value, event="input"):
     """Set a control and wait for the page to have followed."""
     before = page.run(UPDATES)
+    enter(page, name, value, event)
+    page.wait(f"{UPDATES} > {before}")
+
+
+def enter(page, name, value, event):
     page.run(
         f"(() => {{ const e = document.getElementById({name!r}); e.value = {value!r};"
         f" e.dispatchEvent(new Event({event!r}, {{ bubbles: true }})); }})()"
     )
-    page.wait(f"{UPDATES} > {before}")
 
 
 def refuse(page, name, value):
     """Type a number that the page does not take."""
-    page.run(
-        f"(() => {{ const e = document.getElementById({name!r}); e.value = {value!r};"
-        " e.dispatchEvent(new Event('change')); })()"
-    )
+    enter(page, name, value, "change")
     return page.run(f"document.getElementById({name!r}).validationMessage")
 
 
@@ -149,7 +150,8 @@ def test_changed_scene_does_not_hide_the_built_in_one():
 
 
 def own_scene(folder: Path, load: str):
-    """Section 4 under another load."""
+    """Section 4 under another load, beside a file of rows."""
+    (folder / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.03,1e-4\n0.06,0\n")
     file = folder / "own.toml"
     tables = load_scene("section4").to_toml().split("[load]")[0]
     if "force" in load:
@@ -174,7 +176,6 @@ MOVED = [kind for kind in LOADS if "force" not in kind]
 @pytest.mark.parametrize("kind", MOVED)
 def test_loads_are_those_of_python(kind, tmp_path, need_tool):
     """Displacement and its slope, and the wear that they make, in the page's own functions."""
-    (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.03,1e-4\n0.06,0\n")
     scene = own_scene(tmp_path, LOADS[kind])
     data = explorer.scene_data(scene)
     assert f'kind = "{data["load"]["kind"]}"' in LOADS[kind]
@@ -207,11 +208,8 @@ console.log(JSON.stringify({{
 
 
 def test_a_load_that_does_not_repeat_is_refused(tmp_path, capsys):
-    (tmp_path / "measured.csv").write_text("t_s,U_a_mm\n0,0\n1,4e-4\n2,0\n")
-    base = load_scene("section4").to_toml().split("[load]")[0]
-    file = tmp_path / "measured.toml"
-    file.write_text(f'{base}[load]\nkind = "history"\nfile = "measured.csv"\nperiod_s = 1.0\n')
-    assert main(["explore", str(file), "-o", str(tmp_path / "page.html")]) == 2
+    own_scene(tmp_path, 'kind = "history"\nfile = "pin.csv"\nperiod_s = 0.01\n')
+    assert main(["explore", str(tmp_path / "own.toml"), "-o", str(tmp_path / "page.html")]) == 2
     assert not (tmp_path / "page.html").exists()
     assert "does not repeat" in capsys.readouterr().err
 
@@ -440,7 +438,6 @@ def test_the_scene_file_gives_what_is_shown(page, pin):
 
 @pytest.mark.parametrize("kind", LOADS)
 def test_the_scene_file_has_any_load(kind, window, tmp_path):
-    (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.03,1e-4\n0.06,0\n")
     scene = own_scene(tmp_path, LOADS[kind])
     file = tmp_path / "page.html"
     file.write_text(explorer.page(scene), encoding="utf-8")
@@ -545,17 +542,14 @@ def test_a_noisy_record_and_readings_are_shown(tmp_path, window):
     path = 5e-4 * np.sin(2.0 * np.pi * times / 0.06003) + noise
     rows = "\n".join(f"{t!r},{u!r}" for t, u in zip(times.tolist(), path.tolist(), strict=True))
     (tmp_path / "record.csv").write_text(f"t_s,U_a_mm\n{rows}\n")
-    text_of_scene = load_scene("section4").to_toml().partition("[load]")[0]
-    load = '[load]\nkind = "table"\nfile = "record.csv"\nrepeat = true\n'
-    (tmp_path / "mine.toml").write_text(text_of_scene + load)
+    scene = own_scene(tmp_path, 'kind = "table"\nfile = "record.csv"\nrepeat = true\n')
     (tmp_path / "read.csv").write_text("cycles,wear_um\n10,0.3\n5000,3.5\n")
     file = tmp_path / "page.html"
     data = ["--data", str(tmp_path / "read.csv")]
-    assert main(["explore", str(tmp_path / "mine.toml"), *data, "-o", str(file)]) == 0
+    assert main(["explore", str(tmp_path / "own.toml"), *data, "-o", str(file)]) == 0
     window.open(file, READY)
     assert window.run("document.getElementById('check').className").endswith("good")
     assert window.run("document.querySelectorAll('#plot-wear .dot').length") == 2
-    scene = load_scene(str(tmp_path / "mine.toml"))
     found, merged = (
         wear.solve(each, [10_000], rtol=1e-4).pressures for each in (scene, explorer.opened(scene))
     )

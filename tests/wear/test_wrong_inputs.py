@@ -149,6 +149,7 @@ def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call):
         "run section4 --cycles 5 --cycles 6",
         "run section4 --rtol 1e-3 --rtol=1e-4",
         "scenes nowhere",
+        "report section4 --set bearing.hardness_MPa=0 -o out",
     ],
 )
 def test_no_command_ends_otherwise_than_by_status_2(line, capsys, tmp_path, monkeypatch):

@@ -96,7 +96,6 @@ class Estimate:
     def _modes(self) -> tuple[FloatArray, FloatArray]:
         """What `directions` returns, for residuals with a scatter of 1."""
         _, values, rows = np.linalg.svd(self._at_theta[1][0] * self.scale)
-        values = np.append(values, np.zeros(len(self.theta) - len(values)))
         return 1.0 / np.maximum(values, LEAST * values[0]), rows
 
     @property

@@ -6,6 +6,7 @@ Overview
     all its digits. Arrays are (scenes, starts, intervals, nodes).
 Key results
     iterate             Newton's method for all intervals at once
+    solve               the same, interval by interval where that diverges
     truncation_error    quadrature error of every interval, from its Legendre coefficients
     endpoint_defect     what lies hidden between the ends of an interval and its nodes
 References
@@ -22,6 +23,7 @@ import numpy as np
 from wear.numerics.gauss import (
     BoolArray,
     FloatArray,
+    IntArray,
     Mesh,
     between_nodes,
     integral,
@@ -69,6 +71,14 @@ class Rates(Protocol):
         (..., k, 1, 1) if frozen; a tangent that ends there may help."""
 
 
+class SplittableRates(Rates, Protocol):
+    """Rates of scenes, each of which can be taken by itself, and each interval as well."""
+
+    def take(self, rows: IntArray) -> SplittableRates: ...
+
+    def interval(self, i: int) -> SplittableRates: ...
+
+
 class InitialGuess(NamedTuple):
     """An approximate solution: the `increment` at the nodes (..., k, q, m), and the `rate` (same
     shape, per unit of time) at states that are less by `shift` (broadcasts) than they will be; the
@@ -99,6 +109,25 @@ class CycleSolution(NamedTuple):
         shift = np.zeros_like(self.inside[..., :1, :1])
         unknown = np.ones(self.inside.shape[:-2])
         return InitialGuess(self.inside @ matrix, self.rate @ matrix, shift, unknown)
+
+
+def solve(
+    rates: SplittableRates, starts: FloatArray, guess: InitialGuess | None = None
+) -> CycleSolution:
+    """Return the solution over the mesh from each start (scenes, k).
+
+    All intervals at once where the iteration converges, that is, where the state changes its own
+    rate moderately within the mesh; else one interval after the other.
+    """
+    found = iterate(rates, starts, guess)
+    rows = np.flatnonzero(~found.converged)
+    if len(rows) == 0 or rates.over.lengths.shape[-1] == 1:
+        return found
+    again = _interval_by_interval(rates.take(rows), starts[rows])
+    for whole, part in zip(found, again, strict=True):
+        if isinstance(whole, np.ndarray):
+            whole[rows] = part
+    return found._replace(evaluations=found.evaluations + again.evaluations)
 
 
 def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None) -> CycleSolution:
@@ -186,6 +215,25 @@ def _linear_solution(slope: FloatArray, residual: FloatArray) -> FloatArray:
     x *= factor
     x += residual
     return x
+
+
+def _interval_by_interval(rates: SplittableRates, starts: FloatArray) -> CycleSolution:
+    """Iterate on each interval of the mesh in its turn."""
+    parts: list[CycleSolution] = []
+    added, evaluations = np.zeros(starts.shape), 0
+    for i in range(rates.over.lengths.shape[-1]):
+        part = iterate(rates.interval(i), starts + added)
+        parts.append(part._replace(inside=added[..., None, None] + part.inside))
+        added = added + part.increment
+        evaluations += part.evaluations
+    return CycleSolution(
+        added,
+        np.concatenate([part.inside for part in parts], axis=-2),
+        np.concatenate([part.rate for part in parts], axis=-2),
+        evaluations,
+        np.all([part.converged for part in parts], axis=0),
+        np.sum([part.iteration_error for part in parts], axis=0),
+    )
 
 
 def truncation_error(rate: FloatArray, over: Mesh) -> FloatArray:

@@ -100,6 +100,15 @@ class Mesh(NamedTuple):
     phases: FloatArray
     rule: Gauss
 
+    def interval(self, i: int) -> "Mesh":
+        """Return one interval alone."""
+        return Mesh(
+            self.edges[..., i : i + 2],
+            self.lengths[..., i : i + 1],
+            self.phases[..., i : i + 1, :],
+            self.rule,
+        )
+
 
 def mesh(edges: FloatArray, m: int) -> Mesh:
     """Return the mesh with these edges and m nodes on each interval."""

@@ -14,7 +14,7 @@ import numpy as np
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution
 from wear.numerics.gauss import BoolArray, FloatArray, Mesh, integral
-from wear.numerics.initial_value import SAFETY, Rules, StoppedError, integrate
+from wear.numerics.initial_value import SAFETY, StoppedError
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
@@ -165,14 +165,10 @@ def _violent(
 ) -> tuple[FloatArray, float]:
     """Return what one cycle from the state `start` adds up to each phase (m,), by the adaptive
     integrator, and what that may have missed."""
-
-    def sampled(edges: FloatArray, m: int, tolerance: float) -> PeriodMap:
-        return period_map(problem, edges[None], m, tolerance)
-
     edges = np.unique(np.concatenate([problem.breakpoints[0], phases]))
-    rules = Rules(size.phase_nodes, size.finer_nodes, size.endpoint_tolerance)
+    maps = period_map(problem, edges[None], size.phase_nodes)
     try:
-        reached = list(integrate(sampled, edges, start, rules, limit=limit))
+        reached = list(maps.integrated(start, limit, size))
     except StoppedError:
         return np.full(len(phases), np.nan), np.inf
     added = np.concatenate([np.zeros(1), *(part.increment for part in reached)])

@@ -16,6 +16,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebval
 
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, gauss
@@ -117,9 +118,8 @@ def cells(panels: Panels, first: float = 0.0, scenes: int = 1, start: float | No
     y = (edges[:, :-1, None] + length[..., None] * rule.nodes).reshape(len(edges), -1)
     t = 2 * frame.x_of(y) / frame.x_ends[:, None] - 1
     level, shape = level_and_shape(panels.series)
-    basis = chebyshev_values(t, panels.series.shape[1])
     offset = (frame.starts + frame.c)[:, None]
-    density = level * offset * np.exp((basis @ shape[..., None])[..., 0] + y)
+    density = level * offset * np.exp(chebval(t, shape.T[..., None], tensor=False) + y)
     density = density.reshape(-1, NODES) * length.reshape(-1, 1)
     gain = density @ rule.weights
     sums = np.cumsum(gain.reshape(scenes, -1)[:, :-1], axis=1)

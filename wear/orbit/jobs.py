@@ -8,7 +8,7 @@ lack the same go on together, with those of other jobs that have come to the sam
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -58,6 +58,8 @@ class Job(NamedTuple):
 
     def take(self, rows: IntArray, needed: int) -> Job:
         """Return some of the scenes, that need so many cycles."""
+        if len(rows) == len(self.which):
+            return self._replace(needed=needed, layout=None)
         return Job(
             self.which[rows],
             self.maps.take(rows),
@@ -89,7 +91,8 @@ class Jobs:
         problem, start = self.problem, self.request.start
         for which, maps in resolved(problem, problem.breakpoints, self.samples, self.size):
             zero, infinite = np.zeros(len(which)), np.full(len(which), np.inf)
-            self._add(Job(which, maps, no_cycle(start[which]), 0, infinite, zero))
+            job = Job(which, maps, no_cycle(start[which]), 0, infinite, zero)
+            self._add(job, np.arange(len(which)), 0)
         while self.todo:
             jobs = self.todo.pop(min(self.todo))
             job = jobs[0] if len(jobs) == 1 else self._joined(jobs)
@@ -98,9 +101,11 @@ class Jobs:
             else:
                 yield from self._on_panels(job)
 
-    def _add(self, job: Job) -> None:
-        if len(job.which):
-            self.todo.setdefault(job.key, []).append(job)
+    def _add(self, job: Job, rows: IntArray, needed: int, **changes: Any) -> None:
+        """Go on with some of the scenes, if there are any, when they have so many cycles."""
+        if len(rows):
+            some = job.take(rows, needed)._replace(**changes)
+            self.todo.setdefault(some.key, []).append(some)
 
     def _joined(self, jobs: list[Job]) -> Job:
         """Return jobs with the same key as one."""
@@ -129,8 +134,8 @@ class Jobs:
         limit, tolerance = self.limit[job.which], self.tolerance[job.which]
         for more in extended(job.maps, job.transient, limit, self.size, tolerance):
             which = job.which[more.which]
-            spent = job.spent[more.which] + more.evaluations / len(which)
-            self.cost = self.cost.plus(more.increments, more.evaluations)
+            spent = job.spent[more.which] + more.cost.rhs_evaluations / len(which)
+            self.cost = self.cost.plus(*more.cost)
             fresh = Job(which, more.maps, more.transient, job.needed, job.worst[more.which], spent)
             late = self.request.late and more.transient.cycles >= BLOCK
             ended = np.full(len(which), late)
@@ -140,7 +145,7 @@ class Jobs:
                 ended |= ~(last < self.limit[which]) | ~(more.transient.last_increment > 0)
             if ended.any():
                 yield self._without_panels(fresh, np.flatnonzero(ended))
-            self._add(fresh.take(np.flatnonzero(~ended), job.needed))
+            self._add(fresh, np.flatnonzero(~ended), job.needed)
 
     def _on_panels(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
         """Solve Abel's equation on panels; return scenes that are counted, and send the others to
@@ -149,11 +154,10 @@ class Jobs:
             yield from self._planned(job)
             return
         which, number, tolerance = job.which, job.transient.cycles, self.tolerance[job.which]
-        assert job.layout is not None
         fine = job.maps.finer(self.size)
         filled = fill(job.maps, fine, job.layout, self.size, tolerance, self.keep)
-        self.cost = self.cost.plus(filled.increments, filled.evaluations)
-        spent = job.spent + filled.evaluations / len(which)
+        self.cost = self.cost.plus(*filled.cost)
+        spent = job.spent + filled.cost.rhs_evaluations / len(which)
         scene, residual = filled.panels.scene, filled.panels.residual
         worst = np.zeros(len(which))
         np.maximum.at(worst, scene, np.where(np.isnan(residual), np.inf, residual))
@@ -171,12 +175,11 @@ class Jobs:
         for group, maps in job.maps.take(finer).refined(filled.marked[finer]) if len(finer) else ():
             rows = finer[group]
             layout = _of(Layout(filled.panels.scene, filled.panels.density.frame), rows)
-            fresh = job.take(rows, number)._replace(maps=maps, worst=worst[rows], spent=spent[rows])
-            self._add(fresh._replace(layout=layout))
+            found = {"worst": worst[rows], "spent": spent[rows], "layout": layout}
+            self._add(job, rows, number, maps=maps, **found)
         # Panels that can be cut no more: too few cycles lie behind them.
         rest = np.flatnonzero(~accepted & ~marked)
-        more = job.take(rest, max(BLOCK, 2 * number))
-        self._add(more._replace(worst=worst[rest], spent=spent[rest]))
+        self._add(job, rest, max(BLOCK, 2 * number), worst=worst[rest], spent=spent[rest])
         for rows, counted in counts or self._counted(job, take(filled.panels, accepted[scene])):
             kept = np.flatnonzero(accepted[rows])
             if len(kept):
@@ -191,14 +194,15 @@ class Jobs:
 
     def _planned(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
         """Lay out panels that hold enough cycles, as far as there are such; scenes of which the
-        first panels do not hold enough get more integrated cycles."""
+        first panels do not hold enough get more integrated cycles, and those with a phase that is
+        not resolved on their panels a finer mesh."""
         number = job.transient.cycles
         scenes = np.arange(len(job.which))
         plan = planned(job.maps, scenes, self._frame(job), self.size)
         # Far beyond the cycles asked for the rate may vanish altogether: there is no density.
         wanted = MARGIN * np.maximum(self.request.cycles[job.which], LEAST)
-        scene = plan.layout.scene
-        plan = take(plan, ~enough_before(plan.cycles / wanted[scene], scene))
+        share = plan.cycles / wanted[plan.layout.scene]
+        plan = take(plan, ~enough_before(share, plan.layout.scene))
         scene = plan.layout.scene
         usable = before_the_first(plan.cycles < self.size.panel_nodes, scene)
         all_usable = np.full(len(scenes), True)
@@ -210,10 +214,16 @@ class Jobs:
         over = ~ready & ((number >= MOST_FIRST) | (self.request.late and number > 0))
         if over.any():
             yield self._without_panels(job, np.flatnonzero(over))
-        self._add(job.take(np.flatnonzero(~ready & ~over), number + BLOCK))
-        rows = np.flatnonzero(ready)
-        layout = _of(take(plan.layout, usable), rows)
-        self._add(job.take(rows, number)._replace(layout=layout))
+        self._add(job, np.flatnonzero(~ready & ~over), number + BLOCK)
+        # Pulses may be narrower there than where the mesh was tried.
+        marked = np.zeros((len(scenes), plan.unresolved.shape[1]), dtype=bool)
+        np.logical_or.at(marked, scene[usable], plan.unresolved[usable])
+        marked &= ready[:, None] & (not job.maps.full)
+        finer = np.flatnonzero(marked.any(axis=1))
+        for group, maps in job.maps.take(finer).refined(marked[finer]) if len(finer) else ():
+            self._add(job, finer[group], number, maps=maps)
+        rows = np.flatnonzero(ready & ~marked.any(axis=1))
+        self._add(job, rows, number, layout=_of(take(plan.layout, usable), rows))
 
     def _without_panels(self, job: Job, rows: IntArray) -> tuple[IntArray, Iterates]:
         """Return the integrated cycles alone."""
@@ -285,8 +295,10 @@ def count_error(
 
 def _of(layout: Layout, rows: IntArray) -> Layout:
     """Return the panels of some scenes, rising, which are counted anew."""
-    some = take(layout, np.isin(layout.scene, rows))
-    return some._replace(scene=np.searchsorted(rows, some.scene))
+    chosen = np.full(max(layout.scene.max(initial=0), rows.max(initial=0)) + 1, False)
+    chosen[rows] = True
+    some = take(layout, chosen[layout.scene])
+    return some._replace(scene=(np.cumsum(chosen) - 1)[some.scene])
 
 
 def _edges(maps: PeriodMap, rows: IntArray) -> FloatArray:

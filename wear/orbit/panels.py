@@ -18,6 +18,7 @@ from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
 from wear.orbit.period_map import TAIL_SHARE, PeriodMap, Settings
+from wear.orbit.problem import Cost
 
 CHECKS = -np.cos(np.pi * np.array([0, 1 / 6, 3 / 8, 5 / 8, 7 / 8, 1]))  # extrema of T_24 and T_48
 FAR_OUT = 10.0  # times the residual elsewhere: then the fault lies at the end of the panel
@@ -59,23 +60,21 @@ class SolvedPanels(NamedTuple):
 
 class Judged(NamedTuple):
     """Panels that were solved and judged, the `share` (panels,) of each at which to cut it, the
-    intervals of phase (panels, q) to be refined instead, and the right-hand sides evaluated."""
+    intervals of phase (panels, q) to be refined instead, and what that took."""
 
     panels: SolvedPanels
     share: FloatArray
     marked: BoolArray
-    evaluations: int
-    increments: int
+    cost: Cost
 
 
 class Filled(NamedTuple):
     """Panels of all scenes; the intervals of phase `marked` (scenes, q) to be refined before they
-    are any good; right-hand sides evaluated and increments found, by all scenes together."""
+    are any good; and what that took."""
 
     panels: SolvedPanels
     marked: BoolArray
-    evaluations: int
-    increments: int
+    cost: Cost
 
 
 def fill(
@@ -90,12 +89,11 @@ def fill(
     (scenes,). The cycles of panels are kept if that is asked for."""
     done: list[SolvedPanels] = []
     marked = np.zeros((len(tolerance), coarse.over.lengths.shape[-1]), dtype=bool)
-    evaluations = increments = 0
+    cost = Cost(0, 0)
     for rounds in range(MOST_ROUNDS):
         judged = _judged(coarse, fine, layout, size, tolerance, keep)
         fresh, (scene, frame, _) = judged.panels, layout
-        evaluations += judged.evaluations
-        increments += judged.increments
+        cost = cost.plus(*judged.cost)
         np.logical_or.at(marked, scene, judged.marked)
         bad = ~(fresh.residual <= tolerance[scene])
         # Beyond a panel that cannot be cut nothing is wanted; the phase is to be refined first.
@@ -113,7 +111,7 @@ def fill(
         layout = Layout(np.tile(scene[cut], 2), stacked(take(frame, cut).cut(judged.share[cut])))
     panels = stacked(done)
     order = np.lexsort((panels.density.frame.starts, panels.scene))
-    return Filled(take(panels, order), marked, evaluations, increments)
+    return Filled(take(panels, order), marked, cost)
 
 
 def _judged(
@@ -140,8 +138,8 @@ def _judged(
     taken = 2 / frame.step(nodes, ahead.increment)[..., 0]
     share = np.where(far, frame.x_of(frame.widths[:, None] / 2)[:, 0] / frame.x_ends, SPLIT)
     short = _cycles_if_cut(taken, share) < size.panel_nodes
-    evaluations = ahead.evaluations + judge.evaluations
-    increments = ahead.increment.size + judge.increment.size
+    cost = Cost(ahead.increment.size, ahead.evaluations)
+    cost = cost.plus(judge.increment.size, judge.evaluations)
     marked = np.repeat(~ahead.converged[:, None], coarse.over.lengths.shape[-1], axis=1)
     hazy = np.flatnonzero(by_phase > allowed)
     if len(hazy):
@@ -151,18 +149,16 @@ def _judged(
     if len(worst):
         some = coarse.take(worst)
         again = some.advance(checks[worst])
-        evaluations += again.evaluations
-        increments += again.increment.size
+        cost = cost.plus(again.increment.size, again.evaluations)
         apart = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
         # Only what the two maps differ by is a fault of the phase.
         alike = np.less(apart, np.maximum(allowed[worst] / 4, residual[worst] / 10))
         at_fault = ~alike[:, None]  # also where one of them is no number
-        rough = at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
-        marked[worst] |= rough
+        marked[worst] |= at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
         marked[worst] |= at_fault & ~np.any(marked[worst], axis=1, keepdims=True)
     kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()
     panels = SolvedPanels(scene, density, residual, short, kept)
-    return Judged(panels, share, marked, evaluations, increments)
+    return Judged(panels, share, marked, cost)
 
 
 def at_checks(ahead: CycleSolution, m: int) -> InitialGuess:

@@ -25,6 +25,7 @@ from wear.numerics.collocation import (
     endpoint_defect,
     guess_without_feedback,
     iterate,
+    solve,
     truncation_error,
     unresolved,
 )
@@ -151,6 +152,10 @@ class PeriodMap(NamedTuple):
         tolerance = max(NOISE, self.tolerance / 100)
         return period_map(self.equation, self.over.edges[:, 0], size.finer_nodes, tolerance)
 
+    def interval(self, i: int) -> PeriodMap:
+        """Return the part over one interval of the mesh."""
+        return self._replace(over=self.over.interval(i), forcing=self.forcing[:, :, i : i + 1])
+
     def rate_per_interval(self, u: FloatArray, near: Tangent | None = None) -> FloatArray:
         """Return the rate times the length of each interval."""
         return self.equation.rate(u, self.forcing, self.over.lengths[..., None], near)
@@ -168,7 +173,7 @@ class PeriodMap(NamedTuple):
             part, near = self.take(some), None if guess is None else take(guess, some)
             if frozen is not None:
                 near = guess_without_feedback(starts[some], frozen[some], part.over)
-            runs.append(iterate(part, starts[some], near))
+            runs.append(solve(part, starts[some], near))
         return stacked(runs)._replace(evaluations=sum(run.evaluations for run in runs))
 
     def rate_without_feedback(self, u: FloatArray) -> FloatArray:
@@ -214,11 +219,6 @@ class PeriodMap(NamedTuple):
         result: FloatArray = np.exp(integral(slope, self.over))
         return result
 
-    def response(self, increment: FloatArray, derivative: FloatArray) -> FloatArray:
-        """Return the change (scenes, k) of the state by a relative error of the rate, at most."""
-        response: FloatArray = increment * np.maximum(derivative, 1.0)
-        return response
-
     def slope(self, u: FloatArray) -> FloatArray:
         """Return the derivative of the rate with respect to u at states u (scenes, k, q, m)."""
         return self.equation.slope(u, self.forcing)
@@ -228,10 +228,10 @@ class PeriodMap(NamedTuple):
     ) -> tuple[float, float, float, float, int]:
         """Return what a cycle of one scene adds to the state `start`, what of that is missed, the
         derivative dP/du, the response to a relative error of the rate, and the number of right-hand
-        sides, by cutting the mesh wherever that is needed; the state stops short of the `limit`."""
+        sides; the state stops short of the `limit`."""
         evaluations, found = 0, [0.0, np.inf, 1.0, 0.0]
         try:
-            for last in self._integrated(start, limit, size):
+            for last in self.integrated(start, limit, size):
                 evaluations += last.evaluations
                 found = [float(array[-1]) for array in last[:4]]
         except StoppedError as end:
@@ -243,12 +243,13 @@ class PeriodMap(NamedTuple):
     def cut_for(self, start: float, size: Settings) -> PeriodMap:
         """Return the map of one scene on a mesh that resolves a cycle from the state `start`,
         however violent, or raise a `StoppedError`."""
-        parts = [last.edges for last in self._integrated(start, np.inf, size)]
+        parts = [last.edges for last in self.integrated(start, np.inf, size)]
         edges = np.unique(np.concatenate(parts))
         return period_map(self.equation, edges[None], size.phase_nodes, self.tolerance)
 
-    def _integrated(self, start: float, limit: float, size: Settings) -> Iterator[Reached]:
-        """Integrate a cycle of one scene from the state `start`, part after part."""
+    def integrated(self, start: float, limit: float, size: Settings) -> Iterator[Reached]:
+        """Integrate a cycle of one scene from the state `start`, part after part, by cutting the
+        mesh wherever that is needed."""
 
         def sampled(edges: FloatArray, m: int, tolerance: float) -> PeriodMap:
             return period_map(self.equation, edges[None], m, tolerance)

@@ -11,12 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes
+from wear.numerics.collocation import unresolved
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, integral
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import TINY
 from wear.orbit import abel
 from wear.orbit.panels import FASTER, SPLIT, Layout
-from wear.orbit.period_map import PeriodMap, Settings, by_size, period_map
+from wear.orbit.period_map import IN_CACHE, PeriodMap, Settings, by_size, period_map
 from wear.orbit.problem import Problem, Request
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
@@ -61,10 +62,12 @@ def look_ahead(problem: Problem, request: Request) -> FloatArray:
 
 class Planned(NamedTuple):
     """A `layout` of panels, scene by scene and rising, and how many `cycles` (panels,) each holds,
-    roughly; none where a cycle changes its own rate much."""
+    roughly; none where a cycle changes its own rate much; and which intervals of phase (panels, q)
+    do not resolve the rate without feedback."""
 
     layout: Layout
     cycles: FloatArray
+    unresolved: BoolArray
 
 
 def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> Planned:
@@ -74,7 +77,7 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
     nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
     done: list[Planned] = []
     number = 0
-    while len(scene):
+    while True:
         some = maps.take(scene)
         rate = some.rate_without_feedback(frame.states(nodes))
         frozen = integral(rate, some.over)
@@ -90,7 +93,11 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         number += len(scene)
         cut &= number < MOST_PLANNED * maps.scenes
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
-        done.append(take(Planned(Layout(scene, frame, rate), cycles), ~cut))
+        kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
+        coarse = unresolved(rate, some.over, size.phase_tolerance)
+        done.append(take(Planned(Layout(scene, frame, kept), cycles, coarse), ~cut))
+        if not cut.any():
+            break
         frame, scene = stacked(take(frame, cut).cut(SPLIT)), np.tile(scene[cut], 2)
     if len(done) == 1:
         return done[0]

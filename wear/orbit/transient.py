@@ -11,6 +11,7 @@ from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import take
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import PeriodMap, Settings
+from wear.orbit.problem import Cost
 
 BLOCK = 5  # cycles integrated at once
 SAFETY = 3.0  # on measured discrepancies
@@ -65,14 +66,12 @@ def no_cycle(starts: FloatArray) -> Transient:
 
 class Extended(NamedTuple):
     """The scenes `which`, with the period map that suits them, and their transient after more
-    cycles, or after none where the map has been refined first; evaluations by all of them, and the
-    cycles integrated."""
+    cycles, or after none where the map has been refined first; and what that took."""
 
     which: IntArray
     maps: PeriodMap
     transient: Transient
-    evaluations: int
-    increments: int
+    cost: Cost
 
 
 def extended(
@@ -92,7 +91,7 @@ def extended(
         alone = maps.take(which)
         *cycle, evaluations = alone.violent_cycle(float(begun.last[i]), float(limit[i]), size)
         more = take(begun, which).then(*(np.array([[value]]) for value in cycle))
-        yield Extended(which, alone, more, evaluations, BLOCK + 1)
+        yield Extended(which, alone, more, Cost(BLOCK + 1, evaluations))
     marked = maps.unresolved(starts, run, size) & sound[:, None]
     if maps.full:
         marked[:] = False
@@ -112,14 +111,16 @@ def extended(
         coarse &= not maps.full
         marked[calm[coarse]] = True
         derivative = some.derivative(starts, found)
-        each = found.increment, missed, derivative, some.response(found.increment, derivative)
+        response = found.increment * np.maximum(derivative, 1.0)
+        each = found.increment, missed, derivative, response
         good = np.flatnonzero(~coarse)
         if len(good):
             more = take(begun, calm[good]).then(*(array[good] for array in each))
-            yield Extended(calm[good], some.take(good), more, evaluations, 2 * BLOCK * len(calm))
+            cost = Cost(2 * BLOCK * len(calm), evaluations)
+            yield Extended(calm[good], some.take(good), more, cost)
             evaluations = 0
     rest = np.flatnonzero(marked.any(axis=1))
     for which, finer in maps.take(rest).refined(marked[rest]) if len(rest) else ():
         group = rest[which]
-        yield Extended(group, finer, take(begun, group), evaluations, 0)
+        yield Extended(group, finer, take(begun, group), Cost(0, evaluations))
         evaluations = 0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import math
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import (
@@ -109,12 +108,11 @@ def run(
         raise UsageError(f"output: {output!r} is no name of a folder")
     check_executor(executor)
     store = Store(Path(output), asked)
-    left = list(store.missing())
     pace, done = Pace(progress), 0
-    pace.begin("scene", sum(map(_rows, left)))
-    for chunk, answers in _answers(asked, left, executor):
+    pace.begin("scene", store.counts()["pending"])
+    for chunk, answers in _answers(asked, store.missing(), executor):
         store.write(chunk, answers)
-        done += _rows(chunk)
+        done += len(answers.status)
         pace.at(done)
     store.judge()
     return store
@@ -170,12 +168,8 @@ def check_executor(executor: object) -> None:
         raise UsageError(f"executor: {executor!r} has no method submit; give an Executor")
 
 
-def _rows(chunk: Chunk) -> int:
-    return math.prod(part.stop - part.start for part in chunk)
-
-
 def _answers(
-    asked: Study, left: Sequence[Chunk], executor: Executor | None
+    asked: Study, left: Iterable[Chunk], executor: Executor | None
 ) -> Iterator[tuple[Chunk, Answers]]:
     """Yield every chunk that is left with its answers, as they come."""
     if executor is None:

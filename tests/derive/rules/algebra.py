@@ -125,8 +125,8 @@ FAMILIES = (
         "capture by a limit": ("every value", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
         # d(h_0 N)/dt is h_0/T
-        "another clock under the rate": ("N fixed", RATE, eq(u_c, h_0 * N)),
-        "another clock under the mean": ("tau fixed", MEAN_LOAD, eq(U_a, h_0 * v)),
+        "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
+        "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
         # G(0) = 1
         "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, initial("G"))),
         # G = q/N, for one N
@@ -311,6 +311,9 @@ FAMILIES = (
         "two laws": ("contradict", lambda: substitute(touching(TANH), touching(EXPONENTIAL))),
     }),
     Family(each, (lambda: defined(b_0, U_a, "", CONSTANTLY),), {
+        # u_c = h_0 t/T
+        "a constant that goes with another clock": ("for every",
+            lambda: defined(b_0, u_c, "", eq(u_c, h_0 * N))),
         "t = 5, by definition": ("t is T", lambda: defined(t, sp.Integer(5))),  # t = 4
     }),
 )  # fmt: skip
