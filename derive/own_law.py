@@ -171,7 +171,7 @@ def turns_once(law: ContactLaw) -> bool:
     import sympy as sp
 
     from .laws import r
-    from .rules.proving import holds
+    from .reals import holds
 
     place, curvature = law.inflection, sp.diff(law.phi, r, 2)
     found = _of_exponentials(curvature)

@@ -146,7 +146,9 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
     """
     found = (node for node in sp.preorder_traversal(expr) if node.has(old) and node != old)
     touched = [node for node in found if bound(node)]
-    taken = {v for node in touched for v in bound(node)} - {t}
+    taken = {v for node in touched for v in bound(node)}
+    if not (clocks(old) | clocks(new)) - {t}:
+        taken -= {t}
     of_data = any(isinstance(node, sp.Derivative) and bound(node) != {t} for node in touched)
     if of_data or taken & (old.free_symbols | new.free_symbols):
         raise RuleError(f"missing premise: {old} = {new} for every {sp.Tuple(*taken)}")

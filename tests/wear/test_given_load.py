@@ -1,7 +1,5 @@
 """Loads that are forces, problem (i): wear is the integral of the force, by formulas typed here."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import math

@@ -1,7 +1,5 @@
 """A scene's model runs the generated code that the scene needs, and nothing else."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import assume, given

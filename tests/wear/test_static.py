@@ -1,7 +1,5 @@
 """Under a constant load the variables separate: the solver, the derived closed form, its judge."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -110,9 +110,11 @@ class Increments(NamedTuple):
 
     def _located(self, z: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
         """Return the panel that holds each z (k,), or the nearest, the position on it, and w."""
-        w = z**self.span.power
+        w, scale = z**self.span.power, self.span.scale
         i = cell_of(self.frame.starts, w)
-        return i, take(self.frame, i).positions(w[:, None])[:, 0], w
+        start = self.frame.starts[i]
+        x = (w - start) / (w + scale) if scale else np.log(w / start)
+        return i, 2 * x / self.frame.x_ends[i] - 1, w
 
     def at(self, z: FloatArray) -> FloatArray:
         """Return the wear (mm) that a cycle adds from each z (any shape)."""
@@ -162,49 +164,50 @@ def fitted(
     frames = [span.frame for span in spans]
     found: list[list[Increments]] = [[] for _ in spans]
     cost, t = Cost(0, 0), np.append(chebyshev_nodes(number), CHECKS)
+    vanishes = np.array([span.vanishes for span in spans])
     for rounds in range(MOST_ROUNDS):
         some = [i for i, frame in enumerate(frames) if len(frame.starts)]
         if not some:
             break
         states = [frames[i].states(t) for i in some]
-        wear = [spans[i].wear(w) for i, w in zip(some, states, strict=True)]
-        run = yield Request(COARSE, np.concatenate([part.ravel() for part in wear]))
-        cost = cost.plus(len(run.increment), run.evaluations)
-        ends = np.cumsum([part.size for part in wear])[:-1]
-        answers = zip(np.split(run.increment, ends), np.split(run.missed, ends), strict=True)
-        for i, w, at, (added, missed) in zip(some, states, wear, answers, strict=True):
-            fresh = _series(spans[i], frames[i], w, added.reshape(w.shape), missed.reshape(w.shape))
-            checks = _allowed(spans[i], at[:, number:], tolerance)
-            off = np.max(fresh.misfit / checks, axis=1)
-            again = ~(off <= 1.0) & (rounds < MOST_ROUNDS - 1)
-            found[i].append(take(fresh, ~again & (off <= USABLE)))
-            halves, far_off = cut(take(frames[i], again)), np.tile(off[again] > FAR_OFF, 2)
-            frames[i] = stacked([take(halves, ~far_off), cut(take(halves, far_off))])
+        of, w = np.repeat(some, [len(part) for part in states]), np.concatenate(states)
+        wear = np.concatenate([spans[i].wear(part) for i, part in zip(some, states, strict=True)])
+        run = yield Request(COARSE, wear.ravel())
+        cost = cost.plus(wear.size, run.evaluations)
+        increment = run.increment.reshape(w.shape)
+        missed = (run.missed.reshape(w.shape) / increment)[:, number:]
+        fits = _series(increment / w ** vanishes[of, None], missed)
+        off = np.max(fits[-1] / _allowed(spans, of, wear[:, number:], tolerance), axis=1)
+        again = ~(off <= 1.0) & (rounds < MOST_ROUNDS - 1)
+        for i in some:
+            fresh = Increments(spans[i], frames[i], *take(fits, of == i))
+            bad, far = again[of == i], off[of == i]
+            found[i].append(take(fresh, ~bad & (far <= USABLE)))
+            frames[i] = take(frames[i], bad)
+            if bad.any():
+                halves, far_off = cut(frames[i]), np.tile(far[bad] > FAR_OFF, 2)
+                frames[i] = stacked([take(halves, ~far_off), cut(take(halves, far_off))])
     return [known for parts in found for known in _joined(parts)], cost
 
 
-def _series(
-    span: Span, frame: Frame, w: FloatArray, increment: FloatArray, missed: FloatArray
-) -> Increments:
-    """Return the increments on panels from those (mm) at the nodes and then at the CHECKS, (p,
-    n)."""
-    number = w.shape[1] - len(CHECKS)
-    smooth, checks = np.hsplit(increment / w**span.vanishes, [number])
+def _series(smooth: FloatArray, missed: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return level, series and misfit of `Increments` from D/w^vanishes at the nodes of panels and
+    then at the CHECKS, (p, n), and the relative error of the latter."""
+    number = smooth.shape[1] - len(CHECKS)
     level = smooth[:, number // 2]
-    series = np.log(smooth / level[:, None]) @ chebyshev_analysis(number).T
+    series = np.log(smooth[:, :number] / level[:, None]) @ chebyshev_analysis(number).T
     values = level[:, None] * np.exp(series @ chebyshev_values(CHECKS, number).T)
-    misfit = np.abs(values / checks - 1.0) + (missed / increment)[:, number:]
-    return Increments(span, frame, level, series, misfit)
+    return level, series, np.abs(values / smooth[:, number:] - 1.0) + missed
 
 
-def _allowed(span: Span, wear: FloatArray, tolerance: float) -> FloatArray:
-    """Return the relative errors of the increment from each wear (...) that are accepted."""
-    origin, ahead, _ = span.coordinate
-    if not ahead:
-        return np.full_like(wear, tolerance)
-    left = origin - wear
+def _allowed(spans: Sequence[Span], of: IntArray, wear: FloatArray, tolerance: float) -> FloatArray:
+    """Return the relative errors that are accepted of the increments from each wear (p, n) on
+    panels `of` (p,) some spans."""
+    each = [(*span.coordinate[:2], span.uncertainty) for span in spans]
+    origin, ahead, uncertainty = np.array(each)[of].T[..., None]
+    left = np.where(ahead > 0.0, origin - wear, np.inf)
     eased = tolerance * np.clip(origin / left, 1.0, EASED)
-    return np.asarray(np.maximum(eased, GRAIN * span.uncertainty / left))
+    return np.asarray(np.maximum(eased, GRAIN * uncertainty / left))
 
 
 def _joined(parts: list[Increments]) -> list[Increments]:

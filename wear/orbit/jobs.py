@@ -194,7 +194,8 @@ class Jobs:
 
     def _planned(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
         """Lay out panels that hold enough cycles, as far as there are such; scenes of which the
-        first panels do not hold enough get more integrated cycles."""
+        first panels do not hold enough get more integrated cycles, and those with a phase that is
+        not resolved on their panels a finer mesh."""
         number = job.transient.cycles
         scenes = np.arange(len(job.which))
         plan = planned(job.maps, scenes, self._frame(job), self.size)
@@ -214,7 +215,14 @@ class Jobs:
         if over.any():
             yield self._without_panels(job, np.flatnonzero(over))
         self._add(job, np.flatnonzero(~ready & ~over), number + BLOCK)
-        rows = np.flatnonzero(ready)
+        # Pulses may be narrower there than where the mesh was tried.
+        marked = np.zeros((len(scenes), plan.unresolved.shape[1]), dtype=bool)
+        np.logical_or.at(marked, scene[usable], plan.unresolved[usable])
+        marked &= ready[:, None] & (not job.maps.full)
+        finer = np.flatnonzero(marked.any(axis=1))
+        for group, maps in job.maps.take(finer).refined(marked[finer]) if len(finer) else ():
+            self._add(job, finer[group], number, maps=maps)
+        rows = np.flatnonzero(ready & ~marked.any(axis=1))
         self._add(job, rows, number, layout=_of(take(plan.layout, usable), rows))
 
     def _without_panels(self, job: Job, rows: IntArray) -> tuple[IntArray, Iterates]:

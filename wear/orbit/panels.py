@@ -154,8 +154,7 @@ def _judged(
         # Only what the two maps differ by is a fault of the phase.
         alike = np.less(apart, np.maximum(allowed[worst] / 4, residual[worst] / 10))
         at_fault = ~alike[:, None]  # also where one of them is no number
-        rough = at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
-        marked[worst] |= rough
+        marked[worst] |= at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
         marked[worst] |= at_fault & ~np.any(marked[worst], axis=1, keepdims=True)
     kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()
     panels = SolvedPanels(scene, density, residual, short, kept)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes
+from wear.numerics.collocation import unresolved
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, integral
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import TINY
@@ -61,10 +62,12 @@ def look_ahead(problem: Problem, request: Request) -> FloatArray:
 
 class Planned(NamedTuple):
     """A `layout` of panels, scene by scene and rising, and how many `cycles` (panels,) each holds,
-    roughly; none where a cycle changes its own rate much."""
+    roughly; none where a cycle changes its own rate much; and which intervals of phase (panels, q)
+    do not resolve the rate without feedback."""
 
     layout: Layout
     cycles: FloatArray
+    unresolved: BoolArray
 
 
 def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> Planned:
@@ -91,7 +94,8 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         cut &= number < MOST_PLANNED * maps.scenes
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
         kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
-        done.append(take(Planned(Layout(scene, frame, kept), cycles), ~cut))
+        coarse = unresolved(rate, some.over, size.phase_tolerance)
+        done.append(take(Planned(Layout(scene, frame, kept), cycles, coarse), ~cut))
         if not cut.any():
             break
         frame, scene = stacked(take(frame, cut).cut(SPLIT)), np.tile(scene[cut], 2)

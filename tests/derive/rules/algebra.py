@@ -126,8 +126,8 @@ FAMILIES = (
         "capture by a limit": ("every value", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
         # d(h_0 N)/dt is h_0/T
-        "another clock under the rate": ("N fixed", RATE, eq(u_c, h_0 * N)),
-        "another clock under the mean": ("tau fixed", MEAN_LOAD, eq(U_a, h_0 * v)),
+        "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
+        "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
         # G(0) = 1
         "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, initial("G"))),
         # G = q/N, for one N
@@ -333,6 +333,8 @@ FAMILIES = (
         (U_mean, sp.Integral(h, (t, 0, T)) / T, eq(h, h_0 - u_c)),
     ), {
         "t = 5, by definition": ("t is T", t, sp.Integer(5)),  # t = 4
+        # u_c = h_0 t/T
+        "a constant that goes with another clock": ("for every", b_0, u_c, eq(u_c, h_0 * N)),
         # u_cum > 0
         "a positive name for what is negative": ("contradict", u_cum, -h_0),
         "the first zero of what has none": ("has a value", u_stop, FirstZero(q + y, y)),
