@@ -103,6 +103,8 @@ def falsify(
         *given, without, claimed = trial.relations
         fits = trial.fits(given, free)
         doubtful += fits is None
+        if models - decided + doubtful > draws // 3:
+            break  # others would leave as much open
         if not fits or truth(without, trial.model).holds is not False:
             continue
         models += 1
