@@ -16,7 +16,7 @@ from wear.orbit import abel
 from wear.orbit.iterates import cells
 
 WIDEST = 12.0  # panel of a count to a limit wear, in ln z: what derivatives are smooth on
-CALM = 12.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
+CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
 MOST_WALKED = 120  # cycles on a series that are taken one by one
 LOOKS = 65  # at a series, for how many cycles it takes
 MOST_POOR = 8  # times that panels may hold too few cycles
