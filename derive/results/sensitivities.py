@@ -35,11 +35,10 @@ from .regimes import largest_wear
 from .steady_state import named_limit
 
 u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
-f_c, h, h_0, U, u_c = symbols("f_c h h_0 U u_c")
+f_c, h, h_0, U = symbols("f_c h h_0 U")
 sigma_c0, M, k = symbols("sigma_c0 M k")
 
 
-WORN = Hypothesis("there is wear", sp.Gt(u_c, 0), kind=Kind.STATE)
 OPEN_GAP = Hypothesis("the mean surfaces do not coincide", sp.Ne(h, 0), kind=Kind.STATE)
 
 share = p_inf / p_max
@@ -98,7 +97,6 @@ slope_from_pressure = Insert(*stated("slope-from-pressure"))(
     log_odds,
     substitute(_model.closure, _model.wear_of_pin, assume(RIGID)),
     _model.roughness_at_wear,
-    assume(WORN),
     assume(OPEN_GAP),
     name="f_c from a pressure",
 )

@@ -67,7 +67,6 @@ def _sentence(powers: dict[str, float], error: float) -> str:
     )
     if len(powers) == 2:
         (one, p), (other, q) = powers.items()
-        text += f"; they enter only as {one}^{-q / p:.2g} * {other}^1" if abs(p) > abs(q) else (
-            f"; they enter only as {one}^1 * {other}^{-p / q:.2g}"
-        )  # fmt: skip
+        first, second = (-q / p, 1.0) if abs(p) > 1.01 * abs(q) else (1.0, -p / q)
+        text += f"; they enter only as {one}^{first:.2g} * {other}^{second:.2g}"
     return text + "."
