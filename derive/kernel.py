@@ -32,12 +32,13 @@ from .hypotheses import Hypothesis, Kind
 from .language import defined_by, fault, names
 from .note.model import CLOSURE, subject
 from .reals import contradictory
-from .symbols import QUANTITIES, symbols, t
+from .symbols import QUANTITIES, symbol, symbols, t
 from .time_limit import time_limit
 
 _ROOM = "derive.rules."
 _TOKEN = object()
 WEARING = frozenset(symbols("u_a u_c sigma_a sigma_c"))
+_PRESSURE = symbol("p")
 """Fields that have rates, by Archard's law; others where a premise says so."""
 LIMIT_S = 60.0
 """Seconds of CPU time after which a symbolic step is given up."""
@@ -246,9 +247,10 @@ def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
 
 
 def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
-    """Return what hypotheses say now, at the start, and of rates."""
-    now = (h.relation for h in hypotheses if h.relation is not sp.true)
-    return frozenset(said for relation in now for said in (relation, *_implied(relation)))
+    """Return what hypotheses say while there is contact, at the start, and of rates."""
+    now = [h.relation for h in hypotheses if h.relation is not sp.true]
+    pressed = [sp.Gt(_PRESSURE, 0)] if any(relation.has(_PRESSURE) for relation in now) else []
+    return frozenset((*pressed, *now, *(said for relation in now for said in _implied(relation))))
 
 
 @cache

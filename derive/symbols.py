@@ -57,7 +57,7 @@ _TABLE = (
     Quantity("sigma_a", r"\sigma_a", "mm", "roughness of the pin", NONNEGATIVE, True),
     Quantity("sigma_c", r"\sigma_c", "mm", "roughness of the bearing", NONNEGATIVE, True),
     Quantity("sigma", r"\bar{\sigma}", "mm", "equivalent roughness", POSITIVE, True),
-    Quantity("p", "p", "MPa", "contact pressure", POSITIVE, True),
+    Quantity("p", "p", "MPa", "contact pressure", NONNEGATIVE, True),
     Quantity("R_a", "R_a", "MPa mm^2", "reaction force of the pin", REAL, True),
     # data
     Quantity("h_0", "h_0", "mm", "initial closure", NONNEGATIVE),
@@ -100,7 +100,7 @@ _TABLE = (
     Quantity("theta", r"\theta", "1", "tanh x_inf", REAL),
     Quantity("A", "A", "mm", "coefficient of the logarithmic drift of wear", REAL),
     Quantity("ell", r"\ell", "mm", "sigma_c0/8 exp(4 (h_0 - U_a)/sigma_c0 - 8)", POSITIVE),
-    Quantity("p_s", "p'", "MPa", "pressure, as variable of integration", POSITIVE),
+    Quantity("p_s", "p'", "MPa", "pressure, as variable of integration", NONNEGATIVE),
     Quantity("u_s", "u'", "mm", "wear, as variable of integration", REAL),
     Quantity("sigma_s", r"\sigma'", "mm", "roughness, as variable of integration", NONNEGATIVE),
     # long-time expansion

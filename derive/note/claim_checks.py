@@ -33,6 +33,7 @@ from .stabilised import asymptote, constant_bracket, wear_per_cycle
 
 h_0, U_a, U_c, u_a, u_c, p = symbols("h_0 U_a U_c u_a u_c p")
 f_c, sigma_c0, K_c, k, u_cum = symbols("f_c sigma_c0 K_c k u_cum")
+_PRESSED = frozenset({sp.Gt(p, 0)})
 
 
 @cache
@@ -71,7 +72,7 @@ def closure_sign() -> Finding:
     """C1: what wear of the pin does to the gap."""
     model = Model()
     slope = sp.diff(model.closure.claim.rhs, u_a)
-    grows = sign(model.wear_laws[0].claim.rhs)
+    grows = sign(model.wear_laws[0].claim.rhs, _PRESSED)
     evidence = f"dh/du_a = {slope} while (5) gives du_a/dt > 0: wear closes the gap"
     return _finding(slope * grows >= 0, evidence, Verdict.INCONSISTENT)
 
@@ -95,7 +96,7 @@ def increasing() -> Finding:
     """C6: both wear rates are positive while there is pressure."""
     rates = [Model().wear_laws[i].claim.rhs for i in (0, 2)]
     starts = [Model().start[i].claim.rhs for i in (1, 2)]
-    good = all(sign(value) == 1 for value in rates) and starts == [0, 0]
+    good = all(sign(value, _PRESSED) == 1 for value in rates) and starts == [0, 0]
     evidence = "both rates of (5) are positive for p > 0, and both depths start at 0"
     return _finding(good, evidence)
 

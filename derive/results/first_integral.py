@@ -32,7 +32,9 @@ p, p_max, f_c = symbols("p p_max f_c")
 
 SLOPED = Hypothesis("the roughness changes with wear", sp.Ne(f_c, 0))
 UNSATURATED = Hypothesis(
-    "the pressure is below its largest value", sp.Lt(p, p_max), kind=Kind.STATE
+    "the pressure is between 0 and its largest value",
+    sp.And(sp.Gt(p, 0), sp.Lt(p, p_max)),
+    kind=Kind.STATE,
 )
 
 

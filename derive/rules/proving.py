@@ -161,7 +161,8 @@ def _between(
     begun = first == start or sp.Eq(start, first) in facts
     if not begun or not (last in WEARING or steady(last) in facts):
         return []
-    said = (f for f in facts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
+    parts = (part for fact in facts for part in sp.And.make_args(fact))
+    said = (f for f in parts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
     met = (fact.xreplace({last: s}) for fact in said)
     return [fact for fact in met if not fact.has(t, sp.zoo)]
 

@@ -57,7 +57,7 @@ def test_an_equation_whose_step_fails_refutes_its_claim(monkeypatch: pytest.Monk
 def test_hypotheses_are_told_in_symbols() -> None:
     for identifier in ("C22", "C26", "C29", "C31"):
         assert SYMBOLIC[identifier]().evidence.endswith("needs f_c > 0, |U_a| <= U")
-    assert "needs p < p_max" in claim_checks.stiff_limit().evidence
+    assert "needs p > 0, p < p_max" in claim_checks.stiff_limit().evidence
     assert "epsilon" not in claim_checks.one_eighth().evidence
 
 

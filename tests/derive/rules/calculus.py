@@ -91,22 +91,26 @@ def beside(*facts):
 
 
 def deflected():
-    """Return that the support is deflected one period later, as it always is."""
-    known = one_period_later(Solve(U_c)(assume(SPRINGS)))
-    there = later(U_c)
-    return Insert(equal(later(p) / (k * there), 1))(known, Arithmetic(sp.Ne(there, 0))(known))
+    """Return that the support is deflected one period later, as it is under any pressure."""
+    known, there = one_period_later(Solve(U_c)(assume(SPRINGS))), later(U_c)
+    bent = Arithmetic(sp.Ne(there, 0))(known, one_period_later(gt(p, 0)))
+    return Insert(equal(later(p) / (k * there), 1))(known, bent)
 
 
 def unit():
     """Return that p/k over what lies between the solids is 1: it is p/k."""
     inside, known = h - h_0 + U_a, opened()
-    return Insert(equal(p / (k * inside), 1))(known, Arithmetic(sp.Ne(inside, 0))(known))
+    open_ = Arithmetic(sp.Ne(inside, 0))(known, gt(p, 0))
+    return Insert(equal(p / (k * inside), 1))(known, open_)
 
 
 def pressed(closure):
     """Return that what lies between the solids is positive: it is p/k."""
-    inside = closure.claim.lhs - h_0 + (U_a if closure.claim.lhs == h else later(U_a))
-    return Insert(equal(sp.Abs(inside) / inside, 1))(closure, Arithmetic(sp.Ne(inside, 0))(closure))
+    now = closure.claim.lhs == h
+    inside = closure.claim.lhs - h_0 + (U_a if now else later(U_a))
+    carried = gt(p, 0) if now else one_period_later(gt(p, 0))
+    open_ = Arithmetic(sp.Ne(inside, 0))(closure, carried)
+    return Insert(equal(sp.Abs(inside) / inside, 1))(closure, open_)
 
 
 def of_one_start():
@@ -121,7 +125,7 @@ def of_one_start():
 def of_one_wear():
     """Return u_cum = h_0 K_c, as both solids wear equally."""
     rates = said(ARCHARD[0], Kind.MODEL), said(ARCHARD[2], Kind.MODEL)
-    value = Arithmetic(equal(K_a * H_c / H_a, K_c))(*rates, differentiate(eq(u_a, u_c)))
+    value = Arithmetic(equal(K_a * H_c / H_a, K_c))(*rates, differentiate(eq(u_a, u_c)), gt(p, 0))
     return Insert(equal(u_cum, h_0 * K_c))(defined(u_cum, h_0 * K_a * H_c / H_a), value)
 
 

@@ -24,6 +24,7 @@ from tests.derive.judgements import (
     equal,
     ge,
     given,
+    gt,
     ne,
     timed,
 )
@@ -42,7 +43,7 @@ def by_pressure(g=-h_0 / (C * p_s), wear=U_a - h_0 * p / p_max):
     """Return the time at which the pressure has a value, with one thing wrong."""
     claim = equal(t, sp.Integral(g, (p_s, initial("p"), p)))
     root = eq(p, p_max * (U_a - u_c) / h_0)
-    return Separate(claim)(eq(du, C * p / p_max), eq(u_c, wear), root, CONSTANTLY)
+    return Separate(claim)(eq(du, C * p / p_max), eq(u_c, wear), root, CONSTANTLY, gt(p, 0))
 
 
 def by_size(field, size):
@@ -59,7 +60,8 @@ def bent(bend):
     wear, root = h_0 * (s + bend * s**2 - begin), p_max * (u_c / h_0 + begin - bend * s**2)
     slope = h_0 / (C * p_s) * (1 + 2 * bend * p_s / p_max)
     claim = equal(t, sp.Integral(slope, (p_s, initial("p"), p)))
-    return Separate(claim)(eq(du, C * s), eq(u_c, wear), follows(eq(p, root), CONSTANTLY))
+    moving = follows(eq(p, root), CONSTANTLY)
+    return Separate(claim)(eq(du, C * s), eq(u_c, wear), moving, gt(p, 0))
 
 
 def by_pin(speed, wear, *facts):
