@@ -8,8 +8,6 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
-from xdist.remote import Producer
-from xdist.scheduler import LoadScopeScheduling
 
 from tests.browser import Page, browser
 
@@ -64,20 +62,20 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=place)
 
 
-class _ByFile(LoadScopeScheduling):
-    """Give all tests of a file, and of files whose names begin alike, to one process, which makes
-    once what they share; so those of the paper. (Marks of groups do not reach pytest-xdist 3.8
-    from pytest 9.2.)"""
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
+    """Return how tests are shared among processes, where pytest-xdist is installed: all of a file,
+    and of files whose names begin alike, go to one process, which makes once what they share; so
+    those of the paper. (Marks of groups do not reach pytest-xdist 3.8 from pytest 9.2.)"""
+    from xdist.scheduler import LoadScopeScheduling
 
-    def _split_scope(self, nodeid: str) -> str:
-        of_the_paper = nodeid.startswith(_OF_THE_PAPER)
-        return "paper" if of_the_paper else re.match(r"[^:]*/test_[a-z]+|[^:]*", nodeid)[0]
+    class ByFile(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            of_the_paper = nodeid.startswith(_OF_THE_PAPER)
+            return "paper" if of_the_paper else re.match(r"[^:]*/test_[a-z]+|[^:]*", nodeid)[0]
 
-
-def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> _ByFile:
-    """Return how tests are shared among processes: by file, in the order of collection."""
     config.option.loadscopereorder = False
-    return _ByFile(config, log)
+    return ByFile(config, log)
 
 
 @pytest.fixture(scope="session")
