@@ -39,18 +39,12 @@ def test_running_integral_goes_on_across_intervals():
     assert_allclose(c.integral(np.cos(5 * over.phases), over), np.sin(5.0) / 5, rtol=1e-14)
 
 
-def test_running_integral_by_one_product_is_that_by_intervals(monkeypatch):
-    over = c.mesh(np.array([0.0, 0.3, 0.35, 1.0]), 16)
-    values = np.exp(np.arange(5.0)[:, None, None] * over.phases)
-    by_one = c.running_integral(values, over)
-    monkeypatch.setattr(c, "ONE_PRODUCT", 0)
-    assert_allclose(c.running_integral(values, over), by_one, rtol=1e-14)
-
-
 def test_a_product_in_pieces_is_the_product(monkeypatch):
     left, right = np.arange(21.0).reshape(7, 3), np.arange(12.0).reshape(3, 4)
     monkeypatch.setattr(c, "ONE_THREAD", 24)  # two rows at once
     assert_allclose(c.product(left, right), left @ right, rtol=1e-15)
+    assert_allclose(c.product(left, right[:, 0]), left @ right[:, 0], rtol=1e-15)
+    assert_allclose(c.coefficients(right.T, left), (left @ right).T, rtol=1e-15)
 
 
 def test_many_meshes_at_once_are_each_its_own():

@@ -26,7 +26,9 @@ from wear.numerics.gauss import (
     IntArray,
     Mesh,
     between_nodes,
+    coefficients,
     integral,
+    product,
     running,
     running_integral,
 )
@@ -108,7 +110,9 @@ class CycleSolution(NamedTuple):
         matrix = between_nodes(self.inside.shape[-1], m)
         shift = np.zeros_like(self.inside[..., :1, :1])
         unknown = np.ones(self.inside.shape[:-2])
-        return InitialGuess(self.inside @ matrix, self.rate @ matrix, shift, unknown)
+        return InitialGuess(
+            product(self.inside, matrix), product(self.rate, matrix), shift, unknown
+        )
 
 
 def solve(
@@ -242,10 +246,10 @@ def truncation_error(rate: FloatArray, over: Mesh) -> FloatArray:
     Gauss quadrature leaves the product of two truncated series: on an interval, the square of its
     last Legendre coefficients over its largest.
     """
-    flat = rate.reshape(-1, rate.shape[-1])
-    series = np.abs(flat @ over.rule.coefficients.T).reshape(rate.shape)
-    largest = np.max(series, axis=-1) + TINY
-    last = np.max(series[..., -2:], axis=-1)
+    series = coefficients(over.rule.coefficients, rate)
+    np.abs(series, out=series)
+    largest = np.max(series, axis=0) + TINY
+    last = np.max(series[-2:], axis=0)
     error: FloatArray = last**2 / largest * over.lengths
     # Rounding of the largest coefficients looks like a tail: it is none.
     error[largest * ROUNDOFF * 100 > last] = 0.0
@@ -269,12 +273,10 @@ def endpoint_defect(
     A fast change of the state may be over before the first node: then only the rate at the start of
     the interval shows it. The measure is that of `truncation_error`.
     """
-    m = rate.shape[-1]
-    series = (rate.reshape(-1, m) @ over.rule.coefficients.T).reshape(rate.shape)
-    defect = np.maximum(
-        np.abs(series @ (-1.0) ** np.arange(m) - left), np.abs(np.sum(series, axis=-1) - right)
-    )
-    largest = np.max(np.abs(series), axis=-1) + TINY
+    series = coefficients(over.rule.coefficients, rate)
+    at_left = np.sum(series[::2], axis=0) - np.sum(series[1::2], axis=0)
+    defect = np.maximum(np.abs(at_left - left), np.abs(np.sum(series, axis=0) - right))
+    largest = np.max(np.abs(series), axis=0) + TINY
     missed: FloatArray = defect * (defect / largest) * over.lengths
     missed[defect < NOISE_AT_ENDS * largest] = 0.0
     return missed

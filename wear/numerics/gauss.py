@@ -11,6 +11,7 @@ References
     E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, IV.5.
 """
 
+from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -21,7 +22,6 @@ FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 
-ONE_PRODUCT = 192  # nodes of a mesh up to which one matrix product is the quickest
 ONE_THREAD = 250_000  # multiplications that OpenBLAS leaves to one thread
 
 
@@ -117,38 +117,39 @@ def mesh(edges: FloatArray, m: int) -> Mesh:
     return Mesh(edges, lengths, edges[..., :-1, None] + lengths[..., None] * rule.nodes, rule)
 
 
-@lru_cache(maxsize=64)
-def _running_matrix(q: int, m: int) -> FloatArray:
-    """Matrix (q m, q m) of `running` for q intervals with m nodes each."""
-    rule = gauss(m)
-    before = np.kron(np.triu(np.ones((q, q)), 1), np.outer(rule.weights, np.ones(m)))
-    matrix: FloatArray = before + np.kron(np.eye(q), rule.integrate.T)
-    return matrix
-
-
 def product(values: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Return the rows `values` (k, m) times a `matrix` (m, n), in pieces that BLAS leaves to one
-    thread: several would wait for each other longer than they work."""
-    rows = max(1, ONE_THREAD // matrix.size)
-    if len(values) <= rows:
-        return values @ matrix
-    result = np.empty((len(values), matrix.shape[1]))
-    for at in range(0, len(values), rows):
-        np.matmul(values[at : at + rows], matrix, out=result[at : at + rows])
-    return result
+    """Return `values` (..., m) times a `matrix` (m, n) or a vector (m,): (..., n) or (...)."""
+    flat = values.reshape(-1, len(matrix))
+    result = np.empty((len(flat), *matrix.shape[1:]))
+    for some in _pieces(len(flat), matrix):
+        np.matmul(flat[some], matrix, out=result[some])
+    return result.reshape(*values.shape[:-1], *matrix.shape[1:])
+
+
+def coefficients(matrix: FloatArray, values: FloatArray) -> FloatArray:
+    """Return a `matrix` (n, m) times `values` (..., m), the coefficients first: (n, ...)."""
+    flat = values.reshape(-1, matrix.shape[1])
+    result = np.empty((len(matrix), len(flat)))
+    for some in _pieces(len(flat), matrix):
+        np.matmul(matrix, flat[some].T, out=result[:, some])
+    return result.reshape(len(matrix), *values.shape[:-1])
+
+
+def _pieces(rows: int, matrix: FloatArray) -> Iterator[slice]:
+    """Yield `rows` in pieces whose product with a matrix BLAS leaves to one thread: several would
+    wait for each other longer than they work."""
+    most = max(1, ONE_THREAD // matrix.size)
+    for at in range(0, rows, most):
+        yield slice(at, at + most)
 
 
 def running(values: FloatArray) -> FloatArray:
     """Integral of `values` (..., q, m), per interval of a mesh, from the first edge to each node,
     in the same shape."""
-    q, m = values.shape[-2:]
-    if q * m <= ONE_PRODUCT:
-        return product(values.reshape(-1, q * m), _running_matrix(q, m)).reshape(values.shape)
-    rule, flat = gauss(m), values.reshape(-1, m)
-    local = product(flat, rule.integrate.T).reshape(values.shape)
-    whole = (flat @ rule.weights).reshape(values.shape[:-1])
-    local[..., 1:, :] += np.cumsum(whole[..., :-1], axis=-1)[..., None]
-    return local
+    rule = gauss(values.shape[-1])
+    within = product(values, rule.integrate.T)
+    within[..., 1:, :] += np.cumsum(product(values, rule.weights)[..., :-1], axis=-1)[..., None]
+    return within
 
 
 def running_integral(values: FloatArray, over: Mesh) -> FloatArray:
@@ -158,8 +159,7 @@ def running_integral(values: FloatArray, over: Mesh) -> FloatArray:
 
 def integral(values: FloatArray, over: Mesh) -> FloatArray:
     """Integral of `values` (..., q, m) over the whole mesh, shape (...)."""
-    whole = (values.reshape(-1, values.shape[-1]) @ over.rule.weights).reshape(values.shape[:-1])
-    total: FloatArray = np.sum(whole * over.lengths, axis=-1)
+    total: FloatArray = np.sum(product(values, over.rule.weights) * over.lengths, axis=-1)
     return total
 
 

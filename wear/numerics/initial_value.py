@@ -17,7 +17,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from wear.numerics.collocation import NOISE, CycleSolution, Rates, iterate
-from wear.numerics.gauss import BoolArray, FloatArray, Mesh
+from wear.numerics.gauss import BoolArray, FloatArray, Mesh, product
 
 MOST_AT_ONCE = 1024  # intervals: the arrays of more fall out of the processor's cache
 MOST_CUT = 4 * MOST_AT_ONCE  # intervals and parts of intervals at once
@@ -243,5 +243,5 @@ def _judged(
 
 def _on_each(values: FloatArray, over: Mesh) -> FloatArray:
     """Return the integral of `values` (1, 1, q, m) over each interval of a mesh, (q,)."""
-    whole: FloatArray = ((values @ over.rule.weights) * over.lengths)[0, 0]
+    whole: FloatArray = (product(values, over.rule.weights) * over.lengths)[0, 0]
     return whole

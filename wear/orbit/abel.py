@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import FloatArray, Gauss, gauss
+from wear.numerics.gauss import FloatArray, Gauss, gauss, product
 
 ACROSS_A_CYCLE = 6  # Gauss nodes where the density changes by less than a factor 2 in a cycle
 ACROSS_A_FAST_CYCLE = 12  # good to rounding for a factor of 1e3
@@ -138,7 +138,7 @@ def solve(frame: Frame, increments: FloatArray) -> Panels:
         basis = _within(nodes, frame.step(nodes, increments, rule.nodes), m)
         last = increments[:, -1:]
         weights = (increments / last)[..., None] * rule.weights
-        series = -np.log(increments / last) @ chebyshev_analysis(m).T
+        series = product(-np.log(increments / last), chebyshev_analysis(m).T)
         change, inverse = np.zeros_like(series), None
         for _ in range(MOST_ITERATIONS):
             density, cycles = _density(series, basis, weights)

@@ -13,7 +13,7 @@ import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution
-from wear.numerics.gauss import BoolArray, FloatArray, Mesh, integral
+from wear.numerics.gauss import BoolArray, FloatArray, Mesh, coefficients, integral, product
 from wear.numerics.initial_value import SAFETY, StoppedError
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
@@ -212,8 +212,8 @@ def _unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
 
     Unlike its integral over the interval, that is no better than its interpolant.
     """
-    series = np.abs(rate @ over.rule.coefficients.T)
-    tail, largest = np.max(series[..., -3:], axis=-1), np.max(series, axis=-1)
+    series = np.abs(coefficients(over.rule.coefficients, rate))
+    tail, largest = np.max(series[-3:], axis=0), np.max(series, axis=0)
     left = tail * over.lengths > tolerance * integral(rate, over)[..., None]
     marked: BoolArray = np.any(left & (tail > 100 * ROUNDOFF * largest), axis=1)
     return marked
@@ -232,13 +232,13 @@ def _at_phases(run: CycleSolution, over: Mesh, phases: FloatArray) -> FloatArray
     interval = np.clip(np.searchsorted(edges, phases, side="right") - 1, 0, len(lengths) - 1)
     x = (phases - edges[interval]) / lengths[interval]
     # The rate's Legendre series, integrated from the start of the interval.
-    series = (all_rates @ over.rule.coefficients.T) * lengths[:, None]
+    series = product(all_rates, over.rule.coefficients.T) * lengths[:, None]
     weights = np.polynomial.legendre.legvander(2 * x - 1, series.shape[-1])
     k = np.arange(series.shape[-1])
     below = np.concatenate([-np.ones((len(x), 1)), weights[:, : len(k) - 1]], axis=1)
     primitives = (weights[:, 1:] - below) / (2 * (2 * k + 1))
     within = np.einsum("spk,pk->sp", series[:, interval, :], primitives)
-    before = np.cumsum((all_rates @ over.rule.weights) * lengths, axis=-1)
+    before = np.cumsum(product(all_rates, over.rule.weights) * lengths, axis=-1)
     before = np.concatenate([np.zeros((len(before), 1)), before[:, :-1]], axis=1)
     result: FloatArray = before[:, interval] + within
     return result

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebval
 
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import BoolArray, FloatArray, IntArray, gauss
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray, coefficients, gauss, product
 from wear.numerics.rows import take
 from wear.numerics.tolerances import TINY
 from wear.orbit.abel import Panels, level_and_shape
@@ -121,15 +121,15 @@ def cells(panels: Panels, first: float = 0.0, scenes: int = 1, start: float | No
     offset = (frame.starts + frame.c)[:, None]
     density = level * offset * np.exp(chebval(t, shape.T[..., None], tensor=False) + y)
     density = density.reshape(-1, NODES) * length.reshape(-1, 1)
-    gain = density @ rule.weights
+    gain = product(density, rule.weights)
     sums = np.cumsum(gain.reshape(scenes, -1)[:, :-1], axis=1)
     cycles = (first + np.concatenate([np.zeros((scenes, 1)), sums], axis=1)).ravel()
     y = edges[:, :-1]
     u, offset = frame.starts[:, None] + offset * np.expm1(y), offset * np.exp(y)
     # By Legendre coefficients: the high ones are small, and so are the powers they turn to.
-    legendre = rule.coefficients @ density.T
+    legendre = coefficients(rule.coefficients, density)
     missed = np.max(np.abs(legendre[-2:]), axis=0)
-    series = np.moveaxis(_powers(NODES) @ legendre, 0, 1)
+    series = np.stack([coefficients(powers, legendre.T) for powers in _powers(NODES)], axis=1)
     return Cells(u.ravel(), offset.ravel(), cycles, length.ravel(), gain, missed, series)
 
 
@@ -145,7 +145,7 @@ def _cell_edges(panels: Panels) -> FloatArray:
     t, taken, basis = _with_ends(m)
     y = panels.frame.y_at(t)
     y[:, -1] = panels.frame.widths
-    growth = np.abs(np.diff(panels.series @ basis.T + y, axis=1)) / GROWTH
+    growth = np.abs(np.diff(product(panels.series, basis.T) + y, axis=1)) / GROWTH
     growth = np.nan_to_num(np.minimum(growth, MOST_CELLS), nan=0.0)
     wanted = np.concatenate([np.zeros((len(y), 1)), np.cumsum(growth, axis=1)], axis=1)
     wanted += taken / SERIES
@@ -186,8 +186,8 @@ def _values(series: FloatArray, gain: FloatArray, x: FloatArray) -> tuple[FloatA
     """
     z = 2 * x - 1
     values = series[-1] * z
-    for coefficients in series[-2:0:-1]:
-        values += coefficients
+    for row in series[-2:0:-1]:
+        values += row
         values *= z
     density, curvature = values + series[0]
     return density, x * (gain - 2 * (1 - x) * curvature)

@@ -29,7 +29,7 @@ from wear.numerics.collocation import (
     truncation_error,
     unresolved,
 )
-from wear.numerics.gauss import BoolArray, FloatArray, IntArray, Mesh, integral, mesh
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray, Mesh, integral, mesh, product
 from wear.numerics.initial_value import SAFETY, Reached, Rules, StoppedError, integrate
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
@@ -260,7 +260,7 @@ class PeriodMap(NamedTuple):
 
     def endpoint_defect(self, starts: FloatArray, run: CycleSolution) -> FloatArray:
         """Return what each interval may hide (scenes, k, q) of the cycles from the `starts`."""
-        added = run.rate @ self.over.rule.weights * self.over.lengths
+        added = product(run.rate, self.over.rule.weights) * self.over.lengths
         added = np.concatenate([np.zeros_like(added[..., :1]), added], axis=-1)
         u = (starts[..., None] + np.cumsum(added, axis=-1))[..., None]
         rate = self.equation.rate(u, self.equation.forcing(self.over.edges)[..., None])[..., 0]

@@ -12,7 +12,7 @@ import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes
 from wear.numerics.collocation import unresolved
-from wear.numerics.gauss import BoolArray, FloatArray, IntArray, integral
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray, integral, product
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import TINY
 from wear.orbit import abel
@@ -84,7 +84,7 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         violent = frozen[:, 0] > SMALL * (frame.starts + frame.c / FRAME_SCALE)
         density = np.minimum(-np.log(frozen + TINY), MOST_LOG)
         # Less a constant, whose rounding would look like a tail.
-        tail = np.max(np.abs((density - density[:, :1]) @ analysis), axis=1)
+        tail = np.max(np.abs(product(density - density[:, :1], analysis)), axis=1)
         step = frame.step(nodes, np.exp(-density))[..., 0]
         taken = 2 / step
         cycles, at_end = np.mean(taken, axis=1), FASTER * taken[:, -1]
