@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, settings
 from tests.browser import Page, browser
 
 os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")  # as the commands have it
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # of the matrices here none is worth a second
 gc.set_threshold(200_000, 50, 100)  # of millions of expressions that stay, hardly any is garbage
 # No test depends on the speed of the machine. Under CI the draws are the same every time, so that
 # a commit either passes or does not; everywhere else they are new in every run.

@@ -213,7 +213,9 @@ def _figures(cell: dict) -> dict[int, str]:
 
 
 def _numbers(svg: str) -> list[float]:
-    return [float(number) for number in re.findall(r"(?<![\w#])-?\d+\.\d+", svg)]
+    """Without markers: which point has one is a matter of rounding where two are equally near."""
+    drawn = re.sub(r"<use [^>]* y=[^>]*>", "", svg)
+    return [float(number) for number in re.findall(r"(?<![\w#])-?\d+(?:\.\d+)?", drawn)]
 
 
 class _Page(HTMLParser):
