@@ -4,9 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
-from wear.checked import problems
+from wear.checked import EntryError
 from wear.faults import SceneError
 from wear.load import Table, rows
 from wear.load.rows import TableFile, read_rows
@@ -24,9 +23,9 @@ HEAD = "t_s,U_a_mm\n"
 def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
     (tmp_path / "a.csv").write_bytes(f"{HEAD}0,5\n1,{cell}\n".encode())
     if number is None:
-        with pytest.raises(ValidationError) as caught:
+        with pytest.raises(EntryError) as caught:
             read_rows(TableFile("a.csv"), tmp_path)
-        ((_, problem, _),) = problems(caught.value)
+        ((_, problem, _),) = caught.value.findings
         assert problem == f'a.csv line 3: "1,{cell}" is no row'
     else:
         assert read_rows(TableFile("a.csv"), tmp_path).values.tolist() == [5.0, number]
