@@ -113,10 +113,12 @@ def _polynomial(terms: FloatArray, phase: FloatArray) -> FloatArray:
     if terms.shape[1] < FEW:
         return _trigonometric_sum(terms, phase)
     turn = 2.0 * math.pi * centred(phase)
-    wave = np.cos(turn) + 1j * np.sin(turn)
-    total = np.zeros_like(wave)
-    for cosine, sine in zip(terms[1][::-1], terms[2][::-1], strict=True):
-        total += cosine - 1j * sine
+    wave = np.empty(turn.shape, dtype=complex)
+    wave.real, wave.imag = np.cos(turn), np.sin(turn)
+    *lower, highest = terms[1] - 1j * terms[2]
+    total = highest * wave
+    for coefficient in reversed(lower):
+        total += coefficient
         total *= wave
     return np.asarray(total.real)
 

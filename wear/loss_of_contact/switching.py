@@ -106,10 +106,10 @@ class Cycles(NamedTuple):
         """Return some of the cycles, each perhaps several times."""
         if which.dtype == bool and which.all():
             return self
-        load = self.load
-        if isinstance(load, (Waves, Lines)):
+        load, of_one = self.load, isinstance(self.period, float)
+        if isinstance(load, Lines) or (isinstance(load, Waves) and not of_one):
             load = load.take(which)
-        if isinstance(self.period, float):
+        if of_one:
             return self._replace(load=load)
         return Cycles(self.model.select(which), load, *(array[which] for array in self[2:]))
 
@@ -168,12 +168,11 @@ def cycles_of(models: Sequence[Model], loads: Sequence[Load], edges: Sequence[Ed
         )
         for load, edge in zip(loads, edges, strict=True)
     ]
+    # Tables are straight on every piece, see `Cycles.on`.
+    load = loads[0] if isinstance(loads[0], (Table, Constant)) else waves(loads)
     if len(models) == 1:
-        return Cycles(models[0], loads[0], *map(float, numbers[0]))
-    every = np.array(numbers).T
-    straight = Lines(*np.zeros((3, len(loads))))
-    all_straight = isinstance(loads[0], (Table, Constant))
-    return Cycles(stacked(models), straight if all_straight else waves(loads), *every)
+        return Cycles(models[0], load, *map(float, numbers[0]))
+    return Cycles(stacked(models), load, *np.array(numbers).T)
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:

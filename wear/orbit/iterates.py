@@ -185,11 +185,9 @@ def _values(series: FloatArray, gain: FloatArray, x: FloatArray) -> tuple[FloatA
     the sum of the coefficients times P_k'/(k (k + 1)).
     """
     z = 2 * x - 1
-    values = series[-1] * z
-    for row in series[-2:0:-1]:
-        values += row
-        values *= z
-    density, curvature = values + series[0]
+    while len(series) > 1:  # Estrin's scheme: neighbours first, then pairs, each pair as one
+        series, z = series[::2] + z * series[1::2], z * z
+    density, curvature = series[0]
     return density, x * (gain - 2 * (1 - x) * curvature)
 
 
