@@ -34,7 +34,8 @@ class LimitWear(NamedTuple):
 class TabulatedCount(NamedTuple):
     """The count n of cycles as a function of z, a `coordinate` of the wear, by the density on
     `panels`; its estimated error in cycles where each part of the `table` starts and where the last
-    one ends; the `limit_wear` that wear tends to at the end of the table, if any."""
+    one ends; the `limit_wear` that wear tends to at the end of the table, if any; and how many
+    whole cycles it counts, `whole`, to the limit wear up to rounding."""
 
     coordinate: Coordinate
     table: Cells
@@ -42,6 +43,7 @@ class TabulatedCount(NamedTuple):
     count_error: FloatArray
     limit_wear: LimitWear | None
     limit: FloatArray
+    whole: float
 
     @property
     def in_z(self) -> Iterates:
@@ -68,8 +70,9 @@ class TabulatedCount(NamedTuple):
 
     @property
     def reach(self) -> float:
-        """Return how many cycles it counts."""
-        return self.table.last_cycles
+        """Return how many cycles it counts, the whole ones whatever rounding makes of them."""
+        last = self.table.last_cycles
+        return last if self.limit_wear else max(last, self.whole)
 
     @property
     def at_rest(self) -> BoolArray:
@@ -78,8 +81,8 @@ class TabulatedCount(NamedTuple):
 
     @property
     def whole_cycles(self) -> FloatArray:
-        """Return how many whole cycles it counts; to the limit wear, up to rounding."""
-        return np.array([np.ceil(self.reach) if self.limit_wear else np.floor(self.reach)])
+        """Return how many whole cycles it counts."""
+        return np.array([self.whole])
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the wear (mm) after `cycles` (1, c), and its estimated relative error."""

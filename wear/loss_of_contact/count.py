@@ -11,31 +11,36 @@ all are integrated at once, and the next guess is better as in Newton's method.
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from copy import copy
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.counted import FADES, STOPS, Counted, End
+from wear.counted import FADES, STOPS, End
+from wear.counted import Counted as CountedCycles
 from wear.load import Load
 from wear.loss_of_contact.arrest import TabulatedCount, Unresolved
 from wear.loss_of_contact.grazing import limit_wear_of
-from wear.loss_of_contact.increments import fitted
-from wear.loss_of_contact.parts import OneByOne, OnPanels, walked
+from wear.loss_of_contact.increments import Increments, fitted
+from wear.loss_of_contact.parts import Counted, OneByOne, Part, judged, walked
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
 from wear.loss_of_contact.requests import (
+    ALONG,
     COARSE,
     FINE,
+    SOLVED,
+    Answers,
     Asking,
     Request,
     answered,
+    cycles_by,
+    frozen_cycles,
     without_feedback,
 )
-from wear.loss_of_contact.roundoff import roundoff
 from wear.loss_of_contact.samples import Samples
-from wear.loss_of_contact.stretch import Stretch, stretch
+from wear.loss_of_contact.stretch import OnPanels, Stretch, passed, stretches
 from wear.loss_of_contact.switching import Edge, edge_of_contact
 from wear.model import Model
 from wear.numerics.tolerances import ROUNDOFF, TINY
@@ -71,7 +76,7 @@ class Wanted(NamedTuple):
 @np.errstate(all="ignore")
 def counted_stages(
     wanted: Sequence[Wanted], rtol: float, deadline: float = np.inf
-) -> list[Counted]:
+) -> list[CountedCycles]:
     """Count the cycles of scenes of one variant, or until wear ends.
 
     After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
@@ -83,15 +88,36 @@ def counted_stages(
     finer = max(ROUNDOFF, JUDGED * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(*each, rtol, deadline) for each in zip(wanted, edges, strict=True)]
-    return answered(counts, [coarse, coarse, fine])
+    answers: list[Answers] = [frozen_cycles(coarse), _ways, _stretches]
+    answers += [cycles_by(coarse), cycles_by(fine)]
+    ways = answered(counts, answers)
+    parts = [part for way in ways for part in way.parts]
+    scene = np.repeat(np.arange(len(ways)), [len(way.parts) for way in ways])
+    found = iter(judged(parts, scene, [way.problem for way in ways], coarse.cycles))
+    return [
+        _segments(way, [next(found) for _ in way.parts], each)
+        for way, each in zip(ways, wanted, strict=True)
+    ]
 
 
-def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[Counted]:
+def _ways(_: list[int], ways: list[tuple[OnPanels, float]]) -> list[tuple[float, float]]:
+    return passed(ways)
+
+
+def _stretches(
+    _: list[int], known: list[tuple[list[Increments], Problem]]
+) -> Iterator[list[Stretch]]:
+    found = iter(stretches([(series, problem) for some, problem in known for series in some]))
+    return ([next(found) for _ in some] for some, _ in known)
+
+
+def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[_Way]:
     problem = yield from problem_of(wanted.model, wanted.load, edge, rtol, deadline)
     way = _Way(problem, wanted.start)
     while way.goes_on(wanted.cycles):
         yield from way.go(max(wanted.cycles - way.done, 1.0))
-    return (yield from _judged(problem, way, wanted.start_error, wanted.cycles))
+    yield from _judge(way)
+    return way
 
 
 class _Way:
@@ -102,7 +128,7 @@ class _Way:
     def __init__(self, problem: Problem, start: float) -> None:
         self.problem, self.wear, self.done = problem, start, 0.0
         self.over = self.arrested = self.fades = False
-        self.parts: list[OneByOne | OnPanels | Unresolved] = []
+        self.parts: list[Part] = []
         self.stretches: list[Stretch] = []
         self.planned_to = start
         self.samples = Samples()
@@ -119,9 +145,9 @@ class _Way:
         """Go on for so many `cycles`, or less."""
         if self._lacks_a_plan(cycles):
             yield from self._plan(cycles)
-        elif self._along(cycles) or (yield from self._to_the_grazing_wear()) or self._cycle():
+        elif (yield from self._along(cycles)) or (yield from self._to_the_grazing_wear()):
             return
-        else:
+        elif not self._cycle():
             yield from self._ask(cycles)
 
     def _lacks_a_plan(self, cycles: float) -> bool:
@@ -138,9 +164,9 @@ class _Way:
         number = COEFFICIENTS if problem.rtol < 1e-8 else FEWER_COEFFICIENTS
         known, cost = yield from fitted(spans, number, problem.size.residual_tolerance / 2)
         self.cost = self.cost.plus(*cost)
-        self.stretches = [stretch(series, problem) for series in known]
+        self.stretches = yield Request(SOLVED, (known, problem))
 
-    def _along(self, cycles: float) -> bool:
+    def _along(self, cycles: float) -> Asking[bool]:
         """Go along a stretch on which the increments are known, if this is one."""
         for here in self.stretches:
             if here.series.span.start <= self.wear < here.series.span.end:
@@ -148,21 +174,21 @@ class _Way:
                 counted = here.counted
                 if counted is not None and z < counted.first:
                     return self._walk(here, counted.first, cycles)
-                some = counted is not None and z < counted.last and self._count(here, counted, z)
+                some = yield from self._count(counted, z)
                 return some or self._walk(here, here.end, cycles)
         return False
 
-    def _count(self, here: Stretch, counted: OnPanels, z: float) -> bool:
+    def _count(self, counted: OnPanels | None, z: float) -> Asking[bool]:
         """Count by Abel's equation from z to the end of the panels, if there is a cycle to it."""
-        limit_wear, part = counted.limit_wear, None
-        ran, z_after = counted.passed(z)
-        if self.ahead_of is None and (ran >= 1.0 or limit_wear):
-            part = counted.beginning_at(z)
-            ran, z_after = part.ran, float(part.table.state_after(np.array([part.ran]))[0][0])
+        if counted is None or not z < counted.last:
+            return False
+        ran, z_after = yield Request(ALONG, (counted, z))
+        limit_wear = counted.limit_wear
         if ran < 1.0 and not limit_wear:
             return False
-        self.parts += [part] if part else []
-        wear = float(here.series.span.coordinate.wear(np.array(z_after)))
+        if self.ahead_of is None:
+            self.parts.append(Counted(counted, z, ran))
+        wear = float(counted.series.coordinate.wear(np.array(z_after)))
         self.wear, self.done = limit_wear.wear if limit_wear else wear, self.done + ran
         self.over = self.arrested = self.fades = limit_wear is not None
         return True
@@ -181,10 +207,8 @@ class _Way:
             return False
         if here.series.span.tends and end == here.end and len(found.wear) <= most:
             rest = here.series.span.end - found.wear[-1]
-            found.wear.extend([here.series.span.end, here.series.span.end])
-            found.added.extend([rest, 0.0])
-            found.missed.extend([0.0, 0.0])
-            found.growth.extend([0.0, 1.0])
+            ends = [found.wear[-1], here.series.span.end, here.series.span.end]
+            found.extend(OneByOne(ends, [rest, 0.0], [0.0, 1.0], [None, None], [0.0, 0.0]))
             self.over = self.arrested = self.fades = True
         self._append_cycles(found)
         return True
@@ -221,8 +245,9 @@ class _Way:
         if not added > 0.0 and limit is not None and self.wear < limit.wear:
             added = limit.wear - self.wear  # nearer than rounding resolves
         self.singles += 1
-        cycle = [self.wear, self.wear + added], [added], [np.nan], [abs(1.0 + sample.slope)]
-        self._append_cycles(OneByOne(*cycle))
+        growth = abs(1.0 + sample.slope)
+        cycle = OneByOne([self.wear, self.wear + added], [added], [growth], [None], [np.nan])
+        self._append_cycles(cycle)
         self.arrested = not added > 0.0
         self.fades = self.arrested and limit is not None
         late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
@@ -239,7 +264,7 @@ class _Way:
             left = cycles - ahead.done
             if ahead._lacks_a_plan(left) or in_a_row == MOST_GUESSES:
                 break
-            in_a_row = 0 if ahead._along(left) else in_a_row + 1
+            in_a_row = 0 if (yield from ahead._along(left)) else in_a_row + 1
             if in_a_row:
                 ahead._cycle()
         wear = np.array(ahead.ahead_of)
@@ -252,30 +277,28 @@ class _Way:
 
     def _append_cycles(self, cycles: OneByOne) -> None:
         if self.parts and isinstance(last := self.parts[-1], OneByOne):
-            last.wear.extend(cycles.wear[1:])
-            for own, more in zip(last[1:], cycles[1:], strict=True):
-                own.extend(more)
+            last.extend(cycles)
         else:
             self.parts.append(cycles)
         self.wear, self.done = cycles.wear[-1], self.done + len(cycles.added)
         self.last_added = cycles.added[-1]
 
 
-def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> Asking[Counted]:
-    """Return the parts of the way as segments, each with its estimate of error."""
-    yield from _judge(way)
+def _segments(
+    way: _Way, found: Sequence[Iterates | TabulatedCount | Unresolved], wanted: Wanted
+) -> CountedCycles:
+    """Return the parts of the way as segments, with what there is after its end."""
+    problem, cycles = way.problem, wanted.cycles
     segments: list[Segment] = []
     begins, drift, one = 0.0, 0.0, np.zeros(1)
-    inherited = one + begun_with
-    rounding = roundoff(problem.model, problem.load, [part.ends for part in way.parts])
-    for part, here in zip(way.parts, rounding, strict=True):
-        counted = part if isinstance(part, Unresolved) else part.judged(problem, here)
+    inherited = one + wanted.start_error
+    for counted in found:
         segments.append(Segment(_FIRST, counted, one + begins, inherited, one + drift))
         ran = counted.whole_cycles
         after, relative = counted.after(ran[None])
         inherited = after[0] * (relative[0] + inherited / (after[0] + TINY))
         begins += float(ran[0])
-        drift += float(part.reach[0]) if isinstance(part, Unresolved) else 0.0
+        drift += float(counted.reach[0]) if isinstance(counted, Unresolved) else 0.0
     end_of_wear: End | None = None
     limit = problem.limit_wear
     if not way.arrested and begins < cycles and limit is not None:
@@ -287,7 +310,7 @@ def _judged(problem: Problem, way: _Way, begun_with: float, cycles: float) -> As
         end_of_wear = _end(problem, segments, way.fades)
         rest = end_of_wear and _rest(problem, segments, end_of_wear)
         segments += [rest] if rest else []
-    return Counted(Orbit(1, tuple(segments), way.cost), end_of_wear)
+    return CountedCycles(Orbit(1, tuple(segments), way.cost), end_of_wear)
 
 
 def _judge(way: _Way) -> Asking[None]:
@@ -296,8 +319,8 @@ def _judge(way: _Way) -> Asking[None]:
         (part, k)
         for part in way.parts
         if isinstance(part, OneByOne)
-        for k, missed in enumerate(part.missed)
-        if np.isnan(missed)
+        for k, (by, missed) in enumerate(zip(part.by, part.missed, strict=True))
+        if by is None and np.isnan(missed)
     ]
     if not todo:
         return

@@ -23,7 +23,6 @@ from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
 from wear.orbit.abel import Frame
-from wear.orbit.iterates import cell_of
 from wear.orbit.panels import CHECKS, SPLIT
 from wear.orbit.problem import Cost
 
@@ -108,28 +107,6 @@ class Increments(NamedTuple):
         """Return the coordinate z of the span."""
         return self.span.coordinate
 
-    def _located(self, z: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
-        """Return the panel that holds each z (k,), or the nearest, the position on it, and w."""
-        w, scale = z**self.span.power, self.span.scale
-        i = cell_of(self.frame.starts, w)
-        start = self.frame.starts[i]
-        x = (w - start) / (w + scale) if scale else np.log(w / start)
-        return i, 2 * x / self.frame.x_ends[i] - 1, w
-
-    def at(self, z: FloatArray) -> FloatArray:
-        """Return the wear (mm) that a cycle adds from each z (any shape)."""
-        i, t, w = self._located(z.ravel())
-        basis = chebyshev_values(t, self.series.shape[1])
-        increment = self.level[i] * np.exp(np.einsum("ij,ij->i", basis, self.series[i]))
-        return np.asarray((increment * w**self.span.vanishes).reshape(z.shape))
-
-    def missed(self, z: FloatArray) -> FloatArray:
-        """Return the relative error of the increment at each z (k,): the larger misfit of the two
-        checks next to it."""
-        i, t, _ = self._located(z)
-        after = np.clip(np.searchsorted(CHECKS, t), 1, len(CHECKS) - 1)
-        return np.asarray(np.maximum(self.misfit[i, after], self.misfit[i, after - 1]))
-
     def walk(self, wear: float, end: float, most: float) -> list[float]:
         """Return the wear (mm) before and after each cycle from `wear` until z passes `end`, or
         until there are `most`."""
@@ -153,6 +130,45 @@ class Increments(NamedTuple):
             walked.append(origin - left)
             z = 1.0 / left if ahead else -left
         return walked
+
+
+def increments(known: Sequence[Increments], of: IntArray, z: FloatArray) -> FloatArray:
+    """Return the wear (mm) that a cycle adds from each z (k,) on the series `of` (k,) those that
+    are known."""
+    panel, t, w = _located(known, of, z)
+    series, level = (np.concatenate([each[i] for each in known]) for i in (3, 2))
+    vanishes = np.array([each.span.vanishes for each in known])[of]
+    logarithm = np.einsum("ij,ij->i", chebyshev_values(t, series.shape[1]), series[panel])
+    return np.asarray(level[panel] * np.exp(logarithm) * w**vanishes)
+
+
+def missed(known: Sequence[Increments], of: IntArray, z: FloatArray) -> FloatArray:
+    """Return the relative error of the increment at each z (k,): the larger misfit of the two
+    checks next to it."""
+    panel, t, _ = _located(known, of, z)
+    misfit = np.concatenate([each.misfit for each in known])
+    after = np.clip(np.searchsorted(CHECKS, t), 1, len(CHECKS) - 1)
+    return np.asarray(np.maximum(misfit[panel, after], misfit[panel, after - 1]))
+
+
+def _located(
+    known: Sequence[Increments], of: IntArray, z: FloatArray
+) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Return the panel among all those known that holds each z (k,) on the series `of` (k,), or the
+    nearest, the position on it, and w."""
+    power, scale = np.array([(each.span.power, each.span.scale) for each in known])[of].T
+    number = [len(each.level) for each in known]
+    starts, across = (
+        np.concatenate(each)
+        for each in zip(*((each.frame.starts, each.frame.x_ends) for each in known), strict=True)
+    )
+    begins = np.full((len(known), max(number)), np.inf)
+    begins[np.arange(max(number)) < np.array(number)[:, None]] = starts
+    w = z**power
+    panel = (np.cumsum(number) - number)[of] + np.sum(begins[of, 1:] <= w[:, None], axis=1)
+    start = starts[panel]
+    x = np.where(scale > 0.0, (w - start) / (w + scale), np.log(w / start))
+    return panel, 2 * x / across[panel] - 1, w
 
 
 def fitted(

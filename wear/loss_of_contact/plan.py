@@ -80,11 +80,11 @@ def problem_of(
     # Contact grazes when the pieces before have added their part: the map has its branch point
     # where a cycle starts that much earlier.
     wear = np.array([each.wear for each in grazing])
-    run = yield Request(FROZEN, wear)
+    parts = yield Request(FROZEN, wear)
     slope = np.abs(model.margin_slope(wear, load.maximum)) + TINY
     uncertainty = ROUNDOFF * model.margin_terms(wear, load.maximum + 0.0 * wear) / slope
     stops = []
-    for each, added, blur in zip(grazing, run.increment, uncertainty.tolist(), strict=True):
+    for each, added, blur in zip(grazing, parts, uncertainty.tolist(), strict=True):
         part, whole = float(np.sum(added[: each.before])), each.before == len(added)
         tends = limit_wear is not None and each.wear == limit_wear.wear
         before = each.wear - (0.0 if tends else part)

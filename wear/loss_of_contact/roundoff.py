@@ -9,8 +9,7 @@ import numpy as np
 
 from wear.equation import APART
 from wear.equation import roundoff as rate_roundoff
-from wear.load import Load
-from wear.model import Model
+from wear.loss_of_contact.switching import Cycles
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
@@ -34,31 +33,30 @@ class Roundoff(NamedTuple):
         return np.asarray(np.maximum(self.rate[1:], self.rate[:-1]) + lost)
 
 
-def roundoff(model: Model, load: Load, wears: Sequence[FloatArray]) -> list[Roundoff]:
-    """Return what rounding does at each of several sequences of wear (k,), mm."""
+def roundoff(cycles: Cycles, wears: Sequence[FloatArray]) -> list[Roundoff]:
+    """Return what rounding does at each of several sequences of wear (k,), mm; there is a cycle of
+    each wear."""
     wear, ends = np.concatenate(wears), np.cumsum([len(part) for part in wears])[:-1]
-    found = _of_rate(model, load, wear), _of_contact(model, load, wear)
+    found = _of_rate(cycles, wear), _of_contact(cycles, wear)
     return [
         Roundoff(*parts) for parts in zip(*(np.split(error, ends) for error in found), strict=True)
     ]
 
 
-def _of_rate(model: Model, load: Load, wear: FloatArray) -> FloatArray:
+def _of_rate(cycles: Cycles, wear: FloatArray) -> FloatArray:
     """Return the part of the rate at the peak of the load, contact assumed."""
-    peak = np.full_like(wear, load.maximum)
+    model, peak = cycles.model, cycles.peak + np.zeros_like(wear)
     error = rate_roundoff(model, peak, wear)
-    if model.ends_at_3_sigma and model.compliant:
+    if model.compliant:
         # The pressure vanishes with the margin, and no steepness can be taken there.
         known = model.margin(wear, peak) > 2 * APART * model.fields(wear, peak).sigma
         error = np.where(known, error, 8 * ROUNDOFF)
     return error
 
 
-def _of_contact(model: Model, load: Load, wear: FloatArray) -> FloatArray:
+def _of_contact(cycles: Cycles, wear: FloatArray) -> FloatArray:
     """Return the part of the margin of contact at the peak of the load."""
-    if not model.ends_at_3_sigma:
-        return np.zeros_like(wear)
-    peak = np.full_like(wear, load.maximum)
-    margin, terms = model.margin(wear, peak), model.margin_terms(wear, peak)
+    peak = cycles.peak + np.zeros_like(wear)
+    margin, terms = cycles.model.margin(wear, peak), cycles.model.margin_terms(wear, peak)
     result: FloatArray = np.minimum(ROUNDOFF * terms / (np.abs(margin) + TINY), 1e-9)
     return result

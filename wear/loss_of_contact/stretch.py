@@ -1,25 +1,57 @@
-"""Stretches of wear on which the increments of a cycle are known, with the count of cycles."""
+"""Stretches of wear on which the increments of a cycle are known, with the count of cycles.
+
+Those of all scenes are arrays together, wherever one looks, solves or counts.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.arrest import TO_ROUNDOFF
-from wear.loss_of_contact.increments import Increments
-from wear.loss_of_contact.parts import ENOUGH, OnPanels, solved
+from wear.loss_of_contact.arrest import TO_ROUNDOFF, LimitWear
+from wear.loss_of_contact.increments import EASED, Increments, cut, increments
 from wear.loss_of_contact.plan import Problem
-from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.chebyshev import chebyshev_nodes
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.rows import stacked, take
 from wear.orbit import abel
-from wear.orbit.iterates import cells
+from wear.orbit.iterates import Cells, cell_of, cells, joined
+from wear.orbit.panels import CHECKS
+from wear.orbit.period_map import Settings
 
 WIDEST = 12.0  # panel of a count to a limit wear, in ln z: what derivatives are smooth on
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
 MOST_WALKED = 120  # cycles on a series that are taken one by one
 LOOKS = 65  # at a series, for how many cycles it takes
 MOST_POOR = 8  # times that panels may hold too few cycles
+MOST_CUTS = 16  # rounds of cutting panels in two
+ENOUGH = 1.5  # cycles per coefficient of a panel
+TOGETHER = 32  # series in one set of arrays
+_FIRST, _LAST = slice(None, -1), slice(1, None)
+
+
+class OnPanels(NamedTuple):
+    """A count by Abel's equation on `panels` of z, with its `residual` on each and the `series` of
+    the increments; to the `limit_wear`, if it goes so far."""
+
+    table: Cells
+    panels: abel.Panels
+    residual: FloatArray
+    series: Increments
+    limit_wear: LimitWear | None
+
+    @property
+    def first(self) -> float:
+        """Return the z at which it begins."""
+        return float(self.panels.frame.starts[0])
+
+    @property
+    def last(self) -> float:
+        """Return the z at which it ends."""
+        return float(self.table.ends[-1])
 
 
 class Stretch(NamedTuple):
@@ -31,48 +63,190 @@ class Stretch(NamedTuple):
     counted: OnPanels | None
 
 
-def stretch(series: Increments, problem: Problem) -> Stretch:
-    """Return the stretch of a series, with its count if cycles are many."""
+def passed(ways: Sequence[tuple[OnPanels, float]]) -> list[tuple[float, float]]:
+    """Return how many whole cycles there are from some z on to the end of panels, and the z after
+    them; up to rounding where wear tends to its limit there."""
+    counts, z = [count for count, _ in ways], np.array([z for _, z in ways])
+    each = [count.table for count in counts]
+    table, first = joined(each), np.cumsum([0, *(len(own.u) for own in each[:-1])])
+    inside = [cell_of(own.u, at) for own, at in zip(each, z, strict=True)]
+    begin = table.cycles_until(z, first + inside)
+    left = np.array([own.last_cycles for own in each]) - begin
+    to_limit = np.array([count.limit_wear is not None for count in counts])
+    cycles = np.where(to_limit, np.ceil(left), np.floor(left))
+    inside = [cell_of(own.cycles, n) for own, n in zip(each, begin + cycles, strict=True)]
+    after, _ = table.state_after(begin + cycles, first + inside)
+    return list(zip(cycles.tolist(), after.tolist(), strict=True))
+
+
+def tables(panels: Sequence[abel.Panels], start: FloatArray) -> list[Cells]:
+    """Return the cells of counts on panels, each from a z of its own on the first of them."""
+    found: dict[int, Cells] = {}
+    for some in alike(panels):
+        table = cells(stacked([panels[i] for i in some]), scenes=len(some), start=start[some])
+        each = len(table.u) // len(some)
+        parts = (table.take(slice(at, at + each)) for at in range(0, len(table.u), each))
+        found |= zip(some, parts, strict=True)
+    return [found[i] for i in range(len(panels))]
+
+
+def alike(panels: Sequence[abel.Panels]) -> Iterable[list[int]]:
+    """Return the numbers of counts that have as many panels, of one kind."""
+    kinds: dict[object, list[int]] = {}
+    for i, (frame, _) in enumerate(panels):
+        kinds.setdefault((frame.c.any(), len(frame.c)), []).append(i)
+    return kinds.values()
+
+
+def stretches(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
+    """Return the stretches of some series, with their counts if cycles are many."""
+    found: dict[int, Stretch] = {}
+    for shifted in (False, True):
+        kind = [i for i, (each, _) in enumerate(known) if (each.coordinate.shift > 0.0) == shifted]
+        for at in range(0, len(kind), TOGETHER):
+            some = kind[at : at + TOGETHER]
+            found |= zip(some, _together([known[i] for i in some]), strict=True)
+    return [found[i] for i in range(len(known))]
+
+
+class _Solution(NamedTuple):
+    """Abel's equation on panels, with the residual on each, and whether that is poor on one that
+    holds too few cycles to be cut."""
+
+    panels: abel.Panels
+    residual: FloatArray
+    poor: bool
+
+
+def _together(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
+    """Return the same for series of one kind, all at once."""
+    every, size = [series for series, _ in known], known[0][1].size
+    begin, end = np.array([_ends(series) for series in every]).T
+    solutions: dict[int, tuple[_Solution, LimitWear | None]] = {}
+    todo = list(range(len(known)))
+    for attempt in range(MOST_POOR):
+        looks, gains, calm = _looks([every[i] for i in todo], begin[todo], end[todo])
+        wanted: dict[int, tuple[FloatArray, LimitWear | None]] = {}
+        early = []
+        for i, z, gain, at in zip(todo, looks, gains, calm, strict=True):
+            if np.sum(gain) < MOST_WALKED:
+                continue
+            here = np.flatnonzero(at)
+            fewest = ENOUGH * size.panel_nodes
+            if len(here) and np.sum(gain[here[0] : here[-1]]) >= 2 * fewest:
+                wanted[i] = _edges(*known[i], float(end[i]), z, gain, here)
+            else:
+                early.append(i)
+        edges = [of for of, _ in wanted.values()]
+        for i, found in zip(wanted, solved([every[i] for i in wanted], edges, size), strict=True):
+            if found.poor and attempt < MOST_POOR - 1:
+                begin[i] = wanted[i][0][0]
+                early.append(i)
+            else:
+                solutions[i] = found, wanted[i][1]
+        for i in early:
+            # It is too early for panels: some cycles more are taken one by one.
+            wear = float(every[i].coordinate.wear(begin[i]))
+            wear = every[i].walk(wear, end[i], 2 * MOST_WALKED)[-1]
+            begin[i] = every[i].coordinate.at(np.array(wear))
+        todo = [i for i in early if begin[i] < end[i]]
+        if not todo:
+            break
+    panels = [found.panels for found, _ in solutions.values()]
+    starts = np.array([each.frame.starts[0] for each in panels])
+    counts = {
+        i: OnPanels(table, found.panels, found.residual, every[i], limit_wear)
+        for (i, (found, limit_wear)), table in zip(
+            solutions.items(), tables(panels, starts), strict=True
+        )
+    }
+    return [Stretch(series, float(end[i]), counts.get(i)) for i, series in enumerate(every)]
+
+
+def _ends(series: Increments) -> list[float]:
+    """Return the z from which to which a series is used."""
     span, coordinate = series.span, series.coordinate
     begin, end = coordinate.at(np.array([span.start, span.end])).tolist()
-    end = 1.0 / (TO_ROUNDOFF * coordinate.origin) if span.tends else end
-    for attempt in range(MOST_POOR):
-        looks, gains, calm = _looks(series, begin, end)
-        if np.sum(gains) < MOST_WALKED:
-            break
-        number = float(np.sum(gains[calm[0] : calm[-1]])) if len(calm) else 0.0
-        fewest = ENOUGH * problem.size.panel_nodes
-        if number >= 2 * fewest:
-            edges = looks[calm[[0, -1]]]
-            to_limit = span.tends and edges[1] >= end * (1 - 1e-9)
-            limit_wear = problem.limit_wear if to_limit else None
-            if limit_wear is not None:  # derivatives of cycles are known up to a distance
-                known = 1.0 / limit_wear.nearest
-                before = np.sum(gains[(looks[1:] <= known) & (looks[1:] > edges[0])])
-                if fewest < before < number - fewest:
-                    pieces = math.ceil(math.log(known / edges[0]) / WIDEST)
-                    edges = np.append(np.geomspace(edges[0], known, pieces + 1), edges[1])
-            panels, residual, poor = solved(series, edges, problem.size)
-            if not poor or attempt == MOST_POOR - 1:
-                count = OnPanels(cells(panels), panels, residual, series, limit_wear)
-                return Stretch(series, end, count)
-            begin = float(edges[0])
-        # It is too early for panels: some cycles more are taken one by one.
-        wear = float(coordinate.wear(np.array(begin)))
-        begin = float(coordinate.at(np.array(series.walk(wear, end, 2 * MOST_WALKED)[-1])))
-        if not begin < end:
-            break
-    return Stretch(series, end, None)
+    return [begin, 1.0 / (TO_ROUNDOFF * coordinate.origin) if span.tends else end]
 
 
-def _looks(series: Increments, begin: float, end: float) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Return values of z from one to another, how many cycles it takes between them, about, and at
-    which of them the increments are small."""
-    coordinate = series.coordinate
-    shift = coordinate.shift
-    whole = abel.frame(shift, np.array([begin]), np.array([end]))
+def _looks(
+    known: Sequence[Increments], begin: FloatArray, end: FloatArray
+) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Return values of z along each series (s, k), how many cycles it takes between them, about,
+    and at which of them the increments are small."""
+    shift = np.array([series.coordinate.shift for series in known])
+    whole = abel.frame(shift, begin, end)
     t = np.linspace(-1.0, 1.0, LOOKS)
-    looks = whole.states(t)[0]
-    lasts = (looks + shift) / coordinate.step(looks, series.at(looks))
-    gains = (lasts[1:] + lasts[:-1]) / 2 * np.diff(whole.y_at(t)[0])
-    return looks, gains, np.flatnonzero(lasts >= CALM)
+    looks = whole.states(t)
+    lasts = (looks + shift[:, None]) / _steps(known, np.arange(len(known)), looks)
+    gains = (lasts[:, 1:] + lasts[:, :-1]) / 2 * np.diff(whole.y_at(t))
+    return looks, gains, lasts >= CALM
+
+
+def _steps(known: Sequence[Increments], of: IntArray, z: FloatArray) -> FloatArray:
+    """Return by how much z rises in a cycle from each z (n, k) on the series `of` (n,)."""
+    rows = np.repeat(of, z.shape[1])
+    increment = increments(known, rows, z.ravel()).reshape(z.shape)
+    ahead = np.array([series.coordinate.ahead for series in known])[of, None]
+    taken = z * increment
+    return np.where(ahead, z * taken / (1.0 - taken), increment)
+
+
+def _edges(
+    series: Increments,
+    problem: Problem,
+    end: float,
+    looks: FloatArray,
+    gains: FloatArray,
+    calm: IntArray,
+) -> tuple[FloatArray, LimitWear | None]:
+    """Return between which z Abel's equation is solved, and the limit wear if that is the last."""
+    edges, fewest = looks[calm[[0, -1]]], ENOUGH * problem.size.panel_nodes
+    to_limit = series.span.tends and edges[1] >= end * (1 - 1e-9)
+    limit_wear = problem.limit_wear if to_limit else None
+    if limit_wear is not None:  # derivatives of cycles are known up to a distance
+        known, number = 1.0 / limit_wear.nearest, np.sum(gains[calm[0] : calm[-1]])
+        before = np.sum(gains[(looks[1:] <= known) & (looks[1:] > edges[0])])
+        if fewest < before < number - fewest:
+            pieces = math.ceil(math.log(known / edges[0]) / WIDEST)
+            edges = np.append(np.geomspace(edges[0], known, pieces + 1), edges[1])
+    return edges, limit_wear
+
+
+def solved(
+    known: Sequence[Increments], edges: Sequence[FloatArray], size: Settings
+) -> list[_Solution]:
+    """Solve Abel's equation for some series on panels between values of z, cut where that is
+    needed."""
+    if not known:
+        return []
+    of, m = np.repeat(np.arange(len(known)), [len(each) - 1 for each in edges]), size.panel_nodes
+    coordinates = [(*series.coordinate,) for series in known]
+    origin, ahead, shift = np.array(coordinates).T
+    begins, ends = (np.concatenate([each[part] for each in edges]) for part in (_FIRST, _LAST))
+    frame = abel.frame(shift[of], begins, ends)
+    done: list[tuple[IntArray, abel.Panels, FloatArray]] = []
+    poor = np.full(len(known), False)
+    for rounds in range(MOST_CUTS):
+        z = frame.states(np.append(chebyshev_nodes(m), CHECKS))
+        steps = _steps(known, of, z)
+        panels = abel.solve(frame, steps[:, :m])
+        residual = np.max(np.abs(abel.residual(panels, CHECKS, steps[:, m:])), axis=1)
+        eased = np.where(ahead[of] > 0.0, np.clip(origin[of] * frame.starts, 1.0, EASED), 1.0)
+        missed = ~(residual <= size.residual_tolerance * eased)
+        cycles = frame.widths / 2 * np.mean(((z + shift[of, None]) / steps)[:, :m], axis=1)
+        short = cycles <= ENOUGH * m
+        poor[of[missed & short]] = True
+        again = missed & ~short & (rounds < MOST_CUTS - 1)
+        done.append(take((of, panels, residual), ~again))
+        if not again.any():
+            break
+        frame, of = cut(take(frame, again)), np.tile(of[again], 2)
+    of, panels, residual = stacked(done)
+    order = np.lexsort((panels.frame.starts, of))
+    rows = np.split(order, np.flatnonzero(np.diff(of[order])) + 1)
+    return [
+        _Solution(*take((panels, residual), own), bool(bad))
+        for own, bad in zip(rows, poor, strict=True)
+    ]

@@ -12,6 +12,7 @@ Key results
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -52,6 +53,15 @@ class Cells(NamedTuple):
     gain: FloatArray
     missed: FloatArray
     series: FloatArray
+
+    def take(self, which: slice | IntArray) -> Cells:
+        """Return some of the cells."""
+        return Cells(*(array[..., which] for array in self))
+
+    @property
+    def bounds(self) -> FloatArray:
+        """Return u where each cell starts, and where the last one ends."""
+        return np.append(self.u, self.ends[-1])
 
     @property
     def last_cycles(self) -> float:
@@ -105,15 +115,19 @@ class Cells(NamedTuple):
         return result
 
 
-def cells(panels: Panels, first: float = 0.0, scenes: int = 1, start: float | None = None) -> Cells:
-    """Integrate the density; n is `first` at the start of the first panel of each of the scenes,
-    which have as many panels each, or, of one scene, at a state `start` on it. Every panel has as
-    many cells."""
+def cells(
+    panels: Panels, first: float = 0.0, scenes: int = 1, start: FloatArray | None = None
+) -> Cells:
+    """Integrate the density; n is `first` where the first panel of each of the scenes starts, which
+    have as many panels each, or at the states `start` (scenes,) on it. Every panel has as many
+    cells."""
     frame = panels.frame
     rule, edges = gauss(NODES), _cell_edges(panels)
     if start is not None:
-        begin = np.log1p((start - frame.starts[0]) / (frame.starts[0] + frame.c[0]))
-        edges[0] = begin + edges[0] * (1.0 - begin / frame.widths[0])
+        c, begins, widths = take(frame, slice(None, None, len(edges) // scenes))
+        y = np.log1p((start - begins) / (begins + c))[:, None]
+        edges[:: len(edges) // scenes] *= 1.0 - y / widths[:, None]
+        edges[:: len(edges) // scenes] += y
     length = np.diff(edges, axis=1)
     y = (edges[:, :-1, None] + length[..., None] * rule.nodes).reshape(len(edges), -1)
     t = 2 * frame.x_of(y) / frame.x_ends[:, None] - 1
@@ -131,6 +145,11 @@ def cells(panels: Panels, first: float = 0.0, scenes: int = 1, start: float | No
     missed = np.max(np.abs(legendre[-2:]), axis=0)
     series = np.stack([coefficients(powers, legendre.T) for powers in _powers(NODES)], axis=1)
     return Cells(u.ravel(), offset.ravel(), cycles, length.ravel(), gain, missed, series)
+
+
+def joined(tables: Sequence[Cells]) -> Cells:
+    """Return the cells of several scenes, one after the other."""
+    return Cells(*(np.concatenate(each, axis=-1) for each in zip(*tables, strict=True)))
 
 
 def cell_of(begins: FloatArray, at: FloatArray) -> IntArray:
@@ -218,7 +237,7 @@ class Iterates(NamedTuple):
         if table is not None and panels is not None:
             of_scene = len(table.u) // len(self.transient)
             chosen = (rows[:, None] * of_scene + np.arange(of_scene)).ravel()
-            table = Cells(*(array[..., chosen] for array in table))
+            table = table.take(chosen)
             each = len(panels.series) // len(self.transient)
             mine = (rows[:, None] * each + np.arange(each)).ravel()
             panels, cycles = take(panels, mine), take(cycles, mine)
