@@ -65,6 +65,16 @@ SCENES: dict[str, tuple[str, dict[str, Any], tuple[str, ...]]] = {
         {"contact.closure_mm": 1e-3},
         ("bearing.roughness_mm", "load.amplitude_mm"),
     ),
+    "contact that first begins where a piece of the cycle does": (
+        "section4-cutoff",
+        {
+            "bearing.wear_coefficient": 1e-4,
+            "bearing.roughness_growth": 0.47,
+            "contact.closure_mm": 1.27e-3,
+            "load.amplitude_mm": 6.6e-4,
+        },
+        ("contact.closure_mm",),
+    ),
     "contact held at its edge": (
         "section4-cutoff",
         {"contact.closure_mm": 1e-3, "support.stiffness_MPa_per_mm": 1e5},
@@ -227,6 +237,42 @@ def test_derivatives_keep_their_digits_near_a_limit_wear() -> None:
     values = np.array([[changes[key]] for key in keys])
     found = gradients([scene], keys, np.array([1e6, 1e9]))
     assert np.all(found.error[0] * values <= 1e-10 * found.wear[0])
+
+
+TOWARDS_THE_END: dict[str, tuple[dict[str, float], Load]] = {
+    "wear that stops": (
+        {
+            "bearing.wear_coefficient": 1.67e-7,
+            "bearing.roughness_growth": 0.276,
+            "bearing.roughness_mm": 2.6e-4,
+            "contact.closure_in_sigma": 2.96,
+            "contact.max_pressure_MPa": 275.0,
+        },
+        Sine(5e-4, 0.06),
+    ),
+    "wear that fades": (
+        {
+            "bearing.wear_coefficient": 5.9e-5,
+            "bearing.roughness_growth": 0.214,
+            "bearing.roughness_mm": 5.85e-4,
+            "contact.closure_in_sigma": 2.77,
+            "contact.max_pressure_MPa": 227.0,
+            "support.stiffness_MPa_per_mm": 1.97e5,
+        },
+        Harmonics(-6.3e-5, (-2.8e-4, 3.3e-4), (-2.5e-4, -2e-4), 0.06),
+    ),
+}
+
+
+@pytest.mark.parametrize("end", TOWARDS_THE_END)
+def test_the_end_of_wear_does_not_spoil_the_estimates_before_it(end: str) -> None:
+    """There derivatives change by orders of magnitude within one panel of the count."""
+    changes, load = TOWARDS_THE_END[end]
+    scene = dataclasses.replace(load_scene("section4-cutoff").with_(changes), load=load)
+    values = parameters_of(scene)
+    found = gradients([scene], list(values), np.array([300.0, 9000.0]))
+    relative = found.error[0] * np.abs([[value] for value in values.values()]) / found.wear[0]
+    assert np.all(relative <= 1e-8)
 
 
 def test_where_contact_grazes_at_first_it_is_said() -> None:

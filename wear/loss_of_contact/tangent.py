@@ -21,7 +21,7 @@ from wear.counted import Counted
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.loss_of_contact.contact import ContactPart
 from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap, switched_period_map
-from wear.loss_of_contact.switching import Piece, edge_of_contact
+from wear.loss_of_contact.switching import edge_of_contact, turning_points
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss
 from wear.numerics.tolerances import ROUNDOFF
@@ -35,6 +35,7 @@ from wear.orbit.transient import SAFETY
 from wear.parameters import Gradient, ParametrisedEquation
 
 LEFT = 1e12  # digits of the derivative of a limit, which follows from the margin alone
+SAME = 4 * ROUNDOFF  # phase
 STIFF = 10.0  # decay over a part, as an exponent: then a system of equations is solved
 
 
@@ -75,10 +76,10 @@ def stage_tangents(
         if isinstance(counted, Iterates):
             part = _one_by_one(counted, judge, result, wanted, now, now_error)
         elif isinstance(counted, TabulatedCount):
-            limit = _limit_of(equation, counted)
+            limit = _beside(equation, counted)
             part = _tabulated(counted, result, judge, limit, wanted, now, now_error)
         elif counted.at_rest[0]:
-            limit = np.tile(_limit(equation, found.last_wear), (len(wanted), 1))
+            limit = np.tile(_of_grazing(equation, found.last_wear), (len(wanted), 1))
             part = _Part(limit, np.abs(limit) / LEFT, np.zeros_like(wanted))
         else:  # an unresolved segment: no cycle of it is known
             unknown = np.full((len(wanted), equation.parameters), np.inf)
@@ -169,8 +170,8 @@ def _tabulated(
 ) -> _Part:
     """Return the derivatives after `cycles` (n,) that were counted between two grazing wears.
 
-    Where wear tends to a limit the derivative tends to `limit` (parameters,): the sums are those of
-    the difference, which the last cycles before rounding hardly change.
+    The sums are those of the difference to `limit` (parameters,), the derivative of the grazing
+    wear: that is smooth in the distance. At a limit wear the last cycles hardly change it.
     """
     count, z = counted.in_z, counted.coordinate
     nodes = _added(counted, chebyshev_nodes(counted.panels.series.shape[1]), cycle, limit)
@@ -202,20 +203,21 @@ def _added(counted: TabulatedCount, t: FloatArray, cycle: Linearised, limit: Flo
     return Added(increment, (density * into_z)[..., None] * change)
 
 
-def _limit_of(equation: ParametrisedEquation, counted: TabulatedCount) -> FloatArray:
-    """Return the derivatives (parameters,) of the wear to which a count tends; zero if to none."""
-    if counted.limit_wear is None:
-        return np.zeros(equation.parameters)
-    return _limit(equation, counted.limit_wear.wear)
+def _beside(equation: ParametrisedEquation, counted: TabulatedCount) -> FloatArray:
+    """Return the derivatives (parameters,) of the grazing wear from which a count measures the
+    distance; zero if from none."""
+    origin, _, shift = counted.coordinate
+    found = _of_grazing(equation, origin) if shift == 0.0 else np.zeros(equation.parameters)
+    return np.where(np.isfinite(found), found, 0.0)
 
 
-def _limit(equation: ParametrisedEquation, wear: float) -> FloatArray:
-    """Return the derivatives (parameters,) of the `wear` (mm) at which the peak of the load just
-    fails to make contact."""
+def _of_grazing(equation: ParametrisedEquation, wear: float) -> FloatArray:
+    """Return the derivatives (parameters,) of the `wear` (mm) at which a turning point of the load
+    just fails to make contact: the nearest to that."""
     (load,) = equation.loads
-    phase = np.array(load.peaks)
-    highest = phase[[int(np.argmax(load(phase)))]]
-    slope, change = _margin(equation, np.array([wear]), highest)
+    turns = turning_points(load)
+    nearest = np.argmin(np.abs(equation.model.margin(np.array([wear]), load(turns))))
+    slope, change = _margin(equation, np.array([wear]), turns[[nearest]])
     return np.asarray(-change[0, 1:] / slope[0])
 
 
@@ -237,35 +239,34 @@ def linearised(
 ) -> Linearised:
     """Return the derivatives of one cycle from each start (k,), mm."""
     tangent = np.zeros((len(starts), 1 + equation.parameters))
-    added = np.zeros(len(starts))
+    added, lasted = np.zeros((2, len(starts)))  # a cycle may begin in contact
     for piece, run in cycle.pieces_from(starts, np.zeros(len(starts), dtype=int)):
-        _through(cycle, equation, piece, run.parts, tangent)
+        _through(cycle, equation, run.parts, tangent, lasted)
         added = added + run.added
-        if len(run.slid):
-            slope, change = _margin(equation, (starts + added)[run.slid], piece.end[run.slid])
-            tangent[run.slid] = -change / slope[:, None]
+        if len(slid := run.slid):
+            slope, change = _margin(equation, (starts + added)[slid], piece.end[slid])
+            tangent[slid], lasted[slid] = -change / slope[:, None], piece.end[slid]
     return Linearised(added, tangent)
 
 
 def _through(
     cycle: SwitchedPeriodMap,
     equation: ParametrisedEquation,
-    piece: Piece,
     parts: tuple[ContactPart, ...],
     tangent: FloatArray,
+    lasted: FloatArray,
 ) -> None:
-    """Carry the `tangent` (k, 1 + parameters) of the increment through the parts of contact on a
-    piece."""
-    fresh, rigid = np.full(len(tangent), True), not equation.model.compliant
+    """Carry the `tangent` (k, 1 + parameters) of the increment through parts of contact, and the
+    phase up to which contact has `lasted` (k,)."""
+    rigid = not equation.model.compliant
     for part in (part for part in parts if len(part.rows)):
-        rows, last = part.rows, part.start + part.inside[-1]
-        opens = rigid & fresh[rows] & (part.begin > piece.begin[rows])
+        rows, last, end = part.rows, part.start + part.inside[-1], part.begin + part.length
+        opens = rigid & (part.begin > lasted[rows] + SAME)
         ends = rigid & part.ended
-        fresh[rows] = False
         tangent[rows] += _jump(equation, part.start, part.begin, tangent[rows], opens, False)
         tangent[rows] = _smooth(cycle, equation, part, tangent[rows])
-        end = part.begin + part.length
         tangent[rows] -= _jump(equation, last, end, tangent[rows], ends, True)
+        lasted[rows] = np.where(part.ended, 0.0, end)
 
 
 def _smooth(

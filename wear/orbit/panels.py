@@ -161,6 +161,14 @@ def _judged(
     return Judged(panels, share, marked, cost)
 
 
+def near_checks(missed: FloatArray, t: FloatArray) -> FloatArray:
+    """Return what is missed (k, n, ...) at the positions `t` (k, n) of panels: the larger of what
+    the two CHECKS next to each have `missed` (k, checks, ...)."""
+    after = np.clip(np.searchsorted(CHECKS, t), 1, len(CHECKS) - 1)
+    rows = np.arange(len(t))[:, None]
+    return np.asarray(np.maximum(missed[rows, after], missed[rows, after - 1]))
+
+
 def at_checks(ahead: CycleSolution, m: int) -> InitialGuess:
     """Return the cycles from the CHECKS as a guess for m nodes on each interval: interpolated
     between those `ahead` from the nodes of panels."""

@@ -29,7 +29,7 @@ from wear.numerics.rows import take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
-from wear.orbit.panels import CHECKS, PanelCycles
+from wear.orbit.panels import CHECKS, PanelCycles, near_checks
 from wear.orbit.period_map import PeriodMap, Rows, Settings, period_map, settings
 from wear.orbit.problem import Problem
 from wear.orbit.segments import Orbit
@@ -258,15 +258,16 @@ def sums_on_cells(
     assert table is not None
     series = abel.sum_per_cycle(panels, *nodes)
     residual = abel.sum_residual(panels, CHECKS, checks.increment, series, checks.to_sums)
-    worst = np.max(np.abs(residual), axis=1)  # (panels, parameters)
 
     density, rates = _at_cells(panels, table, series, gauss(NODES).nodes)
     density = density * gauss(NODES).weights
     gain = np.einsum("cg,cgk->ck", density, rates)
     size_of = np.einsum("cg,cgk->ck", density, np.abs(rates))
-    of_panel = len(gain) // len(worst)
+    panel = np.repeat(np.arange(len(residual)), len(gain) // len(residual))
+    frame, ends = take(panels.frame, panel), np.column_stack([table.u, table.ends])
+    worst = near_checks(np.abs(residual)[panel], frame.positions(ends)).max(axis=1)
     of_count = np.diff(counted.count_error, axis=1).reshape(-1, 1) / table.gain[:, None]
-    lost = SAFETY * (np.repeat(worst, of_panel, axis=0) * table.gain[:, None] + of_count * size_of)
+    lost = SAFETY * (worst * table.gain[:, None] + of_count * size_of)
     first = 1.0 / table.first_rate.reshape(len(start), -1)[:, 0, None, None]
     shape = (len(start), -1, start.shape[1])
     sums = np.concatenate([first * start[:, None], gain.reshape(shape)], axis=1).cumsum(axis=1)
