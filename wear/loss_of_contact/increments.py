@@ -23,7 +23,7 @@ from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
 from wear.orbit.abel import Frame
-from wear.orbit.panels import CHECKS, SPLIT
+from wear.orbit.panels import CHECKS, SPLIT, near_checks
 from wear.orbit.problem import Cost
 
 MOST_ROUNDS = 6  # of cutting panels: those that are not resolved then are not used
@@ -147,8 +147,7 @@ def missed(known: Sequence[Increments], of: IntArray, z: FloatArray) -> FloatArr
     checks next to it."""
     panel, t, _ = _located(known, of, z)
     misfit = np.concatenate([each.misfit for each in known])
-    after = np.clip(np.searchsorted(CHECKS, t), 1, len(CHECKS) - 1)
-    return np.asarray(np.maximum(misfit[panel, after], misfit[panel, after - 1]))
+    return near_checks(misfit[panel], t[:, None])[:, 0]
 
 
 def _located(
