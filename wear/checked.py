@@ -1,27 +1,37 @@
 """Tables of a scene as frozen dataclasses that are checked on every way to them.
 
-A field is an `entry` with a check, which returns the value or raises `EntryError` in words: what is
-wrong, and what to do about it. The same checks run for a file, for `Scene.from_dict`, for a
-constructor and for `dataclasses.replace`.
+Pydantic collects the faults of all entries; this module puts them into words: what is wrong, and
+what to do about it. The same checks run for a file, for `Scene.from_dict`, for a constructor and
+for `dataclasses.replace`.
 
 Key results
     table       class decorator: a frozen dataclass whose construction raises `SceneError`
-    entry       a field that is checked: by `POSITIVE`, `NON_NEGATIVE`, `REAL`, `Text`, `OneOf`, ...
-    EntryError       all that is wrong with a value or a table, each with its path
+    Positive, NonNegative, Real, Count, Flag, Text     kinds of entries
+    problems    all that is wrong with tables, each with its path
+    all_wrong   the error for a validator to raise that finds several faults
 """
 
 from __future__ import annotations
 
 import dataclasses
-import math
-import pathlib
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from numbers import Real
-from typing import Any, ClassVar, NamedTuple, Self, TypeVar, dataclass_transform
+import functools
+from collections.abc import Callable, Collection, Iterator, Mapping
+from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, dataclass_transform, get_args
+
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    model_validator,
+)
+from pydantic.dataclasses import dataclass
+from pydantic_core import ArgsKwargs, InitErrorDetails, PydanticCustomError, core_schema
 
 from wear.faults import Fault, SceneError
 from wear.quantities import LARGEST, MOST_CYCLES, SMALLEST, unit_of
-from wear.words import did_you_mean, kind_of, shown
+from wear.words import did_you_mean, kind_of, of_number, shown
 
 MOST_UNKNOWN_KEYS = 20
 
@@ -32,116 +42,46 @@ T = TypeVar("T")
 Path = tuple[str | int, ...]
 """Where a value stands: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
 
-Finding = tuple[Path, str, str]
-"""A path, the problem there, and its remedy."""
+Finding = tuple[str | Path, str, str]
+"""A path, which may be dotted, the problem there, and its remedy."""
 
 
-class EntryError(ValueError):
-    """What is wrong with a value or a table; the paths of the `findings` begin there."""
-
-    def __init__(self, findings: Iterable[Finding]) -> None:
-        self.findings = tuple(findings)
-
-    def at(self, *place: str | int) -> list[Finding]:
-        """Return the findings with their paths from a table that has the value at a place."""
-        return [((*place, *path), problem, remedy) for path, problem, remedy in self.findings]
+# Kinds of entries
 
 
-def wrong(problem: str, remedy: str, *path: str | int) -> EntryError:
-    """Return the error for a check to raise: what is wrong, and the remedy."""
-    return EntryError([(path, problem, remedy)])
+def wrong(problem: str, remedy: str) -> PydanticCustomError:
+    """Return the error for a validator to raise: what is wrong, and the remedy."""
+    return PydanticCustomError("wrong", "{problem}", {"problem": problem, "remedy": remedy})
 
 
-# Checks of entries
+def all_wrong(*faults: Finding) -> ValidationError:
+    """Return the error for a validator to raise that finds (path, problem, remedy) many times."""
+    details: list[InitErrorDetails] = [
+        {"type": wrong(problem, remedy), "loc": _path(path), "input": None}
+        for path, problem, remedy in faults
+    ]
+    return ValidationError.from_exception_data("wrong", details)
 
 
-class Where(NamedTuple):
-    """The key of an entry, and the folder where the files that it names are looked for."""
-
-    key: str
-    folder: pathlib.Path | None
+def _path(path: str | Path) -> Path:
+    return path if isinstance(path, tuple) else tuple(path.split(".") if path else ())
 
 
-Check = Callable[[Any, Where], Any]
-"""Returns the value that was meant by what is given, or raises `EntryError`."""
+def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, str]]:
+    """Return all that was found wrong in a table at a `place` of another, each with its path."""
+    return [
+        ((*place, *entry["loc"]), entry["ctx"]["problem"], entry["ctx"]["remedy"])
+        for entry in error.errors(include_url=False)
+    ]
 
 
-def is_sane(number: float) -> bool:
-    """Return whether a number is zero or of a magnitude that no scene exceeds."""
-    return number == 0.0 or SMALLEST <= abs(number) <= LARGEST
+def _sane(number: float) -> float:
+    if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST:
+        raise PydanticCustomError("magnitude", "out of range")
+    return number
 
 
-@dataclasses.dataclass(frozen=True)
-class Number:
-    """A finite number of sane size, of a `domain`: '> 0', '>= 0' or '' for all."""
-
-    domain: str = ""
-
-    def __call__(self, raw: Any, where: Where) -> float:
-        if type(raw) is float and self._fits(raw):
-            return raw
-        unit, domain = unit_of(where.key), self.domain
-        ending = f", in {unit}" if unit else ""
-        if isinstance(raw, str):
-            remedy = f"give a number{ending}, without quotes"
-            raise wrong(f'"{shown(raw)}" is text, not a number', remedy)
-        if isinstance(raw, bool) or not isinstance(raw, Real):
-            raise wrong(f"is {kind_of(raw)}", f"give a number{ending}")
-        wanted = f"give a number {domain}{ending}" if domain else f"give any finite number{ending}"
-        try:
-            number = float(raw)
-        except OverflowError:
-            raise wrong("is a whole number too large for a float", wanted) from None
-        if self._fits(number):
-            return number
-        if not math.isfinite(number):
-            raise wrong(f"{number} is not a finite number", wanted)
-        if number < 0.0 and domain:
-            raise wrong(f"{number!r} is negative", wanted)
-        if number == 0.0:
-            raise wrong("is zero", wanted)
-        bounds = f"magnitudes lie from {SMALLEST:g} to {LARGEST:g}"
-        raise wrong(f"{number!r} is out of range", f"{wanted}; {bounds}")
-
-    def _fits(self, number: float) -> bool:
-        if number == 0.0:
-            return self.domain != "> 0"
-        return is_sane(number) and (number > 0.0 or not self.domain)
-
-
-POSITIVE, NON_NEGATIVE, REAL = Number("> 0"), Number(">= 0"), Number()
-
-
-@dataclasses.dataclass(frozen=True)
-class Reals:
-    """A list of at most so many numbers."""
-
-    most: int = 1_000_000
-
-    def __call__(self, raw: Any, where: Where) -> tuple[float, ...]:
-        if hasattr(raw, "tolist"):  # NumPy's arrays
-            raw = raw.tolist()
-        if not isinstance(raw, list | tuple):
-            remedy = "give a list of numbers in brackets, such as [1e-4, 2e-5]"
-            raise wrong(f"is {kind_of(raw)}", remedy)
-        if len(raw) > self.most:
-            raise wrong(f"has {len(raw)} entries", f"give at most {self.most}")
-        if all(type(entry) is float and is_sane(entry) for entry in raw):
-            return tuple(raw)
-        values, faults = list[float](), list[Finding]()
-        for place, entry in enumerate(raw, start=1):
-            try:
-                values.append(REAL(entry, where))
-            except EntryError as found:
-                [(path, problem, remedy)] = found.findings
-                faults.append((path, f"entry {place}: {problem}", remedy))
-        if faults:
-            raise EntryError(faults)
-        return tuple(values)
-
-
-def count(raw: Any, _: Where) -> int:
-    """Return a whole number from 1 on."""
+def _whole(raw: object) -> object:
     remedy = f"give a whole number from 1 to {MOST_CYCLES:.0e}"
     if isinstance(raw, bool) or not isinstance(raw, int | float):
         raise wrong(f"is {kind_of(raw)}", remedy)
@@ -152,149 +92,140 @@ def count(raw: Any, _: Where) -> int:
     return int(raw)
 
 
-def flag(raw: Any, _: Where) -> bool:
-    """Return true or false."""
-    if not isinstance(raw, bool):
-        raise wrong("is no flag", "write true or false")
-    return raw
+def _printable(text: str) -> str:
+    if not text.isprintable():
+        raise wrong("has control characters", "use printable characters only")
+    return text
 
 
-@dataclasses.dataclass(frozen=True)
-class Text:
-    """Printable characters, at most so many, in one line or in several."""
-
-    most: int = 200
-    lines: bool = False
-
-    def __call__(self, raw: Any, where: Where) -> str:
-        if not isinstance(raw, str):
-            raise wrong(f"is {kind_of(raw)}", f'give text in quotes: {where.key} = "..."')
-        if len(raw) > self.most:
-            raise wrong(f"has {len(raw)} characters", f"give at most {self.most}")
-        if not (raw.replace("\n", "") if self.lines else raw).isprintable():
-            raise wrong("has control characters", "use printable characters only")
-        return raw
+def _printable_lines(text: str) -> str:
+    return "\n".join(map(_printable, text.split("\n")))
 
 
-@dataclasses.dataclass(frozen=True)
-class OneOf:
-    """One of some names."""
-
-    names: Collection[str]
-
-    def __call__(self, raw: Any, _: Where) -> str:
-        return choice(raw, self.names)
+def listed(raw: object) -> object:
+    """Return an array as a list, anything else as it is."""
+    return raw.tolist() if hasattr(raw, "tolist") else raw  # NumPy's arrays
 
 
-def choice(raw: object, known: Collection[str], *path: str) -> str:
+def choice(raw: object, known: Collection[str]) -> str:
     """Return `raw` if it is one of the known names, otherwise raise what was perhaps meant."""
     if isinstance(raw, str) and raw in known:
         return raw
     remedy = f"choose one of {', '.join(known)}"
     if not isinstance(raw, str):
-        raise wrong("is not a name in quotes", remedy, *path)
+        raise wrong("is not a name in quotes", remedy)
     if meant := did_you_mean(raw, known):
         remedy = f"did you mean {meant}? C{remedy[1:]}"
-    raise wrong(f'"{shown(raw)}" is unknown', remedy, *path)
+    raise wrong(f'"{shown(raw)}" is unknown', remedy)
+
+
+class OneOf(NamedTuple):
+    """The names among which an entry chooses; in an annotation, after `str`."""
+
+    names: Collection[str]
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_plain_validator_function(lambda raw: choice(raw, self.names))
+
+
+_FINITE = Field(strict=True, allow_inf_nan=False)
+Positive = Annotated[float, _FINITE, Field(gt=0), AfterValidator(_sane)]
+NonNegative = Annotated[float, _FINITE, Field(ge=0), AfterValidator(_sane)]
+Real = Annotated[float, _FINITE, AfterValidator(_sane)]
+Count = Annotated[int, BeforeValidator(_whole)]
+Reals = Annotated[tuple[Real, ...], BeforeValidator(listed)]
+Flag = Annotated[bool, Field(strict=True)]
+Prose = Annotated[str, Field(strict=True, max_length=2000), AfterValidator(_printable_lines)]
+Line = Annotated[str, Field(strict=True), AfterValidator(_printable)]
+Text = Annotated[Line, Field(max_length=200)]
 
 
 # Tables
 
 
+@dataclass(frozen=True)
 class SceneTable:
     """A table of the scene file: `place` is its name, `kind` chooses among those of that name.
 
-    `entries` are its keys, `left_out` the values of those that a file may leave out, but not a
-    constructor.
+    `entries` are its keys with pydantic's description of each, `left_out` the values of those that
+    a file may leave out, but not a constructor.
     """
 
     place: ClassVar[str] = ""
     kind: ClassVar[str] = ""
     left_out: ClassVar[Mapping[str, Any]] = {}
-    entries: ClassVar[Mapping[str, dataclasses.Field[Any]]] = {}
-
-    def __init__(self, /, *values: Any, **named: Any) -> None:
-        fields = [each.name for each in dataclasses.fields(self)]  # type: ignore[arg-type]
-        given = dict(zip(fields, values, strict=False)) | named
-        plain = [name for name in fields if name in given and name not in self.entries]
-        others = {name: given.pop(name) for name in plain}
-        try:
-            if len(given) + len(others) < len(values) + len(named):
-                raise wrong("a value has no entry of its own", f"known here: {_known(self)}")
-            self._keep(given, others.get("folder"))
-        except EntryError as found:
-            placed = found.at(self.place) if self.place else found.findings
-            raise SceneError(
-                [Fault("", None, *place_of(path), *why) for path, *why in placed]
-            ) from None
-        vars(self).update(others)
-
-    @classmethod
-    def of(cls, raw: Any, where: Where) -> Self:
-        """Return the table of plain values by key, or what is such a table; raises `EntryError`."""
-        if isinstance(raw, cls):
-            return raw
-        if not isinstance(raw, Mapping):
-            raise wrong("is not a table", f"write [{cls.place}] on a line of its own")
-        made = object.__new__(cls)
-        made._keep({**cls.left_out, **{str(key): raw[key] for key in raw}}, where.folder)
-        return made
-
-    def _keep(self, given: Mapping[str, Any], folder: pathlib.Path | None) -> None:
-        """Keep the entries that are given, and the defaults of others, or raise `EntryError`."""
-        unknown = [key for key in given if key not in self.entries]
-        told = [_of_unknown(self, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
-        meant, faults = {key for key, _ in told} - {""}, [finding for _, finding in told]
-        if len(unknown) > len(told):
-            faults.append(((), "more unknown keys", f"known here: {_known(self)}"))
-        values = {}
-        for name, field in self.entries.items():
-            raw = given.get(name, field.default)
-            if raw is field.default is not dataclasses.MISSING:
-                values[name] = raw
-            elif raw is not dataclasses.MISSING:
-                try:
-                    values[name] = field.metadata["check"](raw, Where(name, folder))
-                except EntryError as found:
-                    faults += found.at(name)
-            elif name not in meant:
-                faults.append(((name,), "missing", _to_add(name, field)))
-        present = {key: entry for key, entry in given.items() if entry is not None}
-        faults += self.relations(dict.fromkeys(meant, ...) | present)
-        if not faults:
-            vars(self).update(values)
-            faults += self.together()
-        if faults:
-            raise EntryError(faults)
+    entries: ClassVar[Mapping[str, Any]] = {}
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:  # noqa: ARG003
-        """Yield what is wrong with entries that do not go together; each may be wrong itself."""
+        """Yield (key, problem, remedy) for entries that do not go together; they may be wrong."""
         yield from ()
 
-    def together(self) -> Iterator[Finding]:
-        """Yield what is wrong with entries that do not go together, though each is right."""
-        yield from ()
-
-
-def entry(check: Check, description: str = "", default: Any = dataclasses.MISSING) -> Any:
-    """Return a field that a file has as an entry; the default alone need not pass the check."""
-    about = {"check": check, "description": description}
-    return dataclasses.field(default=default, metadata=about)
+    @model_validator(mode="wrap")
+    @classmethod
+    def _explained(cls, raw: Any, build: Callable[[Any], Any]) -> Any:
+        """Build the table, or raise every fault of its entries and relations in words."""
+        known: Mapping[str, Any] = cls.entries
+        if isinstance(raw, ArgsKwargs):
+            known = cls.__pydantic_fields__  # type: ignore[attr-defined]
+            given = dict(zip(known, raw.args, strict=False)) | (raw.kwargs or {})
+            if len(given) < len(raw.args) + len(raw.kwargs or {}):
+                known_here = f"known here: {', '.join(cls.entries)}"
+                raise all_wrong(("", "a value has no entry of its own", known_here))
+        elif isinstance(raw, Mapping):
+            given = {**cls.left_out, **{str(key): value for key, value in raw.items()}}
+        else:
+            return _instance(cls, raw, build)
+        unknown = [key for key in given if key not in known]
+        shown_keys = unknown[:MOST_UNKNOWN_KEYS]
+        faults: list[Finding] = [_of_unknown(cls, key, given[key]) for key in shown_keys]
+        meant = {_meant_by(cls, key) for key in shown_keys} - {""}
+        if len(unknown) > len(shown_keys):
+            faults.append(("", "more unknown keys", f"known here: {', '.join(cls.entries)}"))
+        try:
+            made = build({key: value for key, value in given.items() if key in known})
+        except ValidationError as error:
+            entries = error.errors(include_url=False)
+            faults += [
+                _of_entry(cls, entry)
+                for entry in entries
+                if not (entry["type"] == "missing" and entry["loc"][0] in meant)
+            ]
+        present = {key: entry for key, entry in given.items() if entry is not None}
+        faults += cls.relations(dict.fromkeys(meant, ...) | present)
+        if faults:
+            raise all_wrong(*faults)
+        return made
 
 
 TABLES: list[type[SceneTable]] = []
 """Every table of the scene file."""
 
 
-@dataclass_transform(frozen_default=True, field_specifiers=(entry, dataclasses.field))
+@dataclass_transform(frozen_default=True, field_specifiers=(Field, dataclasses.field))
 def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
     """Make a frozen dataclass of the table at `place`; a wrong entry raises `SceneError`."""
 
     def make(plain: type[T]) -> type[T]:
-        made: Any = dataclasses.dataclass(frozen=True, init=False)(plain)
+        made: Any = dataclass(frozen=True, config=ConfigDict(extra="forbid"))(plain)
         made.place, made.kind = place, kind
-        made.entries = {each.name: each for each in dataclasses.fields(made) if each.metadata}
+        fields = made.__pydantic_fields__
+        made.entries = {name: entry for name, entry in fields.items() if not entry.exclude}
+        checked_init = made.__init__
+
+        @functools.wraps(checked_init)
+        def init(self: T, *args: Any, **entries: Any) -> None:
+            try:
+                checked_init(self, *args, **entries)
+            except ValidationError as error:
+                raise SceneError(
+                    [
+                        Fault("", None, *place_of(path), problem, remedy)
+                        for path, problem, remedy in problems(error, (place,) if place else ())
+                    ]
+                ) from None
+
+        made.__init__ = init
         TABLES.append(made)
         return made  # type: ignore[no-any-return]
 
@@ -315,33 +246,94 @@ def place_of(path: Path) -> tuple[str, str]:
     return words + block, shown(str(key))
 
 
-# What is wrong with keys, in words
+# What is wrong, in words
 
 
-def _known(kind: SceneTable) -> str:
-    return ", ".join(kind.entries)
+def _instance(kind: type[SceneTable], raw: Any, build: Callable[[Any], Any]) -> Any:
+    """Return what is a table already."""
+    try:
+        return build(raw)
+    except ValidationError:
+        remedy = f"write [{kind.place}] on a line of its own"
+        raise all_wrong(("", "is not a table", remedy)) from None
 
 
-def _of_unknown(kind: SceneTable, name: str, raw: object) -> tuple[str, Finding]:
-    """Return the known key that an unknown one seems to stand for, '' if none, and what to say."""
-    meant = RENAMED.get(name, "")
-    if meant in kind.entries:
-        remedy = f"renamed to {meant}"
-    elif homes := [
+def _meant_by(kind: type[SceneTable], name: str) -> str:
+    """Return the known key that an unknown one seems to stand for, '' if none."""
+    if RENAMED.get(name) in kind.entries:
+        return RENAMED[name]
+    return "" if _homes(kind, name) else did_you_mean(name, kind.entries)
+
+
+def _homes(kind: type[SceneTable], name: str) -> str:
+    """Return the tables to which a key belongs that stands in the wrong one."""
+    homes = [
         f'kind = "{other.kind}"' if other.kind else f"[{other.place}]"
         for other in TABLES
         if other.place and name in other.entries and (kind.kind or not other.kind)
-    ]:
-        meant, remedy = "", f"it belongs to {' or '.join(homes)}"
-    elif meant := did_you_mean(name, kind.entries):
+    ]
+    return " or ".join(homes)
+
+
+def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> Finding:
+    meant = _meant_by(kind, name)
+    if RENAMED.get(name) == meant:
+        remedy = f"renamed to {meant}"
+    elif homes := _homes(kind, name):
+        remedy = f"it belongs to {homes}"
+    elif meant:
         remedy = f"did you mean {meant}?"
     else:
-        remedy = f"known here: {_known(kind)}"
-    return meant, ((name,), f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy)
+        remedy = f"known here: {', '.join(kind.entries)}"
+    return (name,), f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy
 
 
-def _to_add(key: str, field: dataclasses.Field[Any]) -> str:
-    description, unit = field.metadata["description"], unit_of(key)
-    if any(key == each.place for each in TABLES):
-        return f"add a table [{key}] ({description})"
-    return f"add {key} = ... ({description}{', in ' + unit if unit else ''})"
+def _of_entry(kind: type[SceneTable], entry: Any) -> Finding:
+    """Return what pydantic found in an entry."""
+    loc = entry["loc"]
+    if entry["type"] == "wrong":
+        return loc, entry["ctx"]["problem"], entry["ctx"]["remedy"]
+    problem, remedy = _of_value(kind, str(loc[0]), entry)
+    if len(loc) > 1:  # in a list
+        problem = f"entry {int(loc[1]) + 1}: {problem}"
+    return loc[:1], problem, remedy
+
+
+def _of_value(kind: type[SceneTable], key: str, entry: Any) -> tuple[str, str]:
+    raw, limits = entry["input"], entry.get("ctx", {})
+    match entry["type"]:
+        case "missing":
+            return "missing", _to_add(kind, key)
+        case "float_type" | "finite_number" | "greater_than" | "greater_than_equal" | "magnitude":
+            return of_number(raw, domain_of(kind.entries[key]), unit_of(key))
+        case "bool_type":
+            return "is no flag", "write true or false"
+        case "string_type":
+            return f"is {kind_of(raw)}", f'give text in quotes: {key} = "..."'
+        case "tuple_type":
+            return f"is {kind_of(raw)}", "give a list of numbers in brackets, such as [1e-4, 2e-5]"
+        case "too_long" | "string_too_long":
+            things = "characters" if isinstance(raw, str) else "entries"
+            return f"has {len(raw)} {things}", f"give at most {limits['max_length']}"
+    return entry["msg"], "correct it"
+
+
+def _to_add(kind: type[SceneTable], key: str) -> str:
+    field = kind.entries[key]
+    home = getattr(field.annotation, "place", None)
+    if home is not None:
+        return f"add a table [{key}] ({field.description})"
+    unit = unit_of(key)
+    return f"add {key} = ... ({field.description}{', in ' + unit if unit else ''})"
+
+
+def domain_of(field: Any) -> str:
+    """Return which numbers an entry takes: '> 0', '>= 0' or '' for all."""
+    inner = [each for part in get_args(field.annotation) for each in get_args(part)[1:]]
+    limits = [limit for each in inner for limit in getattr(each, "metadata", ())]
+    for limit in [*field.metadata, *limits]:
+        if getattr(limit, "gt", None) is not None:
+            return f"> {limit.gt:g}"
+        if getattr(limit, "ge", None) is not None:
+            return f">= {limit.ge:g}"
+    return ""

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from types import UnionType
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Union, get_args, get_origin
 
-from wear.checked import TABLES, SceneTable
+from wear.checked import TABLES, OneOf, SceneTable, domain_of
 from wear.load.blocks import Block, BlockCycles
 from wear.load.tables import KINDS, PERIODIC
 from wear.quantities import unit_of
@@ -52,10 +51,9 @@ def _sentence(table: type[SceneTable]) -> str:
 
 def _keys(table: type[SceneTable], only: tuple[str, ...] = (), first: str = "") -> str:
     rows = ["| key | value | meaning |", "| --- | --- | --- |", *([first] if first else [])]
-    types = get_type_hints(table)
     rows += [
-        f"| `{name}` | {_value(name, field, types[name])}{_default(table, name, field)} | "
-        f"{_typeset(field.metadata['description'])} |"
+        f"| `{name}` | {_value(name, field)}{_default(table, name, field)} | "
+        f"{_typeset(field.description)} |"
         for name, field in table.entries.items()
         if not only or name in only
     ]
@@ -80,12 +78,12 @@ def _typeset(meaning: str) -> str:
     return _SYMBOL.sub(symbol, re.sub(r"(--\w+)", r"`\1`", meaning))
 
 
-def _value(name: str, field: dataclasses.Field[Any], annotation: Any) -> str:
-    check = field.metadata["check"]
-    if choices := getattr(check, "names", ()):
+def _value(name: str, field: Any) -> str:
+    choices = next((each.names for each in field.metadata if isinstance(each, OneOf)), ())
+    if choices:
         return ", ".join(f'`"{choice}"`' for choice in choices)
-    kind, unit = _kind(annotation), unit_of(name)
-    if domain := getattr(check, "domain", ""):
+    kind, unit = _kind(field.annotation), unit_of(name)
+    if domain := domain_of(field):
         return f"{kind} {domain}{unit and ' '}{unit}"
     return f"{kind}{unit and ', '}{unit}"
 
@@ -96,7 +94,7 @@ def _kind(annotation: Any) -> str:
     ('a number', 'a list of numbers')
     """
     parts, origin = get_args(annotation), get_origin(annotation)
-    if origin is UnionType:
+    if origin in (UnionType, Union, Annotated):
         return _kind(parts[0])
     if origin is not tuple:
         return _KINDS[annotation]
@@ -105,8 +103,8 @@ def _kind(annotation: Any) -> str:
     return f"a list of {_kind(parts[0]).removeprefix('a ')}s"
 
 
-def _default(table: type[SceneTable], name: str, field: dataclasses.Field[Any]) -> str:
-    if field.default is dataclasses.MISSING and name not in table.left_out:
+def _default(table: type[SceneTable], name: str, field: Any) -> str:
+    if field.is_required() and name not in table.left_out:
         return ""
     default = table.left_out.get(name, field.default)
     if default in (None, (), ""):

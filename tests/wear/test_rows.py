@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
-from wear.checked import EntryError
+from wear.checked import problems
 from wear.faults import SceneError
 from wear.load import Table, rows
 from wear.load.rows import TableFile, read_rows
@@ -23,9 +24,9 @@ HEAD = "t_s,U_a_mm\n"
 def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
     (tmp_path / "a.csv").write_bytes(f"{HEAD}0,5\n1,{cell}\n".encode())
     if number is None:
-        with pytest.raises(EntryError) as caught:
+        with pytest.raises(ValidationError) as caught:
             read_rows(TableFile("a.csv"), tmp_path)
-        ((_, problem, _),) = caught.value.findings
+        ((_, problem, _),) = problems(caught.value)
         assert problem == f'a.csv line 3: "1,{cell}" is no row'
     else:
         assert read_rows(TableFile("a.csv"), tmp_path).values.tolist() == [5.0, number]

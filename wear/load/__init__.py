@@ -13,8 +13,9 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
+from pydantic import Field
 
-from wear.checked import POSITIVE, REAL, entry, table
+from wear.checked import Positive, Real, table
 from wear.load.blocks import Block, Blocks
 from wear.load.harmonics import Harmonics, Waves, derivative
 from wear.load.lines import ForceTable, HistoryLoad, Table
@@ -49,8 +50,8 @@ class Sine(Smooth):
     (0.0005, (0.25,), -0.0005)
     """
 
-    amplitude_mm: float = entry(REAL, "amplitude U")
-    period_s: float = entry(POSITIVE, "period T of a cycle")
+    amplitude_mm: Real = Field(description="amplitude U")
+    period_s: Positive = Field(description="period T of a cycle")
     mean: ClassVar[float] = 0.0
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
@@ -115,8 +116,8 @@ class _Level(Smooth):
 class Constant(_Level):
     """U_a constant; the period only counts cycles."""
 
-    value_mm: float = entry(REAL, "displacement U_a")
-    period_s: float = entry(POSITIVE, "period T, only to count cycles")
+    value_mm: Real = Field(description="displacement U_a")
+    period_s: Positive = Field(description="period T, only to count cycles")
 
 
 @table("load", kind="force")
@@ -127,8 +128,8 @@ class Force(_Level):
     """
 
     of_level: ClassVar[str] = "force_N"
-    force_N: float = entry(POSITIVE, "reaction R_a of the pin")
-    period_s: float = entry(POSITIVE, "period T, only to count cycles")
+    force_N: Positive = Field(description="reaction R_a of the pin")
+    period_s: Positive = Field(description="period T, only to count cycles")
 
 
 def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:

@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import cached_property
-from typing import NamedTuple
+from typing import Annotated, NamedTuple, Self
 
 import numpy as np
+from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
 
-from wear.checked import (
-    EntryError,
-    Finding,
-    SceneTable,
-    Where,
-    count,
-    entry,
-    table,
-    wrong,
-)
+from wear.checked import Count, Finding, SceneTable, all_wrong, problems, table, wrong
 from wear.load.periodic import Load
 from wear.load.tables import PERIODIC, load_from
 from wear.numerics.gauss import FloatArray
@@ -38,10 +30,10 @@ class Block(NamedTuple):
 class BlockCycles(SceneTable):
     """What a block has beside its load."""
 
-    cycles: int = entry(count, "number of cycles of this block")
+    cycles: Count = Field(description="number of cycles of this block")
 
 
-def _blocks(raw: object, where: Where) -> tuple[Block, ...]:
+def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
     """Return blocks from tables of a load's entries and `cycles`, or from `Block`s."""
     if not isinstance(raw, list | tuple) or not all(isinstance(b, Mapping | Block) for b in raw):
         raise wrong("is not a list of tables", "write [[load.blocks]] for each")
@@ -53,17 +45,17 @@ def _blocks(raw: object, where: Where) -> tuple[Block, ...]:
         rest = block._asdict() if isinstance(block, Block) else dict(block)
         cycles = {key: rest.pop(key) for key in ("cycles",) if key in rest}
         try:
-            checked = BlockCycles.of(cycles, where)
-        except EntryError as found:
-            faults += found.at(place)
+            checked = BlockCycles.__pydantic_validator__.validate_python(cycles)  # type: ignore[attr-defined]
+        except ValidationError as error:
+            faults += problems(error, (place,))
         try:
-            load = load_from(rest.get("load", rest), where, PERIODIC)
-        except EntryError as found:
-            faults += found.at(place)
+            load = load_from(rest.get("load", rest), info, PERIODIC)
+        except ValidationError as error:
+            faults += problems(error, (place,))
         if not faults:
             made.append(Block(load, checked.cycles))
     if faults:
-        raise EntryError(faults)
+        raise all_wrong(*faults)
     return tuple(made)
 
 
@@ -74,15 +66,17 @@ class Blocks(SceneTable):
     U_a may jump where one block gives way to the next; there the value is that of the new block.
     """
 
-    blocks: tuple[Block, ...] = entry(
-        _blocks, "[[load.blocks]] tables: a periodic load each, and its cycles"
+    blocks: Annotated[tuple[Block, ...], PlainValidator(_blocks)] = Field(
+        description="[[load.blocks]] tables: a periodic load each, and its cycles"
     )
-    repeat: int = entry(count, "how often the list is run", default=1)
+    repeat: Count = Field(default=1, description="how often the list is run")
 
-    def together(self) -> Iterator[Finding]:
+    @model_validator(mode="after")
+    def _countable(self) -> Self:
         if self.cycles > MOST_CYCLES:
             problem = f"makes {self.cycles:.3g} cycles in all"
-            yield ("repeat",), problem, f"stay below {MOST_CYCLES:.0e}"
+            raise all_wrong(("repeat", problem, f"stay below {MOST_CYCLES:.0e}"))
+        return self
 
     @property
     def cycles(self) -> int:

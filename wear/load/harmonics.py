@@ -9,8 +9,9 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
-from wear.checked import POSITIVE, REAL, Reals, entry, table
+from wear.checked import Positive, Real, Reals, table
 from wear.load.periodic import Smooth, centred, within_cycle
 from wear.numerics.gauss import FloatArray
 
@@ -22,10 +23,10 @@ FEW = 2  # harmonics: so many cost less as a polynomial
 class Harmonics(Smooth):
     """U_a = mean + sum over j = 1, 2, ... of cosine_j cos(2 pi j t/T) + sine_j sin(2 pi j t/T)."""
 
-    mean_mm: float = entry(REAL, "mean of U_a")
-    cosine_mm: tuple[float, ...] = entry(Reals(MOST_HARMONICS), "cosine_1, cosine_2, ...")
-    sine_mm: tuple[float, ...] = entry(Reals(MOST_HARMONICS), "sine_1, sine_2, ...")
-    period_s: float = entry(POSITIVE, "period T of a cycle")
+    mean_mm: Real = Field(description="mean of U_a")
+    cosine_mm: Reals = Field(max_length=MOST_HARMONICS, description="cosine_1, cosine_2, ...")
+    sine_mm: Reals = Field(max_length=MOST_HARMONICS, description="sine_1, sine_2, ...")
+    period_s: Positive = Field(description="period T of a cycle")
     left_out: ClassVar[Mapping[str, Any]] = {"mean_mm": 0.0, "cosine_mm": (), "sine_mm": ()}
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
-from typing import ClassVar
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
+from pydantic import BeforeValidator, Field, FiniteFloat, model_validator
 
-from wear.checked import POSITIVE, Finding, Reals, SceneTable, entry, table, wrong
+from wear.checked import Positive, SceneTable, all_wrong, listed, table
 from wear.load.periodic import inside, within_cycle
 from wear.load.rows import ForceFile, HistoryFile, RowsFile, TableFile, order_faults, read_rows
 from wear.numerics.gauss import FloatArray
@@ -19,13 +19,15 @@ from wear.quantities import unit_of
 
 SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes but for their roundoff
 
+Column = Annotated[tuple[FiniteFloat, ...], BeforeValidator(listed)]
+
 
 @table("")
 class _Rows(SceneTable):
     """Values at times in s that rise from 0; `of_rows` names the field that holds the values."""
 
     of_rows: ClassVar[str] = "values_mm"
-    times_s: tuple[float, ...] = entry(Reals(), "times of the rows, from 0")
+    times_s: Column = Field(description="times of the rows, from 0")
 
     @property
     def rows(self) -> tuple[float, ...]:
@@ -70,30 +72,28 @@ class _Rows(SceneTable):
         within = f"{min(values):g} to {max(values):g} {unit} in {duration:g} s"
         return f"<{type(self).__name__}: {len(values)} rows, {within}>"
 
-    def together(self) -> Iterator[Finding]:
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
         rows = len(self.times_s)
         if rows < 2 or len(self.rows) != rows:
             problem = f"there are {rows} times and {len(self.rows)} values"
-            yield ("times_s",), problem, "give as many of both, from 2 on"
-            return
-        for _, problem, remedy in order_faults(np.asarray(self.times_s)):
-            yield ("times_s",), problem, remedy
-        yield from self.faults_of_values()
-
-    def faults_of_values(self) -> Iterator[Finding]:
-        """Yield what is wrong with the values of as many times."""
-        yield from ()
+            raise all_wrong(("times_s", problem, "give as many of both, from 2 on"))
+        if faults := order_faults(np.asarray(self.times_s)):
+            raise all_wrong(*(("times_s", problem, remedy) for _, problem, remedy in faults))
+        return self
 
 
 @table("")
 class _Period(_Rows):
     """Straight lines between rows over one period; the first row, at t = 0, is also the last."""
 
-    def faults_of_values(self) -> Iterator[Finding]:
+    @model_validator(mode="after")
+    def _closed(self) -> Self:
         first, last = self.rows[0], self.rows[-1]
         if first != last:
             problem = f"the load jumps at the seam from {last!r} to {first!r}"
-            yield (self.of_rows,), problem, "repeat the first in the last row"
+            raise all_wrong((self.of_rows, problem, "repeat the first in the last row"))
+        return self
 
     @cached_property
     def _places(self) -> FloatArray:
@@ -141,7 +141,7 @@ class Table(_Period):
     (2.0, (0.0, 0.25), (0.25,), 0.0005)
     """
 
-    values_mm: tuple[float, ...] = entry(Reals(), "U_a at these times")
+    values_mm: Column = Field(description="U_a at these times")
     source: TableFile | None = None
     __repr__ = _Rows.__repr__
 
@@ -151,15 +151,16 @@ class ForceTable(_Period):
     """R_a in N by straight lines between rows over one period."""
 
     of_rows: ClassVar[str] = "forces_N"
-    forces_N: tuple[float, ...] = entry(Reals(), "R_a at these times")
+    forces_N: Column = Field(description="R_a at these times")
     source: ForceFile | None = None
     __repr__ = _Rows.__repr__
 
-    def faults_of_values(self) -> Iterator[Finding]:
-        yield from super().faults_of_values()
+    @model_validator(mode="after")
+    def _pressed(self) -> Self:
         if self.minimum < 0.0 or self.maximum == 0.0:
             problem = f"the force goes from {self.minimum:g} to {self.maximum:g} N"
-            yield ("forces_N",), problem, "give forces >= 0, not all of them zero"
+            raise all_wrong(("forces_N", problem, "give forces >= 0, not all of them zero"))
+        return self
 
 
 @table("")
@@ -169,8 +170,8 @@ class HistoryLoad(_Rows):
     `period_s` only counts cycles. Times outside the rows are a `UsageError`.
     """
 
-    values_mm: tuple[float, ...] = entry(Reals(), "U_a at these times")
-    period_s: float = entry(POSITIVE, "time of a cycle")
+    values_mm: Column = Field(description="U_a at these times")
+    period_s: Positive = Field(description="time of a cycle")
     source: HistoryFile | None = None
     __repr__ = _Rows.__repr__
 
@@ -198,7 +199,7 @@ class HistoryLoad(_Rows):
 
 
 def load_of(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:
-    """Return the load of a CSV file; raises `EntryError` with all that is wrong."""
+    """Return the load of a CSV file; raises pydantic's `ValidationError` with all that is wrong."""
     repeat = isinstance(form, TableFile) and form.repeat
     rows = read_rows(form, folder, from_first=repeat)
     times, values = rows.times, rows.values
@@ -226,14 +227,14 @@ def _close(
     elif period < times[-1]:
         problem = f"the rows run to t_s = {float(times[-1])!r}, past the period"
         remedy = "drop period_s or correct it, or take one period of the record by repeat = true"
-        raise wrong(problem, remedy, "period_s")
+        raise all_wrong(("period_s", problem, remedy))
     else:
         times, values = np.append(times, period), np.append(values, values[0])
     first, last = values[[0, -1]].tolist()
     if abs(last - first) > SEAM_TOLERANCE * np.ptp(values):
         problem = f"the load jumps at the seam from {last!r} to {first!r}"
         remedy = "repeat the first value in the last row, give a later period_s, or repeat = true"
-        raise wrong(problem, remedy, "file")
+        raise all_wrong(("file", problem, remedy))
     values[-1] = first
     return times, values
 
@@ -246,6 +247,6 @@ def _one_period(
     period = float(times[-1]) + step if period is None else period
     if period > (times[-1] + step) * (1.0 + SEAM_TOLERANCE):
         problem = f"the record ends at t_s = {float(times[-1])!r}, before the period does"
-        raise wrong(problem, "give a shorter period, or drop period_s", "period_s")
+        raise all_wrong(("period_s", problem, "give a shorter period, or drop period_s"))
     kept = times < period * (1.0 - SEAM_TOLERANCE)
     return np.append(times[kept], period), np.append(values[kept], values[0])

@@ -12,39 +12,39 @@ import json
 import stat
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
+from pydantic import AfterValidator, Field, ValidationError
 
 from wear.checked import (
-    POSITIVE,
-    EntryError,
     Finding,
+    Flag,
+    Line,
     OneOf,
+    Positive,
     SceneTable,
     Text,
-    Where,
-    entry,
-    flag,
-    is_sane,
+    all_wrong,
     table,
     wrong,
 )
 from wear.numerics.gauss import FloatArray
+from wear.quantities import LARGEST, SMALLEST
 from wear.words import shown
 
 MOST_BYTES = 64 * 1024 * 1024
 MOST_ROWS = 1_000_000
 MOST_WRONG_ROWS = 5
 MOST_HEAD_LINES = 100  # before the names of the columns, as instruments write them
+COLUMNS = ("t_s", "U_a_mm")
 CLOSEST_ROWS = 1e-12  # of the time: nearer rows could fall on the same phase
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
 MILLIMETRES = {"mm": 1.0, "um": 1e-3, "nm": 1e-6, "m": 1e3}
 NEWTONS = {"N": 1.0, "kN": 1e3, "mN": 1e-3}
 
 
-def _encoding(raw: object, where: Where) -> str:
-    name = Text()(raw, where)
+def _encoding(name: str) -> str:
     try:
         "".encode(name)
     except (LookupError, ValueError):
@@ -53,17 +53,15 @@ def _encoding(raw: object, where: Where) -> str:
     return name
 
 
-def _delimiter(raw: object, _: Where) -> str:
-    if not isinstance(raw, str) or len(raw) != 1 or raw.isalnum() or raw in '.+-"':
+def _delimiter(text: str) -> str:
+    if len(text) != 1 or text.isalnum() or text in '.+-"':
         raise wrong("is no delimiter", 'give one character, such as ";" or "\\t"')
-    return raw
+    return text
 
 
-def _names(raw: object, where: Where) -> tuple[str, ...]:
-    names = raw if isinstance(raw, list | tuple) else ()
-    if len(names) != 2:
-        raise wrong("is no pair of names", 'give both in quotes: columns = ["...", "..."]')
-    return tuple(Text()(name, where) for name in names)
+Encoding = Annotated[Text, AfterValidator(_encoding)]
+Delimiter = Annotated[str, Field(strict=True, max_length=200), AfterValidator(_delimiter)]
+FileName = Annotated[Line, Field(max_length=1000)]
 
 
 @table("")
@@ -71,55 +69,54 @@ class RowsFile(SceneTable):
     """A CSV file of rows, and how it is written; `units` are those of the second column."""
 
     units: ClassVar[Mapping[str, float]] = MILLIMETRES
-    file: str = entry(
-        Text(1000),
-        "CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
-        "in the current folder); t_s starts at 0",
+    file: FileName = Field(
+        description="CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
+        "in the current folder); t_s starts at 0"
     )
-    period_s: float | None = entry(POSITIVE, "period T", default=None)
-    sha256: str | None = entry(Text(), "checksum that the file must have", default=None)
-    columns: tuple[str, ...] = entry(
-        _names, "names of the columns of time and displacement", default=("t_s", "U_a_mm")
+    period_s: Positive | None = Field(default=None, description="period T")
+    sha256: Text | None = Field(default=None, description="checksum that the file must have")
+    columns: tuple[Text, Text] = Field(
+        default=COLUMNS, description="names of the columns of time and displacement"
     )
-    time_unit: str = entry(OneOf(SECONDS), "unit of the time column", default="s")
-    unit: str = entry(OneOf(MILLIMETRES), "unit of the displacement column", default="mm")
-    delimiter: str = entry(_delimiter, "character between the columns", default=",")
-    decimal: str = entry(OneOf((".", ",")), "decimal sign of the numbers", default=".")
-    encoding: str = entry(_encoding, "encoding of the text", default="utf-8")
+    time_unit: Annotated[str, OneOf(SECONDS)] = Field(
+        default="s", description="unit of the time column"
+    )
+    unit: Annotated[str, OneOf(MILLIMETRES)] = Field(
+        default="mm", description="unit of the displacement column"
+    )
+    delimiter: Delimiter = Field(default=",", description="character between the columns")
+    decimal: Annotated[str, OneOf((".", ","))] = Field(
+        default=".", description="decimal sign of the numbers"
+    )
+    encoding: Encoding = Field(default="utf-8", description="encoding of the text")
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         if given.get("decimal") == "," and given.get("delimiter", ",") == ",":
-            yield (
-                ("decimal",),
-                "is the delimiter too",
-                'give the delimiter, such as delimiter = ";"',
-            )
+            yield "decimal", "is the delimiter too", 'give the delimiter, such as delimiter = ";"'
 
 
 @table("load", kind="table")
 class TableFile(RowsFile):
     """U_a by straight lines between the rows of a CSV file over one period."""
 
-    file: str = entry(
-        Text(1000),
-        "CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
-        "in the current folder); t_s starts at 0, the last row repeats the first U_a",
+    file: FileName = Field(
+        description="CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
+        "in the current folder); t_s starts at 0, the last row repeats the first U_a"
     )
-    period_s: float | None = entry(
-        POSITIVE,
-        "period T; left out, the last t_s. If later, a straight line back to the "
-        "first row closes the period",
+    period_s: Positive | None = Field(
         default=None,
+        description="period T; left out, the last t_s. If later, a straight line back to the "
+        "first row closes the period",
     )
-    repeat: bool = entry(
-        flag,
-        "true: take one period out of the record, from its first row on; a straight "
-        "line to the first row closes it. The period is period_s, or the last time plus one step",
+    repeat: Flag = Field(
         default=False,
+        description="true: take one period out of the record, from its first row on; a straight "
+        "line to the first row closes it. The period is period_s, or the last time plus one step",
     )
-    resample: bool = entry(
-        flag, "true: rows are merged as far as the requested accuracy allows", default=True
+    resample: Flag = Field(
+        default=True,
+        description="true: rows are merged as far as the requested accuracy allows",
     )
 
 
@@ -127,8 +124,8 @@ class TableFile(RowsFile):
 class HistoryFile(RowsFile):
     """U_a by straight lines between the rows of a CSV file, not periodic."""
 
-    period_s: float | None = entry(
-        POSITIVE, "time of a cycle, only to count cycles; left out, the last t_s", default=None
+    period_s: Positive | None = Field(
+        default=None, description="time of a cycle, only to count cycles; left out, the last t_s"
     )
 
 
@@ -137,15 +134,16 @@ class ForceFile(TableFile):
     """R_a by straight lines between the rows of a CSV file over one period."""
 
     units: ClassVar[Mapping[str, float]] = NEWTONS
-    file: str = entry(
-        Text(1000),
-        "CSV file with columns t_s,R_a_N, beside the scene file (if given by --set: "
-        "in the current folder); t_s starts at 0, the last row repeats the first R_a",
+    file: FileName = Field(
+        description="CSV file with columns t_s,R_a_N, beside the scene file (if given by --set: "
+        "in the current folder); t_s starts at 0, the last row repeats the first R_a"
     )
-    columns: tuple[str, ...] = entry(
-        _names, "names of the columns of time and force", default=("t_s", "R_a_N")
+    columns: tuple[Text, Text] = Field(
+        default=("t_s", "R_a_N"), description="names of the columns of time and force"
     )
-    unit: str = entry(OneOf(NEWTONS), "unit of the force column", default="N")
+    unit: Annotated[str, OneOf(NEWTONS)] = Field(
+        default="N", description="unit of the force column"
+    )
 
 
 class Rows(NamedTuple):
@@ -159,31 +157,33 @@ class Rows(NamedTuple):
 def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) -> Rows:
     """Return the rows of a file, by its path from `folder`; times `from_first` row, if so wanted.
 
-    Raises `EntryError` with all that is wrong.
+    Raises pydantic's `ValidationError` with all that is wrong.
     """
     name = form.file
     if folder is None:
-        raise wrong("there is no folder to look in", "load the scene by its path", "file")
+        raise all_wrong(("file", "there is no folder to look in", "load the scene by its path"))
     path = folder / name
     if _is_device(path):
-        raise wrong(f"{shown(name)} is no ordinary file", "give a CSV file", "file")
+        raise all_wrong(("file", f"{shown(name)} is no ordinary file", "give a CSV file"))
     data = read_bytes(path, MOST_BYTES)
     if isinstance(data, tuple):
         problem, remedy = data
         place = shown(str(folder.absolute()), most=1000)
         looked = "" if Path(name).is_absolute() else f" (looked for in {place})"
-        raise wrong(f"{shown(name)}: {problem}{looked}", remedy, "file")
+        raise all_wrong(("file", f"{shown(name)}: {problem}{looked}", remedy))
     try:
         text = data.decode("utf-8-sig" if form.encoding == "utf-8" else form.encoding)
     except UnicodeDecodeError:
         known = form.encoding.upper()
-        remedy = f'save it as {known}, or give encoding = "latin-1"'
-        raise wrong(f"{shown(name)} is not {known} text", remedy, "file") from None
+        raise all_wrong(
+            ("file", f"{shown(name)} is not {known} text",
+             f'save it as {known}, or give encoding = "latin-1"'),
+        ) from None  # fmt: skip
     times, values = _parse(text, form, from_first)
     digest = hashlib.sha256(data).hexdigest()
     if form.sha256 not in (None, digest):
         problem = f"{shown(name)} has changed: its sha256 is {digest}"
-        raise wrong(problem, "restore the file, or drop this key", "sha256")
+        raise all_wrong(("sha256", problem, "restore the file, or drop this key"))
     return Rows(times * SECONDS[form.time_unit], values * form.units[form.unit], digest)
 
 
@@ -231,10 +231,10 @@ LineFault = tuple[int, str, str]
 """Number of a line, what is wrong with it, and the remedy."""
 
 
-def _wrong_lines(form: RowsFile, *faults: LineFault) -> EntryError:
+def _wrong_lines(form: RowsFile, *faults: LineFault) -> ValidationError:
     """Return the error for lines of a file."""
     name = shown(form.file)
-    return EntryError((("file",), f"{name} line {n}: {what}", cure) for n, what, cure in faults)
+    return all_wrong(*(("file", f"{name} line {n}: {what}", cure) for n, what, cure in faults))
 
 
 def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
@@ -306,4 +306,4 @@ def _number(cell: str, form: RowsFile) -> float | None:
         number = float(cell.strip().strip('"').replace(form.decimal, "."))
     except ValueError:
         return None
-    return number if is_sane(number) else None
+    return number if number == 0.0 or SMALLEST <= abs(number) <= LARGEST else None

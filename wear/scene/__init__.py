@@ -16,9 +16,11 @@ import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from wear.checked import EntryError, Finding, SceneTable, Text, Where, entry, table
+from pydantic import Field, PlainValidator, ValidationError, model_validator
+
+from wear.checked import Finding, Prose, SceneTable, Text, all_wrong, problems, table
 from wear.faults import Fault, SceneError, UsageError
 from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
 from wear.load.rows import read_bytes
@@ -29,6 +31,7 @@ from wear.scene.variant import KEYS, OF_PIN, VariantKey
 from wear.words import did_you_mean, is_path, shown
 
 SCENES = Path(__file__).parents[1].joinpath("scenes")
+NO_ENTRY = Field(exclude=True, repr=False)
 
 
 @table("")
@@ -39,16 +42,16 @@ class Scene(SceneTable):
     part in comparisons.
     """
 
-    bearing: Bearing = entry(Bearing.of, "the bearing, which wears")
-    contact: Contact = entry(Contact.of, "how closure and roughness make a pressure")
-    motion: Motion = entry(Motion.of, "the rotation of the pin")
-    load: Loading = entry(load_from, "the motion U_a(t)")
-    pin: Pin | None = entry(Pin.of, "the pin", default=None)
-    support: Support | None = entry(Support.of, "the springs under the bearing", default=None)
-    title: str = entry(Text(), "one line that names the scene", default="")
-    description: str = entry(Text(2000, lines=True), "what the scene shows", default="")
-    name: str = dataclasses.field(default="scene", compare=False)
-    folder: Path | None = dataclasses.field(default=None, compare=False)
+    bearing: Bearing = Field(description="the bearing, which wears")
+    contact: Contact = Field(description="how closure and roughness make a pressure")
+    motion: Motion = Field(description="the rotation of the pin")
+    load: Annotated[Loading, PlainValidator(load_from)] = Field(description="the motion U_a(t)")
+    pin: Pin | None = Field(default=None, description="the pin")
+    support: Support | None = Field(default=None, description="the springs under the bearing")
+    title: Text = Field(default="", description="one line that names the scene")
+    description: Prose = Field(default="", description="what the scene shows")
+    name: Annotated[str, NO_ENTRY] = dataclasses.field(default="scene", compare=False)
+    folder: Annotated[Path | None, NO_ENTRY] = dataclasses.field(default=None, compare=False)
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
@@ -62,7 +65,7 @@ class Scene(SceneTable):
         if "bearing" in given and all(type(r) in (int, float) and r == 0 for r in rough):
             which = "both solids" if len(rough) > 1 else "the only rough solid"
             remedy = "give at least one solid a roughness_mm > 0"
-            yield ("bearing", "roughness_mm"), f"the roughness is zero on {which}", remedy
+            yield "bearing.roughness_mm", f"the roughness is zero on {which}", remedy
 
     @classmethod
     def from_dict(
@@ -81,15 +84,21 @@ class Scene(SceneTable):
         0.3
         """
         try:
-            named = {key.partition(".")[0] for key in changes.keys()}  # noqa: SIM118
+            named = {entry.partition(".")[0] for entry in changes.keys()}  # noqa: SIM118
         except (AttributeError, TypeError):
             form = "{'bearing.roughness_growth': 0.3}"
             raise UsageError(f"changes: give a mapping such as {form}") from None
-        tables = {name: getattr(self, name) for name in self.entries}
-        tables |= {name: self._entries(name) for name in named & {*PARTS}}
-        for key, value in changes.items():
-            set_entry(tables, tuple(key.split(".")), value, keep=changes)
-        return Scene.from_dict(tables, self.name, self.folder)
+        from_file = "load.file" in changes or getattr(self.load, "source", None) is not None
+        if not named <= {*PARTS} or ("load" in named and (from_file or "load" in changes)):
+            tables = self.to_tables() | ({} if "load" in named else {"load": self.load})
+            for entry, value in changes.items():
+                set_entry(tables, tuple(entry.split(".")), value, keep=changes)
+            return Scene.from_dict(tables, self.name, self.folder)
+        tables = {name: self._entries(name) for name in named}  # what a study does 1e6 times
+        for entry, value in changes.items():
+            set_entry(tables, tuple(entry.split(".")), value, keep=changes)
+        changed: dict[str, Any] = {name: tables.get(name) for name in named}
+        return dataclasses.replace(self, **changed)
 
     def _entries(self, table: str) -> dict[str, Any]:
         """The entries of a table that are given, as plain values."""
@@ -139,22 +148,23 @@ class Scene(SceneTable):
         """Whether the reaction of the pin is given, problem (i), in place of its displacement."""
         return isinstance(self.load, Force | ForceTable)
 
-    def together(self) -> Iterator[Finding]:
-        """Yield what is wrong with a given reaction: it needs an area, and contact to carry it."""
+    @model_validator(mode="after")
+    def _carried(self) -> Self:
+        """A given reaction needs an area, and a contact that can carry it."""
         if not self.given_load:
-            return
+            return self
         contact, most = self.contact, self.load.maximum
-        if contact.ends_at_3_sigma:
-            problem = "has no meaning where the load is a force: the pressure is given"
-            yield ("contact", "ends_at_3_sigma"), problem, "drop it"
         if contact.width_mm is None or contact.length_mm is None:
             problem = "the load is a force: its pressure needs width_mm and length_mm"
-            yield ("contact", "width_mm"), problem, "give both"
-            return
+            raise all_wrong(("contact.width_mm", problem, "give both"))
+        if contact.ends_at_3_sigma:
+            problem = "has no meaning where the load is a force: the pressure is given"
+            raise all_wrong(("contact.ends_at_3_sigma", problem, "drop it"))
         limit = contact.max_pressure_MPa * contact.width_mm * contact.length_mm
         if most >= limit:
             problem = f"the force of {most:.6g} N is beyond p_max b L = {limit:.6g} N"
-            yield ("load",), problem, "give a smaller force, or a larger area"
+            raise all_wrong(("load", problem, "give a smaller force, or a larger area"))
+        return self
 
     @property
     def pin_wear_sign(self) -> float:
@@ -294,13 +304,13 @@ def _checked(tables: Mapping[str, Any], source: Source, name: str, folder: Path 
         folder = Path()  # an option that names a file means the current folder
     faults = list(source.faults)
     try:
-        scene = Scene.of(tables, Where("", folder))
-    except EntryError as error:
-        faults += [source.fault(*finding) for finding in error.findings]
+        validator = Scene.__pydantic_validator__  # type: ignore[attr-defined]
+        scene: Scene = validator.validate_python(tables, context={"folder": folder})
+    except ValidationError as error:
+        faults += [source.fault(*problem) for problem in problems(error)]
     if faults:
         raise SceneError(faults)
-    vars(scene).update(name=name, folder=folder)
-    return scene
+    return dataclasses.replace(scene, name=name, folder=folder)
 
 
 def _place(name: str) -> str:

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import Field, PlainValidator, ValidationInfo
 
 from wear import own_laws
 from wear.checked import (
-    NON_NEGATIVE,
-    POSITIVE,
-    REAL,
     Finding,
+    Flag,
+    NonNegative,
     OneOf,
+    Positive,
+    Real,
     SceneTable,
-    Where,
-    entry,
-    flag,
+    choice,
     table,
     wrong,
-)
+)  # fmt: skip
 from wear.faults import UsageError
 from wear.load.rows import read_bytes
 from wear.scene.text import MOST_BYTES
@@ -34,24 +35,21 @@ def contact_laws() -> tuple[str, ...]:
     return tuple(sorted(module.parent.name for module in found))
 
 
-class Law(OneOf):
-    """The name of a contact law of the package, or of one that is given by its formula."""
-
-    def __call__(self, raw: Any, where: Where) -> str:
-        if isinstance(raw, str) and own_laws.is_own(raw):
-            raw = {"phi": raw.removeprefix(own_laws.PREFIX)}
-        if not isinstance(raw, Mapping):
-            return super().__call__(raw, where)
-        text = raw.get("phi")
-        if raw.keys() == {"file"} and isinstance(raw["file"], str):
-            text = _formula(raw["file"], where.folder)
-        elif raw.keys() != {"phi"} or not isinstance(text, str):
-            remedy = 'write law = { phi = "..." } or law = { file = "..." }'
-            raise wrong("is no contact law", remedy)
-        try:
-            return own_laws.named(text)
-        except UsageError as fault:
-            raise wrong(str(fault), "see the page on contact laws") from None
+def _law(raw: object, info: ValidationInfo) -> str:
+    """Return the name of a contact law of the package, or of one that is given by its formula."""
+    if isinstance(raw, str) and own_laws.is_own(raw):
+        raw = {"phi": raw.removeprefix(own_laws.PREFIX)}
+    if not isinstance(raw, Mapping):
+        return choice(raw, contact_laws())
+    text = raw.get("phi")
+    if raw.keys() == {"file"} and isinstance(raw["file"], str):
+        text = _formula(raw["file"], (info.context or {}).get("folder"))
+    elif raw.keys() != {"phi"} or not isinstance(text, str):
+        raise wrong("is no contact law", 'write law = { phi = "..." } or law = { file = "..." }')
+    try:
+        return own_laws.named(text)
+    except UsageError as fault:
+        raise wrong(str(fault), "see the page on contact laws") from None
 
 
 def _formula(name: str, folder: Path | None) -> str:
@@ -70,13 +68,13 @@ def _formula(name: str, folder: Path | None) -> str:
 class Bearing(SceneTable):
     """The bearing (index c), which wears."""
 
-    hardness_MPa: float = entry(POSITIVE, "hardness H_c")
-    wear_coefficient: float = entry(POSITIVE, "Archard's wear coefficient K_c")
-    roughness_mm: float = entry(
-        NON_NEGATIVE, "surface roughness sigma_c0 before any wear (not zero on both solids)"
+    hardness_MPa: Positive = Field(description="hardness H_c")
+    wear_coefficient: Positive = Field(description="Archard's wear coefficient K_c")
+    roughness_mm: NonNegative = Field(
+        description="surface roughness sigma_c0 before any wear (not zero on both solids)"
     )
-    roughness_growth: float = entry(
-        REAL, "f_c = d sigma_c / d u_c, change of roughness with own wear"
+    roughness_growth: Real = Field(
+        description="f_c = d sigma_c / d u_c, change of roughness with own wear"
     )
 
 
@@ -84,13 +82,13 @@ class Bearing(SceneTable):
 class Pin(SceneTable):
     """The pin (index a); without this table it is smooth and does not wear."""
 
-    hardness_MPa: float = entry(POSITIVE, "hardness H_a")
-    wear_coefficient: float = entry(NON_NEGATIVE, "Archard's wear coefficient K_a")
-    roughness_mm: float = entry(
-        NON_NEGATIVE, "surface roughness sigma_a0 before any wear (not zero on both solids)"
+    hardness_MPa: Positive = Field(description="hardness H_a")
+    wear_coefficient: NonNegative = Field(description="Archard's wear coefficient K_a")
+    roughness_mm: NonNegative = Field(
+        description="surface roughness sigma_a0 before any wear (not zero on both solids)"
     )
-    roughness_growth: float = entry(
-        REAL, "f_a = d sigma_a / d u_a, change of roughness with own wear"
+    roughness_growth: Real = Field(
+        description="f_a = d sigma_a / d u_a, change of roughness with own wear"
     )
 
 
@@ -98,37 +96,34 @@ class Pin(SceneTable):
 class Contact(SceneTable):
     """How closure and roughness make a pressure; exactly one of the two closures is given."""
 
-    max_pressure_MPa: float = entry(POSITIVE, "largest contact pressure p_max")
-    closure_mm: float | None = entry(
-        NON_NEGATIVE, "initial closure h_0 (unloaded, if the support is compliant)", default=None
+    max_pressure_MPa: Positive = Field(description="largest contact pressure p_max")
+    closure_mm: NonNegative | None = Field(
+        default=None, description="initial closure h_0 (unloaded, if the support is compliant)"
     )
-    closure_in_sigma: float | None = entry(
-        NON_NEGATIVE,
-        "h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
+    closure_in_sigma: NonNegative | None = Field(
         default=None,
+        description="h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
     )
-    law: str = entry(
-        Law(contact_laws()),
-        'contact law p/p_max = phi(h/sigma): a name, { phi = "..." } in r = h/sigma, '
-        'or { file = "..." } with the formula in a file beside the scene',
+    law: Annotated[str, OneOf(contact_laws()), PlainValidator(_law)] = Field(
         default="tanh",
+        description='contact law p/p_max = phi(h/sigma): a name, { phi = "..." } in r = h/sigma, '
+        'or { file = "..." } with the formula in a file beside the scene',
     )
-    ends_at_3_sigma: bool = entry(
-        flag,
-        "true: no pressure for h > 3 sigma, the text under (4); false: as in (8)",
+    ends_at_3_sigma: Flag = Field(
         default=False,
+        description="true: no pressure for h > 3 sigma, the text under (4); false: as in (8)",
     )
-    pin_wear_opens_gap: bool = entry(
-        flag, "true: the physical sign of u_a; false: Eq. (1) as printed", default=False
+    pin_wear_opens_gap: Flag = Field(
+        default=False,
+        description="true: the physical sign of u_a; false: Eq. (1) as printed",
     )
-    width_mm: float | None = entry(
-        POSITIVE, "contact width b; with length_mm, R_a = p b L is reported", default=None
+    width_mm: Positive | None = Field(
+        default=None, description="contact width b; with length_mm, R_a = p b L is reported"
     )
-    length_mm: float | None = entry(POSITIVE, "contact length L", default=None)
-    friction_coefficient: float | None = entry(
-        NON_NEGATIVE,
-        "coefficient of friction mu; sliding distance and friction work are reported",
+    length_mm: Positive | None = Field(default=None, description="contact length L")
+    friction_coefficient: NonNegative | None = Field(
         default=None,
+        description="coefficient of friction mu; sliding distance and friction work are reported",
     )
 
     @classmethod
@@ -136,28 +131,24 @@ class Contact(SceneTable):
         """Yield the faults of closures and of the contact's two lengths."""
         match [key in given for key in CLOSURES]:
             case [False, False]:
-                yield (), f"{' or '.join(CLOSURES)} is missing", "give one of the two"
+                yield "", f"{' or '.join(CLOSURES)} is missing", "give one of the two"
             case [True, True]:
-                yield (
-                    CLOSURES[1:],
-                    f"{' and '.join(CLOSURES)} are both given",
-                    "keep one of the two",
-                )
+                yield CLOSURES[1], f"{' and '.join(CLOSURES)} are both given", "keep one of the two"
         for one, other in (("width_mm", "length_mm"), ("length_mm", "width_mm")):
             if one in given and other not in given:
-                yield (), f"{other} is missing", f"give it too, or drop {one}"
+                yield "", f"{other} is missing", f"give it too, or drop {one}"
 
 
 @table("support")
 class Support(SceneTable):
     """The springs under the bearing; without this table the support is rigid."""
 
-    stiffness_MPa_per_mm: float = entry(POSITIVE, "stiffness k per area")
+    stiffness_MPa_per_mm: Positive = Field(description="stiffness k per area")
 
 
 @table("motion")
 class Motion(SceneTable):
     """The rotation of the pin."""
 
-    radius_mm: float = entry(POSITIVE, "pin radius R")
-    speed_rpm: float = entry(POSITIVE, "rotation speed n")
+    radius_mm: Positive = Field(description="pin radius R")
+    speed_rpm: Positive = Field(description="rotation speed n")
