@@ -14,7 +14,7 @@ from wear.load.spans import span
 from wear.model import Fields, Model
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
-from wear.scene.plausibility import implausible_results
+from wear.scene.notices import implausible_results
 
 
 def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) -> Fields:

@@ -198,7 +198,7 @@ def _quoted(text: str) -> str:
 
 def refuse_implausible(notices: Sequence[str], faults: Faults) -> None:
     """Make faults of the notices about magnitudes that are hardly meant."""
-    from wear.scene.plausibility import WORD
+    from wear.scene.notices import WORD
 
     faults += [notice for notice in notices if notice.startswith(WORD)]
 

@@ -35,7 +35,7 @@ from wear.report.publish import versions
 from wear.report.text import parsed, template
 from wear.request import cycles_along, obstacle
 from wear.scene import Scene
-from wear.scene.plausibility import implausible_results
+from wear.scene.notices import implausible_results
 from wear.sensitivities import Sensitivities, sensitivity
 from wear.solver import solve
 
@@ -55,7 +55,6 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     begun = [n for n in _INSIDE if n < curve.cycles[-1]] or [0]
     pressed = None if limit is None else pressure_inside(scene, begun)
     equations = shown(_equations(scene, limit))
-    predicted = [_predicted(scene, each) for each in specimens]
     found = _sensitivities(
         scene, [n for n in (_EARLY, int(curve.cycles[-1])) if n <= curve.cycles[-1]]
     )
@@ -71,10 +70,7 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         "identifiers": list(equations),
         "states": [n for n, cycle in enumerate(curve.cycles[:-1]) if _is_round(cycle)] + [-1],
         "life": list(_life(scene)) if obstacle(scene) is None else [],
-        "inside": pressed is not None,
         "loses_contact": bool(np.any(curve.pressures.contact_fraction < 1.0)),
-        "sensitivities": found is not None,
-        **_compared(specimens, predicted),
         "command": command,
         "versions": versions(),
     }
@@ -87,7 +83,9 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     if found is not None:
         drawings["sensitivities"] = _tornado(found)
     if specimens:
-        drawings["readings"] = _readings_figure(scene, specimens, predicted)
+        compared, drawings["readings"] = _readings(scene, specimens)
+        values |= compared
+    values["drawings"] = drawings
     return Document(parsed(template("scene.md"), values), equations, drawn(drawings))
 
 
@@ -164,34 +162,21 @@ def _tornado(found: Sensitivities) -> Figure:
     return figures.tornado(keys, found.elasticity[most], labels)
 
 
-def _compared(specimens: Sequence[Specimen], predicted: Sequence[History]) -> dict[str, Any]:
-    """Return the readings beside the prediction (mm), and how they scatter about it."""
-    rows = [
-        (each.name, *numbers)
-        for each, history in zip(specimens, predicted, strict=True)
-        for meant in [history.u_c[np.searchsorted(history.cycles, each.cycles)]]
-        for numbers in zip(each.cycles.astype(int), each.wear_mm, meant, strict=True)
-    ]
+def _readings(scene: Scene, specimens: Sequence[Specimen]) -> tuple[dict[str, Any], Figure]:
+    """Return the readings beside the prediction (mm), how they scatter about it, and a figure."""
+    runs = {each.name or "predicted": scene.with_(each.changes) for each in specimens}
+    rows, lines = [], []
+    for place, (each, name) in enumerate(zip(specimens, runs, strict=True)):
+        cycles = cycles_along(*each.cycles[[0, -1]].tolist(), _POINTS, each.cycles)
+        found = solve(runs[name], cycles, rtol=1e-8)
+        meant = found.u_c[np.searchsorted(found.cycles, each.cycles)]
+        pairs = zip(each.cycles.astype(int), each.wear_mm, meant, strict=True)
+        rows += [(each.name, *numbers) for numbers in pairs]
+        lines.append(Line(name, found.cycles.astype(float), found.u_c, place))
     ratios = np.array([wear / meant for _, _, wear, meant in rows if wear > 0.0] or [1.0])
     ratio, scatter = np.exp(np.mean(np.log(ratios))), np.std(np.log(ratios))
-    return {"readings": rows, "ratio": ratio, "scatter": scatter}
-
-
-def _predicted(scene: Scene, specimen: Specimen) -> History:
-    """Return the wear at the readings of a specimen, and between."""
-    cycles = cycles_along(*specimen.cycles[[0, -1]].tolist(), _POINTS, specimen.cycles)
-    return solve(scene.with_(specimen.changes), cycles, rtol=1e-8)
-
-
-def _readings_figure(
-    scene: Scene, specimens: Sequence[Specimen], predicted: Sequence[History]
-) -> Figure:
-    runs = {each.name or "predicted": scene.with_(each.changes) for each in specimens}
-    lines = tuple(
-        Line(name, history.cycles.astype(float), history.u_c, place)
-        for place, (name, history) in enumerate(zip(runs, predicted, strict=True))
-    )
     read = np.concatenate([each.cycles for each in specimens])
     logarithmic = bool(read.max() > 100.0 * read.min())
-    panel = Panel(WEAR, lines, points_of(specimens, runs, Abscissa.CYCLES))
-    return figures.history([panel], logarithmic=logarithmic)
+    panel = Panel(WEAR, tuple(lines), points_of(specimens, runs, Abscissa.CYCLES))
+    compared = {"readings": rows, "ratio": ratio, "scatter": scatter}
+    return compared, figures.history([panel], logarithmic=logarithmic)

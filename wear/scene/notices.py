@@ -1,18 +1,41 @@
-"""What is legal in a scene, but may not be what its author means."""
+"""What is legal in a scene, or in its results, but may not be what its author means.
+
+Magnitudes that are absurd are told with the likely slip, by one table of ranges with sources; what
+lies outside is a notice that begins with "implausible", and `--strict` refuses it. One scene and
+the rows of a study are judged alike: a magnitude is a number, or an array along rows.
+
+References
+    ISO 1302:2002, annex: roughness classes N1 (Ra 0.025 um) to N12 (Ra 50 um).
+    E. Rabinowicz, *Friction and Wear of Materials*, Wiley 1995, ch. 6: K from 1e-8 to 1e-2.
+    J. F. Archard, J. Appl. Phys. 24 (1953) 981: K is dimensionless, k = K/H is not.
+    K. L. Johnson, *Contact Mechanics*, Cambridge 1985, ch. 6: pressures stay below the hardness.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from wear import own_laws
 from wear.load import Blocks, ForceTable, Table
 from wear.load.spans import span
-from wear.scene.plausibility import implausible_entries
+from wear.numerics.gauss import FloatArray
+from wear.numerics.tolerances import TINY
+from wear.scene.text import PARTS
 
 if TYPE_CHECKING:
     from wear.scene import Scene
 
+Cycles = Sequence[int] | NDArray[np.int64]
+Real = Any  # a float, or an array along rows
+WORD = "implausible"
+ROUGHEST = 0.05  # mm, class N12 of ISO 1302
+DEEPEST = 0.1  # of the radius: deeper wear is another geometry
+LONGEST = 1e9  # cycles: no wear coefficient is known for so many
+HARDER = 3.0  # times the hardness: no asperity carries such a pressure
 DIGITS_LOST = 1e-12  # relative error of a contact law: more is worth a notice
 CONTACT_REACH = 3  # contact needs h <= 3 sigma, the text under (4); a test holds it to derive's
 
@@ -105,3 +128,130 @@ def _load_notices(scene: Scene) -> Iterator[str]:
     if jumps:
         places = ", ".join(map(str, jumps[:10])) + (", ..." if len(jumps) > 10 else "")
         yield f"the displacement jumps at the start of block {places}"
+
+
+# Magnitudes that are hardly meant
+
+
+class Doubt(NamedTuple):
+    """A magnitude that may be hardly meant: its `ratio` to the largest that is plausible, a number
+    or an array along rows, and a sentence with places for some `values` of the same shape."""
+
+    ratio: Real
+    words: str
+    values: tuple[Real, ...]
+
+    def sentence(self, at: int | tuple[()] = ()) -> str:
+        """Return the sentence about a row, or about the one scene there is."""
+        shape = np.shape(self.ratio)
+        return self.words.format(*(np.broadcast_to(value, shape)[at] for value in self.values))
+
+
+class Range(NamedTuple):
+    """What a key's magnitude is in engineering, and the slip that values outside hint at."""
+
+    low: float
+    high: float
+    if_low: str
+    if_high: str
+
+
+RANGES: Mapping[str, Range] = {
+    "hardness_MPa": Range(1.0, 1.5e5, "GPa typed as MPa?", "Pa typed as MPa?"),
+    "wear_coefficient": Range(
+        1e-12,
+        0.1,
+        "a dimensional coefficient k? K = k H, times the hardness",
+        "K is dimensionless and below 0.1",
+    ),
+    "roughness_mm": Range(1e-7, ROUGHEST, "m typed as mm?", "um typed as mm?"),
+    "max_pressure_MPa": Range(1e-2, 1.5e5, "GPa typed as MPa?", "Pa typed as MPa?"),
+    "closure_mm": Range(1e-6, 1.0, "m typed as mm?", "um typed as mm?"),
+    "closure_in_sigma": Range(0.1, 100.0, "a closure in mm?", "a closure in nm?"),
+    "stiffness_MPa_per_mm": Range(1e-3, 1e12, "N/m typed as MPa/mm?", "Pa/m typed as MPa/mm?"),
+    "friction_coefficient": Range(1e-4, 2.0, "", "in percent?"),
+    "radius_mm": Range(0.1, 1e4, "m typed as mm?", "um typed as mm?"),
+    "speed_rpm": Range(1e-3, 1e6, "revolutions per ms?", "degrees per minute?"),
+    "roughness_growth": Range(0.0, 10.0, "", "roughness grows by a part of the wear"),
+    "amplitude_mm": Range(0.0, 1.0, "", "um typed as mm?"),
+}
+
+
+def said(doubts: Iterable[Doubt]) -> Iterator[str]:
+    """Yield the sentences about one scene."""
+    yield from (doubt.sentence() for doubt in doubts if doubt.ratio > 1.0)
+
+
+def implausible_entries(scene: Scene) -> Iterator[str]:
+    """Yield a sentence for each entry of a scene that is legal, but hardly meant."""
+    yield from said(doubts_of_entries(entries_of(scene)))
+    swing = scene.load.maximum - scene.load.minimum
+    if swing > 2.0 and not (scene.given_load or hasattr(scene.load, "amplitude_mm")):
+        yield f"{WORD}: [load] U_a moves by {swing:.4g} mm: um typed as mm?"
+
+
+def entries_of(scene: Scene) -> dict[str, float]:
+    """Return the numbers of a scene that have a range, by their keys in the scene file."""
+    return {
+        f"{name}.{key}": value
+        for name in PARTS
+        for key in RANGES
+        if (value := getattr(getattr(scene, name), key, None)) is not None
+    }
+
+
+def doubts_of_entries(entries: Mapping[str, Real]) -> Iterator[Doubt]:
+    """Yield the doubts about entries of a scene, or of the rows of a study."""
+    for entry, value in entries.items():
+        table, _, key = entry.rpartition(".")
+        if key in RANGES:
+            low, high, if_low, if_high = RANGES[key]
+            size = abs(value)
+            outside = f"{WORD}: [{table}] {key} = {{:g}} is outside {low:g} to {high:g}: "
+            yield Doubt(size / high, outside + if_high, (value,))
+            not_zero = size > 0.0  # which is another model, not a small number
+            yield Doubt(low * not_zero / (size + TINY), outside + if_low, (value,))
+    pressure = entries["contact.max_pressure_MPa"]
+    hardest = np.maximum(entries["bearing.hardness_MPa"], entries.get("pin.hardness_MPa", 0.0))
+    words = (
+        f"{WORD}: [contact] max_pressure_MPa = {{:g}} is more than {HARDER:g} times the hardness "
+        "of the harder solid"
+    )
+    yield Doubt(pressure / (HARDER * hardest), words, (pressure,))
+
+
+def implausible_results(
+    scene: Scene, cycles: Cycles, u_c: FloatArray, *roughness: FloatArray
+) -> Iterator[str]:
+    """Yield a sentence for each result of a scene that lies outside what the model is meant for;
+    `u_c` and each `roughness` are in mm, along `cycles`."""
+    if len(cycles):
+        limits = scene.motion.radius_mm, scene.initial_roughness
+        yield from said(doubts_of_results(*limits, cycles, u_c, *roughness))
+
+
+def doubts_of_results(
+    radius: Real, fresh: Real, cycles: Cycles, u_c: FloatArray, *roughness: FloatArray
+) -> Iterator[Doubt]:
+    """Yield the doubts about wear and roughnesses (..., cycles) where the radius and the initial
+    roughness are these, all in mm."""
+    deepest = np.max(u_c, axis=-1)
+    yield Doubt(
+        deepest / (DEEPEST * radius),
+        f"{WORD}: the wear of {{:.4g}} mm is {{:.3g}} % of the radius; beyond "
+        f"{100.0 * DEEPEST:g} % the geometry is another",
+        (deepest, 100.0 * deepest / radius),
+    )
+    roughest = np.max(np.broadcast_arrays(u_c, *roughness)[1:], axis=(0, -1))
+    yield Doubt(
+        roughest / np.maximum(ROUGHEST, fresh),
+        f"{WORD}: the roughness of {{:.4g}} mm is beyond {ROUGHEST:g} mm, "
+        "the roughest class of ISO 1302",
+        (roughest,),
+    )
+    yield Doubt(
+        np.max(cycles) / LONGEST,
+        f"{WORD}: wear beyond {LONGEST:.0e} cycles is extrapolated; no wear coefficient is "
+        "known for so many",
+        (),
+    )

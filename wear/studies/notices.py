@@ -9,7 +9,7 @@ import numpy as np
 
 from wear.binding import bound, generated
 from wear.numerics.gauss import FloatArray
-from wear.scene.plausibility import (
+from wear.scene.notices import (
     WORD,
     Doubt,
     Real,
