@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         WearError,
         WorkersLost,
     )
+    from wear.figures import plot, plot_pressure
     from wear.fitting.fit import Fit, fit
     from wear.fitting.posterior import posterior
     from wear.fitting.readings import Specimen, read_readings
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
         Table,
     )
     from wear.orbit.general import count_cycles
-    from wear.plots import plot, plot_pressure
     from wear.regime import Asymptote, asymptote
     from wear.scene import Scene, load_scene
     from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
@@ -55,6 +55,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "wear.faults": "AccuracyError Interrupted SceneError UsageError WearError WorkersLost",
     "wear.cycles": "cycles_to_depth sweep",
+    "wear.figures": "plot plot_pressure",
     "wear.fitting.fit": "Fit fit",
     "wear.fitting.posterior": "posterior",
     "wear.fitting.readings": "Specimen read_readings",
@@ -64,7 +65,6 @@ _HOMES = {
     "wear.load": "Block Blocks Constant Force ForceTable Harmonics HistoryLoad Sine Table",
     "wear.binding": "bind bind_many",
     "wear.orbit.general": "count_cycles",
-    "wear.plots": "plot plot_pressure",
     "wear.regime": "Asymptote asymptote",
     "wear.scene": "Scene load_scene",
     "wear.scene.tables": "Bearing Contact Motion Pin Support",

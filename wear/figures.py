@@ -6,6 +6,7 @@ Overview
     speed_against_error     time against true error, one line a method
     speed_against_cycles    time against the number of cycles, one line a method
     tornado                 elasticities as bars, the largest on top
+    plot, plot_pressure     one's own runs, and the pressure inside their cycles
     Each returns a matplotlib `Figure`; `wear.figure_style` makes files of it.
 Units
     Lengths come in mm and are shown in micrometres, pressures in MPa, times in s.
@@ -13,9 +14,10 @@ Units
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -27,6 +29,8 @@ from wear.figure_data import (
     Line,
     Method,
     Panel,
+    panels_of,
+    pressure_inside,
     spans_decades,
 )
 from wear.figure_style import (
@@ -46,9 +50,36 @@ from wear.figure_style import (
 )
 from wear.numerics.gauss import FloatArray
 from wear.quantities import words_of
+from wear.scene import Scene, as_scene
+
+if TYPE_CHECKING:
+    from wear.history import History
 
 #: Distance of a line's markers, in diagonals of the axes.
 _MARK_EVERY = 0.14
+
+
+def plot(histories: Mapping[str, History], *, logarithmic: bool = True) -> Figure:
+    """Return a Matplotlib figure of named runs over the cycles.
+
+    Wear, roughness, pressure and, where contact is lost, the fraction of the period in contact
+    stand one above the other; each run has its colour.
+    """
+    shown = panels_of(tuple(histories.values()), tuple(histories))
+    return history(shown, logarithmic=logarithmic)
+
+
+def plot_pressure(scene: Scene | str | os.PathLike[str], cycles: Sequence[int]) -> Figure:
+    """Return a Matplotlib figure of the contact pressure (MPa) over the phase of some cycles.
+
+    `cycles` are the numbers of cycles after which those shown begin: 0 for the first.
+
+    Raises
+    ------
+    UsageError
+        if the load does not repeat, or the scene's cycles cannot be counted.
+    """
+    return pressure_in_cycles(pressure_inside(as_scene(scene), cycles))
 
 
 def history(

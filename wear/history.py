@@ -154,7 +154,7 @@ class History:
 
     def plot(self, *, logarithmic: bool = True) -> Figure:
         """Return a Matplotlib figure of wear, roughness and pressure over the cycles."""
-        from wear.plots import plot
+        from wear.figures import plot
 
         return plot({"": self}, logarithmic=logarithmic)
 

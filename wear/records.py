@@ -7,7 +7,6 @@ Gauss nodes do, and a thousand lines are one mesh for `wear.numerics.initial_val
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -27,22 +26,6 @@ NEARLY = 0.9  # of the wear at which the roughness vanishes
 STRICTER = 0.01  # tolerance on lines, over the requested accuracy
 
 
-class Record(NamedTuple):
-    """A measured history as a load whose phase is the time in s."""
-
-    history: HistoryLoad
-    period: float = 1.0
-
-    def __call__(self, phase: FloatArray | float) -> FloatArray:
-        """Return U_a (mm) at a time (s)."""
-        return self.history.value(phase)
-
-    @property
-    def maximum(self) -> float:
-        """Return the largest U_a, mm."""
-        return self.history.maximum
-
-
 @np.errstate(all="ignore")  # trial states far off the solution may overflow
 def follow(
     model: Model,
@@ -60,11 +43,11 @@ def follow(
     ends = load.time_at(np.array(marks))
     times = np.union1d(np.append(load.breakpoints(0.0, ends[-1]), 0.0), ends)
     asked = np.isin(times[1:], ends)
-    equation = WearEquation(model, (Record(load),))  # type: ignore[arg-type]  # all that it asks of one
+    equation = WearEquation(model, (load,))  # type: ignore[arg-type]  # all that it asks of one
     limit = float(equation.limit[0])
 
     def sampled(edges: FloatArray, m: int, tolerance: float) -> PeriodMap:
-        over, levels = mesh(edges[None, None], m), load.value(edges)
+        over, levels = mesh(edges[None, None], m), load(edges)
         # Straight between the levels at the ends: no rounding of the time enters.
         forcing = levels[:-1, None] + np.diff(levels)[:, None] * over.rule.nodes
         return PeriodMap(equation, over, forcing[None, None], tolerance)

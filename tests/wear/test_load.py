@@ -191,7 +191,7 @@ SERIES = Blocks((Block(Sine(5e-4, 0.1), 3), Block(SAW, 2), Block(Constant(1e-4, 
 
 
 def test_history_between_its_rows():
-    np.testing.assert_allclose(RECORD.value([0.0, 0.5, 1.25, 4.0]), [0.0, 1e-4, 2e-4, -1e-4])
+    np.testing.assert_allclose(RECORD([0.0, 0.5, 1.25, 4.0]), [0.0, 1e-4, 2e-4, -1e-4])
     np.testing.assert_allclose(RECORD.slope([0.0, 1.0, 1.5, 4.0]), [2e-4, 0.0, -1.2e-4, -1.2e-4])
     assert RECORD.breakpoints(0.0, 4.0).tolist() == [1.0, 1.5]
     assert (RECORD.cycles, RECORD.time_at(2.0)) == (8.0, 1.0)
@@ -202,7 +202,7 @@ def test_history_between_its_rows():
 @pytest.mark.parametrize("share", [-0.01, 1.01, math.nan])
 def test_no_value_outside_the_duration(share):
     with pytest.raises(ValueError, match="outside"):
-        RECORD.value(share * RECORD.duration)
+        RECORD(share * RECORD.duration)
     with pytest.raises(ValueError, match="outside"):
         RECORD.time_at(share * RECORD.cycles)
 
@@ -227,7 +227,7 @@ def test_time_at_which_cycles_of_blocks_are_done():
 def test_a_cycle_of_a_history_is_a_load():
     window = span(RECORD, 2).load
     phases = np.array([0.0, 0.5, 1.0])
-    np.testing.assert_allclose(window(phases), RECORD.value(1.0 + 0.5 * phases), rtol=1e-15)
+    np.testing.assert_allclose(window(phases), RECORD(1.0 + 0.5 * phases), rtol=1e-15)
     assert (window.period, window.maximum) == (0.5, 2e-4)
     assert span(RECORD, 7).until == most_cycles(RECORD) == 8
 

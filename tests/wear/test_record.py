@@ -174,7 +174,7 @@ def test_lines_converge_as_gauss_collocation_does(monkeypatch: pytest.MonkeyPatc
     want = float(followed_exactly(load, 2))
     times, errors = np.array(load.times_s), []
     for _ in range(5):
-        rows = HistoryLoad(tuple(times.tolist()), tuple(load.value(times).tolist()), PERIOD)
+        rows = HistoryLoad(tuple(times.tolist()), tuple(load(times).tolist()), PERIOD)
         found = followed(rows, [2], 100.0, K=1e-5)
         true = abs(found.u[0] - want)
         assert true <= found.error[0] * found.u[0] <= 30 * true

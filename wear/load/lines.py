@@ -167,15 +167,18 @@ class ForceTable(_Period):
 class HistoryLoad(_Rows):
     """Straight lines between measured rows, from t = 0 to the last row; it does not repeat.
 
-    `period_s` only counts cycles. Times outside the rows are a `UsageError`.
+    Its phase is the time in s; `period_s` only counts cycles. Times outside the rows are a
+    `UsageError`.
     """
+
+    period: ClassVar[float] = 1.0
 
     values_mm: Column = Field(description="U_a at these times")
     period_s: Positive = Field(description="time of a cycle")
     source: HistoryFile | None = None
     __repr__ = _Rows.__repr__
 
-    def value(self, time: FloatArray | float) -> FloatArray:
+    def __call__(self, time: FloatArray | float) -> FloatArray:
         return self._between(inside(time, self.duration))
 
     def slope(self, time: FloatArray | float) -> FloatArray:

@@ -44,7 +44,7 @@ class Window:
         return self.history.period_s
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
-        return self.history.value(self._time(phase))
+        return self.history(self._time(phase))
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
         return self.history.slope(self._time(phase)) * self.period

@@ -97,7 +97,7 @@ def _paths(scene: Scene) -> tuple[list[tuple[NDArray[np.float64], NDArray[np.flo
     load = scene.load
     if isinstance(load, HistoryLoad):
         times = np.asarray(load.times_s)
-        return [(times, load.value(times) * WEAR.scale)], "Time  (s)"
+        return [(times, load(times) * WEAR.scale)], "Time  (s)"
     loads = [b.load for b in load.blocks] if isinstance(load, Blocks) else [scene.periodic_load]
     phase = np.linspace(0.0, 1.0, 801)
     return [(phase, each(phase) * WEAR.scale) for each in loads], "Phase in the cycle"
