@@ -1,12 +1,12 @@
 """Tables of a scene as frozen dataclasses that are checked on every way to them.
 
-Pydantic collects the faults of all entries; this module puts them into words: what is wrong, and
-what to do about it. The same checks run for a file, for `Scene.from_dict`, for a constructor and
+Pydantic collects the faults of all entries; an entry's kind says what is wrong, and what to do
+about it. The same checks run for a file, for `Scene.from_dict`, for a constructor and
 for `dataclasses.replace`.
 
 Key results
     table       class decorator: a frozen dataclass whose construction raises `SceneError`
-    Positive, NonNegative, Real, Count, Flag, Text     kinds of entries
+    Positive, NonNegative, Real, Count, Flag, Text     kinds of entries, with their words
     problems    all that is wrong with tables, each with its path
     all_wrong   the error for a validator to raise that finds several faults
 """
@@ -15,23 +15,18 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import math
+import numbers
 from collections.abc import Callable, Collection, Iterator, Mapping
-from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, dataclass_transform, get_args
+from typing import Annotated, Any, ClassVar, TypeVar, dataclass_transform
 
-from pydantic import (
-    AfterValidator,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    ValidationError,
-    model_validator,
-)
+from pydantic import ConfigDict, Field, PlainValidator, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 from pydantic_core import ArgsKwargs, InitErrorDetails, PydanticCustomError, core_schema
 
 from wear.faults import Fault, SceneError
 from wear.quantities import LARGEST, MOST_CYCLES, SMALLEST, unit_of
-from wear.words import did_you_mean, kind_of, of_number, shown
+from wear.words import did_you_mean, kind_of, shown
 
 MOST_UNKNOWN_KEYS = 20
 
@@ -75,36 +70,113 @@ def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, 
     ]
 
 
-def _sane(number: float) -> float:
-    if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST:
-        raise PydanticCustomError("magnitude", "out of range")
-    return number
+class Kind:
+    """What an entry may be, for an annotation; its call returns the value or raises `wrong`."""
+
+    def __call__(self, raw: Any, key: str) -> Any:
+        raise NotImplementedError
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        key = str(handler.field_name)
+        return core_schema.no_info_plain_validator_function(lambda raw: self(raw, key))
 
 
-def _whole(raw: object) -> object:
-    remedy = f"give a whole number from 1 to {MOST_CYCLES:.0e}"
-    if isinstance(raw, bool) or not isinstance(raw, int | float):
-        raise wrong(f"is {kind_of(raw)}", remedy)
-    if not 1 <= raw <= MOST_CYCLES:  # also catches nan
-        raise wrong("is out of range", remedy)
-    if raw != int(raw):
-        raise wrong(f"{raw!r} is not a whole number", remedy)
-    return int(raw)
+@dataclasses.dataclass(frozen=True)
+class Number(Kind):
+    """A finite number of sane size, of a `domain`: '> 0', '>= 0' or '' for all."""
+
+    domain: str = ""
+
+    def __call__(self, raw: Any, key: str) -> float:
+        if type(raw) is float and self._fits(raw):
+            return raw
+        unit, domain = unit_of(key), self.domain
+        ending = f", in {unit}" if unit else ""
+        if isinstance(raw, str):
+            remedy = f"give a number{ending}, without quotes"
+            raise wrong(f'"{shown(raw)}" is text, not a number', remedy)
+        if isinstance(raw, bool) or not isinstance(raw, numbers.Real):
+            raise wrong(f"is {kind_of(raw)}", f"give a number{ending}")
+        wanted = f"give a number {domain}{ending}" if domain else f"give any finite number{ending}"
+        try:
+            number = float(raw)
+        except OverflowError:
+            raise wrong("is a whole number too large for a float", wanted) from None
+        if self._fits(number):
+            return number
+        if not math.isfinite(number):
+            raise wrong(f"{number} is not a finite number", wanted)
+        if number < 0.0 and domain:
+            raise wrong(f"{number!r} is negative", wanted)
+        if number == 0.0:
+            raise wrong("is zero", wanted)
+        bounds = f"magnitudes lie from {SMALLEST:g} to {LARGEST:g}"
+        raise wrong(f"{number!r} is out of range", f"{wanted}; {bounds}")
+
+    def _fits(self, number: float) -> bool:
+        if number == 0.0:
+            return self.domain != "> 0"
+        return is_sane(number) and (number > 0.0 or not self.domain)
 
 
-def _printable(text: str) -> str:
-    if not text.isprintable():
-        raise wrong("has control characters", "use printable characters only")
-    return text
+def is_sane(number: float) -> bool:
+    """Return whether a number is zero or of a magnitude that no scene exceeds."""
+    return number == 0.0 or SMALLEST <= abs(number) <= LARGEST
 
 
-def _printable_lines(text: str) -> str:
-    return "\n".join(map(_printable, text.split("\n")))
+@dataclasses.dataclass(frozen=True)
+class Numbers(Kind):
+    """A list of at most so many numbers."""
+
+    most: int = 1_000_000
+
+    def __call__(self, raw: Any, key: str) -> tuple[float, ...]:
+        if hasattr(raw, "tolist"):  # NumPy's arrays
+            raw = raw.tolist()
+        if not isinstance(raw, list | tuple):
+            remedy = "give a list of numbers in brackets, such as [1e-4, 2e-5]"
+            raise wrong(f"is {kind_of(raw)}", remedy)
+        if len(raw) > self.most:
+            raise wrong(f"has {len(raw)} entries", f"give at most {self.most}")
+        if all(type(entry) is float and is_sane(entry) for entry in raw):
+            return tuple(raw)
+        values, faults = list[float](), list[Finding]()
+        for place, entry in enumerate(raw, start=1):
+            try:
+                values.append(Number()(entry, key))
+            except PydanticCustomError as found:
+                problem, remedy = (found.context or {}).values()
+                faults.append(("", f"entry {place}: {problem}", remedy))
+        if faults:
+            raise all_wrong(*faults)
+        return tuple(values)
 
 
-def listed(raw: object) -> object:
-    """Return an array as a list, anything else as it is."""
-    return raw.tolist() if hasattr(raw, "tolist") else raw  # NumPy's arrays
+@dataclasses.dataclass(frozen=True)
+class Words(Kind):
+    """Printable characters, at most so many, in one line or in several."""
+
+    most: int = 200
+    lines: bool = False
+
+    def __call__(self, raw: Any, key: str) -> str:
+        if not isinstance(raw, str):
+            raise wrong(f"is {kind_of(raw)}", f'give text in quotes: {key} = "..."')
+        if len(raw) > self.most:
+            raise wrong(f"has {len(raw)} characters", f"give at most {self.most}")
+        if not (raw.replace("\n", "") if self.lines else raw).isprintable():
+            raise wrong("has control characters", "use printable characters only")
+        return raw
+
+
+@dataclasses.dataclass(frozen=True)
+class OneOf(Kind):
+    """One of some names."""
+
+    names: Collection[str]
+
+    def __call__(self, raw: Any, key: str) -> str:
+        return choice(raw, self.names)
 
 
 def choice(raw: object, known: Collection[str]) -> str:
@@ -119,25 +191,31 @@ def choice(raw: object, known: Collection[str]) -> str:
     raise wrong(f'"{shown(raw)}" is unknown', remedy)
 
 
-class OneOf(NamedTuple):
-    """The names among which an entry chooses; in an annotation, after `str`."""
+def _whole(raw: object) -> int:
+    remedy = f"give a whole number from 1 to {MOST_CYCLES:.0e}"
+    if isinstance(raw, bool) or not isinstance(raw, int | float):
+        raise wrong(f"is {kind_of(raw)}", remedy)
+    if not 1 <= raw <= MOST_CYCLES:  # also catches nan
+        raise wrong("is out of range", remedy)
+    if raw != int(raw):
+        raise wrong(f"{raw!r} is not a whole number", remedy)
+    return int(raw)
 
-    names: Collection[str]
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        return core_schema.no_info_plain_validator_function(lambda raw: choice(raw, self.names))
+def _true_or_false(raw: object) -> bool:
+    if not isinstance(raw, bool):
+        raise wrong("is no flag", "write true or false")
+    return raw
 
 
-_FINITE = Field(strict=True, allow_inf_nan=False)
-Positive = Annotated[float, _FINITE, Field(gt=0), AfterValidator(_sane)]
-NonNegative = Annotated[float, _FINITE, Field(ge=0), AfterValidator(_sane)]
-Real = Annotated[float, _FINITE, AfterValidator(_sane)]
-Count = Annotated[int, BeforeValidator(_whole)]
-Reals = Annotated[tuple[Real, ...], BeforeValidator(listed)]
-Flag = Annotated[bool, Field(strict=True)]
-Prose = Annotated[str, Field(strict=True, max_length=2000), AfterValidator(_printable_lines)]
-Line = Annotated[str, Field(strict=True), AfterValidator(_printable)]
-Text = Annotated[Line, Field(max_length=200)]
+Positive = Annotated[float, Number("> 0")]
+NonNegative = Annotated[float, Number(">= 0")]
+Real = Annotated[float, Number()]
+Reals = Annotated[tuple[float, ...], Numbers()]
+Count = Annotated[int, PlainValidator(_whole)]
+Flag = Annotated[bool, PlainValidator(_true_or_false)]
+Text = Annotated[str, Words()]
+Prose = Annotated[str, Words(2000, lines=True)]
 
 
 # Tables
@@ -177,20 +255,19 @@ class SceneTable:
         else:
             return _instance(cls, raw, build)
         unknown = [key for key in given if key not in known]
-        shown_keys = unknown[:MOST_UNKNOWN_KEYS]
-        faults: list[Finding] = [_of_unknown(cls, key, given[key]) for key in shown_keys]
-        meant = {_meant_by(cls, key) for key in shown_keys} - {""}
-        if len(unknown) > len(shown_keys):
+        told = [_of_unknown(cls, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
+        meant, faults = {key for key, _ in told} - {""}, [finding for _, finding in told]
+        if len(unknown) > len(told):
             faults.append(("", "more unknown keys", f"known here: {', '.join(cls.entries)}"))
         try:
             made = build({key: value for key, value in given.items() if key in known})
         except ValidationError as error:
-            entries = error.errors(include_url=False)
-            faults += [
-                _of_entry(cls, entry)
-                for entry in entries
-                if not (entry["type"] == "missing" and entry["loc"][0] in meant)
-            ]
+            for entry in error.errors(include_url=False):
+                name = str(entry["loc"][0])
+                if entry["type"] == "wrong":
+                    faults.append((entry["loc"], entry["ctx"]["problem"], entry["ctx"]["remedy"]))
+                elif name not in meant:
+                    faults.append(((name,), "missing", _to_add(cls, name)))
         present = {key: entry for key, entry in given.items() if entry is not None}
         faults += cls.relations(dict.fromkeys(meant, ...) | present)
         if faults:
@@ -258,64 +335,22 @@ def _instance(kind: type[SceneTable], raw: Any, build: Callable[[Any], Any]) -> 
         raise all_wrong(("", "is not a table", remedy)) from None
 
 
-def _meant_by(kind: type[SceneTable], name: str) -> str:
-    """Return the known key that an unknown one seems to stand for, '' if none."""
-    if RENAMED.get(name) in kind.entries:
-        return RENAMED[name]
-    return "" if _homes(kind, name) else did_you_mean(name, kind.entries)
-
-
-def _homes(kind: type[SceneTable], name: str) -> str:
-    """Return the tables to which a key belongs that stands in the wrong one."""
-    homes = [
+def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> tuple[str, Finding]:
+    """Return the known key that an unknown one seems to stand for, '' if none, and what to say."""
+    meant = RENAMED.get(name, "")
+    if meant in kind.entries:
+        remedy = f"renamed to {meant}"
+    elif homes := [
         f'kind = "{other.kind}"' if other.kind else f"[{other.place}]"
         for other in TABLES
         if other.place and name in other.entries and (kind.kind or not other.kind)
-    ]
-    return " or ".join(homes)
-
-
-def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> Finding:
-    meant = _meant_by(kind, name)
-    if RENAMED.get(name) == meant:
-        remedy = f"renamed to {meant}"
-    elif homes := _homes(kind, name):
-        remedy = f"it belongs to {homes}"
-    elif meant:
+    ]:
+        meant, remedy = "", f"it belongs to {' or '.join(homes)}"
+    elif meant := did_you_mean(name, kind.entries):
         remedy = f"did you mean {meant}?"
     else:
         remedy = f"known here: {', '.join(kind.entries)}"
-    return (name,), f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy
-
-
-def _of_entry(kind: type[SceneTable], entry: Any) -> Finding:
-    """Return what pydantic found in an entry."""
-    loc = entry["loc"]
-    if entry["type"] == "wrong":
-        return loc, entry["ctx"]["problem"], entry["ctx"]["remedy"]
-    problem, remedy = _of_value(kind, str(loc[0]), entry)
-    if len(loc) > 1:  # in a list
-        problem = f"entry {int(loc[1]) + 1}: {problem}"
-    return loc[:1], problem, remedy
-
-
-def _of_value(kind: type[SceneTable], key: str, entry: Any) -> tuple[str, str]:
-    raw, limits = entry["input"], entry.get("ctx", {})
-    match entry["type"]:
-        case "missing":
-            return "missing", _to_add(kind, key)
-        case "float_type" | "finite_number" | "greater_than" | "greater_than_equal" | "magnitude":
-            return of_number(raw, domain_of(kind.entries[key]), unit_of(key))
-        case "bool_type":
-            return "is no flag", "write true or false"
-        case "string_type":
-            return f"is {kind_of(raw)}", f'give text in quotes: {key} = "..."'
-        case "tuple_type":
-            return f"is {kind_of(raw)}", "give a list of numbers in brackets, such as [1e-4, 2e-5]"
-        case "too_long" | "string_too_long":
-            things = "characters" if isinstance(raw, str) else "entries"
-            return f"has {len(raw)} {things}", f"give at most {limits['max_length']}"
-    return entry["msg"], "correct it"
+    return meant, ((name,), f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy)
 
 
 def _to_add(kind: type[SceneTable], key: str) -> str:
@@ -325,15 +360,3 @@ def _to_add(kind: type[SceneTable], key: str) -> str:
         return f"add a table [{key}] ({field.description})"
     unit = unit_of(key)
     return f"add {key} = ... ({field.description}{', in ' + unit if unit else ''})"
-
-
-def domain_of(field: Any) -> str:
-    """Return which numbers an entry takes: '> 0', '>= 0' or '' for all."""
-    inner = [each for part in get_args(field.annotation) for each in get_args(part)[1:]]
-    limits = [limit for each in inner for limit in getattr(each, "metadata", ())]
-    for limit in [*field.metadata, *limits]:
-        if getattr(limit, "gt", None) is not None:
-            return f"> {limit.gt:g}"
-        if getattr(limit, "ge", None) is not None:
-            return f">= {limit.ge:g}"
-    return ""

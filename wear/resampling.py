@@ -20,6 +20,7 @@ from wear.load import ForceTable, Table
 from wear.model import Model
 from wear.numerics.gauss import FloatArray, Mesh, mesh
 from wear.numerics.tolerances import TINY
+from wear.quantities import SMALLEST
 from wear.scene import Scene
 
 Rows = Table | ForceTable
@@ -95,6 +96,7 @@ def _merged(load: Rows, step: int) -> Rows:
     lengths = np.diff(times)
     weights = diags_array((lengths + np.roll(lengths, 1)) / 2)
     levels = spsolve((hats.T @ weights @ hats).tocsc(), hats.T @ (weights @ values[:-1]))
+    levels[np.abs(levels) < SMALLEST] = 0.0  # what rounding leaves where the load is zero
     closed = tuple(np.append(levels, levels[0]).tolist())
     fewer = tuple(corners.tolist())
     if isinstance(load, ForceTable):

@@ -6,7 +6,7 @@ import re
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
-from wear.checked import TABLES, OneOf, SceneTable, domain_of
+from wear.checked import TABLES, Kind, SceneTable
 from wear.load.blocks import Block, BlockCycles
 from wear.load.tables import KINDS, PERIODIC
 from wear.quantities import unit_of
@@ -79,11 +79,12 @@ def _typeset(meaning: str) -> str:
 
 
 def _value(name: str, field: Any) -> str:
-    choices = next((each.names for each in field.metadata if isinstance(each, OneOf)), ())
-    if choices:
+    inner = [each for part in get_args(field.annotation) for each in get_args(part)[1:]]
+    found = next((each for each in (*field.metadata, *inner) if isinstance(each, Kind)), None)
+    if choices := getattr(found, "names", ()):
         return ", ".join(f'`"{choice}"`' for choice in choices)
     kind, unit = _kind(field.annotation), unit_of(name)
-    if domain := domain_of(field):
+    if domain := getattr(found, "domain", ""):
         return f"{kind} {domain}{unit and ' '}{unit}"
     return f"{kind}{unit and ', '}{unit}"
 

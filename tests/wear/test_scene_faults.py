@@ -96,7 +96,7 @@ amplitude_mm = [1.0]
         ("bearing.hardness_MPa", "1" + "0" * 400, "too large for a float", "> 0"),
         ("bearing.hardness_MPa", "1e300", "out of range", "from 1e-30 to 1e+30"),
         ("bearing.hardness_MPa", "true", "is true or false", "give a number, in MPa"),
-        ("bearing.hardness_MPa", '"0.12"', "is text, not a number", "drop the quotes"),
+        ("bearing.hardness_MPa", '"0.12"', "is text, not a number", "without quotes"),
         ("bearing.hardness_MPa", '"hard"', "is text", "give a number, in MPa"),
         ("bearing.hardness_MPa", "[200.0]", "is a list", "give a number"),
         ("bearing.hardness_MPa", "{ a = 1 }", "is a table", "give a number"),

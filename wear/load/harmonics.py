@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from wear.checked import Positive, Real, Reals, table
+from wear.checked import Numbers, Positive, Real, table
 from wear.load.periodic import Smooth, centred, within_cycle
 from wear.numerics.gauss import FloatArray
 
 MOST_HARMONICS = 100
+Coefficients = Annotated[tuple[float, ...], Numbers(MOST_HARMONICS)]
 FEW = 2  # harmonics: so many cost less as a polynomial
 
 
@@ -24,8 +25,8 @@ class Harmonics(Smooth):
     """U_a = mean + sum over j = 1, 2, ... of cosine_j cos(2 pi j t/T) + sine_j sin(2 pi j t/T)."""
 
     mean_mm: Real = Field(description="mean of U_a")
-    cosine_mm: Reals = Field(max_length=MOST_HARMONICS, description="cosine_1, cosine_2, ...")
-    sine_mm: Reals = Field(max_length=MOST_HARMONICS, description="sine_1, sine_2, ...")
+    cosine_mm: Coefficients = Field(description="cosine_1, cosine_2, ...")
+    sine_mm: Coefficients = Field(description="sine_1, sine_2, ...")
     period_s: Positive = Field(description="period T of a cycle")
     left_out: ClassVar[Mapping[str, Any]] = {"mean_mm": 0.0, "cosine_mm": (), "sine_mm": ()}
 

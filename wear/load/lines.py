@@ -6,12 +6,12 @@ import dataclasses
 import math
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
-from pydantic import BeforeValidator, Field, FiniteFloat, model_validator
+from pydantic import Field, model_validator
 
-from wear.checked import Positive, SceneTable, all_wrong, listed, table
+from wear.checked import Positive, Reals, SceneTable, all_wrong, table
 from wear.load.periodic import inside, within_cycle
 from wear.load.rows import ForceFile, HistoryFile, RowsFile, TableFile, order_faults, read_rows
 from wear.numerics.gauss import FloatArray
@@ -19,15 +19,13 @@ from wear.quantities import unit_of
 
 SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes but for their roundoff
 
-Column = Annotated[tuple[FiniteFloat, ...], BeforeValidator(listed)]
-
 
 @table("")
 class _Rows(SceneTable):
     """Values at times in s that rise from 0; `of_rows` names the field that holds the values."""
 
     of_rows: ClassVar[str] = "values_mm"
-    times_s: Column = Field(description="times of the rows, from 0")
+    times_s: Reals = Field(description="times of the rows, from 0")
 
     @property
     def rows(self) -> tuple[float, ...]:
@@ -141,8 +139,8 @@ class Table(_Period):
     (2.0, (0.0, 0.25), (0.25,), 0.0005)
     """
 
-    values_mm: Column = Field(description="U_a at these times")
-    source: TableFile | None = None
+    values_mm: Reals = Field(description="U_a at these times")
+    source: TableFile | None = Field(default=None, exclude=True)
     __repr__ = _Rows.__repr__
 
 
@@ -151,8 +149,8 @@ class ForceTable(_Period):
     """R_a in N by straight lines between rows over one period."""
 
     of_rows: ClassVar[str] = "forces_N"
-    forces_N: Column = Field(description="R_a at these times")
-    source: ForceFile | None = None
+    forces_N: Reals = Field(description="R_a at these times")
+    source: ForceFile | None = Field(default=None, exclude=True)
     __repr__ = _Rows.__repr__
 
     @model_validator(mode="after")
@@ -173,9 +171,9 @@ class HistoryLoad(_Rows):
 
     period: ClassVar[float] = 1.0
 
-    values_mm: Column = Field(description="U_a at these times")
+    values_mm: Reals = Field(description="U_a at these times")
     period_s: Positive = Field(description="time of a cycle")
-    source: HistoryFile | None = None
+    source: HistoryFile | None = Field(default=None, exclude=True)
     __repr__ = _Rows.__repr__
 
     def __call__(self, time: FloatArray | float) -> FloatArray:

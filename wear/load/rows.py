@@ -15,29 +15,28 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
-from pydantic import AfterValidator, Field, ValidationError
+from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, ValidationError
 
 from wear.checked import (
     Finding,
     Flag,
-    Line,
     OneOf,
     Positive,
     SceneTable,
     Text,
+    Words,
     all_wrong,
+    is_sane,
     table,
     wrong,
 )
 from wear.numerics.gauss import FloatArray
-from wear.quantities import LARGEST, SMALLEST
 from wear.words import shown
 
 MOST_BYTES = 64 * 1024 * 1024
 MOST_ROWS = 1_000_000
 MOST_WRONG_ROWS = 5
 MOST_HEAD_LINES = 100  # before the names of the columns, as instruments write them
-COLUMNS = ("t_s", "U_a_mm")
 CLOSEST_ROWS = 1e-12  # of the time: nearer rows could fall on the same phase
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
 MILLIMETRES = {"mm": 1.0, "um": 1e-3, "nm": 1e-6, "m": 1e3}
@@ -53,15 +52,28 @@ def _encoding(name: str) -> str:
     return name
 
 
-def _delimiter(text: str) -> str:
-    if len(text) != 1 or text.isalnum() or text in '.+-"':
+def _delimiter(raw: object) -> str:
+    if not isinstance(raw, str) or len(raw) != 1 or raw.isalnum() or raw in '.+-"':
         raise wrong("is no delimiter", 'give one character, such as ";" or "\\t"')
-    return text
+    return raw
+
+
+def _pair(raw: object) -> object:
+    if not isinstance(raw, list | tuple) or len(raw) != 2:
+        raise wrong("is no pair of names", 'give both in quotes: columns = ["...", "..."]')
+    return tuple(raw)
+
+
+def _file(columns: str, ending: str = "") -> Any:
+    place = "beside the scene file (if given by --set: in the current folder)"
+    about = f"CSV file with columns {columns}, {place}; t_s starts at 0{ending}"
+    return Field(description=about)
 
 
 Encoding = Annotated[Text, AfterValidator(_encoding)]
-Delimiter = Annotated[str, Field(strict=True, max_length=200), AfterValidator(_delimiter)]
-FileName = Annotated[Line, Field(max_length=1000)]
+Delimiter = Annotated[str, PlainValidator(_delimiter)]
+FileName = Annotated[str, Words(1000)]
+Names = Annotated[tuple[Text, Text], BeforeValidator(_pair)]
 
 
 @table("")
@@ -69,14 +81,11 @@ class RowsFile(SceneTable):
     """A CSV file of rows, and how it is written; `units` are those of the second column."""
 
     units: ClassVar[Mapping[str, float]] = MILLIMETRES
-    file: FileName = Field(
-        description="CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
-        "in the current folder); t_s starts at 0"
-    )
+    file: FileName = _file("t_s,U_a_mm")
     period_s: Positive | None = Field(default=None, description="period T")
     sha256: Text | None = Field(default=None, description="checksum that the file must have")
-    columns: tuple[Text, Text] = Field(
-        default=COLUMNS, description="names of the columns of time and displacement"
+    columns: Names = Field(
+        default=("t_s", "U_a_mm"), description="names of the columns of time and displacement"
     )
     time_unit: Annotated[str, OneOf(SECONDS)] = Field(
         default="s", description="unit of the time column"
@@ -100,10 +109,7 @@ class RowsFile(SceneTable):
 class TableFile(RowsFile):
     """U_a by straight lines between the rows of a CSV file over one period."""
 
-    file: FileName = Field(
-        description="CSV file with columns t_s,U_a_mm, beside the scene file (if given by --set: "
-        "in the current folder); t_s starts at 0, the last row repeats the first U_a"
-    )
+    file: FileName = _file("t_s,U_a_mm", ", the last row repeats the first U_a")
     period_s: Positive | None = Field(
         default=None,
         description="period T; left out, the last t_s. If later, a straight line back to the "
@@ -134,11 +140,8 @@ class ForceFile(TableFile):
     """R_a by straight lines between the rows of a CSV file over one period."""
 
     units: ClassVar[Mapping[str, float]] = NEWTONS
-    file: FileName = Field(
-        description="CSV file with columns t_s,R_a_N, beside the scene file (if given by --set: "
-        "in the current folder); t_s starts at 0, the last row repeats the first R_a"
-    )
-    columns: tuple[Text, Text] = Field(
+    file: FileName = _file("t_s,R_a_N", ", the last row repeats the first R_a")
+    columns: Names = Field(
         default=("t_s", "R_a_N"), description="names of the columns of time and force"
     )
     unit: Annotated[str, OneOf(NEWTONS)] = Field(
@@ -306,4 +309,4 @@ def _number(cell: str, form: RowsFile) -> float | None:
         number = float(cell.strip().strip('"').replace(form.decimal, "."))
     except ValueError:
         return None
-    return number if number == 0.0 or SMALLEST <= abs(number) <= LARGEST else None
+    return number if is_sane(number) else None

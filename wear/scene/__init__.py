@@ -84,21 +84,15 @@ class Scene(SceneTable):
         0.3
         """
         try:
-            named = {entry.partition(".")[0] for entry in changes.keys()}  # noqa: SIM118
+            named = {key.partition(".")[0] for key in changes.keys()}  # noqa: SIM118
         except (AttributeError, TypeError):
             form = "{'bearing.roughness_growth': 0.3}"
             raise UsageError(f"changes: give a mapping such as {form}") from None
-        from_file = "load.file" in changes or getattr(self.load, "source", None) is not None
-        if not named <= {*PARTS} or ("load" in named and (from_file or "load" in changes)):
-            tables = self.to_tables() | ({} if "load" in named else {"load": self.load})
-            for entry, value in changes.items():
-                set_entry(tables, tuple(entry.split(".")), value, keep=changes)
-            return Scene.from_dict(tables, self.name, self.folder)
-        tables = {name: self._entries(name) for name in named}  # what a study does 1e6 times
-        for entry, value in changes.items():
-            set_entry(tables, tuple(entry.split(".")), value, keep=changes)
-        changed: dict[str, Any] = {name: tables.get(name) for name in named}
-        return dataclasses.replace(self, **changed)
+        tables = {name: getattr(self, name) for name in self.entries}
+        tables |= {name: self._entries(name) for name in named & {*PARTS}}
+        for key, value in changes.items():
+            set_entry(tables, tuple(key.split(".")), value, keep=changes)
+        return Scene.from_dict(tables, self.name, self.folder)
 
     def _entries(self, table: str) -> dict[str, Any]:
         """The entries of a table that are given, as plain values."""
@@ -310,7 +304,8 @@ def _checked(tables: Mapping[str, Any], source: Source, name: str, folder: Path 
         faults += [source.fault(*problem) for problem in problems(error)]
     if faults:
         raise SceneError(faults)
-    return dataclasses.replace(scene, name=name, folder=folder)
+    vars(scene).update(name=name, folder=folder)
+    return scene
 
 
 def _place(name: str) -> str:
