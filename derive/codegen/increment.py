@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..program.function import Assignment, Function, made
-from ..program.rate import law, p_max
+from ..program.functions import law, p_max
 from ..program.symbols import h, ratio, sigma
 from ..symbols import rate, symbols
 from ..variant import Variant

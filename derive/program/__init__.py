@@ -22,9 +22,11 @@ from ..laws import TANH
 from ..note.governing import Pin
 from ..symbols import QUANTITIES
 from ..variant import Variant
-from . import fields, gradient, margin, rate, root
+from . import functions as parts
+from . import gradient
 from .function import Assignment, Function
 from .relations import Relations, groups
+from .root import root
 from .symbols import pin_wear_sign
 
 
@@ -56,14 +58,6 @@ class Program:
         return any(pin_wear_sign in value.free_symbols for _, value in self.constants)
 
     @property
-    def exact_constants(self) -> dict[sp.Symbol, sp.Expr]:
-        """Return every constant in terms of the parameters alone."""
-        values: dict[sp.Symbol, sp.Expr] = {}
-        for name, expr in self.constants:
-            values[name] = expr.xreplace(values)
-        return values
-
-    @property
     def operations(self) -> dict[str, int]:
         """Return how many arithmetic operations one call of each function costs."""
         return {function.name: function.operations for function in self.array_functions}
@@ -80,17 +74,17 @@ class Program:
 def program(variant: Variant) -> Program:
     """Return the program of a variant, complete in itself."""
     relations = Relations(variant)
-    functions = rate.rigid(relations)
+    functions = parts.rigid(relations)
     if variant.compliant:
-        functions = (*root.root(relations), *rate.compliant(relations))
+        functions = (*root(relations), *parts.compliant(relations))
     hoisted = groups(variant)
     if variant.ends_at_3_sigma:
-        functions += margin.margin(relations)
-        functions += margin.limited() if variant.compliant else ()
-        hoisted += margin.constants(relations)
-    functions += (fields.fields(relations),)
-    made = _program(variant, hoisted, functions, fields.names(variant))
-    pair = () if variant.compliant else (rate.rate_and_slope(*functions[:2]),)
+        functions += parts.margin(relations)
+        functions += parts.limited() if variant.compliant else ()
+        hoisted += parts.constants(relations)
+    functions += (parts.fields(relations),)
+    made = _program(variant, hoisted, functions, parts.field_names(variant))
+    pair = () if variant.compliant else (parts.rate_and_slope(*functions[:2]),)
     gradients = (
         gradient.rate_gradient(relations, [name for name, _ in made.constants]),
         gradient.parameter_gradient(made.constants, made.parameters),
@@ -102,12 +96,12 @@ def program(variant: Variant) -> Program:
 def margin_program(pin: Pin) -> Program:
     """Return what loss of contact adds: no law and no support takes part in it."""
     relations = Relations(Variant(TANH, compliant=False, pin=pin, ends_at_3_sigma=True))
-    hoisted = (*groups(relations.variant), *margin.constants(relations))
-    functions = (*margin.margin(relations), *margin.limited())
+    hoisted = (*groups(relations.variant), *parts.constants(relations))
+    functions = (*parts.margin(relations), *parts.limited())
     made = _program(relations.variant, hoisted, functions)
     names = [name for name, _ in made.constants]
     gradients = (
-        gradient.margin_gradient(margin.margin(relations)[0], names),
+        gradient.margin_gradient(parts.margin(relations)[0], names),
         gradient.parameter_gradient(made.constants, made.parameters),
     )
     return replace(made, joint_functions=gradients)

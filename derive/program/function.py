@@ -4,16 +4,17 @@ Key results
     Assignment  a name and what it stands for
     Function    arguments, assignments, results
     made        a function with no more assignments than it needs
+    with_slopes assignments, each followed by that of its derivative with respect to the wear
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
 
-from ..laws import released
+from .symbols import number, u
 
 Assignment = tuple[sp.Symbol, sp.Expr]
 
@@ -72,13 +73,6 @@ class Function:
         """Return how many arithmetic operations one call costs, functions counted as one."""
         return sum(int(expr.count_ops()) for expr in self.expressions)
 
-    def composed(self) -> tuple[sp.Expr, ...]:
-        """Return the results with every assignment inserted, exponents not held: the exact form."""
-        results = self.results
-        for name, value in reversed(self.assignments):
-            results = tuple(result.xreplace({name: released(value)}) for result in results)
-        return results
-
 
 def made(
     name: str,
@@ -94,3 +88,36 @@ def made(
             kept.append((symbol, value))
             needed |= value.free_symbols
     return Function(name, arguments, tuple(reversed(kept)), results)
+
+
+def with_slopes(
+    assignments: Iterable[Assignment],
+) -> tuple[tuple[Assignment, ...], dict[sp.Symbol, sp.Expr]]:
+    """Follow each assignment by that of its derivative with respect to u, where it has one.
+
+    The slopes by name of what they are the slope of are returned too; zero ones are left out.
+    """
+    made: list[Assignment] = []
+    slopes: dict[sp.Symbol, sp.Expr] = {}
+    for name, expr in assignments:
+        made.append((name, expr))
+        slope = reusing(_total(expr, slopes), name, expr)
+        if slope == 0:
+            continue
+        slopes[name] = slope if slope.is_Atom else number(f"{name}_u")
+        if not slope.is_Atom:
+            made.append((slopes[name], slope))
+    return tuple(made), slopes
+
+
+def _total(expr: sp.Expr, slopes: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+    """Return d expr/du by the chain rule, given the slopes of intermediates."""
+    inner = (sp.diff(expr, name) * slope for name, slope in slopes.items())
+    return sp.Add(sp.diff(expr, u), *inner)
+
+
+def reusing(slope: sp.Expr, name: sp.Symbol, expr: sp.Expr) -> sp.Expr:
+    """Write the slope of a root or a quotient with the name that this has already."""
+    root = expr.is_Pow and expr.exp == sp.Rational(1, 2)
+    quotient = expr.is_Mul and not expr.as_numer_denom()[1].is_number
+    return sp.factor_terms(slope.subs(expr, name) if root or quotient else slope)

@@ -18,10 +18,9 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from .function import Assignment, Function, made
-from .rate import law, p_max, to_ratio
+from .function import Assignment, Function, made, reusing
+from .functions import law, p_max, to_ratio
 from .relations import Relations
-from .slopes import reusing
 from .symbols import compliance, largest_rate, load, number, pressure, ratio, sigma, u
 from .symbols import wear_per_pressure as per_pressure
 

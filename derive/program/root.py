@@ -19,7 +19,7 @@ import sympy as sp
 
 from ..laws import ContactLaw, r
 from .function import Assignment, Function, made
-from .rate import law, p_max, to_ratio
+from .functions import law, p_max, to_ratio
 from .relations import Relations
 from .symbols import compliance, h, load, number, pressure, ratio, sigma, u
 

@@ -61,8 +61,19 @@ def made(variant: Variant) -> Program:
 
 @cache
 def composed(function: Function) -> tuple[sp.Expr, ...]:
-    """Return the exact form of a function, once."""
-    return function.composed()
+    """Return the results of a function, every assignment inserted, exponents not held."""
+    results = function.results
+    for name, value in reversed(function.assignments):
+        results = tuple(result.xreplace({name: released(value)}) for result in results)
+    return results
+
+
+def exact_constants(made: Program) -> dict[sp.Symbol, sp.Expr]:
+    """Return every constant of a program in terms of the parameters alone."""
+    values: dict[sp.Symbol, sp.Expr] = {}
+    for name, expr in made.constants:
+        values[name] = expr.xreplace(values)
+    return values
 
 
 def variant_of(law: str, name: str) -> Variant:
@@ -162,7 +173,7 @@ def exact_values(variant: Variant, at: Point) -> dict[str, mpmath.mpf]:
     with mpmath.workdps(3 * DIGITS):
         constants = {
             name.name: _evaluate(expr, parameters).value
-            for name, expr in made(variant).exact_constants.items()
+            for name, expr in exact_constants(made(variant)).items()
         }
     return constants | {name: mpmath.mpf(value) for name, value in at.state.items()}
 

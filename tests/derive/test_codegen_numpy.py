@@ -49,7 +49,7 @@ def in_parameters(variant: Variant, name: str) -> sp.Expr:
     """The exact form of a generated function in terms of physical parameters."""
     made = exact.made(variant)
     function = next(f for f in made.functions if f.name == name)
-    return function.composed()[0].xreplace(made.exact_constants)
+    return exact.composed(function)[0].xreplace(exact.exact_constants(made))
 
 
 def signed(variant: Variant, name: str):
@@ -207,9 +207,9 @@ def share(variant):
 @pytest.mark.parametrize("pin", Pin)
 def test_the_gradient_of_the_margin_is_its_derivative(pin):
     made = margin_program(pin)
-    margin = made.functions[0].composed()[0]
-    gradient = next(f for f in made.joint_functions if f.name == "margin_gradient").composed()
-    for (name, _), found in zip(made.constants, gradient, strict=True):
+    margin = exact.composed(made.functions[0])[0]
+    gradient = next(f for f in made.joint_functions if f.name == "margin_gradient")
+    for (name, _), found in zip(made.constants, exact.composed(gradient), strict=True):
         assert sp.simplify(found - sp.diff(margin, name)) == 0
 
 
@@ -218,8 +218,8 @@ def test_gradients_go_back_through_bind(which):
     """By the chain rule from the constants, differentiated one by one, to the parameters."""
     made = exact.made(which) if isinstance(which, Variant) else margin_program(which)
     gradient = next(f for f in made.joint_functions if f.name == "parameter_gradient")
-    constants = made.exact_constants
-    for parameter, found in zip(made.parameters, gradient.composed(), strict=True):
+    constants = exact.exact_constants(made)
+    for parameter, found in zip(made.parameters, exact.composed(gradient), strict=True):
         chain = (by_constant(c.name) * sp.diff(v, parameter) for c, v in constants.items())
         exactly = found.xreplace(constants)
         assert sp.simplify(exactly - sp.Add(*chain)) == 0, parameter
@@ -237,8 +237,8 @@ def test_loss_of_contact_adds_functions_that_know_neither_law_nor_support(pin):
             f for f in complete.functions if f.name in added.operations
         ]
         assert variant.compliant == ("limited_pressure" in names)
-        constants = complete.exact_constants
-        for name, value in added.exact_constants.items():
+        constants = exact.exact_constants(complete)
+        for name, value in exact.exact_constants(added).items():
             assert constants[name] == value
 
 
@@ -362,7 +362,7 @@ def test_functions_are_accurate_to_roundoff(case):
 def test_constants_are_accurate_to_roundoff(case):
     variant, at = case
     _, constants = numbers(variant, at)
-    for name, expr in exact.made(variant).exact_constants.items():
+    for name, expr in exact.exact_constants(exact.made(variant)).items():
         bound = getattr(constants, name.name)
         assert exact.judge_expression(expr, at.numbers).units(bound) <= exact.UNITS
 

@@ -6,7 +6,7 @@ import pytest
 
 import derive
 from derive.symbols import QUANTITIES
-from derive.typeset.nomenclature import meaning, nomenclature, quantities
+from derive.typeset.macros import meaning, nomenclature, quantities
 
 
 @pytest.mark.parametrize(
