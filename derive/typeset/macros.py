@@ -1,19 +1,26 @@
-r"""LaTeX macros: one per equation, to \input into a report.
+r"""LaTeX macros: one per equation, to \input into a report, and what their symbols mean.
 
 Key results
-    macro_name    \EqWearPerCycle for (21)
-    macros        the text of a file that defines them, and the table of their symbols
-    WIDTH         how wide they are at most
+    macro_name      \EqWearPerCycle for (21)
+    macros          the text of a file that defines them, and the table of their symbols
+    WIDTH           how wide they are at most
+    occurring       the quantities that occur in expressions, in the order of the vocabulary
+    nomenclature    a tabular with the symbols of equations, their meanings and units
+    meaning, unit   of one quantity, in LaTeX
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ..equations import Equation
+from ..symbols import QUANTITIES, Quantity
 from .breaking import broken
-from .nomenclature import nomenclature
+from .reading import typed
 
 _DIGITS = ("Zero", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine")
 
@@ -21,6 +28,8 @@ WIDTH = 29.0
 """In em: a line of ``article`` has 34.5, of which a number takes some."""
 _NUMBER = 4.5
 _POINTS = {"pt": 1.0, "mm": 72.27 / 25.4, "cm": 72.27 / 2.54, "in": 72.27}
+_UNITS = {"1": "", "MPa mm^2": "N"}
+"""Units that have a name."""
 _LENGTH = re.compile(r"(\d+(?:\.\d+)?)\s*(pt|mm|cm|in)")
 
 
@@ -73,3 +82,65 @@ def macros(equations: Sequence[Equation], width: float = WIDTH) -> str:
         ]
     lines.append(rf"\def\WearNomenclature{{{nomenclature(equations)}}}")
     return "\n".join(lines) + "\n"
+
+
+def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
+    """Return the quantities that occur in equations.
+
+    >>> import derive
+    >>> [quantity.name for quantity in quantities([derive.equation("7c")])]
+    ['t', 'U_c', 'p', 'k']
+    """
+    return occurring(e for found in equations for e in (*found.shown, *found.where))
+
+
+def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
+    """Return the quantities that occur in expressions.
+
+    >>> from derive.symbols import symbol
+    >>> [quantity.name for quantity in occurring([symbol("p_max") / symbol("k")])]
+    ['p_max', 'k']
+    """
+    atoms = (e.atoms(sp.Symbol, AppliedUndef) for e in expressions)
+    used = {
+        atom.func.__name__ if isinstance(atom, AppliedUndef) else atom.name
+        for some in atoms
+        for atom in some
+    }
+    return tuple(quantity for name, quantity in QUANTITIES.items() if name in used)
+
+
+def nomenclature(equations: Iterable[Equation]) -> str:
+    """Return a tabular of the symbols of equations; needs amsmath and booktabs."""
+    rows = [
+        rf"${quantity.latex}$ & {meaning(quantity)} & {_cell(unit(quantity))} \\"
+        for quantity in quantities(equations)
+    ]
+    head = [
+        r"\begin{tabular}{lp{0.62\linewidth}l}",
+        r"\toprule",
+        r"symbol & meaning & unit \\",
+        r"\midrule",
+    ]
+    return "\n".join([*head, *rows, r"\bottomrule", r"\end{tabular}"])
+
+
+def _cell(formula: str) -> str:
+    return f"${formula}$" if formula else "--"
+
+
+def meaning(quantity: Quantity) -> str:
+    r"""Return the meaning in LaTeX, names of other quantities as formulas.
+
+    >>> print(meaning(QUANTITIES["f_c"]))
+    roughness growth of the bearing, $\mathrm{d}\sigma_c/\mathrm{d}u_c$
+    >>> print(meaning(QUANTITIES["c_2"]))
+    drift at order $1/m^2$
+    """
+    return typed(quantity.meaning)
+
+
+def unit(quantity: Quantity) -> str:
+    """Return the unit in LaTeX, empty for none."""
+    spaced = _UNITS.get(quantity.unit, quantity.unit).replace(" ", r"\,")
+    return rf"\mathrm{{{spaced}}}" if spaced else ""

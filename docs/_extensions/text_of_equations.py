@@ -10,8 +10,7 @@ from derive import reasons
 from derive.catalogue import all_equations, equation
 from derive.equations import Equation, Status
 from derive.symbols import QUANTITIES
-from derive.typeset.macros import macro_name
-from derive.typeset.nomenclature import meaning
+from derive.typeset.macros import macro_name, meaning
 
 MEANING = {
     Status.DEFINITION: "taken as the model, or a name given to something",

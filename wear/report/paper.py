@@ -23,7 +23,7 @@ from derive.results.validity import RESOLUTIONS
 from derive.symbols import QUANTITIES
 from derive.typeset.derivation import Derivations
 from derive.typeset.display import inline
-from derive.typeset.nomenclature import occurring, unit
+from derive.typeset.macros import occurring, unit
 from derive.typeset.present import presentable
 from derive.verification import Verification
 from wear.benchmark import results
