@@ -7,7 +7,7 @@ from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from wear.checked import TABLES, Kind, SceneTable
-from wear.load.blocks import Block, BlockCycles
+from wear.load.blocks import Block
 from wear.load.tables import KINDS, PERIODIC
 from wear.quantities import unit_of
 from wear.scene import Scene
@@ -38,7 +38,7 @@ def reference() -> str:
     parts += [
         "### `[[load.blocks]]`",
         f"Each block is a periodic load ({names}) with its keys, and",
-        _keys(BlockCycles),
+        _keys(Block, only=("cycles",)),
     ]
     return "\n\n".join(parts)
 

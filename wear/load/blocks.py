@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from functools import cached_property
-from typing import Annotated, NamedTuple, Self
+from functools import cached_property, partial
+from typing import Annotated, Self
 
 import numpy as np
 from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
@@ -19,17 +19,11 @@ from wear.quantities import MOST_CYCLES
 MOST_BLOCKS = 1000
 
 
-class Block(NamedTuple):
+@table("")
+class Block(SceneTable):
     """A periodic load, run for a number of whole cycles."""
 
-    load: Load
-    cycles: int
-
-
-@table("")
-class BlockCycles(SceneTable):
-    """What a block has beside its load."""
-
+    load: Annotated[Load, PlainValidator(partial(load_from, kinds=PERIODIC))]
     cycles: Count = Field(description="number of cycles of this block")
 
 
@@ -39,21 +33,18 @@ def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
         raise wrong("is not a list of tables", "write [[load.blocks]] for each")
     if not 1 <= len(raw) <= MOST_BLOCKS:
         raise wrong(f"has {len(raw)} blocks", f"give from 1 to {MOST_BLOCKS}; see repeat")
-    made: list[Block] = []
-    faults: list[Finding] = []
+    made, faults = list[Block](), list[Finding]()
     for place, block in enumerate(raw):
-        rest = block._asdict() if isinstance(block, Block) else dict(block)
-        cycles = {key: rest.pop(key) for key in ("cycles",) if key in rest}
+        if isinstance(block, Mapping) and "load" not in block:
+            cycles = {key: block[key] for key in block if key == "cycles"}
+            block = cycles | {"load": {key: block[key] for key in block if key != "cycles"}}
         try:
-            checked = BlockCycles.__pydantic_validator__.validate_python(cycles)  # type: ignore[attr-defined]
+            validator = Block.__pydantic_validator__  # type: ignore[attr-defined]
+            made.append(validator.validate_python(block, context=info.context))
         except ValidationError as error:
-            faults += problems(error, (place,))
-        try:
-            load = load_from(rest.get("load", rest), info, PERIODIC)
-        except ValidationError as error:
-            faults += problems(error, (place,))
-        if not faults:
-            made.append(Block(load, checked.cycles))
+            for path, problem, remedy in problems(error):
+                within = path[1:] if path[:1] == ("load",) else path
+                faults.append(((place, *within), problem, remedy))
     if faults:
         raise all_wrong(*faults)
     return tuple(made)

@@ -59,7 +59,7 @@ def as_table(load: Any) -> dict[str, Any]:
     kind = table.kind or next(name for name, rows in ROWS.items() if isinstance(load, rows))
     entries = {name: getattr(table, name) for name in table.entries}
     if kind == "blocks":
-        entries["blocks"] = [as_table(load) | {"cycles": cycles} for load, cycles in load.blocks]
+        entries["blocks"] = [as_table(b.load) | {"cycles": b.cycles} for b in load.blocks]
     defaults = {name: entry.default for name, entry in table.entries.items()}
     return {"kind": kind} | {
         name: list(value) if isinstance(value, tuple) else value
