@@ -52,14 +52,14 @@ def wrong(problem: str, remedy: str) -> PydanticCustomError:
 def all_wrong(*faults: Finding) -> ValidationError:
     """Return the error for a validator to raise that finds (path, problem, remedy) many times."""
     details: list[InitErrorDetails] = [
-        {"type": wrong(problem, remedy), "loc": _path(path), "input": None}
+        {
+            "type": wrong(problem, remedy),
+            "loc": path if isinstance(path, tuple) else tuple(filter(None, path.split("."))),
+            "input": None,
+        }
         for path, problem, remedy in faults
     ]
     return ValidationError.from_exception_data("wrong", details)
-
-
-def _path(path: str | Path) -> Path:
-    return path if isinstance(path, tuple) else tuple(path.split(".") if path else ())
 
 
 def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, str]]:
@@ -253,7 +253,11 @@ class SceneTable:
         elif isinstance(raw, Mapping):
             given = {**cls.left_out, **{str(key): value for key, value in raw.items()}}
         else:
-            return _instance(cls, raw, build)
+            try:
+                return build(raw)  # what is a table already
+            except ValidationError:
+                remedy = f"write [{cls.place}] on a line of its own"
+                raise all_wrong(("", "is not a table", remedy)) from None
         unknown = [key for key in given if key not in known]
         told = [_of_unknown(cls, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
         meant, faults = {key for key, _ in told} - {""}, [finding for _, finding in told]
@@ -324,15 +328,6 @@ def place_of(path: Path) -> tuple[str, str]:
 
 
 # What is wrong, in words
-
-
-def _instance(kind: type[SceneTable], raw: Any, build: Callable[[Any], Any]) -> Any:
-    """Return what is a table already."""
-    try:
-        return build(raw)
-    except ValidationError:
-        remedy = f"write [{kind.place}] on a line of its own"
-        raise all_wrong(("", "is not a table", remedy)) from None
 
 
 def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> tuple[str, Finding]:

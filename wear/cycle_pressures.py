@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from wear.binding import bind
 from wear.inside import Inside, fields_inside
-from wear.load import Blocks, HistoryLoad, Load
+from wear.load import HistoryLoad
 from wear.load.spans import span
 from wear.model import Model
 from wear.numerics.gauss import FloatArray, Mesh, mesh
@@ -49,32 +49,26 @@ def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePress
 
     There is no such cycle before the first, nor under a load that does not repeat: no number.
     """
-    found = CyclePressures(*np.full((3, len(cycles)), np.nan))
+    found = np.full((3, len(cycles)), np.nan)
     begun = np.unique(cycles[cycles > 0]) - 1.0
     if isinstance(scene.load, HistoryLoad) or not len(begun):
-        return found
+        return CyclePressures(*found)
     model = bind(scene)
     over = _mesh(scene)
     phases = np.concatenate([over.edges, over.phases.ravel()])
-    per_cycle = CyclePressures(*np.full((3, len(begun)), np.nan))
+    per_cycle = np.full((3, len(begun)), np.nan)
     rate = _wear_of_unit(model, scene)
     for part in fields_inside(model, scene.load, begun, phases, rtol):
         rows = np.searchsorted(begun, part.cycles)
         periods = np.array([span(scene.load, int(cycle))[0].period for cycle in part.cycles])
-        pressures = _of(part, over, rate * periods, scene.given_load)
-        for all_, some in zip(per_cycle, pressures, strict=True):
-            all_[rows] = some
-    place = np.searchsorted(begun, cycles - 1.0)
-    for all_, values in zip(found, per_cycle, strict=True):
-        all_[cycles > 0] = values[place[cycles > 0]]
-    return found
+        per_cycle[:, rows] = _of(part, over, rate * periods, scene.given_load)
+    found[:, cycles > 0] = per_cycle[:, np.searchsorted(begun, cycles[cycles > 0] - 1.0)]
+    return CyclePressures(*found)
 
 
 def _mesh(scene: Scene) -> Mesh:
     """Return the intervals of a cycle, on which every load of the scene is smooth."""
-    loads: list[Load] = [scene.periodic_load] if not isinstance(scene.load, Blocks) else [
-        block.load for block in scene.load.blocks
-    ]  # fmt: skip
+    loads = scene.loads.values()
     marks = {0.0, 1.0, *(x for load in loads for x in (*load.kinks, *load.peaks))}
     edges = np.unique(np.concatenate([sorted(marks), np.arange(INTERVALS) / INTERVALS]))
     keep = np.append(np.diff(edges) > 1e-12, True)

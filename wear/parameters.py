@@ -17,7 +17,7 @@ import numpy as np
 
 from wear.binding import bind, bind_many
 from wear.equation import WearEquation
-from wear.load import Blocks, Load
+from wear.load import Load
 from wear.load.spans import Span
 from wear.model import Real, Summed
 from wear.numerics.gauss import FloatArray, IntArray
@@ -42,7 +42,7 @@ def parameters_of(scene: Scene) -> dict[str, float]:
     0.0005
     """
     found = {key: value for _, key, value, _ in links(scene)}
-    for name, load in _loads(scene).items():
+    for name, load in scene.loads.items():
         found |= {f"{name}.{key}": _entry(load, key) for key in numbers_of(load)}
         found[f"{name}.period_s"] = load.period
     return found
@@ -80,13 +80,6 @@ def links(scene: Scene) -> list[Link]:
         if link.symbol in ("sigma_c0", "sigma_a0"):
             found.append(link._replace(symbol="h_0", factor=multiple * link.value / sigma))
     return [*found, Link("h_0", "contact.closure_in_sigma", multiple, sigma)]
-
-
-def _loads(scene: Scene) -> dict[str, Load]:
-    """Return the loads of a scene that repeat, by their place in the scene file."""
-    if isinstance(scene.load, Blocks):
-        return {f"load.blocks[{i}]": block.load for i, block in enumerate(scene.load.blocks)}
-    return {"load": scene.periodic_load}
 
 
 def numbers_of(load: Load) -> list[str]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from wear.figure_data import WEAR
 from wear.figure_style import COLUMN, GREY, INK, canvas, panels, stroke, styled
-from wear.load import Blocks, HistoryLoad
+from wear.load import HistoryLoad
 from wear.scene import Scene
 
 _LEFT, _RIGHT = 2.2, 8.2
@@ -98,9 +98,10 @@ def _paths(scene: Scene) -> tuple[list[tuple[NDArray[np.float64], NDArray[np.flo
     if isinstance(load, HistoryLoad):
         times = np.asarray(load.times_s)
         return [(times, load(times) * WEAR.scale)], "Time  (s)"
-    loads = [b.load for b in load.blocks] if isinstance(load, Blocks) else [scene.periodic_load]
     phase = np.linspace(0.0, 1.0, 801)
-    return [(phase, each(phase) * WEAR.scale) for each in loads], "Phase in the cycle"
+    return [
+        (phase, each(phase) * WEAR.scale) for each in scene.loads.values()
+    ], "Phase in the cycle"
 
 
 def _profile(seed: float, height: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -127,6 +127,13 @@ class Scene(SceneTable):
         return self.load
 
     @property
+    def loads(self) -> dict[str, Load]:
+        """The loads that repeat, by their place in the scene file."""
+        if isinstance(self.load, Blocks):
+            return {f"load.blocks[{i}]": block.load for i, block in enumerate(self.load.blocks)}
+        return {"load": self.periodic_load}
+
+    @property
     def variant(self) -> VariantKey:
         """The generated module with what this scene needs, and no more."""
         return VariantKey(
