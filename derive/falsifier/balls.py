@@ -5,28 +5,35 @@ Overview
     numbers stay exact, so that 0/0 is seen; all else is a ball of `python-flint` that contains
     the value.  Derivatives in time are those of the fields' own formulas.
 Key results
-    compiled(expr, variable)   the function of a moment
-    Undefined, Undecided       no value exists; the balls are too wide to say
+    compiled(expr)         the function of a moment
+    Undefined, Undecided   no value exists; the balls are too wide to say
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache, reduce
-from math import isqrt
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache, reduce
+from itertools import pairwise
+from math import isqrt, tau
+from operator import mul
 from typing import Any
 
 import sympy as sp
 from flint import arb, fmpq
 from sympy.core.function import AppliedUndef
 
+from ..claims import FirstZero
 from ..symbols import t
+from .expansion import Array, Expanded, at_phase, coefficients
 
 Number = Any  # fmpq or arb, which mix
 BITS = 320
 """Working precision: 96 digits."""
 ZERO = fmpq(0)
+_HALVINGS_OF_ZERO = 110
+_HALVINGS, _AGREEING = 24, arb(10) ** -12
+"""Of an interval of integration; relative distance of two rules that needs none."""
 NOTHING = arb(10) ** -200
 """A ball around 0 narrower than this, which only a higher precision gives, is 0."""
 
@@ -43,16 +50,26 @@ class NoValue(Undecided):
     """The model itself gives a quantity no value."""
 
 
-class NearZero(Undecided):
-    """A divisor is a ball around 0, very narrow: 0 itself, as far as can be said."""
-
-
 @dataclass(frozen=True)
 class Moment:
-    """A time in a model."""
+    """A time in a model; ``bound`` are the values of variables of integration and the like."""
 
-    model: Any  # of .models: a Model, or a Present one
+    model: Any  # of .models: a Model
     time: Number = ZERO
+    bound: tuple[tuple[sp.Symbol, Number], ...] = ()
+
+    def at(self, name: sp.Symbol, value: Number) -> Moment:
+        """Return the moment at which a variable has a value."""
+        if name == t:
+            return replace(self, time=value)
+        return replace(self, bound=((name, value), *self.bound))
+
+    def valued(self, name: sp.Symbol) -> Number:
+        """Return the value of a variable or of a datum."""
+        for variable, value in self.bound:
+            if variable == name:
+                return value
+        return self.model.constant(name)
 
 
 Value = Callable[[Moment], Number]
@@ -76,8 +93,7 @@ def _divided(a: Number, b: Number) -> Number:
     if b == 0:
         raise Undefined("division by zero")
     if isinstance(b, arb) and b.contains(0):
-        narrow = b.rad() < NOTHING
-        raise NearZero("division by zero") if narrow else Undecided("perhaps a division by zero")
+        raise Undecided("perhaps a division by zero")
     return a / b
 
 
@@ -89,7 +105,11 @@ def _positive(x: Number, what: str) -> None:
 def _power(base: Number, exponent: Number) -> Number:
     if isinstance(exponent, fmpq) and exponent.q == 1:
         n = int(exponent.p)
-        return base**n if n >= 0 else _divided(fmpq(1), base**-n)
+        if n < 0:
+            return _divided(fmpq(1), _power(base, -exponent))
+        if isinstance(base, arb) and base.contains(0):  # a power of a ball takes its logarithm
+            return reduce(mul, [base] * n, fmpq(1))
+        return base**n
     if base == 0:
         if arb(exponent) > 0:
             return ZERO
@@ -163,7 +183,6 @@ _FUNCTIONS: dict[type, Callable[..., Number]] = {
     sp.Min: lambda *xs: reduce(_smaller, xs),
     sp.Max: lambda *xs: -reduce(_smaller, [-x for x in xs]),
     sp.Pow: _power,
-    sp.Add: lambda *xs: reduce(lambda a, b: a + b, xs),
     sp.Mul: lambda *xs: reduce(lambda a, b: a * b, xs),
 }
 
@@ -174,10 +193,9 @@ _CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
 
 
 @cache
-def compiled(expr: sp.Basic, variable: sp.Symbol = t) -> Value:
-    """Return the function that gives an expression its value at a moment; ``variable`` is what
-    runs there (time)."""
-    if expr == variable:
+def compiled(expr: sp.Basic) -> Value:
+    """Return the function that gives an expression its value at a moment."""
+    if expr == t:
         return lambda moment: moment.time
     if expr in _CONSTANTS:
         known = _CONSTANTS[expr]
@@ -185,15 +203,13 @@ def compiled(expr: sp.Basic, variable: sp.Symbol = t) -> Value:
     if expr.is_Number and expr.is_finite:
         number = fraction(expr)
         return lambda _: number
-    if isinstance(expr, sp.Symbol):
-        return lambda moment: moment.model.constant(expr)
     for kind, build in _SPECIAL:
         if isinstance(expr, kind):
-            return build(expr, variable)
+            return build(expr)
     if type(expr) not in _FUNCTIONS:
         raise Undecided(f"{type(expr).__name__} has no number")
     function = _FUNCTIONS[type(expr)]
-    arguments = [compiled(a, variable) for a in expr.args]
+    arguments = [compiled(a) for a in expr.args]
     return lambda moment: function(*[argument(moment) for argument in arguments])
 
 
@@ -207,53 +223,68 @@ def _at_time_t(function: sp.FunctionClass) -> sp.Expr:
     return function(t)
 
 
-def _field(expr: AppliedUndef, variable: sp.Symbol, order: int = 0) -> Value:
-    field, at = field_of(expr), compiled(expr.args[0], variable)
+def _field(expr: AppliedUndef, order: int = 0) -> Value:
+    field, at = field_of(expr), compiled(expr.args[0])
     return lambda moment: moment.model.field(field, at(moment), order)
 
 
-def _derivative(expr: sp.Derivative, variable: sp.Symbol) -> Value:
+def _sum(expr: sp.Add) -> Value:
+    """Return a sum, in which what a field gains from one time to another loses no digits."""
+    fields = [(a, -b) for a in expr.args for b in expr.args
+              if isinstance(a, AppliedUndef) and isinstance(-b, AppliedUndef)
+              and a.func == (-b).func]  # fmt: skip
+    if not fields:
+        terms = [compiled(term) for term in expr.args]
+        return lambda moment: sum((term(moment) for term in terms), ZERO)
+    later, earlier = fields[0]
+    rest, field = compiled(expr - later + earlier), field_of(later)
+    begin, end = compiled(earlier.args[0]), compiled(later.args[0])
+    return lambda moment: rest(moment) + moment.model.gain(field, begin(moment), end(moment))
+
+
+def _derivative(expr: sp.Derivative) -> Value:
     inside, data = expr.expr, tuple(expr.variables)
-    if set(data) != {variable} and isinstance(inside, sp.Symbol):
+    if isinstance(inside, sp.Symbol):
         return lambda moment: moment.model.slope(inside, data)
-    if isinstance(inside, AppliedUndef) and inside.args == data[:1]:
-        return _field(inside, variable, len(data))
+    if isinstance(inside, AppliedUndef) and set(data) == set(inside.args):
+        return _field(inside, len(data))
     done = expr.doit()
     if done == expr:
         raise Undecided(f"{expr} is no derivative in time")
-    return compiled(done, variable)
+    return compiled(done)
 
 
-def _at(expr: sp.Subs, variable: sp.Symbol) -> Value:
+def _at(expr: sp.Subs) -> Value:
     """An expression at another value of its variable: a field at time zero, one period later."""
     (name,), (point,) = expr.variables, expr.point
-    inside, at = compiled(expr.expr, name), compiled(point, variable)
-    return lambda moment: inside(Moment(moment.model, at(moment)))
+    inside, at = compiled(expr.expr), compiled(point)
+    return lambda moment: inside(moment.at(name, at(moment)))
 
 
-def _limit(expr: sp.Limit, _: sp.Symbol) -> Value:
+def _limit(expr: sp.Limit) -> Value:
     return lambda moment: moment.model.limit(expr)
 
 
-def _integral(expr: sp.Integral, variable: sp.Symbol) -> Value:
-    """Gauss and Legendre, on two halves; the error is the distance of two orders."""
+def _integral(expr: sp.Integral) -> Value:
+    """Gauss and Legendre, on halves of halves until two orders agree; the error is their
+    distance."""
     ((name, low, high),) = expr.limits
-    inside = compiled(expr.function, name)
-    ends = compiled(low, variable), compiled(high, variable)
+    inside, begin, end = compiled(expr.function), compiled(low), compiled(high)
 
     def value(moment: Moment) -> Number:
-        a, b = (end(moment) for end in ends)
+        def total(a: Number, b: Number, halvings: int) -> arb:
+            half = (b - a) / 2
+            coarse, fine = (
+                half * sum(weight * ball(inside(moment.at(name, a + half * (1 + x))))
+                           for x, weight in _nodes(order))
+                for order in (20, 32)
+            )  # fmt: skip
+            error = abs(fine - coarse).mid()
+            if halvings and error > fine.rad() and error > _AGREEING * abs(fine).mid():
+                return total(a, a + half, halvings - 1) + total(a + half, b, halvings - 1)
+            return fine + arb(0, error)
 
-        def total(order: int) -> arb:
-            half = (b - a) / 4
-            return half * sum(
-                weight * ball(inside(Moment(moment.model, a + half * (shift + x))))
-                for shift in (1, 3)
-                for x, weight in _nodes(order)
-            )
-
-        coarse, fine = total(20), total(32)
-        return arb(fine.mid(), abs(fine - coarse).upper() + fine.rad())
+        return total(begin(moment), end(moment), _HALVINGS)
 
     return value
 
@@ -263,14 +294,72 @@ def _nodes(order: int) -> tuple[tuple[arb, arb], ...]:
     return tuple(arb.legendre_p_root(order, k, weight=True) for k in range(order))
 
 
-def _cases(expr: sp.Piecewise, variable: sp.Symbol) -> Value:
+def _first_zero(expr: FirstZero) -> Value:
+    """The first of the intervals, halved, in which the balls do not exclude a zero."""
+    inside, name = compiled(expr.args[0]), expr.args[1]
+
+    def value(moment: Moment) -> arb:
+        def sign(x: Number) -> fmpq:
+            try:
+                return _sign(ball(inside(moment.at(name, x))))
+            except Undecided:
+                return ZERO
+
+        def first(low: fmpq, high: fmpq, halvings: int) -> arb | None:
+            middle, width = (low + high) / 2, high - low
+            if sign(arb(middle, arb(width / 2).upper())) != 0:
+                return None
+            if halvings == 0:  # the zero is here, or near enough to be seen from here
+                if sign(low - 8 * width) * sign(high + 8 * width) < 0:
+                    return arb(middle, arb(9 * width).upper())
+                raise Undecided("perhaps a zero")
+            earlier = first(low, middle, halvings - 1)
+            return first(middle, high, halvings - 1) if earlier is None else earlier
+
+        ends = (ZERO, *(fmpq(137, 100) * fmpq(2) ** k for k in range(-20, 40)))
+        for low, high in pairwise(ends):
+            found = first(low, high, _HALVINGS_OF_ZERO)
+            if found is not None:
+                return found
+        raise Undecided("no zero is found")
+
+    return value
+
+
+def _expanded(expr: Expanded) -> Value:
+    number, order = map(int, expr.args[:2])
+    law, at = expr.args[2:6], compiled(expr.args[6])
+
+    def value(moment: Moment) -> arb:
+        drift, waves = _coefficients(moment.model, number, *law)
+        phase = float(ball(at(moment)).mid()) % 1
+        found = drift[number] if order < 0 else at_phase(waves[number], phase, order)
+        size = abs(drift[number]) + abs(waves[number]).max() * (number * tau) ** max(order, 0)
+        return arb(float(found), 1e-9 * float(size))
+
+    return value
+
+
+@lru_cache(maxsize=50)
+def _coefficients(
+    model: Any, number: int, law: sp.Expr, s: sp.Symbol, phase: sp.Symbol, rho: sp.Expr
+) -> tuple[Array, Array]:
+    now, inside = Moment(model), compiled(law)
+    return coefficients(
+        lambda size, turned: ball(inside(now.at(s, size).at(phase, turned))),
+        float(ball(compiled(rho)(now)).mid()),
+        number,
+    )
+
+
+def _cases(expr: sp.Piecewise) -> Value:
     from .truth import judged
 
-    values = [(compiled(value, variable), condition) for value, condition in expr.args]
+    values = [(compiled(value), condition) for value, condition in expr.args]
 
     def value(moment: Moment) -> Number:
         for branch, condition in values:
-            if judged(condition, moment, variable):
+            if judged(condition, moment):
                 return branch(moment)
         raise Undefined("no case of a piecewise expression")
 
@@ -278,10 +367,14 @@ def _cases(expr: sp.Piecewise, variable: sp.Symbol) -> Value:
 
 
 _SPECIAL: tuple[tuple[type, Callable[..., Value]], ...] = (
+    (sp.Symbol, lambda name: lambda moment: moment.valued(name)),
+    (sp.Add, _sum),
     (AppliedUndef, _field),
     (sp.Derivative, _derivative),
     (sp.Subs, _at),
     (sp.Limit, _limit),
     (sp.Integral, _integral),
     (sp.Piecewise, _cases),
+    (FirstZero, _first_zero),
+    (Expanded, _expanded),
 )

@@ -44,14 +44,17 @@ _FACTORS = ((1, 5), (1.3, 21), (1.9, 37), (2.7, 58), (3.9, 83))
 _EARLY = (0, 137, 620, 1210, 2870)
 """Times at which what is claimed for all times is tried, in thousandths of the period."""
 _LATE = (10**2, 3 * 10**5)
-_FAR, _FARTHEST = 10**5, 10**8
-"""Periods after which trends are read, and refusals confirmed."""
+_NEAR, _FAR, _FARTHEST = 10**3, 10**5, 10**8
+"""Periods after which trends are read; where rounding hides them; where refusals are confirmed."""
 
 _DEEP = 40
 """Formulas inside formulas; more than a model has."""
 
 _TRUSTED = arb(10) ** -12
 """Relative error of a state."""
+
+_UNMOVED = arb(10) ** -6
+"""Relative width of a constant up to which it shows that a datum has no influence on it."""
 
 Windows = list[list[arb]]
 
@@ -155,6 +158,14 @@ class Model:
         value = arb(float(values[place]))
         return value + arb(0, (abs(value) * _TRUSTED + float(rounding[place])).upper())
 
+    def gain(self, field: sp.Expr, begin: Number, end: Number) -> Number:
+        """Return what a field gains from one time to another."""
+        begins, width = float(arb(begin)), float(arb(end - begin))
+        if field not in self.states or width <= 0:
+            return self.field(field, end) - self.field(field, begin)
+        gained = float(self.motion.gained(begins, width)[self.states[field]])
+        return arb(gained, (abs(gained) * _TRUSTED).upper())
+
     def _root(self, at: Number) -> arb:
         states = np.array([[float(ball(self._state(f, at)).mid())] for f in self.states])
         (y,) = self.system.root(np.array([float(arb(at))]), states)
@@ -213,32 +224,45 @@ class Model:
         return _integrated(frozenset(held.items()), self.loop)
 
     def limit(self, expr: sp.Limit) -> arb:
-        """Return a limit, with the error that its trend shows."""
-        return trend.limit(self._late(expr, _FARTHEST))
+        """Return a limit, with the error that its trend shows: from as late as resolves it."""
+        try:
+            return trend.limit(self._late(expr, _FARTHEST))
+        except Undecided:
+            return trend.limit(self._late(expr, _FAR))
 
     def latest(self, expr: sp.Limit) -> arb:
         """Return the last value from which a limit was judged."""
         return self._late(expr, _FAR)[-1][-1]
 
     def confirmed(self, expr: sp.Limit, judge: Callable[[Windows], bool | None]) -> bool | None:
-        """Judge a trend; a refusal, from fields that may not have left their start, again later."""
-        outcome = judge(self._late(expr, _FAR))
-        if outcome is False and self.states and expr.args[2] == sp.oo:
-            return judge(self._late(expr, _FARTHEST)) or False
-        return outcome
+        """Judge a trend; a refusal, from fields that may not have left their start, again later;
+        what rounding hides, earlier."""
+        outcome = judge(self._late(expr, _FAR)[::2])
+        if outcome or not self.states or expr.args[2] != sp.oo:
+            return outcome
+        if outcome is False:
+            return judge(self._late(expr, _FARTHEST)[::2]) or False
+        return judge(self._late(expr, _NEAR)[::2]) or None
 
-    def slope(self, name: sp.Symbol, data: tuple[sp.Symbol, ...]) -> arb:
-        """Return the derivative of a constant with respect to one datum, all others held."""
+    def slope(self, name: sp.Symbol, data: tuple[sp.Symbol, ...]) -> Number:
+        """Return the derivative of a constant with respect to one datum, all others held; it is
+        0 where half as much again of the datum changes nothing."""
         (datum,) = data[:1]
         if len(data) != 1 or not self.values.get(datum, sp.nan).is_Rational:
             raise Undecided("a derivative of a higher order")
-        here, step = fraction(self.values[datum]), fmpq(1, 10**3 if self.states else 10**6)
-        step *= abs(here) if here != 0 else 1
-        high, low = (
-            arb(self.with_datum(datum, at).constant(name)) for at in (here + step, here - step)
-        )
-        found = (high - low) / (2 * step)
-        return found + arb(0, (abs(found) * 1000 * arb(step) ** 2 + arb(10) ** -30).upper())
+        here, part = fraction(self.values[datum]), fmpq(1, 2500 if self.states else 10**6)
+        size = abs(here) if here != 0 else fmpq(1)
+
+        def moved(by: fmpq) -> arb:
+            return arb(self.with_datum(datum, here + by * size).constant(name))
+
+        found = (moved(part) - moved(-part)) / (2 * part * size)
+        if found.contains(0):
+            far = moved(fmpq(1, 2))
+            change = far - arb(self.constant(name))
+            if change.contains(0) and change.rad() < _UNMOVED * abs(far):
+                return ZERO
+        return found + arb(0, (abs(found) * 1000 * arb(part) ** 2 + arb(10) ** -30).upper())
 
     def with_datum(self, datum: sp.Symbol, value: fmpq) -> Model:
         """Return the model with one datum changed."""
@@ -267,24 +291,26 @@ class Model:
         if point != sp.oo:
             return [[at] for at in _towards(point)]
         if not self.states:
-            return [self._window(10**k) for k in (8, 16, 32, 64)]
+            return [self._window(10**k) for k in (4, 8, 16, 32, 64)]
         period = float(arb(self.period))
         if far == _FARTHEST and not self.motion.may_reach(period * far * 2):
             raise Undecided("the fields are not known for long enough")
         periods = min(self.motion.upto(period * far * 5) / period, 5 * far) / 4
-        if periods > far / 2:
-            return [self._window(int(periods ** (0.5**k))) for k in (2, 1, 0)]
+        steps = (4, 3, 2, 1, 0)
+        if periods > far / 2:  # the logarithms form a geometric sequence, at each place
+            return [self._window(int(periods**power), power) for k in steps
+                    for power in (0.5 ** (k / 2),)]  # fmt: skip
         if periods < 25 or far == _FARTHEST:
             raise Undecided("the fields are not known for long enough")
-        return [self._window(int(periods / 4**k)) for k in (2, 1, 0)]
+        return [self._window(int(periods / 2**k)) for k in steps]
 
-    def _window(self, periods: int) -> list[fmpq]:
-        hundredths = ((int(periods * int(f * 10)) // 10) * 100 + phase for f, phase in _FACTORS)
-        return [self.period * fmpq(at, 100) for at in hundredths]
+    def _window(self, periods: int, power: float = 1.0) -> list[fmpq]:
+        factors = ((int(periods * f**power), phase) for f, phase in _FACTORS)
+        return [self.period * fmpq(whole * 100 + phase, 100) for whole, phase in factors]
 
 
 def _towards(point: sp.Expr) -> list[fmpq]:
-    steps = [fmpq(10) ** k for k in (6, 12, 24)]
+    steps = [fmpq(10) ** k for k in (3, 6, 9, 12, 24)]
     if point in (sp.oo, -sp.oo):
         return [step if point == sp.oo else -step for step in steps]
     return [fraction(point) + 1 / step for step in steps]

@@ -3,8 +3,9 @@
 Overview
     ``dx/dt = F(t, x)`` is integrated with polynomials through Chebyshev points: Picard's
     iteration in each step, whose width follows from the last coefficients and from how fast it
-    converges.  Steps end where a load jumps.  The polynomials are kept: fields are known at
-    every time in between.  Nothing is shared with `wear`, nor with the rules.
+    converges.  Steps end where a load jumps.  The polynomials of states and rates are kept:
+    fields are known at every time in between, and what they gain from one time to another to as
+    many digits as the rates are.  Nothing is shared with `wear`, nor with the rules.
 Key results
     Motion    the states of one system, integrated as far as is asked for
 References
@@ -31,6 +32,8 @@ _COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(_POINTS, NODES - 1))
 _PRIMITIVE = np.array([chebyshev.chebint(e, lbnd=-1) for e in np.eye(NODES)]) / 2
 """Coefficients of the integrals of the Chebyshev polynomials, in steps of width one."""
 _INTEGRAL = chebyshev.chebvander(_POINTS, NODES) @ _PRIMITIVE.T @ _COEFFICIENTS
+_GAUSS = np.polynomial.legendre.leggauss(NODES // 2)
+"""Exact for the polynomials of the rates."""
 _SWEEPS, _FEW, _HUGE = 40, 14, 1e200
 _SETTLED, _LEFT_OUT = 1e-14, 1e-13
 _FIRST, MOST_STEPS = 80, 400
@@ -45,7 +48,7 @@ class Motion:
     spacing: float = 0.0
     width: float = 0.25
     _times: list[float] = field(default_factory=lambda: [0.0])
-    _pieces: list[Array] = field(default_factory=list)
+    _pieces: list[tuple[Array, Array]] = field(default_factory=list)
     _stuck: bool = False
 
     @property
@@ -61,8 +64,23 @@ class Motion:
         number = bisect_right(self._times, time) - 1
         begin, end = self._times[number : number + 2]
         place = (2 * time - begin - end) / (end - begin)
-        piece = self._pieces[number]
+        piece = self._pieces[number][0]
         return np.asarray(chebyshev.chebval(place, piece)), 1e-15 * np.abs(piece).sum(axis=0)
+
+    def gained(self, begin: float, width: float) -> Array:
+        """Return what the states gain in a time of some width; Undecided as in ``at``."""
+        if self.upto(begin + width) <= begin + width:
+            raise Undecided("the fields are not known for so long")
+        gain = np.zeros_like(self.first)
+        for number in range(bisect_right(self._times, begin) - 1, len(self._pieces)):
+            low, high = self._times[number : number + 2]
+            first, last = max(0.0, low - begin), min(width, high - begin)
+            if last <= first:
+                break
+            middle, half = begin + (first + last) / 2, (last - first) / 2
+            places = (2 * (middle + half * _GAUSS[0]) - low - high) / (high - low)
+            gain += half * chebyshev.chebval(places, self._pieces[number][1]) @ _GAUSS[1]
+        return gain
 
     def upto(self, time: float) -> float:
         """Integrate to a time, or as far as the steps allow; return the time reached."""
@@ -78,7 +96,7 @@ class Motion:
 
     def _advance(self) -> None:
         begin, step = self.reached, self.width
-        first = self.first if not self._pieces else self._pieces[-1].sum(axis=0)
+        first = self.first if not self._pieces else self._pieces[-1][0].sum(axis=0)
         while step > 1e-7 * max(1.0, begin) and len(self._pieces) < MOST_STEPS:
             if self.spacing:
                 step = min(step, self.spacing * (begin // self.spacing + 1) - begin)
@@ -92,8 +110,11 @@ class Motion:
             step /= 2
         self._stuck = True
 
-    def _solved(self, begin: float, step: float, first: Array) -> tuple[Array | None, int]:
-        """Return the coefficients in a step, shape ``(NODES, states)``, and the sweeps taken."""
+    def _solved(
+        self, begin: float, step: float, first: Array
+    ) -> tuple[tuple[Array, Array] | None, int]:
+        """Return the coefficients of states and rates in a step, each of shape
+        ``(NODES, states)``, and the sweeps taken."""
         times = begin + step * (1 + _POINTS) / 2
         states = np.repeat(first[:, None], NODES, axis=1)
         for sweep in range(_SWEEPS):
@@ -106,5 +127,6 @@ class Motion:
             if change <= _SETTLED:
                 piece = _COEFFICIENTS @ states.T
                 rest = np.abs(piece[-2:]).max(axis=0) / size
-                return (piece if rest.max() <= _LEFT_OUT else None), sweep
+                kept = rest.max() <= _LEFT_OUT
+                return ((piece, _COEFFICIENTS @ rates.T) if kept else None), sweep
         return None, _SWEEPS

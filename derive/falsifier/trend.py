@@ -53,7 +53,7 @@ def diverges(windows: Sequence[Window], sign: int) -> bool | None:
 
 
 def limit(windows: Sequence[Window]) -> arb:
-    """Return the limit, its error estimated from the last two windows."""
+    """Return the limit by Aitken's extrapolation, a ball as wide as the last correction."""
     middles = [sum(window, arb(0)) / len(window) for window in windows[-3:]]
     spreads = [max(abs(v - m).mid() for v in w) for w, m in zip(windows[-3:], middles, strict=True)]
     size = max(abs(v).mid() for v in windows[-1])
@@ -62,7 +62,22 @@ def limit(windows: Sequence[Window]) -> arb:
     step, before = (abs(b - a).mid() for a, b in ((middles[1], middles[2]), middles[:2]))
     if step > _GROSS * size and step > arb("0.9") * before:
         raise Undefined("no finite limit")
-    error = 2 * step + spreads[-1] + max(v.rad() for v in windows[-1])
+    if step > _RESOLVED * size and step > arb("0.95") * before:
+        raise Undecided("the values do not yet approach a limit")
+    found, nearer = ([_extrapolated(*values) for values in zip(*part, strict=True)]
+                     for part in (windows[-3:], windows[-4:-1]))  # fmt: skip
+    value = sum(found, arb(0)) / len(found)
+    last = windows[-1]
+    error = max(min(abs(new - v).mid(), abs(new - old).mid()) + new.rad()
+                for new, old, v in zip(found, nearer, last, strict=True))  # fmt: skip
+    error += max(abs(new - value).mid() for new in found)
     if error > arb("0.03") * size and size > 0:
         raise Undecided("the limit is not resolved")
-    return arb(middles[-1].mid(), error)
+    return arb(value.mid(), error)
+
+
+def _extrapolated(first: arb, before: arb, last: arb) -> arb:
+    """Return the limit of ``a + b r^n`` from three of its values (Aitken)."""
+    gained, gain = before - first, last - before
+    bend = gained - gain
+    return last if bend.contains(0) else last + gain**2 / bend

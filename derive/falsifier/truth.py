@@ -6,8 +6,8 @@ Overview
     sides part (with four times the precision if they do not at first).  A limit is judged by
     its trend.  What has no value (0/0) does not hold.
 Key results
-    judged(relation, moment, variable)   at one moment; Undecided, Undefined are raised
-    truth(relation, model)               True, False or None (no verdict), and where
+    judged(relation, moment)   at one moment; Undecided, Undefined are raised
+    truth(relation, model)      True, False or None (no verdict), and where
 """
 
 from __future__ import annotations
@@ -28,7 +28,6 @@ from .balls import (
     NOTHING,
     ZERO,
     Moment,
-    NearZero,
     NoValue,
     Number,
     Undecided,
@@ -43,8 +42,10 @@ if TYPE_CHECKING:
 
 EARLY = 5
 """So many of a model's times are within three periods."""
-_ROUNDING, _AGREE = arb(10) ** -40, arb(10) ** -3
+_ROUNDING, _AGREE = arb(10) ** -40, arb(10) ** -2
 """Relative widths of balls: due to rounding alone; up to which those that overlap are equal."""
+_SMALL = arb(10) ** -9
+"""Width up to which balls that overlap are equal, data being about 1: both sides may vanish."""
 
 
 _COMPARED = {"==": eq, "!=": ne, "<": lt, "<=": le, ">": gt, ">=": ge}
@@ -59,19 +60,19 @@ class Truth:
     where: str = ""
 
 
-def judged(relation: sp.Basic, moment: Moment, variable: sp.Symbol) -> bool:
+def judged(relation: sp.Basic, moment: Moment) -> bool:
     """Return whether a relation holds at a moment."""
     if relation in (sp.true, sp.false):
         return bool(relation)
     if isinstance(relation, BooleanFunction):
-        return _composed(relation, moment, variable)
+        return _composed(relation, moment)
     if not isinstance(relation, Relational):
         raise Undecided(f"{relation} is no relation")
     for bits in (BITS, 4 * BITS):
         final = bits > BITS
         with ctx.workprec(bits):
             try:
-                outcome = _compared(relation, moment, variable, final)
+                outcome = _compared(relation, moment, final)
             except Undecided:
                 if final:
                     raise
@@ -81,25 +82,25 @@ def judged(relation: sp.Basic, moment: Moment, variable: sp.Symbol) -> bool:
     raise Undecided("the two sides cannot be distinguished")
 
 
-def _composed(relation: BooleanFunction, moment: Moment, variable: sp.Symbol) -> bool:
+def _composed(relation: BooleanFunction, moment: Moment) -> bool:
     parts = relation.args
     if isinstance(relation, Not):
-        return not judged(parts[0], moment, variable)
+        return not judged(parts[0], moment)
     if isinstance(relation, Implies):
-        return not judged(parts[0], moment, variable) or judged(parts[1], moment, variable)
+        return not judged(parts[0], moment) or judged(parts[1], moment)
     if isinstance(relation, Equivalent):
-        return len({judged(part, moment, variable) for part in parts}) == 1
+        return len({judged(part, moment) for part in parts}) == 1
     if isinstance(relation, (And, Or)):
-        return _joined(relation, moment, variable)
+        return _joined(relation, moment)
     raise Undecided(f"{type(relation).__name__} has no truth")
 
 
-def _joined(relation: BooleanFunction, moment: Moment, variable: sp.Symbol) -> bool:
+def _joined(relation: BooleanFunction, moment: Moment) -> bool:
     """Return the truth of an 'and' or an 'or', though parts of it may be undecided."""
     decisive, unknown = isinstance(relation, Or), None
     for part in relation.args:
         try:
-            if judged(part, moment, variable) == decisive:
+            if judged(part, moment) == decisive:
                 return decisive
         except Undecided as found:
             unknown = found
@@ -108,20 +109,19 @@ def _joined(relation: BooleanFunction, moment: Moment, variable: sp.Symbol) -> b
     return not decisive
 
 
-def _compared(
-    relation: Relational, moment: Moment, variable: sp.Symbol, final: bool
-) -> bool | None:
+def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
     left, right = relation.lhs, relation.rhs
-    if isinstance(relation, (sp.Eq, sp.Ne)) and isinstance(right, sp.Limit):
+    equal = isinstance(relation, (sp.Eq, sp.Ne))
+    if equal and isinstance(right, sp.Limit):
         left, right = right, left
+    if equal and right == 0 and isinstance(left, sp.Mul) and left.has(sp.Limit):
+        zeros = [judged(sp.Eq(factor, 0, evaluate=False), moment) for factor in left.args]
+        return any(zeros) == isinstance(relation, sp.Eq)
     if left.is_infinite or right.is_infinite or isinstance(left, sp.Limit):
-        outcome = _at_infinity(relation, left, right, moment, variable)
+        outcome = _at_infinity(relation, left, right, moment)
         if outcome is not None:
             return outcome
-    terms = [
-        [compiled(term, variable)(moment) for term in sp.Add.make_args(side)]
-        for side in (left, right)
-    ]
+    terms = [[compiled(term)(moment) for term in sp.Add.make_args(side)] for side in (left, right)]
     gap = sum(terms[0], ZERO) - sum(terms[1], ZERO)
     if isinstance(gap, fmpq) or gap.is_zero() or not gap.contains(0):
         return bool(_COMPARED[relation.rel_op](_sign(gap), 0))
@@ -129,10 +129,9 @@ def _compared(
     size = max(abs(ball(term)).upper() for term in chain(*terms))
     if not final and gap.rad() <= _ROUNDING * size:
         return None  # perhaps more digits part them
-    close = gap.rad() <= max(_AGREE * size, NOTHING)
-    if close and isinstance(relation, (sp.Eq, sp.Ge, sp.Le)):
+    if isinstance(relation, (sp.Eq, sp.Ge, sp.Le)) and gap.rad() <= max(_AGREE * size, _SMALL):
         return True
-    if close and isinstance(relation, sp.Ne):
+    if isinstance(relation, sp.Ne) and gap.rad() <= max(_AGREE * size, NOTHING):
         return False
     return None
 
@@ -142,7 +141,7 @@ def _sign(gap: fmpq | arb) -> int:
 
 
 def _at_infinity(
-    relation: Relational, left: sp.Expr, right: sp.Expr, moment: Moment, variable: sp.Symbol
+    relation: Relational, left: sp.Expr, right: sp.Expr, moment: Moment
 ) -> bool | None:
     """Return the truth of a claim on a limit; None where it is a comparison of numbers."""
     equal = isinstance(relation, (sp.Eq, sp.Ne))
@@ -154,9 +153,9 @@ def _at_infinity(
         sign = 1 if right == sp.oo else -1
         outcome = moment.model.confirmed(left, lambda found: diverges(found, sign))
     else:
-        if variable in right.free_symbols:
+        if t in right.free_symbols:
             raise Undefined("a limit in time that still depends on time")
-        value = ball(compiled(right, variable)(moment))
+        value = ball(compiled(right)(moment))
         outcome = moment.model.confirmed(left, lambda found: tends_to(found, value))
     if outcome is None:
         raise Undecided("the trend is not clear")
@@ -171,12 +170,11 @@ def truth(relation: sp.Basic, model: Model) -> Truth:
         moment = Moment(model, time)
         when = "" if timeless else f"at {t} = {_shown(time)}: "
         try:
-            if not judged(relation, moment, t):
+            if not judged(relation, moment):
                 return Truth(False, when + _sides(relation, moment))
             decided = True
-        except (Undefined, NearZero) as reason:
-            if isinstance(reason, Undefined) or number < EARLY:
-                return Truth(False, f"{when}{reason}")  # later an exponential may be that small
+        except Undefined as reason:
+            return Truth(False, f"{when}{reason}")
         except NoValue as reason:
             if number < EARLY:
                 return Truth(None, str(reason))
@@ -193,7 +191,7 @@ def _sides(relation: sp.Basic, moment: Moment) -> str:
     for side in relation.args:
         try:
             limit = isinstance(side, sp.Limit)
-            found = moment.model.latest(side) if limit else compiled(side, t)(moment)
+            found = moment.model.latest(side) if limit else compiled(side)(moment)
             values.append(("towards " if limit else "", found))
         except (ArithmeticError, ValueError):
             values.append(("", "oo" if side.is_infinite else "?"))

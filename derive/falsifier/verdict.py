@@ -19,9 +19,11 @@ import sympy as sp
 from flint import fmpq
 from sympy.core.function import AppliedUndef
 
+from ..claims import Drift, Term
 from ..symbols import symbol, t
 from .balls import fraction
 from .draws import LAWS, WILD, drawn, slopes_over_data, with_law
+from .expansion import Expanded
 from .models import Model, quantities, reached
 from .truth import truth
 
@@ -214,25 +216,34 @@ def _models(
 def _in_time(
     relations: tuple[sp.Basic, ...], imposed: tuple[sp.Basic, ...]
 ) -> tuple[sp.Basic, ...]:
-    """Write relations without the names of what varies: N for t/T, say."""
-    for named in imposed:
-        if named == _CLOCK:
-            relations = tuple(sp.true if r == named else _unscaled(r) for r in relations)
-        elif (
-            isinstance(named, sp.Eq)
-            and isinstance(named.lhs, sp.Symbol)
-            and t in named.rhs.free_symbols
-        ):
-            written = (r.subs(named.lhs, named.rhs) if r != named else sp.true for r in relations)
+    """Write relations without the names of what varies: N for t/T, say; what is said of scaled
+    time holds on any clock, so on that of the period."""
+    named = sp.Tuple(*relations).atoms(AppliedUndef, Term)
+    if any(isinstance(name, Term) or name.args == (_TAU,) for name in named):
+        relations = tuple(sp.true if r == _CLOCK else _unscaled(r) for r in relations)
+    for said in imposed:
+        if not isinstance(said, sp.Eq) or not isinstance(said.lhs, sp.Symbol):
+            continue
+        if t in said.rhs.free_symbols:
+            written = (r.subs(said.lhs, said.rhs) if r != said else sp.true for r in relations)
             relations = tuple(written)
     return relations
 
 
 def _unscaled(relation: sp.Basic) -> sp.Basic:
-    """Write the fields of scaled time as fields of time."""
+    """Write the fields of scaled time as fields of time, coefficients of expansions as such."""
+    terms = {term: _expanded(term) for term in relation.atoms(Term)}
+    hidden = {term: sp.Dummy() for term in terms}
     fields = {f: f.func(t) for f in relation.atoms(AppliedUndef) if f.args == (_TAU,)}
     rates = {f.diff(_TAU): _T * now.diff(t) for f, now in fields.items()}
-    return relation.xreplace(rates).xreplace(fields).xreplace({_TAU: t / _T})
+    written = relation.xreplace(hidden).xreplace(rates).xreplace(fields).xreplace({_TAU: t / _T})
+    return written.xreplace({dummy: terms[term] for term, dummy in hidden.items()})
+
+
+def _expanded(term: Term) -> Expanded:
+    n, *law = term.args
+    order, phase = (sp.S.NegativeOne, sp.S.Zero) if isinstance(term, Drift) else (sp.S.Zero, t / _T)
+    return Expanded(n, order, *law, phase)
 
 
 def domain(quantity: sp.Expr) -> sp.Basic:

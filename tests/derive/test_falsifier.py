@@ -3,6 +3,7 @@
 import pytest
 import sympy as sp
 
+from derive.claims import Drift, FirstZero, Oscillation
 from derive.falsifier.verdict import falsify
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.false_statements import BOUNDED, CASES, CONSTANT, GAP, RATE, SIZE, STEADY, forever
@@ -97,3 +98,65 @@ def test_the_two_sides_are_shown_to_as_many_digits_as_part_them():
     close = sp.Eq(h_0, 2 + sp.Rational(1, 10**9))
     broken = falsify((sp.Eq(h_0, 2),), close)
     assert "2 on the left, 2.000000001 on the right" in str(broken)
+
+
+def holds_but_not(given, true, false):
+    """The true claim holds in models of what is given, the false one fails in one of them."""
+    answer = falsify(given, true, 30)
+    assert answer.passed, str(answer)
+    assert answer.decided >= 2
+    assert not falsify(given, false, 30).passed
+
+
+def test_a_field_may_be_a_parameter_of_an_integral():
+    wear = sp.Dummy("x")
+    area = sp.Integral(wear + U_a, (wear, 0, h_0))
+    value = h_0**2 / 2 + U_a * h_0
+    holds_but_not((), sp.Eq(area, value), sp.Eq(area, h_0**2 / 2))
+
+
+def test_an_integrand_that_varies_by_orders_of_magnitude_is_resolved():
+    wear = sp.Dummy("x")
+    area = sp.Integral(1 / wear**2, (wear, h_0, h_0 * sp.exp(20)))
+    holds_but_not(
+        (sp.Gt(h_0, 0),), sp.Eq(area, (1 - sp.exp(-20)) / h_0), sp.Eq(area, 1 / (2 * h_0))
+    )
+
+
+def test_a_first_zero_is_found_and_no_later_one():
+    wear = sp.Dummy("x", real=True)
+    zero = FirstZero((wear - h_0) * (wear - 3 * h_0), wear)
+    holds_but_not((sp.Gt(h_0, 0),), sp.Eq(zero, h_0), sp.Eq(zero, 3 * h_0))
+
+
+def test_coefficients_of_an_expansion_are_those_of_their_law():
+    """Of F = 1 + (a + b sin)/s: w_1' = rho b sin, c_1 = a, c_2 = 0."""
+    a, b, rho, tau = symbols("h_0 U rho tau")
+    s = sp.Symbol("s", positive=True)
+    law = 1 + (a + b * sp.sin(2 * sp.pi * tau)) / s
+    c_1, c_2 = (Drift(sp.Integer(n), law, s, tau, rho) for n in (1, 2))
+    wave = Oscillation(sp.S.One, law, s, tau, rho)
+    v = sp.Function("v", real=True)(tau)
+    named = (sp.Eq(v, wave),)
+    holds_but_not((), sp.Eq(c_1, a), sp.Eq(c_1, a + b))
+    holds_but_not((), sp.Eq(c_2, 0), sp.Eq(c_2, a))
+    wanted = -rho * b * sp.cos(2 * sp.pi * tau) / (2 * sp.pi)
+    holds_but_not(named, sp.Eq(v, wanted), sp.Eq(v, 2 * wanted))
+    holds_but_not(named, sp.Eq(v.diff(tau), wanted.diff(tau)), sp.Eq(v.diff(tau), wanted))
+
+
+def test_the_limit_of_an_increment_is_known_under_a_load_that_oscillates():
+    """From 100 periods, at which the increment is still 1 % off."""
+    T, u_cum = symbols("T u_cum")
+    load = sp.Eq(U_a, sp.sin(2 * sp.pi * t / T))
+    given = (
+        load, RATE, sp.Eq(initial("u_c"), 0), sp.Eq(f_c, 1),
+        sp.Eq(u_cum, forever(u_c.subs(t, t + T) - u_c)),
+    )  # fmt: skip
+    holds_but_not(given, sp.Eq(u_cum, STEADY.subs(f_c, 1) * T), sp.Eq(u_cum, STEADY.subs(f_c, 1)))
+
+
+def test_scaled_time_needs_no_clock():
+    v, tau = sp.Function("v", real=True), symbols("tau")[0]
+    given = (sp.Eq(u_c, h_0 * v(tau)), sp.Eq(initial("u_c"), 0))
+    holds_but_not(given, sp.Eq(u_c**2, h_0**2 * v(tau) ** 2), sp.Eq(u_c, h_0 * v(tau) + 1))

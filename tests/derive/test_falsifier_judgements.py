@@ -13,7 +13,24 @@ from tests.derive.judgements import eq, gt
 
 @pytest.mark.parametrize(
     "identifier",
-    ["7c", "8", "13", "share", "threshold", "deviation", "compliant-pressure", "groups-one-solid"],
+    [
+        "7c",
+        "8",
+        "13",
+        "share",
+        "threshold",
+        "deviation",
+        "compliant-pressure",
+        "groups-one-solid",
+        "one-third",
+        "arrest-depth-two-solids",
+        "expansion-drift",
+        "groups-compliant",
+        "elasticities",
+        "static-solution-compliant",
+        "log-drift-compliant",
+        "16b",
+    ],
 )
 def test_models_agree_with_an_equation(identifier: str):
     for statement in catalogue.equation(identifier).statements:
