@@ -93,13 +93,6 @@ def test_an_interrupt_leaves_nothing_behind(call, tmp_path, monkeypatch):
     assert not folder.exists()
 
 
-def test_a_file_is_no_folder(call, tmp_path):
-    (tmp_path / "report").write_text("kept")
-    status, _, messages = call("reproduce", "-o", str(tmp_path / "report"))
-    assert (status, (tmp_path / "report").read_text()) == (2, "kept")
-    assert "is not a folder" in messages
-
-
 KEYS = {
     "scene", "regime", "tanh_argument", "wear_per_cycle_mm", "pressure_MPa", "log_coefficient_mm",
     "offset_mm", "arrest_wear_mm", "arrest_cycle", "cycles_to_stabilise", "notices",
@@ -114,15 +107,6 @@ def test_the_asymptote_has_the_keys_of_the_contract(call, name):
     assert set(found) >= KEYS
     assert found["scene"] == load_scene(name).title  # as `wear run` has it
     assert found["regime"] == regime.asymptote(load_scene(name)).regime
-
-
-@pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png"])
-def test_a_figure_is_written(call, tmp_path, suffix):
-    file = tmp_path / f"wear{suffix}"
-    status, shown, _ = call("figure", "section3", "-o", str(file), "--cycles", "100", "--json")
-    assert status == 0
-    assert file.stat().st_size > 1000
-    assert json.loads(shown)["cycles"] == [0, 100]
 
 
 def test_a_logarithmic_figure_begins_with_the_first_cycle(call, tmp_path):

@@ -111,16 +111,6 @@ def test_a_number_in_latex_is_that_number(number):
     assert math.isclose(value, number, rel_tol=1e-15)
 
 
-def test_a_file_is_not_touched_when_the_solver_fails(run, solver, tmp_path):
-    solver(lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt))
-    file = tmp_path / "wear.csv"
-    file.write_text("the one before")
-    status, shown, messages = run("section4", "-o", str(file))
-    assert (status, shown, messages) == (130, "", "wear run: interrupted\n")
-    assert [entry.name for entry in tmp_path.iterdir()] == ["wear.csv"]
-    assert file.read_text() == "the one before"
-
-
 @pytest.mark.parametrize(("fault", "status"), [("interrupted", 130), ("accuracy", 3)])
 def test_what_was_computed_is_kept(run, solver, history, tmp_path, fault, status):
     def stop(*_, **__):
@@ -273,11 +263,6 @@ def test_an_accuracy_that_is_missed_inside_the_cycles_is_told(run, tmp_path):
     assert status == 3
     assert "1.0e-15 was requested" in messages
     assert Path(path).exists()
-
-
-def test_a_range_of_cycles_has_both_its_ends(run):
-    document = json.loads(run("section4", "--cycles", "7,2:4", "--rtol", "1e-6", "--json")[1])
-    assert document["cycles"] == [7, 2, 3, 4]
 
 
 def test_until_wear_is_the_inverse_of_the_count(run):

@@ -13,20 +13,12 @@ from tests.judges import honest, true_wear
 from tests.wear.reference_scenes import SINE, made, reference_scene
 from tests.wear.test_cycle_count import between
 from wear import cycles as count
-from wear import direct
 from wear.binding import bind
 from wear.load import Harmonics, Load, Sine, Table
 from wear.loss_of_contact.grazing import grazing_wears
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.switching import edge_of_contact, turning_points
 from wear.scene import Scene, load_scene
-
-
-@pytest.mark.parametrize("slope", [0.25, 0.5])
-def test_counted_cycles_are_integrated_ones(slope):
-    """f above and below 1/3: direct integration with events shares no code with the map."""
-    agrees_with_direct_integration(made(f_c=slope, cutoff=True), [1, 2, 12], 1e-10)
-
 
 UNEVEN = {  # rise slowly, then fast, and slowly again
     "harmonics": Harmonics(0.0, (), (5e-4, -2e-4), 0.06),
@@ -220,37 +212,6 @@ def test_a_loose_request_has_an_estimate_too():
 def supported(K: float, f_c: float, pin: bool, k: float, load: Load = SINE) -> Scene:
     """Contact with cutoff on a compliant support."""
     return made(K, f_c, load, pin=pin, k=k, cutoff=True)
-
-
-def agrees_with_direct_integration(scene: Scene, cycles: list[int], rtol: float) -> None:
-    model, load = bind(scene), scene.periodic_load
-    found = count.wear_after(model, load, np.array(cycles, dtype=float), rtol)
-    want = direct.integrate(model, load, cycles, 1e-9, "DOP853", np.inf)
-    assert np.all(found.error <= rtol)
-    assert honest(found.u_c, found.error, want.u, want.error)
-
-
-@pytest.mark.parametrize(
-    ("K", "f_c", "pin", "k"),
-    [
-        (1e-6, 0.25, False, 1e5),
-        (1e-5, 0.25, False, 1e4),  # the contact law is never reached
-        (1e-4, 0.1, False, 1e6),
-        (1e-3, -0.05, False, 1e5),
-        (1e-6, 0.5, False, 1e5),  # contact becomes permanent
-        (1e-5, 0.05, True, 1e5),
-    ],
-)
-def test_on_a_compliant_support_counted_cycles_are_integrated_ones(K, f_c, pin, k):
-    agrees_with_direct_integration(supported(K, f_c, pin, k), [1, 2, 5], 1e-11)
-
-
-@settings(max_examples=3)
-@given(loads(), between(-7, -3), between(-0.2, 1.0), st.booleans(), between(3, 6))
-def test_drawn_compliant_supports_agree_with_direct_integration(load, K, f_c, pin, k):
-    scene = supported(10**K, f_c, pin, 10**k, load)
-    assume(float(bind(scene).margin(0.0, load.maximum)) > 1e-6)
-    agrees_with_direct_integration(scene, [1, 2], 1e-9)
 
 
 @pytest.mark.parametrize("load", [SINE, Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))])

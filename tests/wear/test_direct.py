@@ -8,7 +8,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from wear import direct
-from wear.benchmark.methods import with_defaults
 from wear.binding import bind
 from wear.direct.problem import Setting, problem, widest_step
 from wear.direct.step import Meter, leg
@@ -125,16 +124,6 @@ def test_methods_agree_on_drawn_scenes(f_c, log_K, amplitude, closure, method):
     assert np.all(np.abs(one.u - other.u) <= allowed)
 
 
-@settings(max_examples=8)
-@given(level=st.integers(-500, 500), more=st.integers(0, 500))
-def test_more_displacement_wears_more(level, more):
-    wear = [
-        integrate(made(load=Constant(1e-6 * nm, 0.06)), [10], 1e-9).u[0]
-        for nm in (level, level + more)
-    ]
-    assert wear[0] <= wear[1] * (1.0 + 1e-8)
-
-
 def test_steps_resolve_the_pulses_of_a_large_swing():
     """U = 10 h_0: pulses of a hundredth of a period once the contact is worn in."""
     scene = made(f_c=0.0, load=Sine(1.08e-2, 0.06))
@@ -164,14 +153,6 @@ def test_the_fresh_state_costs_nothing():
     assert result.u.tolist() == [0.0]
     assert result.error.tolist() == [0.0]
     assert result.cost.cycles_integrated == 0
-
-
-@pytest.mark.parametrize(("name", "method"), [("S1", "LSODA"), ("S2", "RK45")])
-def test_default_tolerances_are_silently_wrong(name, method):
-    """Why this module exists: what a user would write first misses the wear by percents."""
-    scene = reference_scene(name)
-    naive = with_defaults(scene, method)(100, 1e-3).wear
-    assert abs(naive / REFERENCE[name][100] - 1.0) > 0.02
 
 
 @pytest.mark.parametrize("name", ["section4", "section4-cutoff"])

@@ -111,16 +111,6 @@ def test_netcdf_reads_back_exactly_with_units_and_scene(compliant, tmp_path):
         assert json.loads(file.cost) == compliant.cost
 
 
-def test_a_file_that_fails_leaves_the_one_before(section3, tmp_path):
-    target = tmp_path / "wear.csv"
-    target.write_text("before")
-    broken = dataclasses.replace(section3, u_a=section3.u_a[:2])  # shorter than the others
-    with pytest.raises(ValueError, match="shape"):
-        broken.write(target)
-    assert target.read_text() == "before"
-    assert [file.name for file in tmp_path.iterdir()] == ["wear.csv"]
-
-
 def test_everything_wrong_with_a_request_is_told_at_once():
     with pytest.raises(UsageError) as refusal:
         solve(

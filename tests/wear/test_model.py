@@ -102,19 +102,6 @@ def test_the_reaction_of_the_pin_is_given_where_the_contact_has_a_size() -> None
     assert solve(load_scene("section4"), [1], rtol=1e-8).R_a is None
 
 
-def test_an_exponential_law_runs() -> None:
-    """p = p_max exp(-h/sigma): the wear of one cycle, against a plain midpoint rule."""
-    scene = load_scene(
-        "section4", ["contact.law=exponential", "load.kind=constant", "load.value_mm=0.0"]
-    )
-    model, steps = bind(scene), 20000
-    u, dt = 0.0, scene.periodic_load.period / steps
-    for _ in range(steps):
-        middle = u + dt / 2 * float(model.rate(u, 0.0))
-        u += dt * float(model.rate(middle, 0.0))
-    assert solve(scene, [1], rtol=1e-10).u_c[0] == pytest.approx(u, rel=1e-8)
-
-
 @pytest.mark.parametrize("scene", _scenes(), ids=lambda s: f"{s.variant.law} {s.variant.name}")
 def test_gradients_are_difference_quotients(scene: Scene) -> None:
     """With respect to the load and to every number of the variant, for many states at once."""

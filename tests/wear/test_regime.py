@@ -169,21 +169,6 @@ def test_logarithmic_wear_meets_the_solver():
     )
 
 
-def test_stabilisation_of_section_4_is_far_beyond_9000_cycles():
-    when = _asymptote("section4").cycles_to_stabilise
-    assert when["mean_rate_within_1e-6"] == pytest.approx(1.242e11, rel=1e-3)
-    assert when["rate_within_1e-6"] == pytest.approx(2.967e11, rel=1e-3)
-
-
-def test_a_change_of_units_changes_lengths_only():
-    plain, up, down = (_asymptote(name) for name in ("section4", "scaled-up", "scaled-down"))
-    for other, scale in ((up, 1e6), (down, 1e-6)):
-        assert other.wear_per_cycle_mm == pytest.approx(plain.wear_per_cycle_mm * scale, rel=1e-12)
-        assert other.log_coefficient_mm == pytest.approx(
-            plain.log_coefficient_mm * scale, rel=1e-12
-        )
-
-
 def test_the_load_factor_does_not_overflow():
     found = _asymptote("f-zero", "load.amplitude_mm=0.5")
     assert np.isfinite(found.offset_mm)

@@ -84,14 +84,6 @@ def test_a_failing_run_is_a_notice(tmp_path, need_tool):
     assert "\n" not in outcome.notice
 
 
-def test_without_an_engine_one_line_says_how_to_get_it(tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    outcome = typeset(tmp_path / "report.tex")
-    assert outcome.pdf is None
-    assert "install" in outcome.notice
-    assert "\n" not in outcome.notice
-
-
 def test_every_special_compiles(tmp_path, need_tool):
     need_tool("pdflatex")
     text = "\\ { } $ & # % _ ^ ~ < > | \" ' ` é ü Ł ő – — “ ” ‘ ’ … − · × ± ° µ → ≤ ≥ ≈ ∞ ² ³"
