@@ -23,7 +23,7 @@ from wear.loss_of_contact.contact import ContactPart
 from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap, switched_period_map
 from wear.loss_of_contact.switching import edge_of_contact, turning_points
 from wear.numerics.chebyshev import chebyshev_nodes
-from wear.numerics.gauss import BoolArray, FloatArray, Gauss
+from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.iterates import Iterates
@@ -36,6 +36,7 @@ from wear.parameters import Gradient, ParametrisedEquation
 
 LEFT = 1e12  # digits of the derivative of a limit, which follows from the margin alone
 SAME = 4 * ROUNDOFF  # phase
+SMOOTH = 1e-3  # share of an increment in its second difference, at most
 STIFF = 10.0  # decay over a part, as an exponent: then a system of equations is solved
 
 
@@ -54,30 +55,25 @@ def stage_tangents(
 
     The cycles of all segments are linearised at once.
     """
-    size, counts = settings(rtol), [segment.counted for segment in found.orbit.segments]
-    scene = [equation.model], equation.loads, [edge_of_contact(equation.model, equation.loads[0])]
-    maps = (
-        switched_period_map(*scene, size.phase_nodes, size.endpoint_tolerance),
-        switched_period_map(*scene, size.finer_nodes),
-    )
-    begun = zip(*map(_starts, counts), strict=True)
-    coarse, fine = (
-        _of_each(cycle, equation, each) for cycle, each in zip(maps, begun, strict=True)
-    )
+    size, edge = settings(rtol), edge_of_contact(equation.model, equation.loads[0])
+    nodes, tolerance = size.finer_nodes, size.endpoint_tolerance
+    cycle = switched_period_map([equation.model], equation.loads, [edge], nodes, tolerance)
+    starts = [_starts(segment.counted) for segment in found.orbit.segments]
+    runs = _of_each(cycle, equation, starts)
     u, error = (values[None] for values in found.after(cycles[0]))
     derivative, missed = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
     increment = np.zeros(cycles.shape)
     now, now_error = start[0], start_error[0]
-    for segment, result, judge in zip(found.orbit.segments, coarse, fine, strict=True):
+    for segment, run in zip(found.orbit.segments, runs, strict=True):
         begins, counted = segment.begins, segment.counted
         here = cycles[0] >= begins
         last = counted.whole_cycles
         wanted = np.append(np.minimum(cycles[0, here] - begins, last), last)
         if isinstance(counted, Iterates):
-            part = _one_by_one(counted, judge, result, wanted, now, now_error)
+            part = _one_by_one(counted, run, wanted, now, now_error)
         elif isinstance(counted, TabulatedCount):
             limit = _beside(equation, counted)
-            part = _tabulated(counted, result, judge, limit, wanted, now, now_error)
+            part = _tabulated(counted, run, limit, wanted, now, now_error)
         elif counted.at_rest[0]:
             limit = np.tile(_of_grazing(equation, found.last_wear), (len(wanted), 1))
             part = _Part(limit, np.abs(limit) / LEFT, np.zeros_like(wanted))
@@ -87,7 +83,9 @@ def stage_tangents(
         derivative[0, :, here], missed[0, :, here] = part.derivative[:-1], part.error[:-1]
         increment[0, here] = part.increment[:-1]
         now, now_error = part.derivative[-1], part.error[-1]
-    missed = np.where(np.isfinite(error)[:, None] & np.isfinite(missed), missed, np.inf)
+    # What rounding and the phase's nodes make of the wear they make of its derivatives.
+    missed += error[:, None] * np.abs(derivative)
+    missed = np.where(np.isfinite(missed), missed, np.inf)
     return Tangents(u, error, derivative, missed, increment)
 
 
@@ -112,20 +110,30 @@ class _Part(NamedTuple):
     increment: FloatArray
 
 
-def _starts(counted: SegmentCount) -> tuple[FloatArray, FloatArray]:
-    """Return the wears (mm) from which cycles of a segment are linearised, with the coarse map and
-    with the fine one."""
+def _starts(counted: SegmentCount) -> FloatArray:
+    """Return the wears (mm) from which cycles of a segment are linearised: those that were taken
+    one by one, and beside some by their error; at the nodes and the CHECKS of panels."""
     if isinstance(counted, Iterates):
-        wear, uncertain = counted.transient[0, :-1], counted.transient_error[0, :-1]
-        # Beside the start by its error: near a grazing wear that may be the larger part.
-        return wear + uncertain, wear
+        wear, beside = counted.transient[0], counted.transient[0] + counted.transient_error[0]
+        return np.concatenate([wear[:-1], beside[_rough(counted)]])
     if isinstance(counted, TabulatedCount):
-        nodes = chebyshev_nodes(counted.panels.series.shape[1])
-        coarse, fine = (
-            counted.coordinate.wear(_resolved(counted, t)).ravel() for t in (nodes, CHECKS)
-        )
-        return coarse, fine
-    return np.empty(0), np.empty(0)
+        return counted.coordinate.wear(_resolved(counted, _positions(counted))).ravel()
+    return np.empty(0)
+
+
+def _rough(counted: Iterates) -> IntArray:
+    """Return which of the cycles taken one by one change abruptly, as next to a grazing wear: there
+    an error of the wear is a larger one of the derivatives."""
+    added = np.diff(counted.transient[0])
+    bend = np.abs(added[2:] - 2 * added[1:-1] + added[:-2])
+    rough = np.full(len(added), True)
+    rough[1:-1] = ~(bend <= SMOOTH * added[1:-1])
+    return np.flatnonzero(rough)
+
+
+def _positions(counted: TabulatedCount) -> FloatArray:
+    """Return the nodes of panels, and then the CHECKS."""
+    return np.append(chebyshev_nodes(counted.panels.series.shape[1]), CHECKS)
 
 
 def _resolved(counted: TabulatedCount, t: FloatArray) -> FloatArray:
@@ -138,17 +146,19 @@ def _resolved(counted: TabulatedCount, t: FloatArray) -> FloatArray:
 
 def _one_by_one(
     counted: Iterates,
-    cycle: Linearised,
-    judge: Linearised,
+    run: Linearised,
     cycles: FloatArray,
     start: FloatArray,
     start_error: FloatArray,
 ) -> _Part:
     """Return the derivatives after `cycles` (n,) that were taken one by one."""
     values, errors = [start], [start_error]
-    for own, other in zip(cycle.tangent, judge.tangent, strict=True):
+    each, beside = np.split(run.tangent, [counted.integrated_cycles])
+    off, rough = np.zeros_like(each), _rough(counted)
+    off[rough] = np.abs(each[rough] - beside)
+    for own, apart in zip(each, off, strict=True):
         multiplier = 1.0 + own[0]
-        by_start, apart = multiplier * values[-1], np.abs(own - other)
+        by_start = multiplier * values[-1]
         by_parameters = apart[0] * np.abs(values[-1]) + apart[1:]
         error = np.abs(multiplier) * errors[-1] + SAFETY * by_parameters
         rounding = ROUNDOFF * (np.abs(by_start) + np.abs(own[1:]))
@@ -161,8 +171,7 @@ def _one_by_one(
 
 def _tabulated(
     counted: TabulatedCount,
-    cycle: Linearised,
-    judge: Linearised,
+    run: Linearised,
     limit: FloatArray,
     cycles: FloatArray,
     start: FloatArray,
@@ -174,8 +183,11 @@ def _tabulated(
     wear: that is smooth in the distance. At a limit wear the last cycles hardly change it.
     """
     count, z = counted.in_z, counted.coordinate
-    nodes = _added(counted, chebyshev_nodes(counted.panels.series.shape[1]), cycle, limit)
-    checks = _added(counted, CHECKS, judge, limit)
+    increment, to_sums = _added(counted, run, limit)
+    nodes, checks = (
+        Added(increment[:, some], to_sums[:, some])
+        for some in (slice(None, -len(CHECKS)), slice(-len(CHECKS), None))
+    )
     into_z = 1.0 / z.rate(counted.table.u[:1], np.ones(1))
     sums = sums_on_cells(
         count, nodes, checks, (into_z * (start - limit))[None], (into_z * start_error)[None]
@@ -188,14 +200,14 @@ def _tabulated(
     return _Part(derivative, error, pace[:, 0] * rate)
 
 
-def _added(counted: TabulatedCount, t: FloatArray, cycle: Linearised, limit: FloatArray) -> Added:
-    """Return what cycles from the positions `t` (n,) of each panel add to z, and to the sum of
+def _added(counted: TabulatedCount, run: Linearised, limit: FloatArray) -> Added:
+    """Return what cycles from the nodes and the CHECKS of each panel add to z, and to the sum of
     (dn/dz) (dz/dp), less what it would be if du/dp were `limit` (parameters,) all along."""
-    panels, coordinate = counted.panels, counted.coordinate
+    panels, coordinate, t = counted.panels, counted.coordinate, _positions(counted)
     z, at = panels.frame.states(t), _resolved(counted, t)
     near = np.where(at < z, at / z, 1.0)  # nearer the difference shrinks with the distance
-    increment = coordinate.step(at, cycle.increment.reshape(z.shape))
-    tangent = cycle.tangent.reshape(*z.shape, -1)
+    increment = coordinate.step(at, run.increment.reshape(z.shape))
+    tangent = run.tangent.reshape(*z.shape, -1)
     change = tangent[..., 1:] + limit * tangent[..., :1]
     increment = np.where(near < 1.0, increment / near, increment)
     density = abel.density_after(panels, t, increment)
@@ -222,7 +234,7 @@ def _of_grazing(equation: ParametrisedEquation, wear: float) -> FloatArray:
 
 
 def _of_each(
-    cycle: SwitchedPeriodMap, equation: ParametrisedEquation, starts: tuple[FloatArray, ...]
+    cycle: SwitchedPeriodMap, equation: ParametrisedEquation, starts: list[FloatArray]
 ) -> list[Linearised]:
     """Return the cycles from the starts (mm) of each segment, all of them at once."""
     wear, few = np.concatenate(starts), AT_ONCE // len(cycle.rule.nodes)
