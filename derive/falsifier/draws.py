@@ -24,9 +24,9 @@ from sympy.core.relational import Relational
 
 from ..laws import GENERAL
 from ..symbols import DATA, symbol, t
-from .balls import field_of
 from .models import Model, of, quantities, reached
 from .truth import truth
+from .values import field_of
 
 T, U, V = symbol("T"), symbol("U"), symbol("V")
 _ORDINARY = ("1", "1", "1", "1/2", "2", "3/4", "3/2", "3", "2/3")

@@ -6,7 +6,7 @@ Overview
     differential equation; a field that rests on itself, as the pressure on a support does, is
     the root of its equation.
 Key results
-    Model      what balls.py evaluates in
+    Model      what values.py evaluates in
     reached    the quantities on which expressions rest
 """
 
@@ -23,21 +23,10 @@ from sympy.core.function import AppliedUndef
 
 from ..symbols import symbol, t
 from . import trend
-from .balls import (
-    BITS,
-    ZERO,
-    Moment,
-    NoValue,
-    Number,
-    Undecided,
-    Undefined,
-    ball,
-    compiled,
-    field_of,
-    fraction,
-)
+from .balls import BITS, ZERO, NoValue, Number, Undecided, Undefined, ball, fraction
 from .motion import Motion
 from .system import System
+from .values import Moment, compiled, field_of
 
 _FACTORS = ((1, 5), (1.3, 21), (1.9, 37), (2.7, 58), (3.9, 83))
 """Times of a window: a factor, and a phase in hundredths of the period."""
@@ -213,7 +202,15 @@ class Model:
     @cached_property
     def system(self) -> System:
         """The equations to integrate."""
-        return System(self)
+        loops = [self.loop] if self.loop else []
+        rates = [self.inlined(self.formula(state, 1)) for state in self.states]
+        image = [self.inlined(self.formula(loop, 0)) for loop in loops]
+        return System((t, *self.states, *loops), rates, image, self._in_floats)
+
+    def _in_floats(self, quantity: sp.Expr) -> float:
+        """Return a datum, or a field at the beginning."""
+        with ctx.workprec(BITS):
+            return float(ball(compiled(quantity)(Moment(self))).mid())
 
     @cached_property
     def motion(self) -> Motion:

@@ -9,52 +9,54 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import sympy as sp
-from flint import ctx
 from sympy.core.function import AppliedUndef
 from sympy.printing.numpy import NumPyPrinter
 
 from ..symbols import t
-from .balls import BITS, Moment, Undecided, ball, compiled
+from .balls import Undecided
 from .motion import Array
-
-if TYPE_CHECKING:
-    from .models import Model
 
 
 class System:
-    """The differential equations of a model, and the equation ``y = G(y)`` of its loop."""
+    """The differential equations of a model, and the equation ``y = G(y)`` of its loop.
 
-    def __init__(self, model: Model) -> None:
-        self._model, self._near = model, np.zeros(1)
-        self._moving = (t, *model.states, *([model.loop] if model.loop else []))
-        self._rates = self._coded(model.formula(state, 1) for state in model.states)
-        self._image = self._coded([model.formula(model.loop, 0)] if model.loop else [])
+    ``moving`` are the time, the states and the loop, if there is one; ``rates`` are those of the
+    states, ``image`` is G, all in terms of what is moving and of data, which have a ``value``.
+    """
 
-    def _coded(self, formulas: Iterable[sp.Expr]) -> Callable[..., list[Any]]:
+    def __init__(
+        self,
+        moving: Sequence[sp.Expr],
+        rates: Sequence[sp.Expr],
+        image: Sequence[sp.Expr],
+        value: Callable[[sp.Expr], float],
+    ) -> None:
+        self._near, self._moving, self._value = np.zeros(1), tuple(moving), value
+        self._rates, self._image = self._coded(rates), self._coded(image)
+        self._loops = bool(image)
+
+    def _coded(self, formulas: Sequence[sp.Expr]) -> Callable[..., list[Any]]:
         """Return a function of arrays: of the times, the states, and the loop."""
-        written = tuple(map(self._model.inlined, formulas))
-        whole = sp.Tuple(*written)
+        whole = sp.Tuple(*formulas)
         if whole.has(sp.Integral, sp.Limit, sp.Subs, sp.zoo, sp.nan):
             raise Undecided(f"{whole} has no number")
         fields = whole.atoms(AppliedUndef)
         if any(field.args not in ((t,), (0,)) for field in fields):
             raise Undecided("a rate that needs another time")
         data = tuple(sorted((fields | whole.atoms(sp.Symbol)) - set(self._moving), key=str))
-        with ctx.workprec(BITS):
-            here = Moment(self._model)
-            values = [float(ball(compiled(datum)(here)).mid()) for datum in data]
-        function = _compiled(written, (*self._moving, *data))
+        values = list(map(self._value, data))
+        function = _compiled(tuple(formulas), (*self._moving, *data))
         return lambda *moving: function(*moving, *values)
 
     def rates(self, times: Array, states: Array) -> Array:
         """Return the rates of the states at times, shape ``(states, times)``."""
-        loop = (self.root(times, states),) if self._model.loop else ()
+        loop = (self.root(times, states),) if self._loops else ()
         found = np.empty((len(states), len(times)))
         with np.errstate(all="ignore"):
             for row, rate in zip(found, self._rates(times, *states, *loop), strict=True):
