@@ -208,7 +208,7 @@ def load_of(form: RowsFile, folder: Path | None) -> Table | ForceTable | History
     if isinstance(source, HistoryFile):
         return HistoryLoad(_floats(times), _floats(values), form.period_s or times[-1], source)
     assert isinstance(source, TableFile)
-    times, values = (_one_period if repeat else _close)(times, values, form.period_s)
+    times, values = _closed(times, values, form.period_s, repeat)
     if isinstance(source, ForceFile):
         return ForceTable(_floats(times), _floats(values), source)
     return Table(_floats(times), _floats(values), source)
@@ -218,36 +218,25 @@ def _floats(array: FloatArray) -> tuple[float, ...]:
     return tuple(array.tolist())
 
 
-def _close(
-    times: FloatArray, values: FloatArray, period: float | None
+def _closed(
+    times: FloatArray, values: FloatArray, period: float | None, repeat: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Make the last row the seam, the first displacement again at the period."""
-    period = float(times[-1]) if period is None else period
-    if abs(period - times[-1]) <= SEAM_TOLERANCE * period:
-        times[-1] = period
-    elif period < times[-1]:
-        problem = f"the rows run to t_s = {float(times[-1])!r}, past the period"
+    """Return rows over one period, the last of which repeats the first: those of one period, or to
+    `repeat` it those before the period ends, with a straight line to the first."""
+    last, step = float(times[-1]), float(np.median(np.diff(times))) if repeat else 0.0
+    period = last + step if period is None else period
+    slack = SEAM_TOLERANCE * period
+    if repeat and period > last + step + slack:
+        problem = f"the record ends at t_s = {last!r}, before the period does"
+        raise all_wrong(("period_s", problem, "give a shorter period, or drop period_s"))
+    if not repeat and period < last - slack:
+        problem = f"the rows run to t_s = {last!r}, past the period"
         remedy = "drop period_s or correct it, or take one period of the record by repeat = true"
         raise all_wrong(("period_s", problem, remedy))
-    else:
-        times, values = np.append(times, period), np.append(values, values[0])
-    first, last = values[[0, -1]].tolist()
-    if abs(last - first) > SEAM_TOLERANCE * np.ptp(values):
-        problem = f"the load jumps at the seam from {last!r} to {first!r}"
+    kept = times < period - slack if repeat else times < max(last, period - slack)
+    first, end = values[[0, -1]].tolist()
+    if not repeat and not kept[-1] and abs(end - first) > SEAM_TOLERANCE * np.ptp(values):
+        problem = f"the load jumps at the seam from {end!r} to {first!r}"
         remedy = "repeat the first value in the last row, give a later period_s, or repeat = true"
         raise all_wrong(("file", problem, remedy))
-    values[-1] = first
-    return times, values
-
-
-def _one_period(
-    times: FloatArray, values: FloatArray, period: float | None
-) -> tuple[FloatArray, FloatArray]:
-    """Take the rows before the period ends, and close it by a straight line to the first row."""
-    step = float(np.median(np.diff(times)))
-    period = float(times[-1]) + step if period is None else period
-    if period > (times[-1] + step) * (1.0 + SEAM_TOLERANCE):
-        problem = f"the record ends at t_s = {float(times[-1])!r}, before the period does"
-        raise all_wrong(("period_s", problem, "give a shorter period, or drop period_s"))
-    kept = times < period * (1.0 - SEAM_TOLERANCE)
-    return np.append(times[kept], period), np.append(values[kept], values[0])
+    return np.append(times[kept], period), np.append(values[kept], first)
