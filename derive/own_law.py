@@ -191,28 +191,23 @@ def turns_once(law: ContactLaw) -> bool:
 
 
 def _best(expression: sp.Expr) -> tuple[float, sp.Expr]:
-    """Return the form of an expression that loses fewest digits, and its relative error."""
+    """Return the form of an expression that loses fewest digits, and its relative error.
+
+    A quotient in exponentials that fall neither overflows nor cancels.
+    """
     import sympy as sp
 
     from .zero import is_zero
 
     found = [(_loss(expression, expression), expression)]
-    for form in (_falling(expression), 1 / sp.radsimp(1 / expression)):
+    forms = [1 / sp.radsimp(1 / expression)]
+    if powers := _of_exponentials(expression):
+        quotient, step, fall = powers
+        forms.insert(0, sp.factor(quotient).subs(step, sp.exp(fall)))
+    for form in forms:
         if found[0][0] > GOOD and is_zero((form - expression).rewrite(sp.exp)):
             found.append((_loss(form, expression), form))
     return min(found, key=lambda each: each[0])
-
-
-def _falling(expression: sp.Expr) -> sp.Expr:
-    """Return an expression as a quotient in exponentials that fall, where these are powers of one
-    another, so that nothing overflows and no digits cancel."""
-    import sympy as sp
-
-    found = _of_exponentials(expression)
-    if found is None:
-        return expression
-    quotient, step, fall = found
-    return sp.factor(quotient).subs(step, sp.exp(fall))
 
 
 def _of_exponentials(expression: sp.Expr) -> tuple[sp.Expr, sp.Symbol, sp.Expr] | None:

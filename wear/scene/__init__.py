@@ -235,12 +235,9 @@ class Scene(SceneTable):
         tables = self.to_tables()
         blocks = tables["load"].pop("blocks", [])
         texts = [f"{key} = {_toml(tables.pop(key))}" for key in ("title", "description")]
-        for name, entries in tables.items():
-            lines = (f"{key} = {_toml(value)}" for key, value in entries.items())
-            texts += ["", f"[{name}]", *lines]
-        for block in blocks:
-            texts += ["", "[[load.blocks]]"]
-            texts += [f"{key} = {_toml(value)}" for key, value in block.items()]
+        parts = [(f"[{name}]", entries) for name, entries in tables.items()]
+        for head, entries in (*parts, *(("[[load.blocks]]", block) for block in blocks)):
+            texts += ["", head, *(f"{key} = {_toml(value)}" for key, value in entries.items())]
         return "\n".join(texts) + "\n"
 
 
