@@ -44,20 +44,20 @@ Finding = tuple[str | Path, str, str]
 # Kinds of entries
 
 
-def wrong(problem: str, remedy: str) -> PydanticCustomError:
-    """Return the error for a validator to raise: what is wrong, and the remedy."""
-    return PydanticCustomError("wrong", "{problem}", {"problem": problem, "remedy": remedy})
+def wrong(problem: str, remedy: str, path: str = "") -> ValidationError:
+    """Return the error for a validator to raise: what is wrong at a path, and the remedy."""
+    return all_wrong((path, problem, remedy))
 
 
 def all_wrong(*faults: Finding) -> ValidationError:
     """Return the error for a validator to raise that finds (path, problem, remedy) many times."""
     details: list[InitErrorDetails] = [
         {
-            "type": wrong(problem, remedy),
+            "type": PydanticCustomError("wrong", "{problem}", {"problem": problem, "remedy": cure}),
             "loc": path if isinstance(path, tuple) else tuple(filter(None, path.split("."))),
             "input": None,
         }
-        for path, problem, remedy in faults
+        for path, problem, cure in faults
     ]
     return ValidationError.from_exception_data("wrong", details)
 
@@ -144,9 +144,9 @@ class Numbers(Kind):
         for place, entry in enumerate(raw, start=1):
             try:
                 values.append(Number()(entry, key))
-            except PydanticCustomError as found:
-                problem, remedy = (found.context or {}).values()
-                faults.append(("", f"entry {place}: {problem}", remedy))
+            except ValidationError as found:
+                [(path, problem, remedy)] = problems(found)
+                faults.append((path, f"entry {place}: {problem}", remedy))
         if faults:
             raise all_wrong(*faults)
         return tuple(values)
@@ -179,16 +179,16 @@ class OneOf(Kind):
         return choice(raw, self.names)
 
 
-def choice(raw: object, known: Collection[str]) -> str:
+def choice(raw: object, known: Collection[str], path: str = "") -> str:
     """Return `raw` if it is one of the known names, otherwise raise what was perhaps meant."""
     if isinstance(raw, str) and raw in known:
         return raw
     remedy = f"choose one of {', '.join(known)}"
     if not isinstance(raw, str):
-        raise wrong("is not a name in quotes", remedy)
+        raise wrong("is not a name in quotes", remedy, path)
     if meant := did_you_mean(raw, known):
         remedy = f"did you mean {meant}? C{remedy[1:]}"
-    raise wrong(f'"{shown(raw)}" is unknown', remedy)
+    raise wrong(f'"{shown(raw)}" is unknown', remedy, path)
 
 
 def _whole(raw: object) -> int:
@@ -249,7 +249,7 @@ class SceneTable:
             given = dict(zip(known, raw.args, strict=False)) | (raw.kwargs or {})
             if len(given) < len(raw.args) + len(raw.kwargs or {}):
                 known_here = f"known here: {', '.join(cls.entries)}"
-                raise all_wrong(("", "a value has no entry of its own", known_here))
+                raise wrong("a value has no entry of its own", known_here)
         elif isinstance(raw, Mapping):
             given = {**cls.left_out, **{str(key): value for key, value in raw.items()}}
         else:
@@ -257,7 +257,7 @@ class SceneTable:
                 return build(raw)  # what is a table already
             except ValidationError:
                 remedy = f"write [{cls.place}] on a line of its own"
-                raise all_wrong(("", "is not a table", remedy)) from None
+                raise wrong("is not a table", remedy) from None
         unknown = [key for key in given if key not in known]
         told = [_of_unknown(cls, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
         meant, faults = {key for key, _ in told} - {""}, [finding for _, finding in told]

@@ -66,7 +66,7 @@ class Blocks(SceneTable):
     def _countable(self) -> Self:
         if self.cycles > MOST_CYCLES:
             problem = f"makes {self.cycles:.3g} cycles in all"
-            raise all_wrong(("repeat", problem, f"stay below {MOST_CYCLES:.0e}"))
+            raise wrong(problem, f"stay below {MOST_CYCLES:.0e}", "repeat")
         return self
 
     @property

@@ -11,7 +11,7 @@ from typing import ClassVar, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from wear.checked import Positive, Reals, SceneTable, all_wrong, table
+from wear.checked import Positive, Reals, SceneTable, all_wrong, table, wrong
 from wear.load.periodic import inside, within_cycle
 from wear.load.rows import ForceFile, HistoryFile, RowsFile, TableFile, order_faults, read_rows
 from wear.numerics.gauss import FloatArray
@@ -75,7 +75,7 @@ class _Rows(SceneTable):
         rows = len(self.times_s)
         if rows < 2 or len(self.rows) != rows:
             problem = f"there are {rows} times and {len(self.rows)} values"
-            raise all_wrong(("times_s", problem, "give as many of both, from 2 on"))
+            raise wrong(problem, "give as many of both, from 2 on", "times_s")
         if faults := order_faults(np.asarray(self.times_s)):
             raise all_wrong(*(("times_s", problem, remedy) for _, problem, remedy in faults))
         return self
@@ -90,7 +90,7 @@ class _Period(_Rows):
         first, last = self.rows[0], self.rows[-1]
         if first != last:
             problem = f"the load jumps at the seam from {last!r} to {first!r}"
-            raise all_wrong((self.of_rows, problem, "repeat the first in the last row"))
+            raise wrong(problem, "repeat the first in the last row", self.of_rows)
         return self
 
     @cached_property
@@ -157,7 +157,7 @@ class ForceTable(_Period):
     def _pressed(self) -> Self:
         if self.minimum < 0.0 or self.maximum == 0.0:
             problem = f"the force goes from {self.minimum:g} to {self.maximum:g} N"
-            raise all_wrong(("forces_N", problem, "give forces >= 0, not all of them zero"))
+            raise wrong(problem, "give forces >= 0, not all of them zero", "forces_N")
         return self
 
 
@@ -228,15 +228,15 @@ def _closed(
     slack = SEAM_TOLERANCE * period
     if repeat and period > last + step + slack:
         problem = f"the record ends at t_s = {last!r}, before the period does"
-        raise all_wrong(("period_s", problem, "give a shorter period, or drop period_s"))
+        raise wrong(problem, "give a shorter period, or drop period_s", "period_s")
     if not repeat and period < last - slack:
         problem = f"the rows run to t_s = {last!r}, past the period"
         remedy = "drop period_s or correct it, or take one period of the record by repeat = true"
-        raise all_wrong(("period_s", problem, remedy))
+        raise wrong(problem, remedy, "period_s")
     kept = times < period - slack if repeat else times < max(last, period - slack)
     first, end = values[[0, -1]].tolist()
     if not repeat and not kept[-1] and abs(end - first) > SEAM_TOLERANCE * np.ptp(values):
         problem = f"the load jumps at the seam from {end!r} to {first!r}"
         remedy = "repeat the first value in the last row, give a later period_s, or repeat = true"
-        raise all_wrong(("file", problem, remedy))
+        raise wrong(problem, remedy, "file")
     return np.append(times[kept], period), np.append(values[kept], first)

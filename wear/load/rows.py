@@ -164,29 +164,27 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
     """
     name = form.file
     if folder is None:
-        raise all_wrong(("file", "there is no folder to look in", "load the scene by its path"))
+        raise wrong("there is no folder to look in", "load the scene by its path", "file")
     path = folder / name
     if _is_device(path):
-        raise all_wrong(("file", f"{shown(name)} is no ordinary file", "give a CSV file"))
+        raise wrong(f"{shown(name)} is no ordinary file", "give a CSV file", "file")
     data = read_bytes(path, MOST_BYTES)
     if isinstance(data, tuple):
         problem, remedy = data
         place = shown(str(folder.absolute()), most=1000)
         looked = "" if Path(name).is_absolute() else f" (looked for in {place})"
-        raise all_wrong(("file", f"{shown(name)}: {problem}{looked}", remedy))
+        raise wrong(f"{shown(name)}: {problem}{looked}", remedy, "file")
     try:
         text = data.decode("utf-8-sig" if form.encoding == "utf-8" else form.encoding)
     except UnicodeDecodeError:
         known = form.encoding.upper()
-        raise all_wrong(
-            ("file", f"{shown(name)} is not {known} text",
-             f'save it as {known}, or give encoding = "latin-1"'),
-        ) from None  # fmt: skip
+        remedy = f'save it as {known}, or give encoding = "latin-1"'
+        raise wrong(f"{shown(name)} is not {known} text", remedy, "file") from None
     times, values = _parse(text, form, from_first)
     digest = hashlib.sha256(data).hexdigest()
     if form.sha256 not in (None, digest):
         problem = f"{shown(name)} has changed: its sha256 is {digest}"
-        raise all_wrong(("sha256", problem, "restore the file, or drop this key"))
+        raise wrong(problem, "restore the file, or drop this key", "sha256")
     return Rows(times * SECONDS[form.time_unit], values * form.units[form.unit], digest)
 
 

@@ -6,9 +6,8 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from pydantic import ValidationInfo
-from pydantic_core import PydanticCustomError
 
-from wear.checked import TABLES, all_wrong, choice
+from wear.checked import TABLES, choice, wrong
 from wear.load.lines import ForceTable, HistoryLoad, Table, load_of
 from wear.load.rows import ForceFile, RowsFile
 from wear.words import did_you_mean, shown
@@ -27,26 +26,18 @@ def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS)
     if not isinstance(raw, Mapping):
         if all(hasattr(raw, name) for name in ("minimum", "maximum", "mean")):
             return raw
-        raise all_wrong(("", "is not a table", "write [load] on a line of its own"))
+        raise wrong("is not a table", "write [load] on a line of its own")
     if "kind" not in raw:
         meant = did_you_mean("kind", raw)
         remedy = f"did you mean kind instead of {shown(meant)}?" if meant else "add kind = ..."
-        raise all_wrong(("kind", "missing", f"{remedy} ({', '.join(kinds)})"))
-    kind = _kind(raw["kind"], kinds)
+        raise wrong("missing", f"{remedy} ({', '.join(kinds)})", "kind")
+    kind = choice(raw["kind"], kinds, "kind")
     entries = {key: value for key, value in raw.items() if key != "kind"}
     by_rows = ROWS if "times_s" in entries else {"force": ForceFile} if "file" in entries else {}
     tables = {each.kind: each for each in TABLES} | by_rows
     validator = tables[kind].__pydantic_validator__  # type: ignore[attr-defined]
     made = validator.validate_python(entries, context=info.context)
     return load_of(made, (info.context or {}).get("folder")) if isinstance(made, RowsFile) else made
-
-
-def _kind(raw: object, kinds: Collection[str]) -> str:
-    try:
-        return choice(raw, kinds)
-    except PydanticCustomError as fault:
-        found = fault.context or {}
-        raise all_wrong(("kind", found["problem"], found["remedy"])) from None
 
 
 def as_table(load: Any) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PlainValidator, ValidationError, model_validator
 
-from wear.checked import Finding, Prose, SceneTable, Text, all_wrong, problems, table
+from wear.checked import Finding, Prose, SceneTable, Text, problems, table, wrong
 from wear.faults import Fault, SceneError, UsageError
 from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
 from wear.load.rows import read_bytes
@@ -157,14 +157,14 @@ class Scene(SceneTable):
         contact, most = self.contact, self.load.maximum
         if contact.width_mm is None or contact.length_mm is None:
             problem = "the load is a force: its pressure needs width_mm and length_mm"
-            raise all_wrong(("contact.width_mm", problem, "give both"))
+            raise wrong(problem, "give both", "contact.width_mm")
         if contact.ends_at_3_sigma:
             problem = "has no meaning where the load is a force: the pressure is given"
-            raise all_wrong(("contact.ends_at_3_sigma", problem, "drop it"))
+            raise wrong(problem, "drop it", "contact.ends_at_3_sigma")
         limit = contact.max_pressure_MPa * contact.width_mm * contact.length_mm
         if most >= limit:
             problem = f"the force of {most:.6g} N is beyond p_max b L = {limit:.6g} N"
-            raise all_wrong(("load", problem, "give a smaller force, or a larger area"))
+            raise wrong(problem, "give a smaller force, or a larger area", "load")
         return self
 
     @property
