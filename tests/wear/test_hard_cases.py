@@ -6,7 +6,7 @@ import pytest
 
 from tests.independent import Judge, wear_after
 from tests.independent_cutoff import CutoffJudge
-from tests.judges import problem, true_wear
+from tests.judges import problem
 from wear.benchmark import Measurement, Status
 from wear.benchmark import hard as hard_cases
 from wear.benchmark.hard import attempt, catalogue, methods_of, worst
@@ -44,27 +44,6 @@ def test_defaults_of_scipy_are_wrong_without_a_word():
     found = attempt(case, "solve_ivp RK45", 1e-3, 60.0)
     assert found.status is Status.WRONG
     assert "silently" in found.remark
-
-
-@pytest.mark.parametrize("name", ["fast-wear", "very-fast-wear", "tiny-amplitude", "equal-wear"])
-def test_references_without_cutoff_are_integrated_anew(name):
-    (case,) = cases("hard", [name], [1])
-    assert true_wear(load_scene(name), [1]) == case.wear
-
-
-@pytest.mark.parametrize("name", ["chatter", "grazing", "f-one-third"])
-def test_references_with_cutoff_are_integrated_anew(name):
-    first, second = true_wear(load_scene(name), [1, 2])
-    (case,) = cases("hard", [name], [1])
-    assert second > first == case.wear
-
-
-@pytest.mark.parametrize("name", ["chatter", "grazing"])
-def test_arrest_is_at_the_depth_that_opens_the_gap(name):
-    data = problem(load_scene(name))
-    depth = (3 * data.roughness - data.closure + data.sine[0]) / (1 - 3 * data.slope)
-    (case,) = cases("hard", [name], [10**9])
-    assert case.wear == pytest.approx(depth, rel=1e-8 if name == "grazing" else 1e-14)
 
 
 def test_the_judge_of_the_cutoff_without_an_edge_is_the_other_judge():

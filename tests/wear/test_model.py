@@ -5,9 +5,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from wear.binding import bind, bind_many, bound
+from wear.binding import bind, bind_many
 from wear.faults import UsageError
-from wear.model import Model
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 
@@ -100,32 +99,3 @@ def test_the_reaction_of_the_pin_is_given_where_the_contact_has_a_size() -> None
     assert history.R_a is not None
     np.testing.assert_allclose(history.R_a, history.p * 600.0, rtol=1e-15)
     assert solve(load_scene("section4"), [1], rtol=1e-8).R_a is None
-
-
-@pytest.mark.parametrize("scene", _scenes(), ids=lambda s: f"{s.variant.law} {s.variant.name}")
-def test_gradients_are_difference_quotients(scene: Scene) -> None:
-    """With respect to the load and to every number of the variant, for many states at once."""
-    numbers, sign = scene.parameters(), scene.pin_wear_sign
-    u, load = np.array([[1e-5], [4e-4]]), np.array([-1e-4, 2e-4, 4e-4])
-
-    def changed(name: str, by: float) -> Model:
-        more = numbers | {name: numbers[name] + by}
-        parts = (part and bound(part.module, more, sign) for part in (model.bound, model.loss))
-        return Model(*parts)
-
-    model = bind(scene)
-    pairs = [(Model.law_rate, model.rate_gradient(u, load))]
-    if model.ends_at_3_sigma:
-        pairs.append((Model.margin, model.margin_gradient(u, load)))
-    for function, gradient in pairs:
-        assert set(gradient) - {"U_a"} <= set(numbers)
-        for name, found in gradient.items():
-            if name == "U_a":
-                step, ends = 1e-8, [function(model, u, load + d) for d in (-1e-8, 1e-8)]
-            else:
-                step = 1e-5 * (abs(numbers[name]) or 1e-4)
-                ends = [function(changed(name, d), u, load) for d in (-step, step)]
-            quotient = (ends[1] - ends[0]) / (2 * step)
-            scale = np.abs(quotient).max() + np.abs(ends[0]).max() * 1e-7 / step
-            np.testing.assert_allclose(found + 0.0 * quotient, quotient, 1e-5, 1e-6 * scale, name)
-    assert set(pairs[0][1]) == {"U_a"} | set(model.bound.data._fields)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.independent import Judge, wear_after
-from tests.judges import ROUNDING, honest, problem
+from tests.judges import ROUNDING, problem
 from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import between
 from wear import direct, records
@@ -111,16 +111,6 @@ def test_contact_at_the_very_end_of_a_line_is_not_missed() -> None:
     assert_allclose(one.u, two.u, rtol=1e-10)
     assert one.u[0] - without > 1e-3 * without
     assert one.error[0] <= 1e-12
-
-
-@pytest.mark.parametrize("name", VARIANTS)
-def test_as_dop853_row_by_row(name: str) -> None:
-    load, changes = record(4), VARIANTS[name]
-    cycles = [1, 2, 4]
-    found = followed(load, cycles, **changes)
-    one_by_one = direct.integrate(bind(scene(load, **changes)), load, cycles, 1e-11)
-    assert np.all(found.error <= 1e-12)
-    assert honest(found.u, found.error, one_by_one.u, one_by_one.error)
 
 
 @pytest.mark.parametrize("name", VARIANTS)
