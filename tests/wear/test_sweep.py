@@ -5,8 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.judges import honest
@@ -36,19 +34,6 @@ def test_reference_values(names, rtol):
     want = np.array([[REFERENCE[name][int(n)] for n in CYCLES] for name in names])
     assert np.all(found.error <= rtol)
     assert honest(found.u_c, found.error, want)
-
-
-@settings(max_examples=5)
-@given(
-    st.lists(
-        st.tuples(st.integers(-70, -50), st.integers(-5, 40), st.integers(2, 8)),
-        min_size=1,
-        max_size=20,
-    )
-)
-def test_a_scene_does_not_feel_its_neighbours(drawn):
-    scenes = [made(10 ** (K / 10), f / 100, Sine(U * 1e-4, 0.06)) for K, f, U in drawn]
-    as_alone(scenes, CYCLES, 1e-8)
 
 
 def test_loads_of_all_kinds_go_together():
