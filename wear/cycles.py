@@ -26,6 +26,7 @@ from wear.faults import Faults
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import Wanted, counted_stages
+from wear.loss_of_contact.switching import edge_of_contact
 from wear.model import Model
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.iterates import Iterates
@@ -80,7 +81,8 @@ def count_cycles(
     """Count up to `cycles` of a load that repeats, from the wear `start` (mm); after the `deadline`
     (`time.monotonic()`) nothing is refined any more."""
     if model.ends_at_3_sigma:
-        return counted_stages([Wanted(model, load, cycles, start)], rtol, deadline)[0]
+        wanted = Wanted(model, load, edge_of_contact(model, load), cycles, start)
+        return counted_stages([wanted], rtol, deadline)[0]
     one, equation = np.ones(1), WearEquation(model, (load,))
     found = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
     last = found.segments[-1]
@@ -304,7 +306,8 @@ Answer = tuple[FloatArray, FloatArray]
 def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
     """Return the orbit of scenes of one variant, so many cycles of each."""
     if scenes[0].contact.ends_at_3_sigma:
-        wanted = [Wanted(bind(scene), scene.periodic_load, cycles) for scene in scenes]
+        each = [(bind(scene), scene.periodic_load) for scene in scenes]
+        wanted = [Wanted(*own, edge_of_contact(*own), cycles) for own in each]
         return joined([found.orbit for found in counted_stages(wanted, rtol)])
     none = np.zeros(len(scenes))
     return orbit(equation_of(scenes), cycles + none, rtol, none, none)

@@ -142,17 +142,18 @@ def _of_one_variant(
         wanted = np.tile(np.append(cycles[here], end) - done, (number, 1))
         if scenes[0].contact.ends_at_3_sigma:
             each = [parametrised(*own, keys) for own in zip(zip(scenes), zip(acting), strict=True)]
+            edges = [edge_of_contact(own.model, own.loads[0]) for own in each]
             begins = zip(wanted[:, -1], start, missed, strict=True)
             counts = counted_stages(
                 [
-                    Wanted(own.model, own.loads[0], *map(float, begin))
-                    for own, begin in zip(each, begins, strict=True)
+                    Wanted(own.model, own.loads[0], edge, *map(float, begin))
+                    for own, edge, begin in zip(each, edges, begins, strict=True)
                 ],
                 rtol,
             )
             rows = [
-                stage_tangents(count, own, wanted[:1], rtol, slope[[i]], slope_error[[i]])
-                for i, (count, own) in enumerate(zip(counts, each, strict=True))
+                stage_tangents(*one, wanted[:1], rtol, slope[[i]], slope_error[[i]])
+                for i, one in enumerate(zip(counts, each, edges, strict=True))
             ]
             part = Tangents(*map(np.concatenate, zip(*rows, strict=True)))
         else:

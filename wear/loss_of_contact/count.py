@@ -41,7 +41,7 @@ from wear.loss_of_contact.requests import (
 )
 from wear.loss_of_contact.samples import Samples
 from wear.loss_of_contact.stretch import OnPanels, Stretch, passed, stretches
-from wear.loss_of_contact.switching import Edge, edge_of_contact
+from wear.loss_of_contact.switching import Edge
 from wear.model import Model
 from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit.iterates import Iterates
@@ -63,11 +63,12 @@ COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many 
 
 
 class Wanted(NamedTuple):
-    """A scene's model under a load that repeats, of which `cycles` are to be counted from the wear
-    `start` (mm), known up to `start_error`."""
+    """A scene's model under a load that repeats, and its edge of contact, of which `cycles` are to
+    be counted from the wear `start` (mm), known up to `start_error`."""
 
     model: Model
     load: Load
+    edge: Edge
     cycles: float
     start: float = 0.0
     start_error: float = 0.0
@@ -82,12 +83,12 @@ def counted_stages(
     After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
     """
     models, loads = [each.model for each in wanted], [each.load for each in wanted]
-    edges = [edge_of_contact(*pair) for pair in zip(models, loads, strict=True)]
+    edges = [each.edge for each in wanted]
     size = settings(rtol)
     coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
     finer = max(ROUNDOFF, JUDGED * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
-    counts = [_count(*each, rtol, deadline) for each in zip(wanted, edges, strict=True)]
+    counts = [_count(each, rtol, deadline) for each in wanted]
     answers: list[Answers] = [frozen_cycles(coarse), _ways, _stretches]
     answers += [cycles_by(coarse), cycles_by(fine)]
     ways = answered(counts, answers)
@@ -111,8 +112,8 @@ def _stretches(
     return ([next(found) for _ in some] for some, _ in known)
 
 
-def _count(wanted: Wanted, edge: Edge, rtol: float, deadline: float) -> Asking[_Way]:
-    problem = yield from problem_of(wanted.model, wanted.load, edge, rtol, deadline)
+def _count(wanted: Wanted, rtol: float, deadline: float) -> Asking[_Way]:
+    problem = yield from problem_of(wanted.model, wanted.load, wanted.edge, rtol, deadline)
     way = _Way(problem, wanted.start)
     while way.goes_on(wanted.cycles):
         yield from way.go(max(wanted.cycles - way.done, 1.0))

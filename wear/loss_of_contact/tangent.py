@@ -21,7 +21,7 @@ from wear.counted import Counted
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.loss_of_contact.contact import ContactPart
 from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap, switched_period_map
-from wear.loss_of_contact.switching import edge_of_contact, turning_points
+from wear.loss_of_contact.switching import Edge, turning_points
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray
 from wear.numerics.tolerances import ROUNDOFF
@@ -44,6 +44,7 @@ STIFF = 10.0  # decay over a part, as an exponent: then a system of equations is
 def stage_tangents(
     found: Counted,
     equation: ParametrisedEquation,
+    edge: Edge,
     cycles: FloatArray,
     rtol: float,
     start: FloatArray,
@@ -55,9 +56,8 @@ def stage_tangents(
 
     The cycles of all segments are linearised at once.
     """
-    size, edge = settings(rtol), edge_of_contact(equation.model, equation.loads[0])
-    nodes, tolerance = size.finer_nodes, size.endpoint_tolerance
-    cycle = switched_period_map([equation.model], equation.loads, [edge], nodes, tolerance)
+    size, scene = settings(rtol), ([equation.model], equation.loads, [edge])
+    cycle = switched_period_map(*scene, size.finer_nodes, size.endpoint_tolerance)
     starts = [_starts(segment.counted) for segment in found.orbit.segments]
     runs = _of_each(cycle, equation, starts)
     u, error = (values[None] for values in found.after(cycles[0]))
