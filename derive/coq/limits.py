@@ -2,11 +2,9 @@
 
 Overview
     A limit passes through an expression that SymPy finds: what is known to have a limit takes
-    the place of the load, what diverges that of the wear.  Growth, divergence, squeezing and
-    accumulation cite the theorem of that name.
+    the place of the load, what diverges that of the wear.
 Key results
-    proof                             the lines of a proof by what is known to have a limit
-    diverges, accumulates, squeezed   of those that cite a theorem of the library
+    proof    the lines of a proof by what is known to have a limit
 """
 
 from __future__ import annotations
@@ -17,7 +15,7 @@ import sympy as sp
 
 from ..rules.limits import in_terms_of, later
 from ..symbols import symbol, t
-from .printer import field, term
+from .printer import term
 from .steps import Step
 
 _T = symbol("T")
@@ -49,41 +47,6 @@ def _named(step: Step) -> Iterator[str]:
                 return
 
 
-def diverges(step: Step) -> Iterator[str]:
-    """What is affine in a wear that grows."""
-    (growth,) = (s for s in step.frontier if s.timed)
-    wear, bound = growth.relation.gts, growth.relation.lts
-    flat = sp.Symbol("flat")
-    inside = step.relation.lhs.args[0].xreplace({wear: flat})
-    start, slope, speed = map(term, (inside.subs(flat, 0), sp.diff(inside, flat), bound / t))
-    yield f"apply (diverges_ext (fun t => {start} + ({slope}) * {term(wear)})); [intros; ring |]."
-    yield "apply diverges_affine; [positive |]."
-    yield f"apply (diverges_above _ 0 ({speed})); [positive |]."
-    yield f"intros t Ht; pose proof ({step.cited(growth)} t Ht) as P0; same_inequality P0."
-
-
-def accumulates(step: Step) -> Iterator[str]:
-    """The gain over a period, from the limit of the rate."""
-    limit = next(s for s in step.limits if s.relation.lhs.args[0].is_Derivative)
-    name = field(limit.relation.lhs.args[0].expr)
-    yield f"apply (tends_ext (fun t => {name} (t + T) - {name} t)); [intros; rewrite (Rplus_comm T); ring |]."
-    yield f"apply (tends_value _ (({term(limit.relation.rhs)}) * T)); [identity |]."
-    yield f"apply accumulates; [assumption | assumption | exact ({step.cited(limit)})]."
-
-
-def squeezed(step: Step) -> Iterator[str]:
-    """What lies between two multiples of the inverse of what diverges."""
-    inside = step.relation.lhs.args[0]
-    between = next(s for s in step.frontier if isinstance(s.relation, sp.And))
-    diverging = next(s for s in step.limits if s.relation.rhs == sp.oo)
-    size = diverging.relation.lhs.args[0]
-    above = next(part for part in between.relation.args if part.lts == inside)
-    bound = above.gts * size
-    yield f"apply (squeezed _ (fun t => {term(size)}) ({term(bound)})); [exact ({step.cited(diverging)}) |]."
-    yield f"intros t Ht; pose proof ({step.cited(between)} t (Rlt_le _ _ Ht)) as P0."
-    yield "unfold Rdiv in *; lra."
-
-
 def _known(step: Step) -> list[str]:
     """State the limits of the parents, now and one period later."""
     lines = []
@@ -109,11 +72,7 @@ def _known(step: Step) -> list[str]:
 def _passes(step: Step, inside: sp.Expr) -> list[str]:
     """Write the expression with what has a limit, and let the limit pass through it."""
     found, _ = _composed(step, inside)
-    equations = [
-        s
-        for s in step.frontier
-        if isinstance(s.relation, sp.Equality) and not s.relation.has(sp.Limit)
-    ]
+    equations = [s for s in step.frontier if s.equates and not s.relation.has(sp.Limit)]
     lines = [f"apply (tends_ext (fun t => {found})).", "{ intros t Ht."]
     lines += step.signs()
     if inside.has(t + _T):
@@ -126,7 +85,7 @@ def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
     """Return the expression in terms of what has a limit, as Coq writes it, and its limit."""
     for other in step.frontier:
         relation = other.relation
-        if isinstance(relation, sp.Equality) and not relation.has(sp.Limit) and other.timed:
+        if other.equates and not relation.has(sp.Limit) and other.timed:
             inside = inside.subs(relation.lhs, relation.rhs)
     texts: dict[str, str] = {}
     values: dict[sp.Symbol, sp.Expr] = {}

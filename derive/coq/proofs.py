@@ -29,13 +29,15 @@ _ATOMS = (sp.Symbol, AppliedUndef, sp.Derivative, sp.log)
 
 def script(step: Step, way: int | None = None) -> str:
     """Return the proof of a step; by one of its ways, or by the first that succeeds."""
-    cited = theorems.proof(step) or (list(_discharged(step)) if step.rule == "Discharge" else [])
-    if not cited and (step.limits or step.relation.has(sp.Limit)):
-        cited = limits.proof(step)
+    cited = theorems.proof(step)
+    if not cited and step.rule == "Discharge":
+        cited = "\n".join(_discharged(step))
+    elif not cited and (step.limits or step.relation.has(sp.Limit)):
+        cited = "\n".join(limits.proof(step))
     if cited:
-        return "\n".join((step.introduction, *cited))
+        return f"{step.introduction}\n{cited}"
     start = ["intros t Ht.", *step.signs()] if step.timed else []
-    ways = _equation if isinstance(step.relation, sp.Equality) else inequality
+    ways = _equation if step.equates else inequality
     found = dict.fromkeys(ways(step, step.relation))
     if way is not None:
         return "\n".join((step.introduction, *start, f"{next(islice(found, way, None))}."))
@@ -57,7 +59,7 @@ def _discharged(step: Step) -> Iterator[str]:
 
 def _sources(step: Step) -> Iterator[list[Step]]:
     """Return what a claim may follow from: the parents, or all that it rests on."""
-    own = [s for s in step.hypotheses if isinstance(s.relation, sp.Equality)]
+    own = [s for s in step.hypotheses if s.equates]
     new = [s for s in own if all(s.statement.conclusion not in p.labels for p in step.parents)]
     for steps in ([*step.frontier, *new], [*step.ancestors, *own]):
         usable = {s.statement.conclusion: s for s in steps if step.timed or not s.timed}
@@ -67,7 +69,7 @@ def _sources(step: Step) -> Iterator[list[Step]]:
 def _equation(step: Step, goal: sp.Equality) -> Iterator[str]:
     """Return the ways in which an equation may follow, likely ones first."""
     for steps in _sources(step):
-        equations = [s for s in steps if isinstance(s.relation, sp.Equality)]
+        equations = [s for s in steps if s.equates]
         if equations:
             first, *others = equations
             factor = term(_factor(step, first.relation))
@@ -109,7 +111,7 @@ def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
     for steps in _sources(step):
         at_all_times = (s for s in step.hypotheses if s.timed)
         facts = [bound for s in (*steps, *at_all_times) for bound in _bounds(s.relation)]
-        goal = _inserted(claim, [s.relation for s in steps if isinstance(s.relation, sp.Equality)])
+        goal = _inserted(claim, [s.relation for s in steps if s.equates])
         start = f"{step.stated(steps)}insert; "
         if isinstance(goal, sp.And):
             parts = (f"first [{' | '.join(_ways(part, facts))}]" for part in goal.args)

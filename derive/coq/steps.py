@@ -47,6 +47,11 @@ class Step:
         return self.statement.conclusion.startswith("forall t, 0 <= t -> ")
 
     @property
+    def equates(self) -> bool:
+        """Return whether the claim is an equation."""
+        return isinstance(self.relation, sp.Equality)
+
+    @property
     def assumed(self) -> bool:
         """Return whether the claim is one of the premises: a hypothesis, nothing to prove."""
         return any(p.said == self.statement.conclusion for p in self.statement.premises)
@@ -92,7 +97,7 @@ class Step:
             known = self.now(other, time, proof)
             if isinstance(other.relation, (Inequality, sp.Ne)):
                 lines.append(f"pose proof ({known}).")
-            elif isinstance(other.relation, sp.Equality) and (other.relation.lhs, 0) in signs:
+            elif other.equates and (other.relation.lhs, 0) in signs:
                 sign = signs[other.relation.lhs, sp.S.Zero]
                 lines.append(f"pose proof (sign_of ({self.now(sign, time, proof)}) ({known})).")
         return list(dict.fromkeys(lines))
@@ -145,11 +150,12 @@ class Step:
     @cached_property
     def limits(self) -> list[Step]:
         """Return the nearest usable steps whose claims are limits."""
-        return [
-            s
-            for s in self.frontier
-            if isinstance(s.relation, sp.Equality) and s.relation.has(sp.Limit)
-        ]
+        return [s for s in self.frontier if s.equates and s.relation.has(sp.Limit)]
+
+    @property
+    def diverging(self) -> Step:
+        """Return the first of these that is infinite."""
+        return next(s for s in self.limits if s.relation.rhs == sp.oo)
 
 
 def steps(

@@ -1,13 +1,19 @@
 """Steps that cite one general theorem of the library: what is inserted into it.
 
+Overview
+    How a proof is written stands in ``library/theorems.jinja``, a macro for each rule; here is
+    what SymPy finds for its holes.
 Key results
-    proof    the lines of a proof, none where no theorem is known for the step
+    proof       a proof, empty where no theorem is known for the step
+    template    a template of Coq
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -16,112 +22,66 @@ from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
 from ..rules.solutions import Integrated
 from ..symbols import symbol, t
-from . import limits
-from .printer import binder, field, term
+from .printer import always, binder, field, proposition, term
 from .steps import Step
+
+if TYPE_CHECKING:
+    from jinja2 import Template
 
 _LOAD = symbol("U_a")
 _WEAR = symbol("u_c")
 _RATIO = sp.Symbol("ratio", real=True)
 
-
-def _later(step: Step) -> Iterator[str]:
-    """What holds at every time, one period later."""
-    yield "intros t Ht; assert (HT : 0 <= T + t) by lra."
-    yield f"pose proof ({step.cited(step.frontier[0])} (T + t) HT) as P0."
-    yield "first [exact P0 | rewrite ?derive_later; exact P0]."
+Holes = dict[str, Any]
 
 
-def _same_rate(step: Step) -> Iterator[str]:
-    """The rates of two sides that are equal at every time."""
-    given = step.parents[0]
-    rates = [f"(fun t => {term(side)})" for side in given.relation.args]
-    slopes = [term(sp.diff(side, t)) for side in given.relation.args]
-    for label, rate, slope in zip("AB", rates, slopes, strict=True):
-        yield f"assert ({label} : forall t, 0 <= t -> is_derive {rate} t ({slope})) by (intros; derived)."
-    yield "intros t Ht."
-    yield f"multiple (same_rate _ _ _ _ t Ht ({step.cited(given)}) (A t Ht) (B t Ht)) 1."
-
-
-def _separates(step: Step) -> Iterator[str]:
-    """Separated variables: g(y) y' is constant."""
-    pace, integral = term(step.relation.lhs / t), step.relation.rhs
-    s, start, y = integral.limits[0]
-    made, low, rate = _function(integral.function, s), _low(y), (sp.Derivative(y, t),)
+def _separates(step: Step) -> Holes:
+    integral = step.relation.rhs
+    _, start, y = integral.limits[0]
     first = next(h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start))
-    rates = (next(r for r in step.ancestors if r.relation.args[:1] == rate), step.frontier[0])
-    yield _continuous("C", made, s, y)
-    yield f"assert (D : forall t, 0 <= t -> {made} ({term(y)}) * Derive {field(y)} t = {pace})."
-    yield from ("{ intros t Ht.", *step.signs())
-    yield f"{step.stated(dict.fromkeys(rates))}cbv beta; insert; identity. }}"
-    yield f"assert (B : forall t, 0 <= t -> Rbar_lt {low} ({term(y)})) by (simpl; auto)."
-    yield "intros t Ht."
-    yield f"pose proof (separates {field(y)} {made} ({pace}) {low} smooth_{field(y)} B C D t Ht) as Q."
-    yield f"rewrite ({step.cited(first)}) in Q; refine (eq_trans _ Q); field; positive."
+    rate = next(r for r in step.ancestors if r.relation.args[:1] == (sp.Derivative(y, t),))
+    rates = dict.fromkeys((rate, step.frontier[0]))
+    return {"pace": step.relation.lhs / t, "integral": integral, "rates": rates, "first": first}
 
 
-def _function(expr: sp.Expr, variable: sp.Symbol) -> str:
-    return f"(fun {binder(variable)} => {term(expr)})"
+def _by_parts(step: Step) -> Holes:
+    assert isinstance(step.judgement.rule, Integrated)
+    (integral,) = step.frontier[0].relation.atoms(sp.Integral)
+    return {"integral": integral}
 
 
-def _low(y: sp.Expr) -> str:
-    """Return the end of the half-line, or line, on which a field varies."""
-    return "0" if y.is_nonnegative else "m_infty"
-
-
-def _assured(label: str, said: str, s: sp.Symbol, y: sp.Expr, proof: str) -> str:
-    """State what holds wherever a field may be."""
-    place = f"forall {binder(s)} : R, Rbar_lt {_low(y)} {binder(s)}"
-    return f"assert ({label} : {place} -> {said}) by (simpl; intros; {proof})."
-
-
-def _continuous(label: str, made: str, s: sp.Symbol, y: sp.Expr) -> str:
-    proof = f"apply (ex_derive_continuous {made}); auto_derive; repeat split; positive"
-    return _assured(label, f"continuous {made} {binder(s)}", s, y, proof)
-
-
-def _by_parts(step: Step) -> Iterator[str]:
-    """A part of an integral, by a primitive."""
-    rule = step.judgement.rule
-    assert isinstance(rule, Integrated)
-    given = step.frontier[0]
-    (integral,) = given.relation.atoms(sp.Integral)
-    s, *ends = integral.limits[0]
-    y, parts = ends[1], (rule.primitive, integral.function, rule.rest)
-    primitive, made, rest = (_function(part, s) for part in parts)
-    here = binder(s)
-    slope = f"is_derive {primitive} {here} ({made} {here} - {rest} {here})"
-    yield _continuous("C", made, s, y)
-    yield _continuous("E", rest, s, y)
-    yield _assured("D", slope, s, y, "cbv beta; derived")
-    yield from ("intros t Ht.", *step.signs())
-    a, b = (f"({term(end)})" for end in ends)
-    yield f"rewrite ({step.now(given)}), (by_parts {primitive} {made} {rest} {_low(y)} {a} {b}); [| simpl; trivial | simpl; trivial | exact D | exact C | exact E]."
-    yield "rewrite ?RInt_zero; unfold Rdiv; rewrite ?Rmult_0_r, ?Rmult_0_l, ?exp_0; identity."
-
-
-def _grows(step: Step) -> Iterator[str]:
-    """A rate of at least c, from 0: u >= c t."""
+def _grows(step: Step) -> Holes:
     grown = step.relation.gts
     bound = next(s for s in step.frontier if s.relation.has(sp.Derivative(grown, t)))
     start = next(s for s in step.frontier if s.relation.lhs == grown.subs(t, 0))
-    name = field(grown)
-    yield f"intros t Ht; pose proof (grows {name} _ smooth_{name} ({step.cited(bound)}) t Ht) as P0."
-    yield f"rewrite ({step.cited(start)}) in P0; same_inequality P0."
+    return {"name": field(grown), "bound": bound, "start": start}
 
 
-def _integrates(step: Step) -> Iterator[str]:
-    """y' = c x' with constant c: y = y(0) + c (x - x(0))."""
+def _integrates(step: Step) -> Holes:
     slope = sp.Derivative(step.relation.lhs, t)
     rate = next(s for s in step.frontier if s.relation.lhs == slope)
     (driving,) = rate.relation.rhs.atoms(sp.Derivative)
     factor = sp.cancel(rate.relation.rhs / driving)
-    y, x = field(step.relation.lhs), field(driving.expr)
-    values = [step.cited(s) for s in step.frontier if not s.timed]
-    yield "intros t Ht."
-    yield f"rewrite (integrates {y} {x} ({term(factor)}) smooth_{y} smooth_{x}); [| | exact Ht]."
-    yield "- " + "; ".join((*(f"rewrite ?({v})" for v in values), "identity."))
-    yield f"- intros s Hs; rewrite ({step.cited(rate)} s Hs); identity."
+    return {"rate": rate, "driving": driving, "factor": factor}
+
+
+def _diverges(step: Step) -> Holes:
+    (growth,) = (s for s in step.frontier if s.timed)
+    flat = sp.Symbol("flat")
+    inside = step.relation.lhs.args[0].xreplace({growth.relation.gts: flat})
+    start, slope = inside.subs(flat, 0), sp.diff(inside, flat)
+    return {"growth": growth, "start": start, "slope": slope, "speed": growth.relation.lts / t}
+
+
+def _accumulates(step: Step) -> Holes:
+    return {"limit": next(s for s in step.limits if s.relation.lhs.args[0].is_Derivative)}
+
+
+def _squeezed(step: Step) -> Holes:
+    between = next(s for s in step.frontier if isinstance(s.relation, sp.And))
+    inside = step.relation.lhs.args[0]
+    above = next(part for part in between.relation.args if part.lts == inside)
+    return {"between": between, "above": above}
 
 
 @dataclass(frozen=True)
@@ -152,155 +112,96 @@ def _affine(expr: sp.Expr) -> _Affine | None:
     return None
 
 
-def _bounded(step: Step, affine: _Affine) -> Iterator[str]:
-    """State that the load is bounded."""
-    yield f"assert (B : exists b, forall t, 0 <= t -> Rabs ({affine.load}) <= b)."
-    bound = "U" if affine.load == "U_a t" else "(U + p_max / k)"
-    yield f"{{ exists {bound}; intros t Ht."
-    facts = (s for s in step.ancestors if not isinstance(s.relation, sp.Equality))
-    yield from (f"pose proof ({step.now(s)})." for s in facts)
-    yield "arithmetic. }"
-    yield "destruct B as [b B]."
-
-
-def _bounded_load(step: Step) -> Iterator[str]:
-    """What tends to 0 because only a bounded load stands over a roughness that diverges."""
+def _bounded_load(step: Step) -> Holes | None:
     if step.relation.rhs != 0:
-        return
+        return None
     claimed = step.relation.lhs.args[0]
     inside = sp.together(claimed)
     below = (1 / p for p in sorted(claimed.atoms(sp.Pow), key=sp.default_sort_key))
     size = next((d for d in below if d.is_Add and sp.diff(d, _WEAR).is_Symbol), None)
     affine = _affine(sp.cancel(inside * size)) if size is not None else None
     if size is None or affine is None:
-        return
-    slope, start = sp.diff(size, _WEAR), size.subs(_WEAR, 0)
-    diverges = next(s for s in step.limits if s.relation.rhs == sp.oo)
-    yield f"assert (S : diverges (fun t => {term(start)} + {term(slope)} * u_c t)) by (apply diverges_affine; [positive | exact ({step.cited(diverges)})])."
-    yield from _bounded(step, affine)
-    yield f"pose proof (affine_bounded {affine.function} b ({affine.c0}) ({affine.c1}) B) as A."
-    yield f"generalize (bounded_vanishes (fun t => {affine}) _ _ A (tends_inv_diverges _ S)); apply tends_ext; intros t Ht."
-    facts = [s for s in step.frontier if not isinstance(s.relation, sp.Equality)]
-    yield from (f"pose proof ({step.now(s)})." for s in facts)
-    yield f"assert (0 < {term(size)}) by positive; identity."
+        return None
+    start, slope = size.subs(_WEAR, 0), sp.diff(size, _WEAR)
+    return {"size": size, "start": start, "slope": slope, "affine": affine}
 
 
-def _first_order(step: Step) -> Iterator[str]:
-    """The rate to first order in 1/t, from that of h/sigma."""
-    law, deviation, ratio, limit = step.parents[:4]
+def _first_order(step: Step) -> Holes | None:
+    law, deviation, ratio = step.parents[:3]
     quantity, end = ratio.relation.lhs.args[0], ratio.relation.rhs
     function = in_terms_of(law.relation.rhs, quantity, _RATIO)
     affine = _affine(sp.expand(_WEAR * (quantity - end) - deviation.relation.lhs.args[0]))
     if affine is None or function.has(t):
-        return
+        return None
     slope = sp.diff(function, _RATIO).subs(_RATIO, end).doit()
-    speed, made, at = limit.relation.rhs, f"(fun ratio => {term(function)})", term(quantity)
-    signs = step.signs()
-    yield f"assert (D : is_derive {made} ({term(end)}) ({term(slope)})) by derived."
-    yield f"assert (W : forall t, 0 <= t -> Derive u_c t = {made} ({at}))."
-    yield from (
-        "{ intros t Ht.",
-        *signs,
-        f"rewrite ({step.cited(law)} t Ht); cbv beta; identity. }}",
-    )
-    yield f"assert (E : tends (fun t => u_c t * ({at} - {term(end)}) - {affine}) 0)."
-    yield f"{{ generalize ({step.cited(deviation)}); apply tends_ext; intros t Ht."
-    yield from (*signs, "field; positive. }")
-    yield f"assert (N : {term(speed)} <> 0) by (apply Rgt_not_eq, Rlt_gt; positive)."
-    yield f"assert (L : {made} ({term(end)}) = {term(speed)}) by (cbv beta; identity)."
-    yield from _bounded(step, affine)
-    yield f"pose proof (affine_bounded {affine.function} b ({affine.c0}) ({affine.c1}) B) as A."
-    yield f"generalize (first_order u_c (fun t => {at}) (fun t => {affine}) {made} _ _ ({term(speed)}) _ smooth_u_c W D L N A ({step.cited(ratio)}) ({step.cited(limit)}) E)."
-    yield "apply tends_ext; intros t Ht; cbv beta; bounds; identity."
+    return {"of_ratio": function, "slope": slope, "affine": affine}
 
 
-def _drift(step: Step) -> Iterator[str]:
-    """The logarithmic drift under a periodic, continuous load."""
-    approach = step.parents[0]
-    inside = approach.relation.lhs.args[0]
+def _drift(step: Step) -> Holes | None:
+    inside = step.parents[0].relation.lhs.args[0]
     rate = next(d for d in inside.atoms(sp.Derivative) if d.has(AppliedUndef) and t in d.variables)
     now, load = sp.symbols("speed_now load", real=True)
     flat = inside.xreplace({rate: now, _LOAD: load})
     affine = _affine(-flat.subs(t, 0).xreplace({load: _LOAD}))
     if affine is None:
-        return
+        return None
     speed = sp.expand(now - sp.diff(flat, t))
-    said = {part: p for p in step.statement.premises for part in p.relation.args}
-    mean, periodic = said[symbol("U_mean")], said[_LOAD]
-    smooth = next(p for p in step.statement.premises if p.said.endswith("continuous U_a t"))
-    yield f"assert (M : RInt U_a 0 T = U_mean * T) by (rewrite {mean.label}; unfold Rdiv; rewrite Rmult_assoc, Rinv_l, Rmult_1_r; [reflexivity | positive])."
-    yield f"assert (E : tends (fun t => t * (Derive u_c t - ({term(speed)})) - {affine}) 0) by (generalize ({step.cited(approach)}); apply tends_ext; intros t Ht; field; positive)."
-    yield f"pose proof (logarithmic_drift u_c U_a _ _ _ _ T domain_T smooth_u_c {smooth.label} {periodic.label} M E) as L."
-    yield f"apply (tends_value _ (({affine.c0}) + ({affine.c1}) * U_mean)); [field; positive |]."
-    yield f"apply (tends_ext (fun t => (u_c t - ({term(speed)}) * t) / ln (t / T))); [| exact L]."
-    yield "intros t Ht; unfold Rdiv; f_equal; field; positive."
+    equations = (p for p in step.statement.premises if isinstance(p.relation, sp.Equality))
+    said = {part: p for p in equations for part in p.relation.args}
+    return {
+        "speed": speed,
+        "affine": affine,
+        "mean": said[symbol("U_mean")],
+        "periodic": said[_LOAD],
+        "smooth": next(p for p in step.statement.premises if p.said.endswith("continuous U_a t")),
+    }
 
 
-def _derivative(step: Step) -> Iterator[str]:
-    """The derivative of a result, taken by Coquelicot."""
+def _derivative(step: Step) -> Holes:
     (slope,) = step.relation.atoms(sp.Derivative)
-    value = term(sp.diff(slope.expr, *slope.variables))
-    named = [
-        s
-        for s in (*step.frontier, *step.hypotheses)
-        if isinstance(s.relation, sp.Equality) and not s.timed and not s.relation.has(sp.Limit)
-    ]
-    variable = binder(slope.variables[0])
-    yield f"assert (D : Derive (fun {variable} => {term(slope.expr)}) {variable} = {value}) by (apply is_derive_unique; derived)."
-    yield "rewrite D; clear D."
     used = {
         s.relation.lhs: s
-        for s in named
+        for s in (*step.frontier, *step.hypotheses)
+        if s.equates and not s.timed and not s.relation.has(sp.Limit)
         if isinstance(s.relation.lhs, sp.Symbol) and step.judgement.relation.has(s.relation.lhs)
     }
-    yield from (f"rewrite ?({step.cited(s)})." for s in used.values())
-    yield "bounds; same_exponentials; field; repeat split; positive."
+    value = sp.diff(slope.expr, *slope.variables)
+    return {"slope": slope, "value": value, "used": used.values()}
 
 
-def _lipschitz(step: Step) -> Iterator[str]:
-    """An increase of tanh, which is at most that of its argument."""
+def _lipschitz(step: Step) -> Holes:
     low, high = sorted(step.relation.atoms(sp.tanh), key=sp.count_ops)
-    yield "intros t Ht."
-    for p in step.statement.premises:
-        yield f"pose proof ({p.label}{' t Ht' if p.timed else ''})."
-    ordered = f"{term(low.args[0])} <= {term(high.args[0])}"
-    yield f"assert (D : {ordered}) by (apply Rminus_le_0; ring_simplify; positive)."
-    yield "pose proof (tanh_order _ _ D); pose proof (tanh_slope _ _ D)."
     middle = next(part.gts for part in step.relation.args if part.lts == 0)
     factor = sp.diff(middle.xreplace({high: _RATIO}), _RATIO)
     left = sp.expand(high.args[0] - low.args[0]) - high + low
-    forms = (factor * (high - low if part.lts == 0 else left) for part in step.relation.args)
-    yield f"split; [{' | '.join(f'manifest ({term(form)})' for form in forms)}]."
+    forms = [factor * (high - low if part.lts == 0 else left) for part in step.relation.args]
+    return {"low": low.args[0], "high": high.args[0], "forms": forms}
 
 
-def _logarithmic_slope(step: Step) -> Iterator[str]:
-    """The change of the logarithm of a function, whose slope is bounded by a multiple of it."""
-    rule = step.judgement.rule
-    assert isinstance(rule, LogarithmicSlope)
-    function = rule.function(_RATIO)
-    value, slope, bound = map(term, (function, sp.diff(function, _RATIO), rule.bound))
-    made, a, b = f"(fun ratio => {value})", term(rule.a), term(rule.b)
-    yield f"assert (A : forall ratio, 0 < {value}) by (intro; arithmetic)."
-    yield f"assert (B : forall ratio, is_derive {made} ratio ({slope})) by (intro; derived)."
-    yield f"assert (C : forall ratio, Rabs ({slope}) <= {bound} * ({value})) by (intro; arithmetic)."
-    yield f"intros t Ht; pose proof (log_slope _ _ _ ({a}) ({b}) A B C) as P0; cbv beta in P0; same_inequality P0."
+def _logarithmic_slope(step: Step) -> Holes:
+    assert isinstance(step.judgement.rule, LogarithmicSlope)
+    function = step.judgement.rule.function(_RATIO)
+    return {"function": function, "derivative": sp.diff(function, _RATIO)}
 
 
-def _threshold(step: Step) -> Iterator[str]:
-    """A level that an increasing function exceeds beyond one point, and not before."""
+def _threshold(step: Step) -> Holes | None:
     point, level = step.relation.args
     if isinstance(point, sp.Gt) and point.gts.is_Symbol and level.gts.has(point.gts):
-        yield from (f"pose proof ({step.cited(s)})." for s in step.ancestors if not s.timed)
-        yield f"apply (threshold (fun {term(point.gts)} => {term(level.gts)}))."
-        yield "all: cbv beta; first [intros; increasing | positive | bounds; identity]."
+        return {"point": point.gts, "level": level.gts}
+    return None
 
 
-_BY_RULE: Mapping[str, Callable[[Step], Iterator[str]]] = {
-    "Accumulates": limits.accumulates,
+def _nothing(_: Step) -> Holes:
+    """Return that the step itself has all that its proof needs."""
+    return {}
+
+
+_HOLES: Mapping[str, Callable[[Step], Holes | None]] = {
+    "Accumulates": _accumulates,
     "AtInfinity": _bounded_load,
-    "Differentiate": _same_rate,
+    "Differentiate": _nothing,
     "Differentiated": _derivative,
-    "Diverges": limits.diverges,
+    "Diverges": _diverges,
     "FirstOrder": _first_order,
     "Grows": _grows,
     "Integrate": _integrates,
@@ -308,15 +209,38 @@ _BY_RULE: Mapping[str, Callable[[Step], Iterator[str]]] = {
     "Lipschitz": _lipschitz,
     "LogarithmicDrift": _drift,
     "LogarithmicSlope": _logarithmic_slope,
-    "OnePeriodLater": _later,
+    "OnePeriodLater": _nothing,
     "Separate": _separates,
-    "Vanishes": limits.squeezed,
+    "Threshold": _threshold,
+    "Vanishes": _squeezed,
 }
-"""The proofs by the name of the rule."""
+"""What the proofs need, by the name of the rule, or of what is claimed."""
 
 
-def proof(step: Step) -> list[str]:
-    """Return the lines of a proof by a general theorem, none where there is none for the step."""
-    if isinstance(step.relation, sp.Equivalent):
-        return list(_threshold(step))
-    return list(_BY_RULE[step.rule](step)) if step.rule in _BY_RULE else []
+def proof(step: Step) -> str:
+    """Return a proof by a general theorem, empty where there is none for the step."""
+    rule = "Threshold" if isinstance(step.relation, sp.Equivalent) else step.rule
+    holes = _HOLES[rule](step) if rule in _HOLES else None
+    return "" if holes is None else str(getattr(_macros(), rule)(step, **holes))
+
+
+@cache
+def _macros() -> Any:
+    return template("theorems").module
+
+
+def template(name: str) -> Template:
+    """Return a template of Coq; Jinja2 is imported when a proof is written."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    made = Environment(
+        loader=PackageLoader(__package__, "library"),
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        undefined=StrictUndefined,
+    )
+    known = {each.__name__: each for each in (always, binder, field, proposition, term)}
+    made.filters |= known
+    made.globals |= known | {"t": t, "RATIO": _RATIO}
+    return made.get_template(f"{name}.jinja")
