@@ -41,7 +41,8 @@ from wear.numerics.tolerances import ROUNDOFF
 TOUCH = 16.0  # roundoffs of the margin by which contact is told
 SOON = 1e-6  # of a piece: after that the load goes where it goes
 FROZEN_NODES = 10  # on a piece, where the rate does not feel the wear
-AT_ONCE = 12_000  # numbers of an array that stays in the processor's cache, with some others
+FROZEN_PHASE = 1e-5  # of a cycle: where contact begins and ends there
+AT_ONCE = 10_000  # numbers of an array that stays in the processor's cache, with some others
 
 
 class Advanced(NamedTuple):
@@ -148,9 +149,8 @@ class SwitchedPeriodMap(NamedTuple):
             self.cycles.take(scene[rows]), piece.take(rows), wear[rows], needed[rows],
         )  # fmt: skip
         cycles = cycles.on(piece)
-        edges = [phase_of(cycles.load, piece, needed)]
-        if cycles.model.compliant:  # there are two kinds of contact
-            edges.append(phase_of(cycles.load, piece, needed + cycles.held))
+        levels = [needed, needed + cycles.held] if cycles.model.compliant else [needed]
+        edges = [phase_of(cycles.load, piece, level, FROZEN_PHASE) for level in levels]
         edges.append(np.where(piece.rising, piece.end, piece.begin))
         for edge, other in pairwise(edges):
             begin, length = np.minimum(edge, other), np.abs(other - edge)

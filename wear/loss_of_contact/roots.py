@@ -10,9 +10,9 @@ from wear.model import Model
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
 
-SECTIONS = 32  # of an interval at once
-BISECTIONS = 12  # into so many sections, to roundoff
-FEW_BISECTIONS = 6  # to roundoff of a cycle
+SECTIONS = 64  # of an interval at once
+BISECTIONS = 9  # into so many sections, to roundoff
+FEW_BISECTIONS = 5  # to roundoff of a cycle
 FEWER_BISECTIONS = 3  # for the least value of a function
 MOST_NEWTON = 60  # for the wear at the edge, which may be far off
 PATIENCE = 8  # of them; then a change that is no smaller than the last is rounding

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.load import Constant, Load, Table, Waves, waves
+from wear.load import Constant, Load, Sine, Table, Waves, waves
 from wear.loss_of_contact.roots import (
     FEW_BISECTIONS,
     Function,
@@ -168,17 +168,22 @@ def cycles_of(models: Sequence[Model], loads: Sequence[Load], edges: Sequence[Ed
         )
         for load, edge in zip(loads, edges, strict=True)
     ]
-    # Tables are straight on every piece, see `Cycles.on`.
-    load = loads[0] if isinstance(loads[0], (Table, Constant)) else waves(loads)
     if len(models) == 1:
-        return Cycles(models[0], load, *map(float, numbers[0]))
-    return Cycles(stacked(models), load, *np.array(numbers).T)
+        return Cycles(models[0], displacements(loads), *map(float, numbers[0]))
+    return Cycles(stacked(models), displacements(loads), *np.array(numbers).T)
+
+
+def displacements(loads: Sequence[Load]) -> Load | Waves:
+    """Return the displacements of loads of one kind; of tables, which are straight on every piece,
+    those of the first, see `Cycles.on`."""
+    straight = isinstance(loads[0], (Table, Constant))
+    return loads[0] if straight or (len(loads) == 1 and isinstance(loads[0], Sine)) else waves(loads)
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
     """Return the edge of contact of a model with cutoff."""
     turning_wear, held = _crest(model), float(model.held_margin)
-    turns = turning_points(load)
+    turns, acting = turning_points(load), displacements([load])
     highest = (
         float(displacement_at(model, np.array(turning_wear)))
         if np.isfinite(turning_wear)
@@ -186,20 +191,20 @@ def edge_of_contact(model: Model, load: Load) -> Edge:
     )
     low, high = turns[:-1], turns[1:]
     top = highest + held
-    over = (load(low) < top) != (load(high) < top)
-    appears = bracketed(lambda phase: load(phase) - top, low[over], high[over])[1]
-    closing_speed = _pull(model, load, turning_wear, held)
+    over = (acting(low) < top) != (acting(high) < top)
+    appears = bracketed(lambda phase: acting(phase) - top, low[over], high[over])[1]
+    closing_speed = _pull(model, acting, load.period, turning_wear, held)
     closings = _closings(closing_speed, turns, model.compliant)
     cuts = np.unique(np.concatenate([turns, appears, closings]))
     inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
     phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
     closes = closing_speed(phases[:, PIECE_SAMPLES // 2]) >= 0.0
-    pieces = Piece(phases.T, load(phases).T, closes)
+    pieces = Piece(phases.T, acting(phases.T), closes)
     # Wear goes on at the bend: there contact turns not with the load but where its closing_speed
     # does.
     sharp = turns[np.isin(turns, [0.0, *load.kinks, 1.0])]
     bending = np.concatenate([sharp, appears, closings])
-    heights = np.concatenate([load(bending) - held, load(turns)])
+    heights = np.concatenate([acting(bending) - held, acting(turns)])
     grazing, first = np.unique(heights, return_index=True)
     before = np.searchsorted(cuts, np.concatenate([bending, turns])[first])
     return Edge(pieces, turning_wear, highest, held, grazing, before)
@@ -211,11 +216,14 @@ def turning_points(load: Load) -> FloatArray:
     cuts = np.unique([0.0, *load.kinks, *load.peaks, 1.0])
     # Between two peaks or kinks there is a trough at most.
     low, high = cuts[:-1] + NEARLY * np.diff(cuts), cuts[1:] - NEARLY * np.diff(cuts)
-    turns = (load.slope(low) < 0.0) & (load.slope(high) > 0.0)
-    return np.unique(np.concatenate([cuts, bracketed(load.slope, low[turns], high[turns])[1]]))
+    slope = displacements([load]).slope
+    turns = (slope(low) < 0.0) & (slope(high) > 0.0)
+    return np.unique(np.concatenate([cuts, bracketed(slope, low[turns], high[turns])[1]]))
 
 
-def _pull(model: Model, load: Load, turning_wear: float, held: float) -> Function:
+def _pull(
+    model: Model, load: Load | Waves, period: float, turning_wear: float, held: float
+) -> Function:
     """Return how fast contact at its edge closes at each phase, in mm per cycle."""
 
     def closing_speed(phase: FloatArray) -> FloatArray:
@@ -225,7 +233,7 @@ def _pull(model: Model, load: Load, turning_wear: float, held: float) -> Functio
             scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
             worn = wear_at(model, U_a - held, np.full_like(U_a, FAR * scale), turning_wear, np.inf)
             wear = np.where(speed < 0.0, worn, wear)
-        opening = model.margin_slope(wear, U_a) * load.period * model.law_rate(wear, U_a)
+        opening = model.margin_slope(wear, U_a) * period * model.law_rate(wear, U_a)
         result: FloatArray = speed + opening
         return result
 
@@ -268,7 +276,9 @@ def _crest(model: Model) -> float:
     return float(scale * np.expm1(bracketed(slope, ends[:1], ends[1:])[1][0]))
 
 
-def phase_of(load: Load | Waves | Lines, piece: Piece, height: FloatArray) -> FloatArray:
+def phase_of(
+    load: Load | Waves | Lines, piece: Piece, height: FloatArray, tolerance: float = ROUNDOFF
+) -> FloatArray:
     """Return where the load reaches a height (k,) on each piece; the nearest end if it does not.
 
     By Newton's method from a secant between samples, next to the ends of a piece from a parabola.
@@ -291,7 +301,7 @@ def phase_of(load: Load | Waves | Lines, piece: Piece, height: FloatArray) -> Fl
         step = (height - load(phase)) / np.where(slope == 0.0, np.inf, slope)
         fresh = np.clip(phase + step, low, high)
         change, phase = np.abs(fresh - phase), np.where(done, phase, fresh)
-        done |= (change <= ROUNDOFF) | ((iteration > PHASE_PATIENCE) & (change >= last))
+        done |= (change <= tolerance) | ((iteration > PHASE_PATIENCE) & (change >= last))
         if done.all():
             break
         last = change
