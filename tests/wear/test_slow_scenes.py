@@ -17,6 +17,7 @@ from wear import cycles as count
 from wear.binding import bind
 from wear.faults import AccuracyError
 from wear.load import Sine, Table
+from wear.loss_of_contact.increments import Coordinate, Increments, Span
 from wear.regime import asymptote
 from wear.scene import Scene
 from wear.solver import solve
@@ -94,6 +95,14 @@ def test_analysis_and_numerics_agree_on_random_scenes(load, K, f_c, pin, exponen
         agree(scene)
     except AccuracyError:  # said, with status 3: there is nothing to compare
         assume(False)
+
+
+def test_a_trial_far_beyond_a_series_is_given_up():
+    """There the increment would overflow."""
+    span = Span(Coordinate(0.0), 1.0, 2.0, 1.0, 0.0)
+    steep = np.array([[0.0, 500.0]])
+    series = Increments(span, span.frame, np.ones(1), steep, np.zeros((1, 6)))
+    assert series.walk(3.0, 9.0, 5) == [3.0]
 
 
 @settings(max_examples=4)

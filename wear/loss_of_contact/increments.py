@@ -30,6 +30,7 @@ MOST_ROUNDS = 6  # of cutting panels: those that are not resolved then are not u
 GRAIN = 16.0  # times the uncertainty of a distance: what rounding may make of the increment
 WIDE = 2.0  # panel, in ln(z + shift): it is cut in the middle of that
 FAR_OFF = 1e3  # times the tolerance: then a panel is cut in four, else in two
+FAR_BEYOND = 700.0  # logarithm of an increment over the level of its panel
 SAME = 1e-9  # of a span: wears so near to each other are one
 USABLE = 10.0  # times the tolerance: the estimate of error reports the rest
 EASED = 10.0  # at most: an error of the distance is a smaller one of the wear
@@ -124,7 +125,10 @@ class Increments(NamedTuple):
             last = before = 0.0
             for coefficient in series[i]:  # Clenshaw
                 last, before = coefficient + twice * last - before, last
-            left -= level[i] * w**vanishes * math.exp(last - before * twice / 2.0)
+            logarithm = last - before * twice / 2.0
+            if not logarithm < FAR_BEYOND:
+                break
+            left -= level[i] * w**vanishes * math.exp(logarithm)
             if not math.isfinite(left) or (ahead and left <= 0.0):
                 break
             walked.append(origin - left)

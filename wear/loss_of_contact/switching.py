@@ -176,8 +176,9 @@ def cycles_of(models: Sequence[Model], loads: Sequence[Load], edges: Sequence[Ed
 def displacements(loads: Sequence[Load]) -> Load | Waves:
     """Return the displacements of loads of one kind; of tables, which are straight on every piece,
     those of the first, see `Cycles.on`."""
-    straight = isinstance(loads[0], (Table, Constant))
-    return loads[0] if straight or (len(loads) == 1 and isinstance(loads[0], Sine)) else waves(loads)
+    first, *others = loads
+    as_it_is = isinstance(first, (Table, Constant)) or (isinstance(first, Sine) and not others)
+    return first if as_it_is else waves(loads)
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
