@@ -16,8 +16,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-import numbers
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import Annotated, Any, ClassVar, TypeVar, dataclass_transform
 
 from pydantic import ConfigDict, Field, PlainValidator, ValidationError, model_validator
@@ -95,7 +94,9 @@ class Number(Kind):
         if isinstance(raw, str):
             remedy = f"give a number{ending}, without quotes"
             raise wrong(f'"{shown(raw)}" is text, not a number', remedy)
-        if isinstance(raw, bool) or not isinstance(raw, numbers.Real):
+        if hasattr(raw, "tolist"):  # NumPy's scalars
+            raw = raw.tolist()
+        if isinstance(raw, bool) or not hasattr(raw, "__float__"):
             raise wrong(f"is {kind_of(raw)}", f"give a number{ending}")
         wanted = f"give a number {domain}{ending}" if domain else f"give any finite number{ending}"
         try:
@@ -133,15 +134,16 @@ class Numbers(Kind):
     def __call__(self, raw: Any, key: str) -> tuple[float, ...]:
         if hasattr(raw, "tolist"):  # NumPy's arrays
             raw = raw.tolist()
-        if not isinstance(raw, list | tuple):
+        if not isinstance(raw, Iterable) or isinstance(raw, str | bytes | Mapping):
             remedy = "give a list of numbers in brackets, such as [1e-4, 2e-5]"
             raise wrong(f"is {kind_of(raw)}", remedy)
-        if len(raw) > self.most:
-            raise wrong(f"has {len(raw)} entries", f"give at most {self.most}")
-        if all(type(entry) is float and is_sane(entry) for entry in raw):
-            return tuple(raw)
+        given: tuple[Any, ...] = tuple(raw)
+        if len(given) > self.most:
+            raise wrong(f"has {len(given)} entries", f"give at most {self.most}")
+        if all(type(entry) is float and is_sane(entry) for entry in given):
+            return given
         values, faults = list[float](), list[Finding]()
-        for place, entry in enumerate(raw, start=1):
+        for place, entry in enumerate(given, start=1):
             try:
                 values.append(Number()(entry, key))
             except ValidationError as found:

@@ -156,9 +156,12 @@ def test_rows_are_kept_unless_the_load_changes(tmp_path):
 
 
 def test_numbers_of_other_kinds_are_numbers():
-    bearing = Bearing(np.float32(200), 1, np.float64(3.6e-4), np.int64(0))  # type: ignore[arg-type]
+    bearing = Bearing(np.float32(200), 1, np.array(3.6e-4), np.int64(0))  # type: ignore[arg-type]
     assert bearing == Bearing(200.0, 1.0, 3.6e-4, 0.0)
     assert all(type(value) is float for value in vars(bearing).values())
+    with pytest.raises(SceneError, match="is true or false"):
+        Bearing(np.True_, 1.0, 3.6e-4, 0.0)  # type: ignore[arg-type]
+    assert Table(range(2), (0, 0)) == Table((0.0, 1.0), (0.0, 0.0))  # type: ignore[arg-type]
     assert Table(np.array([0.0, 1.0]), np.zeros(2)) == Table((0.0, 1.0), (0.0, 0.0))  # type: ignore[arg-type]
 
 

@@ -17,13 +17,14 @@ from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
 
 MOST_BLOCKS = 1000
+Periodic = Annotated[Load, PlainValidator(partial(load_from, kinds=PERIODIC))]
 
 
 @table("")
 class Block(SceneTable):
     """A periodic load, run for a number of whole cycles."""
 
-    load: Annotated[Load, PlainValidator(partial(load_from, kinds=PERIODIC))]
+    load: Periodic
     cycles: Count = Field(description="number of cycles of this block")
 
 
