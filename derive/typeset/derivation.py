@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import sympy as sp
@@ -20,9 +21,8 @@ from sympy.core.function import AppliedUndef
 from ..hypotheses import Kind
 from ..kernel import Judgement
 from . import formula
-from .breaking import broken
 from .display import inline, latex
-from .macros import macro_name, macros
+from .macros import macro_name, macros, written
 from .present import presentable
 from .reading import typed
 
@@ -172,34 +172,17 @@ def prose(equations: Sequence[Equation], width: float) -> str:
     derivations = Derivations(equations)
     start, steps = derivations.start(target.id), derivations.chain(target.id)
     shown = dict.fromkeys(step.equation for step in (*start, *steps) if step.equation)
-    lines = [
-        f"% How ({target.id}) follows: {target.title}.",
-        macros([by_id[name] for name in shown], width).rstrip(),
-        r"\begin{sloppypar}",
-        rf"\paragraph{{Derivation of ({target.id}).}}",
-    ]
-    told: set[str] = set()
-    lines.append("The starting points are")
-    lines += [line for step in start for line in _formula(step, by_id, told, width)]
-    for place, step in enumerate(steps, start=1):
-        said = _REFERENCE.sub(r"(\1)", step.sentence)
-        lines.append(rf"\par\noindent\textit{{Step {place}.}} {said}")
-        lines += _formula(step, by_id, told, width)
-    return "\n".join([*lines, r"\end{sloppypar}"]) + "\n"
-
-
-def _formula(
-    step: Step, equations: dict[str, Equation], told: set[str], width: float
-) -> Iterator[str]:
-    """Yield the display of what a step gave, an equation with its number and only once."""
-    if not step.equation:
-        yield rf"\[{broken(step.latex, width)}\]"
-    elif step.equation in told:
-        yield f"This belongs to ({step.equation})."
-    else:
-        told.add(step.equation)
-        macro = macro_name(equations[step.equation])
-        yield rf"\begin{{equation*}}\{macro}\tag{{{step.equation}}}\end{{equation*}}"
+    return written(
+        "derivation",
+        target=target,
+        macros=macros([by_id[name] for name in shown], width).rstrip(),
+        start=start,
+        steps=steps,
+        equations=by_id,
+        width=width,
+        macro_name=macro_name,
+        plain=partial(_REFERENCE.sub, r"(\1)"),
+    )
 
 
 def _written(expr: sp.Basic) -> str:

@@ -7,12 +7,14 @@ Key results
     occurring       the quantities that occur in expressions, in the order of the vocabulary
     nomenclature    a tabular with the symbols of equations, their meanings and units
     meaning, unit   of one quantity, in LaTeX
+    written         a template of LaTeX with its holes filled
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -60,6 +62,19 @@ def room(length: str, size: float = 10.0) -> float:
     return width / size - _NUMBER
 
 
+def written(template: str, **holes: Any) -> str:
+    """Return the text of a template of LaTeX."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    made = Environment(
+        loader=PackageLoader(__package__), undefined=StrictUndefined, keep_trailing_newline=True,
+        trim_blocks=True, variable_start_string="<<", variable_end_string=">>",
+        block_start_string="<%", block_end_string="%>", comment_start_string="<#",
+        comment_end_string="#>",
+    )  # fmt: skip
+    return made.get_template(f"{template}.jinja").render(broken=broken, **holes)
+
+
 def macros(equations: Sequence[Equation], width: float = WIDTH) -> str:
     r"""Return LaTeX that defines a macro for each equation, \EqNote and \WearNomenclature.
 
@@ -67,21 +82,13 @@ def macros(equations: Sequence[Equation], width: float = WIDTH) -> str:
     amsmath, and booktabs for the nomenclature: what the symbols of these equations mean. A second
     file may define some of them again.
     """
-    lines = [
-        "% Equations of wear under cyclic contact, derived and checked by machine.",
-        r"% Needs amsmath. Use: \begin{equation} \EqWearPerCycle \end{equation}, or \EqNote{21}.",
-        r"% \WearNomenclature is a table of their symbols and needs booktabs.",
-        r"\providecommand{\EqNote}[1]{\csname EqNote@#1\endcsname}",
-    ]
-    for equation in equations:
-        name = macro_name(equation)
-        lines += [
-            f"% ({equation.id}) {equation.title}: {equation.status.value}",
-            rf"\def\{name}{{{broken(equation.latex, width)}}}",
-            rf"\expandafter\def\csname EqNote@{equation.id}\endcsname{{\{name}}}",
-        ]
-    lines.append(rf"\def\WearNomenclature{{{nomenclature(equations)}}}")
-    return "\n".join(lines) + "\n"
+    return written(
+        "macros",
+        equations=equations,
+        width=width,
+        macro_name=macro_name,
+        nomenclature=nomenclature(equations),
+    )
 
 
 def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
@@ -112,21 +119,8 @@ def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
 
 def nomenclature(equations: Iterable[Equation]) -> str:
     """Return a tabular of the symbols of equations; needs amsmath and booktabs."""
-    rows = [
-        rf"${quantity.latex}$ & {meaning(quantity)} & {_cell(unit(quantity))} \\"
-        for quantity in quantities(equations)
-    ]
-    head = [
-        r"\begin{tabular}{lp{0.62\linewidth}l}",
-        r"\toprule",
-        r"symbol & meaning & unit \\",
-        r"\midrule",
-    ]
-    return "\n".join([*head, *rows, r"\bottomrule", r"\end{tabular}"])
-
-
-def _cell(formula: str) -> str:
-    return f"${formula}$" if formula else "--"
+    names = quantities(equations)
+    return written("nomenclature", quantities=names, meaning=meaning, unit=unit).rstrip()
 
 
 def meaning(quantity: Quantity) -> str:
