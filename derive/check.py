@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from .coq.record import proved_by_coq
+from .coq.steps import proved_by_coq
 from .dimensions import homogeneous
 from .falsifier.judgements import tried, without
 from .kernel import Judgement, replayed

@@ -45,7 +45,7 @@ def _row(step: Judgement, numbers: Mapping[Hashable, int]) -> dict[str, Any]:
     import sympy as sp
 
     from derive.check import checks
-    from derive.coq.record import proved_by_coq
+    from derive.coq.steps import proved_by_coq
     from derive.kernel import identity
     from derive.typeset.display import latex
 

@@ -23,9 +23,8 @@ from pathlib import Path
 
 from ..equations import Equation
 from . import proofs, refutations
-from .record import Record, Row, record
 from .statements import key, world
-from .steps import Step, steps
+from .steps import Record, Row, Step, record, steps
 
 LIBRARY = Path(__file__).parent / "library"
 THEOREMS = ("Tanh", "Limits", "Integrals", "Drift", "Tactics")

@@ -17,8 +17,7 @@ from pathlib import Path
 
 from ..catalogue import all_equations
 from .export import HEAD, Export, compiled
-from .record import RECORD, Row, record
-from .steps import Step
+from .steps import RECORD, Row, Step, record
 
 _FOLDER = Path("build/prove")
 _SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default Timeout 30.\n"

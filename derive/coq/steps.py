@@ -1,15 +1,22 @@
-"""Steps: judgements as lemmas that know what they rest on.
+"""Steps: judgements as lemmas that know what they rest on, and the record of which are closed.
 
+Overview
+    The record says what Coq closed, by the hash of its statement; for users who have no Coq.
 Key results
-    Step       a judgement with its statement, its name and the steps that it rests on
-    steps      of all judgements that can be stated, and why the others cannot
+    Step             a judgement with its statement, its name and the steps that it rests on
+    steps            of all judgements that can be stated, and why the others cannot
+    record           all of the record
+    proved_by_coq    whether a judgement is closed
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+import json
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
 
 import sympy as sp
 from sympy.core.relational import _Inequality as Inequality
@@ -17,6 +24,11 @@ from sympy.core.relational import _Inequality as Inequality
 from ..kernel import Judgement
 from .printer import UntranslatableError
 from .statements import Premise, Statement, claim, key, statement
+
+RECORD = Path(__file__).parent / "record.json"
+
+Row = dict[str, Any]
+Record = Mapping[str, Row]
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,3 +199,15 @@ def _key(judgement: Judgement) -> str | None:
         return key(judgement)
     except UntranslatableError:
         return None
+
+
+@cache
+def record() -> Record:
+    """Return the committed record: closed, and by which way; or why not."""
+    rows: Record = json.loads(RECORD.read_text(encoding="utf-8"))
+    return rows
+
+
+def proved_by_coq(judgement: Judgement) -> bool:
+    """Return whether Coq has closed a judgement, as the record has it."""
+    return bool(record().get(_key(judgement) or "", {}).get("closed"))

@@ -9,8 +9,8 @@ import sympy as sp
 
 from derive import catalogue
 from derive.coq import export, printer, refutations
-from derive.coq.record import proved_by_coq, record
 from derive.coq.statements import statement
+from derive.coq.steps import proved_by_coq, record
 from derive.symbols import symbols, t
 from tests.derive.judgements import eq
 from tests.programs import ended
