@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import sympy as sp
-
+from .claims import Predicate
 from .coq.steps import proved_by_coq
 from .dimensions import homogeneous
 from .falsifier.judgements import tried, without
@@ -46,7 +45,8 @@ def on_models(judgement: Judgement) -> tuple[Check, ...]:
 
 def reasons_of(judgement: Judgement) -> tuple[Check, ...]:
     """Return what models say of a judgement without each of its conditions in turn."""
-    found = {h: without(judgement, h) for h in judgement.conditions if h.relation is not sp.true}
+    asked = (h for h in judgement.conditions if not isinstance(h.relation, Predicate))
+    found = {h: without(judgement, h) for h in asked}
     none = "no model shows that it is needed"
     return tuple(
         Check("hypothesis", True, f"{h.typed}: {f'without it false for {why}' if why else none}")

@@ -2,7 +2,7 @@
 
 Overview
     A claim is an equality, an inequality, two of them, an inequation, an equivalence, a limit or
-    an asymptotic relation; what only words say is a property.  ``relation`` is the SymPy form,
+    an asymptotic relation; what no relation says is a property.  ``relation`` is the SymPy form,
     for printing and for comparison.
 Key results
     claim_of(relation)                  the typed claim of a SymPy relation
@@ -18,6 +18,7 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.relational import Relational
+from sympy.logic.boolalg import Boolean
 from sympy.printing.pretty.pretty import PrettyPrinter
 from sympy.printing.pretty.stringpict import prettyForm
 
@@ -41,6 +42,36 @@ class FirstZero(sp.Expr):
         return rf"\min\left\{{{variable} > 0 : {expr} = 0\right\}}"
 
 
+class Predicate(Boolean):
+    """What no relation between numbers says."""
+
+    def _latex(self, printer: sp.printing.printer.Printer) -> str:
+        return rf"\text{{{self}}}"
+
+
+class Continuous(Predicate):
+    """A field is continuous in time; ``Continuous(field)``."""
+
+    def _sympystr(self, printer: sp.printing.printer.Printer) -> str:
+        return f"{printer.doprint(self.args[0])} is continuous"
+
+    def _latex(self, printer: sp.printing.printer.Printer) -> str:
+        return rf"{printer.doprint(self.args[0])}\;\text{{is continuous}}"
+
+
+class Averaged(Predicate):
+    """m is the roughness without its oscillation, in the sense of ``Term``, where s_0 is the
+    constant of integration; ``Averaged(m, s_0)``."""
+
+    def _sympystr(self, printer: sp.printing.printer.Printer) -> str:
+        m, s_0 = map(printer.doprint, self.args)
+        return f"d{m}/dtau = rho (1 + c_1/{m} + ...), with {s_0} for its start"
+
+    def _latex(self, printer: sp.printing.printer.Printer) -> str:
+        m, _ = map(printer.doprint, self.args)
+        return rf"\mathrm{{d}}{m} / \mathrm{{d}}\tau = \rho \left(1 + c_1 / {m} + \dots\right)"
+
+
 class Term(sp.Expr):
     """A coefficient of the averaged expansion of ``ds/dtau = rho F(s, tau)/F(oo)``.
 
@@ -52,6 +83,7 @@ class Term(sp.Expr):
     is_commutative = True
     is_real = True
     letter = ""
+    words = "sigma = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...)"
 
     @property
     def power(self) -> int:
@@ -225,20 +257,13 @@ class Conjunction(Claim):
 
 @dataclass(frozen=True)
 class Property(Claim):
-    """What only words say: that the load is continuous, say."""
+    """A predicate: that the load is continuous, say."""
 
-    text: str
+    said: Predicate
 
     @property
     def relation(self) -> sp.Basic:
-        return sp.true
-
-
-@dataclass(frozen=True)
-class Continuity(Property):
-    """A field is continuous in time."""
-
-    field: sp.Expr
+        return self.said
 
 
 def claim_of(relation: sp.Basic) -> Claim:
@@ -262,6 +287,8 @@ def claim_of(relation: sp.Basic) -> Claim:
         return Inequation(*relation.args)
     if isinstance(relation, Relational):
         return Inequality(relation)
+    if isinstance(relation, Predicate):
+        return Property(relation)
     if isinstance(relation, (sp.And, sp.Equivalent)) and len(relation.args) == 2:
         first, second = map(claim_of, relation.args)
         if isinstance(first, Inequality) and isinstance(second, Inequality):

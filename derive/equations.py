@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
@@ -24,6 +24,7 @@ from types import MappingProxyType
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from .claims import claim_of
 from .hypotheses import Hypothesis, Kind
 from .kernel import Judgement, chain, domain, identity
 from .language import defined_by, names
@@ -162,14 +163,20 @@ class Equation:
 
     @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:
-        """Return what a reader needs to know beside the equation of when it holds.
+        """Return what a reader needs to know beside the equation of when it holds, in its names:
+        no more than the name of a setting that it states itself."""
+        defined = (h.relation for h in self._named if isinstance(h.relation, sp.Equality))
+        names = [relation for relation in defined if relation.lhs in self.relation.free_symbols]
+        beside = [h for h in self.hypotheses if h.is_setting or h.relation not in self.claims]
+        shown = (h.relation for h in beside if h.shown)
+        return (*(Hypothesis(abbreviated(relation, names)) for relation in shown), *self._signs)
 
-        The vocabulary does not tell the sign of names that it does not have.
-        """
+    @property
+    def _signs(self) -> tuple[Hypothesis, ...]:
+        """Return the signs of names that the vocabulary does not have, nor a definition."""
         told = QUANTITIES.keys() | {n for h in self._named for n in defined_by(h.relation)}
         own = sorted((s for s in self.relation.free_symbols if s.name not in told), key=str)
-        signs = (replace(s, kind=Kind.PARAMETER) for s in map(domain, own) if s is not None)
-        return (*(h for h in self.hypotheses if h.shown), *signs)
+        return tuple(Hypothesis(sign) for sign in map(domain, own) if sign is not None)
 
     @cached_property
     def definitions(self) -> tuple[Hypothesis, ...]:
@@ -259,6 +266,14 @@ def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
         return expr.subs(name, short.rhs)
     written = expr.replace(name.func, sp.Lambda(name.args, short.rhs))
     return written.replace(sp.Subs, lambda *args: sp.Subs(*args).doit())  # slopes of the function
+
+
+def abbreviated(relation: sp.Basic, names: Iterable[sp.Equality]) -> sp.Basic:
+    """Return a relation with names for the expressions that they stand for."""
+    short = {evaluated(name.rhs): name.lhs for name in names if name.rhs.args}
+    if not any(relation.has(value) for value in short):
+        return relation
+    return claim_of(relation).map(lambda side: side.xreplace(short)).relation
 
 
 def system(claims: tuple[sp.Basic, ...]) -> sp.Basic:

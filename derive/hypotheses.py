@@ -1,18 +1,32 @@
-"""Hypotheses: what a judgement rests on, as data of a closed list of kinds.
+"""Hypotheses: what a judgement rests on, and the words for those that have a name.
 
-A hypothesis gives a sentence and LaTeX for the reader, a SymPy relation where there is one, and
-is a guard that can be asked with numbers.  A relation between fields holds at every time.
+Overview
+    A hypothesis is a relation; between fields it holds at every time.  Its words are looked up by
+    that relation, in tables below and with the equations of the model, and are about quantities
+    alone whose meaning nobody can define.  Any other hypothesis is shown as its formula, so that
+    no reader is told what a relation does not say.
+Key results
+    Hypothesis    a relation and its kind, in words, as one types it and in LaTeX
+    sentences     hypotheses as a reader is told them
+    SMOOTH_PIN, ..., CONTINUOUS      the settings that have a name
+    ROUGH_BEARING, ..., OPEN_GAP     other conditions that have words
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
+
+from .claims import Continuous, Term
+from .language import defined_by
+from .laws import GENERAL, TANH
+from .note import model
+from .symbols import rate, symbols, t
 
 _MODULUS = re.compile(r"Abs\((\w+)\)")
 #: Characters up to which a relation is easier to read than words.
@@ -24,84 +38,139 @@ class Kind(StrEnum):
 
     MODEL = "model"  # an equation of the note's model, (1) to (5)
     INITIAL = "initial"  # an initial value, (6)
-    SETTING = "setting"  # rigid support, smooth or unworn pin, no loss of contact
-    LOAD = "load"  # bounded, constant, periodic, sine, continuous
-    PARAMETER = "parameter"  # a relation between data
-    STATE = "state"  # a relation that the fields satisfy: contact is active, p < p_max
     DEFINITION = "definition"  # a name for an expression
-    DOMAIN = "domain"  # of a symbol, from its definition in the vocabulary
+    CONDITION = "condition"  # what a reader needs to know beside the claim
 
 
 def sentences(hypotheses: Iterable[Hypothesis]) -> list[str]:
     """Return hypotheses as a reader is told them: settings in one line, each other by itself."""
     shown = [h for h in hypotheses if h.shown]
-    settings = dict.fromkeys(h.text for h in shown if h.kind is Kind.SETTING)
-    others = dict.fromkeys(f"if {h.text}" for h in shown if h.kind is not Kind.SETTING)
+    settings = dict.fromkeys(h.text for h in shown if h.is_setting)
+    others = dict.fromkeys(f"if {h.text}" for h in shown if not h.is_setting)
     return [*([f"setting: {', '.join(settings)}"] if settings else []), *others]
 
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """One hypothesis: in words, and as a SymPy relation where there is one (else ``true``).
+    """One hypothesis: a relation, as SymPy writes it, and what it is for.
 
-    ``typeset`` is its LaTeX where there is only words and they hold a formula.
+    >>> SMOOTH_PIN.text, ROUGHENING.text, Hypothesis(symbol("f_c") < 2).text
+    ('smooth pin', 'the bearing roughens as it wears', 'f_c < 2')
     """
 
-    text: str
-    relation: sp.Basic = sp.true
-    typeset: str = ""
-    kind: Kind = Kind.PARAMETER
-
-    @property
-    def names(self) -> frozenset[str]:
-        """Return the quantities that the hypothesis is about."""
-        return frozenset(str(getattr(s, "func", s)) if s.args else str(s) for s in self._unknowns)
-
-    @property
-    def _unknowns(self) -> set[sp.Basic]:
-        fields = self.relation.atoms(AppliedUndef)
-        plain = self.relation.xreplace({field: sp.Dummy() for field in fields}).free_symbols
-        return fields | {symbol for symbol in plain if not isinstance(symbol, sp.Dummy)}
-
-    def guard(self, values: Mapping[str, float]) -> bool | None:
-        """Return whether the hypothesis holds for numbers, by name of the quantity.
-
-        None where only words say it, or where a number is missing.
-
-        >>> from derive.results.regime_map import ROUGHENING
-        >>> ROUGHENING.guard({"f_c": 0.25}), ROUGHENING.guard({"f_c": -0.05}), ROUGHENING.guard({})
-        (True, False, None)
-        """
-        if self.relation is sp.true or not self.names <= set(values):
-            return None
-        numbers = {u: sp.Float(values[str(u.func) if u.args else str(u)]) for u in self._unknowns}
-        return bool(self.relation.xreplace(numbers))
+    relation: sp.Basic
+    kind: Kind = Kind.CONDITION
 
     @property
     def shown(self) -> bool:
         """Return whether a reader needs it beside an equation: the model and names are known."""
-        return self.kind in (Kind.SETTING, Kind.LOAD, Kind.PARAMETER, Kind.STATE)
+        return self.kind is Kind.CONDITION
+
+    @property
+    def is_setting(self) -> bool:
+        """Return whether it is a setting, which its name says better than a formula."""
+        return self.shown and self.relation in _SETTINGS
+
+    @property
+    def words(self) -> str:
+        """Return what it is called; empty where its formula says it."""
+        if self.kind is Kind.DEFINITION:
+            return _meaning(self.relation)
+        return _SETTINGS.get(self.relation) or _OTHERS.get(self.relation, "")
+
+    @property
+    def text(self) -> str:
+        """Return it in words, or as one types it where it has none."""
+        return self.words or self._formula
 
     @property
     def typed(self) -> str:
-        """Return the relation as one types it; the words where there is none, or a long one.
+        """Return the relation as one types it; the words of one that is long or no inequality.
 
-        >>> from derive.results.regime_map import ROUGHENING
-        >>> from derive.results.steady_state import BOUNDED_LOAD
-        >>> ROUGHENING.typed, BOUNDED_LOAD.typed
-        ('f_c > 0', '|U_a| <= U')
+        >>> ROUGHENING.typed, BOUNDED_LOAD.typed, KEPT.typed
+        ('f_c > 0', '|U_a| <= U', 'wear does not change the roughness')
         """
-        parts = self.relation.args if isinstance(self.relation, sp.And) else (self.relation,)
-        written = (f"{p.lhs} != {p.rhs}" if isinstance(p, sp.Unequality) else str(p) for p in parts)
-        said = ", ".join(_MODULUS.sub(r"|\1|", part.replace("(t)", "")) for part in written)
-        words = self.relation is sp.true or isinstance(self.relation, sp.Equality)
-        return self.text if words or len(said) > _SHORT else said
+        long = isinstance(self.relation, sp.Equality) or len(self._formula) > _SHORT
+        return self.text if self.is_setting or long else self._formula
+
+    @property
+    def _formula(self) -> str:
+        from .typeset.present import presentable
+
+        said = presentable(self.relation)
+        parts = said.args if isinstance(said, sp.And) else (said,)
+        signs = {sp.Equality: "=", sp.Unequality: "!="}
+        written = (
+            f" {signs[type(p)]} ".join(map(_typed, p.args)) if type(p) in signs else _typed(p)
+            for p in parts
+        )
+        return ", ".join(_MODULUS.sub(r"|\1|", part) for part in written)
 
     @property
     def latex(self) -> str:
-        """Return the hypothesis in LaTeX; in words where no relation says it."""
+        """Return it in LaTeX: a setting by its name, all others by their formulas."""
         from .typeset.display import inline
+        from .typeset.present import presentable
 
-        if self.typeset:
-            return self.typeset
-        return rf"\text{{{self.text}}}" if self.relation is sp.true else inline(self.relation)
+        return rf"\text{{{self.words}}}" if self.is_setting else inline(presentable(self.relation))
+
+
+def _typed(expr: sp.Basic) -> str:
+    return str(sp.sstr(expr, order="none")).replace("(t)", "")
+
+
+def _meaning(relation: sp.Basic) -> str:
+    """Return what a definition says of its names."""
+    names = " and ".join(sorted(defined_by(relation)))
+    terms = "".join(f", in {term.words}" for term in relation.atoms(Term))
+    return f"{names} by definition{terms}"
+
+
+h, U, U_a, U_c, u_a, sigma_a, sigma_c = symbols("h U U_a U_c u_a sigma_a sigma_c")
+p, p_max, f_c, f_ac, f_ca, T = symbols("p p_max f_c f_ac f_ca T")
+LOAD = U_a
+
+SMOOTH_PIN, UNWORN_PIN, RIGID = (Hypothesis(sp.Eq(field, 0)) for field in (sigma_a, u_a, U_c))
+UNCOUPLED = tuple(Hypothesis(sp.Eq(slope, 0)) for slope in (f_ac, f_ca))
+PERIODIC = Hypothesis(sp.Eq(U_a.subs(t, t + T), U_a))
+CONSTANT = Hypothesis(sp.Eq(U_a, U_a.subs(t, 0)))
+DIFFERENTIABLE = Hypothesis(sp.Eq(rate("U_a"), rate("U_a"), evaluate=False))
+CONTINUOUS = Hypothesis(Continuous(U_a))
+SINE = Hypothesis(sp.Eq(U_a, U * sp.sin(2 * sp.pi * t / T)))
+
+ROUGH_BEARING = Hypothesis(sp.Gt(sigma_c, 0))
+ROUGHENING, KEPT, SMOOTHING, NOT_SMOOTHING, SLOPED = (
+    Hypothesis(relation(f_c, 0)) for relation in (sp.Gt, sp.Eq, sp.Lt, sp.Ge, sp.Ne)
+)
+BOUNDED_LOAD = Hypothesis(sp.Le(sp.Abs(U_a), U))
+UNSATURATED = Hypothesis(sp.And(sp.Gt(p, 0), sp.Lt(p, p_max)))
+OPEN_GAP = Hypothesis(sp.Ne(h, 0))
+
+_SETTINGS = MappingProxyType(
+    {
+        SMOOTH_PIN.relation: "smooth pin",
+        UNWORN_PIN.relation: "unworn pin",
+        RIGID.relation: "rigid support",
+        **{model.at_every_closure(law): "no loss of contact" for law in (TANH, GENERAL)},
+        **{h.relation: "no cross coupling of roughness" for h in UNCOUPLED},
+        PERIODIC.relation: "load of period T",
+        CONSTANT.relation: "constant load",
+        DIFFERENTIABLE.relation: "differentiable load",
+        CONTINUOUS.relation: "continuous load",
+    }
+)
+_OTHERS = MappingProxyType(
+    {
+        **model.WORDS,
+        **dict.fromkeys(model.START, "initial condition, Eq. (6)"),
+        ROUGH_BEARING.relation: "the bearing is rough",
+        ROUGHENING.relation: "the bearing roughens as it wears",
+        KEPT.relation: "wear does not change the roughness",
+        SMOOTHING.relation: "the bearing smoothens as it wears",
+        NOT_SMOOTHING.relation: "wear does not smoothen the bearing",
+        SLOPED.relation: "the roughness changes with wear",
+        BOUNDED_LOAD.relation: "the load is bounded by U",
+        UNSATURATED.relation: "the pressure is between 0 and its largest value",
+        OPEN_GAP.relation: "the mean surfaces do not coincide",
+    }
+)

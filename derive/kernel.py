@@ -26,6 +26,7 @@ from typing import ClassVar
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
 
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
@@ -128,11 +129,10 @@ class Judgement:
         return tuple(h for h in self.hypotheses if h.shown)
 
     @property
-    def domains(self) -> tuple[Hypothesis, ...]:
+    def domains(self) -> tuple[sp.Basic, ...]:
         """Return what the vocabulary says of the domains of the symbols that occur."""
         relations = (self.relation, *(h.relation for h in self.hypotheses))
-        found = {known.text: known for r in relations for known in _domains(r)}
-        return tuple(found[text] for text in sorted(found))
+        return tuple(sorted({known for r in relations for known in _domains(r)}, key=str))
 
     def named(self, name: str, remark: str = "") -> Judgement:
         """Return the same judgement under another name."""
@@ -143,19 +143,18 @@ class Judgement:
 
 
 @cache
-def _domains(relation: sp.Basic) -> tuple[Hypothesis, ...]:
+def _domains(relation: sp.Basic) -> tuple[sp.Basic, ...]:
     """Return the domains of the quantities that a relation speaks of."""
     atoms = relation.atoms(sp.Symbol, sp.Function)
     found = (domain(a) for a in atoms if not QUANTITIES.keys().isdisjoint((str(a), str(a.func))))
     return tuple(known for known in found if known is not None)
 
 
-def domain(atom: sp.Expr) -> Hypothesis | None:
+def domain(atom: sp.Expr) -> Relational | None:
     """Return the domain of a quantity, where it is not all reals."""
     for holds, relation in ((atom.is_positive, sp.Gt), (atom.is_nonnegative, sp.Ge)):
         if holds:
-            written = relation(atom, 0, evaluate=False)
-            return Hypothesis(f"{atom} {written.rel_op} 0", written, kind=Kind.DOMAIN)
+            return relation(atom, 0, evaluate=False)
     return None
 
 
@@ -248,7 +247,7 @@ def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
 
 def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
     """Return what hypotheses say while there is contact, at the start, and of rates."""
-    now = [h.relation for h in hypotheses if h.relation is not sp.true]
+    now = [h.relation for h in hypotheses]
     pressed = [sp.Gt(_PRESSURE, 0)] if any(relation.has(_PRESSURE) for relation in now) else []
     return frozenset((*pressed, *now, *(said for relation in now for said in _implied(relation))))
 

@@ -24,7 +24,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from .claims import Drift, FirstZero, Oscillation, Term, landau_o
+from .claims import Averaged, Continuous, Drift, FirstZero, Oscillation, Term, landau_o
 from .laws import GENERAL
 from .note.model import FIELDS
 from .symbols import CLOCKS, DATA, QUANTITIES, symbol, t
@@ -36,7 +36,7 @@ _HEADS = frozenset(
         *(sp.Limit, sp.Integral, sp.Derivative, sp.Subs, sp.Lambda, sp.Tuple),
         *(sp.Eq, sp.Ne, sp.Gt, sp.Ge, sp.Lt, sp.Le, sp.And, sp.Equivalent),
         *map(type, (sp.true, sp.false, sp.pi, sp.E, sp.S.Half, sp.S(0), sp.S(1), sp.S(-1))),
-        *(sp.Integer, sp.Rational, FirstZero, Drift, Oscillation),
+        *(sp.Integer, sp.Rational, FirstZero, Drift, Oscillation, Continuous, Averaged),
     )
 )
 _MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS

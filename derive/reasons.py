@@ -18,8 +18,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-import sympy as sp
-
+from .claims import Predicate
 from .equations import Equation
 from .falsifier.judgements import without
 from .hypotheses import Hypothesis
@@ -63,7 +62,7 @@ def _places(equation: Equation) -> dict[tuple[str, str, str], tuple[Judgement, H
         (equation.id, condition.typed, _key(statement)): (statement, condition)
         for statement in equation.statements
         for condition in statement.conditions
-        if condition.relation is not sp.true
+        if not isinstance(condition.relation, Predicate)
     }
 
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .equations import Equation
+from .hypotheses import RIGID
 from .rules.algebra import substitute
 from .rules.assumption import assume
-from .rules.calculus import RIGID
 from .variant import Variant
 
 

@@ -17,7 +17,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.printing.str import StrPrinter
 
-from ..claims import landau_o
+from ..claims import Continuous, landau_o
 from ..symbols import QUANTITIES, symbol, t
 
 tau = symbol("tau")
@@ -158,14 +158,16 @@ def proposition(relation: sp.Basic) -> str:
 
     A quantity that is given as a limit is one: the equation says that the limit exists.
     """
-    if relation is sp.true:
-        return "True"
+    if isinstance(relation, Continuous):
+        return f"continuous {field(relation.args[0])} t"
     if isinstance(relation, sp.And):
         return " /\\ ".join(f"({proposition(part)})" for part in relation.args)
     if isinstance(relation, sp.Equivalent):
         return " <-> ".join(f"({proposition(part)})" for part in relation.args)
     if isinstance(relation, sp.Equality):
         return _equation(*relation.args)
+    if relation.func not in _RELATIONS:
+        raise UntranslatableError(f"only words say that {relation}")
     return _RELATIONS[relation.func].format(*map(term, relation.args))
 
 

@@ -3,8 +3,7 @@
 Overview
     The quantities of the vocabulary are the fields of one record, ``world``; a lemma speaks of
     any world.  Its premises are the hypotheses of the judgement and the domains of the symbols
-    that occur; a premise about fields holds for every t >= 0.  Hypotheses that only words say
-    are those of a short table.
+    that occur; a premise about fields holds for every t >= 0.
 Key results
     Statement     premises and conclusion of one lemma
     statement     of a judgement
@@ -33,9 +32,6 @@ _LAW = (
     ("law_differentiable", "forall r, ex_derive phi r"),
 )
 """What is assumed of an unspecified contact law."""
-
-_WORDS = {"continuous": "forall t, 0 <= t -> continuous U_a t"}
-"""Hypotheses that have no relation, by a word of their text."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +67,7 @@ def statement(judgement: Judgement) -> Statement:
     premises = [_premise(h) for h in judgement.hypotheses]
     relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
     free = frozenset().union(*(relation.free_symbols for relation in relations))
-    domains = [h.relation for h in judgement.domains if _of_quantity(h.relation.args[0])]
+    domains = [relation for relation in judgement.domains if _of_quantity(relation.args[0])]
     premises += [_domain(r) for r in domains if r.args[0].args or r.args[0] in free]
     premises += _assumed(judgement)
     premises += _smooth(judgement)
@@ -115,14 +111,8 @@ def claim(judgement: Judgement) -> sp.Basic:
 
 @cache
 def _premise(hypothesis: Hypothesis) -> Premise:
-    if hypothesis.relation is not sp.true:
-        return Premise(
-            _label(hypothesis.text), printer.always(hypothesis.relation), hypothesis.relation
-        )
-    for word, said in _WORDS.items():
-        if word in hypothesis.text:
-            return Premise(_label(hypothesis.text), said)
-    raise printer.UntranslatableError(f"only words say that {hypothesis.text}")
+    relation = hypothesis.relation
+    return Premise(_label(hypothesis.text), printer.always(relation), relation)
 
 
 @cache

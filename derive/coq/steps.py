@@ -20,7 +20,9 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.relational import _Inequality as Inequality
+from sympy.logic.boolalg import BooleanTrue
 
+from ..claims import Predicate
 from ..kernel import Judgement
 from .printer import UntranslatableError
 from .statements import Premise, Statement, claim, key, statement
@@ -156,7 +158,7 @@ class Step:
         return [
             Step(p.label, self.judgement, Statement((p,), p.said), (), p.relation)
             for p in self.statement.premises
-            if p.relation is not sp.true
+            if not isinstance(p.relation, (BooleanTrue, Predicate))
         ]
 
     @cached_property

@@ -11,7 +11,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..claims import Asymptotic, Claim
+from ..claims import Asymptotic, Claim, Predicate, Property
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..symbols import symbol, t
@@ -34,7 +34,8 @@ def _answer(relations: tuple[sp.Basic, ...], claim: sp.Basic) -> Answer:
 def _relations(judgement: Judgement) -> tuple[sp.Basic, ...]:
     """Return the hypotheses; for a relation towards an end of a field, that it tends there."""
     claim = judgement.claim
-    found = tuple(h.relation for h in judgement.hypotheses if h.relation is not sp.true)
+    given = (hypothesis.relation for hypothesis in judgement.hypotheses)
+    found = tuple(relation for relation in given if not isinstance(relation, Predicate))
     if not isinstance(claim, Asymptotic) or isinstance(claim.variable, sp.Symbol):
         return found
     return *found, sp.Eq(sp.Limit(claim.variable, t, sp.oo), claim.point, evaluate=False)
@@ -43,7 +44,7 @@ def _relations(judgement: Judgement) -> tuple[sp.Basic, ...]:
 def _claimed(claim: Claim) -> sp.Basic:
     """Return a claim as a relation that models decide: an asymptotic one as a limit in time."""
     if not isinstance(claim, Asymptotic):
-        return claim.relation
+        return sp.true if isinstance(claim, Property) else claim.relation
     rest = (claim.lhs - claim.rhs) / claim.order
     variable, point = claim.variable, claim.point
     if variable != t and point == sp.oo:

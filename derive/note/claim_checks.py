@@ -17,7 +17,8 @@ import sympy as sp
 
 from .. import catalogue
 from ..equations import Status
-from ..hypotheses import Kind
+from ..hypotheses import ROUGH_BEARING
+from ..kernel import domain
 from ..laws import TANH, r
 from ..reals import sign
 from ..results import validity
@@ -27,7 +28,7 @@ from ..typeset.present import presentable
 from ..verification import verify
 from ..zero import is_zero
 from .claims import Finding, Verdict
-from .governing import ROUGH_BEARING, Model
+from .governing import Model
 from .problems import problem_ii, undetermined
 from .stabilised import asymptote, constant_bracket, wear_per_cycle
 
@@ -42,9 +43,10 @@ def _holds(*ids: str) -> tuple[bool, str, bool]:
     verdicts = verify(ids)
     good = all(v.passed and v.status in (Status.DERIVED, Status.DEFINITION) for v in verdicts)
     count = sum(len(v.checks) for v in verdicts)
-    found = [c for i in ids for c in catalogue.equation(i).conditions if c != ROUGH_BEARING]
-    settings = dict.fromkeys(c.text for c in found if c.kind is Kind.SETTING)
-    conditions = dict.fromkeys(c.typed for c in found if c.kind is not Kind.SETTING)
+    known = {ROUGH_BEARING.relation, domain(u_cum)}
+    found = [c for i in ids for c in catalogue.equation(i).conditions if c.relation not in known]
+    settings = dict.fromkeys(c.text for c in found if c.is_setting)
+    conditions = dict.fromkeys(c.typed for c in found if not c.is_setting)
     shown = ", ".join(f"({i}) {v.status}" for i, v in zip(ids, verdicts, strict=True))
     setting = f"; setting: {', '.join(settings)}" if settings else ""
     needed = f"; needs {', '.join(conditions)}" if conditions else ""

@@ -24,7 +24,7 @@ from functools import cached_property
 import sympy as sp
 
 from ..equations import Proved
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import ROUGH_BEARING, SMOOTH_PIN, UNCOUPLED, UNWORN_PIN, Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..rules.algebra import Insert, Solve, restrict, substitute
@@ -37,20 +37,13 @@ h, U_c, u_a = symbols("h U_c u_a")
 sigma, sigma_a, sigma_c, p, p_max, R_a, b, L = symbols("sigma sigma_a sigma_c p p_max R_a b L")
 f_a, f_c, f_aa, f_ac, f_cc, f_ca = symbols("f_a f_c f_aa f_ac f_cc f_ca")
 
-ROUGH_BEARING = Hypothesis("the bearing is rough", sp.Gt(sigma_c, 0), kind=Kind.STATE)
-SMOOTH_PIN = Hypothesis("smooth pin", sp.Eq(sigma_a, 0), r"\text{smooth pin}", Kind.SETTING)
-UNWORN_PIN = Hypothesis("unworn pin", sp.Eq(u_a, 0), r"\text{unworn pin}", Kind.SETTING)
-UNCOUPLED = tuple(
-    Hypothesis("no cross coupling of roughness", sp.Eq(name, 0), kind=Kind.SETTING)
-    for name in (f_ac, f_ca)
-)
 OWN = (defined(f_aa, f_a), defined(f_cc, f_c))
 """f_a and f_c: how the roughness of a solid changes with its own wear."""
 
 
-def equation(relation: sp.Basic, text: str, remark: str = "", name: str = "") -> Judgement:
+def equation(relation: sp.Basic, name: str = "", remark: str = "") -> Judgement:
     """Return one of the hypotheses of section 2."""
-    return assume(Hypothesis(text, relation, kind=Kind.MODEL), name, remark)
+    return assume(Hypothesis(relation, Kind.MODEL), name, remark)
 
 
 class Pin(StrEnum):
@@ -84,12 +77,12 @@ class Model:
     def closure(self) -> Judgement:
         """Eq. (1), or its physical sign, with which wear of either solid opens the gap."""
         remark = "wear of either solid opens the gap" if self.opening else "sign of u_a as printed"
-        return equation(model.CLOSURE[self.opening], "kinematics, Eq. (1)", remark, "closure")
+        return equation(model.CLOSURE[self.opening], "closure", remark)
 
     @cached_property
     def reaction(self) -> Judgement:
         """Eq. (2), equilibrium of the pin."""
-        return equation(model.REACTION, "equilibrium of the pin, Eq. (2)")
+        return equation(model.REACTION)
 
     @cached_property
     def reaction_force(self) -> Judgement:
@@ -104,27 +97,24 @@ class Model:
     @cached_property
     def roughness(self) -> Judgement:
         """Eq. (3), equivalent roughness."""
-        return equation(model.ROUGHNESS, "equivalent roughness, Eq. (3)")
+        return equation(model.ROUGHNESS)
 
     @cached_property
     def pressure(self) -> Judgement:
         """Eq. (4) at every closure, as the note uses it from (7e) on."""
-        claim = sp.Eq(p, p_max * self.law.ratio(h / sigma))
         remark = "the cutoff in the text under (4) is not applied from here on"
-        text, source = "no loss of contact", f"the law at every closure: {self.law.source}"
-        typeset = r"\text{no loss of contact}"
-        return assume(Hypothesis(text, claim, typeset, Kind.SETTING), source, remark)
+        source = f"the law at every closure: {self.law.source}"
+        return assume(Hypothesis(model.at_every_closure(self.law)), source, remark)
 
     @cached_property
     def pressure_with_cutoff(self) -> Judgement:
         """Eq. (4) with the text under it: no contact for h > 3 sigma."""
-        return equation(model.contact(self.law), f"contact law with its cutoff, {self.law.source}")
+        return equation(model.contact(self.law))
 
     @property
     def in_contact(self) -> Hypothesis:
         """Contact is active, in the sense of the text under (4)."""
-        active = sp.Le(h, self.law.cutoff * sigma)
-        return Hypothesis("contact is active", active, kind=Kind.STATE)
+        return Hypothesis(sp.Le(h, self.law.cutoff * sigma))
 
     @cached_property
     def pressure_in_contact(self) -> Judgement:
@@ -134,10 +124,7 @@ class Model:
     @cached_property
     def archard(self) -> tuple[Judgement, Judgement, Judgement, Judgement]:
         """Eq. (5): wear of both solids by Archard's law, and what it does to the roughness."""
-        archard = "Archard's law, Eq. (5)"
-        texture = "roughness changes with wear, Eq. (5)"
-        sources = (archard, texture, archard, texture)
-        u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = map(equation, model.ARCHARD, sources)
+        u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = map(equation, model.ARCHARD)
         return u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate
 
     @cached_property
@@ -155,8 +142,7 @@ class Model:
     @cached_property
     def start(self) -> tuple[Judgement, ...]:
         """Eq. (6): initial values of h, u_c, u_a, sigma_a, sigma_c."""
-        said = (Hypothesis("initial condition, Eq. (6)", r, kind=Kind.INITIAL) for r in model.START)
-        return tuple(map(assume, said))
+        return tuple(assume(Hypothesis(relation, Kind.INITIAL)) for relation in model.START)
 
     @cached_property
     def wear_of_pin(self) -> Judgement:
@@ -193,9 +179,7 @@ class Model:
     @cached_property
     def slip(self) -> Judgement:
         """The slip rate, from the radius of the pin and its speed in revolutions per minute."""
-        sources = "slip rate of the pin, section 2.4", "revolutions per minute"
-        slip, speed = map(equation, model.SLIP, sources)
-        return substitute(slip, speed)
+        return substitute(*map(equation, model.SLIP))
 
 
 def results(model: Model) -> dict[str, Proved]:

@@ -8,10 +8,11 @@ Key results
     REACTION, SUPPORT   (2)
     ROUGHNESS           (3)
     contact             (4) and the text under it, for a contact law
+    at_every_closure    (4) without that text
     ARCHARD             (5)
     START               (6)
     SLIP                section 2.4
-    belongs             whether a relation is one of them
+    WORDS               what (1) to (5) and those of section 2.4 are called
     law_of              the law in (4)
     subject             the quantity that one of them gives
     FIELDS              the functions of time in (1) to (5)
@@ -23,8 +24,7 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from ..hypotheses import Kind
-from ..laws import ContactLaw, r
+from ..laws import GENERAL, TANH, ContactLaw, r
 from ..symbols import initial, rate, symbols
 
 h, h_0, U_a, U_c, u_a, u_c = symbols("h h_0 U_a U_c u_a u_c")
@@ -66,16 +66,25 @@ def contact(law: ContactLaw) -> sp.Equality:
     return sp.Eq(p, sp.Piecewise((pressure, h <= law.cutoff * sigma), (0, True)))
 
 
-def belongs(kind: Kind, relation: sp.Basic) -> bool:
-    """Return whether a relation is what a hypothesis of this kind may say.
+def at_every_closure(law: ContactLaw) -> sp.Equality:
+    """Return (4) as the note uses it from (7e) on."""
+    return sp.Eq(p, p_max * law.ratio(h / sigma))
 
-    >>> belongs(Kind.MODEL, SUPPORT), belongs(Kind.MODEL, sp.Eq(n, 5)), belongs(Kind.STATE, SUPPORT)
-    (True, False, True)
-    """
-    if kind is Kind.INITIAL:
-        return relation in START
-    of_the_model = (*CLOSURE.values(), REACTION, SUPPORT, ROUGHNESS, *ARCHARD, *SLIP)
-    return kind is not Kind.MODEL or relation in of_the_model or law_of(relation) is not None
+
+WORDS = MappingProxyType(
+    {
+        **dict.fromkeys(CLOSURE.values(), "kinematics, Eq. (1)"),
+        REACTION: "equilibrium of the pin, Eq. (2)",
+        SUPPORT: "equilibrium of the bearing, Eq. (2)",
+        ROUGHNESS: "equivalent roughness, Eq. (3)",
+        **{contact(law): "contact law with its cutoff, Eq. (4)" for law in (TANH, GENERAL)},
+        **dict.fromkeys(ARCHARD[::2], "Archard's law, Eq. (5)"),
+        **dict.fromkeys(ARCHARD[1::2], "roughness changes with wear, Eq. (5)"),
+        SLIP[0]: "slip rate of the pin, section 2.4",
+        SLIP[1]: "revolutions per minute",
+    }
+)
+"""What the equations but (6) are called."""
 
 
 def subject(relation: sp.Equality) -> object:

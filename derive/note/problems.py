@@ -17,9 +17,9 @@ from collections.abc import Iterable
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import UNSATURATED, Hypothesis
 from ..kernel import Judgement
-from ..results.first_integral import UNSATURATED, log_odds
+from ..results.first_integral import log_odds
 from ..rules.algebra import Solve, discharge
 from ..rules.assumption import assume
 from ..symbols import symbols, t
@@ -27,10 +27,8 @@ from .condensed import two_solids
 
 h, p, p_max, R_a, U_a, b, L = symbols("h p p_max R_a U_a b L")
 
-CARRIED = Hypothesis(
-    "the contact can carry the load", sp.And(R_a > 0, R_a < p_max * b * L), kind=Kind.STATE
-)
-
+CARRIED = Hypothesis(sp.And(R_a > 0, R_a < p_max * b * L))
+"""The contact can carry the load."""
 
 _model = two_solids()
 _roughness = (_model.roughness_of_pin, _model.roughness_of_bearing, _model.roughness)

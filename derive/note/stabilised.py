@@ -23,9 +23,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from ..equations import Proved
-from ..hypotheses import Hypothesis, Kind
-from ..kernel import Judgement
-from ..loads import PERIODIC
+from ..hypotheses import PERIODIC
 from ..results.steady_state import (
     closure,
     drift,
@@ -35,7 +33,7 @@ from ..results.steady_state import (
     steady_state,
 )
 from ..rules.algebra import Identity, Insert, substitute
-from ..rules.assumption import assume, defined
+from ..rules.assumption import assume, define, defined
 from ..rules.drift import first_order
 from ..rules.growth import AtInfinity, Diverges
 from ..rules.limits import Passes, forever, later, one_period_later
@@ -46,10 +44,6 @@ sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
 u_cum, p_inf, G, G_inf, u_inf = symbols("u_cum p_inf G G_inf u_inf")
 
 
-def _defined(text: str, relation: sp.Basic) -> Judgement:
-    return assume(Hypothesis(text, relation, kind=Kind.DEFINITION))
-
-
 argument = (4 * roughness - 2 * closure) / roughness
 bracket = (4 * f_c - 2) * roughness - f_c * (4 * roughness - 2 * closure)
 
@@ -57,17 +51,17 @@ bracket = (4 * f_c - 2) * roughness - f_c * (4 * roughness - 2 * closure)
 steady = steady_state()
 """The limit of h/sigma and what it rests on, for the law of the note."""
 
-asymptotic_response = _defined("an asymptotic response", sp.Eq(forever(G - G_inf.subs(t, 0)), 0))
+asymptotic_response = define(sp.Eq(forever(G - G_inf.subs(t, 0)), 0))
 """(11), made to say something: the field itself has a limit."""
 
 every_field = Passes(sp.Eq(forever(G - G_inf), 0))(
-    _defined("a choice of G_inf", sp.Eq(G_inf, G)), name="every field satisfies (11)"
+    define(sp.Eq(G_inf, G)), name="every field satisfies (11)"
 )
 """(11) as printed holds for every field, with G_inf = G."""
 
 stabilised_response = (
-    _defined("a stabilised response", sp.Eq(rate("G_inf") - later(rate("G_inf")), 0)),
-    _defined("a stabilised response", sp.Eq(forever(rate("G") - rate("G_inf")), 0)),
+    define(sp.Eq(rate("G_inf") - later(rate("G_inf")), 0)),
+    define(sp.Eq(forever(rate("G") - rate("G_inf")), 0)),
 )
 """(12), for rates as its text says."""
 
@@ -135,9 +129,7 @@ asymptote = drift(linear_approach)
 increment = defined(
     u_cum,
     later(u_inf) - u_inf,
-    "",
-    _defined("a stabilised response", sp.Eq(later(rate("u_inf")), rate("u_inf"))),
-    assume(Hypothesis("wear goes on", sp.Gt(later(u_inf) - u_inf, 0), kind=Kind.SETTING)),
+    define(sp.Eq(later(rate("u_inf")), rate("u_inf"))),
 )
 """(20): the wear of one cycle of the asymptotic response."""
 

@@ -15,12 +15,12 @@ from functools import cache
 
 import sympy as sp
 
+from ..hypotheses import RIGID
 from ..kernel import Judgement
 from ..note.condensed import condensed
 from ..note.governing import Pin
 from ..rules.algebra import Solve, substitute
 from ..rules.assumption import assume, defined
-from ..rules.calculus import RIGID
 from ..symbols import QUANTITIES, symbols
 from ..variant import Variant
 from . import symbols as named

@@ -23,7 +23,7 @@ from ..note.condensed import bearing_only
 from ..rules.algebra import substitute
 from ..symbols import symbol, symbols
 from .cutoff import arrest_depth, permanent_contact
-from .cutoff_two_solids import LOST, arrest_depth_two_solids
+from .cutoff_two_solids import arrest_depth_two_solids
 from .cutoff_two_solids import discriminant as whole
 from .regime_map import OUTGROWN, THIRD
 from .regimes import logarithmic_wear
@@ -147,9 +147,15 @@ def _cutoff() -> tuple[Formula, ...]:
     relation = sp.And(discriminant >= 0, discriminant > half * sp.Abs(half))
     return (
         Formula("arrest_depth", (), arrest_depth.claim.rhs, "wear at arrest, one worn solid"),
-        Formula("gap_outgrows_roughness", (), OUTGROWN.relation, OUTGROWN.text),
-        Formula("gap_and_cutoff_grow_alike", (), THIRD.relation, THIRD.text),
-        Formula("margin_is_lost", (), relation, LOST.text, (*parts, (discriminant, inside))),
+        Formula("gap_outgrows_roughness", (), OUTGROWN.relation, "the gap outgrows the roughness"),
+        Formula("gap_and_cutoff_grow_alike", (), THIRD.relation, "gap and cutoff grow alike"),
+        Formula(
+            "margin_is_lost",
+            (),
+            relation,
+            "the margin has a zero",
+            (*parts, (discriminant, inside)),
+        ),
         Formula(
             "arrest_depth_two_solids",
             (),

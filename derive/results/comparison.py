@@ -15,14 +15,13 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equations import stated
-from ..hypotheses import Hypothesis
+from ..hypotheses import UNSATURATED, Hypothesis
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic
-from .first_integral import UNSATURATED
 
 _a, _cosine = sp.symbols("a c", real=True)
 
-SAME_SIDE = Hypothesis("b is less than a quarter turn", sp.Gt(_cosine, 0))
+SAME_SIDE = Hypothesis(sp.Gt(_cosine, 0))
 
 STRIP = sp.pi / 8
 """Largest |Im h/sigma| at which |phi| <= 1: there |Im(4 h/sigma)| is a quarter turn."""

@@ -18,6 +18,7 @@ from typing import ClassVar
 
 import sympy as sp
 
+from ..hypotheses import UNSATURATED
 from ..kernel import Judgement, RuleError
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..rules.algebra import Insert, substitute
@@ -27,7 +28,6 @@ from ..rules.growth import AtInfinity, Diverges
 from ..rules.inequalities import Arithmetic
 from ..rules.limits import Passes, forever
 from ..symbols import rate, symbols
-from .first_integral import UNSATURATED
 from .steady_state import SteadyState, drift, named_limit, roughness
 
 h_0, U_a, U_c, u_c, p, U, sigma_c0, f_c = symbols("h_0 U_a U_c u_c p U sigma_c0 f_c")
@@ -105,7 +105,7 @@ def drift_coefficient(law: ContactLaw) -> Judgement:
     steady = CompliantSteadyState(law)
     decline = -sp.diff(law.phi, r).subs(r, 1 / f_c) / law.ratio(1 / f_c)
     claim = sp.Eq(A, decline * (sigma_c0 / f_c - h_0 + U_mean - p_inf / k) / f_c)
-    definition = defined(A, steady.drift.claim.term, "", steady.drift)
+    definition = defined(A, steady.drift.claim.term, steady.drift)
     return Insert(claim)(definition, steady.drift, name="drift")
 
 

@@ -31,20 +31,24 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equations import stated
-from ..hypotheses import Hypothesis, Kind
-from ..kernel import Judgement
+from ..hypotheses import (
+    BOUNDED_LOAD,
+    DIFFERENTIABLE,
+    PERIODIC,
+    RIGID,
+    ROUGH_BEARING,
+    Hypothesis,
+)
 from ..laws import TANH
-from ..loads import CONTINUOUS, DIFFERENTIABLE, PERIODIC
 from ..note.condensed import bearing_only
-from ..note.governing import ROUGH_BEARING
 from ..rules.algebra import Alike, Consequence, Identity, Insert, Solve, discharge, substitute
-from ..rules.assumption import assume, defined
-from ..rules.calculus import RIGID, differentiate
+from ..rules.assumption import assume, define, defined
+from ..rules.calculus import differentiate
 from ..rules.growth import intermittent
 from ..rules.inequalities import Arithmetic, Monotone
 from ..symbols import rate, symbols, t
 from .regime_map import OUTGROWN, ROUGHER, THIRD
-from .steady_state import BOUNDED_LOAD, closure, named_limit, roughness, wear_rate, worn
+from .steady_state import closure, named_limit, roughness, wear_rate, worn
 
 h_0, U_a, u_c, u_stop, U_max, U_min = symbols("h_0 U_a u_c u_stop U_max U_min")
 sigma_c0, f_c, u_perm, u_cum, d, T = symbols("sigma_c0 f_c u_perm u_cum d T")
@@ -56,10 +60,6 @@ room = 3 * roughness - closure
 outgrown, rougher, third = map(assume, (OUTGROWN, ROUGHER, THIRD))
 
 
-def _defined(text: str, relation: sp.Basic) -> Judgement:
-    return assume(Hypothesis(text, relation, kind=Kind.DEFINITION))
-
-
 contact_condition = Alike(*stated("contact-condition"))(name="contact condition")
 """Contact as a condition on the wear."""
 
@@ -69,9 +69,7 @@ margin = Identity(*stated("margin"))(name="margin and wear")
 margin_rate = Identity(*stated("margin-rate"))(assume(DIFFERENTIABLE), name="rate of the margin")
 """How the margin changes: wear lowers it, a rising load raises it."""
 
-_at_peak = _defined(
-    "no margin at the peak of the load", sp.Eq(room.subs({u_c: u_stop, U_a: U_max}), 0)
-)
+_at_peak = define(sp.Eq(room.subs({u_c: u_stop, U_a: U_max}), 0))
 arrest_depth = Insert(sp.Eq(u_stop, (3 * sigma_c0 - h_0 + U_max) / (1 - 3 * f_c)))(
     Solve(u_stop)(_at_peak, outgrown), outgrown, name="arrest depth"
 )
@@ -80,9 +78,7 @@ arrest_depth = Insert(sp.Eq(u_stop, (3 * sigma_c0 - h_0 + U_max) / (1 - 3 * f_c)
 no_contact = Insert(*stated("no-contact"))(arrest_depth, name="margin and arrest depth")
 """Beyond the arrest depth the margin is negative at every load."""
 
-_at_lowest = _defined(
-    "no margin at the lowest load", sp.Eq(room.subs({u_c: u_perm, U_a: U_min}), 0)
-)
+_at_lowest = define(sp.Eq(room.subs({u_c: u_perm, U_a: U_min}), 0))
 permanent_contact = Insert(sp.Eq(u_perm, (h_0 - 3 * sigma_c0 - U_min) / (3 * f_c - 1)))(
     Solve(u_perm)(_at_lowest, rougher), rougher, name="permanent contact"
 )
@@ -109,7 +105,7 @@ rate_in_contact = Consequence(sp.Le(_bound.claim.lesser, rate("u_c")))(
 )
 """The rate in contact is at least that at the edge of contact."""
 
-_kept = assume(Hypothesis("h = 3 sigma is kept", sp.Eq(room, 0), kind=Kind.STATE))
+_kept = assume(Hypothesis(sp.Eq(room, 0)))
 sliding_rate = Insert(*stated("sliding-rate"))(
     Solve(rate("u_c"))(differentiate(_kept, assume(DIFFERENTIABLE)), outgrown),
     outgrown,
@@ -119,11 +115,10 @@ sliding_rate = Insert(*stated("sliding-rate"))(
 
 _inside = sp.Piecewise((1, sp.Ge(3 * sigma_c0 - h_0 + U_a, 0)), (0, True))
 _part = sp.Integral(_inside, (t, 0, T)) / T
-_touches = Hypothesis("the load makes contact for some time", sp.Gt(_part, 0), kind=Kind.STATE)
 _law = substitute(model.wear_laws[2], substitute(model.pressure_with_cutoff, *geometry), third)
 _limit = intermittent(
     discharge(_law, ROUGH_BEARING, model.roughness_of_bearing, worn(model), third),
-    defined(d, _part, "fraction of the period in contact", *map(assume, (CONTINUOUS, _touches))),
+    defined(d, _part),
     worn(model),
     *map(assume, (PERIODIC, BOUNDED_LOAD)),
 )

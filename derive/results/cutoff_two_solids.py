@@ -34,15 +34,14 @@ room = 3 * sigma_stop - (h_0 + g * u_stop - U_max)
 _gap = h_0 - U_max
 _half = 9 * p_1 - g * _gap
 _product = 9 * (sigma_a0**2 + sigma_c0**2) - _gap**2
-discriminant = _half**2 + (g**2 - 9 * q**2) * _product
+discriminant = _half**2 - (9 * q**2 - g**2) * _product
 
-LOST = Hypothesis(
-    "the margin has a zero",
-    sp.And(sp.Ge(discriminant, 0), sp.Gt(discriminant, _half * sp.Abs(_half))),
-)
-STARTS = Hypothesis("the peak of the load makes contact at the start", sp.Gt(_product, 0))
-POSSIBLE = Hypothesis("the roughnesses are real", p_1**2 < q**2 * (sigma_a0**2 + sigma_c0**2))
-OPENING = Hypothesis("wear opens the gap", sp.And(g > 0, _gap > 0))
+LOST = Hypothesis(sp.Gt(sp.sqrt(discriminant), _half))
+"""The margin has a zero."""
+STARTS = Hypothesis(sp.Gt(_product, 0))
+"""The peak of the load makes contact at the start."""
+POSSIBLE = Hypothesis(p_1**2 < q**2 * (sigma_a0**2 + sigma_c0**2))
+OPENING = Hypothesis(sp.And(g > 0, _gap > 0))
 
 margin_curvature = Identity(
     sp.Eq(
@@ -57,7 +56,7 @@ _lost = FirstZero(room.subs(u_stop, _wear), _wear)
 _smoother = 6 * sigma_stop.subs(u_stop, _wear) - _lost.args[0]
 _root = FirstRoot(_lost, _smoother)(*map(assume, (STARTS, LOST, POSSIBLE, OPENING)))
 arrest_depth_two_solids = substitute(
-    defined(u_stop, _lost, "first wear without margin at the peak", _root),
+    defined(u_stop, _lost, _root),
     _root,
     name="arrest depth",
 )

@@ -19,12 +19,11 @@ import sympy as sp
 
 from ..dimensions import dimension
 from ..equations import stated
-from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..note import condensed
 from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Multiply
-from ..rules.assumption import assume, defined
+from ..rules.assumption import define, defined
 from ..rules.calculus import change_clock
 from ..rules.inequalities import Arithmetic
 from ..symbols import symbols, t
@@ -41,14 +40,10 @@ eta = sp.Symbol("eta", nonnegative=True)
 """The groups: M, h_0, U and sigma_a0 over sigma_c0, and p_max/(k sigma_c0)."""
 
 SCALES = tuple(
-    assume(
-        Hypothesis(
-            f"{name.func} in units of {unit}", sp.Eq(name, unit * value), kind=Kind.DEFINITION
-        )
-    )
-    for name, unit, value in ((u_c, sigma_c0, v), (U_a, U, a), (p, p_max, q))
+    define(sp.Eq(field, unit * value))
+    for field, unit, value in ((u_c, sigma_c0, v), (U_a, U, a), (p, p_max, q))
 )
-CLOCK = defined(t, T * tau, "time in periods")
+CLOCK = defined(t, T * tau)
 
 GROUPS = (
     (mu, K_c * V * p_max * T / (3 * H_c * sigma_c0)),

@@ -21,8 +21,8 @@ import sympy as sp
 
 from ..claims import Drift, Oscillation, landau_o
 from ..equations import stated
-from ..kernel import Judgement, plain
-from ..loads import SINE
+from ..hypotheses import ROUGHENING, SINE
+from ..kernel import Judgement
 from ..note.stabilised import asymptote
 from ..rules.assumption import assume, defined
 from ..rules.averages import (
@@ -35,31 +35,23 @@ from ..rules.averages import (
     term_of,
 )
 from ..symbols import symbol, symbols
-from .regime_map import ROUGHENING
 from .steady_state import steady_state
 
 (f_c,) = symbols("f_c")
 rho, m = symbols("rho m")
 (u_cum,) = symbols("u_cum")
 
-MEANING = "sigma = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...)"
-
 _roughens = assume(ROUGHENING)
-offset = defined(OFFSET.lhs, OFFSET.rhs, "", _roughens)
-saturation = defined(SATURATION.lhs, SATURATION.rhs, "", _roughens)
-growth = defined(rho, f_c * u_cum, "", _roughens)
+offset = defined(OFFSET.lhs, OFFSET.rhs, _roughens)
+saturation = defined(SATURATION.lhs, SATURATION.rhs, _roughens)
+growth = defined(rho, f_c * u_cum, _roughens)
 
 
 def order(n: int) -> Judgement:
     """Return what the terms with 1/m^n say of c_n and w_n."""
     pressure = steady_state().pressure_at_wear
     names = (
-        defined(
-            name,
-            term_of(kind, k, pressure.claim.rhs),
-            f"{plain(name)} by definition, in {MEANING}",
-            _roughens,
-        )
+        defined(name, term_of(kind, k, pressure.claim.rhs), _roughens)
         for k in range(1, n + 1)
         for kind, name in ((Drift, symbol(f"c_{k}")), (Oscillation, symbol(f"w_{k}")))
     )

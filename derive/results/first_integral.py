@@ -18,24 +18,16 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equations import stated
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import RIGID, SLOPED, UNSATURATED
 from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
 from ..note.condensed import bearing_only
 from ..rules.algebra import Insert, Logarithm, Solve
 from ..rules.assumption import assume
-from ..rules.calculus import RIGID
 from ..symbols import symbols
 
 h, sigma = symbols("h sigma")
 p, p_max, f_c = symbols("p p_max f_c")
-
-SLOPED = Hypothesis("the roughness changes with wear", sp.Ne(f_c, 0))
-UNSATURATED = Hypothesis(
-    "the pressure is between 0 and its largest value",
-    sp.And(sp.Gt(p, 0), sp.Lt(p, p_max)),
-    kind=Kind.STATE,
-)
 
 
 def _line(law: ContactLaw) -> Judgement:

@@ -17,11 +17,10 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import ROUGH_BEARING, Hypothesis
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note.condensed import bearing_only
-from ..note.governing import ROUGH_BEARING
 from ..rules.assumption import assume
 from ..rules.data import OneSign
 from ..symbols import symbols
@@ -33,7 +32,8 @@ K_c, H_c, V, p_max = symbols("K_c H_c V p_max")
 roughness = sigma_c0 + f_c * u_c
 closure = h_0 + u_c - U_a
 
-APART = Hypothesis("the mean surfaces do not interpenetrate", sp.Gt(closure, 0), kind=Kind.STATE)
+APART = Hypothesis(sp.Gt(closure, 0))
+"""The mean surfaces do not interpenetrate."""
 
 INCREASING = (K_c, V, p_max, U_a, sigma_c0, f_c)
 DECREASING = (H_c, h_0)

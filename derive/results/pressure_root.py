@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ..hypotheses import UNSATURATED
 from ..kernel import infer
 from ..laws import GENERAL, TANH, r
 from ..note.condensed import two_solids
@@ -29,7 +30,6 @@ from ..rules.algebra import Identity, substitute
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic, Lipschitz
 from ..symbols import symbols
-from .first_integral import UNSATURATED
 
 p, p_max, k, sigma, U_a, u_a, u_c = symbols("p p_max k sigma U_a u_a u_c")
 (h_0,) = symbols("h_0")

@@ -17,24 +17,21 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from ..hypotheses import Hypothesis
-from ..symbols import symbols
+from ..hypotheses import KEPT, NOT_SMOOTHING, ROUGHENING, SMOOTHING, Hypothesis
+from ..symbols import symbol, symbols
 
 f_c, h_0, sigma_c0, U_max = symbols("f_c h_0 sigma_c0 U_max")
 
-ROUGHENING = Hypothesis("the bearing roughens as it wears", sp.Gt(f_c, 0))
-KEPT = Hypothesis("wear does not change the roughness", sp.Eq(f_c, 0))
-SMOOTHING = Hypothesis("the bearing smoothens as it wears", sp.Lt(f_c, 0))
-NOT_SMOOTHING = Hypothesis("wear does not smoothen the bearing", sp.Ge(f_c, 0))
-OUTGROWN = Hypothesis("the gap outgrows the roughness", sp.Lt(f_c, sp.Rational(1, 3)))
-THIRD = Hypothesis("gap and cutoff grow alike", sp.Eq(f_c, sp.Rational(1, 3)))
-ROUGHER = Hypothesis("the roughness outgrows the gap", sp.Gt(f_c, sp.Rational(1, 3)))
+OUTGROWN, THIRD, ROUGHER = (
+    Hypothesis(relation(f_c, sp.Rational(1, 3))) for relation in (sp.Lt, sp.Eq, sp.Gt)
+)
+"""The gap outgrows the roughness, both grow alike, or the roughness outgrows the gap."""
 _gap = h_0 - sigma_c0 / f_c - U_max
-OPEN = Hypothesis("a gap is left where the roughness would vanish", sp.Gt(_gap, 0))
-CLOSED = Hypothesis("no gap is left where the roughness would vanish", sp.Le(_gap, 0))
+OPEN, CLOSED = Hypothesis(sp.Gt(_gap, 0)), Hypothesis(sp.Le(_gap, 0))
+"""Whether a gap is left where the roughness would vanish."""
 _room = 3 * sigma_c0 - h_0 + U_max
-TOUCHING = Hypothesis("the peak of the load makes contact", sp.Gt(_room, 0))
-APART = Hypothesis("the load never makes contact", sp.Le(_room, 0))
+TOUCHING, APART = Hypothesis(sp.Gt(_room, 0)), Hypothesis(sp.Le(_room, 0))
+"""Whether the peak of the load makes contact at the start."""
 
 
 class Regime(NamedTuple):
@@ -67,9 +64,10 @@ def regime(values: Mapping[str, float], cutoff: bool) -> Regime:
     >>> regime(section_4, cutoff=False).name, regime(section_4, cutoff=True).name
     ('steady', 'arrest')
     """
+    data = {symbol(name): value for name, value in values.items()}
     (found,) = (
         row
         for row in REGIMES
-        if row.cutoff == cutoff and all(c.guard(values) for c in row.conditions)
+        if row.cutoff == cutoff and all(c.relation.subs(data) for c in row.conditions)
     )
     return found

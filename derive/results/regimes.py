@@ -19,11 +19,9 @@ import sympy as sp
 
 from ..claims import landau_o
 from ..equations import stated
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import CONSTANT, KEPT, ROUGH_BEARING, SINE, SMOOTHING, Hypothesis
 from ..laws import TANH
-from ..loads import CONSTANT, SINE
 from ..note.condensed import bearing_only
-from ..note.governing import ROUGH_BEARING
 from ..rules.algebra import Consequence, Solve, discharge, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import LeadingTerm, LogarithmicGrowth
@@ -32,18 +30,14 @@ from ..rules.inequalities import Arithmetic, Monotone
 from ..rules.limits import forever
 from ..rules.solutions import Integrated, Separate
 from ..symbols import rate, symbols, t
-from .regime_map import KEPT, SMOOTHING
 from .steady_state import closure, roughness, wear_rate
 
 h_0, U_a, u_c, U, N, M, h_star, T = symbols("h_0 U_a u_c U N M h_star T")
 sigma_c0, sigma_c, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 sigma_c f_c p_max K_c H_c V")
 (sigma_s,) = symbols("sigma_s")
 
-OVERLAP = Hypothesis(
-    "no gap is left where the roughness would vanish",
-    sp.Ge(U_a, h_0 - sigma_c0 / f_c),
-    kind=Kind.STATE,
-)
+OVERLAP = Hypothesis(sp.Ge(U_a, h_0 - sigma_c0 / f_c))
+"""No gap is left where the roughness would vanish."""
 
 law = bearing_only().rigid
 """Eq. (13), solved for the rate."""
@@ -87,7 +81,6 @@ _falling = Consequence(sp.Eq(rate("u_c"), M / T / (1 + odds.subs(sigma_s, sigma_
     defined(
         h_star,
         h_0 - sigma_c0 / f_c - U_a,
-        "gap where the roughness would vanish",
         assume(CONSTANT),
         smoothing,
     ),
@@ -97,7 +90,7 @@ _whole = sp.Integral(1 + odds, (sigma_s, sigma_c0, sigma_c))
 _time = Separate(sp.Eq(f_c * M * t / T, _whole))(
     _falling, Solve(u_c)(grown, smoothing), bearing_only().start[4], rough, smoothing
 )
-_cycles = Consequence(sp.Eq(f_c * M * N, _whole))(_time, defined(N, t / T, "number of cycles"))
+_cycles = Consequence(sp.Eq(f_c * M * N, _whole))(_time, defined(N, t / T))
 _by_parts = Integrated(sigma_s - sigma_s**2 / (4 * h_star) * odds, sigma_s / (2 * h_star) * odds)
 (_shown,) = stated("saturating-wear")
 saturating_wear = LeadingTerm(sp.Eq(_shown.lhs, _shown.rhs - landau_o(sp.S.One)))(

@@ -19,18 +19,16 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equations import stated
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import OPEN_GAP, RIGID, ROUGHENING
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..note.stabilised import pressure, wear_per_cycle
 from ..rules.algebra import Insert, Logarithm, substitute
 from ..rules.assumption import assume
-from ..rules.calculus import RIGID
 from ..rules.data import Differentiated
 from ..symbols import symbols
 from .compliant import CompliantSteadyState
 from .first_integral import log_odds
-from .regime_map import ROUGHENING
 from .regimes import largest_wear
 from .steady_state import named_limit
 
@@ -38,8 +36,6 @@ u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
 f_c, h, h_0, U = symbols("f_c h h_0 U")
 sigma_c0, M, k = symbols("sigma_c0 M k")
 
-
-OPEN_GAP = Hypothesis("the mean surfaces do not coincide", sp.Ne(h, 0), kind=Kind.STATE)
 
 share = p_inf / p_max
 """The asymptotic pressure as a part of the largest."""

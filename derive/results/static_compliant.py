@@ -15,16 +15,14 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equations import stated
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import CONSTANT, KEPT, SLOPED, UNSATURATED, Hypothesis
 from ..kernel import Judgement
-from ..loads import CONSTANT
 from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume
 from ..rules.solutions import Integrated, Separate, follows
 from ..symbols import initial, rate, symbols, t
-from .first_integral import SLOPED, UNSATURATED, first_integral_compliant, log_odds
-from .regime_map import KEPT
+from .first_integral import first_integral_compliant, log_odds
 from .static_solution import half_rate, load_offset
 
 h, u_c, sigma, sigma_c0, f_c = symbols("h u_c sigma sigma_c0 f_c")
@@ -37,9 +35,8 @@ def odds_of(pressure: sp.Expr) -> sp.Expr:
     return sp.log(pressure / (p_max - pressure))
 
 
-OFF_LIMIT = Hypothesis(
-    "the pressure is not that of steady wear", sp.Ne(odds_of(p) - 8 + 4 / f_c, 0), kind=Kind.STATE
-)
+OFF_LIMIT = Hypothesis(sp.Ne(odds_of(p) - 8 + 4 / f_c, 0))
+"""The pressure is not that of steady wear."""
 
 
 model = bearing_only()

@@ -20,27 +20,26 @@ from __future__ import annotations
 import sympy as sp
 
 from ..equations import stated
-from ..hypotheses import Hypothesis
-from ..loads import CONSTANT
+from ..hypotheses import CONSTANT, SLOPED, Hypothesis
 from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Insert, Multiply, Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.solutions import Integrated, Lambert, Separate
 from ..symbols import rate, symbols, t
-from .first_integral import SLOPED
 from .regimes import grown, kept, rough
 
 h_0, U_a, u_c, sigma_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c sigma_c0 f_c")
 p_max, K_c, H_c, V, C, beta, x_inf = symbols("p_max K_c H_c V C beta x_inf")
 ell, u_s, sigma, sigma_s = symbols("ell u_s sigma sigma_s")
 
-MOVING = Hypothesis("the load is not the one under which wear is steady", sp.Ne(beta, 0))
+MOVING = Hypothesis(sp.Ne(beta, 0))
+"""The load is not the one under which wear is steady."""
 
 sloped, moving, constant = map(assume, (SLOPED, MOVING, CONSTANT))
 half_rate = defined(C, K_c * V * p_max / (6 * H_c))
-load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a), "", constant, sloped)
-limit_argument = defined(x_inf, 4 - 2 / f_c, "", sloped)
-scale = defined(ell, sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8), "", constant)
+load_offset = defined(beta, 2 * (sigma_c0 / f_c - h_0 + U_a), constant, sloped)
+limit_argument = defined(x_inf, 4 - 2 / f_c, sloped)
+scale = defined(ell, sigma_c0 / 8 * sp.exp(4 * (h_0 - U_a) / sigma_c0 - 8), constant)
 
 
 odds = sp.exp(-2 * x_inf - 2 * beta / sigma_s)

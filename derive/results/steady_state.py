@@ -26,12 +26,11 @@ from typing import ClassVar
 
 import sympy as sp
 
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import BOUNDED_LOAD, PERIODIC, ROUGH_BEARING, ROUGHENING
 from ..kernel import Judgement, infer
 from ..laws import TANH, ContactLaw, r
-from ..loads import CONTINUOUS, PERIODIC
 from ..note.condensed import Condensed, bearing_only
-from ..note.governing import ROUGH_BEARING, Model
+from ..note.governing import Model
 from ..rules.algebra import Consequence, Identity, Insert, discharge
 from ..rules.assumption import assume, defined
 from ..rules.calculus import grows, rigid
@@ -40,12 +39,9 @@ from ..rules.growth import Diverges
 from ..rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
 from ..rules.limits import Passes, accumulates, forever, vanishes
 from ..symbols import rate, symbols
-from .regime_map import ROUGHENING
 
 h_0, U_a, u_c, p, U = symbols("h_0 U_a u_c p U")
 sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
-
-BOUNDED_LOAD = Hypothesis("the load is bounded by U", sp.Le(sp.Abs(U_a), U), kind=Kind.LOAD)
 
 roughness = sigma_c0 + f_c * u_c
 closure = h_0 + u_c - U_a
@@ -199,11 +195,11 @@ def steady_state(law: ContactLaw = TANH) -> SteadyState:
 
 def named_limit(symbol: sp.Expr, limit: Judgement, name: str) -> Judgement:
     """Return the value of a symbol that is defined as a limit."""
-    definition = defined(symbol, limit.claim.term, "", limit)
+    definition = defined(symbol, limit.claim.term, limit)
     return Insert(sp.Eq(symbol, limit.claim.value))(definition, limit, name=name)
 
 
 def drift(approach: Judgement) -> Judgement:
     """Return the logarithmic drift under a periodic load, from the approach of the rate."""
-    mean = defined(MEAN.lhs, MEAN.rhs, "mean of the load", assume(CONTINUOUS))
+    mean = defined(MEAN.lhs, MEAN.rhs)
     return logarithmic_drift(approach, assume(PERIODIC), mean, name="logarithmic drift")

@@ -24,7 +24,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..hypotheses import Hypothesis
+from ..hypotheses import BOUNDED_LOAD, Hypothesis
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note import condensed
@@ -35,7 +35,7 @@ from ..rules.growth import AtInfinity, unbounded
 from ..rules.inequalities import Arithmetic
 from ..rules.limits import Passes, forever
 from ..symbols import rate, symbols
-from .steady_state import BOUNDED_LOAD, drift
+from .steady_state import drift
 
 h_0, U_a, u_c, kappa, q, g, p_1 = symbols("h_0 U_a u_c kappa q g p_1")
 f_a, f_c, sigma_a0, sigma_c0 = symbols("f_a f_c sigma_a0 sigma_c0")
@@ -47,7 +47,7 @@ squared = sigma_a0**2 + sigma_c0**2 + 2 * p_1 * u_c + q**2 * u_c**2
 sigma = sp.sqrt(squared)
 closure_ratio = (h_0 + g * u_c - U_a) / sigma
 
-NEVER_SMOOTH = Hypothesis("the two roughnesses never vanish together", sp.Ne(apart, 0))
+NEVER_SMOOTH = Hypothesis(sp.Ne(apart, 0))
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class TwoSolids:
     def definitions(self) -> tuple[Judgement, Judgement, Judgement]:
         """q, g and p_1."""
         return (
-            defined(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2), "", assume(NEVER_SMOOTH)),
+            defined(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2), assume(NEVER_SMOOTH)),
             defined(g, 1 + kappa if self.opening else 1 - kappa),
             defined(p_1, f_a * kappa * sigma_a0 + f_c * sigma_c0),
         )

@@ -21,13 +21,11 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from ..hypotheses import Hypothesis
+from ..hypotheses import ROUGHENING, SLOPED, Hypothesis
 from ..rules.algebra import Identity, discharge, forget, substitute
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic, Monotone, Threshold
 from ..symbols import symbols
-from .first_integral import SLOPED
-from .regime_map import ROUGHENING
 
 f_c, epsilon = symbols("f_c epsilon")
 
@@ -40,8 +38,9 @@ RESOLUTIONS = MappingProxyType(
 )
 """Half of the 1 + tanh at which a correctly rounded tanh becomes -1."""
 
-RESOLVED = Hypothesis("epsilon is below the largest possible share", epsilon < 1 / (1 + sp.exp(-8)))
-TEN_DIGITS = Hypothesis("resolution of ten digits", sp.Eq(epsilon, 1 / (1 + sp.exp(24))))
+RESOLVED = Hypothesis(epsilon < 1 / (1 + sp.exp(-8)))
+"""epsilon is below the largest possible share."""
+TEN_DIGITS = Hypothesis(sp.Eq(epsilon, 1 / (1 + sp.exp(24))))
 
 
 sloped = assume(SLOPED)

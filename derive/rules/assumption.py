@@ -8,17 +8,17 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Equality, Limit, Property, Term, claim_of, landau_o
+from ..claims import Averaged, Equality, Limit, Property, Term, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
-from ..note.model import FIELDS, belongs, law_of
+from ..note.model import FIELDS, START, WORDS, law_of
 from ..reals import holds
 from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import require_expansion
 from .proving import facts_of, falls, integrable, smooth, told, undefined
-from .reading import at_an_instant, clocks, fields, fixed, functions
+from .reading import at_an_instant, clocks, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
@@ -45,21 +45,23 @@ class Assume(Rule):
         instant = bool(clocks(relation)) and not relation.atoms(AppliedUndef)
         named = kind is Kind.DEFINITION
         if (
-            relation == sp.false
-            or kind is Kind.DOMAIN
+            relation in (sp.true, sp.false)
             or relation.has(landau_o)
             or (not named and (instant or premises))
         ):
             raise RuleError(f"{said.text}: cannot be assumed")
-        if not belongs(kind, relation):
-            raise RuleError(f"{said.text}: no equation of the model")
         law = law_of(relation) if kind is Kind.MODEL else None
+        known = {Kind.MODEL: WORDS, Kind.INITIAL: START}.get(kind, (relation,))
+        if law is None and relation not in known:
+            raise RuleError(f"{said.text}: no equation of the model")
         if law is not None and not falls(law):
             raise RuleError(f"missing premise: {law} is positive and smooth and decreases")
-        claim = Property(said.text) if relation is sp.true else claim_of(relation)
-        if kind in _HIDDEN and not isinstance(claim, (Equality, Limit, Property)):
+        claim = claim_of(relation)
+        equation = isinstance(claim, (Equality, Limit)) or isinstance(relation, Averaged)
+        if kind in _HIDDEN and not equation:
             raise RuleError(f"{said.text}: no equation")
-        adds = _supposed(claim.relation, premises) if named and relation is not sp.true else ()
+        supposes = named and not isinstance(claim, Property)
+        adds = _supposed(claim.relation, premises) if supposes else ()
         return Conclusion(claim, adds=(said, *adds))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
@@ -86,14 +88,13 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     if relation.has(sp.Derivative):  # what has a rate is continuous, or that of no field
         goals += [goal for goal in integrable(whole, t) if goal not in facts]
     if implicit is None and sign is not None and not clocks(name):
-        above = sign.relation.func
+        above = sign.func
         if not holds(above(inserted(value, premises), 0), facts):
             goals.append(above(value, 0, evaluate=False))
     for goal in goals:
         if goal == sp.false or goal.has(sp.zoo, sp.Dummy):
             raise RuleError(f"missing premise: {told(goal)}")
-    kinds = (Kind.PARAMETER if fixed(goal) else Kind.STATE for goal in goals)
-    return tuple(Hypothesis(plain(g), g, kind=kind) for g, kind in zip(goals, kinds, strict=True))
+    return tuple(map(Hypothesis, goals))
 
 
 def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]) -> None:
@@ -151,9 +152,12 @@ def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgemen
     return infer(Assume(hypothesis), name=name, remark=remark)
 
 
-def defined(symbol: sp.Expr, value: sp.Expr, text: str = "", *steady: Judgement) -> Judgement:
-    """Return the definition of a name; further premises say that what varies here does not, and
-    that the value exists and has the sign of the name."""
-    relation = sp.Eq(symbol, value, evaluate=False)
-    text = text or f"{symbol} by definition"
-    return infer(Assume(Hypothesis(text, relation, kind=Kind.DEFINITION)), *steady)
+def define(relation: sp.Basic, *steady: Judgement) -> Judgement:
+    """Return the definition of what is new in a relation; further premises say that what varies
+    here does not, and that the value exists and has the sign of the name."""
+    return infer(Assume(Hypothesis(relation, Kind.DEFINITION)), *steady)
+
+
+def defined(symbol: sp.Expr, value: sp.Expr, *steady: Judgement) -> Judgement:
+    """Return the definition of a name as an expression, with premises as ``define``."""
+    return define(sp.Eq(symbol, value, evaluate=False), *steady)

@@ -23,10 +23,9 @@ from functools import cache
 import sympy as sp
 
 from ..averaging import collected, mean, turning, z
-from ..claims import Asymptotic, Drift, Equality, Oscillation, Term
-from ..hypotheses import Hypothesis, Kind
+from ..claims import Asymptotic, Averaged, Drift, Equality, Oscillation, Term
+from ..hypotheses import LOAD, SINE, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
-from ..loads import LOAD, SINE
 from ..reals import holds
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
@@ -41,11 +40,7 @@ ORDER = 4
 ROUGHNESS = sp.Symbol("s", positive=True)
 """The roughness as a variable: bound in a definition of a coefficient."""
 
-EXPANSION = Hypothesis(
-    "m is the averaged roughness, dm/dtau = rho (1 + c_1/m + ...), with s_0 for its start",
-    typeset=r"\mathrm{d}m / \mathrm{d}\tau = \rho \left(1 + c_1 / m + \dots\right)",
-    kind=Kind.DEFINITION,
-)
+EXPANSION = Hypothesis(Averaged(m, s_0), Kind.DEFINITION)
 OFFSET = sp.Eq(b_0, sigma_c0 / f_c - h_0)
 SATURATION = sp.Eq(theta, sp.tanh(4 - 2 / f_c))
 

@@ -15,9 +15,8 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..claims import Equality, Inequality, Limit
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import LOAD, RIGID, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..loads import LOAD
 from ..note.model import SUPPORT
 from ..symbols import DATA, symbols, t
 from .growth import expanded
@@ -36,8 +35,7 @@ from .reading import (
 
 U_c, p, k, T, tau = symbols("U_c p k T tau")
 
-SPRINGS = Hypothesis("equilibrium of the bearing, Eq. (2)", SUPPORT, kind=Kind.MODEL)
-RIGID = Hypothesis("rigid support", sp.Eq(U_c, 0), r"\text{rigid support}", Kind.SETTING)
+SPRINGS = Hypothesis(SUPPORT, Kind.MODEL)
 
 
 @dataclass(frozen=True)
@@ -128,7 +126,7 @@ class RigidLimit(Rule):
         require_hypothesis(SPRINGS, first)
         others = [h for h in first.hypotheses if h != SPRINGS]
         apart = [h.relation.subs(LOAD, LOAD + U_c) for h in others]
-        loads = [r for r in apart if r.has(U_c.func) or r.atoms(LOAD.func) - {LOAD} or r == sp.true]
+        loads = [r for r in apart if r.has(U_c.func) or r.atoms(LOAD.func) - {LOAD}]
         loads += given.relation.atoms(LOAD.func) - {LOAD}
         if loads or given.relation.has(U_c.func) or any(h.relation.has(k) for h in others):
             raise RuleError("missing premise: nothing else is said of the load, of U_c and of k")

@@ -14,11 +14,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..claims import Equality, Inequality
-from ..hypotheses import Kind
+from ..hypotheses import LOAD, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import defined_by, names
 from ..laws import r
-from ..loads import LOAD
 from ..reals import holds
 from ..symbols import DATA, symbols
 from ..zero import is_zero

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..claims import Asymptotic
+from ..hypotheses import LOAD, PERIODIC, SINE
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..loads import LOAD, PERIODIC, SINE
 from ..reals import holds
 from ..symbols import symbols, t
 from ..zero import is_zero

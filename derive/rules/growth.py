@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.relational import Relational
 
+from ..hypotheses import LOAD, PERIODIC
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..loads import LOAD, PERIODIC
 from ..reals import LAW, holds
 from ..symbols import t
 from ..zero import is_zero

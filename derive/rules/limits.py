@@ -18,9 +18,9 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..claims import Asymptotic, Equality, Limit
+from ..hypotheses import LOAD
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound
-from ..loads import LOAD
 from ..reals import LAW
 from ..symbols import t
 from ..zero import is_zero

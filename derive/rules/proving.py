@@ -21,12 +21,11 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from ..claims import Asymptotic, Continuity, FirstZero, Limit, Property, Term, landau_o
-from ..hypotheses import Hypothesis
+from ..claims import Asymptotic, Continuous, FirstZero, Limit, Term, landau_o
+from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import WEARING, Judgement, RuleError
 from ..language import bound, certain
 from ..laws import r
-from ..loads import CONTINUOUS, DIFFERENTIABLE, LOAD
 from ..reals import LAW, holds, is_slope_of_law, sign
 from ..symbols import t
 
@@ -51,25 +50,18 @@ def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
     claim has a value."""
     found: set[sp.Basic] = set()
     for premise in premises:
-        if isinstance(premise.claim, Continuity):
-            found.add(steady(premise.claim.field))
-        elif not isinstance(premise.claim, (Asymptotic, Property)):
+        if not isinstance(premise.claim, Asymptotic):
             found.add(premise.relation)
         found |= {need for part in _parts((premise,)) for need in _need(part)} - {sp.false}
-        found |= {h.relation for h in premise.hypotheses if h.relation is not sp.true}
-    said = {h for premise in premises for h in premise.hypotheses}
-    return frozenset(found | set(map(steady, _continuous_fields(said, found))))
+        found |= {h.relation for h in premise.hypotheses}
+    return frozenset(found | set(map(Continuous, _continuous_fields(found))))
 
 
-def steady(field: sp.Basic) -> sp.Basic:
-    """Return what stands for a field being continuous in time."""
-    return sp.Ne(field, sp.zoo, evaluate=False)
-
-
-def _continuous_fields(said: set[Hypothesis], facts: set[sp.Basic]) -> set[sp.Basic]:
-    """Return the fields that are continuous: those that wear, and what equals a continuous
-    expression; the load where a hypothesis says so."""
-    found = {LOAD} if {CONTINUOUS, DIFFERENTIABLE} & said else set[sp.Basic]()
+def _continuous_fields(facts: set[sp.Basic]) -> set[sp.Basic]:
+    """Return the fields that are continuous: of which a fact says so, and what equals a
+    continuous expression."""
+    found = {fact.args[0] for fact in facts if isinstance(fact, Continuous)}
+    found |= {LOAD} if DIFFERENTIABLE.relation in facts else set()
     values = [f for f in facts if isinstance(f, sp.Equality) and isinstance(f.lhs, AppliedUndef)]
     while new := {f.lhs for f in values if _unbroken(f.rhs, t, found)} - found:
         found |= new
@@ -87,7 +79,7 @@ def _unbroken(expr: sp.Expr, variable: sp.Basic, fields: Collection[sp.Basic] = 
 
 def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
     """Return the parts of claims that have a value, at every time and not just in the end."""
-    late = (Asymptotic, Limit, Property)
+    late = (Asymptotic, Limit)
     wholes = (premise.relation for premise in premises if not isinstance(premise.claim, late))
     ends = (premise.claim for premise in premises if isinstance(premise.claim, Limit))
     return {
@@ -113,11 +105,8 @@ def require_defined(expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basi
 
 
 def told(goal: sp.Basic) -> str:
-    """Return a relation in words where it stands for a value, or for continuity."""
-    if not goal.has(sp.zoo):
-        return str(goal)
-    field = isinstance(goal.lhs, AppliedUndef)
-    return f"{goal.lhs} {'is continuous' if field else 'has a value'}"
+    """Return a relation in words where it stands for a value."""
+    return f"{goal.lhs} has a value" if goal.has(sp.zoo) else str(goal)
 
 
 def undefined(
@@ -159,7 +148,7 @@ def _between(
     """
     start = last.subs(t, 0)
     begun = first == start or sp.Eq(start, first) in facts
-    if not begun or not (last in WEARING or steady(last) in facts):
+    if not begun or not (last in WEARING or Continuous(last) in facts):
         return []
     parts = (part for fact in facts for part in sp.And.make_args(fact))
     said = (f for f in parts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
@@ -171,7 +160,7 @@ def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
     """Return the relations where pieces of an integrand are continuous."""
     if isinstance(body, AppliedUndef) and not isinstance(body, LAW) and body.has(s):
         now = body.func(t)
-        return [] if now in WEARING else [steady(now), *integrable(body.args[0], s)]
+        return [] if now in WEARING else [Continuous(now), *integrable(body.args[0], s)]
     if body.has(s) and not isinstance(body, (*_CONTINUOUS, *_PIECES)):
         return [sp.Ne(body, sp.zoo, evaluate=False)]
     return [goal for part in body.args for goal in integrable(part, s)]

@@ -15,13 +15,13 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..claims import Continuity, Equality, FirstZero
+from ..claims import Continuous, Equality, FirstZero, Property
+from ..hypotheses import CONSTANT, LOAD
 from ..kernel import WEARING, Conclusion, Judgement, Rule, RuleError, plain
-from ..loads import CONSTANT, LOAD
 from ..reals import holds, sign
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .proving import continuous, facts_of, require, require_defined, smooth, steady
+from .proving import continuous, facts_of, require, require_defined, smooth
 from .reading import (
     constant,
     equality,
@@ -54,9 +54,9 @@ class Follows(Rule):
         if not increases or not continuous(value, moving, *premises):
             raise RuleError(f"missing premise: {PRESSURE} is the one root of an equation")
         for field in fields(value) - {*WEARING}:
-            if steady(field) not in facts:
+            if Continuous(field) not in facts:
                 raise RuleError(f"missing premise: {field} is continuous")
-        return Conclusion(Continuity(f"{PRESSURE.func} is continuous", PRESSURE))
+        return Conclusion(Property(Continuous(PRESSURE)))
 
 
 follows = Follows()
@@ -82,7 +82,7 @@ class Separate(Rule):
         known = {e.lhs: e.rhs for e in (p.claim for p in others) if isinstance(e, Equality)}
         (s, first, y), wear = integral.limits[0], known.get(u, u)
         start, facts = y.subs(t, 0), facts_of(premises)
-        if not {y, steady(y)} & {*WEARING, *facts} or known.get(start, start) != first:
+        if not {y, Continuous(y)} & {*WEARING, *facts} or known.get(start, start) != first:
             raise RuleError(f"missing premise: {start} = {first}, of what moves")
         require_defined(self.claim, *premises)
         moving, load = sp.Dummy(**s.assumptions0), sp.Dummy(real=True)

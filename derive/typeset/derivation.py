@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ..claims import Predicate
 from ..hypotheses import Kind
 from ..kernel import Judgement
 from . import formula
@@ -110,10 +111,8 @@ class Derivations:
         return self._shown(statement, of)._replace(sentence=said, remark=statement.remark)
 
     def _shown(self, statement: Judgement, of: str) -> Step:
-        """Return what a step gave: an equation, a formula, or words."""
+        """Return what a step gave: an equation or a formula."""
         relation = statement.relation
-        if relation is sp.true:
-            return Step("", "", statement.hypotheses[-1].latex)
         own = of if relation in _results(self._equations[of]) else ""
         if name := self._named.get(relation, own):
             return Step("", "", "", name, len(_results(self._equations[name])) > 1)
@@ -138,12 +137,13 @@ def _results(equation: Equation) -> tuple[sp.Basic, ...]:
 
 def _assumed(hypothesis: Judgement) -> str:
     """Return how a step refers to a hypothesis that no equation shows: by a short formula."""
-    relation, said = hypothesis.relation, hypothesis.hypotheses[-1]
+    relation = hypothesis.relation
+    said = next(h for h in hypothesis.hypotheses if h.relation == relation)
     defined = said.kind is Kind.DEFINITION
-    if defined and (relation is sp.true or isinstance(relation.lhs, (sp.Symbol, AppliedUndef))):
+    if defined and isinstance(relation.args[0], (sp.Symbol, AppliedUndef)):
         return "the definitions"
-    in_words = relation is sp.true or len(str(relation)) > _SHORT
-    return said.text if in_words else f"${inline(presentable(relation))}$"
+    long = isinstance(relation, Predicate) or len(str(relation)) > _SHORT
+    return said.words if said.words and long else f"${inline(presentable(relation))}$"
 
 
 def is_hypothesis(statement: Judgement) -> bool:

@@ -14,11 +14,10 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from derive.claims import Drift, Oscillation
-from derive.hypotheses import Hypothesis, Kind
+from derive.hypotheses import BOUNDED_LOAD, CONSTANT, PERIODIC, SINE, Hypothesis, Kind
 from derive.kernel import Judgement
-from derive.loads import CONSTANT, CONTINUOUS, PERIODIC, SINE
 from derive.results.expansion import expansion
-from derive.results.steady_state import BOUNDED_LOAD, steady_state
+from derive.results.steady_state import steady_state
 from derive.rules.algebra import Insert, Solve, discharge, forget
 from derive.rules.assumption import assume, defined
 from derive.rules.averages import (
@@ -57,8 +56,8 @@ def each(build: Callable[[], Judgement]) -> Judgement:
     return build()
 
 
-def given(relation: sp.Basic, text: str = "known") -> Judgement:
-    return assume(Hypothesis(text, relation, kind=Kind.STATE))
+def given(relation: sp.Basic) -> Judgement:
+    return assume(Hypothesis(relation))
 
 
 def stated(relation: type[Relational]) -> Callable[..., Judgement]:
@@ -98,8 +97,8 @@ APPROACH = t * (rate("u_c") - C) - f_c * U_a
 FIRST_DRIFT = 2 * (1 - theta) * symbol("b_0")
 
 
-def supposed(relation: sp.Basic, kind: Kind = Kind.STATE) -> Hypothesis:
-    return Hypothesis("supposed", relation, kind=kind)
+def supposed(relation: sp.Basic, kind: Kind = Kind.CONDITION) -> Hypothesis:
+    return Hypothesis(relation, kind)
 
 
 def forgotten(relation: sp.Equality, claim: sp.Basic) -> Judgement:
@@ -147,7 +146,7 @@ def drifting(approach: sp.Expr = APPROACH) -> Judgement:
 
 
 def drift_premises(approach: sp.Expr = APPROACH) -> tuple[Judgement, ...]:
-    mean = defined(MEAN.lhs, MEAN.rhs, "", assume(CONTINUOUS))
+    mean = defined(MEAN.lhs, MEAN.rhs)
     return tends(approach, sp.S.Zero), assume(PERIODIC), mean
 
 
@@ -155,7 +154,7 @@ def expansion_premises(name: str = "c_1") -> tuple[Judgement, ...]:
     """Return the pressure, the load, b_0, theta, and names for c_1 and w_1."""
     pressure = steady_state().pressure_at_wear
     names = (
-        defined(symbol(called), term_of(kind, 1, pressure.claim.rhs), "", ROUGHENS)
+        defined(symbol(called), term_of(kind, 1, pressure.claim.rhs), ROUGHENS)
         for called, kind in ((name, Drift), ("w_1", Oscillation))
     )
     return pressure, assume(SINE), defined(*OFFSET.args), defined(*SATURATION.args), *names
@@ -175,6 +174,6 @@ def slow_time() -> Judgement:
     """Return the slow time by the definitions of c_1 to c_4."""
     known, pressure = expansion.claim, steady_state().pressure_at_wear.claim.rhs
     drifts = [
-        defined(symbol(f"c_{n}"), term_of(Drift, n, pressure), "", ROUGHENS) for n in (1, 2, 3, 4)
+        defined(symbol(f"c_{n}"), term_of(Drift, n, pressure), ROUGHENS) for n in (1, 2, 3, 4)
     ]
     return SlowTime(sp.Eq(known.lhs, known.rhs))(*drifts, assume(EXPANSION))

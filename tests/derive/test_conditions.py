@@ -1,30 +1,32 @@
-"""Conditions as data: words or LaTeX, a guard for numbers, what each equation needs."""
+"""Conditions as data: their words and LaTeX, and what each equation needs."""
 
 from __future__ import annotations
 
 import re
+from dataclasses import fields
 
 import pytest
 import sympy as sp
 
-from derive import catalogue
+from derive import catalogue, hypotheses
 from derive.claims import Asymptotic, Equality, Limit
 from derive.equations import Equation
-from derive.hypotheses import Hypothesis, Kind
+from derive.hypotheses import CONTINUOUS, NOT_SMOOTHING, RIGID, ROUGHENING, Hypothesis, Kind
 from derive.kernel import RuleError
-from derive.loads import CONSTANT, PERIODIC
+from derive.language import names
+from derive.laws import EXPONENTIAL, GENERAL
+from derive.note.model import CLOSURE, FIELDS, SLIP, at_every_closure, contact
 from derive.results import validity
 from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
-from derive.symbols import symbols
+from derive.symbols import DATA, symbols, t
 from derive.typeset.mathml import display
 
-b_0, f_c, h_0, kappa = symbols("b_0 f_c h_0 kappa")
+b_0, f_c, h_0, kappa, U_a, U_c = symbols("b_0 f_c h_0 kappa U_a U_c")
 
 
 def test_every_condition_reads_as_latex() -> None:
     for condition in {h for e in catalogue.all_equations() for h in e.hypotheses if h.shown}:
-        assert condition.text
         assert condition.latex
         for words in re.findall(r"\\text\{([^}]*)\}", condition.latex):
             assert not set(words) & set("_^()/=$\\"), "a formula in words"
@@ -39,7 +41,7 @@ def test_a_value_that_meets_a_condition_leaves_none() -> None:
 
 def test_what_cannot_be_is_no_hypothesis() -> None:
     with pytest.raises(RuleError, match="cannot be assumed"):
-        assume(Hypothesis("nothing", sp.Gt(sp.Integer(0), 1)))
+        assume(Hypothesis(sp.false))
 
 
 def test_a_definition_shows_what_it_supposes() -> None:
@@ -49,11 +51,11 @@ def test_a_definition_shows_what_it_supposes() -> None:
         (b_0, sp.sqrt(f_c), sp.Ge(f_c, 0)),
         (b_0, 1 / f_c, sp.Ne(f_c, 0)),
         (scale, f_c, sp.Gt(f_c, 0)),
+        (b_0, sp.Integral(U_a, (t, 0, 1)), CONTINUOUS.relation),
     ):
         (shown,) = defined(name, value).conditions
         assert shown.relation == condition
-    roughens = assume(Hypothesis("grows", sp.Gt(f_c, 0)))
-    assert [h.text for h in defined(b_0, 1 / f_c, "", roughens).conditions] == ["grows"]
+    assert defined(b_0, 1 / f_c, assume(ROUGHENING)).conditions == (ROUGHENING,)
 
 
 def test_names_are_shown_with_what_they_mean() -> None:
@@ -93,15 +95,15 @@ CHAIN = {
     "saturating-wear": (Asymptotic, {"constant load", "the bearing smoothens as it wears"}),
     "logarithmic-wear": (
         Asymptotic,
-        {"wear does not change the roughness", "load U sin(2 pi t/T)"},
+        {"wear does not change the roughness", "U_a = U*sin(2*pi*t/T)"},
     ),
-    "one-third": (Equality, {"gap and cutoff grow alike", PERIODIC.text}),
+    "one-third": (Equality, {"f_c = 1/3", "continuous load", "load of period T"}),
     "two-solids-log-drift": (Limit, {"load of period T", "the load is bounded by U"}),
     "static-wear-smooth": (Equality, {"constant load", "wear does not change the roughness"}),
     "slope-from-pressure": (Equality, {"the mean surfaces do not coincide"}),
-    "static-solution-compliant": (Equality, {"the pressure is not that of steady wear"}),
-    "arrest-depth": (Equality, {"the gap outgrows the roughness"}),
-    "permanent-contact": (Equality, {"the roughness outgrows the gap"}),
+    "static-solution-compliant": (Equality, {"4/f_c + log(p/(p_max - p)) - 8 != 0"}),
+    "arrest-depth": (Equality, {"f_c < 1/3"}),
+    "permanent-contact": (Equality, {"f_c > 1/3"}),
     "13": (Equality, {"smooth pin", "unworn pin", "rigid support", "no loss of contact"}),
 }
 
@@ -121,21 +123,48 @@ def test_what_a_definition_and_the_model_say_is_not_a_condition() -> None:
     assert kinds == {Kind.MODEL, Kind.DEFINITION, Kind.INITIAL}
 
 
-def test_words_are_kept_where_a_relation_is_long_or_missing() -> None:
-    assert CONSTANT.typed == "constant load"
-    long = Hypothesis("the roughness is real", sp.Gt(sum(sp.symbols("a:z")), 0))
-    assert long.typed == "the roughness is real"
+def test_words_belong_to_a_relation() -> None:
+    """Nobody can give a relation words of his own, or none; what is equal reads alike."""
+    assert [field.name for field in fields(Hypothesis)] == ["relation", "kind"]
+    assert Hypothesis(sp.Eq(U_c, 0)) == RIGID
+    assert Hypothesis(sp.Eq(U_c, 0)).text == "rigid support"
+    with pytest.raises(TypeError, match="text"):
+        Hypothesis(sp.Gt(U_c, 0), text="rigid support")  # type: ignore[call-arg]
+    with pytest.raises(RuleError, match="no claim"):
+        assume(Hypothesis("rigid support"))  # type: ignore[arg-type]
 
 
-def test_a_guard_says_no() -> None:
-    slope = sp.Symbol("f_c", real=True)
-    condition = Hypothesis("the bearing roughens", sp.Gt(slope, 0))
-    assert condition.guard({"f_c": -0.05}) is False
-    assert condition.guard({"f_a": 0.05}) is None
+def test_what_has_no_words_is_shown_as_it_is_typed() -> None:
+    """Among them what has words for other names, or another contact law."""
+    scale = sp.Symbol("scale", real=True)
+    for relation, text in (
+        (sp.Ne(scale, 0), "scale != 0"),
+        (sp.Eq(U_c, h_0), "U_c = h_0"),
+        (sp.And(scale > 0, scale < h_0), "scale > 0, scale < h_0"),
+        (at_every_closure(EXPONENTIAL), "p = p_max*exp(-h/sigma)"),
+    ):
+        assert Hypothesis(relation).text == text
+        assert not Hypothesis(relation).is_setting
+
+
+def test_words_are_about_quantities_that_nobody_defines() -> None:
+    """The load is not steady where beta = 2 (b_0 + U_a) is not zero: beta may stand for others."""
+    meant = {*DATA, *(field.__name__ for field in FIELDS), "f_aa", "f_cc", "omega", "phi", "t"}
+    for table in (hypotheses._SETTINGS, hypotheses._OTHERS):
+        for relation in table:
+            assert {name for name, _ in names(relation)} <= meant, relation
+
+
+def test_every_hypothesis_with_words_is_one_of_the_catalogue() -> None:
+    used = {h.relation for e in catalogue.all_equations() for h in e.hypotheses}
+    unused = {*hypotheses._SETTINGS, *hypotheses._OTHERS} - used
+    assert unused == {NOT_SMOOTHING.relation, *SLIP, CLOSURE[True], contact(GENERAL)}
 
 
 def test_the_sign_of_a_name_is_a_condition_unless_it_follows() -> None:
-    """The gap h* is positive by the vocabulary, which h_0 - sigma_c0/f_c - U_a need not be."""
+    """The gap h* is positive by the vocabulary, which h_0 - sigma_c0/f_c - U_a need not be; it is
+    said in the names that the equation has."""
     shown = {i: catalogue.equation(i).conditions for i in ("saturating-wear", "21", "22")}
-    assert "h_0 - U_a - sigma_c0/f_c > 0" in {h.text for h in shown["saturating-wear"]}
+    assert "h_star > 0" in {h.text for h in shown["saturating-wear"]}
+    assert [h.text for h in catalogue.equation("20").conditions] == ["u_cum > 0"]
     assert not any("Limit" in h.text for i in ("21", "22") for h in shown[i])

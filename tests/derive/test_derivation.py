@@ -11,7 +11,7 @@ import sympy as sp
 from derive import catalogue
 from derive.check import checks, on_models
 from derive.equations import TEXTS, Equation, Status, numbered
-from derive.hypotheses import Kind
+from derive.hypotheses import Hypothesis
 from derive.kernel import Judgement, RuleError, chain, infer, replayed
 from derive.laws import EXPONENTIAL, GENERAL, LAWS, TANH
 from derive.note import condensed, governing
@@ -105,8 +105,7 @@ def _with_wrong(name: str, place: int | None, what: int) -> Condensed:
     stated = getattr(model, name)
     target = stated if place is None else stated[place]
     wrong = [claim for _, claim in mutants(target.relation) if not same(claim, target.relation)]
-    (stated_as,) = target.hypotheses
-    made = assume(replace(stated_as, relation=wrong[min(what, len(wrong) - 1)], kind=Kind.STATE))
+    made = assume(Hypothesis(wrong[min(what, len(wrong) - 1)]))
     model.__dict__[name] = made if place is None else (*stated[:place], made, *stated[place + 1 :])
     return model
 

@@ -42,7 +42,7 @@ def test_models_agree_with_an_equation(identifier: str):
 def test_a_relation_towards_an_end_of_a_field_is_tried_where_the_field_tends_to_it():
     G, q, sigma_c = symbols("G q sigma_c")
     leading = LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c)))
-    answer = tried(leading(eq(G, q / sigma_c + 1 / q), gt(q, 0)))
+    answer = tried(leading(eq(G, q / sigma_c + 1 / q), gt(q, 0, False)))
     assert answer.passed, str(answer)
     assert answer.decided
 

@@ -9,7 +9,7 @@ import sympy as sp
 from derive.check import checks
 from derive.claims import Equality, Inequality
 from derive.equations import Equation
-from derive.hypotheses import Hypothesis
+from derive.hypotheses import ROUGHENING, Hypothesis
 from derive.kernel import Conclusion, Judgement, Rule, RuleError, infer, replayed
 from derive.rules.algebra import Discharge, Identity, substitute
 from derive.rules.assumption import Assume, assume
@@ -56,7 +56,7 @@ def test_a_rule_of_ones_own_is_no_rule() -> None:
     ],
 )
 def test_what_was_changed_behind_the_back_is_found(field: str, value: object) -> None:
-    made = assume(Hypothesis("rough", sp.Gt(f_c, 0)))
+    made = assume(ROUGHENING)
     assert replayed(made) is None
     object.__setattr__(made, field, value)
     assert replayed(made)

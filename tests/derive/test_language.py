@@ -160,14 +160,14 @@ def test_what_is_of_the_language_can_be_said(expr: sp.Expr) -> None:
 
 
 MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
-    (Kind.STATE, sp.Eq(t, 5), "cannot be assumed"),  # t = 4
-    (Kind.STATE, sp.Eq(u_c, h + landau_o(sp.S.One)), "cannot be assumed"),  # 1/t and 2/t
+    (Kind.CONDITION, sp.Eq(t, 5), "cannot be assumed"),  # t = 4
+    (Kind.CONDITION, sp.Eq(u_c, h + landau_o(sp.S.One)), "cannot be assumed"),  # 1/t and 2/t
     (Kind.MODEL, sp.Le(sp.Abs(U_a), U), "no equation of the model"),  # under no k as U_a + p/k
     (Kind.MODEL, sp.Eq(f_c, 5), "no equation of the model"),  # f_c = 1
     (Kind.MODEL, touching(1 + f_c), "no equation of the model"),  # f_c = 1
-    (Kind.STATE, equal(forever(u_c), C * t), "cannot be a limit"),
-    (Kind.STATE, equal(forever(u_c), C * PHASED), "cannot be a limit"),
-    (Kind.STATE, sp.Eq(f_c > 0, sp.true, evaluate=False), "no relation between numbers"),
+    (Kind.CONDITION, equal(forever(u_c), C * t), "cannot be a limit"),
+    (Kind.CONDITION, equal(forever(u_c), C * PHASED), "cannot be a limit"),
+    (Kind.CONDITION, sp.Eq(f_c > 0, sp.true, evaluate=False), "no relation between numbers"),
     (Kind.MODEL, touching(-sp.S.One), "no equation of the model"),  # p > 0
     (Kind.MODEL, contact(ContactLaw("", sp.exp(r), sp.S.Zero, "")), "decreases"),
     (Kind.MODEL, contact(ContactLaw("", sp.exp(-r - sp.Abs(r) / 2), sp.S.Zero, "")), "smooth"),
@@ -205,8 +205,8 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(N, u_c / h_0), "N is t/T"),  # u_c = -h_0 t/T
 )
 CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
-    (Kind.STATE, sp.Eq(u_c, C * t)),
-    (Kind.STATE, end(u_c, sp.oo)),
+    (Kind.CONDITION, sp.Eq(u_c, C * t)),
+    (Kind.CONDITION, end(u_c, sp.oo)),
     (Kind.MODEL, sp.Eq(k * U_c - p, 0)),
     (Kind.MODEL, touching(sp.S.One)),
     (Kind.INITIAL, sp.Eq(initial("u_c"), 0)),

@@ -32,12 +32,15 @@ def _too_wide(log: str) -> list[float]:
     return [width for width in map(float, _WIDE.findall(log)) if width > 5.0]
 
 
-def test_all_macros_compile_elsewhere(tmp_path, need_tool):
+@pytest.mark.parametrize("head", _HEAD.values(), ids=_HEAD.keys())
+def test_all_macros_compile_elsewhere(head, tmp_path, need_tool):
     engine = need_tool("pdflatex")
     equations = catalogue.all_equations()
     (tmp_path / "equations.tex").write_text(macros(equations), encoding="utf-8")
     shown = (rf"\begin{{equation}}\{macro_name(e)}\end{{equation}}" for e in equations)
-    assert _too_wide(_log(tmp_path, engine, _HEAD["article"], "\n".join(shown))) == []
+    log = _log(tmp_path, engine, head, "\n".join(shown))
+    if "twocolumn" not in head:
+        assert _too_wide(log) == []
 
 
 @pytest.mark.parametrize("head", _HEAD.values(), ids=_HEAD.keys())

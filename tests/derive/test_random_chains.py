@@ -14,9 +14,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from derive.falsifier.judgements import tried
-from derive.hypotheses import Hypothesis, Kind
+from derive.hypotheses import CONSTANT, PERIODIC, Hypothesis, Kind
 from derive.kernel import Judgement, Rule, RuleError, infer
-from derive.loads import CONSTANT, PERIODIC
 from derive.rules import algebra, calculus, data, drift, growth, inequalities, limits, solutions
 from derive.rules.assumption import Assume, assume
 from derive.rules.limits import forever, later
@@ -78,9 +77,9 @@ ends = st.builds(lambda a, b: sp.Eq(forever(a), b, evaluate=False), expressions,
 orders = st.sampled_from([sp.Ge, sp.Gt, sp.Le, sp.Lt, sp.Ne, sp.Eq])
 relations = st.builds(lambda r, a, b: r(a, b, evaluate=False), orders, expressions, expressions)
 hypotheses = st.builds(
-    lambda relation, kind: Hypothesis("drawn", relation, kind=kind),
+    Hypothesis,
     st.sampled_from(RELATIONS),
-    st.sampled_from([Kind.STATE, Kind.STATE, Kind.DEFINITION]),
+    st.sampled_from([Kind.CONDITION, Kind.CONDITION, Kind.DEFINITION]),
 )
 FREE: tuple[Callable[[], Rule], ...] = (
     algebra.Substitute,

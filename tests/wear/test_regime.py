@@ -135,6 +135,29 @@ def test_long_time_formulas_are_good_to_a_few_ulp(slope, sign):
     assert math.isfinite(found.log_coefficient_mm or 0.0)
 
 
+@pytest.mark.parametrize(
+    ("name", "overrides", "cycles"),
+    [
+        ("section4", ("bearing.roughness_growth=0.5",), 10**9),
+        ("section4", ("bearing.roughness_growth=0.5", "support.stiffness_MPa_per_mm=1e5"), 10**9),
+        ("section4", ("bearing.roughness_growth=0.6", "contact.law=exponential"), 10**9),
+        ("section3", ("bearing.roughness_growth=0.4", "pin.roughness_growth=0.2"), 10**9),
+    ],
+)
+def test_the_solver_approaches_rate_and_drift(name, overrides, cycles):
+    """Increment per cycle -> u_cum (1 + A/(N u_cum)), so N (increment/u_cum - 1) -> A/u_cum."""
+    scene = load_scene(name, overrides)
+    found = asymptote(scene)
+    rate, drift = found.wear_per_cycle_mm, found.log_coefficient_mm
+    assert rate is not None
+    assert drift is not None
+    wear = solve(scene, [cycles // 1000, cycles], rtol=1e-13).u_c
+    few, many = cycles // 1000, cycles
+    measured = (wear[1] - wear[0] - rate * (many - few)) / math.log(many / few)
+    assert measured == pytest.approx(drift, rel=2e-2)
+    assert wear[1] / many == pytest.approx(rate, rel=1e-3)
+
+
 def test_logarithmic_wear_meets_the_solver():
     scene = load_scene("f-zero")
     found = asymptote(scene)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 
-import sympy as sp
-
 from derive import equations as derived
-from derive.hypotheses import Hypothesis, Kind
+from derive.equations import abbreviated
+from derive.hypotheses import Hypothesis
 from derive.kernel import listed
 from derive.typeset.formula import width
 from derive.typeset.macros import macro_name
@@ -64,10 +63,10 @@ def _title(equation: derived.Equation) -> str:
 
     A part of the title that is one of the hypotheses is said once.
     """
-    known = (Kind.SETTING, Kind.LOAD)
-    words = [c for c in equation.conditions if c.kind in known and not _short(c)]
-    formulas = [f"${part}$" for c in equation.conditions if _short(c) for part in _parts(c)]
-    said = [markup(c.text) for c in equation.conditions if c not in words and not _short(c)]
+    words = [c for c in equation.conditions if c.is_setting]
+    conditions = [Hypothesis(abbreviated(c.relation, equation.where)) for c in equation.conditions]
+    formulas = [f"${part}$" for c in conditions if _short(c) for part in _parts(c)]
+    said = [markup(c.text) for c in conditions if c not in words and not _short(c)]
     settings = dict.fromkeys(c.text for c in words)
     repeated = {_ALONE, *settings, *(formula.replace(" ", "") for formula in formulas)}
     name, *parts = equation.title.split(", ")
@@ -83,9 +82,9 @@ def _title(equation: derived.Equation) -> str:
 
 
 def _short(hypothesis: Hypothesis) -> bool:
-    """Whether a formula says it better than words."""
-    formula = hypothesis.relation is not sp.true and not hypothesis.typeset
-    return formula and hypothesis.kind is not Kind.SETTING and width(hypothesis.latex) < _SHORT
+    """Whether a formula says it better than words, or there are none."""
+    formula = not hypothesis.words or width(hypothesis.latex) < _SHORT
+    return formula and not hypothesis.is_setting
 
 
 def _parts(hypothesis: Hypothesis) -> list[str]:

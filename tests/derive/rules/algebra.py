@@ -5,9 +5,8 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.claims import FirstZero
-from derive.hypotheses import Kind
+from derive.hypotheses import CONTINUOUS, DIFFERENTIABLE, Kind
 from derive.laws import EXPONENTIAL, TANH
-from derive.loads import CONTINUOUS, DIFFERENTIABLE
 from derive.note.model import ARCHARD, CLOSURE, contact
 from derive.note.model import START as STARTS
 from derive.rules.algebra import (
@@ -72,7 +71,7 @@ SIDES = eq(h, u_a)
 TRIVIAL = sp.Ge(h_0, 0, evaluate=False)
 ABOVE, AT_ONE, EXACTLY_ONE = gt(h, f_c), eq(f_c, 1), eq(2 * f_c, 2)
 FALLS = ParameterLimit(f_c / M, M)()
-MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T, "", assume(CONTINUOUS))
+MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)
 SOLVED = Solve(u_a)(eq(f_c * u_a, h_0), ROUGHENS)
 SPECIAL = substitute(eq(h, f_c * u_a), AT_ONE)
 SPEED = Multiply(T / q)(RATE)
@@ -238,7 +237,7 @@ FAMILIES = (
     }),
     Family(lambda first, met, *known: discharge(first, met.hypotheses[0], *known), (
         (SOLVED, ROUGHENS, AT_ONE), (ROUGHENS, ROUGHENS, gt(f_c, 1)),
-        (SPECIAL, AT_ONE, EXACTLY_ONE),
+        (SPECIAL, AT_ONE, EXACTLY_ONE), (drifting(), assume(CONTINUOUS), assume(DIFFERENTIABLE)),
     ), {
         "a hypothesis that is not met": ("f_c > 0", SOLVED, ROUGHENS, START),
         "a hypothesis met by itself": ("from others", ROUGHENS, ROUGHENS, ROUGHENS),
@@ -248,7 +247,7 @@ FAMILIES = (
         # sin t
         "a load that is constant under no condition": ("missing premise", differentiate(CONSTANTLY),
             CONSTANTLY, START),
-        "what only words say": ("only words say", drifting(), assume(CONTINUOUS), START),
+        "a load of which nothing is said": ("is continuous", drifting(), assume(CONTINUOUS), START),
     }),
     Family(lambda met, *known: discharged(sp.Ge(met, 0, evaluate=False), sp.Gt(f_c, 0), *known), (
         (sp.log(f_c) ** 2, ROUGHENS),
@@ -328,11 +327,11 @@ FAMILIES = (
             lt(sp.Abs(f_c), 1)),
     }),
     # ---- what a definition supposes
-    Family(lambda name, value, *known: defined(name, value, "", *known), (
+    Family(defined, (
         (b_0, U_a, CONSTANTLY), (b_0, 1 / f_c), (u_cum, f_c * h_0),
         (u_stop, FirstZero(q - y, y), FirstRoot(FirstZero(q - y, y), sp.S.One)()),
         (b_0, forever(u_a), tends(u_a, h_0)), (b_0, sp.Integral(u_c, (t, 0, T))),
-        (U_mean, sp.Integral(U_a, (t, 0, T)) / T, assume(DIFFERENTIABLE)),
+        (U_mean, sp.Integral(U_a, (t, 0, T)) / T),
         (U_mean, sp.Integral(h, (t, 0, T)) / T, eq(h, h_0 - u_c)),
     ), {
         "t = 5, by definition": ("t is T", t, sp.Integer(5)),  # t = 4
@@ -343,15 +342,14 @@ FAMILIES = (
         "the first zero of what has none": ("has a value", u_stop, FirstZero(q + y, y)),
         "a limit that need not exist": ("has a value", b_0, forever(U_a)),  # sin t
         "a limit at infinity": ("has a value", b_0, forever(u_c), tends(u_c, sp.oo)),
-        "the mean of what has none": ("is continuous", U_mean, sp.Integral(U_a, (t, 0, T)) / T),
         "the mean of a rate": ("has a value", b_0, sp.Integral(rate("u_c"), (t, 0, T))),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (
         equal(rate("G"), u_c / T), equal(rate("G"), 0), equal(G * q, -f_c),
+        equal(rate("G"), U_a / T),
     ), {
         # a square load
-        "what has the load for its rate": ("is continuous", equal(rate("G"), U_a / T)),
         "what has the rate of the load": ("has a value", equal(rate("G"), rate("U_a"))),
     }),
 )  # fmt: skip

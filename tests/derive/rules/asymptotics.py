@@ -67,7 +67,7 @@ def averaged(factor):
     known, sine, *constants, _, _ = expansion_premises()
     pressure = known.claim.rhs * factor
     drift, wave = (term_of(kind, 1, pressure) for kind in (Drift, Oscillation))
-    names = defined(c_1, drift, "", ROUGHENS), defined(w_1, wave, "", ROUGHENS)
+    names = defined(c_1, drift, ROUGHENS), defined(w_1, wave, ROUGHENS)
     return OrderEquation(sp.S.One)(eq(p, pressure), sine, *constants, *names)
 
 
@@ -93,7 +93,7 @@ def of_another_pressure():
     *premises, _, wave = expansion_premises()
     other = premises[0].claim.rhs.subs(h_0, 2 * h_0)
     return OrderEquation(sp.S.One)(
-        *premises, defined(c_1, term_of(Drift, 1, other), "", ROUGHENS), wave
+        *premises, defined(c_1, term_of(Drift, 1, other), ROUGHENS), wave
     )
 
 
@@ -200,7 +200,7 @@ FAMILIES = (
         "an oscillation for a drift": ("is constant",
             lambda: defined(c_1, term_of(Oscillation, 1, U_a))),
         "a coefficient of what has no period": ("has the period",
-            lambda: defined(c_1, term_of(Drift, 1, 2 + sp.exp(-tau)), "", ROUGHENS)),
+            lambda: defined(c_1, term_of(Drift, 1, 2 + sp.exp(-tau)), ROUGHENS)),
         "the drift of another pressure": ("the drift c_1", of_another_pressure),
         "a slow time without drifts": ("c_3 and c_4", lambda: SlowTime(sp.Eq(L, m))()),
         "drifts that vanish": ("c_3 and c_4", vanishing_drifts),
@@ -211,7 +211,7 @@ FAMILIES = (
         "a wear that goes like m": ("a function of m", h_0**4 * u_c / m**4),
         "a slow time with 0/0": ("Ne", GAP * h_0**5 / m**5),
         "a slow time with a drift less": ("the drifts", 0, 0),
-        "a slow time of any roughness": ("averaged roughness", 0, 4),
+        "a slow time of any roughness": ("s_0 by definition", 0, 4),
         "another time": ("dtau/dm", 0, None, h_0),
     }),
 )  # fmt: skip

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
-from derive.hypotheses import Kind
+from derive.hypotheses import CONTINUOUS, DIFFERENTIABLE, Kind
 from derive.kernel import infer
 from derive.laws import GENERAL, r
-from derive.loads import DIFFERENTIABLE
 from derive.note.model import ARCHARD
 from derive.note.model import START as STARTS
 from derive.rules.algebra import Insert, Multiply, Solve, substitute
@@ -174,7 +173,7 @@ FAMILIES = (
     ), {
         "k -> oo with U_c held fixed": ("equilibrium", eq(R_a, k * b * L * (U_c - U))),
         "k -> oo under a bounded load": ("nothing else is said", opened(BOUNDED)),
-        "words about the load": ("nothing else is said", opened(said(sp.true, Kind.LOAD))),
+        "a load that is continuous": ("nothing else is said", opened(assume(CONTINUOUS))),
         "a deflection one period later": ("nothing else is said", deflected()),  # 0 = 1
         # 0/0
         "what is pressed one period later": ("nothing else is said", pressed(LATER)),
@@ -222,12 +221,11 @@ FAMILIES = (
         # h(0) = h_0: the slope is f_c
         "h(0) held fixed as h_0 varies": ("data alone", equal(IN_H_0, 0),
             defined(u_cum, initial("h") * f_c), h_0),
-        # called a property of the load
         "a slope at a value of the datum": ("may vary", equal(SLOPE, h_0), GROWING, f_c,
-            said(sp.Eq(f_c, 1), Kind.LOAD)),
+            eq(f_c, 1)),
         # the slope is f_c
         "two loads that tie h_0 and f_c": ("may vary", equal(IN_H_0, 0),
-            tied(said(equal(U_a, f_c * L), Kind.LOAD), said(equal(U_a, h_0), Kind.LOAD)), h_0),
+            tied(eq(U_a, f_c * L), eq(U_a, h_0)), h_0),
         "a name for f_c that is h_0/L": ("may vary", equal(IN_H_0, 0),
             tied(defined(q, f_c), eq(q, h_0 / L)), h_0),
         "two names that are equal": ("may vary", equal(IN_H_0, 0),
@@ -237,7 +235,7 @@ FAMILIES = (
         "two fields that are equal": ("may vary", equal(IN_H_0, 0),
             tied(*FIELDS, eq(WIGGLE, WOBBLE)), h_0),
         "a load below what is negative": ("may vary", equal(IN_H_0, 0),
-            tied(said(sp.Le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2), Kind.LOAD)), h_0),
+            tied(le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2)), h_0),
         # the slope is f_c
         "two starts that are equal": ("may vary", equal(IN_START, 0), of_one_start(), sigma_a0),
         # the slope is h_0 H_c/H_a

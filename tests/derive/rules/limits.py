@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from derive.loads import CONTINUOUS, PERIODIC
+from derive.hypotheses import PERIODIC
 from derive.reals import LAW
 from derive.rules.assumption import assume, defined
 from derive.rules.drift import LeadingTerm
@@ -58,7 +58,7 @@ def some_of_the_time(contact=TOUCHING, on=C, off=sp.S.Zero, part=None, least=sp.
     share = (
         sp.Integral(sp.Piecewise((1, contact if part is None else part), (0, True)), (t, 0, T)) / T
     )
-    named = defined(d, share, "", assume(CONTINUOUS))
+    named = defined(d, share)
     return intermittent(law, named, ge(u_c, least), assume(PERIODIC), BOUNDED, *facts)
 
 
@@ -77,7 +77,7 @@ FAMILIES = (
         "u_c = C t, one period later": ("at one time", eq(u_c, C * t)),  # C (t + T)
         # U_a = t
         "a mean over the first period": ("at one time",
-            defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T, "", assume(CONTINUOUS))),
+            defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)),
         # G = t: lim_{t->0} G(t + T) = T
         "a limit at the start": ("at one time", tends(G, theta, sp.S.Zero)),
         "the first rate": ("at one time", eq(sp.Subs(du, t, 0), C)),  # u_c = C t e^(-t/T)

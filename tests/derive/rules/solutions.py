@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.claims import FirstZero
-from derive.loads import CONTINUOUS
+from derive.hypotheses import CONTINUOUS
 from derive.rules.algebra import Insert
 from derive.rules.assumption import assume
 from derive.rules.solutions import FirstRoot, Integrated, Lambert, Separate, follows

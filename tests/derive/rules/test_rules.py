@@ -113,15 +113,15 @@ def test_a_rule_gives_what_is_true_and_needs_each_premise(kind: type[Rule]) -> N
     for known in made()[kind]:
         assert replayed(known) is None
         for premise, found in zip(known.parents, dropped(known), strict=True):
-            if isinstance(found, Judgement):
-                assert found.claim != known.claim, premise.relation
+            if isinstance(found, Judgement):  # of another claim, or it supposes what is missing
+                supposes = set(found.hypotheses) - set(known.hypotheses)
+                assert supposes or found.claim != known.claim, premise.relation
                 continue
             said = [name for name, _ in names(premise.relation)] + [
                 *kind.asks,
                 str(known.relation),
-                premise.claim.text.split()[0] if premise.relation == sp.true else "",
             ]
-            assert any(word and word in str(found) for word in said), (premise.relation, found)
+            assert any(word in str(found) for word in said), (premise.relation, found)
 
 
 def test_every_refusal_of_the_rules_is_brought_about() -> None:
