@@ -7,15 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.increments import Coordinate
+from wear.loss_of_contact.increments import TO_ROUNDOFF, Coordinate
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.numerics.tolerances import ROUNDOFF, TINY
+from wear.numerics.tolerances import TINY
 from wear.orbit.abel import Panels
 from wear.orbit.iterates import Cells, Iterates
 
 NO_DIGIT = 0.1  # relative error
 RESOLVABLE = 1e5  # times the uncertainty of the limit wear
-TO_ROUNDOFF = 0.25 * ROUNDOFF  # of the wear: the distance at which the count ends
 
 
 class LimitWear(NamedTuple):

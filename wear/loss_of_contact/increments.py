@@ -21,6 +21,7 @@ from wear.loss_of_contact.requests import COARSE, Asking, Request
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import stacked, take
+from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.abel import Frame
 from wear.orbit.panels import CHECKS, SPLIT, near_checks
@@ -33,6 +34,7 @@ FAR_OFF = 1e3  # times the tolerance: then a panel is cut in four, else in two
 FAR_BEYOND = 700.0  # logarithm of an increment over the level of its panel
 SAME = 1e-9  # of a span: wears so near to each other are one
 USABLE = 10.0  # times the tolerance: the estimate of error reports the rest
+TO_ROUNDOFF = 0.25 * ROUNDOFF  # of the wear: the distance from its limit at which a count ends
 EASED = 10.0  # at most: an error of the distance is a smaller one of the wear
 
 
@@ -84,6 +86,12 @@ class Span(NamedTuple):
     def wear(self, w: FloatArray) -> FloatArray:
         """Return the wear (mm) at each w."""
         return self.coordinate.wear(w ** (1.0 / self.power))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Return its first and last z; towards a limit wear, that which rounding tells from it."""
+        first, last = self.coordinate.at(np.array([self.start, self.end])).tolist()
+        return first, 1.0 / (TO_ROUNDOFF * self.coordinate.origin) if self.tends else last
 
     @property
     def frame(self) -> Frame:

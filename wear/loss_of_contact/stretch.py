@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.arrest import TO_ROUNDOFF, LimitWear
+from wear.loss_of_contact.arrest import LimitWear
 from wear.loss_of_contact.increments import EASED, Increments, cut, increments
 from wear.loss_of_contact.plan import Problem
 from wear.numerics.chebyshev import chebyshev_nodes
@@ -26,7 +26,6 @@ WIDEST = 12.0  # panel of a count to a limit wear, in ln z: what derivatives are
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
 MOST_WALKED = 120  # cycles on a series that are taken one by one
 LOOKS = 65  # at a series, for how many cycles it takes
-MOST_POOR = 8  # times that panels may hold too few cycles
 MOST_CUTS = 16  # rounds of cutting panels in two
 ENOUGH = 1.5  # cycles per coefficient of a panel
 TOGETHER = 32  # series in one set of arrays
@@ -109,65 +108,24 @@ def stretches(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
     return [found[i] for i in range(len(known))]
 
 
-class _Solution(NamedTuple):
-    """Abel's equation on panels, with the residual on each, and whether that is poor on one that
-    holds too few cycles to be cut."""
-
-    panels: abel.Panels
-    residual: FloatArray
-    poor: bool
-
-
 def _together(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
     """Return the same for series of one kind, all at once."""
     every, size = [series for series, _ in known], known[0][1].size
-    begin, end = np.array([_ends(series) for series in every]).T
-    solutions: dict[int, tuple[_Solution, LimitWear | None]] = {}
-    todo = list(range(len(known)))
-    for attempt in range(MOST_POOR):
-        looks, gains, calm = _looks([every[i] for i in todo], begin[todo], end[todo])
-        wanted: dict[int, tuple[FloatArray, LimitWear | None]] = {}
-        early = []
-        for i, z, gain, at in zip(todo, looks, gains, calm, strict=True):
-            if np.sum(gain) < MOST_WALKED:
-                continue
-            here = np.flatnonzero(at)
-            fewest = ENOUGH * size.panel_nodes
-            if len(here) and np.sum(gain[here[0] : here[-1]]) >= 2 * fewest:
-                wanted[i] = _edges(*known[i], float(end[i]), z, gain, here)
-            else:
-                early.append(i)
-        edges = [of for of, _ in wanted.values()]
-        for i, found in zip(wanted, solved([every[i] for i in wanted], edges, size), strict=True):
-            if found.poor and attempt < MOST_POOR - 1:
-                begin[i] = wanted[i][0][0]
-                early.append(i)
-            else:
-                solutions[i] = found, wanted[i][1]
-        for i in early:
-            # It is too early for panels: some cycles more are taken one by one.
-            wear = float(every[i].coordinate.wear(begin[i]))
-            wear = every[i].walk(wear, end[i], 2 * MOST_WALKED)[-1]
-            begin[i] = every[i].coordinate.at(np.array(wear))
-        todo = [i for i in early if begin[i] < end[i]]
-        if not todo:
-            break
-    panels = [found.panels for found, _ in solutions.values()]
-    starts = np.array([each.frame.starts[0] for each in panels])
+    begin, end = np.array([series.span.ends for series in every]).T
+    looks, gains, calm = _looks(every, begin, end)
+    wanted: dict[int, tuple[FloatArray, LimitWear | None]] = {}
+    for i, (z, gain, at) in enumerate(zip(looks, gains, map(np.flatnonzero, calm), strict=True)):
+        number = float(np.sum(gain[at[0] : at[-1]])) if len(at) else 0.0
+        if number >= 2 * ENOUGH * size.panel_nodes and np.sum(gain) >= MOST_WALKED:
+            wanted[i] = _edges(*known[i], float(end[i]), z, gain, at)
+    found = solved([every[i] for i in wanted], [edges for edges, _ in wanted.values()], size)
+    starts = np.array([panels.frame.starts[0] for panels, _ in found])
+    each = tables([panels for panels, _ in found], starts)
     counts = {
-        i: OnPanels(table, found.panels, found.residual, every[i], limit_wear)
-        for (i, (found, limit_wear)), table in zip(
-            solutions.items(), tables(panels, starts), strict=True
-        )
+        i: OnPanels(table, *of, every[i], wanted[i][1])
+        for i, table, of in zip(wanted, each, found, strict=True)
     }
     return [Stretch(series, float(end[i]), counts.get(i)) for i, series in enumerate(every)]
-
-
-def _ends(series: Increments) -> list[float]:
-    """Return the z from which to which a series is used."""
-    span, coordinate = series.span, series.coordinate
-    begin, end = coordinate.at(np.array([span.start, span.end])).tolist()
-    return [begin, 1.0 / (TO_ROUNDOFF * coordinate.origin) if span.tends else end]
 
 
 def _looks(
@@ -216,9 +174,10 @@ def _edges(
 
 def solved(
     known: Sequence[Increments], edges: Sequence[FloatArray], size: Settings
-) -> list[_Solution]:
+) -> list[tuple[abel.Panels, FloatArray]]:
     """Solve Abel's equation for some series on panels between values of z, cut where that is
-    needed."""
+    needed; return also the residual off the nodes. Panels that hold too few cycles to be cut are
+    left out at the beginning: these are taken one by one."""
     if not known:
         return []
     of, m = np.repeat(np.arange(len(known)), [len(each) - 1 for each in edges]), size.panel_nodes
@@ -226,8 +185,7 @@ def solved(
     origin, ahead, shift = np.array(coordinates).T
     begins, ends = (np.concatenate([each[part] for each in edges]) for part in (_FIRST, _LAST))
     frame = abel.frame(shift[of], begins, ends)
-    done: list[tuple[IntArray, abel.Panels, FloatArray]] = []
-    poor = np.full(len(known), False)
+    done: list[tuple[IntArray, abel.Panels, FloatArray, BoolArray]] = []
     for rounds in range(MOST_CUTS):
         z = frame.states(np.append(chebyshev_nodes(m), CHECKS))
         steps = _steps(known, of, z)
@@ -237,16 +195,13 @@ def solved(
         missed = ~(residual <= size.residual_tolerance * eased)
         cycles = frame.widths / 2 * np.mean(((z + shift[of, None]) / steps)[:, :m], axis=1)
         short = cycles <= ENOUGH * m
-        poor[of[missed & short]] = True
         again = missed & ~short & (rounds < MOST_CUTS - 1)
-        done.append(take((of, panels, residual), ~again))
+        done.append(take((of, panels, residual, missed & short), ~again))
         if not again.any():
             break
         frame, of = cut(take(frame, again)), np.tile(of[again], 2)
-    of, panels, residual = stacked(done)
+    of, panels, residual, poor = stacked(done)
     order = np.lexsort((panels.frame.starts, of))
     rows = np.split(order, np.flatnonzero(np.diff(of[order])) + 1)
-    return [
-        _Solution(*take((panels, residual), own), bool(bad))
-        for own, bad in zip(rows, poor, strict=True)
-    ]
+    # All of them are kept if all are poor.
+    return [take((panels, residual), own[int(np.argmin(poor[own])) :]) for own in rows]
