@@ -23,7 +23,7 @@ from wear.load import Load
 from wear.loss_of_contact.arrest import TabulatedCount, Unresolved
 from wear.loss_of_contact.grazing import limit_wear_of
 from wear.loss_of_contact.increments import Increments, fitted
-from wear.loss_of_contact.parts import Counted, OneByOne, Part, judged, walked
+from wear.loss_of_contact.parts import Counted, Judged, OneByOne, Part, judged, walked
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
 from wear.loss_of_contact.requests import (
@@ -209,7 +209,7 @@ class _Way:
         if here.series.span.tends and end == here.end and len(found.wear) <= most:
             rest = here.series.span.end - found.wear[-1]
             ends = [found.wear[-1], here.series.span.end, here.series.span.end]
-            found.extend(OneByOne(ends, [rest, 0.0], [0.0, 1.0], [None, None], [0.0, 0.0]))
+            found.extend(OneByOne(ends, [rest, 0.0], [0.0, 0.0], [0.0, 1.0]))
             self.over = self.arrested = self.fades = True
         self._append_cycles(found)
         return True
@@ -246,9 +246,8 @@ class _Way:
         if not added > 0.0 and limit is not None and self.wear < limit.wear:
             added = limit.wear - self.wear  # nearer than rounding resolves
         self.singles += 1
-        growth = abs(1.0 + sample.slope)
-        cycle = OneByOne([self.wear, self.wear + added], [added], [growth], [None], [np.nan])
-        self._append_cycles(cycle)
+        cycle = [self.wear, self.wear + added], [added], [np.nan], [abs(1.0 + sample.slope)]
+        self._append_cycles(OneByOne(*cycle))
         self.arrested = not added > 0.0
         self.fades = self.arrested and limit is not None
         late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
@@ -285,9 +284,7 @@ class _Way:
         self.last_added = cycles.added[-1]
 
 
-def _segments(
-    way: _Way, found: Sequence[Iterates | TabulatedCount | Unresolved], wanted: Wanted
-) -> CountedCycles:
+def _segments(way: _Way, found: Sequence[Judged], wanted: Wanted) -> CountedCycles:
     """Return the parts of the way as segments, with what there is after its end."""
     problem, cycles = way.problem, wanted.cycles
     segments: list[Segment] = []
@@ -320,8 +317,8 @@ def _judge(way: _Way) -> Asking[None]:
         (part, k)
         for part in way.parts
         if isinstance(part, OneByOne)
-        for k, (by, missed) in enumerate(zip(part.by, part.missed, strict=True))
-        if by is None and np.isnan(missed)
+        for k, missed in enumerate(part.missed)
+        if np.isnan(missed)
     ]
     if not todo:
         return

@@ -36,11 +36,10 @@ class Roundoff(NamedTuple):
 def roundoff(cycles: Cycles, wears: Sequence[FloatArray]) -> list[Roundoff]:
     """Return what rounding does at each of several sequences of wear (k,), mm; there is a cycle of
     each wear."""
-    wear, ends = np.concatenate(wears), np.cumsum([len(part) for part in wears])[:-1]
-    found = _of_rate(cycles, wear), _of_contact(cycles, wear)
-    return [
-        Roundoff(*parts) for parts in zip(*(np.split(error, ends) for error in found), strict=True)
-    ]
+    wear, ends = np.concatenate([*wears, []]), np.cumsum([len(part) for part in wears])
+    errors = _of_rate(cycles, wear), _of_contact(cycles, wear)
+    found = (np.split(error, ends)[:-1] for error in errors)
+    return [Roundoff(*parts) for parts in zip(*found, strict=True)]
 
 
 def _of_rate(cycles: Cycles, wear: FloatArray) -> FloatArray:

@@ -6,7 +6,7 @@ Those of all scenes are arrays together, wherever one looks, solves or counts.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -78,23 +78,12 @@ def passed(ways: Sequence[tuple[OnPanels, float]]) -> list[tuple[float, float]]:
     return list(zip(cycles.tolist(), after.tolist(), strict=True))
 
 
-def tables(panels: Sequence[abel.Panels], start: FloatArray) -> list[Cells]:
-    """Return the cells of counts on panels, each from a z of its own on the first of them."""
-    found: dict[int, Cells] = {}
-    for some in alike(panels):
-        table = cells(stacked([panels[i] for i in some]), scenes=len(some), start=start[some])
-        each = len(table.u) // len(some)
-        parts = (table.take(slice(at, at + each)) for at in range(0, len(table.u), each))
-        found |= zip(some, parts, strict=True)
-    return [found[i] for i in range(len(panels))]
-
-
-def alike(panels: Sequence[abel.Panels]) -> Iterable[list[int]]:
+def alike(panels: Mapping[int, abel.Panels]) -> list[list[int]]:
     """Return the numbers of counts that have as many panels, of one kind."""
     kinds: dict[object, list[int]] = {}
-    for i, (frame, _) in enumerate(panels):
+    for i, (frame, _) in panels.items():
         kinds.setdefault((frame.c.any(), len(frame.c)), []).append(i)
-    return kinds.values()
+    return list(kinds.values())
 
 
 def stretches(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
@@ -119,12 +108,11 @@ def _together(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
         if number >= 2 * ENOUGH * size.panel_nodes and np.sum(gain) >= MOST_WALKED:
             wanted[i] = _edges(*known[i], float(end[i]), z, gain, at)
     found = solved([every[i] for i in wanted], [edges for edges, _ in wanted.values()], size)
-    starts = np.array([panels.frame.starts[0] for panels, _ in found])
-    each = tables([panels for panels, _ in found], starts)
-    counts = {
-        i: OnPanels(table, *of, every[i], wanted[i][1])
-        for i, table, of in zip(wanted, each, found, strict=True)
-    }
+    solutions, counts = dict(zip(wanted, found, strict=True)), dict[int, OnPanels]()
+    for some in alike({i: panels for i, (panels, _) in solutions.items()}):
+        table = cells(stacked([solutions[i][0] for i in some]), scenes=len(some))
+        for i, own in zip(some, table.parts(len(some)), strict=True):
+            counts[i] = OnPanels(own, *solutions[i], every[i], wanted[i][1])
     return [Stretch(series, float(end[i]), counts.get(i)) for i, series in enumerate(every)]
 
 

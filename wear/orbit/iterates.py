@@ -58,6 +58,11 @@ class Cells(NamedTuple):
         """Return some of the cells."""
         return Cells(*(array[..., which] for array in self))
 
+    def parts(self, scenes: int) -> list[Cells]:
+        """Return the cells of each of some scenes that have as many."""
+        each = len(self.u) // scenes
+        return [self.take(slice(at, at + each)) for at in range(0, len(self.u), each)]
+
     @property
     def bounds(self) -> FloatArray:
         """Return u where each cell starts, and where the last one ends."""
