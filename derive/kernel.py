@@ -30,17 +30,15 @@ from sympy.core.relational import Relational
 
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
-from .language import defined_by, fault, names
-from .note.model import CLOSURE, subject
+from .language import defined_by, face, fault, meant_by, names
+from .note.model import CLOSURE, WEARING, subject
 from .reals import contradictory
-from .symbols import QUANTITIES, symbol, symbols, t
+from .symbols import CLOCKS, QUANTITIES, symbol, t
 from .time_limit import time_limit
 
 _ROOM = "derive.rules."
 _TOKEN = object()
-WEARING = frozenset(symbols("u_a u_c sigma_a sigma_c"))
 _PRESSURE = symbol("p")
-"""Fields that have rates, by Archard's law; others where a premise says so."""
 LIMIT_S = 60.0
 """Seconds of CPU time after which a symbolic step is given up."""
 
@@ -216,24 +214,24 @@ def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypot
 
 def _require_names(hypotheses: tuple[Hypothesis, ...]) -> None:
     """Refuse a name that is defined twice, or by itself: no reader sees what that says."""
-    relations = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
-    values = [r.args for r in relations if isinstance(r, sp.Equality)]
-    subjects = [subject for relation in relations for subject in defined_by(relation)]
-    if len(set(subjects)) < len(subjects):
-        raise RuleError("two definitions of one name")
-    names = {name for name, _ in values}
-    while names:
-        done = {name for name, value in values if name in names and not value.has(*names)}
+    rests = dict[str, frozenset[str]]()
+    for relation in (h.relation for h in hypotheses if h.kind is Kind.DEFINITION):
+        if not rests.keys().isdisjoint(defined_by(relation)):
+            raise RuleError("two definitions of one name")
+        rests |= dict.fromkeys(defined_by(relation), meant_by(relation))
+    while rests:
+        done = [name for name, on in rests.items() if on.isdisjoint(rests)]
         if not done:
-            raise RuleError(f"{listed(map(str, names))} is no new name: a circle of definitions")
-        names -= done
+            raise RuleError(f"{listed(rests)} is no new name: a circle of definitions")
+        for name in done:
+            del rests[name]
 
 
 def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
     """Refuse hypotheses that nothing satisfies: anything would follow from them.
 
-    They hold at every time: closed relations at the start too, and where fields that wear are
-    equal, their rates are.  Of two equations of the model for one quantity no reader is told,
+    They hold at every time, at the start too, and where fields that wear are equal, their rates
+    are.  Of two equations of the model for one quantity no reader is told,
     nor of the first closure in (6), which contradicts (1) where the load does not begin at zero.
     """
     of_closure = [h for h in hypotheses if h.relation.has(CLOSURE[True].lhs.func)]
@@ -246,23 +244,26 @@ def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
 
 
 def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
-    """Return what hypotheses say while there is contact, at the start, and of rates."""
+    """Return what hypotheses say while there is contact, at all times they name, and of rates."""
     now = [h.relation for h in hypotheses]
     pressed = [sp.Gt(_PRESSURE, 0)] if any(relation.has(_PRESSURE) for relation in now) else []
-    return frozenset((*pressed, *now, *(said for relation in now for said in _implied(relation))))
+    fields = frozenset[sp.Basic]().union(*(relation.atoms(AppliedUndef) for relation in now))
+    times = frozenset(f.args[0] for f in fields if f.func.__name__ in QUANTITIES) | {sp.S.Zero}
+    implied = (said for relation in now for said in _implied(relation, times - {t}))
+    return frozenset((*pressed, *now, *implied))
 
 
 @cache
-def _implied(relation: sp.Basic) -> tuple[sp.Basic, ...]:
-    """Return what a closed relation between fields at every time says at the start, of rates."""
+def _implied(relation: sp.Basic, times: frozenset[sp.Basic]) -> tuple[sp.Basic, ...]:
+    """Return what a relation between fields at every time says at others, and of rates."""
     fields = relation.atoms(AppliedUndef)
     other = relation.has(sp.Derivative, sp.Integral, sp.Limit) or {f.args for f in fields} != {(t,)}
-    if other or not isinstance(relation, (sp.Eq, sp.Ge, sp.Le)):
+    if other or any(free.name in CLOCKS - {"t"} for free in relation.free_symbols):
         return ()
-    start = relation.subs(t, 0)
+    then = (relation.subs(t, time) for time in times)
     if isinstance(relation, sp.Eq) and fields <= WEARING:
-        return start, sp.Eq(*(sp.diff(side, t) for side in relation.args), evaluate=False)
-    return (start,)
+        return *then, sp.Eq(*(sp.diff(side, t) for side in relation.args), evaluate=False)
+    return tuple(then)
 
 
 def _require_language(*parts: object) -> None:
@@ -275,7 +276,7 @@ def _require_language(*parts: object) -> None:
     if found := next(filter(None, map(fault, expressions)), None):
         raise RuleError(f"no claim: {found}")
     bearers = frozenset().union(*map(names, expressions))
-    if len({name for name, _ in bearers}) < len(bearers):
+    if len({face(name) for name, _ in bearers}) < len(bearers):
         raise RuleError("no claim: two quantities have one name")
 
 

@@ -7,9 +7,11 @@ Overview
 Key results
     fault(expr)    why an expression is not of the language, or None
     names(expr)    the names in an expression, each with what bears it
-    defined_by     the names that a definition gives a meaning
+    defined_by     the names that a definition gives a meaning, meant_by by which
     bound(expr)    the variables that one node binds: of an integral, a limit, a derivative
     certain(expr)  the parts that have a value wherever the whole has one
+    needs(expr)    what gives an expression a value where its arguments have one
+    told_by(expr)  what holds wherever it has one
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 
 from .claims import Averaged, Continuous, Drift, FirstZero, Oscillation, Term, landau_o
 from .laws import GENERAL
-from .note.model import FIELDS
+from .note.model import FIELDS, WEARING
 from .symbols import CLOCKS, DATA, QUANTITIES, symbol, t
 
 _HEADS = frozenset(
@@ -44,7 +46,11 @@ _FACES = frozenset(quantity.latex.replace(" ", "") for quantity in QUANTITIES.va
 _WORDS = frozenset(head.__name__ for head in _HEADS) | {
     *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o"),
 }
-_FUNCTIONS = frozenset((GENERAL.phi.func, landau_o))
+_LAW = GENERAL.phi.func
+_FUNCTIONS = frozenset((_LAW, landau_o))
+_PARTS = {FirstZero: 2, Drift: 5, Oscillation: 5}
+_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
+"""Functions that have a value at every real argument."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 _SIGNS = [{domain: True} for domain in ("real", "positive", "nonnegative")]
 _DOMAINS = [sp.Dummy(**domain).assumptions0 for domain in _SIGNS]
@@ -88,15 +94,23 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{kind.__name__} is of no kind that a claim may hold"
     if kind is sp.Limit and node != sp.Limit(*node.args[:3]):
         return f"{node} is no limit from above"
+    if len(node.args) != _PARTS.get(kind, len(node.args)):
+        return f"{node} has no {_PARTS[kind]} parts"
     if not all(variable.is_Symbol for variable in bound(node)):
         return f"{node} is by no variable"
+    if kind is sp.Subs and not (node.expr.is_Derivative and isinstance(node.expr.expr, _LAW)):
+        return f"{node} is no slope of the contact law"
+    inner = {(part.name, part) for part in node.args[0].atoms(sp.Symbol)} if bound(node) else ()
+    if len(dict(inner)) < len(inner):
+        return f"{node} has two variables of one name"
     if fixed := _held_fixed(node):
         return f"{node} holds {fixed} fixed"
     if kind is sp.Integral and any(len(limits) != 3 for limits in node.limits):
         return f"{node} has no two ends"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _varies(node.rhs, node.lhs.args[1]):
         return f"{node.rhs} cannot be a limit: it varies with {node.lhs.args[1]}"
-    if isinstance(node, Relational) and not all(isinstance(side, sp.Expr) for side in node.args):
+    numbers = all(isinstance(side, sp.Expr) for side in node.args) and not node.has(sp.Lambda)
+    if isinstance(node, Relational) and not numbers:
         return f"{node} is no relation between numbers"
     return None
 
@@ -141,8 +155,6 @@ def _taken(node: sp.Basic) -> Iterator[tuple[sp.Basic, sp.Expr]]:
         yield t, node.args[0]
     elif isinstance(node, sp.Integral):
         yield from ((name, end) for name, *ends in node.limits for end in ends)
-    elif isinstance(node, sp.Subs):
-        yield from zip(node.variables, node.point, strict=True)
     elif isinstance(node, sp.Limit):
         yield node.args[1:3]
 
@@ -165,11 +177,16 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
     return None
 
 
-@cache
 def _shows(name: str) -> bool:
     """Return whether a name is typeset as it is typed, and as no quantity of the vocabulary."""
-    face = str(sp.latex(sp.Symbol(name))).replace(" ", "")
-    return face not in _FACES and re.sub(r"[\\_{}]", "", face) == name.replace("_", "")
+    shown = face(name)
+    return shown not in _FACES and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
+
+
+@cache
+def face(name: str) -> str:
+    """Return a name as it is typeset: x1 and x_1 look alike."""
+    return str(sp.latex(sp.Symbol(name))).replace(" ", "")
 
 
 def _name(node: sp.Basic) -> str:
@@ -195,6 +212,14 @@ def defined_by(relation: sp.Basic) -> frozenset[str]:
     return frozenset(name for name, _ in names(relation)) - _MODEL
 
 
+def meant_by(relation: sp.Basic) -> frozenset[str]:
+    """Return the names by which it does so: those of the value, or all others."""
+    given = defined_by(relation)
+    if given and {_name(relation.args[0])} == given:
+        return frozenset(name for name, _ in names(relation.args[1]))
+    return frozenset(name for name, _ in names(relation)) - given
+
+
 def bound(node: sp.Basic) -> frozenset[sp.Basic]:
     """Return the variables that a node binds."""
     if isinstance(node, (sp.Derivative, ExprWithLimits, sp.Subs, sp.Lambda)):
@@ -216,3 +241,50 @@ def certain(expr: sp.Basic) -> Iterator[sp.Basic]:
     if isinstance(expr, whole) and not isinstance(expr, sp.Piecewise):
         for part in expr.args:
             yield from certain(part)
+
+
+def needs(expr: sp.Basic) -> list[sp.Basic]:
+    """Return the relation that gives an expression a value where its arguments have one."""
+    if expr in (sp.zoo, sp.nan):
+        return [sp.false]
+    unknown = sp.Ne(expr, sp.zoo, evaluate=False)
+    if isinstance(expr, (sp.Limit, FirstZero, Term, landau_o)):
+        return [unknown]
+    if isinstance(expr, sp.Piecewise) and expr.args[-1].cond is not sp.true:
+        return [expr.args[0].cond if len(expr.args) == 1 else unknown]
+    if isinstance(expr, sp.Derivative):
+        rated = expr.expr in WEARING and expr.variables == (t,)
+        return [] if rated or is_slope_of_law(expr) else [unknown]
+    if isinstance(expr, sp.Pow):
+        base, exponent = expr.args
+        if exponent.is_Integer:
+            return [sp.Ne(base, 0)] if exponent.is_negative else []
+        relation = sp.Ge if exponent.is_positive else sp.Gt
+        return [relation(base, 0, evaluate=False)]
+    if isinstance(expr, sp.log):
+        return [sp.Gt(expr.args[0], 0)]
+    if isinstance(expr, sp.besseli):
+        return [] if expr.order.is_Integer else [unknown]
+    if isinstance(expr, sp.LambertW):
+        return [sp.Ge(expr.args[0] + sp.exp(-1), 0) if len(expr.args) == 1 else unknown]
+    if isinstance(expr, sp.Ei):
+        return [sp.Ne(expr.args[0], 0)]
+    partial = isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise))
+    return [unknown] if partial and not isinstance(expr, AppliedUndef) else []
+
+
+def told_by(expr: sp.Basic) -> list[sp.Basic]:
+    """Return the relation that holds wherever an expression has a value.
+
+    A power may have one for a base of either sign, as its exponent is.
+    """
+    return [] if isinstance(expr, sp.Pow) and not expr.exp.is_Rational else needs(expr)
+
+
+def is_slope_of_law(expr: sp.Basic) -> bool:
+    """Return whether an expression is the first derivative of the unspecified contact law."""
+    if isinstance(expr, sp.Subs):
+        return len(expr.variables) == 1 and is_slope_of_law(expr.expr)
+    return isinstance(expr, sp.Derivative) and (
+        expr.derivative_count == 1 and expr.expr == _LAW(expr.variables[0])
+    )

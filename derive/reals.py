@@ -24,6 +24,7 @@ import z3
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
+from .language import certain, is_slope_of_law, told_by
 from .laws import GENERAL
 
 LAW = GENERAL.phi.func
@@ -78,7 +79,11 @@ def _refuted(facts: frozenset[sp.Basic], goal: sp.Basic | None = None) -> bool:
     wanted = z3.BoolVal(False) if goal is None else translator.relation(goal)
     if wanted is None:
         return False
-    given = (translator.relation(fact) for fact in sorted(facts, key=str))
+    parts = {part for fact in facts if not fact.has(sp.zoo) for part in certain(fact)}
+    said = facts.union(*map(told_by, parts))
+    if sp.false in said:
+        return True
+    given = (translator.relation(fact) for fact in sorted(said, key=str))
     known = [relation for relation in given if relation is not None]
     solver.add(*known, *translator.known, z3.Not(wanted))
     return bool(solver.check() == z3.unsat)
@@ -178,15 +183,6 @@ def _rational(expr: sp.Expr, side: int) -> z3.ArithRef:
     man, exp = (ball.lower() if side < 0 else ball.upper()).man_exp()
     value = sp.Integer(int(man)) * sp.Integer(2) ** int(exp)
     return z3.Q(int(value.p), int(value.q))
-
-
-def is_slope_of_law(expr: sp.Basic) -> bool:
-    """Return whether an expression is the first derivative of the unspecified contact law."""
-    if isinstance(expr, sp.Subs):
-        return len(expr.variables) == 1 and is_slope_of_law(expr.expr)
-    return isinstance(expr, sp.Derivative) and (
-        expr.derivative_count == 1 and expr.expr == LAW(expr.variables[0])
-    )
 
 
 def sign(expr: sp.Expr, facts: frozenset[sp.Basic] = frozenset()) -> int | None:

@@ -16,6 +16,7 @@ Key results
     law_of              the law in (4)
     subject             the quantity that one of them gives
     FIELDS              the functions of time in (1) to (5)
+    WEARING             those that have rates
 """
 
 from __future__ import annotations
@@ -57,6 +58,8 @@ START = (
     sp.Eq(initial("sigma_c"), sigma_c0),
 )
 FIELDS = frozenset(f.func for f in (h, U_a, U_c, u_a, u_c, sigma, sigma_a, sigma_c, p, R_a))
+WEARING = frozenset((u_a, u_c, sigma_a, sigma_c))
+"""Fields that have rates, by Archard's law; others where a premise says so."""
 SLIP = (sp.Eq(V, R * omega), sp.Eq(omega, sp.pi * n / 30))
 
 

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ..claims import Averaged, Equality, Limit, Property, Term, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
@@ -18,7 +17,7 @@ from ..zero import is_zero
 from .algebra import inserted
 from .averages import require_expansion
 from .proving import facts_of, falls, integrable, smooth, told, undefined
-from .reading import at_an_instant, clocks, fields, functions
+from .reading import at_an_instant, clocks, constant, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
 """Kinds that no reader sees beside an equation: they may not hide a condition."""
@@ -42,7 +41,7 @@ class Assume(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         said, relation, kind = self.hypothesis, self.hypothesis.relation, self.hypothesis.kind
-        instant = bool(clocks(relation)) and not relation.atoms(AppliedUndef)
+        instant = bool(clocks(relation)) and all(map(constant, functions(relation)))
         named = kind is Kind.DEFINITION
         if (
             relation in (sp.true, sp.false)
@@ -85,8 +84,9 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
         require_expansion(term, *premises)
     facts = facts_of(premises)
     goals = [*undefined(whole.xreplace(terms), *premises)]
-    if relation.has(sp.Derivative):  # what has a rate is continuous, or that of no field
-        goals += [goal for goal in integrable(whole, t) if goal not in facts]
+    for clock in {v for rate in relation.atoms(sp.Derivative) for v in rate.variables}:
+        # what has a rate is continuous, or that of no field
+        goals += [goal for goal in integrable(whole, clock) if goal not in facts]
     if implicit is None and sign is not None and not clocks(name):
         above = sign.func
         if not holds(above(inserted(value, premises), 0), facts):
@@ -104,11 +104,13 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
         raise RuleError(f"missing premise: {name} is a new name")
     if now != _MEANT.get(name, now):
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
-    rates = [sp.diff(now, f) * sp.Derivative(f, t) for f in fields(now)]
-    change = inserted(sp.Add(*rates), premises).doit()
-    varies = clocks(value) or any(d.has(t) for d in now.atoms(sp.Derivative))
-    steps = fields(now) and not smooth(now, *fields(now))
-    if not clocks(name) and (varies or steps or not is_zero(change)):
+    said = inserted(now, premises)
+    rates = {field: sp.Derivative(field, t) for field in fields(said)}
+    change = inserted(sp.Add(*(sp.diff(said, f) * rate for f, rate in rates.items())), premises)
+    varies = clocks(said) or any(d.has(t) for d in said.atoms(sp.Derivative))
+    unknown = [*undefined(sp.Tuple(*rates.values()), *premises)]
+    jumps = bool(rates) and not smooth(said, *rates)
+    if not clocks(name) and (varies or unknown or jumps or not is_zero(change)):
         raise RuleError(f"missing premise: {now} is constant")
 
 

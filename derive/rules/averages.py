@@ -26,7 +26,7 @@ from ..averaging import collected, mean, turning, z
 from ..claims import Asymptotic, Averaged, Drift, Equality, Oscillation, Term
 from ..hypotheses import LOAD, SINE, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
-from ..reals import holds
+from ..reals import LAW, holds
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .algebra import inserted
@@ -77,10 +77,12 @@ def _coefficients(law: sp.Expr, order: int, facts: frozenset[sp.Basic]) -> tuple
 def require_expansion(term: Term, *premises: Judgement) -> None:
     """Raise RuleError unless a formal solution has this coefficient: the law has the period 1,
     is smooth at infinity and tends to what is not zero and does not vary."""
-    order, law, roughness, phase, _ = term.args
-    turning = law.subs(sp.sin(2 * sp.pi * phase), sp.Dummy(real=True))
-    if (roughness, phase) != (ROUGHNESS, tau) or functions(law) or clocks(turning):
+    order, law, *variables = term.args
+    turning = law.subs(sp.sin(2 * sp.pi * tau), sp.Dummy(real=True))
+    if variables != [ROUGHNESS, tau, rho] or functions(law) or clocks(turning):
         raise RuleError(f"missing premise: {law} has the period 1")
+    if not (order.is_Integer and order.is_positive) or (order > 1 and law.has(LAW)):
+        raise RuleError(f"missing premise: {law} has a coefficient of order {order}")
     _coefficients(turning, int(order), facts_of(premises))
 
 

@@ -22,12 +22,11 @@ from ..reals import holds
 from ..symbols import DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import facts_of, falls, require_defined, smooth
+from .proving import facts_of, falls, open_set, require_defined, smooth, undefined
 from .reading import equality, functions
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
 _SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
-_OPEN = (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)
 
 
 def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
@@ -46,7 +45,7 @@ def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
             kept = not _leaves_data_free(relation)
         else:
             about = parameter.name in _data_of(relation, definitions)
-            kept = about and kind is not Kind.DEFINITION and not isinstance(relation, _OPEN)
+            kept = about and kind is not Kind.DEFINITION and not open_set(relation)
         if kept:
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
 
@@ -64,7 +63,8 @@ def _leaves_data_free(relation: sp.Basic) -> bool:
     """Return whether fields that satisfy a relation exist for any data: it is a contact law, a
     bound of the load, or a setting."""
     if isinstance(relation, sp.LessThan):
-        return relation.lhs == sp.Abs(LOAD) and bool(relation.rhs.is_positive)
+        positive = holds(sp.Gt(relation.rhs, 0)) and not [*undefined(relation.rhs)]
+        return relation.lhs == sp.Abs(LOAD) and positive
     if not _is_law(relation):
         return relation in _SETTINGS
     law = (relation.rhs / PRESSURE_MAX).subs(h, r * sigma)

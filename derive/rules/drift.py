@@ -173,6 +173,7 @@ class LeadingTerm(Rule):
         moving = cycles.has(t) or clocks(cycles)  # of which the slope knows nothing
         if moving or not fixed(sp.Tuple(pace, claimed, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
+        require(sp.Ge(s, 0), *premises)
         if _end(claimed, small) != sp.oo:
             raise RuleError(f"missing premise: {leading} grows without bound")
         if _end(slope / sp.diff(claimed, small), small) != 1:

@@ -21,13 +21,15 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from ..claims import Asymptotic, Continuous, FirstZero, Limit, Term, landau_o
+from ..claims import Asymptotic, Continuous, Limit
 from ..hypotheses import DIFFERENTIABLE, LOAD
-from ..kernel import WEARING, Judgement, RuleError
-from ..language import bound, certain
+from ..kernel import Judgement, RuleError
+from ..language import bound, certain, needs, told_by
 from ..laws import r
-from ..reals import LAW, holds, is_slope_of_law, sign
-from ..symbols import t
+from ..note.model import WEARING
+from ..reals import LAW, holds, sign
+from ..symbols import symbols, t
+from .reading import constant
 
 #: What cuts an integral into finitely many pieces, on each of which it is continuous.
 _PIECES = (sp.Piecewise, ExprCondPair, Relational)
@@ -41,8 +43,6 @@ _CONTINUOUS = (
     *(sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Ei, sp.LambertW, sp.sin, sp.cos, sp.Abs),
     *(LAW, sp.Symbol),
 )
-#: Functions that have a value at every real argument.
-_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
 
 
 def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
@@ -52,7 +52,7 @@ def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
     for premise in premises:
         if not isinstance(premise.claim, Asymptotic):
             found.add(premise.relation)
-        found |= {need for part in _parts((premise,)) for need in _need(part)} - {sp.false}
+        found |= {need for part in _parts((premise,)) for need in told_by(part)}
         found |= {h.relation for h in premise.hypotheses}
     return frozenset(found | set(map(Continuous, _continuous_fields(found))))
 
@@ -63,18 +63,17 @@ def _continuous_fields(facts: set[sp.Basic]) -> set[sp.Basic]:
     found = {fact.args[0] for fact in facts if isinstance(fact, Continuous)}
     found |= {LOAD} if DIFFERENTIABLE.relation in facts else set()
     values = [f for f in facts if isinstance(f, sp.Equality) and isinstance(f.lhs, AppliedUndef)]
-    while new := {f.lhs for f in values if _unbroken(f.rhs, t, found)} - found:
+    while new := {f.lhs for f in values if _unbroken(f.rhs, found)} - found:
         found |= new
     return found
 
 
-def _unbroken(expr: sp.Expr, variable: sp.Basic, fields: Collection[sp.Basic] = ()) -> bool:
-    """Return whether an expression is continuous in a variable wherever it has a value."""
-    if not expr.has(variable) or expr in fields or expr in WEARING:
+def _unbroken(expr: sp.Expr, fields: Collection[sp.Basic]) -> bool:
+    """Return whether an expression is continuous in time wherever it has a value."""
+    if constant(expr) or expr in (*symbols("t tau N"), *WEARING, *fields):
         return True
-    return isinstance(expr, _CONTINUOUS) and all(
-        _unbroken(part, variable, fields) for part in expr.args
-    )
+    made = bool(expr.args) and isinstance(expr, _CONTINUOUS)
+    return made and all(_unbroken(part, fields) for part in expr.args)
 
 
 def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
@@ -115,7 +114,7 @@ def undefined(
     """Yield the relations that would give every part of an expression a value, and do not follow
     from premises, or from what gives ``near`` a value."""
     ends = {part for whole in near for part in certain(whole)}
-    facts = facts_of(premises).union(*map(_need, ends))
+    facts = facts_of(premises).union(*map(told_by, ends))
     needed = _needed(expr, _parts(premises) | ends, facts)
     return (goal for goal in needed if not holds(goal, facts))
 
@@ -136,7 +135,7 @@ def _needed(
         beyond += [sp.Not(fact) for fact in _between(s, low, high, facts)]
         goals = [sp.Or(goal, *beyond) if goal.has(s) else goal for goal in goals]
         goals += integrable(parts[0], s)
-    return [*goals, *_need(expr)]
+    return [*goals, *needs(expr)]
 
 
 def _between(
@@ -153,7 +152,7 @@ def _between(
     parts = (part for fact in facts for part in sp.And.make_args(fact))
     said = (f for f in parts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
     met = (fact.xreplace({last: s}) for fact in said)
-    return [fact for fact in met if not fact.has(t, sp.zoo)]
+    return [fact for fact in met if constant(fact) and not fact.has(sp.zoo)]
 
 
 def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
@@ -164,36 +163,6 @@ def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
     if body.has(s) and not isinstance(body, (*_CONTINUOUS, *_PIECES)):
         return [sp.Ne(body, sp.zoo, evaluate=False)]
     return [goal for part in body.args for goal in integrable(part, s)]
-
-
-def _need(expr: sp.Basic) -> list[sp.Basic]:
-    """Return the relation that gives an expression a value where its arguments have one."""
-    if expr in (sp.zoo, sp.nan):
-        return [sp.false]
-    unknown = sp.Ne(expr, sp.zoo, evaluate=False)
-    if isinstance(expr, (sp.Limit, FirstZero, Term, landau_o)):
-        return [unknown]
-    if isinstance(expr, sp.Piecewise) and expr.args[-1].cond is not sp.true:
-        return [expr.args[0].cond if len(expr.args) == 1 else unknown]
-    if isinstance(expr, sp.Derivative):
-        rated = expr.expr in WEARING and expr.variables == (t,)
-        return [] if rated or is_slope_of_law(expr) else [unknown]
-    if isinstance(expr, sp.Pow):
-        base, exponent = expr.args
-        if exponent.is_Integer:
-            return [sp.Ne(base, 0)] if exponent.is_negative else []
-        relation = sp.Ge if exponent.is_positive else sp.Gt
-        return [relation(base, 0, evaluate=False)]
-    if isinstance(expr, sp.log):
-        return [sp.Gt(expr.args[0], 0)]
-    if isinstance(expr, sp.besseli):
-        return [] if expr.order.is_Integer else [unknown]
-    if isinstance(expr, sp.LambertW):
-        return [sp.Ge(expr.args[0], 0) if len(expr.args) == 1 else unknown]
-    if isinstance(expr, sp.Ei):
-        return [sp.Ne(expr.args[0], 0)]
-    partial = isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise))
-    return [unknown] if partial and not isinstance(expr, AppliedUndef) else []
 
 
 def continuous(
@@ -232,6 +201,14 @@ def continuity(
     if not all(isinstance(part, _CONTINUOUS) or part in unknowns for part in changing):
         return [sp.false]
     return [_strict(goal) for goal in _needed(expr, known)]
+
+
+def open_set(relation: sp.Basic) -> bool:
+    """Return whether a relation between data holds near wherever it holds."""
+    if not isinstance(relation, (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)):
+        return False
+    goals = (g for side in relation.args for g in continuity(side, side.free_symbols))
+    return all(holds(goal, frozenset([relation])) for goal in goals)
 
 
 def smooth(expr: sp.Expr, *unknowns: sp.Basic) -> bool:

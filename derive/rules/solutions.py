@@ -17,7 +17,8 @@ import sympy as sp
 
 from ..claims import Continuous, Equality, FirstZero, Property
 from ..hypotheses import CONSTANT, LOAD
-from ..kernel import WEARING, Conclusion, Judgement, Rule, RuleError, plain
+from ..kernel import Conclusion, Judgement, Rule, RuleError, plain
+from ..note.model import WEARING
 from ..reals import holds, sign
 from ..symbols import symbol, t
 from ..zero import is_zero

@@ -16,6 +16,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.printing.latex import LatexPrinter
 
 from ..symbols import QUANTITIES, symbol, t
@@ -61,12 +62,14 @@ class _Printer(LatexPrinter):
 
     def _print_Function(self, expr: sp.Function, exp: str | None = None) -> str:
         name = expr.func.__name__
-        if name not in QUANTITIES:
-            is_scaled = expr.args == (symbol("tau"),)  # a field of scaled time
-            return name if is_scaled else str(super()._print_Function(expr, exp))
-        body = QUANTITIES[name].latex
-        if expr.args != (t,):
-            body += f"({self._print(expr.args[0])})"
+        if name in QUANTITIES:
+            body = QUANTITIES[name].latex
+            if expr.args != (t,):
+                body += f"({self._print(expr.args[0])})"
+        elif isinstance(expr, AppliedUndef) and expr.args == (symbol("tau"),):
+            body = name  # a field of scaled time
+        else:
+            return str(super()._print_Function(expr, exp))
         return body if exp is None else rf"{body}^{{{exp}}}"
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:

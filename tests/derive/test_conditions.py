@@ -22,7 +22,7 @@ from derive.rules.inequalities import Arithmetic
 from derive.symbols import DATA, symbols, t
 from derive.typeset.mathml import display
 
-b_0, f_c, h_0, kappa, U_a, U_c = symbols("b_0 f_c h_0 kappa U_a U_c")
+b_0, f_c, h_0, kappa, U_a, U_c, T, tau = symbols("b_0 f_c h_0 kappa U_a U_c T tau")
 
 
 def test_every_condition_reads_as_latex() -> None:
@@ -56,6 +56,10 @@ def test_a_definition_shows_what_it_supposes() -> None:
         (shown,) = defined(name, value).conditions
         assert shown.relation == condition
     assert defined(b_0, 1 / f_c, assume(ROUGHENING)).conditions == (ROUGHENING,)
+    phased = sp.Function("v", real=True)(tau)
+    whose = sp.Eq(sp.Derivative(phased, tau), U_a.subs(t, T * tau), evaluate=False)
+    (shown,) = assume(Hypothesis(whose, Kind.DEFINITION)).conditions
+    assert shown == CONTINUOUS
 
 
 def test_names_are_shown_with_what_they_mean() -> None:

@@ -25,6 +25,7 @@ u_c, U_a, U_c, h, p, sigma = symbols("u_c U_a U_c h p sigma")
 h_0, f_c, C, T, N, q, k, b_0, U = symbols("h_0 f_c C T N q k b_0 U")
 theta, kappa, tau, p_max = symbols("theta kappa tau p_max")
 x, y = sp.symbols("x y", real=True)
+HIDDEN, ALIKE = sp.Dummy("x", real=True), sp.Dummy("x", real=True)
 WIGGLE = sp.Function("wiggle", real=True)(t)
 SWAYS, POSITIVE = sp.Derivative(WIGGLE, t), sp.Function("wiggle", positive=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
@@ -93,6 +94,11 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Symbol("U_a(t)", positive=True), "no real quantity"),
     (sp.Dummy("x", real=True), "a name that others may have"),
     (x + sp.Symbol("x", positive=True), "one name"),
+    (sp.Symbol("x1", real=True) + sp.Symbol("x_1", real=True), "one name"),
+    (sp.Integral(x + HIDDEN, (HIDDEN, 0, 1)), "two variables of one name"),  # looks like 2 x
+    (sp.Integral(HIDDEN * ALIKE, (HIDDEN, 0, 1), (ALIKE, 0, 2)), "of one name"),  # like x^2
+    (sp.Lambda(x, 2 * x), "no relation between numbers"),
+    (FirstZero(q), "no 2 parts"),
     (sp.Symbol("pi", positive=True), "no real quantity"),
     (sp.Symbol("oo", real=True), "no real quantity"),
     (sp.Symbol("f_c_", positive=True), "no real quantity"),  # looks like f_c
@@ -115,7 +121,8 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Integral(b_0, (f_c, 0, 1)), "fixed"),  # b_0 = L f_c
     (sp.Integral(u_c * T, (T, 1, 2)), "fixed"),
     (FirstZero(b_0 - h_0, h_0), "fixed"),
-    (sp.Subs(b_0, f_c, 1), "fixed"),
+    (sp.Subs(b_0, f_c, 1), "no slope"),
+    (sp.Subs(rate("u_c"), t, T), "no slope"),  # of that no premise speaks
     (sp.Integral(N, (t, 0, T)), "fixed"),  # T/2, not N T
     (sp.Integral(PHASED, (t, 0, T)), "fixed"),
     (sp.Integral(U_a, (tau, 0, 1)), "fixed"),
@@ -124,7 +131,6 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Integral(1 / q, (q, 0, 1)), "q is never 0"),  # infinite
     (sp.Integral(U_a, (t, -T, T)), "t is never -T"),  # nobody says what the load was
     (U_a.subs(t, t - T), "t is never -T"),
-    (sp.Subs(rate("u_c"), t, -T), "t is never -T"),
 )
 SPEAKABLE: tuple[sp.Expr, ...] = (
     2 - 1 / k,
@@ -142,7 +148,7 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
     LAW(r),
     x * y,
     U_a.subs(t, t + T),
-    sp.Subs(rate("u_c"), t, T),
+    -sp.diff(LAW(y), y).subs(y, h / sigma),
 )
 
 
@@ -161,6 +167,7 @@ def test_what_is_of_the_language_can_be_said(expr: sp.Expr) -> None:
 
 MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.CONDITION, sp.Eq(t, 5), "cannot be assumed"),  # t = 4
+    (Kind.CONDITION, sp.Lt(t, T * WIGGLE.subs(t, 0)), "cannot be assumed"),  # later
     (Kind.CONDITION, sp.Eq(u_c, h + landau_o(sp.S.One)), "cannot be assumed"),  # 1/t and 2/t
     (Kind.MODEL, sp.Le(sp.Abs(U_a), U), "no equation of the model"),  # under no k as U_a + p/k
     (Kind.MODEL, sp.Eq(f_c, 5), "no equation of the model"),  # f_c = 1

@@ -10,7 +10,7 @@ from derive.typeset.display import latex
 from derive.written import evaluated, read
 from tests.derive.judgements import equal, given
 
-h_0, u_c, U_a, f_c, T, h, L = symbols("h_0 u_c U_a f_c T h L")
+h_0, u_c, U_a, f_c, T, h, L, tau = symbols("h_0 u_c U_a f_c T h L tau")
 
 
 @pytest.mark.parametrize(
@@ -27,6 +27,11 @@ h_0, u_c, U_a, f_c, T, h, L = symbols("h_0 u_c U_a f_c T h L")
 )
 def test_text_means_what_it_says(text: str, meaning: sp.Basic):
     assert evaluated(read(text)) == meaning
+
+
+def test_a_power_of_a_function_of_scaled_time_is_written():
+    assert latex(sp.Function("v", real=True)(tau) ** 2) == "v^{2}"
+    assert latex(sp.sin(tau) ** 2) == r"\sin^{2}{\left(\tau \right)}"
 
 
 def test_nothing_is_moved():

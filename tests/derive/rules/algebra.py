@@ -25,7 +25,7 @@ from derive.rules.algebra import (
 from derive.rules.assumption import assume, defined
 from derive.rules.calculus import RIGID, SPRINGS, ParameterLimit, differentiate
 from derive.rules.inequalities import Arithmetic
-from derive.rules.limits import forever
+from derive.rules.limits import forever, later, one_period_later
 from derive.rules.solutions import FirstRoot
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
@@ -68,6 +68,8 @@ x, y = sp.symbols("x y", real=True)
 v = sp.Function("v", real=True)(tau)
 
 SIDES = eq(h, u_a)
+FALLING = lt(f_c, 0)
+NAMED = assume(supposed(equal(G, b_0), Kind.DEFINITION))
 TRIVIAL = sp.Ge(h_0, 0, evaluate=False)
 ABOVE, AT_ONE, EXACTLY_ONE = gt(h, f_c), eq(f_c, 1), eq(2 * f_c, 2)
 FALLS = ParameterLimit(f_c / M, M)()
@@ -127,8 +129,8 @@ FAMILIES = (
         # d(h_0 N)/dt is h_0/T
         "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
         "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
-        # G(0) = 1
-        "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, initial("G"))),
+        # G = t/T
+        "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, G)),
         # G = q/N, for one N
         "a length that grows with N": ("may take every value", logarithmic(), eq(q, N * G)),
     }),
@@ -155,7 +157,6 @@ FAMILIES = (
         "a factor that is a rate": ("Derivative", rate("h")),  # h jumps
         "1/theta over -1 to 1, for theta > 0": ("Ne", sp.Integral(1 / theta, (theta, -1, 1)), SIDES,
             given(theta > 0)),
-        "ln x at -1, for x > 0": ("> 0", sp.Subs(sp.log(x), x, -1), SIDES, given(x > 0)),
         "a piece without the others": ("f_c > 0", sp.Piecewise((1, f_c > 0))),  # f_c = -1
     }),
     Family(restrict, (
@@ -287,6 +288,10 @@ FAMILIES = (
         "definitions in a circle": ("circle", equal(h_0, 0), defined(b_0, theta + h_0),
             defined(theta, b_0 + 0)),
     }),
+    Family(each, (), {
+        "a circle that closes one period later": ("circle",
+            lambda: defined(b_0, later(G) + 1, one_period_later(NAMED))),
+    }),
     # ---- equations of the model that contradict each other, of which no reader is told
     Family(lambda claim, *known: Arithmetic(claim)(*known), (
         (equal(u_a, 0), called(CLOSURE[True], Kind.MODEL), given(CLOSURE[False])),
@@ -311,7 +316,9 @@ FAMILIES = (
         "two laws": ("contradict", lambda: substitute(touching(TANH), touching(EXPONENTIAL))),
     }),
     Family(lambda claim, *known: Arithmetic(claim)(*known), (
+        (equal(u_c + initial("u_c"), h_0 * N), eq(u_c, h_0 * N), START),
         (equal(symbol("U_c"), 0), eq(2 * symbol("U_c"), 0)), (sp.Ge(u_c, -h_0), gt(u_c, 0)),
+        (sp.Gt(f_c, 0), eq(G, sp.log(f_c))),
         (sp.Ge(p, 0, evaluate=False),),
     ), {
         # p = 0 out of contact
@@ -321,6 +328,17 @@ FAMILIES = (
             eq(2 * symbol("U_c"), 0)),
         "a wear that does not begin at 0": ("contradict", TRIVIAL, START,
             ge(u_c, h_0 + L)),
+        "one over what is zero": ("contradict", TRIVIAL, eq(G, 1 / f_c), eq(f_c, 0)),
+        "the logarithm of what is negative": ("contradict", TRIVIAL, ge(G, sp.log(f_c)), FALLING),
+        "a wear above its start, at the start": ("contradict", TRIVIAL, START, gt(u_c, 0)),
+        "a wear that stays below what it reaches": ("contradict", TRIVIAL, lt(u_a, L),
+            eq(u_a.subs(t, T), L)),
+        "a constant load that grows": ("contradict", TRIVIAL, eq(U_a, b_0),
+            eq(b_0, later(U_a) - L)),
+        # f_c = -1/10
+        "W has a value above zero alone": ("f_c", sp.Ge(f_c, 0), eq(G, sp.LambertW(f_c))),
+        # h_0 = 0, f_c = 1
+        "a power has a value above zero alone": ("h_0 > 0", sp.Gt(h_0, 0), eq(G, h_0**f_c)),
         "a pin that wears and is as it was": ("contradict", TRIVIAL, PIN_WEARS,
             eq(2 * u_a - h_0, h_0)),
         "data of which there are none": ("contradict", TRIVIAL, gt(f_c**2, 1),
@@ -336,13 +354,16 @@ FAMILIES = (
     ), {
         "t = 5, by definition": ("t is T", t, sp.Integer(5)),  # t = 4
         # u_c = h_0 t/T
-        "a constant that goes with another clock": ("for every", b_0, u_c, eq(u_c, h_0 * N)),
+        "a constant that goes with another clock": ("is constant", b_0, u_c, eq(u_c, h_0 * N)),
         # u_cum > 0
         "a positive name for what is negative": ("contradict", u_cum, -h_0),
         "the first zero of what has none": ("has a value", u_stop, FirstZero(q + y, y)),
         "a limit that need not exist": ("has a value", b_0, forever(U_a)),  # sin t
         "a limit at infinity": ("has a value", b_0, forever(u_c), tends(u_c, sp.oo)),
         "the mean of a rate": ("has a value", b_0, sp.Integral(rate("u_c"), (t, 0, T))),
+        # U_a jumps from 0 to 2 L
+        "the sign of a field that jumps": ("is constant", b_0,
+            (U_a - L) / sp.sqrt(U_a**2 - 2 * L * U_a + L**2)),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (

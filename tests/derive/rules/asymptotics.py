@@ -6,9 +6,17 @@ import sympy as sp
 
 from derive.claims import Drift, Oscillation
 from derive.kernel import infer
+from derive.reals import LAW as PHI
 from derive.rules.algebra import Consequence, substitute
 from derive.rules.assumption import assume, defined
-from derive.rules.averages import EXPANSION, Averaging, OrderEquation, SlowTime, term_of
+from derive.rules.averages import (
+    EXPANSION,
+    ROUGHNESS,
+    Averaging,
+    OrderEquation,
+    SlowTime,
+    term_of,
+)
 from derive.rules.drift import LeadingTerm, first_order, logarithmic_drift
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
@@ -47,6 +55,7 @@ du = rate("u_c")
 RATIO = (h - U_a) / sigma_c0
 LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
 FEW, LOG_N, FALLS = sp.log(-h_star / (f_c * sigma_c)), sp.log(N), sp.Lt(f_c, 0)
+SWAYING, PACE = 2 + L * sp.sin(2 * sp.pi * tau) / ROUGHNESS, (ROUGHNESS, tau, rho)
 FIRST_WAVE = -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi
 
 
@@ -182,6 +191,18 @@ FAMILIES = (
             1 + sp.sin(2 * sp.pi * tau) / 2),
     }),
     Family(each, (first_order_terms,), {
+        # h = -1/10: half as many
+        "what vanishes from below": (r"h\(t\) >= 0",
+            lambda: LeadingTerm(sp.Eq(LOG_N, sp.log(4 * L**2 / h**2)))(
+                eq(N, L**2 * (3 + sp.sign(h)) / h**2))),
+        "half an order of a drift": ("of order 3/2",
+            lambda: defined(c_1, Drift(sp.Rational(3, 2), SWAYING, *PACE), ROUGHENS)),
+        # phi may turn like |r - 1|^(3/2)
+        "a second order of any law": ("of order 2",
+            lambda: defined(c_1, Drift(sp.Integer(2), PHI(SWAYING), *PACE), ROUGHENS)),
+        # it is 0/0 for b_0 = 0
+        "a drift at any pace": ("the period 1",
+            lambda: defined(c_1, Drift(sp.S.One, SWAYING, *PACE[:2], b_0), ROUGHENS)),
         "no term of the expansion": ("is of an oscillation",
             lambda: Averaging(sp.Eq(c_1, 0))(RATE)),
         "the wave of a wave": ("by the mean", wave_of_wave),  # w_1' is not w_1

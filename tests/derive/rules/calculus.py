@@ -128,6 +128,7 @@ def of_one_wear():
     return Insert(equal(u_cum, h_0 * K_c))(defined(u_cum, h_0 * K_a * H_c / H_a), value)
 
 
+TIE = sp.sqrt(2 * f_c * L * h_0 - h_0**2 - f_c**2 * L**2)
 IN_START = sp.Derivative(u_cum, sigma_a0)
 FACTORS = defined(theta, f_c), defined(b_0, h_0 / L)
 FIELDS = tuple(
@@ -208,6 +209,7 @@ FAMILIES = (
         equal(SLOPE, h_0), (equal(IN_H_0, f_c), defined(u_cum, f_c * h_0), h_0),
         (equal(SLOPE, h_0), beside(*FACTORS, eq(p, p_max * sp.exp(-h / sigma)))),
         (equal(SLOPE, h_0), beside(*FIELDS, BOUNDED)),
+        (equal(SLOPE, h_0), beside(gt(sp.sqrt(f_c), 1))),
     ), {
         "no datum": ("of the data", equal(sp.Derivative(u_cum, b_0), 0), GROWING, b_0),
         "0/0 beside a slope": ("Ne", equal(SLOPE / (f_c - 1), h_0 / (f_c - 1))),
@@ -234,6 +236,12 @@ FAMILIES = (
             tied(*FACTORS, eq(p, p_max * theta), eq(p, p_max * b_0)), h_0),
         "two fields that are equal": ("may vary", equal(IN_H_0, 0),
             tied(*FIELDS, eq(WIGGLE, WOBBLE)), h_0),
+        # it holds at no other h_0 than f_c L
+        "two data tied by a root": ("may vary", equal(IN_H_0, 0), tied(gt(TIE, -L)), h_0),
+        "two data tied by a root in a bound": ("may vary", equal(IN_H_0, 0),
+            tied(le(sp.Abs(U_a), U + sp.Abs(TIE))), h_0),
+        "two data tied by a piece": ("may vary", equal(IN_H_0, 0),
+            tied(gt(sp.Piecewise((1, sp.Eq(h_0, f_c * L))), 0, evaluate=False)), h_0),
         "a load below what is negative": ("may vary", equal(IN_H_0, 0),
             tied(le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2)), h_0),
         # the slope is f_c

@@ -80,7 +80,6 @@ FAMILIES = (
             defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)),
         # G = t: lim_{t->0} G(t + T) = T
         "a limit at the start": ("at one time", tends(G, theta, sp.S.Zero)),
-        "the first rate": ("at one time", eq(sp.Subs(du, t, 0), C)),  # u_c = C t e^(-t/T)
         # sigma_c is small for moments, and not one period later
         "a leading term": ("at one time", leading_term()),
     }),

@@ -25,6 +25,8 @@ from tests.derive.judgements import (
     ge,
     given,
     gt,
+    le,
+    lt,
     ne,
     timed,
 )
@@ -33,7 +35,7 @@ u_c, u_a, U_a, p, h, G = symbols("u_c u_a U_a p h G")
 h_0, f_c, C, T, q, b_0, U, h_star = symbols("h_0 f_c C T q b_0 U h_star")
 p_max, theta, tau, u_stop, p_s, u_s = symbols("p_max theta tau u_stop p_s u_s")
 x = sp.Symbol("x", positive=True)
-w = sp.Function("w", positive=True)(tau)
+v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
 
 WORN = equal(t, sp.Integral(1 / C, (u_s, 0, u_c)))
@@ -102,6 +104,13 @@ FAMILIES = (
         "twice the time": ("separates", 2 / C, C),
         "another start": ("of what moves", 1 / C, C, eq(initial("u_c"), 1)),
     }),
+    Family(lambda *facts: Integrated(sp.log(u_s - C * T * tau + q))(
+        eq(G, sp.Integral(1 / (u_s - C * T * tau + q), (u_s, 0, u_c))), *facts), (
+        (ge(u_c, 0), lt(C * T * tau, h), le(h, q)),
+    ), {
+        # from 0 on it need not be above C T tau
+        "above what grows with tau": ("missing premise", ge(u_c, C * T * tau), START),
+    }),
     Family(each, (lambda: timed(1 / C, C, eq(initial("u_c"), 1), low=1),), {
         # u_c = -1/2
         "a start below zero": ("missing premise",
@@ -122,6 +131,7 @@ FAMILIES = (
     Family(follows, (
         (eq(p, p_max * (U_a - u_c) / h_0), CONSTANTLY), (eq(p, q * U_a), assume(CONTINUOUS)),
     ), {
+        "a pressure that jumps with tau": ("is continuous", eq(p, q * h), eq(h, h_0 * v)),
         "a pressure that jumps with the load": ("U_a.* is continuous", eq(p, q * U_a)),
     }),
     Family(lambda *facts: Integrated(p_s - p_max * sp.log(p_max - p_s))(
