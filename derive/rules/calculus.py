@@ -54,7 +54,7 @@ class Integrate(Rule):
         if len(driving) != 1:
             raise RuleError(f"missing premise: {given.relation} is of the form dy/dt = c dx/dt")
         x, factor = field_of_rate(driving[0]), sp.cancel(given.rhs / driving[0])
-        if not constant(factor) or fields(factor):
+        if not constant(factor):
             raise RuleError(f"missing premise: {factor} is constant")
         begin = initial_value(start_y, y) - factor * initial_value(start_x, x)
         return Conclusion(Equality(y, begin + factor * x))
@@ -75,7 +75,7 @@ class Grows(Rule):
         bound, start = premises
         found = inequality(bound)
         u, least = field_of_rate(found.greater), found.lesser
-        if not constant(least) or fields(least):
+        if not constant(least):
             raise RuleError(f"missing premise: {least} is constant")
         begin = initial_value(start, u)
         return Conclusion(Inequality(sp.Ge(u, begin + least * t, evaluate=False)))

@@ -29,7 +29,6 @@ from .reading import (
     equality,
     field_of_rate,
     fields,
-    fixed,
     limit_in_time,
     rate_law,
     require_hypothesis,
@@ -135,7 +134,7 @@ class LogarithmicGrowth(Rule):
         require_hypothesis(SINE.relation, *premises)
         (rate,) = growth.expr.atoms(sp.Derivative)
         u, a, s = field_of_rate(rate), growth.value, self.scale
-        if not is_zero(growth.expr - rate * sp.exp((u - LOAD) / s)) or fields(s) or not constant(s):
+        if not is_zero(growth.expr - rate * sp.exp((u - LOAD) / s)) or not constant(s):
             raise RuleError("missing premise: the limit of exp((u - U_a)/s) du/dt")
         require_defined(s, *premises)
         for positive in (a, s):
@@ -171,7 +170,7 @@ class LeadingTerm(Rule):
         claimed, cycles = (e.xreplace(flat) for e in (sp.exp(leading), given.rhs / pace))
         slope = sp.diff(cycles, small)
         moving = cycles.has(t) or clocks(cycles)  # of which the slope knows nothing
-        if moving or not fixed(sp.Tuple(pace, claimed, slope)):
+        if moving or not constant(sp.Tuple(pace, claimed, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
         require(sp.Ge(s, 0), *premises)
         if _end(claimed, small) != sp.oo:

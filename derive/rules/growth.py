@@ -38,7 +38,6 @@ from .reading import (
     constant,
     equality,
     fields,
-    fixed,
     growing,
     inequality,
     rate_law,
@@ -59,7 +58,7 @@ class Diverges(Rule):
         u, bound = growth.greater, growth.lesser
         speed, slope = sp.diff(bound, t), sp.diff(self.expr, u)
         steady = (speed, sp.expand(bound - speed * t), slope, sp.expand(self.expr - slope * u))
-        if fields(u) != {u} or not all(constant(e) and not fields(e) for e in steady):
+        if fields(u) != {u} or not all(map(constant, steady)):
             raise RuleError(f"missing premise: {self.expr} is linear in what grows")
         require_defined(self.expr, *premises)
         for positive in (speed, slope):
@@ -74,11 +73,11 @@ def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
     for small, large in (
         (p.lts, p.gts) for p in parts if isinstance(p, (sp.Ge, sp.Gt, sp.Le, sp.Lt))
     ):
-        if small == sp.Abs(field) != field and fixed(large):
+        if small == sp.Abs(field) != field and constant(large):
             return (sp.Le(small, large, evaluate=False),)
-        if small == field and fixed(large):
+        if small == field and constant(large):
             found.append((1, sp.Le(field, large, evaluate=False)))
-        if large == field and fixed(small):
+        if large == field and constant(small):
             found.append((0, sp.Ge(field, small, evaluate=False)))
     if field.is_nonnegative:
         found.append((0, sp.Ge(field, 0, evaluate=False)))
@@ -99,7 +98,7 @@ def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judge
     They are taken for variables of which relations are known, and what is said of constants.
     """
     plain = _plain(fields(rate))
-    of_data = [h.relation for p in premises for h in p.hypotheses if fixed(h.relation)]
+    of_data = [h.relation for p in premises for h in p.hypotheses if constant(h.relation)]
     given = frozenset(r.xreplace(plain) for r in (*known, *of_data))
     flat = rate.xreplace(plain)
     goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
@@ -126,7 +125,7 @@ class Unbounded(Rule):
         law, *facts = premises
         u, function = rate_law(law)
         closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
-        always = (f for f in facts if all(fixed(h.relation) for h in f.hypotheses))
+        always = (f for f in facts if all(constant(h.relation) for h in f.hypotheses))
         anywhere = [fact for fact in facts_of(always) if fields(fact) <= {u}]
         _require_positive(function, (*closed, *anywhere), *premises)
         return Conclusion(in_time(u, sp.oo))
@@ -212,7 +211,7 @@ class AtInfinity(Rule):
             return 1 / z
         inside = self.small.args[0] if isinstance(self.small, sp.exp) else u**2
         fall = -sp.cancel(inside / u)
-        if not fixed(fall):
+        if not constant(fall):
             raise RuleError(f"missing premise: {self.small} -> 0 as {u} -> oo")
         require(sp.Gt(fall, 0), *premises)
         return -sp.log(z) / fall
@@ -239,7 +238,7 @@ class Intermittent(Rule):
         law, part, start, *_ = premises
         (u, function), meaning, least = rate_law(law), equality(part), inequality(start)
         require_hypothesis(PERIODIC.relation, *premises)
-        if least.greater != u or not fixed(least.lesser):
+        if least.greater != u or not constant(least.lesser):
             raise RuleError(f"missing premise: {u} stays above a constant")
         (on, contact), *rest = sp.piecewise_fold(function).args
         if not isinstance(contact, Relational) or [e for e, _ in rest] != [0]:
@@ -248,7 +247,7 @@ class Intermittent(Rule):
         level = room.subs(LOAD, 0)
         slope = sp.cancel((room - level) / LOAD)
         if (
-            not fixed(sp.Tuple(level, slope))
+            not constant(sp.Tuple(level, slope))
             or slope == 0
             or not isinstance(contact, (sp.Le, sp.Ge))
         ):

@@ -108,15 +108,10 @@ def functions(expr: sp.Basic) -> set[sp.Expr]:
     return {f for f in expr.atoms(AppliedUndef) if not isinstance(f, LAW)}
 
 
-def constant(expr: sp.Expr) -> bool:
-    """Return whether an expression does not depend on time."""
+def constant(expr: sp.Basic) -> bool:
+    """Return whether an expression does not depend on time, nor is by an integral or limit."""
     moving = expr.has(t) or clocks(expr)
     return not moving and not expr.atoms(sp.Derivative, sp.Integral, sp.Limit) - _slopes(expr)
-
-
-def fixed(expr: sp.Basic) -> bool:
-    """Return whether an expression is made of constants alone."""
-    return constant(expr) and not fields(expr)
 
 
 def clocks(expr: sp.Basic) -> set[sp.Basic]:

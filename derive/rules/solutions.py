@@ -91,7 +91,7 @@ class Separate(Rule):
         pace, factor = sp.cancel(self.claim.lhs / t), sp.cancel(self.claim.rhs / integral)
         g = factor * integral.function.xreplace({s: moving, LOAD: load})
         whole = sp.Tuple(rate, wear, pace, g)
-        if fields(whole) or not constant(whole) or not all(map(smooth, whole)):
+        if not constant(whole) or not all(map(smooth, whole)):
             raise RuleError(f"missing premise: {self.claim.rhs} by smooth functions of {y} alone")
         slope = sp.diff(wear, moving)
         if not any(holds(sp.Ne(e.xreplace({moving: y}), 0), facts) for e in (slope, rate)):
