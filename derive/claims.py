@@ -139,6 +139,8 @@ class Claim(ABC):
 
 
 def _mapped(relation: sp.Basic, change: Callable[[sp.Expr], sp.Expr]) -> sp.Basic:
+    if isinstance(relation, Predicate):
+        return relation.func(*map(change, relation.args))
     if isinstance(relation, Relational):
         return relation.func(*map(change, relation.args), evaluate=False)
     return relation.func(*(_mapped(part, change) for part in relation.args), evaluate=False)

@@ -48,7 +48,7 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
 }
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))
-_PARTS = {FirstZero: 2, Drift: 5, Oscillation: 5}
+_PARTS = {FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, Averaged: 2}
 _TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
 """Functions that have a value at every real argument."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..claims import Averaged, Equality, Limit, Property, Term, claim_of, landau_o
+from ..claims import Equality, Limit, Property, Term, claim_of, landau_o
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
 from ..note.model import FIELDS, START, WORDS, law_of
@@ -15,7 +15,7 @@ from ..reals import holds
 from ..symbols import CLOCKS, DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
-from .averages import require_expansion
+from .averages import EXPANSION, require_expansion
 from .proving import facts_of, falls, integrable, smooth, told, undefined
 from .reading import at_an_instant, clocks, constant, fields, functions
 
@@ -56,7 +56,7 @@ class Assume(Rule):
         if law is not None and not falls(law):
             raise RuleError(f"missing premise: {law} is positive and smooth and decreases")
         claim = claim_of(relation)
-        equation = isinstance(claim, (Equality, Limit)) or isinstance(relation, Averaged)
+        equation = isinstance(claim, (Equality, Limit)) or relation == EXPANSION.relation
         if kind in _HIDDEN and not equation:
             raise RuleError(f"{said.text}: no equation")
         supposes = named and not isinstance(claim, Property)

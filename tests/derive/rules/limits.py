@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from derive.hypotheses import PERIODIC
+from derive.hypotheses import CONTINUOUS, PERIODIC
 from derive.reals import LAW
 from derive.rules.assumption import assume, defined
 from derive.rules.drift import LeadingTerm
@@ -73,7 +73,9 @@ def curved(order):
 
 
 FAMILIES = (
-    Family(one_period_later, (ge(u_c, h_0), eq(h, h_0 - U_a), eq(du, C)), {
+    Family(one_period_later, (
+        ge(u_c, h_0), eq(h, h_0 - U_a), eq(du, C), assume(CONTINUOUS),
+    ), {
         "u_c = C t, one period later": ("at one time", eq(u_c, C * t)),  # C (t + T)
         # U_a = t
         "a mean over the first period": ("at one time",
