@@ -126,7 +126,7 @@ _TABLE = (
     Quantity("U_min", r"\min U_a", "mm", "smallest displacement of the pin", REAL),
     Quantity("epsilon", r"\varepsilon", "1", "resolution of p/p_max", POSITIVE),
     Quantity("u_stop", r"u_{\mathrm{stop}}", "mm", "arrest depth", POSITIVE),
-    Quantity("N", "N", "1", "number of cycles", POSITIVE),
+    Quantity("N", "N", "1", "number of cycles", NONNEGATIVE),
     Quantity("u_perm", r"u_{\mathrm{perm}}", "mm", "wear beyond which contact is permanent", REAL),
     Quantity("d", "d", "1", "fraction of the period in contact", POSITIVE),
     Quantity("h_star", "h^*", "mm", "gap where the roughness would vanish", POSITIVE),

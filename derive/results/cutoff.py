@@ -41,7 +41,7 @@ from ..hypotheses import (
 )
 from ..laws import TANH
 from ..note.condensed import bearing_only
-from ..rules.algebra import Alike, Consequence, Identity, Insert, Solve, discharge, substitute
+from ..rules.algebra import Consequence, Identity, Insert, Solve, discharge, substitute
 from ..rules.assumption import assume, define, defined
 from ..rules.calculus import differentiate
 from ..rules.growth import intermittent
@@ -60,7 +60,7 @@ room = 3 * roughness - closure
 outgrown, rougher, third = map(assume, (OUTGROWN, ROUGHER, THIRD))
 
 
-contact_condition = Alike(*stated("contact-condition"))(name="contact condition")
+contact_condition = Arithmetic(*stated("contact-condition"))(name="contact condition")
 """Contact as a condition on the wear."""
 
 margin = Identity(*stated("margin"))(name="margin and wear")
@@ -127,7 +127,7 @@ one_third = Insert(sp.Eq(u_cum, d * K_c * V * T * p_max * TANH.ratio(sp.Integer(
 )
 """For f_c = 1/3: the steady wear per cycle, d the fraction of the period in contact."""
 
-edge_of_contact = Alike(*stated("edge-of-contact"))(name="edge of contact, compliant support")
+edge_of_contact = Arithmetic(*stated("edge-of-contact"))(name="edge of contact, compliant support")
 """Compliant support: k margin exceeds p exactly where the smooth law is in contact.
 
 ``h - p/k`` is the undeflected closure.  Where the smooth solution has h > 3 sigma, the bearing

@@ -3,7 +3,7 @@
 Key results
     substitute, Solve, Multiply, restrict        equations
     Identity, Insert, Logarithm                  claims that an author writes, then proved
-    Consequence, Alike                           the same relation in another form
+    Consequence                                  the same relation in another form
     discharge, forget                            hypotheses that follow from others
 """
 
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..claims import Claim, Equality, Equivalence, Inequality, Limit, claim_of
+from ..claims import Claim, Equality, Inequality, Limit, claim_of
 from ..hypotheses import Hypothesis
 from ..kernel import Conclusion, Judgement, Rule, RuleError, infer, listed, plain
 from ..language import bound_in
@@ -229,25 +229,6 @@ def _inside(relation: sp.Basic) -> list[tuple[object, sp.Expr]]:
     if isinstance(claim, Inequality):
         return [(("less", claim.strict), claim.lesser), (("more", claim.strict), claim.greater)]
     return [(type(claim), side) for side in relation.args]
-
-
-@dataclass(frozen=True)
-class Alike(Rule):
-    """``a <= b`` if and only if ``c <= d``, where ``b - a = d - c`` identically."""
-
-    claim: sp.Equivalent
-    words = "Two inequalities whose differences are equal."
-
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        claim = claim_of(self.claim)
-        if not isinstance(claim, Equivalence):
-            raise RuleError(f"missing premise: {self.claim} is an equivalence")
-        left, right = claim.left, claim.right
-        require_defined(self.claim, *premises)
-        equal = is_zero((left.greater - left.lesser) - (right.greater - right.lesser))
-        if not equal or left.strict != right.strict:
-            raise RuleError(f"missing premise: the differences in {self.claim} are equal")
-        return Conclusion(claim)
 
 
 @dataclass(frozen=True)

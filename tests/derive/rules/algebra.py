@@ -10,7 +10,6 @@ from derive.laws import EXPONENTIAL, TANH
 from derive.note.model import ARCHARD, CLOSURE, contact
 from derive.note.model import START as STARTS
 from derive.rules.algebra import (
-    Alike,
     Consequence,
     Identity,
     Insert,
@@ -226,15 +225,6 @@ FAMILIES = (
         # b_0 = sigma_c0/f_c - h_0
         "a name held fixed while a datum grows": ("b_0 fixed",
             equal(sp.Limit(b_0 / h_0, h_0, sp.oo), 0), ParameterLimit(L / h_0, h_0)(), eq(b_0, L)),
-    }),
-    Family(lambda left, right, join=sp.Equivalent: Alike(join(left, right, evaluate=False))(), (
-        (sp.Le(u_a, h_0), sp.Le(u_a - h_0, 0)), (sp.Gt(u_a, q), sp.Lt(q - u_a, 0)),
-    ), {
-        # h = 2 L
-        "both of two": ("is an equivalence", sp.Le(h, L), sp.Le(h + q, L + q), sp.And),
-        "strict and not": ("differences", sp.Le(u_a, h_0), sp.Lt(u_a, h_0)),
-        "the converse": ("differences", sp.Gt(u_a, q), sp.Lt(h, q)),  # u_a = h = 0
-        "between what may have no value": ("Ne", sp.Le(u_a, 1 / f_c), sp.Le(u_a - 1 / f_c, 0)),
     }),
     Family(lambda first, met, *known: discharge(first, met.hypotheses[0], *known), (
         (SOLVED, ROUGHENS, AT_ONE), (ROUGHENS, ROUGHENS, gt(f_c, 1)),

@@ -129,6 +129,12 @@ def of_one_wear():
 
 
 TIE = sp.sqrt(2 * f_c * L * h_0 - h_0**2 - f_c**2 * L**2)
+
+
+def alike(left, right):
+    return sp.Equivalent(left, right, evaluate=False)
+
+
 IN_START = sp.Derivative(u_cum, sigma_a0)
 FACTORS = defined(theta, f_c), defined(b_0, h_0 / L)
 FIELDS = tuple(
@@ -263,8 +269,13 @@ FAMILIES = (
         (sp.Ne(f_c, 0), eq(G, 1 / f_c)), (sp.Gt(theta, 0), eq(G, sp.log(theta))),
         (sp.Gt(h, u_a), ge(h - q, u_a)), (sp.Lt(u_a, q), lt(sp.Max(u_a, h), q)),
         (sp.Ge(rate("U_a") ** 2, 0), SMOOTH), (sp.Gt(U_max, 0), gt(U_max, h_0)),
+        (alike(sp.Le(u_a, h_0), sp.Le(u_a - h_0, 0)),),
         (sp.Gt(f_c, -1), ROUGHENS), (sp.Lt(p, 10**6 * p_max), lt(p, p_max)),
     ), {
+        "strict and not": ("missing premise", alike(sp.Le(u_a, h_0), sp.Lt(u_a, h_0))),
+        "the converse": ("missing premise", alike(sp.Gt(u_a, q), sp.Lt(h, q))),  # u_a = h = 0
+        "between what may have no value": ("Ne",
+            alike(sp.Le(u_a, 1 / f_c), sp.Le(u_a - 1 / f_c, 0))),
         "a branch that is not taken": ("Ne", sp.Ne(f_c, 0), eq(G, WHOLE)),  # f_c = 0, G = 0
         "an integrand": ("theta > 0", sp.Gt(theta, 0), integral(sp.log(theta), 1)),  # theta = -1
         "strictness in a limit": (r"h\(t\) > u_a", sp.Gt(h, u_a), gt(h + q / M, u_a)),  # h = u_a
