@@ -17,7 +17,7 @@ from ..kernel import Judgement
 from ..symbols import symbol, t
 from .verdict import Answer, Counterexample, falsify
 
-_DRAWS, _ENOUGH, _SEEDS = 12, 2, 26
+_DRAWS, _ENOUGH, _SEEDS = 12, 2, 60
 _CYCLES = symbol("N")
 
 

@@ -60,10 +60,12 @@ def _sides(relation: sp.Basic, moment: Moment) -> str:
         return "it does not hold"
     values: list[tuple[str, Number | str]] = []
     for side in relation.args:
+        latest = {limit: sp.Dummy() for limit in side.atoms(sp.Limit)}
+        at = moment
         try:
-            limit = isinstance(side, sp.Limit)
-            found = moment.model.latest(side) if limit else compiled(side)(moment)
-            values.append(("towards " if limit else "", found))
+            for limit, name in latest.items():
+                at = at.at(name, moment.model.latest(limit))
+            values.append(("towards " * bool(latest), compiled(side.xreplace(latest))(at)))
         except (ArithmeticError, ValueError):
             values.append(("", "oo" if side.is_infinite else "?"))
     for digits in range(6, 18):
@@ -74,4 +76,7 @@ def _sides(relation: sp.Basic, moment: Moment) -> str:
 
 
 def _shown(number: Number | str, digits: int = 6) -> str:
-    return number if isinstance(number, str) else f"{float(arb(number).mid()):.{digits}g}"
+    if isinstance(number, str):
+        return number
+    value = arb(number)
+    return f"{0.0 if value.contains(0) else float(value.mid()):.{digits}g}"

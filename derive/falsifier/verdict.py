@@ -22,7 +22,7 @@ from sympy.core.function import AppliedUndef
 from ..claims import Drift, Term
 from ..symbols import symbol, t
 from .balls import fraction
-from .draws import LAWS, WILD, drawn, slopes_over_data, with_law
+from .draws import LAWS, WILD, drawn, slides_fast, slopes_over_data, with_law
 from .expansion import Expanded
 from .models import Model, quantities, reached
 from .truth import truth
@@ -101,11 +101,12 @@ def falsify(
         imposed = (*((dropped.negated,) if isinstance(dropped, _ORDERS) else ()), *hypotheses)
     absent = sp.false if dropped is None else dropped
     models = decided = doubtful = 0
-    for trial in _models((*hypotheses, absent, claim), imposed, draws, free):
+    seeds = sorted(range(draws), key=lambda seed: dropped is not None and slides_fast(seed))
+    for trial in _models((*hypotheses, absent, claim), imposed, seeds, free):
         *given, without, claimed = trial.relations
         fits = trial.fits(given, free)
         doubtful += fits is None
-        if models - decided + doubtful > draws // 3:
+        if dropped is None and models - decided + doubtful > draws // 3:
             break  # others would leave as much open
         if not fits or truth(without, trial.model).holds is not False:
             continue
@@ -114,7 +115,8 @@ def falsify(
         if outcome.holds is False:
             if not trial.fits(given, free):  # now that the fields are known for longer
                 continue
-            described = trial.described(given, sp.Tuple(without, claimed))
+            named = without.args if isinstance(without, _ORDERS) else ()
+            described = trial.described(given, sp.Tuple(without, claimed), named)
             return Answer(Counterexample(described, outcome.where, trial.seed), models, decided + 1)
         decided += outcome.holds is True
         if decided >= (enough if trial.model.states else 3 * enough):
@@ -171,22 +173,28 @@ class _Trial:
             if value is not None and value.is_Rational:
                 yield self.model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
 
-    def described(self, given: Iterable[sp.Basic], said: sp.Basic) -> tuple[sp.Eq, ...]:
+    def described(
+        self, given: Iterable[sp.Basic], said: sp.Basic, named: Iterable[sp.Basic]
+    ) -> tuple[sp.Eq, ...]:
         """Return what was drawn of the quantities on which relations rest, but for
-        what the hypotheses say themselves."""
+        what the hypotheses say themselves; those that are ``named`` in any case."""
         known = {
             h.lhs for h in given if isinstance(h, sp.Eq) and (h.rhs.is_number or h.rhs.is_Symbol)
         }
         starts = {f.func(t) for f in known if f.args == (sp.S.Zero,)}
         drawn = reached((said,), self.model.values) - known - starts
-        equations = map(self._drawn, sorted(drawn, key=lambda q: (bool(q.args), str(q))))
+        ordered = sorted(drawn, key=lambda q: (bool(q.args), str(q)))
+        equations = (self._drawn(quantity, quantity in named) for quantity in ordered)
         return tuple(equation for equation in equations if equation is not None)
 
-    def _drawn(self, quantity: sp.Expr) -> sp.Eq | None:
-        """Return the value of what was drawn; None of what other quantities determine."""
+    def _drawn(self, quantity: sp.Expr, named: bool) -> sp.Eq | None:
+        """Return the value of what was drawn; None of what other quantities determine, unless it
+        is ``named``."""
         if quantity in self.model.states:
             quantity = quantity.subs(t, 0)
         value = self.model.values.get(quantity)
+        if named and value is not None:
+            value = self.model.inlined(value)
         determined = (AppliedUndef, sp.Derivative, sp.Limit)
         if value is None or value.atoms(*determined) or not (quantity.args or value.is_Rational):
             return None
@@ -196,13 +204,13 @@ class _Trial:
 def _models(
     relations: tuple[sp.Basic, ...],
     imposed: tuple[sp.Basic, ...],
-    draws: int,
+    seeds: Iterable[int],
     free: frozenset[sp.Expr],
 ) -> Iterator[_Trial]:
     """Draw models that are made to satisfy what is imposed; the relations are given a value."""
     trends = sp.Tuple(*relations).has(sp.Limit)
     in_time, imposed_in_time = (_in_time(given, imposed) for given in (relations, imposed))
-    for seed in range(draws):
+    for seed in seeds:
         if trends and seed % WILD == WILD - 1:  # what takes 1e30 periods has no trend in 1e8
             continue
         law = seed % len(LAWS)
