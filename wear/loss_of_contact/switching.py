@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.load import Constant, Load, Sine, Table, Waves, waves
+from wear.load import Constant, Harmonics, Load, Sine, Table, Waves, waves
 from wear.loss_of_contact.roots import (
     FEW_BISECTIONS,
     Function,
@@ -174,11 +174,11 @@ def cycles_of(models: Sequence[Model], loads: Sequence[Load], edges: Sequence[Ed
 
 
 def displacements(loads: Sequence[Load]) -> Load | Waves:
-    """Return the displacements of loads of one kind; of tables, which are straight on every piece,
-    those of the first, see `Cycles.on`."""
+    """Return the displacements of loads of one kind; of tables and measured histories, which are
+    straight on every piece, those of the first, see `Cycles.on`."""
     first, *others = loads
-    as_it_is = isinstance(first, (Table, Constant)) or (isinstance(first, Sine) and not others)
-    return first if as_it_is else waves(loads)
+    of_waves = isinstance(first, Harmonics) or (isinstance(first, Sine) and others)
+    return waves(loads) if of_waves else first
 
 
 def edge_of_contact(model: Model, load: Load) -> Edge:
