@@ -63,8 +63,9 @@ class Hypothesis:
 
     @property
     def shown(self) -> bool:
-        """Return whether a reader needs it beside an equation: the model and names are known."""
-        return self.kind is Kind.CONDITION
+        """Return whether a reader needs it beside an equation: the note's model and names are
+        known, another contact law is not."""
+        return self.kind is Kind.CONDITION or (self.kind is Kind.MODEL and not self.words)
 
     @property
     def is_setting(self) -> bool:

@@ -35,7 +35,7 @@ from . import model
 
 h, U_c, u_a = symbols("h U_c u_a")
 sigma, sigma_a, sigma_c, p, p_max, R_a, b, L = symbols("sigma sigma_a sigma_c p p_max R_a b L")
-f_a, f_c, f_aa, f_ac, f_cc, f_ca = symbols("f_a f_c f_aa f_ac f_cc f_ca")
+f_a, f_c, f_aa, f_cc = symbols("f_a f_c f_aa f_cc")
 
 OWN = (defined(f_aa, f_a), defined(f_cc, f_c))
 """f_a and f_c: how the roughness of a solid changes with its own wear."""

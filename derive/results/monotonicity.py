@@ -24,13 +24,10 @@ from ..note.condensed import bearing_only
 from ..rules.assumption import assume
 from ..rules.data import OneSign
 from ..symbols import symbols
-from .steady_state import worn
+from .steady_state import closure, worn
 
-h_0, U_a, u_c, sigma_c0, f_c = symbols("h_0 U_a u_c sigma_c0 f_c")
+h_0, U_a, sigma_c0, f_c = symbols("h_0 U_a sigma_c0 f_c")
 K_c, H_c, V, p_max = symbols("K_c H_c V p_max")
-
-roughness = sigma_c0 + f_c * u_c
-closure = h_0 + u_c - U_a
 
 APART = Hypothesis(sp.Gt(closure, 0))
 """The mean surfaces do not interpenetrate."""

@@ -33,7 +33,7 @@ from .regimes import largest_wear
 from .steady_state import named_limit
 
 u_cum, p_inf, p_max, K_c, H_c, V, T = symbols("u_cum p_inf p_max K_c H_c V T")
-f_c, h, h_0, U = symbols("f_c h h_0 U")
+f_c, h_0, U = symbols("f_c h_0 U")
 sigma_c0, M, k = symbols("sigma_c0 M k")
 
 

@@ -14,15 +14,17 @@ from derive.equations import Equation
 from derive.hypotheses import CONTINUOUS, NOT_SMOOTHING, RIGID, ROUGHENING, Hypothesis, Kind
 from derive.kernel import RuleError
 from derive.language import names
-from derive.laws import EXPONENTIAL, GENERAL
+from derive.laws import EXPONENTIAL, GENERAL, TANH
 from derive.note.model import CLOSURE, FIELDS, SLIP, at_every_closure, contact
 from derive.results import validity
+from derive.rules.algebra import restrict
 from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
 from derive.symbols import DATA, symbols, t
 from derive.typeset.mathml import display
 
 b_0, f_c, h_0, kappa, U_a, U_c, T, tau = symbols("b_0 f_c h_0 kappa U_a U_c T tau")
+h, sigma = symbols("h sigma")
 
 
 def test_every_condition_reads_as_latex() -> None:
@@ -149,6 +151,14 @@ def test_what_has_no_words_is_shown_as_it_is_typed() -> None:
     ):
         assert Hypothesis(relation).text == text
         assert not Hypothesis(relation).is_setting
+
+
+def test_another_contact_law_than_the_notes_is_a_condition() -> None:
+    touches = assume(Hypothesis(sp.Le(h, 3 * sigma)))
+    for law, shown in ((TANH, 0), (GENERAL, 0), (EXPONENTIAL, 1)):
+        model = Hypothesis(contact(law), Kind.MODEL)
+        conditions = restrict(assume(model), touches).conditions
+        assert conditions == (*[model] * shown, *touches.conditions)
 
 
 def test_words_are_about_quantities_that_nobody_defines() -> None:
