@@ -56,7 +56,10 @@ def dimension(expr: sp.Expr) -> Dimension | None:
     if isinstance(expr, sp.Symbol):
         return parse_unit(QUANTITIES[expr.name].unit) if expr.name in QUANTITIES else NONE
     if isinstance(expr, AppliedUndef) and expr.func.__name__ in QUANTITIES:
-        return parse_unit(QUANTITIES[expr.func.__name__].unit)
+        quantity = QUANTITIES[expr.func.__name__]
+        if dimension(expr.args[0]) not in (None, parse_unit(QUANTITIES[quantity.clock].unit)):
+            raise DimensionError(f"{expr} is at no time")
+        return parse_unit(quantity.unit)
     if isinstance(expr, Term):
         _, law, roughness, _, growth = expr.args
         dimension(law.xreplace({roughness: growth}))  # of one dimension, in a period of 1

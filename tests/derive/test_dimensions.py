@@ -33,6 +33,7 @@ def test_a_rate_is_a_length_per_time() -> None:
     [
         sp.Eq(h, u_c / sigma),
         sp.Eq(h, u_c + p),
+        sp.Eq(h, u_c.subs(t, sigma)),  # at no time
         sp.Eq(p, k),
         sp.Eq(sigma, sp.sqrt(sigma)),
         sp.Eq(rate("u_c"), u_c),
