@@ -288,6 +288,8 @@ def _with_cutoff(case: _Case) -> Asymptote:
         return _without_cutoff(case)  # the roughness vanishes while there is contact
     if depth is not None:
         return _arrest(case, depth)
+    if case.data["q"] == 0:
+        return _constant_roughness(case)  # the gap never opens
     one_solid = case.data["kappa"] == 0 and case.data["sigma_a0"] == 0
     if one_solid and case.holds(formula.gap_and_cutoff_grow_alike):
         return _at_one_third(case)
@@ -307,9 +309,16 @@ def _arrest_depth(case: _Case) -> float | None:
     if data["kappa"] == 0 and data["sigma_a0"] == 0:
         falls = case.holds(formula.gap_outgrows_roughness)
         return float(case.value(formula.arrest_depth)) if falls else None
-    if not formula.margin_is_lost(**_named(formula.margin_is_lost, data)):
+    begin = Decimal(0)
+    if case.value(formula.gap_at_peak, begin) < 0:
+        if data["g"] <= 0:
+            return None
+        begin = case.value(formula.gap_opens)
+    if not formula.margin_is_lost(begin, **_named(formula.margin_is_lost, data)):
         return None
-    return float(case.value(formula.arrest_depth_two_solids))
+    depth = case.value(formula.arrest_depth_two_solids, begin)
+    # A gap that closes has a second root, where it is less than -3 sigma.
+    return float(depth) if case.value(formula.gap_at_peak, depth) > 0 else None
 
 
 def _arrest(case: _Case, depth: float) -> Asymptote:

@@ -23,7 +23,7 @@ from ..note.condensed import bearing_only
 from ..rules.algebra import substitute
 from ..symbols import symbol, symbols
 from .cutoff import arrest_depth, permanent_contact
-from .cutoff_two_solids import arrest_depth_two_solids
+from .cutoff_two_solids import arrest_depth_two_solids, sigma_stop, u_stop
 from .cutoff_two_solids import discriminant as whole
 from .regime_map import OUTGROWN, THIRD
 from .regimes import logarithmic_wear
@@ -82,6 +82,7 @@ def _geometry() -> tuple[Formula, ...]:
         Formula("closure_ratio", (), g / q, "limit of h/sigma"),
         Formula("vanishing_wear", (), _vanishing(), "wear at which the roughness vanishes"),
         Formula("gap_at_peak", (u,), h_0 + g * u - U_max, "closure at the peak of the load"),
+        Formula("gap_opens", (), (U_max - h_0) / g, "wear at which it vanishes"),
     )
 
 
@@ -128,21 +129,27 @@ def _steady() -> tuple[Formula, ...]:
 
 
 def _cutoff() -> tuple[Formula, ...]:
-    gap, half, product, root = sp.symbols("gap half product root", real=True)
-    parts = (
-        (gap, h_0 - U_max),
-        (half, 9 * p_1 - g * gap),
-        (product, 9 * (sigma_a0**2 + sigma_c0**2) - gap**2),
+    """Return the formulas of the cutoff.
+
+    Those of two solids count from a wear ``u`` at which there is a gap at the peak of the load:
+    they are the derived ones with the gap and the roughness of that wear.
+    """
+    gap, cross, squared = sp.symbols("gap cross squared", real=True)
+    half, product, root = sp.symbols("half product root", real=True)
+    worn = (
+        (gap, h_0 + g * u - U_max),
+        (cross, p_1 + q**2 * u),
+        (squared, sigma_a0**2 + sigma_c0**2 + (p_1 + cross) * u),
     )
+    parts = (*worn, (half, 9 * cross - g * gap), (product, 9 * squared - gap**2))
     inside = half**2 + (g**2 - 9 * q**2) * product
-    depth = product / (sp.sqrt(inside) - half)
-    for written, derived in (
-        (inside, whole),
-        (depth, arrest_depth_two_solids.claim.rhs),
-    ):
-        for name, value in reversed(parts):
-            written = written.subs(name, value)
-        equal(written, derived)
+    depth = u + product / (sp.sqrt(inside) - half)
+    equal(2 * worn[1][1], sp.diff(sigma_stop**2, u_stop).subs(u_stop, u))
+    equal(worn[2][1].subs(*worn[1]), (sigma_stop**2).subs(u_stop, u))
+    fresh = {h_0: U_max + gap, p_1: cross, sigma_a0: 0, sigma_c0: sp.sqrt(squared)}
+    derived_depth = u + arrest_depth_two_solids.claim.rhs
+    for written, derived in ((inside, whole), (depth, derived_depth)):
+        equal(written.subs(parts[:2:-1]), derived.subs(fresh))
     discriminant = sp.Symbol("discriminant", real=True)
     relation = sp.And(discriminant >= 0, discriminant > half * sp.Abs(half))
     return (
@@ -151,15 +158,15 @@ def _cutoff() -> tuple[Formula, ...]:
         Formula("gap_and_cutoff_grow_alike", (), THIRD.relation, "gap and cutoff grow alike"),
         Formula(
             "margin_is_lost",
-            (),
+            (u,),
             relation,
             "the margin has a zero",
             (*parts, (discriminant, inside)),
         ),
         Formula(
             "arrest_depth_two_solids",
-            (),
-            product / (root - half),
+            (u,),
+            u + product / (root - half),
             "wear at arrest, two solids",
             (*parts, (root, sp.sqrt(inside))),
         ),

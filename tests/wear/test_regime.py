@@ -6,11 +6,12 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.references import VALUES
 from wear import cycles
+from wear.binding import bind
 from wear.counted import Counted
 from wear.generated import asymptotics as formula
 from wear.regime import Asymptote, asymptote
@@ -172,3 +173,38 @@ def test_logarithmic_wear_meets_the_solver():
 def test_the_load_factor_does_not_overflow():
     found = _asymptote("f-zero", "load.amplitude_mm=0.5")
     assert np.isfinite(found.offset_mm)
+
+
+@settings(max_examples=25)
+@given(
+    f=st.tuples(st.integers(-40, 60), st.integers(-40, 60)),
+    pin=st.tuples(st.integers(0, 1000), st.floats(-8.0, -5.0)),
+    mean=st.integers(-3000, 6000),
+    opening=st.booleans(),
+)
+@example(f=(0, 0), pin=(0, -5.0), mean=0, opening=False)
+@example(f=(22, 5), pin=(65, -6.0), mean=3000, opening=True)
+def test_two_solids_arrest_where_the_margin_is_first_lost(f, pin, mean, opening):
+    """Peaks of the load beyond the closure, where there is no gap at first, among them."""
+    load = {"kind": "harmonics", "mean_mm": mean * 1e-6, "sine_mm": [1e-4], "period_s": 0.06}
+    scene = load_scene("section3-cutoff").with_(
+        {
+            "bearing.roughness_growth": f[0] / 100,
+            "pin.roughness_growth": f[1] / 100,
+            "pin.roughness_mm": pin[0] * 1e-6,
+            "pin.wear_coefficient": 10 ** pin[1],
+            "contact.pin_wear_opens_gap": opening,
+            "load": load,
+        }
+    )
+    model, peak = bind(scene), scene.periodic_load.maximum
+    found = asymptote(scene)
+    end = found.saturation_wear_mm or 1e3
+    depth = found.arrest_wear_mm if found.regime == "arrest" else None
+    reach = end if depth is None else depth * (1 - 1e-9)
+    wear = np.geomspace(1e-7, max(reach, 1e-7), 20_000)
+    if depth != 0.0:
+        assert np.all(model.margin(wear, peak) > -1e-15 * (1.0 + wear))
+    if depth is not None:
+        assert depth >= 0.0
+        assert model.margin(depth * (1 + 1e-6), peak) <= 1e-15

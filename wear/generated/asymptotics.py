@@ -71,6 +71,11 @@ def gap_at_peak(u: Real, *, h_0: Real, U_max: Real, g: Real) -> Real:
     return h_0 + g * u - U_max
 
 
+def gap_opens(*, h_0: Real, U_max: Real, g: Real) -> Real:
+    """Wear at which it vanishes."""
+    return (U_max - h_0) / g
+
+
 def tanh_argument(r: Real) -> Real:
     """Argument of tanh at h/sigma = r."""
     return 4 - 2 * r
@@ -136,25 +141,29 @@ def gap_and_cutoff_grow_alike(*, f_c: Real) -> Any:
 
 
 def margin_is_lost(
-    *, h_0: Real, sigma_a0: Real, sigma_c0: Real, U_max: Real, q: Real, g: Real, p_1: Real
+    u: Real, *, h_0: Real, sigma_a0: Real, sigma_c0: Real, U_max: Real, q: Real, g: Real, p_1: Real
 ) -> Any:
     """The margin has a zero."""
-    gap = h_0 - U_max
-    half = 9 * p_1 - g * gap
-    product = 9 * sigma_a0 * sigma_a0 + 9 * sigma_c0 * sigma_c0 - gap * gap
+    gap = h_0 + g * u - U_max
+    cross = p_1 + u * q * q
+    squared = sigma_a0 * sigma_a0 + sigma_c0 * sigma_c0 + u * (cross + p_1)
+    half = 9 * cross - g * gap
+    product = 9 * squared - gap * gap
     discriminant = half * half + product * (g * g - 9 * q * q)
     return discriminant >= 0 and discriminant > half * np.abs(half)
 
 
 def arrest_depth_two_solids(
-    *, h_0: Real, sigma_a0: Real, sigma_c0: Real, U_max: Real, q: Real, g: Real, p_1: Real
+    u: Real, *, h_0: Real, sigma_a0: Real, sigma_c0: Real, U_max: Real, q: Real, g: Real, p_1: Real
 ) -> Real:
     """Wear at arrest, two solids."""
-    gap = h_0 - U_max
-    half = 9 * p_1 - g * gap
-    product = 9 * sigma_a0 * sigma_a0 + 9 * sigma_c0 * sigma_c0 - gap * gap
+    gap = h_0 + g * u - U_max
+    cross = p_1 + u * q * q
+    squared = sigma_a0 * sigma_a0 + sigma_c0 * sigma_c0 + u * (cross + p_1)
+    half = 9 * cross - g * gap
+    product = 9 * squared - gap * gap
     root = np.sqrt(half * half + product * (g * g - 9 * q * q))
-    return product / (root - half)
+    return u + product / (root - half)
 
 
 def permanent_depth(*, h_0: Real, sigma_c0: Real, f_c: Real, U_min: Real) -> Real:

@@ -274,7 +274,15 @@ function longRun(state, { functions, c, load }) {
 function arrestDepth(marginAtPeak, oneSolid, data) {
   if (marginAtPeak <= 0) return 0;
   if (oneSolid) return FORMULAS.gap_outgrows_roughness(data) ? FORMULAS.arrest_depth(data) : undefined;
-  return FORMULAS.margin_is_lost(data) ? FORMULAS.arrest_depth_two_solids(data) : undefined;
+  let begin = 0;
+  if (FORMULAS.gap_at_peak(begin, data) < 0) {
+    if (data.g <= 0) return undefined;
+    begin = FORMULAS.gap_opens(data);
+  }
+  if (!FORMULAS.margin_is_lost(begin, data)) return undefined;
+  const depth = FORMULAS.arrest_depth_two_solids(begin, data);
+  // A gap that closes has a second root, where it is less than -3 sigma.
+  return FORMULAS.gap_at_peak(depth, data) > 0 ? depth : undefined;
 }
 
 function partial(state, data, load, touches) {
