@@ -19,7 +19,7 @@ import numpy as np
 
 from wear.loss_of_contact.requests import COARSE, Asking, Request
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
@@ -54,16 +54,16 @@ class Coordinate(NamedTuple):
         """Return the wear (mm) at each z."""
         return np.asarray(self.origin - 1.0 / z if self.ahead else z + self.origin)
 
-    def step(self, z: FloatArray, increment: FloatArray) -> FloatArray:
-        """Return by how much z rises as the wear does by an `increment` (mm)."""
-        if not self.ahead:
-            return increment
-        taken = z * increment
-        return np.asarray(z * taken / (1.0 - taken))
-
     def rate(self, z: FloatArray, rate: FloatArray) -> FloatArray:
         """Return the wear per cycle (mm) where z rises at the `rate` per cycle."""
         return np.asarray(rate / z**2 if self.ahead else rate)
+
+
+def step(ahead: BoolArray | bool, z: FloatArray, increment: FloatArray) -> FloatArray:
+    """Return by how much each z rises as the wear does by an `increment` (mm), if its origin lies
+    `ahead` or not."""
+    taken = z * increment
+    return np.where(ahead, z * taken / (1.0 - taken), increment)
 
 
 class Span(NamedTuple):

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.loss_of_contact.arrest import LimitWear
-from wear.loss_of_contact.increments import EASED, Increments, cut, increments
+from wear.loss_of_contact.increments import EASED, Increments, cut, increments, step
 from wear.loss_of_contact.plan import Problem
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
@@ -132,11 +132,8 @@ def _looks(
 
 def _steps(known: Sequence[Increments], of: IntArray, z: FloatArray) -> FloatArray:
     """Return by how much z rises in a cycle from each z (n, k) on the series `of` (n,)."""
-    rows = np.repeat(of, z.shape[1])
-    increment = increments(known, rows, z.ravel()).reshape(z.shape)
-    ahead = np.array([series.coordinate.ahead for series in known])[of, None]
-    taken = z * increment
-    return np.where(ahead, z * taken / (1.0 - taken), increment)
+    added = increments(known, np.repeat(of, z.shape[1]), z.ravel()).reshape(z.shape)
+    return step(np.array([series.coordinate.ahead for series in known])[of, None], z, added)
 
 
 def _edges(

@@ -20,6 +20,7 @@ import numpy as np
 from wear.counted import Counted
 from wear.loss_of_contact.arrest import TabulatedCount
 from wear.loss_of_contact.contact import ContactPart
+from wear.loss_of_contact.increments import step
 from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap, switched_period_map
 from wear.loss_of_contact.switching import Edge, turning_points
 from wear.numerics.chebyshev import chebyshev_nodes
@@ -206,7 +207,7 @@ def _added(counted: TabulatedCount, run: Linearised, limit: FloatArray) -> Added
     panels, coordinate, t = counted.panels, counted.coordinate, _positions(counted)
     z, at = panels.frame.states(t), _resolved(counted, t)
     near = np.where(at < z, at / z, 1.0)  # nearer the difference shrinks with the distance
-    increment = coordinate.step(at, run.increment.reshape(z.shape))
+    increment = step(coordinate.ahead, at, run.increment.reshape(z.shape))
     tangent = run.tangent.reshape(*z.shape, -1)
     change = tangent[..., 1:] + limit * tangent[..., :1]
     increment = np.where(near < 1.0, increment / near, increment)
