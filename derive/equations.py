@@ -157,6 +157,11 @@ class Equation:
         return latex(self.printed) if self.printed else ""
 
     @property
+    def definitions_latex(self) -> tuple[str, ...]:
+        """Return what its names mean in LaTeX, a formula each."""
+        return tuple(latex(presentable(h.relation)) for h in self.definitions)
+
+    @property
     def steps(self) -> tuple[Judgement, ...]:
         """Return the chain of statements from the governing equations to this one, each once."""
         return tuple({identity(step): step for step in chain(*self.statements)}.values())

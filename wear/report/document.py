@@ -41,7 +41,7 @@ class Equation:
 
     `status` is one of the statuses of `derive`, `printed` the form in the note where that is not
     the derived one, `macro` the name of its macro in ``equations.tex``; `also` are the ids of
-    equations that say the same.
+    equations that say the same, `where` are formulas, a line each, of what its names mean.
     """
 
     id: str
@@ -51,6 +51,7 @@ class Equation:
     printed: str = ""
     macro: str = ""
     also: tuple[str, ...] = ()
+    where: tuple[str, ...] = ()
 
 
 class Figure(NamedTuple):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 
 from derive import equations as derived
 from derive.equations import abbreviated
@@ -15,6 +15,9 @@ from wear.report.markup import markup
 
 #: Width in em up to which a hypothesis is shown as a formula.
 _SHORT = 12.0
+
+#: Width in em of a line of formulas.
+_LINE = 30.0
 
 #: The settings that the texts of both reports call bearing wear alone.
 _BEARING_ALONE = (
@@ -46,7 +49,21 @@ def _shown(equation: derived.Equation, same: Sequence[str]) -> Equation:
         printed="" if equation.agrees else equation.printed_latex,
         macro=macro_name(equation),
         also=tuple(identifier for identifier in same if identifier != equation.id),
+        where=tuple(_lines(equation.definitions_latex)),
     )
+
+
+def _lines(formulas: Iterable[str]) -> Iterator[str]:
+    """Join formulas, as many on a line as there is room for."""
+    line = ""
+    for formula in formulas:
+        longer = rf"{line}, \quad {formula}" if line else formula
+        if line and width(longer) > _LINE:
+            yield line
+            longer = formula
+        line = longer
+    if line:
+        yield line
 
 
 def capital(text: str) -> str:

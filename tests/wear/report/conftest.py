@@ -39,7 +39,7 @@ EQUATIONS = (
              macro="EqWearPerCycle"),
     Equation("cases", r"\lim_{t\to\infty} p = \begin{cases} \tfrac12 p_{\max} & f_c > 0,\\ 0 & "
              r"\text{otherwise} \end{cases}", "All signs of $f_c$", "corrected",
-             r"p_\infty = " + PRESSURE, "EqCases"),
+             r"p_\infty = " + PRESSURE, "EqCases", where=("p_1 = 2, \\quad p_2 = 3", "q = 1")),
     Equation("static", r"Ct = \frac{u}{2} + \operatorname{Ei}\left(-\frac{2b}{s}\right)",
              macro="EqStaticSolution"),
 )  # fmt: skip

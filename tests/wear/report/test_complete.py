@@ -25,8 +25,9 @@ _SYMBOL = re.compile(
 #: Quantities with a prime of their own; on any other symbol it means a derivative.
 _PRIMED = {"p'"} | {q.latex for q in QUANTITIES.values() if q.latex.endswith("'")}
 
-#: No quantities: the imaginary unit and indices, the orders of Landau.
-_NONE = {"i", "j", "f_ij", "o", "O"}
+#: No quantities: the imaginary unit and indices, the orders of Landau, what definitions bind (the
+#: roughness in the law of an expansion, the wear in a first zero).
+_NONE = {"i", "j", "f_ij", "o", "O", "s", "u"}
 
 
 @pytest.fixture(scope="module")
@@ -121,7 +122,9 @@ def _formulas(paper: Document, token: Token) -> Iterator[tuple[str, bool]]:
     """The formulas of a token, and whether they stand in sentences."""
     if token.type == "fence" and token.info == "equations":
         for equation in (paper.equations[name] for name in token.content.split()):
-            yield from ((latex, False) for latex in (equation.latex, equation.printed))
+            yield from (
+                (latex, False) for latex in (equation.latex, equation.printed, *equation.where)
+            )
             yield from ((p.content, False) for p in line(equation.title) if p.type == "math")
     elif token.type == "fence" and token.info == "math":
         yield token.content, False

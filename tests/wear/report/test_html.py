@@ -98,6 +98,12 @@ def test_equations_link_to_their_derivations_and_claims(sample, page):
             assert f'href="#{source}"' in own
 
 
+def test_what_names_mean_stands_between_the_formula_and_its_printed_form(page):
+    beside = [page.index(words) for words in ("Where:", "As printed:")]
+    assert beside == sorted(beside)
+    assert page.count("Where:") == 1
+
+
 def test_screen_readers_find_their_way(outline):
     assert outline.of("html")[0]["lang"] == "en"
     assert all(len(outline.of(landmark)) == 1 for landmark in ("nav", "main"))
@@ -113,7 +119,7 @@ def test_figures_follow_the_colours_of_the_page(page):
 
 
 def test_formulas_have_no_errors_and_text_is_escaped(page):
-    assert page.count("<math") == page.count("</math>") == 12
+    assert page.count("<math") == page.count("</math>") == 14
     assert "merror" not in page
     assert "bearing &amp; its limit" in page
     assert "&lt; its verdict &gt;" in page

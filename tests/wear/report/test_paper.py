@@ -104,6 +104,14 @@ def test_corrected_equations_show_the_printed_form_beside(paper):
         assert bool(equation.printed) == (not agrees[equation.id])
 
 
+def test_what_names_mean_stands_beside_an_equation(paper):
+    definitions = {equation.id: equation.definitions_latex for equation in all_equations()}
+    for equation in paper.shown:
+        formulas = [formula for line in equation.where for formula in line.split(r", \quad ")]
+        assert tuple(formulas) == definitions[equation.id]
+    assert paper.equations["saturating-wear"].where[0].startswith("M = ")
+
+
 def test_every_step_stands_once(paper):
     """A step with a formula is not repeated, and none refers to one that comes later."""
     tokens = paper.tokens
