@@ -54,7 +54,8 @@ def sentences(hypotheses: Iterable[Hypothesis]) -> list[str]:
 class Hypothesis:
     """One hypothesis: a relation, as SymPy writes it, and what it is for.
 
-    >>> SMOOTH_PIN.text, ROUGHENING.text, Hypothesis(symbol("f_c") < 2).text
+    >>> f_c = sp.Symbol("f_c")
+    >>> SMOOTH_PIN.text, ROUGHENING.text, Hypothesis(f_c < 2).text
     ('smooth pin', 'the bearing roughens as it wears', 'f_c < 2')
     """
 

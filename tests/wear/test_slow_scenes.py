@@ -19,7 +19,7 @@ from wear.faults import AccuracyError
 from wear.load import Sine, Table
 from wear.loss_of_contact.increments import Coordinate, Increments, Span
 from wear.regime import asymptote
-from wear.scene import Scene
+from wear.scene import Scene, load_scene
 from wear.solver import solve
 
 SLOW = json.loads((DATA / "slow.json").read_text())
@@ -82,6 +82,28 @@ def agree(scene: Scene) -> None:
 
 def test_the_offset_is_read_once_contact_is_never_lost():
     agree(scene_of(5))
+
+
+def test_a_series_goes_on_to_a_limit_wear_without_its_rounding():
+    """All of its terms gave increments that fall like w^5 where they fall like w."""
+    scene = load_scene("section4-cutoff").with_(
+        {
+            "bearing.roughness_growth": 1 / 3 - 6e-5,
+            "bearing.roughness_mm": 5.4879e-4,
+            "bearing.wear_coefficient": 1.0084e-5,
+            "contact.closure_mm": 8.939569e-4,
+            "contact.max_pressure_MPa": 235.674,
+        }
+    )
+    times = np.array([0.0, 0.277498, 0.386864, 0.398226, 0.400463, 1.0]) * 0.06
+    values = (2.01e-5, -5.40083e-4, -9.006427e-6, -4.141381e-4, 4.3198511e-4, 2.01e-5)
+    scene = replace(scene, load=Table(tuple(times.tolist()), values))
+    cycles = np.array([3.0, 3.2, 3.4, 3.6, 4.0]) * 1e6
+    limit = asymptote(scene).arrest_wear_mm
+    assert limit is not None
+    left = limit - count.sweep([scene], cycles, 1e-13).u_c[0]
+    falls = -np.diff(np.log(left)) / np.diff(cycles)
+    assert falls == pytest.approx(falls[0], rel=1e-4)
 
 
 @settings(max_examples=8)

@@ -35,6 +35,7 @@ FAR_BEYOND = 700.0  # logarithm of an increment over the level of its panel
 SAME = 1e-9  # of a span: wears so near to each other are one
 USABLE = 10.0  # times the tolerance: the estimate of error reports the rest
 TO_ROUNDOFF = 0.25 * ROUNDOFF  # of the wear: the distance from its limit at which a count ends
+TERMS = 6  # at most, with which a series goes on to a limit wear
 EASED = 10.0  # at most: an error of the distance is a smaller one of the wear
 
 
@@ -253,9 +254,29 @@ def _joined(parts: list[Increments]) -> list[Increments]:
         last = span.end if whole else end
         if span.tends and whole:
             last = span.coordinate.origin
+            mine = stacked([_to_limit(mine), mine])
         own = span._replace(start=float(begin), end=float(last), tends=span.tends and whole)
         known.append(mine._replace(span=own))
     return known
+
+
+def _to_limit(known: Increments) -> Increments:
+    """Return the panel from w = 0 to the first one known: the series of that one goes on by those
+    first terms of Taylor's that are more than its misfit may make of them."""
+    first, m = take(known, slice(1)), known.series.shape[1]
+    frame = abel.frame(first.frame.c, np.zeros(1), first.frame.starts)
+    d = first.frame.positions(frame.states(chebyshev_nodes(TERMS)))[0] + 1.0
+    k, factor, values = np.arange(m), (-1.0) ** np.arange(m), np.zeros(TERMS)
+    for n in range(TERMS):  # of T_k(-1 + d), a polynomial in d
+        term = float(np.sum(factor * first.series[0]))
+        if n > 0 and abs(term) <= np.max(first.misfit) * abs(factor[-1]):
+            break
+        values += term * d**n
+        factor = factor * (n**2 - k**2) / ((n + 1) * (2 * n + 1))
+    series = np.zeros((1, m))
+    series[0, :TERMS] = chebyshev_analysis(TERMS) @ values
+    misfit = np.repeat(first.misfit[:, :1], len(CHECKS), axis=1)
+    return first._replace(frame=frame, series=series, misfit=misfit)
 
 
 def cut(frame: Frame) -> Frame:
