@@ -11,7 +11,6 @@ References
     E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, IV.5.
 """
 
-from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -118,29 +117,27 @@ def mesh(edges: FloatArray, m: int) -> Mesh:
 
 
 def product(values: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Return `values` (..., m) times a `matrix` (m, n) or a vector (m,): (..., n) or (...)."""
-    flat = values.reshape(-1, len(matrix))
+    """Return `values` (..., m) times a `matrix` (m, n) or a vector (m,): (..., n) or (...).
+
+    In pieces that BLAS leaves to one thread: several would wait for each other longer than they
+    work.
+    """
+    flat, most = values.reshape(-1, len(matrix)), max(1, ONE_THREAD // matrix.size)
+    if len(flat) <= most:
+        return np.asarray((flat @ matrix).reshape(*values.shape[:-1], *matrix.shape[1:]))
     result = np.empty((len(flat), *matrix.shape[1:]))
-    for some in _pieces(len(flat), matrix):
-        np.matmul(flat[some], matrix, out=result[some])
+    for at in range(0, len(flat), most):
+        np.matmul(flat[at : at + most], matrix, out=result[at : at + most])
     return result.reshape(*values.shape[:-1], *matrix.shape[1:])
 
 
 def coefficients(matrix: FloatArray, values: FloatArray) -> FloatArray:
     """Return a `matrix` (n, m) times `values` (..., m), the coefficients first: (n, ...)."""
-    flat = values.reshape(-1, matrix.shape[1])
+    flat, most = values.reshape(-1, matrix.shape[1]), max(1, ONE_THREAD // matrix.size)
     result = np.empty((len(matrix), len(flat)))
-    for some in _pieces(len(flat), matrix):
-        np.matmul(matrix, flat[some].T, out=result[:, some])
+    for at in range(0, len(flat), most):
+        np.matmul(matrix, flat[at : at + most].T, out=result[:, at : at + most])
     return result.reshape(len(matrix), *values.shape[:-1])
-
-
-def _pieces(rows: int, matrix: FloatArray) -> Iterator[slice]:
-    """Yield `rows` in pieces whose product with a matrix BLAS leaves to one thread: several would
-    wait for each other longer than they work."""
-    most = max(1, ONE_THREAD // matrix.size)
-    for at in range(0, rows, most):
-        yield slice(at, at + most)
 
 
 def running(values: FloatArray) -> FloatArray:
