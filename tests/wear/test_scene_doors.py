@@ -155,6 +155,18 @@ def test_rows_are_kept_unless_the_load_changes(tmp_path):
     assert longer.times_s == (0.0, 0.01, 0.06, 0.1)
 
 
+def test_changed_blocks_find_their_files(tmp_path):
+    (tmp_path / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.01,1e-4\n0.06,0\n")
+    (tmp_path / "own.toml").write_text(
+        SECTION4.to_toml().partition("[load]")[0]
+        + '[load]\nkind = "blocks"\n[[load.blocks]]\nkind = "table"\nfile = "pin.csv"\ncycles = 3\n'
+    )
+    scene = load_scene(tmp_path / "own.toml")
+    blocks: Any = scene.load
+    again: Any = scene.with_({"load.repeat": 5}).load
+    assert again == replace(blocks, repeat=5)
+
+
 def test_numbers_of_other_kinds_are_numbers():
     bearing = Bearing(np.float32(200), 1, np.array(3.6e-4), np.int64(0))  # type: ignore[arg-type]
     assert bearing == Bearing(200.0, 1.0, 3.6e-4, 0.0)

@@ -19,7 +19,7 @@ import numpy as np
 
 from wear.loss_of_contact.requests import COARSE, Asking, Request
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray, product
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
@@ -223,8 +223,8 @@ def _series(smooth: FloatArray, missed: FloatArray) -> tuple[FloatArray, FloatAr
     then at the CHECKS, (p, n), and the relative error of the latter."""
     number = smooth.shape[1] - len(CHECKS)
     level = smooth[:, number // 2]
-    series = np.log(smooth[:, :number] / level[:, None]) @ chebyshev_analysis(number).T
-    values = level[:, None] * np.exp(series @ chebyshev_values(CHECKS, number).T)
+    series = product(np.log(smooth[:, :number] / level[:, None]), chebyshev_analysis(number).T)
+    values = level[:, None] * np.exp(product(series, chebyshev_values(CHECKS, number).T))
     return level, series, np.abs(values / smooth[:, number:] - 1.0) + missed
 
 

@@ -78,12 +78,14 @@ def judged(
 ) -> list[Judged]:
     """Return parts of the ways of some scenes, each with its estimated error; `cycles` has one of
     each scene."""
-    found = {i: part for i, part in enumerate(parts) if isinstance(part, Unresolved)}
     single = {i: part for i, part in enumerate(parts) if isinstance(part, OneByOne)}
     ends = [np.array(part.wear) for part in single.values()]
     rows = np.repeat(scene[list(single)], [len(wear) for wear in ends])
     rounding = roundoff(cycles.take(rows), ends)
-    judged: dict[int, Judged] = {
+    found: dict[int, Judged] = {
+        i: part for i, part in enumerate(parts) if isinstance(part, Unresolved)
+    }
+    found |= {
         i: part.judged(problems[scene[i]], here)
         for (i, part), here in zip(single.items(), rounding, strict=True)
     }
@@ -91,9 +93,8 @@ def judged(
     for some in alike({i: part.on.panels for i, part in counts.items()}):
         limits = [problems[of].end for of in scene[some].tolist()]
         alone = _tabulated([counts[i] for i in some], cycles.take(scene[some]), limits)
-        judged |= zip(some, alone, strict=True)
-    judged |= found
-    return [judged[i] for i in range(len(parts))]
+        found |= zip(some, alone, strict=True)
+    return [found[i] for i in range(len(parts))]
 
 
 def _tabulated(

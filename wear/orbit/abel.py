@@ -46,11 +46,6 @@ class Frame(NamedTuple):
     starts: FloatArray
     widths: FloatArray
 
-    def with_panel(self, start: float, width: float) -> Frame:
-        """Return one panel more, of the same scale as the last."""
-        c, starts, widths = self
-        return Frame(np.append(c, c[-1]), np.append(starts, start), np.append(widths, width))
-
     @property
     def ends(self) -> FloatArray:
         """Return where the panels end."""
