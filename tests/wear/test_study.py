@@ -22,7 +22,7 @@ from tests.programs import ended
 from wear.faults import UsageError, WorkersLost
 from wear.studies import design as designs
 from wear.studies.design import Design, permuted
-from wear.studies.rows import Status
+from wear.studies.rows import RowStatus
 from wear.studies.run import study
 from wear.studies.vary import Distribution, Levels, parse
 
@@ -156,7 +156,7 @@ def test_a_study_takes_no_more_disk_than_it_says(tmp_path):
 @pytest.mark.usefixtures("small_chunks")
 def test_an_invalid_scene_is_a_row_with_its_reason(tmp_path):
     found = study("section4", [f"{HARDNESS}=100,-1"], [10], tmp_path / "a.zarr")
-    assert found["status"].values.tolist() == [Status.DONE, Status.INVALID_SCENE]
+    assert found["status"].values.tolist() == [RowStatus.DONE, RowStatus.INVALID_SCENE]
     assert "hardness_MPa" in str(found["reason"].values[1])
     assert np.isnan(found["bearing_wear_mm"].values[1, 0])
 
@@ -239,12 +239,12 @@ def test_a_scene_that_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
 
     monkeypatch.setattr(cycles, "sweep", fails)
     found = study("section4", [f"{HARDNESS}=100,150,200,250,300"], [10], tmp_path / "a.zarr")
-    assert found["status"].values.tolist() == [0, Status.FAILED, 0, 0, 0]
+    assert found["status"].values.tolist() == [0, RowStatus.FAILED, 0, 0, 0]
     assert str(found["reason"].values[1]) == "ZeroDivisionError: division by zero"
     assert np.isnan(found["bearing_wear_mm"].values[:, 0]).tolist() == [False, True] + [False] * 3
 
 
-# What is hardly meant
+# Implausible magnitudes
 
 
 @pytest.mark.usefixtures("small_chunks")
@@ -412,7 +412,7 @@ def test_a_full_disk_keeps_what_is_finished(tmp_path, monkeypatch):
     assert "Traceback" not in full.stderr
     monkeypatch.setattr(designs, "ROWS", 1024)
     found = study("section4", [vary], [9000], out)
-    assert bool((found["status"] == Status.DONE).all())
+    assert bool((found["status"] == RowStatus.DONE).all())
 
 
 def test_a_scheduler_that_is_not_there_is_a_clear_error(call, monkeypatch):
@@ -447,7 +447,7 @@ def test_the_indices_of_a_product_are_those_of_its_logarithms():
 def test_indices_of_scenes_without_an_answer_are_refused():
     from wear.studies.indices import sobol_indices
 
-    with pytest.raises(UsageError, match="narrow what varies"):
+    with pytest.raises(UsageError, match="narrow the distributions"):
         sobol_indices("section4", [f"{HARDNESS}=normal(10,10)"], [1], samples=16)
 
 

@@ -5,12 +5,12 @@ examples:
       --vary bearing.wear_coefficient=1e-8:1e-5:31:log --cycles 1e6 -o map.zarr
   wear study section4 --vary "bearing.hardness_MPa=normal(200,15)" --design sobol \\
       --samples 4096 --seed 1 --cycles 9000,1e6 --until-wear 0.01 -o life.zarr
-  wear study ... --dry-run              scenes, time and disk, nothing solved
+  wear study ... --dry-run              number of scenes, time and disk space alone
   wear study ... --workers 8            eight processes
   wear study ... --scheduler tcp://host:8786    the workers of a Dask cluster
-  wear study ... --figure map.png       a picture of the answers
+  wear study ... --figure map.png       a picture of the results
 
-The same command again goes on where it stopped.
+The same command again resumes a study that was stopped.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ if TYPE_CHECKING:
     from wear.studies.rows import Study
 
 LONGEST_WAIT = 10  # seconds for a scheduler to answer
-TRIED, LONG_ENOUGH = 64, 0.5  # rows that a dry run solves; s, else it solves more at once
+TRIED, LONG_ENOUGH = 64, 0.5  # rows that a dry run solves first; s, below which it solves more
 
 
 def add_arguments(parser: Parser) -> None:
-    """Declare the scene, what varies, what is asked, and where it runs."""
+    """Declare the scene, the varied keys, the requested results, and the workers."""
     from wear.studies.design import DESIGNS
 
     arguments.add_scene(parser)
@@ -61,26 +61,26 @@ def add_arguments(parser: Parser) -> None:
     declare(where, "--workers N", about, type=arguments.number(1, 1024))
     about = "use the workers of the Dask scheduler that runs there"
     declare(where, "--scheduler ADDRESS", about)
-    declare(parser, "--dry-run", "say how many scenes, how long, how much disk")
-    about = "also draw the answers: .png, .svg, .pdf"
+    declare(parser, "--dry-run", "report the number of scenes, the time and the disk space")
+    about = "also draw the results: .png, .svg, .pdf"
     declare(parser, "--figure FILE", about, type=arguments.file(*arguments.PICTURES))
 
 
 def execute(options: Options) -> Answer:
-    """Run a study, or say what it takes."""
+    """Run a study, or estimate its cost."""
     from wear.studies.run import prepare, run
 
     faults = arguments.read(options)
     faults.stop_if_any()
     workers = int(options.workers or processes.cores())
-    request = (
-        options.design, int(options.samples), int(options.seed), options.until_wear, options.rtol,
+    request = prepare(
+        options.scene, options.vary, options.cycles, options.design, int(options.samples),
+        int(options.seed), options.until_wear, options.rtol,
     )  # fmt: skip
-    asked = prepare(options.scene, options.vary, options.cycles, *request)
     if options.dry_run:
-        return _dry_run(asked, workers)
+        return _dry_run(request, workers)
     with _executor(options.scheduler, workers) as executor, terminal.busy("solving") as tell:
-        store = run(asked, Path(options.output), executor, tell)
+        store = run(request, Path(options.output), executor, tell)
     results = store.dataset()
     notices = results.attrs["notices"]
     if options.strict:
@@ -100,22 +100,22 @@ def execute(options: Options) -> Answer:
     return Answer(document, lambda: f"{options.output}: {done}", notices)
 
 
-def _dry_run(asked: Study, workers: int) -> Answer:
-    """Solve a few rows, and say what all of them would take."""
+def _dry_run(request: Study, workers: int) -> Answer:
+    """Solve a few rows, and report the estimated cost of all."""
     from wear.benchmark.results import duration
     from wear.studies.design import ROWS
     from wear.studies.rows import solve_rows
     from wear.studies.store import disk_bytes
 
-    rows, tried, spent = asked.design.rows, TRIED // 4, 0.0
-    solve_rows(asked, asked.design.some(2))  # imports
+    rows, tried, spent = request.design.rows, TRIED // 4, 0.0
+    solve_rows(request, request.design.random_rows(2))  # imports
     while spent < LONG_ENOUGH and tried < ROWS:
         tried *= 4
         start = time.process_time()
-        solve_rows(asked, asked.design.some(tried))
+        solve_rows(request, request.design.random_rows(tried))
         spent = time.process_time() - start
     seconds = spent / tried * rows
-    size = disk_bytes(asked)
+    size = disk_bytes(request)
     return Answer(
         {"scenes": rows, "core_seconds": seconds, "disk_bytes": size},
         lambda: (
@@ -126,7 +126,7 @@ def _dry_run(asked: Study, workers: int) -> Answer:
 
 
 def _executor(scheduler: str | None, workers: int) -> AbstractContextManager[Executor | None]:
-    """Return the workers: of a Dask cluster, processes of this machine, or none for one core."""
+    """Return the workers: those of a Dask cluster, local processes, or none for one core."""
     if scheduler is not None:
         return _cluster(scheduler)
     return nullcontext() if workers == 1 else processes.workers(workers)
@@ -141,7 +141,7 @@ def _cluster(address: str) -> Iterator[Executor]:
         from distributed import Client
     except ImportError as fault:
         raise UsageError("--scheduler needs Dask: pip install 'derive-wear[study]'") from fault
-    logging.disable()  # what goes wrong with the cluster is reported once, in our words
+    logging.disable()  # faults of the cluster are reported once, by our message
     try:
         client = Client(address, timeout=LONGEST_WAIT, set_as_default=False)
     except (OSError, ValueError) as fault:
@@ -151,5 +151,5 @@ def _cluster(address: str) -> Iterator[Executor]:
     try:
         yield client.get_executor()
     finally:
-        with suppress(OSError, RuntimeError):  # a scheduler that went away cannot be told
+        with suppress(OSError, RuntimeError):  # the scheduler may be lost
             client.close(timeout=LONGEST_WAIT)

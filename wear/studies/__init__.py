@@ -1,15 +1,15 @@
 """Studies: many scenes that differ in a few numbers, on one core or on a cluster.
 
 Overview
-    A study is a scene, what varies in it, a design and what is asked. It is solved in chunks of
-    rows; a chunk is a pure function of the study and its place, so it may be solved anywhere and
-    has the same digits everywhere.
+    A study is a scene, the keys that vary, a design and the requested results. It is solved in
+    chunks of rows; a chunk is a pure function of the study and its place, so that any worker may
+    solve it, with the same digits.
 Contents
-    vary      a number of the scene that varies: levels, or a distribution
+    vary      one varied number of the scene: its levels, or its distribution
     design    grid, Sobol', Latin hypercube, random: the rows of every chunk
     rows      the rows of one chunk, solved together
-    store     the results on disk: whole chunks or none
+    store     the results on disk, in whole chunks
     run       the chunks through any executor
     indices   Sobol' indices
-    figures   pictures of the answers
+    figures   pictures of the results
 """

@@ -1,4 +1,4 @@
-"""Designs: which rows a study has, and the values of what varies in every chunk of them.
+"""Designs: the rows of a study, and the values of the varied keys in every chunk of them.
 
 A chunk is a box of the grid, or a run of samples. Its values follow from the design and its place
 alone, so that no list of all rows is ever made: memory is bounded by the chunk.
@@ -20,21 +20,21 @@ from wear.studies.vary import Distribution, Levels, Vary
 
 Chunk = tuple[slice, ...]
 DESIGNS = ("grid", "sobol", "latin-hypercube", "random")
-ROWS = 2048  # of a chunk: seconds of work on a core, a thousandth of that to hand it over
+ROWS = 2048  # of a chunk: seconds of work on one core, milliseconds of transfer
 MOST_ROWS = 10**9
 _ROUNDS = 4  # of the Feistel network; three already pass for random
 
 
 @dataclass(frozen=True)
 class Design:
-    """Which combinations of values are solved: every one of a grid, or `samples` of them.
+    """The combinations of values that are solved: all of a grid, or `samples` of them.
 
     Attributes
     ----------
     kind
         One of `DESIGNS`.
     vary
-        What varies: levels for a grid, distributions for samples.
+        The varied keys: levels for a grid, distributions for samples.
     samples, seed
         Number of samples and seed; a grid has neither (0).
     """
@@ -96,8 +96,8 @@ class Design:
             if isinstance(vary, Distribution)
         }
 
-    def some(self, rows: int) -> dict[str, FloatArray]:
-        """Return the values of every key in a few rows drawn from all over the study."""
+    def random_rows(self, rows: int) -> dict[str, FloatArray]:
+        """Return the values of every key in a few rows drawn at random from the study."""
         random = np.random.default_rng(self.seed)
         return {
             vary.key: random.choice(_levels(vary), rows)
@@ -113,10 +113,10 @@ class Design:
         rows, keys = stop - start, len(self.vary)
         if self.kind == "sobol":
             sequence = qmc.Sobol(keys, scramble=True, rng=np.random.default_rng(self.seed))
-            if start:  # SciPy does not go forward by nothing
+            if start:  # SciPy refuses to skip no points
                 sequence.fast_forward(start)
-            whole = 1 << (rows - 1).bit_length()  # the sequence is balanced over powers of two
-            return np.asarray(sequence.random(whole)[:rows], dtype=float)
+            power = 1 << (rows - 1).bit_length()  # the sequence is balanced over powers of two
+            return np.asarray(sequence.random(power)[:rows], dtype=float)
         random = np.random.default_rng(np.random.SeedSequence(self.seed, spawn_key=(start,)))
         points = random.random((rows, keys))
         if self.kind == "random":
@@ -132,7 +132,7 @@ def _levels(vary: Vary) -> tuple[float, ...]:
 
 
 def _faults(design: Design) -> Iterator[str]:
-    """Yield everything that is wrong with a design."""
+    """Yield every fault of a design."""
     if design.kind not in DESIGNS:
         yield f"design: {design.kind!r} is unknown; choose one of {', '.join(DESIGNS)}"
         return
@@ -164,9 +164,9 @@ def _faults(design: Design) -> Iterator[str]:
 
 
 def permuted(index: NDArray[np.int64], size: int, key: tuple[int, ...]) -> NDArray[np.int64]:
-    """Return where a pseudo-random permutation of 0 ... size - 1 sends each index.
+    """Return the image of each index under a pseudo-random permutation of 0 ... size - 1.
 
-    A Feistel network permutes the next square of a power of two, and what falls outside goes
+    A Feistel network permutes the next square of a power of two; an image outside the range goes
     through it again (M. Luby, C. Rackoff, SIAM J. Comput. 17, 1988; J. Black, P. Rogaway, CT-RSA
     2002), so that no permutation is ever stored.
 

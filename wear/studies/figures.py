@@ -116,9 +116,9 @@ def life(results: xarray.Dataset) -> Figure:
     return figure
 
 
-def indices(found: xarray.Dataset) -> Figure:
+def indices(results: xarray.Dataset) -> Figure:
     """Return the Sobol' indices at the last number of cycles as bars with their confidence."""
-    last = found.isel(cycle=-1)
+    last = results.isel(cycle=-1)
     place = np.arange(last.sizes["key"])
     with styled():
         figure, axes = canvas(COLUMN, 12.0 + 9.0 * len(place))

@@ -1,4 +1,4 @@
-"""Sobol' indices: which uncertain number of a scene the spread of the wear comes from."""
+"""Sobol' indices: the share of every uncertain number of a scene in the variance of the wear."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from wear.faults import UsageError
 from wear.numerics.gauss import FloatArray
 from wear.studies.design import ROWS
 from wear.studies.notices import Tally
-from wear.studies.rows import Status, Study, solve_rows
+from wear.studies.rows import RowStatus, Study, solve_rows
 from wear.studies.run import check_executor, prepare
 from wear.studies.vary import Distribution, Vary
 
@@ -38,8 +38,8 @@ def sobol_indices(
 ) -> xarray.Dataset:
     """Return the Sobol' indices of the wear with 95 % confidence intervals.
 
-    The first-order index of a key is the share of the variance of the wear that goes when the key
-    is known; the total index is the share that stays when all others are known. It takes
+    The first-order index of a key is the share of the variance of the wear that vanishes when the
+    key is known; the total index is the share that remains when all others are known. The cost is
     `samples` times (number of keys + 2) scenes (A. Saltelli et al., Comput. Phys. Commun. 181,
     2010; `scipy.stats.sobol_indices`).
 
@@ -54,7 +54,7 @@ def sobol_indices(
     -------
     xarray.Dataset
         `first_order` and `total_order` (key, cycle), each with `_low` and `_high`; the attribute
-        `notices` says what is hardly meant in the scenes drawn.
+        `notices` lists implausible magnitudes in the scenes drawn.
 
     Raises
     ------
@@ -65,42 +65,42 @@ def sobol_indices(
     from scipy import stats
 
     check_executor(executor)
-    asked = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
+    request = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
     if samples < 2 or samples & (samples - 1):
         raise UsageError(f"samples: {samples} is no power of two")
-    keys, tally = [each.key for each in asked.design.vary], Tally(asked)
+    keys, tally = [each.key for each in request.design.vary], Tally(request)
 
     def wear(points: FloatArray) -> FloatArray:
         columns = dict(zip(keys, points, strict=True))
-        u_c = _wear(asked, columns, executor)
+        u_c = _wear(request, columns, executor)
         tally.add(columns, u_c.T)
         return u_c
 
-    laws = [each.frozen for each in asked.design.vary if isinstance(each, Distribution)]
-    found = stats.sobol_indices(func=wear, n=samples, dists=laws, rng=np.random.default_rng(seed))
-    spread = found.bootstrap(confidence_level=CONFIDENCE, n_resamples=RESAMPLES)
+    laws = [each.frozen for each in request.design.vary if isinstance(each, Distribution)]
+    indices = stats.sobol_indices(func=wear, n=samples, dists=laws, rng=np.random.default_rng(seed))
+    spread = indices.bootstrap(confidence_level=CONFIDENCE, n_resamples=RESAMPLES)
     arrays = {}
     for name in ("first_order", "total_order"):
         interval = getattr(spread, name).confidence_interval
-        for end, values in (("", getattr(found, name)), ("_low", interval.low),
+        for end, values in (("", getattr(indices, name)), ("_low", interval.low),
                             ("_high", interval.high)):  # fmt: skip
             arrays[name + end] = (("key", "cycle"), np.atleast_2d(values).T)
-    coordinates = {"key": keys, "cycle": list(asked.cycles)}
+    coordinates = {"key": keys, "cycle": list(request.cycles)}
     return xarray.Dataset(arrays, coordinates, {"notices": list(tally.notices)})
 
 
-def _wear(asked: Study, columns: dict[str, FloatArray], executor: Executor | None) -> FloatArray:
+def _wear(request: Study, columns: dict[str, FloatArray], executor: Executor | None) -> FloatArray:
     """Return the wear (cycles, rows) of the rows of these columns, in chunks."""
     rows = len(next(iter(columns.values())))
     parts = [
         {key: column[at : at + ROWS] for key, column in columns.items()}
         for at in range(0, rows, ROWS)
     ]
-    solved = (map if executor is None else executor.map)(solve_rows, [asked] * len(parts), parts)
+    solved = (map if executor is None else executor.map)(solve_rows, [request] * len(parts), parts)
     wear = []
     for answers in solved:
-        if np.any(answers.status != Status.DONE):
+        if np.any(answers.status != RowStatus.DONE):
             reason = next(filter(None, answers.reason))
-            raise UsageError(f"a scene drawn has no answer: {reason}; narrow what varies")
+            raise UsageError(f"a scene drawn has no answer: {reason}; narrow the distributions")
         wear.append(answers.bearing_wear_mm)
     return np.concatenate(wear).T

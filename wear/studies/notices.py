@@ -1,4 +1,4 @@
-"""What is hardly meant in the rows of a study: a sentence a kind, with its count and worst row."""
+"""Implausible magnitudes in a study: a sentence for each kind, with its count and worst row."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 
 class Worst(NamedTuple):
-    """How many rows exceed a limit, and of the worst: its ratio to the limit, the sentence about
-    it, and its numbers in words."""
+    """The number of rows that exceed a limit, and of the worst row its ratio to the limit, the
+    sentence about it, and the values of its keys."""
 
     rows: int
     ratio: float
@@ -42,7 +42,7 @@ class Tally:
 
     def add(self, columns: Mapping[str, FloatArray], u_c: FloatArray) -> None:
         """Count rows in which each key takes the values (rows,) of its column, with their wear
-        (rows, cycles) in mm; NaN, where there is no answer, counts for nothing."""
+        (rows, cycles) in mm; rows without an answer (NaN) are left out."""
         self._rows += len(u_c)
         answered = np.isfinite(u_c).all(axis=1)
         if not answered.any():
@@ -61,7 +61,7 @@ class Tally:
 
     @property
     def notices(self) -> tuple[str, ...]:
-        """Return those of the scene that is varied, and a sentence for each kind of excess."""
+        """Return the notices of the varied scene, and a sentence for each kind of excess."""
         of_scene = (text for text in self._study.scene.notices if not text.startswith(WORD))
         of_rows = (
             f"{worst.sentence} ({worst.rows} of {self._rows} rows; the worst has {worst.place})"
@@ -73,11 +73,11 @@ class Tally:
 def _doubts(study: Study, columns: Mapping[str, FloatArray], u_c: FloatArray) -> Iterator[Doubt]:
     """Yield the doubts about rows, each with a ratio (rows,)."""
     entries = {**entries_of(study.scene), **columns}
-    fresh, *worn = _roughness(entries, u_c)
+    initial, *worn = _roughness(entries, u_c)
     radius = entries["motion.radius_mm"]
     for doubt in (
         *doubts_of_entries(entries),
-        *doubts_of_results(radius, fresh, study.cycles, u_c, *worn),
+        *doubts_of_results(radius, initial, study.cycles, u_c, *worn),
     ):
         yield doubt._replace(ratio=np.broadcast_to(doubt.ratio, len(u_c)))
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 LONGEST_REASON = 200  # characters
 
 
-class Status(IntEnum):
-    """What became of a row. `PENDING` is what a chunk has before it is solved."""
+class RowStatus(IntEnum):
+    """The outcome of a row; `PENDING` before its chunk is solved."""
 
     DONE = 0
     INVALID_SCENE = 1
@@ -31,8 +31,8 @@ class Status(IntEnum):
 
 @dataclass(frozen=True)
 class Study:
-    """A scene, the design by which it varies, and what is asked of every row: the wear after
-    numbers of cycles, the cycles to a wear depth, the relative accuracy."""
+    """A scene, the design by which it varies, and the request for every row: numbers of cycles,
+    the wear depth to which cycles are counted, the relative accuracy."""
 
     scene: Scene
     design: Design
@@ -66,14 +66,14 @@ def solve_rows(study: Study, columns: Mapping[str, FloatArray]) -> Answers:
                 {key: float(column[row]) for key, column in columns.items()}
             )
         except ValueError as fault:  # SceneError is one
-            _fail(answers, row, Status.INVALID_SCENE, str(fault))
+            _fail(answers, row, RowStatus.INVALID_SCENE, str(fault))
     if scenes:
         _solve(study, scenes, answers)
     return answers
 
 
 def solve_chunk(study: Study, chunk: Chunk) -> Answers:
-    """Return the answers of one chunk: what a worker runs."""
+    """Return the answers of one chunk (the function that workers run)."""
     return solve_rows(study, study.design.columns(chunk))
 
 
@@ -87,19 +87,19 @@ def _empty(rows: int, cycles: int) -> Answers:
     )
 
 
-def _fail(answers: Answers, row: int, status: Status, reason: str) -> None:
+def _fail(answers: Answers, row: int, status: RowStatus, reason: str) -> None:
     answers.status[row] = status
     answers.reason[row] = " ".join(reason.split())[:LONGEST_REASON]
 
 
 def _solve(study: Study, scenes: Mapping[int, Scene], answers: Answers) -> None:
-    """Fill in the answers of rows with valid scenes; one that fails is sought by halves."""
+    """Fill in the answers of rows with valid scenes; one that fails is found by bisection."""
     try:
         _fill_in(study, scenes, answers)
-    except Exception as fault:  # whatever it is, the other rows have answers
+    except Exception as fault:  # of any kind: the other rows have answers
         rows, half = list(scenes), len(scenes) // 2
         if not half:
-            _fail(answers, rows[0], Status.FAILED, f"{type(fault).__name__}: {fault}")
+            _fail(answers, rows[0], RowStatus.FAILED, f"{type(fault).__name__}: {fault}")
             return
         for part in (rows[:half], rows[half:]):
             _solve(study, {row: scenes[row] for row in part}, answers)
@@ -109,15 +109,14 @@ def _fill_in(study: Study, scenes: Mapping[int, Scene], answers: Answers) -> Non
     """Solve the rows together, and fill in their answers."""
     from wear.cycles import cycles_to_depth, sweep
 
-    places = np.array(list(scenes))
-    some = list(scenes.values())
-    found = sweep(some, study.cycles, study.rtol)
+    places, valid = np.array(list(scenes)), list(scenes.values())
+    wear = sweep(valid, study.cycles, study.rtol)
     if study.until_wear is not None:
-        reached = cycles_to_depth(some, study.until_wear, study.rtol)
-        answers.cycles_to_wear[places] = reached.cycles[:, 0]
-    answers.bearing_wear_mm[places] = found.u_c
-    answers.error_estimate[places] = found.error
-    for row, error in zip(places.tolist(), found.error.max(axis=1).tolist(), strict=True):
+        life = cycles_to_depth(valid, study.until_wear, study.rtol)
+        answers.cycles_to_wear[places] = life.cycles[:, 0]
+    answers.bearing_wear_mm[places] = wear.u_c
+    answers.error_estimate[places] = wear.error
+    for row, error in zip(places.tolist(), wear.error.max(axis=1).tolist(), strict=True):
         if not error <= study.rtol:
             reason = f"the estimated error is {error:.1e}, {study.rtol:.1e} was requested"
-            _fail(answers, row, Status.ACCURACY_MISSED, reason)
+            _fail(answers, row, RowStatus.ACCURACY_MISSED, reason)

@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     from wear.scene import Scene
     from wear.studies.store import Store
 
-# What executors raise when their workers, or the way to them, are gone; Dask's client is a
-# RuntimeError once it is closed, and Dask has exceptions of its own.
-LOST = (BrokenExecutor, CancelledError, asyncio.CancelledError, OSError, RuntimeError)
+# Exceptions of executors whose workers, or the connection to them, are lost; a closed client of
+# Dask raises a RuntimeError, and Dask has exceptions of its own.
+WORKER_FAULTS = (BrokenExecutor, CancelledError, asyncio.CancelledError, OSError, RuntimeError)
 DASK = "distributed"
-IN_FLIGHT = 64  # chunks handed over at once: enough for a cluster, few enough for memory
+IN_FLIGHT = 64  # chunks submitted at once: enough for a cluster, few enough for memory
 
 
 def study(
@@ -58,7 +58,7 @@ def study(
     scene
         The scene that is varied, or its name or path.
     vary
-        What varies: for a grid `KEY=low:high:count[:log]` or `KEY=a,b,c`; for samples
+        Varied keys: for a grid `KEY=low:high:count[:log]` or `KEY=a,b,c`; for samples
         `KEY=uniform(low,high)`, `loguniform(low,high)`, `normal(mean,sd)` or
         `lognormal(median,factor)`. Or `Levels` and `Distribution`.
     cycles
@@ -75,28 +75,28 @@ def study(
         Anything with the interface of `concurrent.futures.Executor`: a process pool, Dask's
         `client.get_executor()`, mpi4py's. None solves the chunks here, one after the other.
     progress
-        Is told in words how far a study is that takes more than two seconds.
+        Called with a message on the progress of a study that takes more than two seconds.
 
     Returns
     -------
     xarray.Dataset
         `bearing_wear_mm`, `error_estimate`, `cycles_to_wear`, `status` and `reason`, with a
         dimension for each key of a grid or one of samples, and one of cycles. The attribute
-        `notices` says what is hardly meant in how many rows, and in which most.
+        `notices` lists implausible magnitudes, with the number of rows and the worst of them.
 
     Raises
     ------
     UsageError
-        for everything that is wrong with the request, at once.
+        with all faults of the request at once.
     WorkersLost
-        if the executor lost its workers; the same call goes on.
+        if the executor lost its workers; the same call resumes the study.
     """
-    asked = prepare(scene, vary, cycles, design, samples, seed, until_wear, rtol)
-    return run(asked, output, executor, progress).dataset()
+    request = prepare(scene, vary, cycles, design, samples, seed, until_wear, rtol)
+    return run(request, output, executor, progress).dataset()
 
 
 def run(
-    asked: Study,
+    request: Study,
     output: str | os.PathLike[str],
     executor: Executor | None,
     progress: Callable[[str], None],
@@ -107,14 +107,14 @@ def run(
     if not is_path(output):
         raise UsageError(f"output: {output!r} is no name of a folder")
     check_executor(executor)
-    store = Store(Path(output), asked)
+    store = Store(Path(output), request)
     pace, done = Pace(progress), 0
     pace.begin("scene", store.counts()["pending"])
-    for chunk, answers in _answers(asked, store.missing(), executor):
+    for chunk, answers in _answers(request, store.missing(), executor):
         store.write(chunk, answers)
         done += len(answers.status)
         pace.at(done)
-    store.judge()
+    store.write_notices()
     return store
 
 
@@ -128,7 +128,7 @@ def prepare(
     until_wear: float | None,
     rtol: float,
 ) -> Study:
-    """Return what is to be solved, or raise all that is wrong with it."""
+    """Return the checked request, or raise a `UsageError` with all its faults."""
     from wear.parameters import no_such_number, parameters_of
     from wear.request import check_rtol, is_number, whole_cycles
     from wear.scene import as_scene
@@ -161,7 +161,7 @@ def prepare(
 
 
 def check_executor(executor: object) -> None:
-    """Raise a `UsageError` for what is no executor; a client of Dask has one."""
+    """Raise a `UsageError` unless this is an executor; a client of Dask has one."""
     if hasattr(executor, "get_executor"):
         raise UsageError("executor: this is a client; give client.get_executor()")
     if executor is not None and not hasattr(executor, "submit"):
@@ -169,26 +169,26 @@ def check_executor(executor: object) -> None:
 
 
 def _answers(
-    asked: Study, left: Iterable[Chunk], executor: Executor | None
+    request: Study, chunks: Iterable[Chunk], executor: Executor | None
 ) -> Iterator[tuple[Chunk, Answers]]:
-    """Yield every chunk that is left with its answers, as they come."""
+    """Yield every chunk with its answers, as they come."""
     if executor is None:
-        for chunk in left:
-            yield chunk, solve_chunk(asked, chunk)
+        for chunk in chunks:
+            yield chunk, solve_chunk(request, chunk)
         return
     running: dict[Future[Answers], Chunk] = {}
     try:
-        for chunk in left:
-            running[executor.submit(solve_chunk, asked, chunk)] = chunk
+        for chunk in chunks:
+            running[executor.submit(solve_chunk, request, chunk)] = chunk
             if len(running) >= IN_FLIGHT:
                 yield from _finished(running)
         while running:
             yield from _finished(running)
     except (Exception, asyncio.CancelledError) as fault:
-        if not (isinstance(fault, LOST) or _of_dask(fault)):
+        if not (isinstance(fault, WORKER_FAULTS) or _of_dask(fault)):
             raise
         raise WorkersLost(
-            f"the workers went away ({type(fault).__name__} {fault}); finished chunks are kept: "
+            f"the workers were lost ({type(fault).__name__} {fault}); finished chunks are kept: "
             "the same command goes on where this one stopped"
         ) from fault
     finally:
@@ -197,19 +197,19 @@ def _answers(
 
 
 def _of_dask(fault: BaseException) -> bool:
-    """Whether a fault is Dask's own, by its class or by the function that raised it: where the
-    scheduler goes away at the wrong moment, Dask takes an answer apart as if it were a fault."""
+    """Return whether a fault is Dask's own, by its class or by the function that raised it: if the
+    scheduler is lost at the wrong moment, Dask unpacks an answer as if it were a fault."""
     frames = [frame for frame, _ in walk_tb(fault.__traceback__)]
     raised_in = frames[-1].f_globals.get("__name__", "") if frames else ""
     return any(name.startswith(DASK) for name in (type(fault).__module__, raised_in))
 
 
 def _finished(running: dict[Future[Answers], Chunk]) -> Iterator[tuple[Chunk, Answers]]:
-    """Yield what is done of the running chunks, at least one of them."""
+    """Wait for at least one of the running chunks, and yield those that are done."""
     done, _ = wait(running, return_when=FIRST_COMPLETED)
     for future in done:
         answers = future.result()
-        if answers is None:  # of Dask, where the worker went with what it had worked out
+        if answers is None:  # from Dask, if a worker was lost together with its result
             raise CancelledError
         yield running[future], answers
         del running[future]

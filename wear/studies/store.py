@@ -1,7 +1,7 @@
-"""Results of a study on disk: a Zarr group that xarray opens; a chunk is there whole or not at all.
+"""Results of a study on disk: a Zarr group that xarray opens; no chunk is written in part.
 
 Each array is cut into the chunks of the design, a file each. Every file is written under another
-name first and the status of a chunk last, so a chunk without a status is one that is not there.
+name first and the status of a chunk last, so that a chunk without a status is missing.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from wear.faults import UsageError
 from wear.quantities import unit_of
 from wear.studies.design import Chunk
 from wear.studies.notices import Tally
-from wear.studies.rows import Answers, Status, Study
+from wear.studies.rows import Answers, RowStatus, Study
 from wear.studies.vary import Levels
 
 if TYPE_CHECKING:
     import xarray
 
 
-BESIDE_A_FILE = 8192  # bytes on disk: its folder, and what is left of its last block
+FILE_OVERHEAD = 8192  # bytes on disk: its folder, and the rest of its last block
 
 
 class Variable(NamedTuple):
-    """One array of a study, its type, whether it has a dimension of cycles, unit and meaning."""
+    """One array of a study: name, type, whether it has a dimension of cycles, unit and meaning."""
 
     name: str
     kind: str
@@ -49,7 +49,7 @@ VARIABLES = (
     Variable("error_estimate", "float64", True, "1", "estimated relative error of the wear"),
     Variable("cycles_to_wear", "float64", False, "1", "number of cycles to the wear depth"),
     Variable("reason", "string", False, "", "why the row has no answer"),
-    Variable("status", "uint8", False, "", "what became of the row"),
+    Variable("status", "uint8", False, "", "outcome of the row"),
 )
 
 
@@ -76,14 +76,14 @@ class Store:
 
     @property
     def _variables(self) -> tuple[Variable, ...]:
-        asked = self.study.until_wear is not None
-        return tuple(v for v in VARIABLES if asked or v.name != "cycles_to_wear")
+        with_life = self.study.until_wear is not None
+        return tuple(v for v in VARIABLES if with_life or v.name != "cycles_to_wear")
 
     def missing(self) -> Iterator[Chunk]:
         """Yield every chunk that has not been written."""
         status = self._group["status"]
         for chunk in self.design.chunks():
-            if np.any(np.asarray(status[chunk]) == Status.PENDING):
+            if np.any(np.asarray(status[chunk]) == RowStatus.PENDING):
                 yield chunk
 
     def write(self, chunk: Chunk, answers: Answers) -> None:
@@ -99,13 +99,13 @@ class Store:
 
     def counts(self) -> dict[str, int]:
         """Return how many rows have each status, by its name."""
-        rows = np.zeros(max(Status) + 1, dtype=np.int64)
+        rows = np.zeros(max(RowStatus) + 1, dtype=np.int64)
         for chunk in self.design.chunks():
             rows += np.bincount(np.ravel(self._group["status"][chunk]), minlength=len(rows))
-        return {status.name.lower(): int(rows[status]) for status in Status}
+        return {status.name.lower(): int(rows[status]) for status in RowStatus}
 
-    def judge(self) -> None:
-        """Note what is hardly meant in the rows: the attribute `notices` of the results."""
+    def write_notices(self) -> None:
+        """Write the attribute `notices` of the results: implausible magnitudes in the rows."""
         tally = Tally(self.study)
         for chunk in self.design.chunks():
             wear = np.asarray(self._group["bearing_wear_mm"][*chunk, :])
@@ -124,12 +124,12 @@ class Store:
 
         try:
             group = zarr.open_group(self.path, mode="r+")
-            found = json.loads(str(group.attrs["study"]))
+            recorded = json.loads(str(group.attrs["study"]))
         except (KeyError, ValueError, OSError) as fault:
             raise UsageError(f"{self.path}: is there already and is no study") from fault
-        if found != self._identity:
+        if recorded != self._identity:
             differ = ", ".join(
-                key for key in self._identity if found.get(key) != self._identity[key]
+                key for key in self._identity if recorded.get(key) != self._identity[key]
             )
             raise UsageError(
                 f"{self.path}: belongs to another study, which differs in: {differ}; "
@@ -147,7 +147,7 @@ class Store:
             lengths = dict(zip(self.design.dimensions, self.design.shape, strict=True))
             chunks = dict(zip(self.design.dimensions, self.design.chunk_shape, strict=True))
             lengths["cycle"] = chunks["cycle"] = len(self.study.cycles)
-            fills = {"uint8": int(Status.PENDING), "string": "", "int64": 0, "float64": math.nan}
+            fills = {"uint8": int(RowStatus.PENDING), "string": "", "int64": 0, "float64": math.nan}
             for name, dimensions, kind, attributes in self._arrays():
                 # A coordinate is known beforehand, and written whole.
                 parts = lengths if dimensions == (name,) else chunks
@@ -167,7 +167,7 @@ class Store:
                     group[vary.key][:] = np.array(vary.values)
             group.attrs["study"] = json.dumps(self._identity)
             group.attrs["scene"] = self.study.scene.to_toml()
-            with warnings.catch_warnings():  # that Zarr's format 3 leaves this to its writers
+            with warnings.catch_warnings():  # Zarr's format 3 does not specify this
                 warnings.simplefilter("ignore")
                 zarr.consolidate_metadata(folder)
             folder.chmod(0o755)
@@ -182,12 +182,12 @@ class Store:
         rows = self.design.dimensions
         yield "cycle", ("cycle",), "int64", {"units": "1", "long_name": "number of cycles"}
         for vary in self.design.vary:
-            own = (vary.key,) if self.design.kind == "grid" else rows
-            yield vary.key, own, "float64", {"units": unit_of(vary.key) or "1"}
+            dimensions = (vary.key,) if self.design.kind == "grid" else rows
+            yield vary.key, dimensions, "float64", {"units": unit_of(vary.key) or "1"}
         for variable in self._variables:
             attributes: dict[str, Any] = {"units": variable.unit, "long_name": variable.meaning}
             if variable.name == "status":
-                named = [status for status in Status if status is not Status.PENDING]
+                named = [status for status in RowStatus if status is not RowStatus.PENDING]
                 attributes["flag_values"] = [int(status) for status in named]
                 attributes["flag_meanings"] = " ".join(status.name.lower() for status in named)
             if self.design.kind != "grid":
@@ -208,18 +208,18 @@ class Store:
 
 
 def disk_bytes(study: Study) -> int:
-    """Return the bytes that all results take at most: uncompressed, a file a chunk and array."""
+    """Return the largest size of all results in bytes: uncompressed, a file a chunk and array."""
     design, until = study.design, study.until_wear is not None
     keys = len(design.vary) if design.kind != "grid" else 0
     numbers = 2 * len(study.cycles) + until + keys
     files = (3 + until + keys) * sum(1 for _ in design.chunks())
-    files += 2 * (5 + until + len(design.vary))  # coordinates, and what is said of each array
-    return design.rows * (8 * numbers + 1) + files * BESIDE_A_FILE
+    files += 2 * (5 + until + len(design.vary))  # coordinates, and the metadata of each array
+    return design.rows * (8 * numbers + 1) + files * FILE_OVERHEAD
 
 
 def identity(study: Study) -> dict[str, Any]:
-    """Return what makes two studies the same: their results agree in every bit."""
-    made = {
+    """Return the data that define a study: studies that share them agree in every bit."""
+    fields = {
         "scene": study.scene.to_tables(),
         "vary": [asdict(vary) for vary in study.design.vary],
         "design": study.design.kind,
@@ -231,4 +231,4 @@ def identity(study: Study) -> dict[str, Any]:
         "rows_of_a_chunk": list(study.design.chunk_shape),
         "version": version("derive-wear"),
     }
-    return dict(json.loads(json.dumps(made)))
+    return dict(json.loads(json.dumps(fields)))

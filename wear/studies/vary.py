@@ -75,7 +75,7 @@ class Distribution:
 
 Vary = Levels | Distribution
 
-# What the two parameters of a distribution must satisfy, and how to say so.
+# The condition on the two parameters of a distribution, and its message.
 _LAWS = {
     "uniform": (lambda low, high: low < high, "uniform(low,high) needs low < high"),
     "loguniform": (lambda low, high: 0 < low < high, "loguniform(low,high) needs 0 < low < high"),
@@ -88,12 +88,12 @@ _LAWS = {
 
 
 def parse(text: str) -> Vary:
-    """Return what varies from `KEY=low:high:count[:log]`, `KEY=a,b,c` or `KEY=law(x,y)`.
+    """Return the variation of a key from `KEY=low:high:count[:log]`, `KEY=a,b,c` or `KEY=law(x,y)`.
 
     Raises
     ------
     UsageError
-        with what is wrong and the forms that there are.
+        with the fault and the accepted forms.
 
     >>> parse("bearing.roughness_growth=0.1:0.3:3")
     Levels(key='bearing.roughness_growth', values=(0.1, 0.2, 0.3))
@@ -130,9 +130,9 @@ def _range(key: str, text: str, parts: list[str]) -> Levels:
         raise UsageError(f"{text}: the count must be a whole number from 2 to {MOST_LEVELS:.0e}")
     if not low < high or (spacing == "log" and not low > 0.0):
         raise UsageError(f"{text}: {'0 < ' if spacing == 'log' else ''}low < high is needed")
-    made = np.geomspace if spacing == "log" else np.linspace
+    spaced = np.geomspace if spacing == "log" else np.linspace
     # As short as the ends are given, so that 0.2 is 0.2 and not 0.20000000000000004.
-    return Levels(key, tuple(float(f"{value:.15g}") for value in made(low, high, int(count))))
+    return Levels(key, tuple(float(f"{value:.15g}") for value in spaced(low, high, int(count))))
 
 
 def _numbers(text: str, words: list[str]) -> tuple[float, ...]:
