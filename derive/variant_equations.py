@@ -10,9 +10,13 @@ from dataclasses import replace
 
 from .equations import Equation
 from .hypotheses import RIGID
+from .laws import TANH
 from .rules.algebra import substitute
 from .rules.assumption import assume
+from .symbols import symbol
 from .variant import Variant
+
+u_a = symbol("u_a")
 
 
 def equations_of(variant: Variant, *, opening: bool) -> tuple[Equation, ...]:
@@ -23,23 +27,29 @@ def equations_of(variant: Variant, *, opening: bool) -> tuple[Equation, ...]:
     h = h_0 + u_c - U_a
     """
     model = replace(variant.model, opening=opening)
-    support = () if variant.compliant else (assume(RIGID),)
-    pin = () if model.pin.wears else (model.wear_of_pin,)
+    absent = [model.wear_of_pin] * (not model.pin.wears)
+    absent += [assume(RIGID)] * (not variant.compliant)
+    closure = substitute(model.closure, *absent) if absent else model.closure
     law = model.pressure_with_cutoff if variant.ends_at_3_sigma else model.pressure
+    of_note, printed = variant.law is TANH, not (opening and model.pin.wears)
     found = {
-        "closure": ("closure of the mean surfaces", substitute(model.closure, *pin, *support)),
-        "roughness": ("equivalent roughness", model.roughness_at_wear),
-        "pressure": ("contact pressure", law),
-        "wear": ("wear of the bearing", model.wear_laws[2]),
-        "slip": ("slip rate", model.slip),
+        "closure": ("closure of the mean surfaces", "1" * printed, closure),
+        "roughness": ("equivalent roughness", "3", model.roughness_at_wear),
+        "pressure": ("contact pressure", "4" * of_note, law),
+        "wear": ("wear of the bearing", "5", model.wear_laws[2]),
+        "slip": ("slip rate", "", model.slip),
     }
     if model.pin.wears:
-        found["pin-wear"] = ("wear of the pin", model.wear_of_pin)
+        found["pin-wear"] = ("wear of the pin", "5", model.wear_of_pin)
     if variant.compliant:
-        found["deflection"] = ("deflection of the support", model.deflection)
+        found["deflection"] = ("deflection of the support", "2", model.deflection)
     if not variant.ends_at_3_sigma:
         whole = model.implicit if variant.compliant else model.rigid_condensed
-        found["whole"] = ("the model in one equation", whole)
+        if whole.relation.has(u_a):
+            whole = substitute(whole, model.wear_of_pin)
+        number = variant.equations[-1] if of_note and printed else ""
+        found["whole"] = ("the model in one equation", number, whole)
     return tuple(
-        Equation(f"scene-{name}", "", title, (proved,)) for name, (title, proved) in found.items()
+        Equation(f"scene-{name}", "", title + f", by ({number})" * bool(number), (proved,))
+        for name, (title, number, proved) in found.items()
     )

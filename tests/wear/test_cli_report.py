@@ -8,6 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from derive.symbols import symbol
+from derive.variant import VARIANTS
+from derive.variant_equations import equations_of
 from wear import solve
 from wear.cli import main
 from wear.load import Block, Blocks, Sine
@@ -54,6 +57,15 @@ def test_the_numbers_are_those_of_the_solver_and_the_equations_those_of_the_vari
     assert list(shown) == [*(f"scene-{name}" for name in names), "21", "22", "log-drift"]
     assert shown["scene-closure"] == "h = h_0 + u_c - U_a"
     assert {"sec:long", "sec:life", "sec:sensitivities", "fig:inside"} <= set(document.marks)
+
+
+@pytest.mark.parametrize("opening", [False, True])
+@pytest.mark.parametrize("variant", VARIANTS, ids=lambda each: f"{each.law.name}-{each.name}")
+def test_every_variant_has_its_equations_and_the_one_for_all(variant, opening):
+    shown = {each.id: each for each in equations_of(variant, opening=opening)}
+    assert shown["scene-closure"].relation.has(symbol("u_a")) == variant.pin.wears
+    if not variant.ends_at_3_sigma:
+        assert not shown["scene-whole"].relation.has(symbol("u_a"), symbol("U_c"), symbol("p"))
 
 
 @pytest.mark.usefixtures("undrawn")

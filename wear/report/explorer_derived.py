@@ -17,11 +17,13 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from html import escape
+from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from derive.laws import LAWS, TANH
 from derive.typeset import mathml
+from wear.report.equations import capital
 from wear.report.explorer import GROUPS, MICROMETRES, SMALL
 
 FILE = "explorer.derived.json"
@@ -30,7 +32,6 @@ Choices = dict[str, tuple[str | bool, ...]]
 """Values of the controls, and of the regime, for which an equation holds; the others are free."""
 
 _SMOOTH: Choices = {"pin": ("bearing",)}
-_ROUGH: Choices = {"pin": ("rough", "worn_rough")}
 _TWO_SOLIDS: Choices = {"pin": ("rough", "worn", "worn_rough")}
 _RIGID: Choices = {"compliant": (False,)}
 _COMPLIANT: Choices = {"compliant": (True,)}
@@ -38,8 +39,6 @@ _AS_PRINTED: Choices = {"opening": (False,)}
 _OPENING: Choices = {"opening": (True,)}
 _TANH: Choices = {"law": (TANH.name,)}
 _OTHERS = tuple(name for name in LAWS if name != TANH.name)
-_CUTOFF: Choices = {"cutoff": (True,)}
-_NO_CUTOFF: Choices = {"cutoff": (False,)}
 _STEADY: Choices = {"regime": ("steady",)}
 _PARTIAL: Choices = {"regime": ("partial",)}
 _ARREST: Choices = {"regime": ("arrest",)}
@@ -53,17 +52,6 @@ class _Row(NamedTuple):
     holds: Choices
 
 
-_MODEL = (
-    _Row("Closure", "1", _AS_PRINTED),
-    _Row("Equivalent roughness", "3", _ROUGH),
-    _Row("Contact law", "7e", _TANH | _NO_CUTOFF),
-    _Row("Contact law", "4", _TANH | _CUTOFF),
-    _Row("Deflection of the support", "7c", _COMPLIANT),
-    _Row("Wear and change of roughness", "7f", {}),
-    _Row("All in one", "13", _TANH | _SMOOTH | _RIGID | _NO_CUTOFF),
-    _Row("All in one", "10", _TANH | _TWO_SOLIDS | _RIGID | _AS_PRINTED | _NO_CUTOFF),
-    _Row("All in one", "8", _TANH | _COMPLIANT | _AS_PRINTED | _NO_CUTOFF),
-)
 _LONG_RUN = (
     _Row("Pressure in the end", "general-law", {"law": _OTHERS} | _STEADY | _SMOOTH),
     _Row("Wear per cycle in the end", "21", _TANH | _STEADY | _SMOOTH),
@@ -83,8 +71,13 @@ _LONG_RUN = (
 
 def rows() -> str:
     """Return all equations, in the order of the argument."""
-    found = (*_forms(_OTHERS), *_listed((*_MODEL, *_LONG_RUN)))
-    return "\n".join(_html(*row) for row in found)
+    from derive.catalogue import equation
+
+    found = [_html(*each) for each in _model()]
+    for title, identifier, holds in _LONG_RUN:
+        number = f"({identifier})" if identifier[0].isdigit() else ""
+        found.append(_html(title, equation(identifier).latex, holds, number))
+    return "\n".join(found)
 
 
 def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
@@ -101,31 +94,25 @@ def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
     )
 
 
-_Formula = tuple[str, str, str, Choices]  # title, LaTeX, number, where it holds
+def _model() -> Iterator[tuple[str, str, Choices]]:
+    """Yield the equations of all variants: title, LaTeX, and the choices whose model has each."""
+    from derive.variant import VARIANTS
+    from derive.variant_equations import equations_of
+
+    found: dict[str, dict[tuple[str, str], list[Mapping[str, str | bool]]]] = {}
+    for variant, opening in product(reversed(VARIANTS), (False, True)):
+        chosen = {
+            "law": variant.law.name, "pin": variant.pin.value, "compliant": variant.compliant,
+            "cutoff": variant.ends_at_3_sigma, "opening": opening,
+        }  # fmt: skip
+        for each in equations_of(variant, opening=opening):
+            found.setdefault(each.id, {}).setdefault((each.title, each.latex), []).append(chosen)
+    for (title, latex), choices in (row for forms in found.values() for row in forms.items()):
+        holds = {n: tuple(dict.fromkeys(each[n] for each in choices)) for n in choices[0]}
+        yield capital(title), latex, holds
 
 
-def _listed(listed: tuple[_Row, ...]) -> Iterator[_Formula]:
-    from derive.catalogue import equation
-
-    for title, identifier, holds in listed:
-        number = f"({identifier})" if identifier[0].isdigit() else ""
-        yield title, equation(identifier).latex, number, holds
-
-
-def _forms(laws: tuple[str, ...]) -> Iterator[_Formula]:
-    """The closure with the physical sign, and the contact laws other than the note's."""
-    from derive.note.governing import Model
-    from derive.typeset.display import latex
-
-    yield "Closure", latex(Model(opening=True).closure.relation), "", _OPENING
-    for name in laws:
-        model = Model(LAWS[name])
-        for cutoff, statement in (False, model.pressure), (True, model.pressure_with_cutoff):
-            holds: Choices = {"law": (name,), "cutoff": (cutoff,)}
-            yield "Contact law", latex(statement.relation), "", holds
-
-
-def _html(title: str, latex: str, number: str, holds: Choices) -> str:
+def _html(title: str, latex: str, holds: Choices, number: str = "") -> str:
     chosen = escape(json.dumps(holds))
     return (
         f'<div data-holds="{chosen}"><p>{title}</p><div class="row">'
