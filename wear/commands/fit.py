@@ -53,7 +53,7 @@ def execute(options: Options) -> Answer:
 
     from wear.faults import UsageError
     from wear.fitting.fit import Fit
-    from wear.fitting.model import Model
+    from wear.fitting.model import FitModel
     from wear.fitting.posterior import posterior
 
     faults = arguments.read(options)
@@ -66,7 +66,7 @@ def execute(options: Options) -> Answer:
     if options.scene is not None:
         asked = (options.free, options.free_each, options.error, options.ignore)
         try:
-            model = Model.of(options.data, options.scene, *asked)
+            model = FitModel.of(options.data, options.scene, *asked)
         except UsageError as fault:
             faults.append(str(fault))
     faults.stop_if_any()

@@ -1,4 +1,4 @@
-"""Parameters estimated by least squares, and what the linearised model says of them.
+"""Parameters estimated by least squares, with their uncertainty in the linearised model.
 
 The scatter of the residuals is given with the readings, or unknown (D. M. Bates, D. G. Watts,
 *Nonlinear Regression Analysis*, Wiley 1988, chapter 2).
@@ -11,13 +11,13 @@ from functools import cached_property
 
 import numpy as np
 
-from wear.fitting.model import RTOL, Model, Parameter
+from wear.fitting.model import RTOL, FitModel, Parameter
 from wear.fitting.residuals import rms
 from wear.numerics.gauss import FloatArray
 
 CONFIDENCE = 0.95
-FARTHEST = 7.0  # e-folds (a factor of a thousand), or multiples of its size, that it is followed
-LEAST = 1e-7  # singular value, of the largest: below are the errors of the derivatives
+FARTHEST = 7.0  # e-folds (a factor of a thousand), or sizes: range of a parameter
+RANK_TOLERANCE = 1e-7  # of the largest singular value: smaller ones are errors of the derivatives
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +25,7 @@ class Estimate:
     """A model and the point `theta` (p,) of least squares: the estimates, in logarithms where only
     positive numbers make a scene."""
 
-    model: Model
+    model: FitModel
     theta: FloatArray
 
     @property
@@ -69,8 +69,8 @@ class Estimate:
 
     @cached_property
     def scatter(self) -> float:
-        """Return the standard deviation of a residual: 1 where it was given, otherwise estimated,
-        and infinite where there is no reading to spare for it."""
+        """Return the standard deviation of a residual: 1 where it was given, otherwise estimated;
+        infinite without a degree of freedom."""
         if self.model.residuals.known:
             return 1.0
         if self.degrees_of_freedom == 0:
@@ -81,7 +81,7 @@ class Estimate:
 
     @property
     def quantile(self) -> float:
-        """Return how many standard deviations a 95 % interval extends."""
+        """Return the half width of a 95 % interval in standard deviations."""
         from scipy import stats
 
         law = stats.norm if self.model.residuals.known else stats.t(self.degrees_of_freedom)
@@ -94,29 +94,29 @@ class Estimate:
 
     @cached_property
     def _modes(self) -> tuple[FloatArray, FloatArray]:
-        """What `directions` returns, for residuals with a scatter of 1."""
+        """Return the `directions` for residuals with a scatter of 1."""
         _, values, rows = np.linalg.svd(self._at_theta[1][0] * self.scale)
-        return 1.0 / np.maximum(values, LEAST * values[0]), rows
+        return 1.0 / np.maximum(values, RANK_TOLERANCE * values[0]), rows
 
     @property
     def directions(self) -> tuple[FloatArray, FloatArray]:
-        """Return the standard errors (p,) of the directions in which the data see the parameters,
-        and the directions (p, p), a row each, relative to their `scale`."""
+        """Return the standard errors (p,) along the principal directions of the covariance, and
+        these directions (p, p), one a row, relative to `scale`."""
         return self.scatter * self._modes[0], self._modes[1]
 
     def spread(self, gradients: FloatArray) -> FloatArray:
-        """Return the standard errors (m,) of what has these gradients (m, p) in theta."""
+        """Return the standard errors (m,) of quantities with these gradients (m, p) in theta."""
         errors, rows = self._modes
-        each = (gradients * self.scale) @ rows.T * errors
-        return np.asarray(self.scatter * np.linalg.norm(each, axis=-1))
+        components = (gradients * self.scale) @ rows.T * errors
+        return np.asarray(self.scatter * np.linalg.norm(components, axis=-1))
 
     @property
     def unscaled_covariance(self) -> FloatArray:
-        """Return the covariance (p, p) of theta for residuals with a scatter of 1; of what the data
-        do not determine it is huge."""
+        """Return the covariance (p, p) of theta for residuals with a scatter of 1; it is huge along
+        directions that the data do not determine."""
         errors, rows = self._modes
-        part = rows.T * errors * self.scale[:, None]
-        return np.asarray(part @ part.T)
+        factor = rows.T * errors * self.scale[:, None]
+        return np.asarray(factor @ factor.T)
 
     @property
     def covariance(self) -> FloatArray:

@@ -1,11 +1,11 @@
-"""`fit`: the parameters of a scene from measured wear, how certain they are, and what follows.
+"""`fit`: the parameters of a scene from measured wear, their uncertainty, and forecasts.
 
 Residuals are those of the logarithm of the wear, or of the wear; their scatter is given with the
 readings, or unknown. Intervals are profile likelihoods (W. Q. Meeker, L. A. Escobar, *Statistical
 Methods for Reliability Data*, Wiley 1998, chapter 8; D. M. Bates, D. G. Watts, *Nonlinear
 Regression Analysis*, Wiley 1988, chapter 6): an end that the data leave open is infinite. Bands of
-forecasts are those of the linearised model: they hold where the wear, not the parameters, is
-determined.
+forecasts are those of the linearised model: they hold if the data determine the wear, even if they
+do not determine the parameters.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wear.fitting import laws, openness
+from wear.fitting import identifiability, laws
 from wear.fitting.estimate import FARTHEST, Estimate
 from wear.fitting.least_squares import descend, estimate
-from wear.fitting.model import Model
+from wear.fitting.model import FitModel
 from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
 from wear.progress import Pace
@@ -32,12 +32,12 @@ if TYPE_CHECKING:
     from wear.scene import Scene
 
 CANDIDATES = 25  # numbers of cycles at which a further reading is tried
-AHEAD = 10.0  # times the cycles of the last reading: what is predicted if nothing is asked for
+AHEAD = 10.0  # times the cycles of the last reading: the default forecast
 
 
 class Forecast(NamedTuple):
-    """Wear (mm) of a specimen and number of cycles to it, with the 95 % band of whichever was not
-    given."""
+    """Wear (mm) of a specimen and number of cycles to it; the 95 % band is that of the predicted
+    one."""
 
     specimen: str
     cycles: float
@@ -47,7 +47,7 @@ class Forecast(NamedTuple):
 
 class NextReading(NamedTuple):
     """The further reading that narrows the forecast of all specimens most, and the factor by which
-    it does."""
+    it narrows the band."""
 
     specimen: str
     cycles: float
@@ -56,7 +56,7 @@ class NextReading(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Fit(Estimate):
-    """Parameters estimated from measured wear, how certain they are, and what follows.
+    """Parameters estimated from measured wear, with their uncertainty and forecasts.
 
     `profiles` has one for each parameter; it is empty where intervals were not asked for.
     """
@@ -65,14 +65,17 @@ class Fit(Estimate):
 
     @classmethod
     def of(
-        cls, model: Model, intervals: bool = True, progress: Callable[[str], None] = lambda _: None
+        cls,
+        model: FitModel,
+        intervals: bool = True,
+        progress: Callable[[str], None] = lambda _: None,
     ) -> Fit:
-        """Return the fit of a model; `progress` is told how far it is after two seconds."""
-        say = Pace(progress).say
-        found = Estimate(model, estimate(model, say))
+        """Return the fit of a model; `progress` is called with messages after two seconds."""
+        report = Pace(progress).say
+        found = Estimate(model, estimate(model, report))
         if not intervals:
             return cls(model, found.theta)
-        best, followed = profiles(found, say)
+        best, followed = profiles(found, report)
         return cls(model, best.theta, followed)
 
     @property
@@ -80,13 +83,13 @@ class Fit(Estimate):
         """Return the scene of every specimen with the estimates."""
         return self.model.scenes(self.theta)
 
-    def undetermined(self) -> list[openness.Open]:
+    def undetermined(self) -> list[identifiability.OpenCombination]:
         """Return every combination of parameters that the data leave open.
 
-        That is a direction of the parameters, each relative to its size, whose standard error is as
-        large as a factor e; or a parameter whose interval has an open end beside them.
+        A combination is a direction of the parameters, each relative to its size, with a standard
+        error beyond a factor e; or another parameter whose interval has an open end.
         """
-        return list(openness.undetermined(self, self.profiles))
+        return list(identifiability.undetermined(self, self.profiles))
 
     def forecast(self, cycles: Sequence[float]) -> list[Forecast]:
         """Return the wear of every specimen after numbers of cycles, with its 95 % band."""
@@ -104,8 +107,7 @@ class Fit(Estimate):
         """Return the number of cycles to a wear depth of every specimen, with its 95 % band;
         infinite where the depth is not reached within 1e12 cycles.
 
-        The logarithm of the number has the standard error of that of the wear, over the slope of
-        the one against the other.
+        The standard error of ln(cycles) is that of ln(wear) over d ln(wear) / d ln(cycles).
         """
         from wear.cycles import cycles_to_depth
 
@@ -147,13 +149,13 @@ class Fit(Estimate):
         return NextReading(name, float(tried[best % len(tried)]), factor)
 
     def alternatives(self) -> list[laws.Alternative]:
-        """Return how simpler laws do on the same readings."""
+        """Return the fits of simpler laws to the same readings."""
         return laws.alternatives(self.model.specimens, self.model.relative)
 
     @property
     def forecast_rms(self) -> float:
         """Return the root mean square error of ln(wear) where the first half of the readings of
-        each specimen predicts the last; no number where they are fewer than the parameters."""
+        each specimen predicts the last; NaN where they are fewer than the parameters."""
         model = self.model
         early = replace(model, specimens=tuple(laws.first_half(model.specimens)))
         if len(early.residuals.observed) < len(self.theta):
@@ -195,7 +197,7 @@ class Fit(Estimate):
                 for p, *row in rows]  # fmt: skip
 
     def _notices(self, others: Sequence[laws.Alternative], own_forecast: float) -> list[str]:
-        """Return where a simpler law does better, and what is hardly meant."""
+        """Return notices of simpler laws that are better, and of implausible magnitudes."""
         notices = [f"the {law.law} law describes these data better (AICc)"
                    for law in others if law.aicc < self.aicc]  # fmt: skip
         notices += [f"the {law.law} law predicts the last readings better, from the first half"
@@ -244,7 +246,7 @@ def fit(
         A CSV file, see `read_readings`; its columns as a dictionary or a pandas DataFrame; or
         specimens.
     scene
-        The scene, its name or path: all that is not free, and where the search starts.
+        The scene, its name or path: the fixed entries, and the start of the search.
     free, free_each
         Entries that are one value for all specimens, or one for each.
     error
@@ -254,15 +256,15 @@ def fit(
     intervals
         Whether to follow the profile likelihoods, which takes most of the time.
     progress
-        Is told in words how far a fit is that takes more than two seconds.
+        Called with a message on the progress of a fit that takes more than two seconds.
 
     Raises
     ------
     UsageError
-        with everything that is wrong with the request.
+        with all faults of the request.
 
     >>> data = {"cycles": [10, 100, 1000], "wear_um": [0.22, 0.93, 2.1]}
     >>> fit(data, "section4", "bearing.wear_coefficient", intervals=False)
     <Fit to 3 readings: ...>
     """
-    return Fit.of(Model.of(data, scene, free, free_each, error, ignore), intervals, progress)
+    return Fit.of(FitModel.of(data, scene, free, free_each, error, ignore), intervals, progress)

@@ -1,6 +1,6 @@
-"""Simpler laws that the data are held against: constant Archard wear, a power, a logarithm.
+"""Simpler laws for comparison: constant Archard wear, a power, a logarithm.
 
-Each has a scale for every specimen and, but for Archard's, one number that all share.
+Each has a scale for every specimen and, except for Archard's, one number common to all.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ LAWS: dict[str, tuple[Callable[[FloatArray, float], FloatArray], tuple[float, ..
     "power": (lambda cycles, power: power * np.log(cycles), (0.5,)),
     "logarithm": (lambda cycles, rate: np.log(np.log1p(cycles * np.exp(rate))), (-8.0, -2.0, 4.0)),
 }
-"""The logarithm of each law but for its scales, and where the search for the shared number starts:
-the power, or the logarithm of a rate."""
+"""The logarithm of each law without its scale, and starts of the search for the common number: the
+power, or the logarithm of a rate."""
 
 
-LOST = 1e6  # residual of a law that overflows
+OVERFLOW_RESIDUAL = 1e6  # residual of a law that overflows
 
 
 class Alternative(NamedTuple):
-    """How a law does: root mean square of its residuals, AICc, and the root mean square error of
+    """A fitted law: root mean square of its residuals, AICc, and the root mean square error of
     ln(wear) where the first half of the readings of each specimen predicts the last."""
 
     law: str
@@ -37,18 +37,18 @@ class Alternative(NamedTuple):
 
 
 def alternatives(specimens: Sequence[Specimen], relative: bool) -> list[Alternative]:
-    """Return how each law does on these specimens."""
+    """Return the fit of each law to these specimens."""
     early = first_half(specimens)
     residuals = Residuals.of(specimens, relative)
-    found = []
+    fits = []
     for law, (_, starts) in LAWS.items():
         levels = _fitted(law, specimens, relative)([s.cycles for s in specimens])
-        off = residuals(np.concatenate(levels))
+        values = residuals(np.concatenate(levels))
         last = _fitted(law, early, relative)([s.cycles[-1:] for s in specimens])
         parameters = len(specimens) + bool(starts)
         predicted = forecast_rms(specimens, np.concatenate(last))
-        found.append(Alternative(law, rms(off), residuals.aicc(off, parameters), predicted))
-    return found
+        fits.append(Alternative(law, rms(values), residuals.aicc(values, parameters), predicted))
+    return fits
 
 
 def first_half(specimens: Sequence[Specimen]) -> list[Specimen]:
@@ -57,8 +57,8 @@ def first_half(specimens: Sequence[Specimen]) -> list[Specimen]:
 
 
 def forecast_rms(specimens: Sequence[Specimen], log_wear: FloatArray) -> float:
-    """Return how far forecasts (specimens,) of ln(wear) are from the last readings, root mean
-    square; a wear that was read as zero is left out."""
+    """Return the root mean square difference between forecasts (specimens,) of ln(wear) and the
+    last readings; readings of zero are left out."""
     last = np.array([specimen.wear_mm[-1] for specimen in specimens])
     return rms((log_wear - np.log(np.where(last > 0.0, last, np.nan)))[last > 0.0])
 
@@ -76,15 +76,15 @@ def _fitted(
 
     def levels(x: FloatArray, cycles: Sequence[FloatArray]) -> list[FloatArray]:
         shared = x[-1] if starts else 0.0
-        return [scale + shape(own, shared) for scale, own in zip(x, cycles, strict=False)]
+        return [scale + shape(n, shared) for scale, n in zip(x, cycles, strict=False)]
 
-    def off(x: FloatArray) -> FloatArray:
-        return np.nan_to_num(residuals(np.concatenate(levels(x, cycles))), posinf=LOST)
+    def residuals_at(x: FloatArray) -> FloatArray:
+        return np.nan_to_num(residuals(np.concatenate(levels(x, cycles))), posinf=OVERFLOW_RESIDUAL)
 
     tried = []
     for start in starts or (0.0,):
-        scales = [u - np.mean(shape(own, start)) for u, own in zip(wear, cycles, strict=True)]
+        scales = [u - np.mean(shape(n, start)) for u, n in zip(wear, cycles, strict=True)]
         with np.errstate(all="ignore"):
-            tried.append(least_squares(off, [*scales, *((start,) if starts else ())]))
+            tried.append(least_squares(residuals_at, [*scales, *((start,) if starts else ())]))
     x = min(tried, key=lambda each: each.cost).x
     return lambda cycles: levels(x, cycles)

@@ -1,4 +1,4 @@
-"""Least squares: the parameters with which a model is nearest to the readings."""
+"""Nonlinear least squares: the parameters with the smallest sum of squared residuals."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from wear.faults import Faults, UsageError
-from wear.fitting.model import LOST, Model
+from wear.fitting.model import MISSING_RESIDUAL, FitModel
 from wear.fitting.readings import Specimen
 from wear.load import Blocks
 from wear.load.spans import span
@@ -16,19 +16,19 @@ from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import TINY
 from wear.regime import fresh_wear_per_cycle, steady_wear_per_cycle
 
-SEARCHED = 20.0  # e-folds, or multiples of a parameter's size, around the scene
-GROWTHS, NEARLY = (0.02, 1.0), 0.01  # of roughness: where a start is sought, and how closely
-SLOWEST = 1e-3  # of the mean wear per cycle: what the last readings may add
-LOOKS = 49  # at the wear of a start, to be compared with the readings
-FOLLOWED = 3  # starts
-ACCURACY = 1e-3  # of the variance: how closely the least sum of squares is sought
-CRAWLING = 0.01  # of the variance: a gain that is not sought further once a step fails
+SEARCH_RANGE = 20.0  # e-folds, or multiples of a parameter's size, around the scene
+GROWTHS, GROWTH_RTOL = (0.02, 1.0), 0.01  # of roughness: range and accuracy of a start
+LEAST_LATE_RATE = 1e-3  # of the mean wear per cycle: least wear per cycle in the last readings
+CURVE_POINTS = 49  # of the wear of a start, to be compared with the readings
+DESCENTS = 3  # from the best starts
+ACCURACY = 1e-3  # of the variance: accuracy of the least sum of squares
+SMALL_GAIN = 0.01  # of the variance: after a smaller gain the first failing step ends a descent
 MOST_STEPS = 60
-DAMPING, HOPELESS = 1e-3, 1e8  # of a Gauss-Newton step: first, and where none descends
+DAMPING, MOST_DAMPING = 1e-3, 1e8  # of a Gauss-Newton step: first, and where a descent ends
 
 
 def descend(
-    model: Model,
+    model: FitModel,
     starts: FloatArray,
     box: tuple[FloatArray, FloatArray],
     say: Callable[[str], None] = lambda _: None,
@@ -42,64 +42,64 @@ def descend(
     """
     low, high = box[0] - box[1], box[0] + box[1]
     points = np.clip(starts, low, high)
-    off, slope = model(points)
-    costs = np.sum(off**2, axis=1)
+    residuals, slope = model(points)
+    costs = np.sum(residuals**2, axis=1)
     damping, gain = np.tile([[DAMPING], [np.inf]], len(points))
-    todo = np.arange(len(points))
+    active = np.arange(len(points))
     for _ in range(MOST_STEPS):
-        say(f"least sum of squares: {costs.min():.6g}, searches left: {len(todo)}")
-        J = slope[todo]
+        say(f"least sum of squares: {costs.min():.6g}, searches left: {len(active)}")
+        J = slope[active]
         normal = np.swapaxes(J, 1, 2) @ J
         diagonal = np.einsum("mii->mi", normal)  # a view
-        diagonal += damping[todo, None] * diagonal + np.where(diagonal > 0.0, 0.0, 1.0)
-        step = np.linalg.solve(normal, -np.einsum("mnp,mn->mp", J, off[todo])[..., None])
-        trial = np.clip(points[todo] + step[..., 0], low, high)
-        trial_off, trial_slope = model(trial)
-        trial_costs = np.sum(trial_off**2, axis=1)
-        better = trial_costs < costs[todo]
-        variance, won = costs[todo] / off.shape[1], todo[better]
-        gain[won] = (costs[todo] - trial_costs)[better]
-        little = np.abs(costs[todo] - trial_costs) <= ACCURACY * variance
-        little |= ~better & (gain[todo] <= CRAWLING * variance)
-        points[won], costs[won] = trial[better], trial_costs[better]
-        off[won], slope[won] = trial_off[better], trial_slope[better]
-        damping[todo] *= np.where(better, 0.1, 8.0)
-        todo = todo[~(little | (damping[todo] > HOPELESS))]
-        if not len(todo):
+        diagonal += damping[active, None] * diagonal + np.where(diagonal > 0.0, 0.0, 1.0)
+        step = np.linalg.solve(normal, -np.einsum("mnp,mn->mp", J, residuals[active])[..., None])
+        trial = np.clip(points[active] + step[..., 0], low, high)
+        trial_residuals, trial_slope = model(trial)
+        trial_costs = np.sum(trial_residuals**2, axis=1)
+        better = trial_costs < costs[active]
+        variance, improved = costs[active] / residuals.shape[1], active[better]
+        gain[improved] = (costs[active] - trial_costs)[better]
+        converged = np.abs(costs[active] - trial_costs) <= ACCURACY * variance
+        converged |= ~better & (gain[active] <= SMALL_GAIN * variance)
+        points[improved], costs[improved] = trial[better], trial_costs[better]
+        residuals[improved], slope[improved] = trial_residuals[better], trial_slope[better]
+        damping[active] *= np.where(better, 0.1, 8.0)
+        active = active[~(converged | (damping[active] > MOST_DAMPING))]
+        if not len(active):
             break
     return points, costs
 
 
-def estimate(model: Model, say: Callable[[str], None]) -> FloatArray:
+def estimate(model: FitModel, say: Callable[[str], None]) -> FloatArray:
     """Return the point (p,) of least squares, from several starts.
 
-    They are the scene itself, that with the roughness growth of `_growth`, if this is free, and
-    both with wear coefficients by `_in_pace`. Raises `UsageError` where no start has any wear, or a
-    parameter no influence.
+    These are the scene itself, the scene with the roughness growth of `_growth` if that is free,
+    and both with wear coefficients by `_paced`. Raises `UsageError` if no start has any wear, or a
+    parameter has no influence.
     """
-    own = model.start()
+    centre = model.start()
     growths = np.array([p.key.endswith(".roughness_growth") for p in model.parameters])
-    starts = own[None]
+    starts = centre[None]
     if growths.any():
-        starts = np.array([own, np.where(growths, _growth(model), own)])
-    off, slope = model(starts)
-    fine = np.all(np.abs(off) < LOST, axis=1)
-    if not fine.any():
+        starts = np.array([centre, np.where(growths, _growth(model), centre)])
+    residuals, slope = model(starts)
+    finite = np.all(np.abs(residuals) < MISSING_RESIDUAL, axis=1)
+    if not finite.any():
         raise UsageError("no start leads to a scene with wear: correct the scene")
     idle = np.all(slope == 0.0, axis=(0, 1))
-    nothing = [p for p, none in zip(model.parameters, idle, strict=True) if none]
-    Faults(f"free: {p}: has no influence" for p in nothing).stop_if_any()
-    starts = np.concatenate([starts, _in_pace(model, starts[fine])])
-    best = starts[np.argsort(model.cost(starts), kind="stable")[:FOLLOWED]]
-    points, costs = descend(model, best, (own, SEARCHED * model.scale(own)), say)
+    parameters = zip(model.parameters, idle.tolist(), strict=True)
+    Faults(f"free: {p}: has no influence" for p, none in parameters if none).stop_if_any()
+    starts = np.concatenate([starts, _paced(model, starts[finite])])
+    best = starts[np.argsort(model.cost(starts), kind="stable")[:DESCENTS]]
+    points, costs = descend(model, best, (centre, SEARCH_RANGE * model.scale(centre)), say)
     return np.asarray(points[np.argmin(costs)])
 
 
-def _growth(model: Model) -> float:
-    """Return the roughness growth with which the wear of a cycle falls by as much, from the fresh
-    scene to the steady state of (21), as it does in the readings.
+def _growth(model: FitModel) -> float:
+    """Return the roughness growth at which the ratio of the steady wear per cycle, (21), to the
+    initial one is that in the readings.
 
-    Readings that begin late or end early see less of the fall: then the growth is too large.
+    Readings that begin late or end early show less of the decrease: then the growth is too large.
     """
     from scipy.optimize import brentq
 
@@ -109,30 +109,30 @@ def _growth(model: Model) -> float:
     cycles, wear = specimen.cycles, np.maximum(specimen.wear_mm, TINY)
     middle = (len(wear) - 1) // 2
     late = (wear[-1] - wear[middle]) / max(cycles[-1] - cycles[middle], 1.0)
-    fall = max(late, SLOWEST * wear[-1] / cycles[-1]) * cycles[0] / wear[0]
-    fresh = fresh_wear_per_cycle(scene)
+    ratio = max(late, LEAST_LATE_RATE * wear[-1] / cycles[-1]) * cycles[0] / wear[0]
+    initial = fresh_wear_per_cycle(scene)
 
     def excess(growth: float) -> float:
         changed = scene.with_(dict.fromkeys(keys, growth))
-        return float(steady_wear_per_cycle(changed) - fall * fresh)
+        return float(steady_wear_per_cycle(changed) - ratio * initial)
 
     low, high = GROWTHS
     if not excess(low) < 0.0 < excess(high):
         return low if excess(low) >= 0.0 else high
-    return float(brentq(excess, low, high, rtol=NEARLY))
+    return float(brentq(excess, low, high, rtol=GROWTH_RTOL))
 
 
-def _in_pace(model: Model, starts: FloatArray) -> FloatArray:
-    """Return the starts with free wear coefficients as much larger as their wear is late.
+def _paced(model: FitModel, starts: FloatArray) -> FloatArray:
+    """Return the starts with free wear coefficients multiplied by the delay of their wear.
 
     Averaged over a cycle, wear depends on the product of wear coefficient and cycles alone (the
-    first order of the method of averaging), so that one count has all wear coefficients.
+    first order of the method of averaging), so that one count serves all wear coefficients.
     """
     last = max(s.cycles[-1] for s in model.specimens)
     # Blocks are counted one by one: no farther than they were read.
-    whole = 1e12 if not isinstance(model.scene.load, Blocks) else last
-    decades = np.rint(np.geomspace(1.0, whole, LOOKS))
-    level, _ = model.log_wear(starts, [decades] * len(model.specimens))
+    farthest = 1e12 if not isinstance(model.scene.load, Blocks) else last
+    grid = np.rint(np.geomspace(1.0, farthest, CURVE_POINTS))
+    level, _ = model.log_wear(starts, [grid] * len(model.specimens))
     level = level.reshape(len(starts), len(model.specimens), -1)
     paced = starts.copy()
     for start, curves in zip(paced, np.fmax.accumulate(level, axis=2), strict=True):
@@ -140,14 +140,14 @@ def _in_pace(model: Model, starts: FloatArray) -> FloatArray:
         for i, p in enumerate(model.parameters):
             if p.key.endswith(".wear_coefficient"):
                 start[i] += np.mean(
-                    [_late(s, decades, u) for s, u in pairs if p.specimen in ("", s.name)]
+                    [_mean_log_delay(s, grid, u) for s, u in pairs if p.specimen in ("", s.name)]
                 )
     return paced[np.isfinite(paced).all(axis=1)]
 
 
-def _late(specimen: Specimen, decades: FloatArray, log_wear: FloatArray) -> float:
-    """Return the mean logarithm of the cycles at which a curve over the `decades` has the wear that
-    was read, over the cycles at which it was."""
+def _mean_log_delay(specimen: Specimen, grid: FloatArray, log_wear: FloatArray) -> float:
+    """Return the mean logarithm of a ratio of cycles: of those at which a curve over a `grid` of
+    cycles reaches the measured wear, to those of the readings."""
     read = np.log(np.maximum(specimen.wear_mm, 1e-30))
-    there = np.interp(read, log_wear, np.log(decades))
-    return float(np.mean(there - np.log(specimen.cycles)))
+    log_cycles = np.interp(read, log_wear, np.log(grid))
+    return float(np.mean(log_cycles - np.log(specimen.cycles)))

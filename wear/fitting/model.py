@@ -19,13 +19,13 @@ from wear.scene import Scene, as_scene
 from wear.sensitivities import gradients
 
 RTOL = 1e-7  # of the wear: far below any scatter
-LOST = 1e3  # residual where a point has no scene or no wear
+MISSING_RESIDUAL = 1e3  # at a point without a scene or without wear
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A free entry of the scene, of one specimen or (empty name) of all; where only positive
-    numbers make a scene, its logarithm is estimated."""
+    """A free entry of the scene, of one specimen or (empty name) of all; if it must be positive,
+    its logarithm is estimated."""
 
     key: str
     specimen: str
@@ -39,16 +39,16 @@ class Parameter:
         return np.exp(theta) if self.positive else np.asarray(theta)
 
     def theta(self, value: float) -> float:
-        """Return what is estimated."""
+        """Return the value, or its logarithm where that is estimated."""
         return float(np.log(value)) if self.positive else value
 
 
 @dataclass(frozen=True)
-class Model:
-    """Specimens, the scene they share, what is free in it, and how far it is from the readings.
+class FitModel:
+    """Specimens, their common scene, and its free parameters: the residuals as a function of these.
 
-    A point `theta` (p,) holds what is estimated of each parameter. Errors are `relative` to the
-    wear or absolute.
+    A point `theta` (p,) holds the parameters, positive ones as logarithms. Errors are `relative` to
+    the wear or absolute.
     """
 
     scene: Scene
@@ -65,34 +65,34 @@ class Model:
         free_each: str | Sequence[str],
         error: str,
         ignore: Sequence[str],
-    ) -> Model:
-        """Return the model of a request, see `wear.fit`, or raise a `UsageError` with all that is
-        wrong with it."""
+    ) -> FitModel:
+        """Return the model of a request, see `wear.fit`, or raise a `UsageError` with all its
+        faults."""
         base, faults = as_scene(scene), Faults()
         specimens: tuple[Specimen, ...] = ()
-        shared, own = ([keys] if isinstance(keys, str) else [*keys] for keys in (free, free_each))
+        shared, single = ([x] if isinstance(x, str) else [*x] for x in (free, free_each))
         try:
             specimens = _specimens(data, ignore)
         except UsageError as fault:
             faults.append(str(fault))
-        faults += _faults(base, specimens, shared, own)
+        faults += _faults(base, specimens, shared, single)
         if error not in ("relative", "absolute"):
             faults.append(f"error: {error!r} is neither relative nor absolute")
         elif error == "relative" and any(np.any(s.wear_mm <= 0.0) for s in specimens):
             faults.append("error: a wear of zero has no logarithm; leave it out, or take absolute")
         faults.stop_if_any()
-        wanted = [(key, "") for key in shared]
-        wanted += [(key, specimen.name) for key in own for specimen in specimens]
-        parameters = (Parameter(key, name, is_positive(base, key)) for key, name in wanted)
+        names = [(key, "") for key in shared]
+        names += [(key, specimen.name) for key in single for specimen in specimens]
+        parameters = (Parameter(key, name, is_positive(base, key)) for key, name in names)
         return cls(base, specimens, tuple(parameters), error == "relative")
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return residuals (m, n) and their exact Jacobian (m, n, p) at points (m, p)."""
         level, slope = self.log_wear(points, self.cycles)
-        off = self.residuals(level)
+        values = self.residuals(level)
         slope = self.residuals.slope(level)[..., None] * slope
-        fine = np.isfinite(off) & np.all(np.isfinite(slope), axis=-1)
-        return np.where(fine, off, LOST), np.where(fine[..., None], slope, 0.0)
+        valid = np.isfinite(values) & np.all(np.isfinite(slope), axis=-1)
+        return np.where(valid, values, MISSING_RESIDUAL), np.where(valid[..., None], slope, 0.0)
 
     def cost(self, points: FloatArray) -> FloatArray:
         """Return the sums of the squared residuals (m,)."""
@@ -100,7 +100,7 @@ class Model:
 
     @cached_property
     def residuals(self) -> Residuals:
-        """Return how residuals follow from the logarithm of the wear."""
+        """Return the residuals as a function of the logarithm of the wear."""
         return Residuals.of(self.specimens, self.relative)
 
     @property
@@ -114,23 +114,23 @@ class Model:
         return [specimen.cycles for specimen in self.specimens]
 
     def start(self) -> FloatArray:
-        """Return the point (p,) that the scene itself is."""
+        """Return the point (p,) of the scene itself."""
         numbers = parameters_of(self.scene)
         return np.array([p.theta(numbers[p.key]) for p in self.parameters])
 
     def scale(self, theta: FloatArray) -> FloatArray:
-        """Return the size (p,) of every parameter: 1 for a logarithm, else what it is at a point
-        or in the scene, whichever is larger."""
+        """Return the size (p,) of every parameter: 1 for a logarithm, otherwise the larger of its
+        magnitudes at a point and in the scene."""
         sizes = np.maximum(np.abs(theta), np.abs(self.start()))
         positive = [parameter.positive for parameter in self.parameters]
         return np.where(positive | (sizes == 0.0), 1.0, sizes)
 
     def values(self, theta: FloatArray) -> list[float]:
-        """Return the parameters themselves, in the units of their keys."""
+        """Return the parameters in the units of their keys."""
         return [float(p.value(x)) for p, x in zip(self.parameters, theta, strict=True)]
 
     def scenes(self, theta: FloatArray) -> list[Scene]:
-        """Return the scene of every specimen; a `SceneError` if the point is in no domain."""
+        """Return the scene of every specimen; a `SceneError` if the point is outside the domain."""
         entries = list(zip(self.parameters, self.values(theta), strict=True))
         return [
             self.scene.with_(
@@ -146,7 +146,7 @@ class Model:
         """Return the logarithm of the wear (m, n) at many points (m, p), and its derivatives with
         respect to theta (m, n, p): of every specimen after its cycles, one after the other.
 
-        What has no scene, or no wear, is no number.
+        Without a scene or without wear they are NaN.
         """
         wanted, keys = np.unique(np.concatenate(cycles)), self.keys
         scenes: dict[int, list[Scene]] = {}
@@ -184,8 +184,8 @@ class Model:
 def _gradients(
     scenes: Sequence[Scene], keys: Sequence[str], cycles: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the wear (s, n) of scenes and its derivatives (s, k, n); a scene that is beyond the
-    engine has neither, and does not spoil the others."""
+    """Return the wear (s, n) of scenes and its derivatives (s, k, n), NaN for a scene that the
+    engine cannot solve; the others are solved all the same."""
     try:
         return gradients(scenes, keys, cycles, RTOL)[:2]
     except UsageError:
@@ -199,7 +199,7 @@ def _gradients(
 
 
 def is_positive(scene: Scene, key: str) -> bool:
-    """Return whether only positive numbers make a scene: the sign is tried."""
+    """Return whether an entry must be positive: a negative one is tried."""
     return not _may_change(scene, key, -abs(parameters_of(scene)[key] or 1.0))
 
 
@@ -225,7 +225,7 @@ def _specimens(data: Any, ignore: Sequence[str]) -> tuple[Specimen, ...]:
 def _faults(
     scene: Scene, specimens: Sequence[Specimen], free: Sequence[str], free_each: Sequence[str]
 ) -> Iterator[str]:
-    """Yield what is wrong with the choice of what is free."""
+    """Yield every fault of the choice of free parameters."""
     keys, numbers = [*free, *free_each], parameters_of(scene)
     if not keys:
         yield f"free: name at least one of {', '.join(numbers)}"

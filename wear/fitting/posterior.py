@@ -13,21 +13,21 @@ from wear.numerics.gauss import FloatArray
 WALKERS = 4  # a parameter, and no fewer than LEAST_WALKERS
 LEAST_WALKERS = 32
 BURN_IN = 0.3  # share of the steps that is dropped
-BEGIN = 0.3  # standard errors, and sizes at most, around the estimate where walkers begin
+SPREAD = 0.3  # of the walkers' starts, in standard errors and at most in sizes
 
 
 def posterior(found: Estimate, steps: int, seed: int = 0) -> FloatArray:
     """Return samples (m, p) of the posterior, in the units of the keys.
 
-    Priors are flat in what is estimated (logarithms of positive parameters) up to factors of e^7,
-    or seven times its size; an unknown scatter has Jeffreys' prior, and is integrated out (A.
-    Gelman et al., *Bayesian Data Analysis*, CRC 2013, chapter 3). The sampler is that of D.
-    Foreman-Mackey et al., PASP 125, 306 (2013).
+    Priors are flat in theta (logarithms of positive parameters) within factors of e^7, or seven
+    times the size; an unknown scatter has Jeffreys' prior and is integrated out (A. Gelman et al.,
+    *Bayesian Data Analysis*, CRC 2013, chapter 3). The sampler is that of D. Foreman-Mackey et al.,
+    PASP 125, 306 (2013).
 
     Parameters
     ----------
     found
-        The fit or estimate, which gives the walkers their beginnings.
+        The fit or estimate, around which the walkers start.
     steps
         Steps of every walker; the first 30 % are dropped.
     seed
@@ -55,7 +55,7 @@ def posterior(found: Estimate, steps: int, seed: int = 0) -> FloatArray:
     walkers = max(WALKERS * len(found.theta), LEAST_WALKERS)
     errors, rows = found.directions  # walkers begin along these
     steps_away = np.random.default_rng(seed).standard_normal((walkers, len(errors)))
-    begin = found.theta + np.minimum(BEGIN * errors, BEGIN) * steps_away @ rows * found.scale
+    begin = found.theta + np.minimum(SPREAD * errors, SPREAD) * steps_away @ rows * found.scale
     sampler = emcee.EnsembleSampler(walkers, len(found.theta), log_density, vectorize=True)
     sampler.random_state = np.random.RandomState(seed).get_state()
     sampler.run_mcmc(begin, steps)

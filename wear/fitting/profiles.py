@@ -1,9 +1,9 @@
-"""Profile likelihoods: how far a parameter goes before the data object, all others following.
+"""Profile likelihoods: the range of a parameter within the data, the others being fitted to it.
 
 The end of an interval is the farthest value of the parameter at which the sum of squares is at its
-limit (D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37, 87, 1988). A step leads to where it is
-in the linearised model; those of all ends are one batch of scenes. What each specimen has for
-itself beside shared parameters is not moved: its interval is that of the linearised model.
+limit (D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37, 87, 1988). A step leads to the end in
+the linearised model; the steps of all ends are one batch of scenes. Parameters of single specimens
+are not moved beside shared ones: their intervals are those of the linearised model.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.estimate import FARTHEST, LEAST, Estimate
+from wear.fitting.estimate import FARTHEST, RANK_TOLERANCE, Estimate
 from wear.fitting.least_squares import descend
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import TINY
 
-SHARES = (0.5, 1.0)  # of the quantile, at which a profile is drawn
-NEAR = 0.01  # of the quantile: how closely an end is sought
-ROUGHLY = 0.1  # of the quantile: an end that is not found to that is open
-FIRST, LONGER, SHORTER = 1.0, 2.0, 0.4  # e-folds, or sizes, of the longest step; the next
+LEVELS = (0.5, 1.0)  # of the quantile, at which a profile is drawn
+NEAR = 0.01  # of the quantile: accuracy of an end
+OPEN_BEYOND = 0.1  # of the quantile: an end with a larger error is open
+FIRST, LONGER, SHORTER = 1.0, 2.0, 0.4  # e-folds, or sizes, of the longest step; its factors
 MOST_STEPS = 25  # to each share
 MOST_DESCENTS = 3  # where a profile finds a better estimate
 BETTER = 0.5  # of the variance: worth another descent; less widens an interval by 6 % at most
@@ -36,115 +36,116 @@ class Profile(NamedTuple):
     interval: tuple[float, float]
 
 
-def profiles(found: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tuple[Profile, ...]]:
-    """Return the profile likelihoods of an estimate, and the better estimate that they came upon,
-    or the same."""
-    if not np.isfinite(found.scatter):
-        nothing, opened = np.array([0.0]), (-np.inf, np.inf)
-        return found, tuple(Profile(np.array([x]), nothing, opened) for x in found.estimates)
+def profiles(fit: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tuple[Profile, ...]]:
+    """Return the best estimate that the profiles met, or the same, and its profile likelihoods."""
+    if not np.isfinite(fit.scatter):
+        zero, unbounded = np.array([0.0]), (-np.inf, np.inf)
+        return fit, tuple(Profile(np.array([x]), zero, unbounded) for x in fit.estimates)
     for _ in range(MOST_DESCENTS):
-        ends = _Ends(found)
-        for share in SHARES:
-            ends.go(share * found.quantile * found.scatter, say)
-        if not ends.least < found.chi_square - BETTER * found.scatter**2:
+        ends = _Ends(fit)
+        for share in LEVELS:
+            ends.move_to(share * fit.quantile * fit.scatter, say)
+        if not ends.least < fit.chi_square - BETTER * fit.scatter**2:
             break
-        box = found.theta, FARTHEST * found.scale
-        found = Estimate(found.model, descend(found.model, ends.best[None], box, say)[0][0])
-    made = {number: ends.profile(2 * i) for i, number in enumerate(moved(found))}
-    return found, tuple(made.get(i) or _linear(found, i) for i in range(len(found.theta)))
+        box = fit.theta, FARTHEST * fit.scale
+        fit = Estimate(fit.model, descend(fit.model, ends.best[None], box, say)[0][0])
+    made = {number: ends.profile(2 * i) for i, number in enumerate(moved(fit))}
+    return fit, tuple(made.get(i) or _linear(fit, i) for i in range(len(fit.theta)))
 
 
-def moved(found: Estimate) -> list[int]:
-    """Return which parameters have a profile: the shared ones, or all if none is shared."""
-    shared = [i for i, parameter in enumerate(found.parameters) if not parameter.specimen]
-    return shared or list(range(len(found.parameters)))
+def moved(fit: Estimate) -> list[int]:
+    """Return the indices of the parameters with a profile: the shared ones, or all without any."""
+    shared = [i for i, parameter in enumerate(fit.parameters) if not parameter.specimen]
+    return shared or list(range(len(fit.parameters)))
 
 
 class _Ends:
-    """The two ends (k,) of the intervals of all parameters that are moved: the number of each, the
-    `side` to which it moves, the `points` (k, p) where they are, and whether the data leave them
-    `opened` (k,); with the `best` point seen, of the `least` sum of squares."""
+    """Both ends of the intervals of all moved parameters (k,): the number of the parameter, the
+    `side` to which it moves, the `points` (k, p) reached, and whether the data leave it `unbounded`
+    (k,); with the `best` point seen, of the `least` sum of squares."""
 
-    def __init__(self, found: Estimate) -> None:
-        self.found, self.number = found, np.repeat(moved(found), 2)
+    def __init__(self, fit: Estimate) -> None:
+        self.fit, self.number = fit, np.repeat(moved(fit), 2)
         self.side = np.tile([-1.0, 1.0], len(self.number) // 2)
-        self.points = np.tile(found.theta, (len(self.number), 1))
-        self.opened = np.full(len(self.number), False)
-        self.best, self.least = found.theta, found.chi_square
+        self.points = np.tile(fit.theta, (len(self.number), 1))
+        self.unbounded = np.full(len(self.number), False)
+        self.best, self.least = fit.theta, fit.chi_square
         self.seen = [(self.points.copy(), np.zeros(len(self.number)))]
 
-    def go(self, level: float, say: Callable[[str], None]) -> None:
-        """Move on to where the root of the deviance is at a `level`, in units of residuals."""
-        found, far = self.found, FARTHEST * self.found.scale
-        low, high = found.theta - far, found.theta + far
-        off, slope = found.model(self.points)
-        longest, todo = np.full(len(self.number), FIRST), np.flatnonzero(~self.opened)
-        slack = np.full(len(self.number), found.quantile * found.scatter)
+    def move_to(self, level: float, say: Callable[[str], None]) -> None:
+        """Move the ends until the root of the deviance is at a `level`, in units of residuals."""
+        fit, far = self.fit, FARTHEST * self.fit.scale
+        low, high = fit.theta - far, fit.theta + far
+        residuals, slope = fit.model(self.points)
+        longest, active = np.full(len(self.number), FIRST), np.flatnonzero(~self.unbounded)
+        slack = np.full(len(self.number), fit.quantile * fit.scatter)
         for _ in range(MOST_STEPS):
-            if not len(todo):
+            if not len(active):
                 break
-            say(f"ends of intervals: {len(todo)} left to be found")
-            number, before, own = self.number[todo], self.points[todo], np.arange(len(todo))
-            most = np.maximum(level + slack[todo], self._root(off[todo]))
-            linear = Linearised.of(off[todo], slope[todo] * found.scale, number)
-            step = linear.farthest(self.side[todo], found.chi_square + level**2)
-            step *= np.minimum(1.0, longest[todo] / np.max(np.abs(step), axis=1))[:, None]
-            # Cut off at a bound it would leave the valley: it ends there as a whole.
-            room = np.where(step > 0.0, high - before, before - low) / found.scale
+            say(f"ends of intervals: {len(active)} left to be found")
+            number, before, rows = self.number[active], self.points[active], np.arange(len(active))
+            limit = np.maximum(level + slack[active], self._root(residuals[active]))
+            linear = LinearModel.of(residuals[active], slope[active] * fit.scale, number)
+            step = linear.farthest(self.side[active], fit.chi_square + level**2)
+            step *= np.minimum(1.0, longest[active] / np.max(np.abs(step), axis=1))[:, None]
+            # At a bound the whole step is shortened: clipped, it would leave the valley.
+            room = np.where(step > 0.0, high - before, before - low) / fit.scale
             step *= np.minimum(1.0, np.min(room / (np.abs(step) + TINY), axis=1))[:, None]
-            trial = before + step * found.scale
-            trial_off, trial_slope = found.model(trial)
-            bad = self._root(trial_off) > most
+            trial = before + step * fit.scale
+            residuals_there, trial_slope = fit.model(trial)
+            bad = self._root(residuals_there) > limit
             if bad.any():  # the valley bends: the other parameters follow
-                near = Linearised.of(trial_off[bad], trial_slope[bad] * found.scale, number[bad])
-                trial[bad] = np.clip(trial[bad] + near.followed() * found.scale, low, high)
-                trial_off[bad], trial_slope[bad] = found.model(trial[bad])
-            self._remember(trial, trial_off)
-            root = self._root(trial_off)
-            good = root <= most
-            longest[todo] *= np.where(good, LONGER, SHORTER)
-            slack[todo] *= np.where(good & (root > level), SHORTER, 1.0)
-            way, moved_by = (np.abs(trial - x)[own, number] for x in (found.theta, before))
-            there = (np.abs(root - level) <= NEAR * level) & (moved_by <= NEAR * way)
-            won = todo[good]
+                near = LinearModel.of(
+                    residuals_there[bad], trial_slope[bad] * fit.scale, number[bad]
+                )
+                trial[bad] = np.clip(trial[bad] + near.steps_of_others() * fit.scale, low, high)
+                residuals_there[bad], trial_slope[bad] = fit.model(trial[bad])
+            self._remember(trial, residuals_there)
+            root = self._root(residuals_there)
+            good = root <= limit
+            longest[active] *= np.where(good, LONGER, SHORTER)
+            slack[active] *= np.where(good & (root > level), SHORTER, 1.0)
+            distance, moved_by = (np.abs(trial - x)[rows, number] for x in (fit.theta, before))
+            converged = (np.abs(root - level) <= NEAR * level) & (moved_by <= NEAR * distance)
+            accepted = active[good]
             for whole, part in zip(
-                (self.points, off, slope), (trial, trial_off, trial_slope), strict=True
+                (self.points, residuals, slope), (trial, residuals_there, trial_slope), strict=True
             ):
-                whole[won] = part[good]
-            self.opened[todo] = good & np.any(np.abs(trial - found.theta) > 0.999 * far, axis=1)
-            todo = todo[~(good & there) & ~self.opened[todo]]
-        root = self._root(off)
-        self.opened[todo] |= np.abs(root - level)[todo] > ROUGHLY * level
-        self.seen.append((self.points.copy(), root / found.scatter))
+                whole[accepted] = part[good]
+            self.unbounded[active] = good & np.any(np.abs(trial - fit.theta) > 0.999 * far, axis=1)
+            active = active[~(good & converged) & ~self.unbounded[active]]
+        root = self._root(residuals)
+        self.unbounded[active] |= np.abs(root - level)[active] > OPEN_BEYOND * level
+        self.seen.append((self.points.copy(), root / fit.scatter))
 
     def profile(self, end: int) -> Profile:
         """Return the profile between an end and the next, in the unit of its parameter."""
-        found, number, opened = self.found, self.number[end], self.opened[end : end + 2]
+        fit, number, unbounded = self.fit, self.number[end], self.unbounded[end : end + 2]
         points, roots = (np.array(each) for each in zip(*self.seen, strict=True))
         theta = np.concatenate([points[::-1, end, number], points[1:, end + 1, number]])
         roots = np.concatenate([roots[::-1, end], roots[1:, end + 1]])
-        values = found.parameters[number].value(theta)
-        interval = np.where(opened, [-np.inf, np.inf], values[[0, -1]])
-        # What is drawn of an open end comes to no end either.
+        values = fit.parameters[number].value(theta)
+        interval = np.where(unbounded, [-np.inf, np.inf], values[[0, -1]])
+        # Towards an open end only values below the quantile are drawn.
         drawn = np.append(np.diff(theta) > 0.0, True) & (
-            (roots < found.quantile) | ~np.where(theta < found.theta[number], *opened)
+            (roots < fit.quantile) | ~np.where(theta < fit.theta[number], *unbounded)
         )
         return Profile(values[drawn], roots[drawn], (float(interval[0]), float(interval[1])))
 
-    def _root(self, off: FloatArray) -> FloatArray:
-        deviance = np.sum(off**2, axis=1) - self.found.chi_square
+    def _root(self, residuals: FloatArray) -> FloatArray:
+        deviance = np.sum(residuals**2, axis=1) - self.fit.chi_square
         return np.asarray(np.sqrt(np.maximum(deviance, 0.0)))
 
-    def _remember(self, points: FloatArray, off: FloatArray) -> None:
-        for point, cost in zip(points, np.sum(off**2, axis=1).tolist(), strict=True):
+    def _remember(self, points: FloatArray, residuals: FloatArray) -> None:
+        for point, cost in zip(points, np.sum(residuals**2, axis=1).tolist(), strict=True):
             if cost < self.least:
                 self.best, self.least = point, cost
 
 
-class Linearised(NamedTuple):
-    """The model linearised at points (k,), in each of which one parameter is moved: the step `down`
-    (k, p) to the `least` sum of squares (k,), the step `along` (k, p) by which the others follow
-    the one as it moves by 1, and by how much (k,) it varies where the sum is larger by 1."""
+class LinearModel(NamedTuple):
+    """The model linearised at points (k,), one parameter of each being moved: the step `down`
+    (k, p) to the `least` sum of squares (k,), the step `along` (k, p) of all parameters as this one
+    moves by 1, and its change `width` (k,) where the sum is larger by 1."""
 
     down: FloatArray
     least: FloatArray
@@ -153,37 +154,37 @@ class Linearised(NamedTuple):
     number: IntArray
 
     @classmethod
-    def of(cls, off: FloatArray, slope: FloatArray, number: IntArray) -> Linearised:
-        """Return the same for residuals `off` (k, n) with this `slope` (k, n, p), if parameters of
-        these numbers (k,) are moved."""
+    def of(cls, residuals: FloatArray, slope: FloatArray, number: IntArray) -> LinearModel:
+        """Return the linear model of residuals (k, n) with this `slope` (k, n, p), the parameters
+        of these numbers (k,) being moved."""
         _, values, rows = np.linalg.svd(slope, full_matrices=False)
-        part = np.swapaxes(rows, 1, 2) / np.maximum(values, LEAST * values[:, :1])[:, None]
+        part = np.swapaxes(rows, 1, 2) / np.maximum(values, RANK_TOLERANCE * values[:, :1])[:, None]
         covariance = part @ np.swapaxes(part, 1, 2)
-        gradient = np.einsum("knp,kn->kp", slope, off)
+        gradient = np.einsum("knp,kn->kp", slope, residuals)
         down = -np.einsum("kpq,kq->kp", covariance, gradient)
-        least = np.sum(off**2, axis=1) + np.sum(gradient * down, axis=1)
+        least = np.sum(residuals**2, axis=1) + np.sum(gradient * down, axis=1)
         across = covariance[np.arange(len(number)), number]
         own = np.take_along_axis(across, number[:, None], axis=1)
         return cls(down, least, across / own, np.sqrt(own[:, 0]), number)
 
     def farthest(self, side: FloatArray, limit: float) -> FloatArray:
-        """Return the steps (k, p) to where the parameters are farthest to a `side` (k,) with a sum
-        of squares of `limit`."""
-        way = side * self.width * np.sqrt(np.maximum(limit - self.least, 0.0))
-        return np.asarray(self.down + way[:, None] * self.along)
+        """Return the steps (k, p) to the farthest points on a `side` (k,) with a sum of squares of
+        `limit`."""
+        distance = side * self.width * np.sqrt(np.maximum(limit - self.least, 0.0))
+        return np.asarray(self.down + distance[:, None] * self.along)
 
-    def followed(self) -> FloatArray:
-        """Return the steps (k, p) to the least sum of squares that leave the parameters."""
+    def steps_of_others(self) -> FloatArray:
+        """Return the steps (k, p) to the least sum of squares with the moved parameters fixed."""
         own = np.take_along_axis(self.down, self.number[:, None], axis=1)
         return np.asarray(self.down - own * self.along)
 
 
-def _linear(found: Estimate, index: int) -> Profile:
+def _linear(fit: Estimate, index: int) -> Profile:
     """Return the profile of a parameter in the linearised model."""
-    parameter, limit = found.parameters[index], found.quantile
-    width = limit * float(found.spread(np.eye(len(found.theta))[index]))
-    farthest = FARTHEST * float(found.scale[index])
+    parameter, limit = fit.parameters[index], fit.quantile
+    width = limit * float(fit.spread(np.eye(len(fit.theta))[index]))
+    farthest = FARTHEST * float(fit.scale[index])
     steps = min(width, farthest) * np.array([-1.0, 0.0, 1.0])
-    values = parameter.value(found.theta[index] + steps)
+    values = parameter.value(fit.theta[index] + steps)
     ends = (float(values[0]), float(values[2])) if width < farthest else (-np.inf, np.inf)
     return Profile(values, np.abs(steps) * limit / width, ends)

@@ -23,7 +23,7 @@ WEAR = {"wear_mm": 1.0, "wear_um": 1e-3}  # column: mm a unit
 DELIMITERS = (",", ";", "\t")  # the decimal sign may be a comma where the first is not
 MOST_HEAD_LINES = 100  # before the names of the columns, as instruments write them
 
-# What the numbers of a column must be, and how to say so.
+# The condition on the numbers of a column, and its message.
 _CHECKS: dict[str, tuple[Callable[[FloatArray], NDArray[np.bool_]], str]] = {
     "cycles": (
         lambda n: (n >= 1) & (n <= MOST_CYCLES) & (n % 1 == 0),
@@ -36,7 +36,7 @@ _CHECKS: dict[str, tuple[Callable[[FloatArray], NDArray[np.bool_]], str]] = {
 
 @dataclass(frozen=True)
 class Specimen:
-    """One worn contact: what was read, and how its scene differs from the others'.
+    """One worn contact: its readings, and the entries in which its scene differs.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ def read_readings(path: str | os.PathLike[str], ignore: Sequence[str] = ()) -> S
     Raises
     ------
     UsageError
-        with everything that is wrong with the file.
+        with all faults of the file.
     """
     if not is_path(path):
         raise UsageError(f"readings: {path!r} is no name of a file")
@@ -129,8 +129,8 @@ def readings_of(columns: Mapping[str, Iterable[Any]], ignore: Sequence[str]) -> 
 
 
 def _from_header(lines: Sequence[str]) -> tuple[str, list[tuple[int, list[str]]]]:
-    """Return the delimiter and the rows, each with the number of its line, from that on which names
-    a column `cycles`; none where no line does."""
+    """Return the delimiter, and the rows with their line numbers from the header on; no rows if no
+    line names a column `cycles`."""
     for place, line in enumerate(lines[:MOST_HEAD_LINES]):
         for delimiter in DELIMITERS:
             names = [_name(cell) for cell in _cells(line, delimiter)]
@@ -146,12 +146,12 @@ def _cells(line: str, delimiter: str) -> list[str]:
 
 
 def _name(cell: str) -> str:
-    """Return the name of a column, whatever the case of its letters."""
+    """Return the name of a column, known names in lower case."""
     return cell.lower() if cell.lower() in (*_CHECKS, "specimen") else cell
 
 
 def _faults_of_names(names: Sequence[str], ignore: Sequence[str]) -> Iterator[str]:
-    """Yield what is wrong with the names of the columns."""
+    """Yield every fault of the names of the columns."""
     if "cycles" not in names:
         yield "there is no column cycles"
     if sum(name in WEAR for name in names) != 1:
@@ -171,7 +171,7 @@ def _specimens(
     rows: Sequence[str],
     delimiter: str = ",",
 ) -> tuple[Specimens, list[str]]:
-    """Return the specimens of columns of equal length, and what is wrong with their entries."""
+    """Return the specimens of columns of equal length, and the faults of their entries."""
     if faults := [*_faults_of_names(list(entries), ignore)]:
         return (), faults
     columns = {name: column for name, column in entries.items() if name not in ignore}
@@ -190,29 +190,29 @@ def _specimens(
     scatter = numbers.pop("standard_error_mm", None)
     if len(cycles) < 2:
         faults.append("one reading determines nothing; give two or more")
-    made = []
+    specimens = []
     for name in dict.fromkeys(names):
-        own = np.array([name == other for other in names])
+        rows_of = np.array([name == other for other in names])
         of = f" of specimen {shown(name)}" if name else ""
-        if np.any(np.diff(cycles[own]) < 0):
+        if np.any(np.diff(cycles[rows_of]) < 0):
             faults.append(f"the cycles{of} must ascend")
-        changes = {key: values[own] for key, values in numbers.items()}
+        changes = {key: values[rows_of] for key, values in numbers.items()}
         faults += [
             f"{key}{of} must be one number"
             for key, values in changes.items()
             if not np.all(np.isfinite(values) & (values == values[0]))
         ]
-        error = None if scatter is None else scatter[own]
+        error = None if scatter is None else scatter[rows_of]
         entry = {key: float(values[0]) for key, values in changes.items()}
-        made.append(Specimen(name, cycles[own], wear[own], error, entry))
-    return tuple(made), faults
+        specimens.append(Specimen(name, cycles[rows_of], wear[rows_of], error, entry))
+    return tuple(specimens), faults
 
 
 def _with_points(
     columns: Mapping[str, Sequence[str]], rows: Sequence[str]
 ) -> tuple[dict[str, Sequence[str]], list[str]]:
-    """Return columns with points in the place of decimal commas, and which entries have a point
-    all the same: it may stand between thousands."""
+    """Return columns with points for decimal commas, and a fault for every entry that has a point
+    as well: it may separate thousands."""
     commas = any("," in entry for column in columns.values() for entry in column)
     faults = [
         f"{row}: {shown(entry)} has a point, but other numbers a decimal comma; drop the point"

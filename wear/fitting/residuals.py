@@ -1,4 +1,4 @@
-"""Residuals of measured wear, and how well a law with so many parameters describes it."""
+"""Residuals of measured wear, and the information criterion of a law."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from wear.numerics.gauss import FloatArray
 
 @dataclass(frozen=True)
 class Residuals:
-    """How far a law is from the readings.
+    """Differences between a law and the readings.
 
     Attributes
     ----------
     observed, weight
-        Wear (n,) in mm; what differences are multiplied by, one over their standard error.
+        Wear (n,) in mm; factor of the differences (n,), one over their standard error.
     relative
-        Whether differences are those of the logarithm of the wear, else of the wear in mm.
+        Whether differences are those of the logarithm of the wear; otherwise of the wear in mm.
     known
         Whether the scatter is known; otherwise every weight is 1.
     """
@@ -43,10 +43,10 @@ class Residuals:
     def __call__(self, log_wear: FloatArray) -> FloatArray:
         """Return the residuals (..., n)."""
         with np.errstate(all="ignore"):
-            off = log_wear - np.log(self.observed) if self.relative else (
+            difference = log_wear - np.log(self.observed) if self.relative else (
                 np.exp(log_wear) - self.observed
             )  # fmt: skip
-        return np.asarray(self.weight * off)
+        return np.asarray(self.weight * difference)
 
     def slope(self, log_wear: FloatArray) -> FloatArray:
         """Return the derivatives of the residuals with respect to the logarithm of the wear."""
@@ -56,7 +56,7 @@ class Residuals:
     def aicc(self, residuals: FloatArray, parameters: int) -> float:
         """Return the corrected information criterion of Akaike for normal residuals, but for a
         constant (C. M. Hurvich, C.-L. Tsai, Biometrika 76, 1989); an unknown scatter counts as one
-        more parameter. Infinite where there are too few readings for it."""
+        more parameter. Infinite where the readings are too few."""
         n, k = len(residuals), parameters + (not self.known)
         if n <= k + 1:
             return float(np.inf)

@@ -1,5 +1,7 @@
-"""What the data leave open, in words: combinations of parameters along which the wear hardly
-changes."""
+"""Practical identifiability: combinations of parameters that the data do not determine, in words.
+
+The wear hardly changes along them.
+"""
 
 from __future__ import annotations
 
@@ -13,49 +15,49 @@ from wear.fitting.model import Parameter
 from wear.fitting.profiles import Profile
 from wear.numerics.gauss import FloatArray
 
-UNKNOWN = 1.0  # standard error of a logarithm, or share of a value, from which it is open
+UNKNOWN = 1.0  # standard error of a logarithm, or relative to the size, of an open combination
 ALIKE = 0.1  # relative spread of powers that are shown as one
 NEGLIGIBLE = 0.02  # power
 
 
-class Open(NamedTuple):
+class OpenCombination(NamedTuple):
     """A combination of parameters, as their powers, that the data leave open, and a sentence."""
 
     combination: dict[str, float]
     sentence: str
 
 
-def undetermined(found: Estimate, profiles: Sequence[Profile]) -> Iterator[Open]:
+def undetermined(fit: Estimate, profiles: Sequence[Profile]) -> Iterator[OpenCombination]:
     """Yield every combination of parameters that the data leave open, see `Fit.undetermined`."""
     named: set[str] = set()
-    for error, direction in zip(*found.directions, strict=True):
+    for error, direction in zip(*fit.directions, strict=True):
         if UNKNOWN < error < np.inf:
-            powers = _by_key(found.parameters, direction / direction[np.argmax(np.abs(direction))])
+            powers = _by_key(fit.parameters, direction / direction[np.argmax(np.abs(direction))])
             named |= {name.split(" ")[0] for name in powers}
-            yield Open(powers, _sentence(powers, float(error)))
-    for parameter, profile in zip(found.parameters, profiles, strict=False):
+            yield OpenCombination(powers, _sentence(powers, float(error)))
+    for parameter, profile in zip(fit.parameters, profiles, strict=False):
         low, high = np.isfinite(profile.interval)
         if not (low and high) and parameter.key not in named:
             sides = {(False, False): "either side", (True, False): "above", (False, True): "below"}
             words = f"The data do not bound {parameter} from {sides[bool(low), bool(high)]}."
-            yield Open({str(parameter): 1.0}, words)
+            yield OpenCombination({str(parameter): 1.0}, words)
 
 
 def _by_key(parameters: Sequence[Parameter], powers: FloatArray) -> dict[str, float]:
-    """Return the power of every parameter that counts; specimens that are alike under their key."""
-    found: dict[str, float] = {}
+    """Return the power of every parameter that matters, one for all specimens that are alike."""
+    by_name: dict[str, float] = {}
     for key in dict.fromkeys(parameter.key for parameter in parameters):
-        own = [(p, x) for p, x in zip(parameters, powers.tolist(), strict=True) if p.key == key]
-        values = [x for _, x in own]
+        pairs = [(p, x) for p, x in zip(parameters, powers.tolist(), strict=True) if p.key == key]
+        values = [x for _, x in pairs]
         if max(values) - min(values) < ALIKE * max(map(abs, values)):
-            found[key] = sum(values) / len(values)
+            by_name[key] = sum(values) / len(values)
         else:
-            found |= {str(p): x for p, x in own}
-    return {name: power for name, power in found.items() if abs(power) > NEGLIGIBLE}
+            by_name |= {str(p): x for p, x in pairs}
+    return {name: power for name, power in by_name.items() if abs(power) > NEGLIGIBLE}
 
 
 def _sentence(powers: dict[str, float], error: float) -> str:
-    """Return what it means that the data leave a combination open."""
+    """Return the sentence on a combination that the data leave open."""
     factor = f"a factor e^{error:.2g}" if error < FARTHEST else "beyond all bounds"
     if len(powers) == 1:
         return f"The data do not determine {next(iter(powers))}: its standard error is {factor}."
