@@ -18,7 +18,7 @@ import numpy as np
 from wear.binding import bind, bind_many
 from wear.equation import WearEquation
 from wear.load import Load
-from wear.load.spans import Span
+from wear.load.spans import LoadSpan
 from wear.model import Real, Summed
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.scene import Scene
@@ -163,7 +163,7 @@ class ParametrisedEquation(WearEquation):
 
 
 def parametrised(
-    scenes: Sequence[Scene], acting: Sequence[Span], keys: Sequence[str]
+    scenes: Sequence[Scene], acting: Sequence[LoadSpan], keys: Sequence[str]
 ) -> ParametrisedEquation:
     """Return the equation of scenes of one variant, each under the load that acts, with the numbers
     that have these `keys`."""

@@ -1,8 +1,8 @@
 """Loads: the prescribed displacement U_a of the pin, in mm, or its reaction R_a, in N.
 
-A `Load` repeats and is a function of the phase t/T; `Sine`, `Constant`, `Harmonics` and `Table` are
-such, and of forces `Force` and `ForceTable`. `Blocks` are such loads one after the other, and a
-`HistoryLoad` is a function of the time in s.
+A `Load` is periodic, a function of the phase t/T: the displacements `Sine`, `Constant`,
+`Harmonics` and `Table`, and the forces `Force` and `ForceTable`. `Blocks` are periodic loads one
+after the other, and a `HistoryLoad` is a function of the time in s.
 All are frozen and checked where they are made; values, slopes and extremes are exact to rounding.
 """
 
@@ -85,7 +85,7 @@ class Sine(Smooth):
 
 @table("")
 class _Level(Smooth):
-    """A load that stays as it is; `of_level` names the field that says where."""
+    """A constant load; `of_level` names the field with its value."""
 
     of_level: ClassVar[str] = "value_mm"
     peaks: ClassVar[tuple[float, ...]] = (0.0,)
@@ -133,7 +133,7 @@ class Force(_Level):
 
 
 def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:
-    """U_a in mm of many loads, each at phases (loads, ...) of its own; sines all at once."""
+    """Return U_a in mm of many loads at phases (loads, ...), a row for each; sines all at once."""
     amplitudes = [load.amplitude_mm for load in loads if isinstance(load, Sine)]
     if len(amplitudes) == len(loads):
         unit = Sine(1.0, 1.0)(phases)
@@ -145,8 +145,8 @@ def sampled(loads: Sequence[Load], phases: FloatArray) -> FloatArray:
 
 def waves(loads: Sequence[Load]) -> Waves:
     """Return the displacements of many loads, sines or harmonics."""
-    each = [load.terms() for load in loads if isinstance(load, (Sine, Harmonics))]
-    terms = np.zeros((3, max(own.shape[1] for own in each), len(loads)))
-    for k, own in enumerate(each):
-        terms[:, : own.shape[1], k] = own
+    single = [load.terms() for load in loads if isinstance(load, (Sine, Harmonics))]
+    terms = np.zeros((3, max(rows.shape[1] for rows in single), len(loads)))
+    for k, rows in enumerate(single):
+        terms[:, : rows.shape[1], k] = rows
     return Waves(np.array([load.mean for load in loads]), terms, derivative(terms))

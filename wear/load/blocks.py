@@ -34,28 +34,28 @@ def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
         raise wrong("is not a list of tables", "write [[load.blocks]] for each")
     if not 1 <= len(raw) <= MOST_BLOCKS:
         raise wrong(f"has {len(raw)} blocks", f"give from 1 to {MOST_BLOCKS}; see repeat")
-    made, faults = list[Block](), list[Finding]()
+    blocks, faults = list[Block](), list[Finding]()
     for place, block in enumerate(raw):
         if isinstance(block, Mapping) and "load" not in block:
             cycles = {key: block[key] for key in block if key == "cycles"}
             block = cycles | {"load": {key: block[key] for key in block if key != "cycles"}}
         try:
             validator = Block.__pydantic_validator__  # type: ignore[attr-defined]
-            made.append(validator.validate_python(block, context=info.context))
+            blocks.append(validator.validate_python(block, context=info.context))
         except ValidationError as error:
             for path, problem, remedy in problems(error):
                 within = path[1:] if path[:1] == ("load",) else path
                 faults.append(((place, *within), problem, remedy))
     if faults:
         raise all_wrong(*faults)
-    return tuple(made)
+    return tuple(blocks)
 
 
 @table("load", kind="blocks")
 class Blocks(SceneTable):
     """Periodic loads one after the other, each from phase 0, and the list again `repeat` times.
 
-    U_a may jump where one block gives way to the next; there the value is that of the new block.
+    U_a may jump between blocks; there the value is that of the new block.
     """
 
     blocks: Annotated[tuple[Block, ...], PlainValidator(_blocks)] = Field(
@@ -72,16 +72,16 @@ class Blocks(SceneTable):
 
     @property
     def cycles(self) -> int:
-        """Return how many cycles there are in all."""
+        """Return the total number of cycles."""
         return self.repeat * self.cycles_of_round
 
     @cached_property
     def cycles_of_round(self) -> int:
-        """Return how many cycles the list has."""
+        """Return the number of cycles of the list."""
         return sum(block.cycles for block in self.blocks)
 
     def time_at(self, cycles: FloatArray | float) -> FloatArray:
-        """Return the time in s at which so many cycles are done."""
+        """Return the time in s after numbers of cycles."""
         done = np.cumsum([0, *(block.cycles for block in self.blocks)])
         times = np.cumsum([0.0, *(block.cycles * block.load.period for block in self.blocks)])
         rounds, rest = np.divmod(cycles, done[-1])

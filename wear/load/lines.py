@@ -17,7 +17,7 @@ from wear.load.rows import ForceFile, HistoryFile, RowsFile, TableFile, order_fa
 from wear.numerics.gauss import FloatArray
 from wear.quantities import unit_of
 
-SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes but for their roundoff
+SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes up to their roundoff
 
 
 @table("")
@@ -29,7 +29,7 @@ class _Rows(SceneTable):
 
     @property
     def rows(self) -> tuple[float, ...]:
-        """The value of each row, in mm, or in N of a force."""
+        """Return the value of each row, in mm, or in N for a force."""
         values: tuple[float, ...] = getattr(self, self.of_rows)
         return values
 
@@ -47,15 +47,15 @@ class _Rows(SceneTable):
 
     @cached_property
     def _places(self) -> FloatArray:
-        """Where the rows lie: at their times."""
+        """Return the abscissae of the rows: their times."""
         return np.asarray(self.times_s)
 
     def _between(self, at: FloatArray) -> FloatArray:
-        """The straight lines between the rows."""
+        """Return the values on the straight lines between the rows."""
         return np.asarray(np.interp(at, self._places, self._values))
 
     def _steepness(self, at: FloatArray) -> FloatArray:
-        """The slope of the straight line that starts at or before each place."""
+        """Return the slope of the straight line that starts at or before each place."""
         slopes = np.diff(self._values) / np.diff(self._places)
         line = np.searchsorted(self._places, at, side="right") - 1
         return np.asarray(slopes[np.clip(line, 0, len(slopes) - 1)])
@@ -95,7 +95,7 @@ class _Period(_Rows):
 
     @cached_property
     def _places(self) -> FloatArray:
-        """Where the rows lie: at their phases."""
+        """Return the abscissae of the rows: their phases."""
         return np.asarray(self.times_s) / self.period
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
@@ -107,8 +107,8 @@ class _Period(_Rows):
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         at, rows = within_cycle(phase), np.eye(len(self.rows))
         rows[0, -1] = 1.0  # the seam
-        found = (np.interp(at, self._places, row) for row in rows[:-1])
-        return {f"{self.of_rows}[{j}]": row for j, row in enumerate(found)}
+        hats = (np.interp(at, self._places, row) for row in rows[:-1])
+        return {f"{self.of_rows}[{j}]": hat for j, hat in enumerate(hats)}
 
     @property
     def period(self) -> float:
@@ -132,7 +132,7 @@ class _Period(_Rows):
 class Table(_Period):
     """U_a in mm by straight lines between rows over one period.
 
-    `times_s` runs from 0 to the period. `source` says which file the rows came from.
+    `times_s` runs from 0 to the period. `source` is the file of the rows, if any.
 
     >>> saw = Table((0.0, 0.5, 2.0), (0.0, 1e-3, 0.0))
     >>> saw.period, saw.kinks, saw.peaks, float(saw(0.125))
@@ -195,12 +195,12 @@ class HistoryLoad(_Rows):
         return self.duration / self.period_s
 
     def time_at(self, cycles: FloatArray | float) -> FloatArray:
-        """Return the time in s at which so many cycles are done."""
+        """Return the time in s after numbers of cycles."""
         return inside(np.asarray(cycles) * self.period_s, self.duration)
 
 
 def load_of(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:
-    """Return the load of a CSV file; raises pydantic's `ValidationError` with all that is wrong."""
+    """Return the load of a CSV file, or raise pydantic's `ValidationError` with all its faults."""
     repeat = isinstance(form, TableFile) and form.repeat
     rows = read_rows(form, folder, from_first=repeat)
     times, values = rows.times, rows.values
@@ -221,8 +221,8 @@ def _floats(array: FloatArray) -> tuple[float, ...]:
 def _closed(
     times: FloatArray, values: FloatArray, period: float | None, repeat: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Return rows over one period, the last of which repeats the first: those of one period, or to
-    `repeat` it those before the period ends, with a straight line to the first."""
+    """Return rows over one period, the last of which repeats the first: those of the file, or to
+    `repeat` a record its rows before the end of the period, closed by a straight line."""
     last, step = float(times[-1]), float(np.median(np.diff(times))) if repeat else 0.0
     period = last + step if period is None else period
     slack = SEAM_TOLERANCE * period

@@ -1,4 +1,4 @@
-"""What a load that repeats has to offer, and phases and times in its range, without loss."""
+"""The interface of periodic loads, and the exact reduction of phases and times to their range."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class Load(Protocol):
         """dU_a/dphase in mm per cycle; at a kink the slope to its right."""
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
-        """dU_a/dp at `phase`, in its shape, for every number p of the load but its period, by the
-        key of p in the scene file; a list's entries are counted from 0."""
+        """dU_a/dp at `phase`, in its shape, for every number p of the load except its period, by
+        the key of p in the scene file; entries of a list are counted from 0."""
 
     @property
     def kinks(self) -> tuple[float, ...]:
@@ -63,19 +63,19 @@ class Smooth(SceneTable):
 
 
 def centred(phase: FloatArray | float) -> FloatArray:
-    """phase less the nearest whole number: exact for every float, so that no period is lost."""
+    """Return phase minus the nearest integer: exact for every float, so that no period is lost."""
     given = np.asarray(phase, dtype=np.float64)
     return given - np.rint(given)
 
 
 def within_cycle(phase: FloatArray | float) -> FloatArray:
-    """The phase in [0, 1]."""
+    """Return the phase reduced to [0, 1]."""
     near_zero = centred(phase)
     return np.where(near_zero < 0.0, near_zero + 1.0, near_zero)
 
 
 def inside(time: FloatArray | float, duration: float) -> FloatArray:
-    """`time`, held to [0, duration] where it leaves it by no more than roundoff."""
+    """Return `time` clipped to [0, duration]; a `UsageError` beyond roundoff outside."""
     given = np.asarray(time, dtype=np.float64)
     slack = 1e-12 * duration
     if not np.all((given >= -slack) & (given <= duration + slack)):

@@ -1,8 +1,8 @@
 """CSV files of loads: two columns by their names, bounded in size, every bad row with its line.
 
 Key results
-    TableFile, ForceFile, HistoryFile   the `[load]` tables that say how a file is written
-    read_rows                           the rows of one
+    TableFile, ForceFile, HistoryFile   the `[load]` tables that describe the format of a file
+    read_rows                           the rows of a file
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ Names = Annotated[tuple[Text, Text], BeforeValidator(_pair)]
 
 @table("")
 class RowsFile(SceneTable):
-    """A CSV file of rows, and how it is written; `units` are those of the second column."""
+    """A CSV file of rows, and its format; `units` are those of the second column."""
 
     units: ClassVar[Mapping[str, float]] = MILLIMETRES
     file: FileName = _file("t_s,U_a_mm")
@@ -158,9 +158,10 @@ class Rows(NamedTuple):
 
 
 def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) -> Rows:
-    """Return the rows of a file, by its path from `folder`; times `from_first` row, if so wanted.
+    """Return the rows of a file, by its path from `folder`; with `from_first`, times count from the
+    first row.
 
-    Raises pydantic's `ValidationError` with all that is wrong.
+    Raises pydantic's `ValidationError` with all faults.
     """
     name = form.file
     if folder is None:
@@ -202,7 +203,7 @@ def order_faults(times: FloatArray) -> list[LineFault]:
 
 
 def read_bytes(path: Path, most: int) -> bytes | tuple[str, str]:
-    """Return at most `most` bytes of a file, or what is wrong with it and the remedy."""
+    """Return at most `most` bytes of a file, or its fault and the remedy."""
     try:
         with path.open("rb") as stream:
             data = stream.read(most + 1)
@@ -220,26 +221,26 @@ def read_bytes(path: Path, most: int) -> bytes | tuple[str, str]:
 
 
 def _is_device(file: Path) -> bool:
-    """Whether reading the file might never end, or wait for ever."""
+    """Return whether reading the file might never end."""
     try:
         mode = file.stat().st_mode
     except OSError:
-        return False  # the attempt to read it says what is wrong
+        return False  # the attempt to read it reports the fault
     return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
 LineFault = tuple[int, str, str]
-"""Number of a line, what is wrong with it, and the remedy."""
+"""Number of a line, its fault, and the remedy."""
 
 
 def _wrong_lines(form: RowsFile, *faults: LineFault) -> ValidationError:
     """Return the error for lines of a file."""
     name = shown(form.file)
-    return all_wrong(*(("file", f"{name} line {n}: {what}", cure) for n, what, cure in faults))
+    return all_wrong(*(("file", f"{name} line {n}: {text}", cure) for n, text, cure in faults))
 
 
 def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
-    """Return the two columns, or raise what is wrong with the first few wrong lines."""
+    """Return the two columns, or raise the faults of the first few faulty lines."""
     lines = [(n, line) for n, line in enumerate(text.split("\n"), start=1) if line.strip()]
     heads = (_cells(line, form) for _, line in lines[:MOST_HEAD_LINES])
     head = next((n for n, cells in enumerate(heads) if set(form.columns) <= set(cells)), None)
@@ -261,9 +262,9 @@ def _cells(line: str, form: RowsFile) -> list[str]:
 def _columns(
     rows: list[tuple[int, str]], form: RowsFile, places: list[int], width: int, from_first: bool
 ) -> FloatArray:
-    """Return both columns, or raise what is wrong with the first few wrong rows."""
+    """Return both columns, or raise the faults of the first few faulty rows."""
     numbers: list[int] = []
-    found: list[list[float | None]] = []
+    valid: list[list[float | None]] = []
     faults: list[LineFault] = []
     for number, line in rows:
         cells = line.split(form.delimiter)
@@ -273,11 +274,11 @@ def _columns(
             faults.append((number, problem, "give two finite numbers of sane size"))
         else:
             numbers.append(number)
-            found.append(row)
+            valid.append(row)
         if len(faults) == MOST_WRONG_ROWS:
             break
-    columns = np.array(found, dtype=float).reshape(-1, 2).T
-    if found:
+    columns = np.array(valid, dtype=float).reshape(-1, 2).T
+    if valid:
         columns[0] -= columns[0, 0] if from_first else 0.0
         faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(columns[0])]
     if faults:
@@ -302,7 +303,7 @@ def _header_fault(first: tuple[int, str], form: RowsFile) -> LineFault:
 
 
 def _number(cell: str, form: RowsFile) -> float | None:
-    """Return the number of a cell, which may stand in quotes; None if it is none of sane size."""
+    """Return the number of a cell, quoted or not; None unless it is a number of sane size."""
     try:
         number = float(cell.strip().strip('"').replace(form.decimal, "."))
     except ValueError:

@@ -1,7 +1,7 @@
-"""Every load as a sequence of loads that repeat, each from some cycle to another.
+"""Every load as a sequence of periodic loads, each over a range of cycles.
 
-A load made of blocks is periodic inside each. A measured history is taken cycle by cycle, every
-row a kink where an integrator stops: `wear.records` is faster by far where contact is smooth.
+A load made of blocks is periodic in each block. A measured history is taken cycle by cycle, with a
+kink at every row, where an integrator stops: for smooth contact `wear.records` is much faster.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from wear.numerics.gauss import FloatArray
 FOREVER = 1 << 62
 
 Loading = Load | Blocks | HistoryLoad
-"""What may stand in a scene: a load that repeats, or one that does not."""
+"""The loads of a scene, periodic or not."""
 
 
-class Span(NamedTuple):
-    """A load that repeats up to cycle `until`, and its `place` in the scene file."""
+class LoadSpan(NamedTuple):
+    """A load that is periodic up to cycle `until`, and its `place` in the scene file."""
 
     load: Load
     until: int
@@ -50,7 +50,7 @@ class Window:
         return self.history.slope(self._time(phase)) * self.period
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
-        """Return nothing: the rows of a history are no parameters."""
+        """Return no derivatives: the rows of a history are no parameters."""
         return {}
 
     def _time(self, phase: FloatArray | float) -> FloatArray:
@@ -64,7 +64,8 @@ class Window:
 
     @cached_property
     def _rows(self) -> FloatArray:
-        """The phases at the ends and between them (n,), and U_a there, mm."""
+        """Return the phases of the rows (n,), the ends of the cycle among them, and U_a there in
+        mm."""
         phases = np.array([0.0, *self.kinks, 1.0])
         return np.stack([phases, self(phases)])
 
@@ -81,20 +82,20 @@ class Window:
         return float(np.trapezoid(self._rows[1], self._rows[0]))
 
 
-def span(load: Loading, cycle: int) -> Span:
-    """Return the load that acts from the start of a cycle (counted from 0), and how long it
-    repeats; at the end of blocks the last of them."""
+def span(load: Loading, cycle: int) -> LoadSpan:
+    """Return the load that acts from the start of a cycle (counted from 0), with its last cycle; at
+    the end of blocks the last of them."""
     if isinstance(load, HistoryLoad):
-        return Span(Window(load, cycle), cycle + 1)
+        return LoadSpan(Window(load, cycle), cycle + 1)
     if not isinstance(load, Blocks):
-        return Span(load, FOREVER)
+        return LoadSpan(load, FOREVER)
     rounds, rest = divmod(min(cycle, load.cycles - 1), load.cycles_of_round)
     ends = np.cumsum([block.cycles for block in load.blocks])
     at = int(np.searchsorted(ends, rest, side="right"))
     until = rounds * load.cycles_of_round + int(ends[at])
-    return Span(load.blocks[at].load, until, f"load.blocks[{at}]")
+    return LoadSpan(load.blocks[at].load, until, f"load.blocks[{at}]")
 
 
 def most_cycles(load: Loading) -> int:
-    """Return how many whole cycles the load has."""
+    """Return the number of whole cycles of the load."""
     return int(load.cycles * (1.0 + 1e-12)) if isinstance(load, Blocks | HistoryLoad) else FOREVER

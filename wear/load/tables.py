@@ -1,4 +1,4 @@
-"""The `[load]` table of a scene: from it to a load, and back."""
+"""The `[load]` table of a scene: conversion to a load, and back."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from wear.words import did_you_mean, shown
 PERIODIC = ("sine", "constant", "harmonics", "table")
 KINDS = (*PERIODIC, "force", "history", "blocks")
 ROWS = {"table": Table, "force": ForceTable, "history": HistoryLoad}
-"""Loads of rows that stand in the file itself."""
+"""Loads whose rows are in the scene file itself."""
 
 
 def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS) -> Any:
-    """Return the load of a `[load]` table of one of these kinds; what is no table is a load.
+    """Return the load of a `[load]` table of one of these kinds, or a load unchanged.
 
     The context's `folder` is where CSV files are looked for. Raises pydantic's `ValidationError`.
     """
@@ -36,12 +36,12 @@ def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS)
     by_rows = ROWS if "times_s" in entries else {"force": ForceFile} if "file" in entries else {}
     tables = {each.kind: each for each in TABLES} | by_rows
     validator = tables[kind].__pydantic_validator__  # type: ignore[attr-defined]
-    made = validator.validate_python(entries, context=info.context)
-    return load_of(made, (info.context or {}).get("folder")) if isinstance(made, RowsFile) else made
+    load = validator.validate_python(entries, context=info.context)
+    return load_of(load, (info.context or {}).get("folder")) if isinstance(load, RowsFile) else load
 
 
 def as_table(load: Any) -> dict[str, Any]:
-    """Return the `[load]` table that `load_from` reads back to an equal load.
+    """Return the `[load]` table that `load_from` converts to an equal load.
 
     >>> as_table(Table((0.0, 1.0), (0.0, 0.0)))
     {'kind': 'table', 'times_s': [0.0, 1.0], 'values_mm': [0.0, 0.0]}

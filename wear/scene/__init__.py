@@ -1,10 +1,9 @@
-"""Scenes: what a user asks to be solved, from a TOML file, a built-in name, or Python.
+"""Scenes: the problems that users pose, from a TOML file, a built-in name, or Python.
 
-A `Scene` is frozen and holds the numbers of the file, in mm, s, MPa and rpm. Every way to one
-checks it: the constructor, `dataclasses.replace`, `Scene.with_`, `Scene.from_dict`, `load_scene`.
-Its tables and entries, with their units, domains and meanings, are the classes of
-`wear.scene.tables` and `wear.load`; the validation and the reference page of the documentation both
-read them there.
+A `Scene` is frozen and holds the numbers of the file, in mm, s, MPa and rpm. It is checked wherever
+it is made: by the constructor, `dataclasses.replace`, `Scene.with_`, `Scene.from_dict` and
+`load_scene`. Its tables and entries, with their units, domains and meanings, are the classes of
+`wear.scene.tables` and `wear.load`, from which the reference page of the documentation is made too.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ NO_ENTRY = Field(exclude=True, repr=False)
 
 @table("")
 class Scene(SceneTable):
-    """What to solve. A table that is left out is None and is not modelled.
+    """A problem to solve. A table that is left out is None and is not modelled.
 
     `name` (a built-in name or the file's) and `folder` (where CSV files are looked for) take no
     part in comparisons.
@@ -95,7 +94,7 @@ class Scene(SceneTable):
         return Scene.from_dict(tables, self.name, self.folder)
 
     def _entries(self, table: str) -> dict[str, Any]:
-        """The entries of a table that are given, as plain values."""
+        """Return the given entries of a table as plain values."""
         part = getattr(self, table)
         if table == "load":
             return as_table(part)
@@ -103,13 +102,15 @@ class Scene(SceneTable):
 
     @property
     def initial_roughness(self) -> float:
-        """Equivalent roughness before any wear, Eq. (3), in mm; held to derive's by a test."""
+        """Return the equivalent roughness before any wear, Eq. (3), in mm; a test compares it with
+        derive's."""
         pin = 0.0 if self.pin is None else self.pin.roughness_mm
         return math.hypot(self.bearing.roughness_mm, pin)
 
     @property
     def closure(self) -> float:
-        """Initial closure h_0 of Eq. (1) in mm; of the unloaded system if the support gives way."""
+        """Return the initial closure h_0 of Eq. (1) in mm; that of the unloaded system for a
+        compliant support."""
         if self.contact.closure_mm is not None:
             return self.contact.closure_mm
         if self.contact.closure_in_sigma is None:
@@ -118,7 +119,7 @@ class Scene(SceneTable):
 
     @property
     def periodic_load(self) -> Load:
-        """The load, for a method that needs one that repeats; otherwise a `UsageError`."""
+        """Return the load if it is periodic; otherwise raise a `UsageError`."""
         if isinstance(self.load, Blocks | HistoryLoad):
             kind = as_table(self.load)["kind"]
             raise UsageError(
@@ -128,14 +129,14 @@ class Scene(SceneTable):
 
     @property
     def loads(self) -> dict[str, Load]:
-        """The loads that repeat, by their place in the scene file."""
+        """Return the periodic loads by their place in the scene file."""
         if isinstance(self.load, Blocks):
             return {f"load.blocks[{i}]": block.load for i, block in enumerate(self.load.blocks)}
         return {"load": self.periodic_load}
 
     @property
     def variant(self) -> VariantKey:
-        """The generated module with what this scene needs, and no more."""
+        """Return the key of the generated module with the symbols of this scene, and no more."""
         return VariantKey(
             law=self.contact.law,
             support="rigid" if self.support is None and not self.given_load else "compliant",
@@ -146,12 +147,12 @@ class Scene(SceneTable):
 
     @property
     def given_load(self) -> bool:
-        """Whether the reaction of the pin is given, problem (i), in place of its displacement."""
+        """Return whether the reaction of the pin is given, problem (i), not its displacement."""
         return isinstance(self.load, Force | ForceTable)
 
     @model_validator(mode="after")
     def _carried(self) -> Self:
-        """A given reaction needs an area, and a contact that can carry it."""
+        """Refuse a given reaction without an area, or beyond the capacity of the contact."""
         if not self.given_load:
             return self
         contact, most = self.contact, self.load.maximum
@@ -169,7 +170,7 @@ class Scene(SceneTable):
 
     @property
     def pin_wear_sign(self) -> float:
-        """+1 where wear of the pin opens the gap, -1 where it closes it, as printed in Eq. (1)."""
+        """Return +1 if wear of the pin opens the gap, -1 if it closes it, as printed in Eq. (1)."""
         return 1.0 if self.contact.pin_wear_opens_gap else -1.0
 
     @property
@@ -182,7 +183,7 @@ class Scene(SceneTable):
         return "worn_rough" if rough else "worn"
 
     def parameters(self) -> dict[str, float]:
-        """The numbers that this scene's variant has, under their symbols; T only if there is one.
+        """Return the numbers of this scene's variant by their symbols; T only for periodic loads.
 
         >>> sorted(load_scene("section4").parameters())
         ['H_c', 'K_c', 'R', 'T', 'f_c', 'h_0', 'n', 'p_max', 'sigma_c0']
@@ -202,14 +203,13 @@ class Scene(SceneTable):
 
     @property
     def notices(self) -> tuple[str, ...]:
-        """What is legal, but may not be what is meant."""
+        """Return sentences on entries that are legal, but may not be intended."""
         from wear.scene.notices import notices
 
         return notices(self)
 
     def to_tables(self) -> dict[str, Any]:
-        """Return the tables of the scene file as plain values, fit for JSON; what is absent is left
-        out.
+        """Return the tables of the scene file that are present, as plain values, fit for JSON.
 
         A load from a CSV file is given by the file's name and checksum, not by its rows.
         """
@@ -220,18 +220,18 @@ class Scene(SceneTable):
         return tables
 
     def to_json(self) -> str:
-        """Return `to_tables` in one line, the same for equal scenes, as result files keep it."""
+        """Return `to_tables` in one line, the same for equal scenes; result files store it."""
         return json.dumps(self.to_tables(), allow_nan=False)
 
     def __repr__(self) -> str:
         return f"<Scene {self.title or self.name!r}: {self.variant.name}, {self.load!r}>"
 
     def _repr_html_(self) -> str:
-        """Return the scene file that a notebook shows."""
+        """Return the scene file for a notebook."""
         return f"<pre>{html.escape(self.to_toml())}</pre>"
 
     def to_toml(self) -> str:
-        """Return a scene file that reads back to an equal scene; CSV files are only named."""
+        """Return a scene file that loads as an equal scene; CSV files are only named."""
         tables = self.to_tables()
         blocks = tables["load"].pop("blocks", [])
         texts = [f"{key} = {_toml(tables.pop(key))}" for key in ("title", "description")]
@@ -242,15 +242,15 @@ class Scene(SceneTable):
 
 
 def _toml(value: object) -> str:
-    """A plain value in TOML; JSON's form is TOML's for flags, finite numbers, text and lists."""
+    """Return a plain value in TOML, whose flags, finite numbers, texts and lists are JSON's."""
     return json.dumps(value, ensure_ascii=False, allow_nan=False)
 
 
 def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Scene:
     """Return the scene of a built-in name or of a TOML file.
 
-    `overrides` are texts TABLE.KEY=VALUE, each of which takes the place of one entry. Raises
-    `SceneError` with every fault.
+    `overrides` are texts TABLE.KEY=VALUE, each of which replaces one entry. Raises `SceneError`
+    with every fault.
 
     >>> load_scene("section4", ["bearing.wear_coefficient=1e-3"]).bearing.wear_coefficient
     0.001
@@ -278,7 +278,7 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
 
 
 def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:
-    """Return a scene as it is, or that of a built-in name or a file."""
+    """Return a scene unchanged, or load that of a built-in name or a file."""
     return scene if isinstance(scene, Scene) else load_scene(scene)
 
 
@@ -313,7 +313,7 @@ def _checked(tables: Mapping[str, Any], source: Source, name: str, folder: Path 
 
 
 def _place(name: str) -> str:
-    """A file's name in messages."""
+    """Return a file's name as messages show it."""
     return shown(name, most=1000) or '""'
 
 
@@ -321,11 +321,11 @@ def _place(name: str) -> str:
 
 
 def builtin_names() -> tuple[str, ...]:
-    """The names of the built-in scenes: the note's sections, then the hard cases."""
+    """Return the names of the built-in scenes: the note's sections, then the hard cases."""
     names = [file.stem for file in SCENES.glob("*.toml")]
     return tuple(sorted(names, key=lambda name: (not name.startswith("section"), name)))
 
 
 def hard_names() -> tuple[str, ...]:
-    """The names of the built-in scenes of the catalogue of hard cases."""
+    """Return the names of the built-in scenes in the catalogue of hard cases."""
     return tuple(name for name in builtin_names() if not name.startswith("section"))

@@ -1,8 +1,8 @@
-"""What is legal in a scene, or in its results, but may not be what its author means.
+"""Notices: entries and results of a scene that are legal, but may not be intended.
 
-Magnitudes that are absurd are told with the likely slip, by one table of ranges with sources; what
-lies outside is a notice that begins with "implausible", and `--strict` refuses it. One scene and
-the rows of a study are judged alike: a magnitude is a number, or an array along rows.
+One table, with sources, has the plausible range of each magnitude and the likely slip beyond it. A
+magnitude outside gives a notice that begins with "implausible"; `--strict` refuses it. The same
+checks serve one scene (numbers) and the rows of a study (arrays along rows).
 
 References
     ISO 1302:2002, annex: roughness classes N1 (Ra 0.025 um) to N12 (Ra 50 um).
@@ -36,12 +36,12 @@ ROUGHEST = 0.05  # mm, class N12 of ISO 1302
 DEEPEST = 0.1  # of the radius: deeper wear is another geometry
 LONGEST = 1e9  # cycles: no wear coefficient is known for so many
 HARDER = 3.0  # times the hardness: no asperity carries such a pressure
-DIGITS_LOST = 1e-12  # relative error of a contact law: more is worth a notice
+DIGITS_LOST = 1e-12  # relative error of a contact law above which there is a notice
 CONTACT_REACH = 3  # contact needs h <= 3 sigma, the text under (4); a test holds it to derive's
 
 
 def notices(scene: Scene) -> tuple[str, ...]:
-    """One sentence for each thing worth knowing before the scene is solved."""
+    """Return the notices on a scene that is to be solved, one sentence each."""
     return (
         *implausible_entries(scene),
         *_law_notices(scene),
@@ -60,9 +60,9 @@ def _law_notices(scene: Scene) -> Iterator[str]:
             f"that the contact law {law} turns from concave to convex once at most is not proved, "
             "but seen at quarters of h/sigma between -30 and 30"
         )
-    if (lost := own_laws.about(law)["rounding_error"]) > DIGITS_LOST:
+    if (error := own_laws.about(law)["rounding_error"]) > DIGITS_LOST:
         yield (
-            f"the contact law {law} loses digits: its relative error is up to {lost:.1g} between "
+            f"the contact law {law} loses digits: its relative error is up to {error:.1g} between "
             "h/sigma = -5 and 1e4; another way to write it may keep them"
         )
 
@@ -130,25 +130,25 @@ def _load_notices(scene: Scene) -> Iterator[str]:
         yield f"the displacement jumps at the start of block {places}"
 
 
-# Magnitudes that are hardly meant
+# Implausible magnitudes
 
 
-class Doubt(NamedTuple):
-    """A magnitude that may be hardly meant: its `ratio` to the largest that is plausible, a number
-    or an array along rows, and a sentence with places for some `values` of the same shape."""
+class PlausibilityCheck(NamedTuple):
+    """The check of a magnitude: its `ratio` to the largest plausible one, a number or an array
+    along rows, and the `words` of a sentence with places for `values` of the same shape."""
 
     ratio: Real
     words: str
     values: tuple[Real, ...]
 
     def sentence(self, at: int | tuple[()] = ()) -> str:
-        """Return the sentence about a row, or about the one scene there is."""
+        """Return the sentence about a row, or about the single scene."""
         shape = np.shape(self.ratio)
         return self.words.format(*(np.broadcast_to(value, shape)[at] for value in self.values))
 
 
 class Range(NamedTuple):
-    """What a key's magnitude is in engineering, and the slip that values outside hint at."""
+    """The range of a key's magnitude in engineering, and the likely slips of values outside."""
 
     low: float
     high: float
@@ -177,14 +177,14 @@ RANGES: Mapping[str, Range] = {
 }
 
 
-def said(doubts: Iterable[Doubt]) -> Iterator[str]:
+def sentences_on(checks: Iterable[PlausibilityCheck]) -> Iterator[str]:
     """Yield the sentences about one scene."""
-    yield from (doubt.sentence() for doubt in doubts if doubt.ratio > 1.0)
+    yield from (check.sentence() for check in checks if check.ratio > 1.0)
 
 
 def implausible_entries(scene: Scene) -> Iterator[str]:
-    """Yield a sentence for each entry of a scene that is legal, but hardly meant."""
-    yield from said(doubts_of_entries(entries_of(scene)))
+    """Yield a sentence for each implausible entry of a scene."""
+    yield from sentences_on(checks_of_entries(entries_of(scene)))
     swing = scene.load.maximum - scene.load.minimum
     if swing > 2.0 and not (scene.given_load or hasattr(scene.load, "amplitude_mm")):
         yield f"{WORD}: [load] U_a moves by {swing:.4g} mm: um typed as mm?"
@@ -200,56 +200,56 @@ def entries_of(scene: Scene) -> dict[str, float]:
     }
 
 
-def doubts_of_entries(entries: Mapping[str, Real]) -> Iterator[Doubt]:
-    """Yield the doubts about entries of a scene, or of the rows of a study."""
+def checks_of_entries(entries: Mapping[str, Real]) -> Iterator[PlausibilityCheck]:
+    """Yield the checks of the entries of a scene, or of the rows of a study."""
     for entry, value in entries.items():
         table, _, key = entry.rpartition(".")
         if key in RANGES:
             low, high, if_low, if_high = RANGES[key]
             size = abs(value)
             outside = f"{WORD}: [{table}] {key} = {{:g}} is outside {low:g} to {high:g}: "
-            yield Doubt(size / high, outside + if_high, (value,))
-            not_zero = size > 0.0  # which is another model, not a small number
-            yield Doubt(low * not_zero / (size + TINY), outside + if_low, (value,))
+            yield PlausibilityCheck(size / high, outside + if_high, (value,))
+            not_zero = size > 0.0  # zero is another model, not a small number
+            yield PlausibilityCheck(low * not_zero / (size + TINY), outside + if_low, (value,))
     pressure = entries["contact.max_pressure_MPa"]
     hardest = np.maximum(entries["bearing.hardness_MPa"], entries.get("pin.hardness_MPa", 0.0))
     words = (
         f"{WORD}: [contact] max_pressure_MPa = {{:g}} is more than {HARDER:g} times the hardness "
         "of the harder solid"
     )
-    yield Doubt(pressure / (HARDER * hardest), words, (pressure,))
+    yield PlausibilityCheck(pressure / (HARDER * hardest), words, (pressure,))
 
 
 def implausible_results(
     scene: Scene, cycles: Cycles, u_c: FloatArray, *roughness: FloatArray
 ) -> Iterator[str]:
-    """Yield a sentence for each result of a scene that lies outside what the model is meant for;
-    `u_c` and each `roughness` are in mm, along `cycles`."""
+    """Yield a sentence for each result of a scene outside the scope of the model; `u_c` and each
+    `roughness` are in mm, along `cycles`."""
     if len(cycles):
         limits = scene.motion.radius_mm, scene.initial_roughness
-        yield from said(doubts_of_results(*limits, cycles, u_c, *roughness))
+        yield from sentences_on(checks_of_results(*limits, cycles, u_c, *roughness))
 
 
-def doubts_of_results(
-    radius: Real, fresh: Real, cycles: Cycles, u_c: FloatArray, *roughness: FloatArray
-) -> Iterator[Doubt]:
-    """Yield the doubts about wear and roughnesses (..., cycles) where the radius and the initial
-    roughness are these, all in mm."""
+def checks_of_results(
+    radius: Real, initial: Real, cycles: Cycles, u_c: FloatArray, *roughness: FloatArray
+) -> Iterator[PlausibilityCheck]:
+    """Yield the checks of wear and roughnesses (..., cycles) for a radius and an initial roughness,
+    all in mm."""
     deepest = np.max(u_c, axis=-1)
-    yield Doubt(
+    yield PlausibilityCheck(
         deepest / (DEEPEST * radius),
         f"{WORD}: the wear of {{:.4g}} mm is {{:.3g}} % of the radius; beyond "
         f"{100.0 * DEEPEST:g} % the geometry is another",
         (deepest, 100.0 * deepest / radius),
     )
     roughest = np.max(np.broadcast_arrays(u_c, *roughness)[1:], axis=(0, -1))
-    yield Doubt(
-        roughest / np.maximum(ROUGHEST, fresh),
+    yield PlausibilityCheck(
+        roughest / np.maximum(ROUGHEST, initial),
         f"{WORD}: the roughness of {{:.4g}} mm is beyond {ROUGHEST:g} mm, "
         "the roughest class of ISO 1302",
         (roughest,),
     )
-    yield Doubt(
+    yield PlausibilityCheck(
         np.max(cycles) / LONGEST,
         f"{WORD}: wear beyond {LONGEST:.0e} cycles is extrapolated; no wear coefficient is "
         "known for so many",

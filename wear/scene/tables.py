@@ -1,4 +1,4 @@
-"""The tables of a scene file but the load: the solids, their contact, support and motion."""
+"""The tables of a scene file except the load: solids, contact, support and motion."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ CLOSURES = ("closure_mm", "closure_in_sigma")
 
 
 def contact_laws() -> tuple[str, ...]:
-    """Return the contact laws that can run: the packages of generated code, one a law."""
+    """Return the available contact laws: the packages of generated code, one for each law."""
     found = Path(__file__).parents[1].joinpath("generated").glob("[a-z]*/__init__.py")
     return tuple(sorted(module.parent.name for module in found))
 
@@ -53,7 +53,7 @@ def _law(raw: object, info: ValidationInfo) -> str:
 
 
 def _formula(name: str, folder: Path | None) -> str:
-    """Return the text of a file beside the scene, less what follows # in a line."""
+    """Return the text of a file beside the scene, without its comments (from # on)."""
     if folder is None:
         raise wrong(f"{shown(name)}: there is no folder to look in", "load the scene by its path")
     data = read_bytes(folder / name, MOST_BYTES)

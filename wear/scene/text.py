@@ -29,7 +29,7 @@ _AT_LINE = re.compile(r"\s*\(at line (\d+), column (\d+)\)")
 
 @dataclass(frozen=True)
 class Source:
-    """Where a scene came from: its name for messages, the line of each path, the overrides.
+    """The source of a scene: its name for messages, the line of each path, the overrides.
 
     `faults` are those of options that could not be read.
     """
@@ -56,9 +56,9 @@ class Source:
 def read_tables(
     data: bytes | str, file: str, overrides: Sequence[str] = ()
 ) -> tuple[dict[str, Any], Source]:
-    """The TOML tables of a scene with the overrides applied.
+    """Return the TOML tables of a scene with the overrides applied, and their source.
 
-    Raises `SceneError` when the text is no TOML at all.
+    Raises `SceneError` if the text is not TOML.
     """
     text = _decode(data, file)
     tables = _parse(text, file)
@@ -119,7 +119,7 @@ def _parse(text: str, file: str) -> dict[str, Any]:
 
 
 def key_lines(text: str) -> dict[Path, int]:
-    """The line, counted from 1, of each table header and `key =` found by a scan of the text.
+    """Return the line, counted from 1, of each table header and `key =`, by a scan of the text.
 
     >>> key_lines("[bearing]\\nroughness_mm = 1.0")
     {('bearing',): 1, ('bearing', 'roughness_mm'): 2}
@@ -145,9 +145,9 @@ def key_lines(text: str) -> dict[Path, int]:
 
 
 def _open_string(line: str, quotes: str) -> str:
-    """The triple quotes that are still open after `line`."""
-    for found in re.findall(r'"""|\'\'\'', line):
-        quotes = "" if quotes == found else quotes or found
+    """Return the triple quotes that are still open after `line`."""
+    for mark in re.findall(r'"""|\'\'\'', line):
+        quotes = "" if quotes == mark else quotes or mark
     return quotes
 
 
@@ -159,7 +159,7 @@ def _split_key(dotted: str) -> tuple[str, ...]:
 
 
 def _read_override(option: str) -> tuple[Path, object] | Fault:
-    """The path and the value of TABLE.KEY=VALUE.
+    """Return the path and the value of TABLE.KEY=VALUE.
 
     >>> _read_override("contact.law=exponential")
     (('contact', 'law'), 'exponential')
@@ -184,7 +184,7 @@ def _read_override(option: str) -> tuple[Path, object] | Fault:
 
 
 def _override_value(raw: str) -> object:
-    """VALUE as TOML; what is no TOML value is a bare word and stands for itself."""
+    """Return VALUE as read by TOML, or as a text if it is a bare word."""
     if "\n" in raw or len(raw) > LONGEST_LINE:
         return raw
     try:
@@ -196,11 +196,11 @@ def _override_value(raw: str) -> object:
 def set_entry(
     tables: dict[str, Any], path: Path, value: object, keep: Collection[Path | str] = ()
 ) -> None:
-    """Set one entry, or drop it for None, and drop what it takes the place of.
+    """Set one entry, or drop it for None, and drop the entries that it replaces.
 
-    One closure takes the place of the other, a kind of load that of the keys which the new kind
-    does not have, a file of rows that of the period and checksum of other rows; entries in `keep`,
-    set too, stay and are validated.
+    One closure replaces the other, a kind of load the keys that the new kind does not have, a file
+    of rows the period and checksum of other rows; entries in `keep`, which are set too, remain and
+    are validated.
     """
     name, key = str(path[0]), ".".join(map(str, path[1:]))
     if not key:
@@ -216,7 +216,7 @@ def set_entry(
 
 
 def _replaced(name: str, key: str, value: object) -> list[str]:
-    """The entries whose place a new one takes."""
+    """Return the entries that a new one replaces."""
     if name == "contact" and key in ("closure_mm", "closure_in_sigma"):
         return [other for other in ("closure_mm", "closure_in_sigma") if other != key]
     if (name, key) == ("load", "kind"):

@@ -1,4 +1,4 @@
-"""Which of the generated modules a scene needs, and which of its numbers that has."""
+"""The generated module that a scene needs, and the numbers of the scene that the module has."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ KEYS: Mapping[str, tuple[str, str]] = {
     "R": ("motion", "radius_mm"),
     "n": ("motion", "speed_rpm"),
 }
-"""Table and key of each parameter in a scene file, by symbol, but those of the load."""
+"""Table and key of each parameter in a scene file, by symbol; without those of the load."""
 OF_PIN = {
     "bearing": (),
     "rough": ("sigma_a0",),
@@ -31,8 +31,8 @@ OF_PIN = {
 
 
 class VariantKey(NamedTuple):
-    """Which generated module a scene needs: `wear.generated.<law>.<module>`; `name` is the
-    variant's for users.
+    """The key of the generated module of a scene, `wear.generated.<law>.<module>`; users see the
+    `name` of the variant.
 
     >>> key = VariantKey("tanh", "compliant", "worn_rough", ends_at_3_sigma=True)
     >>> key.module, key.name

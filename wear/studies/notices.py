@@ -11,10 +11,10 @@ from wear.binding import bound, generated
 from wear.numerics.gauss import FloatArray
 from wear.scene.notices import (
     WORD,
-    Doubt,
+    PlausibilityCheck,
     Real,
-    doubts_of_entries,
-    doubts_of_results,
+    checks_of_entries,
+    checks_of_results,
     entries_of,
 )
 from wear.scene.variant import KEYS, VariantKey
@@ -48,16 +48,16 @@ class Tally:
         if not answered.any():
             return
         columns = {key: column[answered] for key, column in columns.items()}
-        for doubt in _doubts(self._study, columns, u_c[answered]):
-            if (rows := int(np.count_nonzero(doubt.ratio > 1.0))) == 0:
+        for check in _checks(self._study, columns, u_c[answered]):
+            if (rows := int(np.count_nonzero(check.ratio > 1.0))) == 0:
                 continue
-            at = int(np.argmax(doubt.ratio))
+            at = int(np.argmax(check.ratio))
             place = ", ".join(f"{key} = {column[at]:.4g}" for key, column in columns.items())
-            worst = Worst(rows, float(doubt.ratio[at]), doubt.sentence(at), place)
-            if before := self._found.get(doubt.words):
+            worst = Worst(rows, float(check.ratio[at]), check.sentence(at), place)
+            if before := self._found.get(check.words):
                 worse = max(before, worst, key=lambda each: each.ratio)
                 worst = worse._replace(rows=before.rows + rows)
-            self._found[doubt.words] = worst
+            self._found[check.words] = worst
 
     @property
     def notices(self) -> tuple[str, ...]:
@@ -70,16 +70,18 @@ class Tally:
         return (*of_scene, *of_rows)
 
 
-def _doubts(study: Study, columns: Mapping[str, FloatArray], u_c: FloatArray) -> Iterator[Doubt]:
-    """Yield the doubts about rows, each with a ratio (rows,)."""
+def _checks(
+    study: Study, columns: Mapping[str, FloatArray], u_c: FloatArray
+) -> Iterator[PlausibilityCheck]:
+    """Yield the checks of the rows, each with a ratio (rows,)."""
     entries = {**entries_of(study.scene), **columns}
     initial, *worn = _roughness(entries, u_c)
     radius = entries["motion.radius_mm"]
-    for doubt in (
-        *doubts_of_entries(entries),
-        *doubts_of_results(radius, initial, study.cycles, u_c, *worn),
+    for check in (
+        *checks_of_entries(entries),
+        *checks_of_results(radius, initial, study.cycles, u_c, *worn),
     ):
-        yield doubt._replace(ratio=np.broadcast_to(doubt.ratio, len(u_c)))
+        yield check._replace(ratio=np.broadcast_to(check.ratio, len(u_c)))
 
 
 def _roughness(entries: Mapping[str, Real], u_c: FloatArray) -> Iterator[FloatArray]:
