@@ -1,14 +1,14 @@
-"""Tables of a scene as frozen dataclasses that are checked on every way to them.
+"""Tables of a scene as frozen dataclasses that are checked wherever they are made.
 
-Pydantic collects the faults of all entries; an entry's kind says what is wrong, and what to do
-about it. The same checks run for a file, for `Scene.from_dict`, for a constructor and
-for `dataclasses.replace`.
+Pydantic collects the faults of all entries; the kind of an entry words the problem and the remedy.
+The same checks run for a file, for `Scene.from_dict`, for a constructor and for
+`dataclasses.replace`.
 
 Key results
     table       class decorator: a frozen dataclass whose construction raises `SceneError`
     Positive, NonNegative, Real, Count, Flag, Text     kinds of entries, with their words
-    problems    all that is wrong with tables, each with its path
-    all_wrong   the error for a validator to raise that finds several faults
+    problems    the faults of tables, each with its path
+    all_wrong   the error for a validator that finds several faults
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ RENAMED = {"roughness_slope": "roughness_growth", "cutoff": "ends_at_3_sigma"}
 
 T = TypeVar("T")
 Path = tuple[str | int, ...]
-"""Where a value stands: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
+"""The place of a value: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
 
 Finding = tuple[str | Path, str, str]
 """A path, which may be dotted, the problem there, and its remedy."""
@@ -44,12 +44,12 @@ Finding = tuple[str | Path, str, str]
 
 
 def wrong(problem: str, remedy: str, path: str = "") -> ValidationError:
-    """Return the error for a validator to raise: what is wrong at a path, and the remedy."""
+    """Return the error for a validator to raise: the problem at a path, and its remedy."""
     return all_wrong((path, problem, remedy))
 
 
 def all_wrong(*faults: Finding) -> ValidationError:
-    """Return the error for a validator to raise that finds (path, problem, remedy) many times."""
+    """Return the error for a validator to raise, with several (path, problem, remedy)."""
     details: list[InitErrorDetails] = [
         {
             "type": PydanticCustomError("wrong", "{problem}", {"problem": problem, "remedy": cure}),
@@ -62,7 +62,7 @@ def all_wrong(*faults: Finding) -> ValidationError:
 
 
 def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, str]]:
-    """Return all that was found wrong in a table at a `place` of another, each with its path."""
+    """Return the faults of a table at a `place` of another, each with its path."""
     return [
         ((*place, *entry["loc"]), entry["ctx"]["problem"], entry["ctx"]["remedy"])
         for entry in error.errors(include_url=False)
@@ -70,7 +70,7 @@ def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, 
 
 
 class Kind:
-    """What an entry may be, for an annotation; its call returns the value or raises `wrong`."""
+    """The kind of an entry, for an annotation; its call returns the value or raises `wrong`."""
 
     def __call__(self, raw: Any, key: str) -> Any:
         raise NotImplementedError
@@ -121,13 +121,13 @@ class Number(Kind):
 
 
 def is_sane(number: float) -> bool:
-    """Return whether a number is zero or of a magnitude that no scene exceeds."""
+    """Return whether a number is zero or of a magnitude that scenes may have."""
     return number == 0.0 or SMALLEST <= abs(number) <= LARGEST
 
 
 @dataclasses.dataclass(frozen=True)
 class Numbers(Kind):
-    """A list of at most so many numbers."""
+    """A list of at most `most` numbers."""
 
     most: int = 1_000_000
 
@@ -146,8 +146,8 @@ class Numbers(Kind):
         for place, entry in enumerate(given, start=1):
             try:
                 values.append(Number()(entry, key))
-            except ValidationError as found:
-                [(path, problem, remedy)] = problems(found)
+            except ValidationError as error:
+                [(path, problem, remedy)] = problems(error)
                 faults.append((path, f"entry {place}: {problem}", remedy))
         if faults:
             raise all_wrong(*faults)
@@ -156,7 +156,7 @@ class Numbers(Kind):
 
 @dataclasses.dataclass(frozen=True)
 class Words(Kind):
-    """Printable characters, at most so many, in one line or in several."""
+    """At most `most` printable characters, in one line or in several."""
 
     most: int = 200
     lines: bool = False
@@ -182,7 +182,7 @@ class OneOf(Kind):
 
 
 def choice(raw: object, known: Collection[str], path: str = "") -> str:
-    """Return `raw` if it is one of the known names, otherwise raise what was perhaps meant."""
+    """Return `raw` if it is one of the known names, otherwise raise with the nearest of them."""
     if isinstance(raw, str) and raw in known:
         return raw
     remedy = f"choose one of {', '.join(known)}"
@@ -225,10 +225,10 @@ Prose = Annotated[str, Words(2000, lines=True)]
 
 @dataclass(frozen=True)
 class SceneTable:
-    """A table of the scene file: `place` is its name, `kind` chooses among those of that name.
+    """A table of the scene file: `place` is its name, `kind` distinguishes tables of the same name.
 
-    `entries` are its keys with pydantic's description of each, `left_out` the values of those that
-    a file may leave out, but not a constructor.
+    `entries` are its keys with pydantic's description of each, `left_out` the defaults of those
+    that are optional in a file, but not in a constructor.
     """
 
     place: ClassVar[str] = ""
@@ -238,7 +238,7 @@ class SceneTable:
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:  # noqa: ARG003
-        """Yield (key, problem, remedy) for entries that do not go together; they may be wrong."""
+        """Yield (key, problem, remedy) for inconsistent entries, which are not yet validated."""
         yield from ()
 
     @model_validator(mode="wrap")
@@ -256,17 +256,18 @@ class SceneTable:
             given = {**cls.left_out, **{str(key): value for key, value in raw.items()}}
         else:
             try:
-                return build(raw)  # what is a table already
+                return build(raw)  # a table already
             except ValidationError:
                 remedy = f"write [{cls.place}] on a line of its own"
                 raise wrong("is not a table", remedy) from None
         unknown = [key for key in given if key not in known]
-        told = [_of_unknown(cls, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
-        meant, faults = {key for key, _ in told} - {""}, [finding for _, finding in told]
-        if len(unknown) > len(told):
+        shown_keys = [_of_unknown(cls, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
+        meant = {key for key, _ in shown_keys} - {""}
+        faults = [finding for _, finding in shown_keys]
+        if len(unknown) > len(shown_keys):
             faults.append(("", "more unknown keys", f"known here: {', '.join(cls.entries)}"))
         try:
-            made = build({key: value for key, value in given.items() if key in known})
+            instance = build({key: value for key, value in given.items() if key in known})
         except ValidationError as error:
             for entry in error.errors(include_url=False):
                 name = str(entry["loc"][0])
@@ -278,7 +279,7 @@ class SceneTable:
         faults += cls.relations(dict.fromkeys(meant, ...) | present)
         if faults:
             raise all_wrong(*faults)
-        return made
+        return instance
 
 
 TABLES: list[type[SceneTable]] = []
@@ -290,11 +291,11 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
     """Make a frozen dataclass of the table at `place`; a wrong entry raises `SceneError`."""
 
     def make(plain: type[T]) -> type[T]:
-        made: Any = dataclass(frozen=True, config=ConfigDict(extra="forbid"))(plain)
-        made.place, made.kind = place, kind
-        fields = made.__pydantic_fields__
-        made.entries = {name: entry for name, entry in fields.items() if not entry.exclude}
-        checked_init = made.__init__
+        checked: Any = dataclass(frozen=True, config=ConfigDict(extra="forbid"))(plain)
+        checked.place, checked.kind = place, kind
+        fields = checked.__pydantic_fields__
+        checked.entries = {name: entry for name, entry in fields.items() if not entry.exclude}
+        checked_init = checked.__init__
 
         @functools.wraps(checked_init)
         def init(self: T, *args: Any, **entries: Any) -> None:
@@ -308,9 +309,9 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
                     ]
                 ) from None
 
-        made.__init__ = init
-        TABLES.append(made)
-        return made  # type: ignore[no-any-return]
+        checked.__init__ = init
+        TABLES.append(checked)
+        return checked  # type: ignore[no-any-return]
 
     return make
 
@@ -329,11 +330,11 @@ def place_of(path: Path) -> tuple[str, str]:
     return words + block, shown(str(key))
 
 
-# What is wrong, in words
+# Faults in words
 
 
 def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> tuple[str, Finding]:
-    """Return the known key that an unknown one seems to stand for, '' if none, and what to say."""
+    """Return the known key that an unknown one seems to mean, '' if none, and the finding."""
     meant = RENAMED.get(name, "")
     if meant in kind.entries:
         remedy = f"renamed to {meant}"

@@ -36,7 +36,7 @@ from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
 from wear.quantities import MOST_CYCLES
 from wear.request import checked_scenes, wear_depths, whole_cycles
-from wear.resampling import Resampled, resampled
+from wear.resampling import Resampling, resampled
 from wear.scene import Scene
 
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
@@ -258,7 +258,7 @@ def sweep(
 
     u, error = _each(fewer, len(numbers), together, alone, progress)
     for row, each in enumerate(fewer):
-        error[row] += each.missed(u[row])
+        error[row] += each.wear_error(u[row])
     return Sweep(u, error)
 
 
@@ -315,7 +315,7 @@ def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
 
 @np.errstate(all="ignore")
 def _each(
-    wanted: Sequence[Resampled],
+    wanted: Sequence[Resampling],
     number: int,
     together: Callable[[Sequence[Scene]], Answer],
     alone: Callable[[Scene], Answer],

@@ -1,4 +1,4 @@
-"""What can go wrong on the user's side: faults of a scene, bad usage, an accuracy out of reach."""
+"""Exceptions for users: faults of a scene, bad usage, an accuracy out of reach."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MOST_FAULTS_SHOWN = 50
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing that is wrong with a scene, where it stands and how to mend it.
+    """A fault of a scene, with its place and its remedy.
 
     `file` names the scene file, the CSV file of a load, or the `--set` option at fault; `line`
     counts from 1; `table` and `key` are empty where the fault is not in one.
@@ -37,7 +37,7 @@ class Fault:
 
 
 class WearError(Exception):
-    """What this package raises where the request is at fault, or the accuracy out of reach.
+    """Base of the exceptions for a faulty request, or an accuracy out of reach.
 
     `SceneError` and `UsageError` are also `ValueError`s, `AccuracyError` an `ArithmeticError`.
     """
@@ -57,14 +57,14 @@ class SceneError(WearError, ValueError):
 
 
 class UsageError(WearError, ValueError):
-    """A request that makes no sense, in words for the user (exit status 2)."""
+    """An invalid request, in words for the user (exit status 2)."""
 
 
 class Faults(list[str]):
-    """What is wrong with a request, gathered until `stop_if_any`."""
+    """The faults of a request, collected until `stop_if_any`."""
 
     def stop_if_any(self) -> None:
-        """Raise a `UsageError` with all of it, a line each."""
+        """Raise a `UsageError` with all of them, a line each."""
         if self:
             raise UsageError("\n".join(self))
 
@@ -72,7 +72,7 @@ class Faults(list[str]):
 class AccuracyError(WearError, ArithmeticError):
     """A solver could not reach the requested accuracy (exit status 3).
 
-    `best` is what it has: a `History` where `solve` raises it, else None.
+    `best` is the best result: a `History` where `solve` raises it, otherwise None.
     """
 
     def __init__(self, message: str, best: Any = None) -> None:
@@ -80,10 +80,10 @@ class AccuracyError(WearError, ArithmeticError):
         self.best = best
 
 
-class Interrupted(WearError):  # noqa: N818  # no error: what was computed is good
+class Interrupted(WearError):  # noqa: N818  # no error: the results so far are valid
     """Ctrl-C or a time limit ended a run early (exit status 130).
 
-    `history` is the `History` that it has.
+    `history` is the `History` up to there.
     """
 
     def __init__(self, message: str, history: Any) -> None:
@@ -91,5 +91,5 @@ class Interrupted(WearError):  # noqa: N818  # no error: what was computed is go
         self.history = history
 
 
-class WorkersLost(WearError):  # noqa: N818  # no error of ours: what was computed is kept
-    """The workers of a study went away (exit status 130); the same command goes on."""
+class WorkersLost(WearError):  # noqa: N818  # no error of ours: the results so far are kept
+    """The workers of a study were lost (exit status 130); the same command resumes it."""

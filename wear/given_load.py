@@ -3,7 +3,7 @@
 The pressure follows from the reaction alone, the wear rate from the pressure; neither depends on
 the wear. Roughness, closure and displacement of the pin follow from the wear. All formulas are
 those of the variants with a compliant support, which take the pressure as an argument; a rigid
-support is one that gives way by nothing.
+support has the compliance zero.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Area(NamedTuple):
 
 @dataclass(frozen=True)
 class GivenLoad(Model):
-    """A model whose load is the reaction R_a of the pin in N, in place of its displacement."""
+    """A model whose load is the reaction R_a of the pin in N, not its displacement."""
 
     area: Area = field(kw_only=True)
 
@@ -81,8 +81,8 @@ class GivenLoad(Model):
         return super().fields_under(p, u, self.displacement(u, R_a))
 
     def displacement(self, u: Real, R_a: Real) -> Real:
-        """Return the displacement U_a in mm that brings about the reaction; no number where that
-        is zero, since the contact law ends nowhere."""
+        """Return the displacement U_a in mm that causes the reaction; NaN for a zero reaction,
+        since the contact law never vanishes."""
         p = self.pressure(u, R_a)
         resting = super().fields_under(p, u, 0.0 * p)
         ratio = _increasing_root(
@@ -96,9 +96,9 @@ class GivenLoad(Model):
 
 def _increasing_root(function: Callable[..., Real], arguments: tuple[Real, ...]) -> Real:
     """Return the root of an increasing function of one variable of order 1, for broadcast
-    `arguments`; no number where there is none."""
+    `arguments`; NaN without a root."""
     from scipy.optimize.elementwise import bracket_root, find_root
 
     with np.errstate(all="ignore"):
-        found = bracket_root(function, 0.0, 4.0, args=arguments)
-        return find_root(function, found.bracket, args=arguments).x
+        bracket = bracket_root(function, 0.0, 4.0, args=arguments).bracket
+        return find_root(function, bracket, args=arguments).x

@@ -1,4 +1,4 @@
-"""What may be asked of a solver: every fault of a request becomes a sentence among its `faults`."""
+"""Checks of a request to a solver: every fault becomes a sentence among its `faults`."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
 
 
 def is_number(given: object) -> bool:
-    """Return whether something is a real number and no truth value."""
+    """Return whether an object is a real number and no truth value."""
     return isinstance(given, numbers.Real) and not isinstance(given, bool)
 
 
 def whole_cycles(
     cycles: float | Iterable[float], faults: Faults, least: int = 0
 ) -> tuple[int, ...]:
-    """Return numbers of cycles, or one, as integers; what is none of them is among the `faults`."""
+    """Return numbers of cycles, or one, as integers; invalid ones are added to the `faults`."""
     several = _several(cycles)
     wanted = []
     for n in several:
@@ -44,7 +44,7 @@ def whole_cycles(
 
 
 def cycles_along(first: float, last: float, points: int, *others: ArrayLike) -> list[int]:
-    """Return numbers of cycles, the same share apart, for a curve; and `others`, in order.
+    """Return numbers of cycles in geometric progression for a curve, merged with `others`.
 
     >>> cycles_along(1, 1000, 4, [0, 500])
     [0, 1, 10, 100, 500, 1000]
@@ -54,7 +54,7 @@ def cycles_along(first: float, last: float, points: int, *others: ArrayLike) -> 
 
 
 def wear_depths(wear_mm: float | Iterable[float], faults: Faults) -> tuple[float, ...]:
-    """Return depths of wear in mm, or one; what is none of them is among the `faults`."""
+    """Return depths of wear in mm, or one; invalid ones are added to the `faults`."""
     depths = []
     for depth in _several(wear_mm):
         if is_number(depth) and 0.0 <= depth < math.inf:
@@ -65,7 +65,8 @@ def wear_depths(wear_mm: float | Iterable[float], faults: Faults) -> tuple[float
 
 
 def _several(given: Any) -> list[Any]:
-    """Return the numbers of a list, an array, a series of pandas or xarray, or one as a list."""
+    """Return a list of the numbers of a list, an array, a series of pandas or xarray, or of one
+    number."""
     if hasattr(given, "to_numpy"):
         given = given.to_numpy()
     if isinstance(given, np.ndarray | np.generic):
@@ -86,7 +87,7 @@ def check_rtol(rtol: float, faults: Faults, least: float = LEAST_RTOL) -> None:
 def checked_scenes(
     scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: Faults
 ) -> list[Scene]:
-    """Return the scenes of a request for many, or raise its `faults` and those found here."""
+    """Return the scenes of a request for many, or raise its `faults`, these checks' included."""
     check_rtol(rtol, faults)
     if isinstance(scenes, str) or not isinstance(scenes, Sequence):
         faults.append("scenes: give a list of them")
@@ -95,7 +96,7 @@ def checked_scenes(
 
 
 def obstacle(scene: Scene) -> str | None:
-    """Return why cycles of this scene cannot be counted, None if they can."""
+    """Return the reason why cycles of this scene cannot be counted, None if they can."""
     return "the load does not repeat" if isinstance(scene.load, HistoryLoad) else None
 
 
@@ -116,7 +117,7 @@ def checked_request(
     Raises
     ------
     UsageError
-        that says everything that is wrong with the request.
+        with all faults of the request.
     """
     faults = Faults()
     wanted = whole_cycles(cycles, faults)

@@ -1,9 +1,9 @@
-"""Fewer rows for a measured load: as few as the requested accuracy of the wear allows.
+"""Resampling of a measured load: as few rows as the requested accuracy of the wear allows.
 
-Rows are merged by weighted least squares, which keeps the mean of the load over every stretch, so
-that noise changes the wear in second order only. What merging changes is measured: the largest
-part of a cycle's wear by which the two loads ever differ within the cycle, without feedback, over
-wears from none to the deepest. Neither offset nor trend is removed.
+Rows are merged by weighted least squares, which preserves the mean of the load over every section,
+so that noise changes the wear in second order only. The error of merging is computed: the largest
+difference of the wear under both loads within a cycle, relative to the wear of the cycle, without
+feedback, over wears from zero to the deepest. Neither offset nor trend is removed.
 """
 
 from __future__ import annotations
@@ -25,22 +25,22 @@ from wear.scene import Scene
 
 Rows = Table | ForceTable
 
-FEWEST_ROWS = 64  # a load of fewer costs next to nothing
-NODES = 6  # between two rows, to measure what merging changes
+FEWEST_ROWS = 64  # a load with fewer costs next to nothing
+NODES = 6  # between two rows, to compute the error of merging
 SHARE = 0.25  # of the requested error, for merging
-STEPS = (128, 64, 32, 16, 8, 6, 4, 3, 2)  # rows that become one
+STEPS = (128, 64, 32, 16, 8, 6, 4, 3, 2)  # rows that are merged into one
 WEARS = np.concatenate([[0.0], np.geomspace(0.01, 1e4, 8)])  # in roughnesses
 
 
-class Resampled(NamedTuple):
-    """A scene with fewer rows, the relative `error` of its wear by that, and what to say."""
+class Resampling(NamedTuple):
+    """A scene with fewer rows, the resulting relative `error` of its wear, and notices."""
 
     scene: Scene
     error: float
     notices: tuple[str, ...]
 
-    def missed(self, wear: FloatArray) -> FloatArray:
-        """Return the relative error of wears (n,), more where the wear accelerates."""
+    def wear_error(self, wear: FloatArray) -> FloatArray:
+        """Return the relative error of wears (n,), larger where the wear accelerates."""
         if not self.error:
             return np.zeros(wear.shape)
         model, load = bind(self.scene), self.scene.periodic_load
@@ -48,33 +48,32 @@ class Resampled(NamedTuple):
         return self.error * np.array(grown)
 
 
-def resampled(scene: Scene, rtol: float) -> Resampled:
+def resampled(scene: Scene, rtol: float) -> Resampling:
     """Return a scene whose measured load has as few rows as `rtol` allows.
 
-    Only rows of a file that lets it by `resample = true` are merged, and none where contact may be
-    lost: there the wear depends on single rows.
+    Only rows of a file with `resample = true` are merged, and none where contact may be lost: there
+    the wear depends on single rows.
     """
     load = scene.load
     if not isinstance(load, Rows) or load.source is None or not load.source.resample:
-        return Resampled(scene, 0.0, ())
+        return Resampling(scene, 0.0, ())
     if len(load.times_s) < FEWEST_ROWS or scene.contact.ends_at_3_sigma:
-        return Resampled(scene, 0.0, ())
+        return Resampling(scene, 0.0, ())
     model, rows = bind(scene), len(load.times_s) - 1
     for step in (step for step in STEPS if rows >= FEWEST_ROWS * step / 2):
         fewer = _merged(load, step)
         error = _changed(model, load, fewer)
         if error <= SHARE * rtol:
-            left = len(fewer.times_s) - 1
-            said = (
-                f"{rows} rows of the load are merged to {left}, which changes the wear by at most "
-                f"{error:.1e} of it; resample = false keeps all"
+            notice = (
+                f"{rows} rows of the load are merged to {len(fewer.times_s) - 1}, which changes "
+                f"the wear by at most {error:.1e} of it; resample = false keeps all"
             )
-            return Resampled(dataclasses.replace(scene, load=fewer), error, (said,))
-    said = f"all {rows} rows of the load are kept: fewer would change the wear by more than rtol"
-    return Resampled(scene, 0.0, (said,))
+            return Resampling(dataclasses.replace(scene, load=fewer), error, (notice,))
+    notice = f"all {rows} rows of the load are kept: fewer would change the wear by more than rtol"
+    return Resampling(scene, 0.0, (notice,))
 
 
-@lru_cache(maxsize=64)  # many scenes on one load share what it is merged to
+@lru_cache(maxsize=64)  # many scenes with one load share its merged rows
 def _merged(load: Rows, step: int) -> Rows:
     """Return the periodic line with every `step`-th row as a corner, by least squares."""
     from scipy.sparse import csr_array, diags_array
@@ -96,7 +95,7 @@ def _merged(load: Rows, step: int) -> Rows:
     lengths = np.diff(times)
     weights = diags_array((lengths + np.roll(lengths, 1)) / 2)
     levels = spsolve((hats.T @ weights @ hats).tocsc(), hats.T @ (weights @ values[:-1]))
-    levels[np.abs(levels) < SMALLEST] = 0.0  # what rounding leaves where the load is zero
+    levels[np.abs(levels) < SMALLEST] = 0.0  # rounding errors where the load is zero
     closed = tuple(np.append(levels, levels[0]).tolist())
     fewer = tuple(corners.tolist())
     if isinstance(load, ForceTable):
@@ -105,17 +104,18 @@ def _merged(load: Rows, step: int) -> Rows:
 
 
 def _changed(model: Model, load: Rows, fewer: Rows) -> float:
-    """Return the largest part of the wear of a cycle by which two loads differ within it."""
+    """Return the largest difference of the wear under two loads within a cycle, relative to its
+    wear."""
     equation = WearEquation(model, (load,))
     wears = np.minimum(float(equation.scale[0]) * WEARS, float(equation.limit[0]))
-    over = mesh(np.append(load.kinks, 1.0), NODES)
-    worn, other = (_worn(equation, each, wears, over) for each in (load, fewer))
-    apart = np.abs(np.cumsum(worn, axis=1) - np.cumsum(other, axis=1))
-    return float(np.max(np.max(apart, axis=1) / (np.sum(worn, axis=1) + TINY)))
+    phases = mesh(np.append(load.kinks, 1.0), NODES)
+    exact, merged = (_increments(equation, each, wears, phases) for each in (load, fewer))
+    difference = np.abs(np.cumsum(exact, axis=1) - np.cumsum(merged, axis=1))
+    return float(np.max(np.max(difference, axis=1) / (np.sum(exact, axis=1) + TINY)))
 
 
-def _worn(equation: WearEquation, load: Rows, wears: FloatArray, over: Mesh) -> FloatArray:
-    """Return the wear (k, q) of every interval at frozen `wears` (k,)."""
-    rate = equation.rate(wears[None, :, None, None], load(over.phases)[None, None])[0]
-    worn: FloatArray = (rate @ over.rule.weights) * over.lengths
-    return worn
+def _increments(equation: WearEquation, load: Rows, wears: FloatArray, on: Mesh) -> FloatArray:
+    """Return the wear (k, q) of every interval of phase at frozen `wears` (k,)."""
+    rate = equation.rate(wears[None, :, None, None], load(on.phases)[None, None])[0]
+    increments: FloatArray = (rate @ on.rule.weights) * on.lengths
+    return increments

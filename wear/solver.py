@@ -76,7 +76,7 @@ def solve(
     deadline = np.inf if time_limit is None else start + time_limit
     fewer = resampled(scene, rtol)
     wear = _solved(model, fewer.scene, wanted, rtol - fewer.error, method, deadline, progress)
-    error = wear.error + fewer.missed(wear.u)
+    error = wear.error + fewer.wear_error(wear.u)
     wear = wear._replace(error=error, notices=(*fewer.notices, *wear.notices))
     history = _history(scene, model, wanted, wear, rtol, time.monotonic() - start)
     if wear.interrupted:

@@ -1,4 +1,4 @@
-"""The commands, a module each. A module defines `COMMAND`; `wear.cli` has the table of them.
+"""The commands, a module each, with `add_arguments` and `execute`; `wear.cli` lists them.
 
-Modules are light at import: what a command needs to do its work is imported when it does it.
+Modules are light at import: a command imports its tools when it runs.
 """

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 MOST_IN_RANGE = 1_000_000  # numbers of cycles
 PICTURES = (".pdf", ".png", ".svg")
 _THOUSANDS = re.compile(r"0\d+|\d{1,3}(\.\d{3})+")
-"""What a comma leaves of 9,000, and 9.000: not to be read as 9 and 0, or as 9."""
+"""The parts of 9,000 at its comma, and 9.000: not to be read as 9 and 0, or as 9."""
 
 
 def add_scene(parser: Parser, default: str | None = None, *, several: bool = False) -> None:
-    """Declare the scene or scenes, which may be left out if there is a default, and `--set`."""
+    """Declare the scene or scenes, optional if there is a default, `--set` and `--strict`."""
     about = "a built-in scene (wear scenes lists them) or a TOML file"
     if default is not None:
         about += f" (default: {default})"
@@ -40,7 +40,7 @@ def add_scene(parser: Parser, default: str | None = None, *, several: bool = Fal
     about = "override one entry of the scene, as in bearing.hardness_MPa=200; may be repeated"
     kept: dict[str, Any] = {"action": "append", "default": [], "dest": "overrides"}
     declare(parser, "--set TABLE.KEY=VALUE", about, _entries, **kept)
-    about = "refuse what is legal but implausible (a notice otherwise), with status 2"
+    about = "refuse implausible values with status 2 (otherwise they give notices)"
     declare(parser, "--strict", about)
 
 
@@ -52,7 +52,7 @@ def built_in_names() -> Sequence[str]:
 
 
 def _entries() -> Sequence[str]:
-    """Return the beginnings of what `--set` takes, but for the load, whose keys vary."""
+    """Return completions of `--set`, without those of the load, whose keys vary."""
     from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 
     tables = (Bearing, Pin, Contact, Support, Motion)
@@ -60,13 +60,13 @@ def _entries() -> Sequence[str]:
 
 
 def add_readings(parser: Parser, help: str) -> None:
-    """Declare a file of readings of the scene, of which `read` makes `options.readings`."""
+    """Declare a file of readings of the scene, which `read` puts into `options.readings`."""
     parser.set_defaults(readings=())
     declare(parser, "--data FILE.csv", help)
 
 
 def one_of(choices: Callable[[], Sequence[str]]) -> Callable[[str], str]:
-    """Return what reads one of some words, whatever the case of its letters."""
+    """Return a reader of one of some words, in any case of letters."""
 
     def chosen(text: str) -> str:
         exact = {choice.lower(): choice for choice in choices()}
@@ -89,12 +89,12 @@ def add_choice(
     help: str,
     **about: Any,
 ) -> None:
-    """Declare a choice among words, which are completed."""
+    """Declare a choice among words, which shells complete."""
     declare(parser, usage, help, choices, type=one_of(choices), **about)
 
 
 def add_rtol(parser: Parser, low: float, default: str, of: str = " of the wear") -> None:
-    """Declare the requested accuracy, down to the lowest that can be asked for."""
+    """Declare the requested accuracy, with its lower limit."""
     about = f"requested relative accuracy{of} (default: %(default)s)"
     declare(parser, "--rtol RTOL", about, type=number(low, 0.1), default=default)
 
@@ -115,12 +115,12 @@ def add_depth(parser: Parser, help: str) -> None:
 
 
 def add_folder(parser: Parser, help: str, default: str | None = None) -> None:
-    """Declare the folder to be written to."""
+    """Declare the output folder."""
     declare(parser, "-o, --output DIR", help, type=folder, default=default)
 
 
 def cycles(text: str) -> tuple[int, ...]:
-    """Return numbers of cycles, 0 being the fresh state, from a list of numbers and ranges.
+    """Return numbers of cycles, 0 for the initial state, from a list of numbers and ranges.
 
     >>> cycles("1, 10:13,1e8")
     (1, 10, 11, 12, 13, 100000000)
@@ -146,24 +146,24 @@ def cycles(text: str) -> tuple[int, ...]:
 
 
 def number(low: float, high: float) -> Callable[[str], float]:
-    """Return what reads a number within bounds.
+    """Return a reader of a number within bounds.
 
     >>> number(1e-15, 0.1)("1e-10")
     1e-10
     """
 
     def bounded(text: str) -> float:
-        found = _number(text)
-        if not low <= found <= high:
+        value = _number(text)
+        if not low <= value <= high:
             raise ArgumentTypeError(f"{_quoted(text)} is no number from {low:g} to {high:g}")
-        return found
+        return value
 
     return bounded
 
 
 def file(*suffixes: str) -> Callable[[str], Path]:
-    """Return what reads the name of a file to be written, with one of these suffixes; those of
-    pictures may be in capitals."""
+    """Return a reader of the name of an output file, with one of these suffixes; those of pictures
+    may be in capitals."""
 
     def place(text: str) -> Path:
         suffix = Path(text).suffix
@@ -175,7 +175,7 @@ def file(*suffixes: str) -> Callable[[str], Path]:
 
 
 def folder(text: str) -> Path:
-    """Return a folder to be written to, which is made if need be."""
+    """Return an output folder, which is made if it is missing."""
     return _free(text, files.obstacle_to_folder(text))
 
 
@@ -197,17 +197,16 @@ def _quoted(text: str) -> str:
 
 
 def refuse_implausible(notices: Sequence[str], faults: Faults) -> None:
-    """Make faults of the notices about magnitudes that are hardly meant."""
+    """Make faults of the notices of implausible magnitudes."""
     from wear.scene.notices import WORD
 
     faults += [notice for notice in notices if notice.startswith(WORD)]
 
 
 def read(options: Options) -> Faults:
-    """Put the scene, or the scenes, and their readings in the place of their names; return what is
-    wrong with these and with all other arguments.
+    """Replace the names of the scenes and readings by these; return the faults of all arguments.
 
-    What has faults is None; a command stops at faults before it looks at values.
+    An argument with faults is None; a command stops at faults before it uses values.
     """
     faults = Faults(options.faults)
     names = getattr(options, "scene", [])
@@ -235,17 +234,16 @@ def _scene(name: str, options: Options, faults: Faults) -> Scene | None:
 
 
 def _readings(file: str, scenes: Sequence[Scene], faults: Faults) -> tuple[Specimen, ...]:
-    """Return the readings of a CSV file; entries of the scene that it names are tried in the first
-    scene."""
+    """Return the readings of a CSV file; its entries of the scene are tried in the first scene."""
     from wear.faults import WearError
     from wear.fitting.readings import read_readings
 
     try:
-        found = read_readings(file)
+        specimens = read_readings(file)
         for scene in scenes[:1]:
-            for each in found:
+            for each in specimens:
                 scene.with_(each.changes)
     except WearError as fault:
         faults.append(f"--data: {fault}")
         return ()
-    return found
+    return specimens

@@ -1,4 +1,4 @@
-"""`wear asymptote`: what becomes of the wear in the long run.
+"""`wear asymptote`: the long-term behaviour of the wear.
 
 examples:
   wear asymptote section4           regime, wear per cycle, pressure, logarithm
@@ -44,21 +44,21 @@ def execute(options: Options) -> Answer:
 
     arguments.read(options).stop_if_any()
     with terminal.busy("seeking the asymptote"):
-        found = asymptote(options.scene)
-    notices = () if options.json else found.notices  # the document has them
-    return Answer(asdict(found), lambda: "\n".join(_lines(found)), notices)
+        result = asymptote(options.scene)
+    notices = () if options.json else result.notices  # the document has them
+    return Answer(asdict(result), lambda: "\n".join(_lines(result)), notices)
 
 
-def _lines(found: Asymptote) -> Iterator[str]:
-    """The constants that apply, a line each."""
+def _lines(result: Asymptote) -> Iterator[str]:
+    """Yield the constants that apply, a line each."""
     rows = [
         (label, value, unit)
         for name, (label, unit) in _LABELS.items()
-        if (value := getattr(found, name)) is not None
+        if (value := getattr(result, name)) is not None
     ]
     rows += [
         (f"cycles until {name.replace('_', ' ')}", cycles, "")
-        for name, cycles in found.cycles_to_stabilise.items()
+        for name, cycles in result.cycles_to_stabilise.items()
         if cycles is not None
     ]
     width = max(len(label) for label, _, _ in rows)

@@ -29,9 +29,9 @@ HARD_SECONDS, HARD_SECONDS_QUICK = 2.0, 0.3
 
 
 def add_arguments(parser: Parser) -> None:
-    """Declare what to measure and how long."""
+    """Declare the methods, the effort and the output folder."""
     about = (
-        "also cycle jumps and averaging, and what is installed of heyoka, diffrax, JiTCODE, "
+        "also cycle jumps and averaging, and those installed of heyoka, diffrax, JiTCODE, "
         "SUNDIALS, numba (pip install 'derive-wear[peers]'); in a checkout of the source"
     )
     declare(parser, "--peers", about)
@@ -43,7 +43,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def execute(options: Options) -> Answer:
-    """Measure, print, write."""
+    """Measure speed or hard cases, and report."""
     faults = arguments.read(options)
     if options.hard and options.peers:
         faults.append("--peers: the hard cases are for the package's own methods and SciPy's")
@@ -65,8 +65,8 @@ def _speed(options: Options) -> Answer:
             "speed.json": terminal.json_text(document),
         }
         files.write_all(options.output, contents | _figures(result))
-    said = (*output.sentences(result.runs, output.READER), "", *output.absences(result))
-    lines = (*_tables(output.tables(result)), *said, footer(result.facts))
+    text = (*output.sentences(result.runs, output.READER), "", *output.absences(result))
+    lines = (*_tables(output.tables(result)), *text, footer(result.facts))
     return Answer(document, lambda: "\n".join(lines))
 
 
@@ -93,19 +93,19 @@ def _measure(options: Options) -> Result:
 
 
 def _methods(*, peers: bool) -> tuple[Sequence[Method], dict[str, tuple[str, ...]]]:
-    """The methods that can run here, and what the others lack."""
+    """Return the methods that can run here, and the missing requirements of the others."""
     from wear.benchmark.machine import missing
     from wear.benchmark.methods import OWN
 
-    wanted = OWN
+    methods = OWN
     if peers:
-        wanted = (*OWN, *load_peers("jumps").JUMPS, *load_peers("peers").PEERS)
-    absent = {method.name: lack for method in wanted if (lack := missing(method))}
-    return [method for method in wanted if method.name not in absent], absent
+        methods = (*OWN, *load_peers("jumps").JUMPS, *load_peers("peers").PEERS)
+    absent = {method.name: lack for method in methods if (lack := missing(method))}
+    return [method for method in methods if method.name not in absent], absent
 
 
 def load_peers(name: str) -> ModuleType:
-    """Return a module of other methods, "jumps" or "peers", which lies beside the documentation.
+    """Return a module of other methods, "jumps" or "peers", from the folder `docs/bench`.
 
     Raises
     ------
@@ -126,8 +126,8 @@ def load_peers(name: str) -> ModuleType:
 
 
 def _figures(result: Result) -> dict[str, bytes]:
-    """Return the figures by name of the file: time against the number of cycles, and against true
-    error for the numbers of cycles worth a figure."""
+    """Return the figures by file name: time against the number of cycles, and against true error
+    for numbers of cycles at which methods can be compared."""
     from wear.benchmark.results import DIGITS, READER, comparable, curves, curves_by_cycles
     from wear.figure_style import encoded
     from wear.figures import speed_against_cycles, speed_against_error

@@ -1,4 +1,4 @@
-"""`wear cite`: what to cite, as BibTeX.
+"""`wear cite`: references to cite, as BibTeX.
 
 examples:
   wear cite > derive-wear.bib     all entries, each with when to cite it

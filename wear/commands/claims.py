@@ -60,7 +60,8 @@ def _known() -> Sequence[str]:
 
 
 def _summary(verdicts: Sequence[str]) -> str:
-    """
+    """Return the number of claims by verdict.
+
     >>> _summary(["confirmed", "refuted", "confirmed"])
     '3 claims: 2 confirmed, 1 refuted'
     """

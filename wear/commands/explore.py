@@ -1,4 +1,4 @@
-"""`wear explore`: an interactive page: the wear follows the parameters.
+"""`wear explore`: an interactive page, in which the wear follows the parameters.
 
 examples:
   wear explore                          section4 of the note, into explorer.html

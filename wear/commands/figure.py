@@ -5,7 +5,7 @@ examples:
   wear figure section4 -o wear.svg --cycles 1e8 --log       on a logarithmic axis
   wear figure scene.toml -o wear.png --set contact.ends_at_3_sigma=true
   wear figure mild.toml hard.toml -o both.svg --until-wear 2e-3 --axis hours
-  wear figure scene.toml -o wear.pdf --data readings.csv    with what was measured
+  wear figure scene.toml -o wear.pdf --data readings.csv    with measured wear
   wear figure section4 -o pulses.svg --inside 0,10,100      the pressure within three cycles
 """
 
@@ -46,7 +46,7 @@ def add_arguments(parser: Parser) -> None:
     declare(parser, "--log", about)
     about = "draw readings beside the wear: columns cycles, wear_mm or wear_um, and specimen"
     arguments.add_readings(parser, about)
-    arguments.add_depth(parser, "draw this limit of the wear, and when it is reached")
+    arguments.add_depth(parser, "draw this limit of the wear, and the cycle that reaches it")
     about = (
         "instead: the contact pressure within the cycles that begin after these numbers of "
         "cycles, 0 for the first"
@@ -95,9 +95,9 @@ def _against_cycles(options: Options, last: int) -> Answer:
         runs = {each.name: options.scene[0].with_(each.changes) for each in options.readings}
     cycles = cycles_along(1, last, POINTS, [] if options.log else np.linspace(0, last, POINTS))
     with terminal.busy("counting cycles") as tell:
-        found = [solve(scene, cycles, rtol=1e-6, progress=tell) for scene in runs.values()]
-    wear, *others = panels_of(found, tuple(runs), abscissa)
-    summary = _summary(found[0].scene, cycles, options.output) | {"scenes": list(runs)}
+        histories = [solve(scene, cycles, rtol=1e-6, progress=tell) for scene in runs.values()]
+    wear, *others = panels_of(histories, tuple(runs), abscissa)
+    summary = _summary(histories[0].scene, cycles, options.output) | {"scenes": list(runs)}
     lines: list[str] = []
     if limit is not None:
         lives = [cycles_until(scene, limit, rtol=1e-6) for scene in runs.values()]
@@ -105,12 +105,12 @@ def _against_cycles(options: Options, last: int) -> Answer:
         reached = [life.reached[0].value for life in lives]
         summary |= {"cycles_until": ends, "reached": reached}
         for name, end, way in zip(runs, ends, reached, strict=True):
-            said = f"{end:.0f} cycles" if math.isfinite(end) else way
-            lines.append(f"{name}: {limit:g} mm: {said}")
+            cycle = f"{end:.0f} cycles" if math.isfinite(end) else way
+            lines.append(f"{name}: {limit:g} mm: {cycle}")
     shown = replace(wear, points=points_of(options.readings, runs, abscissa), limit=limit)
     drawn = history([shown, *others], abscissa=abscissa, logarithmic=options.log)
     _write(drawn, options.output)
-    notices = dict.fromkeys(n for each in found for n in run_output.worth_telling(each))
+    notices = dict.fromkeys(n for each in histories for n in run_output.notices_of(each))
     return Answer(summary, lambda: "\n".join(lines), tuple(notices))
 
 

@@ -26,7 +26,7 @@ QUANTILES = (0.025, 0.5, 0.975)  # of the posterior
 
 
 def add_arguments(parser: Parser) -> None:
-    """Declare data, scene, what is free and what is asked."""
+    """Declare the data, the scene, its free entries and the requested results."""
     about = (
         "columns cycles and wear_mm or wear_um; if need be standard_error_mm, specimen, and "
         "entries of the scene such as load.value_mm"
@@ -37,18 +37,18 @@ def add_arguments(parser: Parser) -> None:
     declare(parser, "--free KEY ...", "estimate one value for all specimens", **kept)
     declare(parser, "--free-each KEY ...", "estimate one value for each specimen", **kept)
     declare(parser, "--ignore COLUMN ...", "columns of the data to drop", **kept)
-    about = "which error of a reading scatters: relative (default) or absolute"
+    about = "the scatter of readings: relative (default) or absolute"
     arguments.add_choice(parser, "--error ERROR", lambda: ERRORS, about, default=ERRORS[0])
     about = "the wear after these cycles, with band"
     arguments.add_cycles(parser, about, usage="--forecast N,...")
     arguments.add_depth(parser, "cycles to a wear depth, with band")
-    about = "also sample the posterior by emcee, so many steps for each walker"
+    about = "also sample the posterior by emcee, with this number of steps for each walker"
     declare(parser, "--posterior STEPS", about, type=arguments.number(10, 1e6))
     arguments.add_folder(parser, "write fit.json, fitted.toml and the figures there")
 
 
 def execute(options: Options) -> Answer:
-    """Fit."""
+    """Fit the free entries to the data."""
     import numpy as np
 
     from wear.faults import UsageError
@@ -72,22 +72,22 @@ def execute(options: Options) -> Answer:
     faults.stop_if_any()
     assert model is not None
     with terminal.busy("fitting") as tell:
-        found = Fit.of(model, progress=tell)
+        result = Fit.of(model, progress=tell)
         tell("sampling the posterior")
-        samples = posterior(found, int(options.posterior)) if options.posterior else None
+        samples = posterior(result, int(options.posterior)) if options.posterior else None
         tell("forecasting")
-        document = {"scene": "", "data": options.data} | found.as_json(cycles, wear)
+        document = {"scene": "", "data": options.data} | result.as_json(cycles, wear)
     if samples is not None:
         for row, ends in zip(document["parameters"], np.quantile(samples, QUANTILES, axis=0).T,
                              strict=True):  # fmt: skip
             row |= {"posterior_median": ends[1], "posterior_95": [ends[0], ends[2]]}
     if options.output is not None:
-        _write(options.output, found, document, samples)
+        _write(options.output, result, document, samples)
     return Answer(document, lambda: "\n".join(_lines(document)), document["notices"])
 
 
 def _lines(document: dict[str, Any]) -> Iterator[str]:
-    """Yield what came out, for a reader."""
+    """Yield the lines of the fit report."""
     yield document["scene"]
     yield (f"{document['observations']} readings of "
            f"{terminal.count(document['specimens'], 'specimen')}, rms {document['rms']:.3g}, "
@@ -129,7 +129,7 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
 
 
 def _end(value: float, digits: int = 4) -> str:
-    """Return a number, or that it is open.
+    """Return a number in words; "open" if it is infinite.
 
     >>> _end(0.12345), _end(-float("inf"))
     ('0.1235', 'open')
@@ -137,17 +137,17 @@ def _end(value: float, digits: int = 4) -> str:
     return f"{value:.{digits}g}" if abs(value) < float("inf") else "open"
 
 
-def _write(folder: Path, found: Fit, document: dict[str, Any], samples: FloatArray | None) -> None:
-    """Write the document, the scenes with the estimates, and the figures, all or none."""
+def _write(folder: Path, result: Fit, document: dict[str, Any], samples: FloatArray | None) -> None:
+    """Write the document, the fitted scenes and the figures, all or none."""
     from wear.figure_style import encoded
     from wear.fitting import figures
 
-    drawn = {"data.svg": figures.data_and_band(found), "profiles.svg": figures.profiles(found)}
+    drawn = {"data.svg": figures.data_and_band(result), "profiles.svg": figures.profiles(result)}
     if samples is not None:
-        drawn["corner.svg"] = figures.corner(found, samples)
+        drawn["corner.svg"] = figures.corner(result, samples)
     contents: dict[str, str | bytes] = {"fit.json": terminal.json_text(document)}
-    scenes = found.scenes
-    for place, (specimen, scene) in enumerate(zip(found.model.specimens, scenes, strict=True)):
+    scenes = result.scenes
+    for place, (specimen, scene) in enumerate(zip(result.model.specimens, scenes, strict=True)):
         safe = "".join(c if c.isalnum() or c in "-_" else "_" for c in specimen.name)
         name = f"fitted-{safe or place + 1}.toml" if len(scenes) > 1 else "fitted.toml"
         contents[name] = scene.to_toml()

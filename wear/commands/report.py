@@ -3,7 +3,7 @@
 examples:
   wear report scene.toml              into the folder scene-report
   wear report section4 -o elsewhere   model, data, equations, wear, life
-  wear report scene.toml --data readings.csv      and what was measured
+  wear report scene.toml --data readings.csv      with measured wear
 """
 
 from __future__ import annotations
@@ -39,4 +39,4 @@ def execute(options: Options) -> Answer:
         contents, typeset = published(report(options.scene, command, options.readings))
         files.write_all(folder, contents)
     document = {"folder": str(folder), "files": sorted(contents)}
-    return Answer(document, lambda: f"report: {folder / 'report.html'}", typeset.said)
+    return Answer(document, lambda: f"report: {folder / 'report.html'}", typeset.notices)

@@ -1,7 +1,7 @@
-"""`wear reproduce`: derive, solve and judge everything: the report.
+"""`wear reproduce`: derive, solve and check everything, and write the report.
 
 examples:
-  wear reproduce               writes report/report.html and all that belongs to it
+  wear reproduce               writes report/report.html with its files
   wear reproduce -o elsewhere  into another folder
 """
 
@@ -21,7 +21,7 @@ from wear.commands import arguments
 if TYPE_CHECKING:
     from derive.verification import Verification
     from wear.report.claims import Entry
-    from wear.report.publish import Typeset
+    from wear.report.publish import PdfOutcome
 
 
 def add_arguments(parser: Parser) -> None:
@@ -30,7 +30,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def execute(options: Options) -> Answer:
-    """Derive, verify, solve, judge, and write the report."""
+    """Derive, verify, solve, decide the claims, and write the report."""
     arguments.read(options).stop_if_any()
     folder = options.output
     start = time.monotonic()
@@ -50,14 +50,14 @@ def execute(options: Options) -> Answer:
         "seconds": time.monotonic() - start,
     }
     status = terminal.DONE if verification.passed else terminal.FAILED
-    notices = (*typeset.said, *(failure.replace(":", " fails:", 1) for failure in failures))
+    notices = (*typeset.notices, *(failure.replace(":", " fails:", 1) for failure in failures))
     return Answer(summary, lambda: "\n".join(_lines(summary)), notices, status)
 
 
 def _reproduce(
     folder: Path, progress: Callable[[str], None]
-) -> tuple[dict[str, str | bytes], Verification, tuple[Entry, ...], Typeset]:
-    """Make everything: the files by name, the checks, the ledger, and what came of the PDF."""
+) -> tuple[dict[str, str | bytes], Verification, tuple[Entry, ...], PdfOutcome]:
+    """Return the files by name, the checks, the ledger, and the outcome of the PDF."""
     from derive.catalogue import all_equations
     from derive.note.claim_checks import SYMBOLIC
     from derive.note.claims import CLAIMS
@@ -68,10 +68,10 @@ def _reproduce(
     from wear.report.runs import run
 
     with processes.assistant() as ask:
-        begun = {claim: ask(decided, claim) for claim in SYMBOLIC}
+        pending = {claim: ask(decided, claim) for claim in SYMBOLIC}
         catalogue = all_equations()
         checked = [ask(checked_at, place) for place in range(len(catalogue))]
-        runs = run(lambda what: progress(f"solving: {what}"))
+        runs = run(lambda scene: progress(f"solving: {scene}"))
         solved = {}
         for claim in SIMULATED:
             progress(f"judging claim {claim}")
@@ -80,14 +80,14 @@ def _reproduce(
         figures = drawings(runs)
         progress("verifying the equations")
         verification = verified(catalogue, checked)
-        judged = tuple(solved.get(claim) or begun[claim]() for claim in CLAIMS)
+        entries = tuple(solved.get(claim) or pending[claim]() for claim in CLAIMS)
         progress("writing")
-        contents, typeset = published(paper(catalogue, verification, runs, judged, figures))
-        contents["claims.json"] = terminal.json_text(as_json(judged))
+        contents, typeset = published(paper(catalogue, verification, runs, entries, figures))
+        contents["claims.json"] = terminal.json_text(as_json(entries))
         command = f"wear reproduce -o {folder.name}"
         scenes = {name: history.definition for name, history in runs.histories.items()}
         contents["manifest.json"] = terminal.json_text(manifest(contents, scenes, command))
-    return contents, verification, judged, typeset
+    return contents, verification, entries, typeset
 
 
 def _lines(summary: dict[str, Any]) -> list[str]:

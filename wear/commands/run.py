@@ -4,7 +4,7 @@ examples:
   wear run section4                                    a table
   wear run section4 --cycles 1,9000,1e8 --rtol 1e-12   the wear after 1e8 cycles, 12 digits
   wear run section4 --set bearing.roughness_growth=0.3  with one entry changed
-  wear run section4 --until-wear 1e-3,2e-3             cycles until 1 and 2 micrometres are worn
+  wear run section4 --until-wear 1e-3,2e-3             cycles to a wear of 1 and 2 micrometres
   wear run scene.toml --method DOP853 -o wear.csv      a scene of your own, into a file
   wear run section4 --cycles 0:8999 --phases 100 -o inside.nc        900,000 states
 """
@@ -26,17 +26,17 @@ if TYPE_CHECKING:
     from wear.scene import Scene
 
 _OF_PHASES = (".csv", ".nc")
-"""What the states inside the cycles are written to, a part at a time."""
+"""Files of the states inside the cycles, which are written a part at a time."""
 
 
 def add_arguments(parser: Parser) -> None:
     arguments.add_scene(parser)
-    about = "numbers of cycles, 0 for the fresh state; 0:9000 for all from 0 to 9000"
+    about = "numbers of cycles, 0 for the initial state; 0:9000 for all from 0 to 9000"
     arguments.add_cycles(parser, f"{about} (default: %(default)s)", "1,10,100,1000,10000")
     arguments.add_rtol(parser, 1e-15, "1e-10", " of the bearing wear")
     about = (
         "auto, abel, collocation (of a measured history), or an integrator of SciPy "
-        "that goes through every cycle: DOP853, RK45, RK23, Radau, BDF, LSODA (default: "
+        "that integrates every cycle: DOP853, RK45, RK23, Radau, BDF, LSODA (default: "
         "%(default)s)"
     )
     arguments.add_choice(parser, "--method METHOD", _methods, about, default="auto")
@@ -81,7 +81,7 @@ def execute(options: Options) -> Answer:
         if miss.best is None:
             raise
         history, status, faulty = miss.best, terminal.INACCURATE, [str(miss)]
-    until, notices = dict[str, Any](), [*run_output.worth_telling(history), *faulty]
+    until, notices = dict[str, Any](), [*run_output.notices_of(history), *faulty]
     if wears is not None:
         with terminal.busy("counting cycles to the wear"):
             life = cycles_until(scene, wears, rtol)
@@ -107,14 +107,14 @@ def _depths(text: str) -> tuple[float, ...]:
     return tuple(map(arguments.number(0.0, 1e300), text.split(",")))
 
 
-def _cycles_until(found: Life) -> dict[str, Any]:
+def _cycles_until(life: Life) -> dict[str, Any]:
     """Return the part of the JSON with the cycles to depths of wear, null where unknown."""
     return {
         "cycles_until": {
-            "bearing_wear_mm": list(found.wear_mm),
-            "cycles": [None if math.isnan(cycles) else int(cycles) for cycles in found.cycles],
-            "error_estimate": found.error,
-            "reached": [way.value for way in found.reached],
+            "bearing_wear_mm": list(life.wear_mm),
+            "cycles": [None if math.isnan(cycles) else int(cycles) for cycles in life.cycles],
+            "error_estimate": life.error,
+            "reached": [way.value for way in life.reached],
         }
     }
 
@@ -126,7 +126,7 @@ def _methods() -> Sequence[str]:
 
 
 def _check_inside(options: Options, faults: Faults) -> None:
-    """Add what stands against states inside the cycles."""
+    """Add the faults of a request for states inside the cycles."""
     from wear.load.spans import most_cycles
     from wear.request import obstacle
 
@@ -135,7 +135,7 @@ def _check_inside(options: Options, faults: Faults) -> None:
     if options.output is None or options.output.suffix not in _OF_PHASES:
         faults.append("--phases: name a .nc or .csv file with --output; there are too many states")
     if options.method not in ("auto", "abel"):
-        faults.append("--phases: only the cycle count knows the states inside; leave --method out")
+        faults.append("--phases: only the method abel has states inside cycles; drop --method")
     for option in ("until-wear", "time-limit"):
         if getattr(options, option.replace("-", "_")) is not None:
             faults.append(f"--phases: does not go with --{option}; leave one of them out")
@@ -151,7 +151,7 @@ def _check_inside(options: Options, faults: Faults) -> None:
 
 
 def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, output: Path) -> Answer:
-    """Write the states inside the cycles, and tell how many they are and how accurate."""
+    """Write the states inside the cycles, and return their number and accuracy."""
     import numpy as np
 
     from wear.binding import bind
@@ -177,8 +177,8 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
     try:
         write(parts(), output, attributes)
     except KeyboardInterrupt:
-        told = f"interrupted after {done} of {len(cycles)} cycles; {output} was not written"
-        raise Interrupted(told, None) from None
+        message = f"interrupted after {done} of {len(cycles)} cycles; {output} was not written"
+        raise Interrupted(message, None) from None
     document = {
         "scene": scene.title or scene.name,
         "file": str(output),

@@ -1,4 +1,4 @@
-"""The forms in which `wear run` shows and writes a history, beyond those that a history has."""
+"""Output of `wear run`: text, LaTeX, and files of a history."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SUFFIXES = (".csv", ".nc", ".tex")
 
 
 def text(history: History) -> str:
-    """Return a table for the eye, with what it took."""
+    """Return a table for the terminal, with the cost of the run."""
     quantities = _modelled(history)
     header = ["cycle", *map(_heading, quantities), "relative\nerror"]
     rows = [
@@ -46,20 +46,20 @@ def _shown(value: float) -> str:
     return "-" if math.isnan(value) else f"{value:.10g}"
 
 
-def worth_telling(history: History) -> tuple[str, ...]:
-    """Return the notices but that of the usual choice of a method, which the table's head names."""
+def notices_of(history: History) -> tuple[str, ...]:
+    """Return the notices, without the usual choice of a method: the table's head names it."""
     usual = f"auto: {history.method}, because the load repeats"
     return tuple(notice for notice in history.notices if notice != usual)
 
 
 def until_text(until: Mapping[str, Any]) -> str:
-    """Return a table of the cycles after which wears are reached."""
-    found = until["cycles_until"]
+    """Return a table of the cycles to depths of wear."""
+    columns = until["cycles_until"]
     rows = [
         [f"{wear:.10g}", str(cycles) if reached == "counted" else
          f"{cycles:.6g} (± {error * cycles:.1g})" if reached == "extrapolated" else reached]
         for wear, cycles, error, reached in zip(
-            *(found[name] for name in ("bearing_wear_mm", "cycles", "error_estimate", "reached")),
+            *(columns[name] for name in ("bearing_wear_mm", "cycles", "error_estimate", "reached")),
             strict=True,
         )
     ]  # fmt: skip
@@ -108,7 +108,7 @@ def latex_number(number: float, digits: int) -> str:
 
 
 def write(history: History, path: Path) -> None:
-    """Write a file with one of the `SUFFIXES`, whole or not at all."""
+    """Write a file with one of the `SUFFIXES`, completely or not at all."""
     if path.suffix == ".tex":
         files.write_atomically(path, latex(history))
     else:
@@ -116,8 +116,8 @@ def write(history: History, path: Path) -> None:
 
 
 def _modelled(history: History) -> dict[str, FloatArray]:
-    """Return the physical columns that say something: not those of contact that is never lost or of
-    cycles whose pressures are unknown."""
+    """Return the informative physical columns: without contact fractions that are always 1, and
+    without columns of unknown values."""
     import numpy as np
 
     return {

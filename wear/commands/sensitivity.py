@@ -1,4 +1,4 @@
-"""`wear sensitivity`: how the wear depends on every number of the scene.
+"""`wear sensitivity`: derivatives of the wear with respect to every number of the scene.
 
 examples:
   wear sensitivity section4                             elasticities, a table
@@ -35,7 +35,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def execute(options: Options) -> Answer:
-    """Find how the wear depends on the numbers of a scene."""
+    """Compute the derivatives of the wear with respect to the numbers of a scene."""
     from wear.sensitivities import sensitivity
 
     faults = arguments.read(options)
@@ -51,46 +51,46 @@ def execute(options: Options) -> Answer:
             faults.stop_if_any()
         cycles = (*cycles, int(life.cycles[0]))
     with terminal.busy("counting cycles") as tell:
-        found = sensitivity(scene, cycles, rtol, tell)
+        result = sensitivity(scene, cycles, rtol, tell)
     if output is not None:
-        files.write_atomically(output, _written(found, output.suffix))
-    known = [bool(np.isfinite(column).all()) for column in found.error.T]
-    late = ", ".join(str(n) for n, yes in zip(found.cycles, known, strict=True) if not yes)
-    notices = (*found.notices, f"not known after {late} cycles") if late else found.notices
+        files.write_atomically(output, _written(result, output.suffix))
+    known = [bool(np.isfinite(column).all()) for column in result.error.T]
+    late = ", ".join(str(n) for n, yes in zip(result.cycles, known, strict=True) if not yes)
+    notices = (*result.notices, f"not known after {late} cycles") if late else result.notices
     status = terminal.INACCURATE if late else terminal.DONE
-    return Answer(found.as_json(), lambda: "" if output else _text(found, depth), notices, status)
+    return Answer(result.as_json(), lambda: "" if output else _text(result, depth), notices, status)
 
 
-def _text(found: Sensitivities, depth: float | None) -> str:
-    life = () if depth is None else _lines_of_life(found, depth)
-    return "\n".join([repr(found), *life])
+def _text(result: Sensitivities, depth: float | None) -> str:
+    life = () if depth is None else _lines_of_life(result, depth)
+    return "\n".join([repr(result), *life])
 
 
-def _lines_of_life(found: Sensitivities, depth: float) -> Iterator[str]:
+def _lines_of_life(result: Sensitivities, depth: float) -> Iterator[str]:
     """Yield the elasticities of the cycles to a wear depth, the last of all cycles."""
-    width = max(len(key) for key in found.keys)
-    cycles = found.cycles[-1]
+    width = max(len(key) for key in result.keys)
+    cycles = result.cycles[-1]
     yield f"\nthe same of the {cycles} cycles to {depth:g} mm"
-    for key, value, row in zip(found.keys, found.values, found.cycles_derivative, strict=True):
+    for key, value, row in zip(result.keys, result.values, result.cycles_derivative, strict=True):
         shown = f"{row[-1] * value / cycles:>14.6f}" if value else f"{'-':>14}"
         yield f"{key:{width}} {value:>12.6g}{shown}"
 
 
-def _written(found: Sensitivities, suffix: str) -> bytes:
+def _written(result: Sensitivities, suffix: str) -> bytes:
     """Return the file with this suffix."""
     if suffix.lower() in arguments.PICTURES:
         from wear.figure_style import encoded
         from wear.figures import tornado
         from wear.quantities import in_short
 
-        labels = [f"$N$ = {in_short(n, 6)}" for n in found.cycles]
-        return encoded(tornado(found.keys, found.elasticity, labels), suffix)
+        labels = [f"$N$ = {in_short(n, 6)}" for n in result.cycles]
+        return encoded(tornado(result.keys, result.elasticity, labels), suffix)
     rows = ["key,value,cycles,bearing_wear_mm,derivative,elasticity,error_estimate"]
     for key, value, *each in zip(
-        found.keys, found.values, found.derivative, found.elasticity, found.elasticity_error,
+        result.keys, result.values, result.derivative, result.elasticity, result.elasticity_error,
         strict=True,
     ):  # fmt: skip
-        for n, wear, *numbers in zip(found.cycles, found.wear_mm, *each, strict=True):
+        for n, wear, *numbers in zip(result.cycles, result.wear_mm, *each, strict=True):
             row = (float(value), n, float(wear), *(float(number) for number in numbers))
             rows.append(",".join([key, *map(repr, row)]))
     return ("\n".join(rows) + "\n").encode()

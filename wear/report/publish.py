@@ -43,7 +43,7 @@ _RERUNS = 3
 
 
 @dataclass(frozen=True)
-class Typeset:
+class PdfOutcome:
     """The PDF if there is one, the warnings that matter, and a line for the user."""
 
     pdf: bytes | None
@@ -51,12 +51,12 @@ class Typeset:
     notice: str
 
     @property
-    def said(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[str, ...]:
         """Return the line, if any, and the warnings."""
         return (self.notice, *self.warnings) if self.notice else self.warnings
 
 
-def published(document: Document) -> tuple[dict[str, str | bytes], Typeset]:
+def published(document: Document) -> tuple[dict[str, str | bytes], PdfOutcome]:
     """Return the files of a document by name, and what came of the PDF: ``report.html``,
     ``report.tex``, ``equations.tex``, every figure as SVG and PDF, and ``report.pdf`` where a TeX
     engine is found."""
@@ -72,14 +72,14 @@ def published(document: Document) -> tuple[dict[str, str | bytes], Typeset]:
     return contents, outcome
 
 
-def typeset(source: Path, timeout: float = 120.0) -> Typeset:
+def typeset(source: Path, timeout: float = 120.0) -> PdfOutcome:
     """Run pdfTeX beside the source until its references settle.
 
     Never runs shell escapes. A missing engine and a failed run are a notice, not an error.
     """
     engine = shutil.which("pdflatex")
     if engine is None:
-        return Typeset(
+        return PdfOutcome(
             None, (), "no TeX engine on the PATH: install texlive-latex-recommended for report.pdf"
         )
     command = [engine, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
@@ -93,14 +93,16 @@ def typeset(source: Path, timeout: float = 120.0) -> Typeset:
                 timeout=timeout,
             )
         except subprocess.TimeoutExpired:
-            return Typeset(None, (), f"TeX did not finish within {timeout:g} s")
+            return PdfOutcome(None, (), f"TeX did not finish within {timeout:g} s")
         log = source.with_suffix(".log").read_text(encoding="utf-8", errors="replace")
         if done.returncode != 0:
             faults = [line for line in warnings(log) if line.startswith("!")]
-            return Typeset(None, warnings(log), f"no report.pdf, TeX says: {' '.join(faults[:1])}")
+            return PdfOutcome(
+                None, warnings(log), f"no report.pdf, TeX says: {' '.join(faults[:1])}"
+            )
         if "Rerun to" not in log and "Table widths have changed" not in log:
             break
-    return Typeset(source.with_suffix(".pdf").read_bytes(), warnings(log), "")
+    return PdfOutcome(source.with_suffix(".pdf").read_bytes(), warnings(log), "")
 
 
 def warnings(log: str) -> tuple[str, ...]:
