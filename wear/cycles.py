@@ -20,12 +20,11 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.binding import bind
-from wear.counted import IDLES, Counted, End
 from wear.equation import WearEquation, equation_of, growth
 from wear.faults import Faults
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
-from wear.loss_of_contact.count import Wanted, counted_stages
+from wear.loss_of_contact.count import CountRequest, count_scenes
 from wear.loss_of_contact.switching import edge_of_contact
 from wear.model import Model
 from wear.numerics.gauss import FloatArray, IntArray
@@ -38,6 +37,7 @@ from wear.quantities import MOST_CYCLES
 from wear.request import checked_scenes, wear_depths, whole_cycles
 from wear.resampling import Resampling, resampled
 from wear.scene import Scene
+from wear.scene_orbit import IDLES, End, SceneOrbit
 
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
 TOGETHER = 1024  # scenes in one set of arrays
@@ -68,7 +68,7 @@ class CyclesToDepth(NamedTuple):
     error: FloatArray
 
 
-# Trial states far off the solution may overflow; what is no number fails the estimate of error.
+# Trial states far off the solution may overflow; NaN fails the error estimate.
 @np.errstate(all="ignore")
 def count_cycles(
     model: Model,
@@ -77,37 +77,37 @@ def count_cycles(
     rtol: float,
     start: float = 0.0,
     deadline: float = np.inf,
-) -> Counted:
+) -> SceneOrbit:
     """Count up to `cycles` of a load that repeats, from the wear `start` (mm); after the `deadline`
-    (`time.monotonic()`) nothing is refined any more."""
+    (`time.monotonic()`) nothing is refined."""
     if model.ends_at_3_sigma:
-        wanted = Wanted(model, load, edge_of_contact(model, load), cycles, start)
-        return counted_stages([wanted], rtol, deadline)[0]
+        wanted = CountRequest(model, load, edge_of_contact(model, load), cycles, start)
+        return count_scenes([wanted], rtol, deadline)[0]
     one, equation = np.ones(1), WearEquation(model, (load,))
     found = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
     last = found.segments[-1]
     if not found.at_rest[0]:
-        return Counted(found, None)
-    assert isinstance(last.counted, Iterates)
-    return Counted(found, End(int(last.begins[0]) + last.counted.first_idle_cycle, 0, IDLES))
+        return SceneOrbit(found, None)
+    assert isinstance(last.iterates, Iterates)
+    return SceneOrbit(found, End(int(last.begins[0]) + last.iterates.first_idle_cycle, 0, IDLES))
 
 
-class Stretch(NamedTuple):
-    """Cycles from `begins` to `ends` of one load that repeats, what they `found`, and by how much
-    the wear in them may be wrong as its start is, `inherited` (mm)."""
+class Stage(NamedTuple):
+    """Cycles from `begins` to `ends` of one load that repeats, with their orbit, `found`; the error
+    of the wear before propagates into them as `start_error` (mm)."""
 
     load: Load
     begins: int
     ends: float
-    found: Counted
-    inherited: float
+    found: SceneOrbit
+    start_error: float
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the wear (mm) after some of the cycles (n,), and what it may be wrong by (mm)."""
+        """Return the wear (mm) after some of the cycles (n,), and its error (mm)."""
         with np.errstate(all="ignore"):
             wear, relative = self.found.after(cycles - self.begins)
             own = np.where(np.isfinite(relative), relative * wear, np.inf)
-        return wear, own + self.inherited
+        return wear, own + self.start_error
 
     def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the cycles after which each wear (mm, (n,)) is reached, infinite where it is not,
@@ -119,41 +119,41 @@ class Stretch(NamedTuple):
         return np.where(late, np.inf, count), np.where(late, 0.0, missed)
 
     def notices(self, wear: FloatArray) -> Iterator[str]:
-        """Yield what is worth knowing beside the wear (mm)."""
+        """Yield the notices on the wear (mm)."""
         after = f"in the block after {self.begins} cycles: "
         for text in self.found.notices(wear):
             yield after * (self.begins > 0) + text
 
 
-def stretches(
+def stages(
     model: Model,
     load: Loading,
     last: float,
     rtol: float,
     start: float = 0.0,
     deadline: float = np.inf,
-) -> Iterator[Stretch]:
-    """Yield the stretches of a load up to cycle `last`, from the wear `start` (mm) on.
+) -> Iterator[Stage]:
+    """Yield the stages of a load up to cycle `last`, from the wear `start` (mm) on.
 
     An error that a block starts with is carried on, in proportion to the wear rate where that
     grows: two solutions of one equation keep their distance in time. No block follows one whose
     error is not known, or that ended after the `deadline`.
     """
-    inherited, done = 0.0, 0
+    start_error, done = 0.0, 0
     while True:
         acting, until, _ = span(load, done)
         ends = min(float(until), last)
         found = count_cycles(model, acting, ends - done, rtol, start, deadline)
-        part = Stretch(acting, done, ends, found, 0.0)
-        if ends >= last and not inherited:
+        part = Stage(acting, done, ends, found, 0.0)
+        if ends >= last and not start_error:
             yield part
             return
         end, missed = (float(x[0]) for x in part.after(np.array([ends])))
-        if inherited:
-            inherited *= growth(model, acting, start, end)
-        yield part._replace(inherited=inherited)
-        start, inherited, done = end, inherited + missed, until
-        if ends >= last or not inherited < np.inf or time.monotonic() > deadline:
+        if start_error:
+            start_error *= growth(model, acting, start, end)
+        yield part._replace(start_error=start_error)
+        start, start_error, done = end, start_error + missed, until
+        if ends >= last or not start_error < np.inf or time.monotonic() > deadline:
             return
 
 
@@ -175,7 +175,7 @@ def wear_after(
     cycles = np.asarray(cycles, dtype=float)
     u, error = np.full(cycles.shape, np.nan), np.full(cycles.shape, np.inf)
     cost, notices = Cost(0, 0), dict[str, None]()
-    for part in stretches(model, load, np.max(cycles, initial=0.0), rtol, start, deadline):
+    for part in stages(model, load, np.max(cycles, initial=0.0), rtol, start, deadline):
         here = (cycles >= part.begins) & (cycles <= part.ends)
         wear, missed = part.after(np.append(cycles[here], part.ends))
         u[here], error[here] = wear[:-1], (missed / np.where(wear > 0, wear, 1.0))[:-1]
@@ -196,7 +196,7 @@ def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> 
     doubtful = np.full(wear.shape, False)
     for part in _as_far_as_needed(model, load, wear, rtol):
         reached, own = part.until(wear)
-        certain = part.until(wear + part.inherited)[0] if part.inherited else reached
+        certain = part.until(wear + part.start_error)[0] if part.start_error else reached
         if isinstance(load, Blocks) and part.ends < most_cycles(load):
             end, missed = part.after(np.array([part.ends]))
             certain = np.where(wear > end - missed, np.inf, certain)  # perhaps in another block
@@ -214,16 +214,16 @@ def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> 
 
 def _as_far_as_needed(
     model: Model, load: Loading, wear: FloatArray, rtol: float
-) -> Iterator[Stretch]:
+) -> Iterator[Stage]:
     """Yield the blocks of a load, or one stretch of a load that repeats, ever longer till it has
     the deepest wear (mm)."""
     most = float(min(MOST_CYCLES, most_cycles(load)))
     if isinstance(load, Blocks):
-        yield from stretches(model, load, most, rtol)
+        yield from stages(model, load, most, rtol)
         return
     reach = LEAST
     while True:
-        (part,) = stretches(model, load, reach, rtol)
+        (part,) = stages(model, load, reach, rtol)
         if reach >= most or part.found.ended or np.max(wear, initial=0.0) <= part.found.last_wear:
             break
         reach = min(reach * FARTHER, most)
@@ -307,8 +307,8 @@ def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
     """Return the orbit of scenes of one variant, so many cycles of each."""
     if scenes[0].contact.ends_at_3_sigma:
         each = [(bind(scene), scene.periodic_load) for scene in scenes]
-        wanted = [Wanted(*own, edge_of_contact(*own), cycles) for own in each]
-        return joined([found.orbit for found in counted_stages(wanted, rtol)])
+        wanted = [CountRequest(*own, edge_of_contact(*own), cycles) for own in each]
+        return joined([found.orbit for found in count_scenes(wanted, rtol)])
     none = np.zeros(len(scenes))
     return orbit(equation_of(scenes), cycles + none, rtol, none, none)
 

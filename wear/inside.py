@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.cycles import Stretch, stretches
+from wear.cycles import Stage, stages
 from wear.equation import WearEquation
 from wear.faults import AccuracyError, UsageError
 from wear.load import HistoryLoad, Loading
@@ -14,7 +14,7 @@ from wear.model import Fields, Model
 from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import SAFETY
 from wear.numerics.tolerances import TINY
-from wear.orbit.dense_output import Added, DenseOutput, dense_output
+from wear.orbit.dense_output import DenseOutput, PhaseIncrements, dense_output
 from wear.orbit.iterates import Iterates
 from wear.quantities import columns_of
 from wear.states import fields_under_load
@@ -75,7 +75,7 @@ def fields_inside(
         raise UsageError("the load does not repeat: its cycles cannot be counted")
     cycles, phases = np.sort(np.asarray(cycles, dtype=float)), np.asarray(phases, dtype=float)
     rows = max(1, chunk // max(1, len(phases)))
-    for stretch in stretches(model, load, cycles[-1] + 1.0, rtol):
+    for stretch in stages(model, load, cycles[-1] + 1.0, rtol):
         for begin, end, within in _dense(model, stretch, phases, rtol, cycles):
             wanted = cycles[(cycles >= begin) & (cycles < end)]
             part = _Part(model, stretch, within, phases, begin)
@@ -86,7 +86,7 @@ def fields_inside(
 
 
 def _dense(
-    model: Model, stretch: Stretch, phases: FloatArray, rtol: float, cycles: FloatArray
+    model: Model, stretch: Stage, phases: FloatArray, rtol: float, cycles: FloatArray
 ) -> Iterator[tuple[float, float, DenseOutput | SwitchedDenseOutput]]:
     """Yield the parts of a stretch in which some of the `cycles` lie: from which cycle to which,
     that excluded, and what these add up to the phases."""
@@ -100,8 +100,8 @@ def _dense(
     observable = model.pressure if model.compliant else None
     for begin, end, segment in zip(begins, [*begins[1:], stretch.ends], segments, strict=True):
         if np.any((cycles >= begin) & (cycles < end)):
-            assert isinstance(segment.counted, Iterates)
-            yield begin, end, dense_output(equation, segment.counted, phases, rtol, observable)
+            assert isinstance(segment.iterates, Iterates)
+            yield begin, end, dense_output(equation, segment.iterates, phases, rtol, observable)
 
 
 class _Part(NamedTuple):
@@ -109,7 +109,7 @@ class _Part(NamedTuple):
     some `phases`."""
 
     model: Model
-    stretch: Stretch
+    stretch: Stage
     within: DenseOutput | SwitchedDenseOutput
     phases: FloatArray
     begins: float
@@ -125,14 +125,14 @@ class _Part(NamedTuple):
             here = slice(at, at + at_once)
             added = self.within.added(cycles[here] - self.begins, starts[here])
             u = starts[here, None] + added.increment
-            missed = wrong[here] + SAFETY * added.missed
-            error = np.nan_to_num(missed / (wear[last[here]] + TINY), nan=np.inf)
+            absolute = wrong[here] + SAFETY * added.error
+            error = np.nan_to_num(absolute / (wear[last[here]] + TINY), nan=np.inf)
             yield Inside(cycles[here], self.phases, u, self.fields(u, added, rtol), error)
 
-    def fields(self, u: FloatArray, added: Added, rtol: float) -> Fields:
+    def fields(self, u: FloatArray, added: PhaseIncrements, rtol: float) -> Fields:
         """Return all fields; on a compliant support from the interpolated pressure, if right."""
         load = self.stretch.load
-        if added.observable is not None and np.max(added.off) <= rtol:
+        if added.observable is not None and np.max(added.observable_error) <= rtol:
             return self.model.fields_under(added.observable, u, load(self.phases))
         return fields_under_load(
             self.model, u, load(self.phases), load.slope(self.phases) / load.period

@@ -17,7 +17,7 @@ import numpy as np
 
 from wear.binding import bind
 from wear.cycles import count_cycles
-from wear.loss_of_contact.arrest import TabulatedCount
+from wear.loss_of_contact.arrest import TabulatedIterates
 from wear.numerics.rows import take
 from wear.orbit.infinity import SteadyState, steady_state
 from wear.orbit.iterates import Iterates, cells
@@ -48,8 +48,8 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
         return None
     cycles = min(FAR * scene.initial_roughness / rate, FARTHEST)
     segment = count_cycles(bind(scene), scene.periodic_load, cycles, RTOL).orbit.last(0)
-    table = segment.counted
-    if isinstance(table, TabulatedCount) and table.coordinate.shift > 0.0:
+    table = segment.iterates
+    if isinstance(table, TabulatedIterates) and table.coordinate.shift > 0.0:
         table = table.in_z
     if not isinstance(table, Iterates) or table.cells is None or table.panels is None:
         return None
@@ -60,10 +60,10 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
     # The count may begin within the panel.
     within = float(cells(panel).cycles_until(table.cells.u[[-size]])[0])
     before = float(segment.begins[0]) + float(table.cells.cycles[-size]) - within
-    missed = float(segment.blur[0]) + float(table.count_error[0][-size - 1])
+    uncertain = float(segment.count_uncertainty[0]) + float(table.count_error[0][-size - 1])
     with np.errstate(all="ignore"):  # a panel that ends before the steady state does
         found = steady_state(panel, before)
-    error = rate * missed + PER_DRIFT * abs(found.drift - drift)
+    error = rate * uncertain + PER_DRIFT * abs(found.drift - drift)
     known = np.isfinite(found.offset) and error <= RESOLVED * abs(found.offset)
     return Offset(found.offset, error, found) if known else None
 

@@ -26,7 +26,6 @@ import numpy as np
 
 from wear import own_laws
 from wear.binding import bind
-from wear.counted import FADES
 from wear.cycles import count_cycles
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
@@ -34,6 +33,7 @@ from wear.load import Load
 from wear.offset import offset
 from wear.quantities import MOST_CYCLES
 from wear.scene import Scene, as_scene
+from wear.scene_orbit import FADES
 from wear.solver import solve
 
 TOLERANCE = Decimal("1e-6")

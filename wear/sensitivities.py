@@ -22,7 +22,7 @@ from wear.cycles import groups
 from wear.faults import Faults, UsageError
 from wear.load import Constant
 from wear.load.spans import span
-from wear.loss_of_contact.count import Wanted, counted_stages
+from wear.loss_of_contact.count import CountRequest, count_scenes
 from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import edge_of_contact
 from wear.loss_of_contact.tangent import stage_tangents
@@ -144,9 +144,9 @@ def _of_one_variant(
             each = [parametrised(*own, keys) for own in zip(zip(scenes), zip(acting), strict=True)]
             edges = [edge_of_contact(own.model, own.loads[0]) for own in each]
             begins = zip(wanted[:, -1], start, missed, strict=True)
-            counts = counted_stages(
+            counts = count_scenes(
                 [
-                    Wanted(own.model, own.loads[0], edge, *map(float, begin))
+                    CountRequest(own.model, own.loads[0], edge, *map(float, begin))
                     for own, edge, begin in zip(each, edges, begins, strict=True)
                 ],
                 rtol,

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from tests.references import VALUES
 from wear import cycles
 from wear.binding import bind
-from wear.counted import Counted
 from wear.generated import asymptotics as formula
 from wear.regime import Asymptote, asymptote
 from wear.scene import load_scene
+from wear.scene_orbit import SceneOrbit
 from wear.solver import solve
 
 
@@ -74,15 +74,15 @@ def test_arrest(name, overrides, depth, cycle):
 
 def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch):
     """A count whose error is infinite says neither when wear stops nor that it goes on."""
-    count = cycles.counted_stages
+    count = cycles.count_scenes
 
-    def missed(*arguments: Any) -> list[Counted]:
+    def missed(*arguments: Any) -> list[SceneOrbit]:
         (found,) = count(*arguments)
-        last = found.orbit.segments[-1]._replace(inherited=np.array([np.inf]))
+        last = found.orbit.segments[-1]._replace(start_error=np.array([np.inf]))
         segments = (*found.orbit.segments[:-1], last)
-        return [Counted(found.orbit._replace(segments=segments), None)]
+        return [SceneOrbit(found.orbit._replace(segments=segments), None)]
 
-    monkeypatch.setattr(cycles, "counted_stages", missed)
+    monkeypatch.setattr(cycles, "count_scenes", missed)
     found = _asymptote("section4-cutoff")
     assert found.arrest_cycle is None
     assert found.arrest_wear_mm == pytest.approx(0.002, rel=1e-14)

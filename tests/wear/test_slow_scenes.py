@@ -17,7 +17,7 @@ from wear import cycles as count
 from wear.binding import bind
 from wear.faults import AccuracyError
 from wear.load import Sine, Table
-from wear.loss_of_contact.increments import Coordinate, Increments, Span
+from wear.loss_of_contact.increments import Coordinate, IncrementSeries, SeriesDomain
 from wear.regime import asymptote
 from wear.scene import Scene, load_scene
 from wear.solver import solve
@@ -121,9 +121,9 @@ def test_analysis_and_numerics_agree_on_random_scenes(load, K, f_c, pin, exponen
 
 def test_a_trial_far_beyond_a_series_is_given_up():
     """There the increment would overflow."""
-    span = Span(Coordinate(0.0), 1.0, 2.0, 1.0, 0.0)
+    span = SeriesDomain(Coordinate(0.0), 1.0, 2.0, 1.0, 0.0)
     steep = np.array([[0.0, 500.0]])
-    series = Increments(span, span.frame, np.ones(1), steep, np.zeros((1, 6)))
+    series = IncrementSeries(span, span.frame, np.ones(1), steep, np.zeros((1, 6)))
     assert series.walk(3.0, 9.0, 5) == [3.0]
 
 

@@ -1,5 +1,5 @@
-"""Counts of cycles between two grazing wears or towards the limit wear; and what follows where
-double precision resolves no cycles any more, or wear has stopped."""
+"""Iterates of the period map between two grazing wears or towards the limit wear; and where double
+precision does not resolve the cycles, or wear has stopped."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ class LimitWear(NamedTuple):
         return RESOLVABLE * self.uncertainty
 
 
-class TabulatedCount(NamedTuple):
-    """The count n of cycles as a function of z, a `coordinate` of the wear, by the density on
-    `panels`; its estimated error in cycles where each part of the `table` starts and where the last
-    one ends; the `limit_wear` that wear tends to at the end of the table, if any; and how many
-    whole cycles it counts, `whole`, to the limit wear up to rounding."""
+class TabulatedIterates(NamedTuple):
+    """Iterates by a `table` of the number of cycles n as a function of z, a `coordinate` of the
+    wear; n is the integral of the density on `panels`. The estimated error of n, `count_error`,
+    where each cell starts and where the last one ends; the `limit_wear` at the end of the table, if
+    any; and the number of `whole` cycles in it, up to rounding of the limit wear."""
 
     coordinate: Coordinate
     table: Cells
@@ -46,54 +46,54 @@ class TabulatedCount(NamedTuple):
 
     @property
     def in_z(self) -> Iterates:
-        """Return the same count, of z as the state."""
+        """Return the same iterates with z as the state."""
         begin, none, edges = self.table.u[:1][None], np.zeros((1, 1)), np.array([[0.0, 1.0]])
         limit = np.array([np.inf])
         return Iterates(begin, none, self.table, self.panels, self.count_error[None], limit, edges)
 
-    def take(self, rows: IntArray) -> TabulatedCount:
+    def take(self, rows: IntArray) -> TabulatedIterates:
         """Return the same: it is of one scene."""
         return self
 
     @property
     def first_increment(self) -> FloatArray:
-        """Return the wear (mm) that its first cycle adds."""
+        """Return the increment (mm) of the first cycle."""
         return self.coordinate.rate(self.table.u[:1], self.table.first_rate[:1])
 
     @property
     def last_state(self) -> FloatArray:
-        """Return the wear (mm) up to which it counts."""
+        """Return the wear (mm) after the last cycle."""
         if self.limit_wear:
             return np.array([self.limit_wear.wear])
         return self.coordinate.wear(self.table.ends[-1:])
 
     @property
     def reach(self) -> float:
-        """Return how many cycles it counts, the whole ones whatever rounding makes of them."""
+        """Return the number of cycles in the table, no less than the whole ones."""
         last = self.table.last_cycles
         return last if self.limit_wear else max(last, self.whole)
 
     @property
     def at_rest(self) -> BoolArray:
-        """Return whether its last cycle adds nothing that double precision resolves."""
+        """Return whether the increment of the last cycle is below rounding."""
         return np.array([self.limit_wear is not None])
 
     @property
     def whole_cycles(self) -> FloatArray:
-        """Return how many whole cycles it counts."""
+        """Return the number of whole cycles."""
         return np.array([self.whole])
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the wear (mm) after `cycles` (1, c), and its estimated relative error."""
         (z, rate), shape = self.table.state_after(cycles.ravel()), cycles.shape
-        z, missed = z.reshape(shape), rate.reshape(shape) * self._error_at(cycles)  # of z
+        z, error_of_z = z.reshape(shape), rate.reshape(shape) * self._error_at(cycles)
         if self.limit_wear:
             distance = np.where(cycles < self.reach, 1.0 / z, 0.0)
             wear = self.limit_wear.wear - distance
-            error = self.limit_wear.uncertainty + np.minimum(missed * distance, 1.0) / z
+            error = self.limit_wear.uncertainty + np.minimum(error_of_z * distance, 1.0) / z
             return wear, error / wear
         wear = self.coordinate.wear(z)
-        error = self.coordinate.rate(z, missed) / np.where(wear > 0.0, wear, 1.0)
+        error = self.coordinate.rate(z, error_of_z) / np.where(wear > 0.0, wear, 1.0)
         return wear, np.where((error < NO_DIGIT) & (cycles <= self.reach), error, np.inf)
 
     def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -106,12 +106,12 @@ class TabulatedCount(NamedTuple):
         count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
         z = np.clip(self.coordinate.at(wear[within]), self.table.u[0], self.table.ends[-1])
         found = self.table.cycles_until(z)
-        missed = self._error_at(found)
+        uncertain = self._error_at(found)
         if self.limit_wear:
-            missed += self.limit_wear.uncertainty * z**2 / self.table.state_after(found)[1]
-        # A wear that is reached at the very end of a cycle must not ask for another one.
-        count[within] = np.maximum(np.ceil(found - missed), 0.0)
-        error[within] = 2 * missed
+            uncertain += self.limit_wear.uncertainty * z**2 / self.table.state_after(found)[1]
+        # A wear that is reached at the very end of a cycle takes no other one.
+        count[within] = np.maximum(np.ceil(found - uncertain), 0.0)
+        error[within] = 2 * uncertain
         return count, error
 
     def _error_at(self, cycles: FloatArray) -> FloatArray:
@@ -119,17 +119,17 @@ class TabulatedCount(NamedTuple):
         return np.interp(cycles, ends, self.count_error)
 
 
-class Unresolved(NamedTuple):
-    """Wear between `start` and `last_state` (1,), mm, so near to each other that double precision
-    does not resolve the `reach` cycles (1,) that it takes; it is known up to `uncertainty` (1,),
-    mm. At rest it takes none."""
+class UnresolvedIterates(NamedTuple):
+    """Iterates between the wears `start` and `last_state` (1,), mm, so near to each other that
+    double precision does not resolve the `reach` cycles (1,) between them; the wear is known up to
+    `uncertainty` (1,), mm. At rest there are none."""
 
     start: FloatArray
     last_state: FloatArray
     reach: FloatArray
     uncertainty: FloatArray
 
-    def take(self, rows: IntArray) -> Unresolved:
+    def take(self, rows: IntArray) -> UnresolvedIterates:
         """Return the same: it is of one scene."""
         return self
 
@@ -140,7 +140,7 @@ class Unresolved(NamedTuple):
 
     @property
     def limit(self) -> FloatArray:
-        """Return that the model goes on."""
+        """Return infinity: the model has no limit here."""
         return np.full(1, np.inf)
 
     @property
@@ -150,12 +150,12 @@ class Unresolved(NamedTuple):
 
     @property
     def whole_cycles(self) -> FloatArray:
-        """Return how many whole cycles it counts."""
+        """Return the number of whole cycles."""
         return np.ceil(self.reach)
 
     @property
     def first_increment(self) -> FloatArray:
-        """Return the wear (mm) that a cycle adds."""
+        """Return the mean increment (mm) of a cycle."""
         return (self.last_state - self.start) / np.maximum(self.reach, 1.0)
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -1,10 +1,11 @@
 """Wear in contact over a part of the cycle: collocation on the contact alone, up to its end.
 
 Within contact the rate is smooth, if stiff: on a stiff support, and where wear is fast, the wear
-follows the load within a small part of the cycle. Newton's method on all nodes of a part does not
-mind, and Radau nodes damp what was before. Where contact ends, or changes its kind, the margin of
-contact has come to a known level; the phase at which it does so is found along with the wear, so
-that no node lies beyond and the collocation stays spectral.
+follows the load within a small part of the cycle. Newton's method
+on all nodes of a step converges all the same, and Radau nodes damp the fast decay. Where contact
+ends, or changes its kind, the margin of contact has come to a known level; the phase at which it
+does so is found along with the wear, so that no node lies beyond and the collocation stays
+spectral.
 
 Arrays are (nodes, cycles): the cycles go together, whichever scenes and parts they belong to.
 """
@@ -22,14 +23,14 @@ from wear.numerics.tolerances import ROUNDOFF, TINY
 
 MOST_ITERATIONS = 12  # of Newton
 PATIENCE = 4  # iterations that may diverge at first
-SHORTEST = 1e-12  # step, of a stretch
-MOST_PARTS = 1000  # steps, then a stretch is not sound
+SHORTEST = 1e-12  # step, of an interval
+MOST_PARTS = 1000  # steps, then an interval is not sound
 CAUTION, SHRINK, GROW = 0.9, 0.25, 4.0  # from one step to the next
-LEAST = 0.1  # of the length of contact, that may be left from one iteration to the next
+LEAST = 0.1  # of the length of contact: the most that an iteration may shorten it to
 NEARLY_AS_FAST = 1.5  # of the 2 falls by as much that lie between the coefficients m and 2 m
-SETTLED = 1e-2  # of the tolerance: what Newton's method may leave
-STALLED = 1e-7  # what rounding may change from one iteration to the next, at the very most
-BLUR = 4 * ROUNDOFF  # of the margin's terms and of the phase: what the end of contact is known to
+SETTLED = 1e-2  # of the tolerance: iteration error of Newton's method
+STALLED = 1e-7  # relative change by rounding from one iteration to the next, at most
+UNCERTAINTY = 4 * ROUNDOFF  # of the end of contact, in the margin's terms and the phase
 LAYER = 0.25  # of the roughness: wear that changes the pressure by a factor of order one
 BY_PHASE = 0.02  # share of the phase's rounding in that of a series of the rate
 STIFF = 3.0  # decay over a part, as an exponent: then a system of equations is solved
@@ -37,9 +38,9 @@ FLAT = 1e-30  # mm per cycle: a margin that does not change
 DIVERGED = 1e30  # relative change from one iteration to the next
 
 
-class Interval(NamedTuple):
-    """Stretches of phase (k,): where each begins, `whole` lengths, and where contact is `expected`
-    to end, as lengths."""
+class PhaseInterval(NamedTuple):
+    """Intervals of phase (k,): where each begins, its `whole` length, and the length after which
+    contact is `expected` to end."""
 
     begin: FloatArray
     whole: FloatArray
@@ -73,8 +74,9 @@ class Contact(NamedTuple):
         return period * rate, period * slope
 
     def steepness(self, u: FloatArray, phase: FloatArray) -> FloatArray:
-        """Return what rounding of the phase makes of contact that begins at wears and phases (k,):
-        by the law, in roundoffs of the rate; held, in mm of the margin per roundoff."""
+        """Return the sensitivity to rounding of the phase of contact that begins at wears and
+        phases (k,): by the law, in roundoffs of the rate; held, in mm of the margin per
+        roundoff."""
         steepest = np.abs(self.cycles.load.slope(phase))
         if not self.by_law:
             return np.asarray(steepest + self.cycles.swing)
@@ -98,24 +100,23 @@ class Contact(NamedTuple):
     def to_its_end(
         self, u: FloatArray, U_a: FloatArray, phase: FloatArray, rate: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return how far it is to the end of contact (cycles) from wears and phases (k,), by a
-        tangent, zero where it lasts; and what of that is rounding. The `rate` is in mm per
+        """Return the distance in phase to the end of contact from wears and phases (k,), by a
+        tangent, zero where contact lasts; and its rounding error. The `rate` is in mm per
         cycle."""
         model, direction = self.cycles.model, self.direction
         left = direction * (model.margin(u, U_a) - self.level)
         closing = self.cycles.load.slope(phase) + model.margin_slope(u, U_a) * rate
         falls = np.minimum(direction * closing, -FLAT)
-        uncertain = BLUR * (model.margin_terms(u, U_a) - falls)
+        uncertain = UNCERTAINTY * (model.margin_terms(u, U_a) - falls)
         # Only a margin that is rounding makes the end uncertain: trial states may be far off.
         uncertainty = np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
         return np.where(direction == 0.0, 0.0, -left / falls), uncertainty
 
 
 class ContactPart(NamedTuple):
-    """A part of contact, by the law or not, that the cycles in `rows` (k,) of those asked for have
-    come through: from the phases `begin` (k,) over a `length` (k,), from a wear `start` (k,), mm,
-    with what has been added since, `inside` (m, k), at the nodes; and whether contact has `ended`
-    (k,) there."""
+    """A step of contact, by the law or not, of the cycles `rows` (k,): from the phases `begin` (k,)
+    over a `length` (k,), from a wear `start` (k,), mm, with the increment since, `inside` (m, k),
+    at the nodes; contact may have `ended` (k,) with it."""
 
     by_law: bool
     rows: IntArray
@@ -127,13 +128,13 @@ class ContactPart(NamedTuple):
 
 
 class ContactResult(NamedTuple):
-    """What contact adds to each wear (k,), mm, and what the nodes have `missed` of that, by
-    estimate, over its `length` (k,); whether that is `sound` (k,); the number of right-hand sides
-    evaluated; its `parts` in order; and which wears, in `slid`, have ended by sliding along the
-    edge."""
+    """The wear `added` (k,) by contact over a `length` (k,), mm, with its estimated `error` (k,),
+    mm; whether the solution is `sound` (k,); the number of right-hand sides evaluated; the `parts`
+    in order; and the rows `slid`, in which the solids slide along the edge of contact at the
+    end."""
 
     added: FloatArray
-    missed: FloatArray
+    error: FloatArray
     length: FloatArray
     sound: BoolArray
     evaluations: int
@@ -141,17 +142,16 @@ class ContactResult(NamedTuple):
     slid: IntArray = np.empty(0, dtype=np.intp)
 
     def among(self, rows: IntArray, number: int) -> ContactResult:
-        """Return the result where the wears were those in `rows` of so many others, which add
-        nothing."""
+        """Return the result for so many wears, of which those in `rows` were in contact."""
         if len(rows) == number:
             return self
-        added, missed, length = np.zeros((3, number))
-        added[rows], missed[rows], length[rows] = self.added, self.missed, self.length
+        added, error, length = np.zeros((3, number))
+        added[rows], error[rows], length[rows] = self.added, self.error, self.length
         sound = np.full(number, True)
         sound[rows] = self.sound
         parts = tuple(part._replace(rows=rows[part.rows]) for part in self.parts)
         slid = rows[self.slid]
-        return ContactResult(added, missed, length, sound, self.evaluations, parts, slid)
+        return ContactResult(added, error, length, sound, self.evaluations, parts, slid)
 
 
 def wear_in_contact(
@@ -159,16 +159,16 @@ def wear_in_contact(
     rule: Gauss,
     tolerance: float,
     u: FloatArray,
-    over: Interval,
+    over: PhaseInterval,
     before: FloatArray,
 ) -> ContactResult:
-    """Return the wear from each u (k,) over stretches of the cycle that has added `before` (k,) mm
-    so far.
+    """Return the wear added in contact from each wear u (k,), mm, over intervals of phase; the
+    cycle has added `before` (k,) mm so far.
 
-    Each stretch is taken in steps, as long as the rate on them is resolved to `tolerance` of what
-    the cycle adds; all wears take a step at once, each its own.
+    An interval is taken in steps so long that the rate is resolved to `tolerance`, relative to the
+    increment of the cycle; all wears take a step at once, each of its own length.
     """
-    (added, lost, length), step = np.zeros((3, len(u))), over.whole.copy()
+    (added, error, length), step = np.zeros((3, len(u))), over.whole.copy()
     going, sound = np.full((2, len(u)), True)
     evaluations, parts = 0, list[ContactPart]()
     rows = np.arange(len(u))
@@ -178,15 +178,15 @@ def wear_in_contact(
         whole = left / steps
         expected = over.expected[rows] - length[rows]
         expected = np.minimum(np.where(expected > 0.0, expected, LEAST * whole), whole)
-        stretch = Interval((over.begin + length)[rows], whole, expected)
+        stretch = PhaseInterval((over.begin + length)[rows], whole, expected)
         start, earlier = (u + added)[rows], (before + added)[rows]
-        part = _part(contact.take(going), rule, tolerance, start, stretch)
+        part = _step(contact.take(going), rule, tolerance, start, stretch)
         evaluations += part.evaluations
-        missed = _missed(rule, part, earlier) / tolerance
+        excess = _step_error(rule, part, earlier) / tolerance
         given_up = (whole <= SHORTEST * over.whole[rows]) | (len(parts) >= MOST_PARTS)
-        sound[rows] &= ~given_up | (missed <= 1.0)
-        fine = given_up | (missed <= 1.0)
-        change = CAUTION * np.maximum(missed, TINY) ** (-0.5 / len(rule.nodes))
+        sound[rows] &= ~given_up | (excess <= 1.0)
+        fine = given_up | (excess <= 1.0)
+        change = CAUTION * np.maximum(excess, TINY) ** (-0.5 / len(rule.nodes))
         step[rows] = whole * np.clip(change, SHRINK, GROW)
         some, ended = rows[fine], (part.length < whole)[fine]
         parts.append(
@@ -202,17 +202,20 @@ def wear_in_contact(
         )
         added[some] += np.maximum(part.added[fine], 0.0)  # rounding may be negative
         by_now = np.maximum(earlier + part.added, 0.0)
-        lost[some] += (missed * tolerance * by_now + part.left * np.abs(part.added))[fine]
+        iteration_error = part.iteration_error * np.abs(part.added)
+        error[some] += (excess * tolerance * by_now + iteration_error)[fine]
         length[some] += part.length[fine]
         going[some] = (steps[fine] > 1.0) & ~ended
         rows = np.flatnonzero(going)
-    return ContactResult(added, lost, length, sound, evaluations, tuple(parts))
+    return ContactResult(added, error, length, sound, evaluations, tuple(parts))
 
 
-class _Part(NamedTuple):
-    """As `ContactResult`, with what is added `inside` (m, k) and the rate (m, k) in mm per cycle at
-    the nodes, what is `noise` of it (k,), how often wear alone would turn over in the part: its
-    `stiffness` (k,); and what the next iteration would change, relatively: `left` (k,)."""
+class _Step(NamedTuple):
+    """A step of contact: the wear `added` (k,), mm, over a `length` (k,); at the nodes (m, k) the
+    increment since the start, `inside`, and the `rate`, mm per cycle; the rounding error of the
+    rate, `noise` (k,); the `stiffness` (k,): the length times the largest slope of the rate; the
+    relative `iteration_error` (k,) of the increment, and whether the iteration converged, `sound`
+    (k,); the number of right-hand sides evaluated."""
 
     added: FloatArray
     length: FloatArray
@@ -220,18 +223,18 @@ class _Part(NamedTuple):
     rate: FloatArray
     noise: FloatArray
     stiffness: FloatArray
-    left: FloatArray
+    iteration_error: FloatArray
     sound: BoolArray
     evaluations: int
 
 
-def _missed(rule: Gauss, part: _Part, before: FloatArray) -> FloatArray:
-    """Return what the nodes miss of each step (k,), relative to what this cycle has added with it
-    and `before` (k,).
+def _step_error(rule: Gauss, part: _Step, before: FloatArray) -> FloatArray:
+    """Return the truncation error of each step (k,), relative to the increment of the cycle up to
+    its end, of which `before` (k,) mm came before the step.
 
-    Gauss quadrature with m nodes leaves the coefficients from 2 m on, which the fall from m/2 to m
-    predicts, if it goes on nearly as fast. Where the wear follows the load within less than the
-    distance of two nodes, it leaves those from m on, over that time.
+    Gauss quadrature with m nodes neglects the coefficients from 2 m on, which are extrapolated from
+    the decay between m/2 and m. Where the wear follows the load within less than the distance of
+    two nodes, it neglects those from m on, over that time.
     """
     series = np.abs(rule.coefficients @ part.rate)
     half = len(series) // 2
@@ -239,30 +242,32 @@ def _missed(rule: Gauss, part: _Part, before: FloatArray) -> FloatArray:
     gain = np.minimum(tail / (middle + TINY), 1.0) ** NEARLY_AS_FAST
     follows = part.stiffness > half
     gain[follows] = np.maximum(gain, 1.0 / part.stiffness)[follows]
-    left = tail * gain * part.length
+    neglected = tail * gain * part.length
     allowed = part.noise / np.maximum(1.0, part.stiffness / len(series) ** 2)
-    left[tail < 100 * allowed] = 0.0
-    missed = left / (np.maximum(before + part.added, 0.0) + TINY)
-    return np.where(part.sound & ~np.isnan(missed), missed, np.inf)
+    neglected[tail < 100 * allowed] = 0.0
+    error = neglected / (np.maximum(before + part.added, 0.0) + TINY)
+    return np.where(part.sound & ~np.isnan(error), error, np.inf)
 
 
-def _part(contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: Interval) -> _Part:
-    """Newton's method on contact, until an iteration more would change the wear by a small part of
-    the `tolerance`; where contact has a level, its end is found by tangents along with the wear, of
-    which Radau's last node is the last."""
+def _step(
+    contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: PhaseInterval
+) -> _Step:
+    """Take a step by Newton's method, until another iteration would change the wear by a small part
+    of the `tolerance`. Where contact ends at a level, its end is found along with the wear, by
+    tangents: Radau's last node is the end."""
     settled = max(ROUNDOFF, SETTLED * tolerance)
     length = np.where(contact.direction == 0.0, over.whole, over.expected)
     ends, nodes = np.any(contact.direction != 0.0), rule.nodes[:, None]
     inside = np.zeros((len(nodes), len(u)))
-    (last, left), evaluations = np.ones((2, len(u))), 0
-    done, lost = np.full((2, len(u)), False)
+    (last, error), evaluations = np.ones((2, len(u))), 0
+    done, diverged = np.full((2, len(u)), False)
     steepness = contact.steepness(u, over.begin)
     U_a = contact.cycles.load(over.begin + length * nodes)
     for iteration in range(MOST_ITERATIONS):
         rate, slope = contact.rate_per_cycle(u + inside, U_a)
         evaluations += rate.size
-        missing = length * (rule.integrate @ rate) - inside
-        step = np.where(done, 0.0, _newton(rule, length * slope, missing))
+        residual = length * (rule.integrate @ rate) - inside
+        step = np.where(done, 0.0, _newton(rule, length * slope, residual))
         rate, inside = rate + slope * step, inside + step
         added = length * (rule.weights @ rate)
         apart = np.max(np.abs(step), axis=0) / (np.abs(added) + TINY)
@@ -280,29 +285,30 @@ def _part(contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: 
             inside = inside + rate * nodes * change
             added, length = added + rate[-1] * change, length + change
             allowed += np.where(length < over.whole, uncertainty / length, 0.0)
-        lost |= ~(apart < DIVERGED) | ((apart > last) & ~done & (iteration > PATIENCE))
+        diverged |= ~(apart < DIVERGED) | ((apart > last) & ~done & (iteration > PATIENCE))
         # A change that was large predicts nothing; one that is small and grows is rounding.
-        left = np.where(done, left, apart * np.minimum(1.0, apart / np.minimum(last, 1.0)))
-        done |= (left <= settled) | (apart <= allowed) | ((last < STALLED) & (apart >= last))
-        if np.all(done | lost):
+        predicted = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
+        error = np.where(done, error, predicted)
+        done |= (error <= settled) | (apart <= allowed) | ((last < STALLED) & (apart >= last))
+        if np.all(done | diverged):
             break
         last = apart
         if ends:
             U_a = contact.cycles.load(over.begin + length * nodes)
-    return _Part(added, length, inside, rate, noise, stiffness, left, done, evaluations)
+    return _Step(added, length, inside, rate, noise, stiffness, error, done, evaluations)
 
 
-def _newton(rule: Gauss, slope: FloatArray, missing: FloatArray) -> FloatArray:
-    """Return the solution x (m, k) of x = missing + the integral of slope x.
+def _newton(rule: Gauss, slope: FloatArray, residual: FloatArray) -> FloatArray:
+    """Return the solution x (m, k) of x = residual + the integral of slope x.
 
-    Where nothing decays much it is missing + E times the integral of slope missing/E, with
-    E = exp(integral of slope): but for a truncation error, of which the next iteration takes care.
+    Where little decays it is residual + E times the integral of slope residual/E, with
+    E = exp(integral of slope), but for a truncation error that the next iteration removes.
     """
     decay = rule.integrate @ slope
     stiff = ~(np.max(np.abs(decay), axis=0) < STIFF)
     factor = np.exp(np.where(stiff, 0.0, decay))
-    x = missing + factor * (rule.integrate @ (slope * missing / factor))
+    x = residual + factor * (rule.integrate @ (slope * residual / factor))
     if stiff.any():
         matrix = np.eye(len(rule.nodes)) - rule.integrate * slope.T[stiff][:, None, :]
-        x[:, stiff] = np.linalg.solve(matrix, missing.T[stiff][..., None])[..., 0].T
+        x[:, stiff] = np.linalg.solve(matrix, residual.T[stiff][..., None])[..., 0].T
     return np.asarray(x)

@@ -1,11 +1,11 @@
 """The cycle count with loss of contact: from one grazing wear to the next, and to the last.
 
 Between two grazing wears (`wear.loss_of_contact.grazing`) the increments of a cycle are series
-(`wear.loss_of_contact.increments`), of which Abel's equation makes the count where cycles are many
-(`wear.loss_of_contact.stretch`); the few cycles next to a grazing wear are taken one by one, from
-the series as long as they do not pass it. The cycles that pass, and the last ones before wear
-stops, are integrated by themselves: where they begin is guessed for the whole way ahead, so that
-all are integrated at once, and the next guess is better as in Newton's method.
+(`wear.loss_of_contact.increments`); where cycles are many, Abel's equation counts them
+(`wear.loss_of_contact.stretch`). The few cycles next to a grazing wear are taken one by one, by the
+series as long as they do not pass it. The cycles that pass it, and the last ones before wear stops,
+are integrated: their initial wears are predicted all the way ahead, so that they are integrated at
+once, and corrected as in Newton's method.
 """
 
 from __future__ import annotations
@@ -17,30 +17,35 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.counted import FADES, STOPS, End
-from wear.counted import Counted as CountedCycles
 from wear.load import Load
-from wear.loss_of_contact.arrest import TabulatedCount, Unresolved
+from wear.loss_of_contact.arrest import TabulatedIterates, UnresolvedIterates
 from wear.loss_of_contact.grazing import limit_wear_of
-from wear.loss_of_contact.increments import Increments, fitted
-from wear.loss_of_contact.parts import Counted, Judged, OneByOne, Part, judged, walked
+from wear.loss_of_contact.increments import IncrementSeries, fitted
+from wear.loss_of_contact.parts import (
+    CycleJump,
+    Part,
+    PartIterates,
+    SingleCycles,
+    walked,
+    with_error,
+)
 from wear.loss_of_contact.period_map import switched_period_map
-from wear.loss_of_contact.plan import GRAIN, SHIFT, Problem, planned, problem_of
-from wear.loss_of_contact.requests import (
-    ALONG,
-    COARSE,
-    FINE,
-    SOLVED,
-    Answers,
-    Asking,
-    Request,
-    answered,
+from wear.loss_of_contact.plan import GRAIN, SHIFT, CountProblem, count_problem, plan_domains
+from wear.loss_of_contact.queries import (
+    CYCLES,
+    FINER_CYCLES,
+    JUMPS,
+    STRETCHES,
+    BatchSolver,
+    Coroutine,
+    Query,
     cycles_by,
     frozen_cycles,
+    run_together,
     without_feedback,
 )
 from wear.loss_of_contact.samples import Samples
-from wear.loss_of_contact.stretch import OnPanels, Stretch, passed, stretches
+from wear.loss_of_contact.stretch import AbelSolution, Stretch, cycles_to_end, stretches
 from wear.loss_of_contact.switching import Edge
 from wear.model import Model
 from wear.numerics.tolerances import ROUNDOFF, TINY
@@ -48,23 +53,24 @@ from wear.orbit.iterates import Iterates
 from wear.orbit.period_map import settings
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, Segment
+from wear.scene_orbit import FADES, STOPS, End, SceneOrbit
 
-FEW = 4.0  # cycles to the next grazing wear: they are integrated
+FEW = 4.0  # cycles to the next grazing wear: these are integrated
 KEPT = 5  # cycles integrated one by one even when there is no time left
 MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
-VIOLENT = 0.5  # of the wear and its scale: increments that have no series
-JUDGED = 1e-2  # of the tolerance of a cycle: that of the cycle that judges it
-MOST_GUESSES = 10  # one after the other
+VIOLENT = 0.5  # of the wear and its scale: larger increments have no series
+FINER = 1e-2  # of the tolerance of a cycle: that of the finer cycle for its error
+MOST_PREDICTIONS = 10  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
 
 
-class Wanted(NamedTuple):
-    """A scene's model under a load that repeats, and its edge of contact, of which `cycles` are to
-    be counted from the wear `start` (mm), known up to `start_error`."""
+class CountRequest(NamedTuple):
+    """A request for `cycles` of a model under a load that repeats, with its edge of contact, from
+    the wear `start` (mm), known up to `start_error`."""
 
     model: Model
     load: Load
@@ -75,58 +81,59 @@ class Wanted(NamedTuple):
 
 
 @np.errstate(all="ignore")
-def counted_stages(
-    wanted: Sequence[Wanted], rtol: float, deadline: float = np.inf
-) -> list[CountedCycles]:
+def count_scenes(
+    requests: Sequence[CountRequest], rtol: float, deadline: float = np.inf
+) -> list[SceneOrbit]:
     """Count the cycles of scenes of one variant, or until wear ends.
 
     After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
     """
-    models, loads = [each.model for each in wanted], [each.load for each in wanted]
-    edges = [each.edge for each in wanted]
+    models, loads = [each.model for each in requests], [each.load for each in requests]
+    edges = [each.edge for each in requests]
     size = settings(rtol)
     coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
-    finer = max(ROUNDOFF, JUDGED * size.endpoint_tolerance)
+    finer = max(ROUNDOFF, FINER * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
-    counts = [_count(each, rtol, deadline) for each in wanted]
-    answers: list[Answers] = [frozen_cycles(coarse), _ways, _stretches]
+    counts = [_count(each, rtol, deadline) for each in requests]
+    answers: list[BatchSolver] = [frozen_cycles(coarse), _jumps, _stretches]
     answers += [cycles_by(coarse), cycles_by(fine)]
-    ways = answered(counts, answers)
-    parts = [part for way in ways for part in way.parts]
-    scene = np.repeat(np.arange(len(ways)), [len(way.parts) for way in ways])
-    found = iter(judged(parts, scene, [way.problem for way in ways], coarse.cycles))
+    counters = run_together(counts, answers)
+    parts = [part for counter in counters for part in counter.parts]
+    scene = np.repeat(np.arange(len(counters)), [len(counter.parts) for counter in counters])
+    found = iter(with_error(parts, scene, [counter.problem for counter in counters], coarse.cycles))
     return [
-        _segments(way, [next(found) for _ in way.parts], each)
-        for way, each in zip(ways, wanted, strict=True)
+        _segments(counter, [next(found) for _ in counter.parts], each)
+        for counter, each in zip(counters, requests, strict=True)
     ]
 
 
-def _ways(_: list[int], ways: list[tuple[OnPanels, float]]) -> list[tuple[float, float]]:
-    return passed(ways)
+def _jumps(_: list[int], counters: list[tuple[AbelSolution, float]]) -> list[tuple[float, float]]:
+    return cycles_to_end(counters)
 
 
 def _stretches(
-    _: list[int], known: list[tuple[list[Increments], Problem]]
+    _: list[int], known: list[tuple[list[IncrementSeries], CountProblem]]
 ) -> Iterator[list[Stretch]]:
     found = iter(stretches([(series, problem) for some, problem in known for series in some]))
     return ([next(found) for _ in some] for some, _ in known)
 
 
-def _count(wanted: Wanted, rtol: float, deadline: float) -> Asking[_Way]:
-    problem = yield from problem_of(wanted.model, wanted.load, wanted.edge, rtol, deadline)
-    way = _Way(problem, wanted.start)
-    while way.goes_on(wanted.cycles):
-        yield from way.go(max(wanted.cycles - way.done, 1.0))
-    yield from _judge(way)
-    return way
+def _count(request: CountRequest, rtol: float, deadline: float) -> Coroutine[_Counter]:
+    problem = yield from count_problem(request.model, request.load, request.edge, rtol, deadline)
+    counter = _Counter(problem, request.start)
+    while counter.unfinished(request.cycles):
+        yield from counter.advance(max(request.cycles - counter.done, 1.0))
+    yield from _estimate_errors(counter)
+    return counter
 
 
-class _Way:
-    """The way of a count: `parts`, one after the other, `done` cycles in all, and the `wear` (mm)
-    so far. It goes along `stretches` on which the increments are known, and between them by
-    `samples`: those are asked for where the way is likely to lead, all at once."""
+class _Counter:
+    """The count of a scene so far: its `parts` in order, `done` cycles in all, and the `wear` (mm)
+    after them. It follows `stretches` on which the increments are known; between them it takes
+    integrated cycles, `samples`, whose initial wears are predicted, several at once. While it
+    predicts, `predicted` collects the initial wears of cycles to integrate."""
 
-    def __init__(self, problem: Problem, start: float) -> None:
+    def __init__(self, problem: CountProblem, start: float) -> None:
         self.problem, self.wear, self.done = problem, start, 0.0
         self.over = self.arrested = self.fades = False
         self.parts: list[Part] = []
@@ -135,15 +142,15 @@ class _Way:
         self.samples = Samples()
         self.last_added = 0.0
         self.singles = 0
-        self.ahead_of: list[float] | None = None
+        self.predicted: list[float] | None = None
         self.cost = Cost(0, 0)
 
-    def goes_on(self, cycles: float) -> bool:
-        """Return whether some of so many cycles are still wanted."""
+    def unfinished(self, cycles: float) -> bool:
+        """Return whether some of so many cycles are still to be counted."""
         return not self.over and (self.done < cycles or not self.parts)
 
-    def go(self, cycles: float) -> Asking[None]:
-        """Go on for so many `cycles`, or less."""
+    def advance(self, cycles: float) -> Coroutine[None]:
+        """Count up to so many `cycles` more."""
         if self._lacks_a_plan(cycles):
             yield from self._plan(cycles)
         elif (yield from self._along(cycles)) or (yield from self._to_the_grazing_wear()):
@@ -155,49 +162,49 @@ class _Way:
         in_time = time.monotonic() <= self.problem.deadline
         return self.wear >= self.planned_to and cycles > FEW and in_time
 
-    def _plan(self, cycles: float) -> Asking[None]:
+    def _plan(self, cycles: float) -> Coroutine[None]:
         problem = self.problem
         added = yield from without_feedback(np.array([self.wear]))
         if added[0] > VIOLENT * (SHIFT * problem.scale + self.wear):
             self.stretches, self.planned_to = [], np.nextafter(self.wear, np.inf)
             return
-        spans, self.planned_to = yield from planned(problem, self.wear, cycles)
+        domains, self.planned_to = yield from plan_domains(problem, self.wear, cycles)
         number = COEFFICIENTS if problem.rtol < 1e-8 else FEWER_COEFFICIENTS
-        known, cost = yield from fitted(spans, number, problem.size.residual_tolerance / 2)
+        known, cost = yield from fitted(domains, number, problem.size.residual_tolerance / 2)
         self.cost = self.cost.plus(*cost)
-        self.stretches = yield Request(SOLVED, (known, problem))
+        self.stretches = yield Query(STRETCHES, (known, problem))
 
-    def _along(self, cycles: float) -> Asking[bool]:
-        """Go along a stretch on which the increments are known, if this is one."""
+    def _along(self, cycles: float) -> Coroutine[bool]:
+        """Count on the stretch at this wear, if there is one; return whether that led on."""
         for here in self.stretches:
-            if here.series.span.start <= self.wear < here.series.span.end:
-                z = float(here.series.span.coordinate.at(np.array(self.wear)))
-                counted = here.counted
-                if counted is not None and z < counted.first:
-                    return self._walk(here, counted.first, cycles)
-                some = yield from self._count(counted, z)
+            if here.series.domain.start <= self.wear < here.series.domain.end:
+                z = float(here.series.domain.coordinate.at(np.array(self.wear)))
+                abel = here.abel
+                if abel is not None and z < abel.first:
+                    return self._walk(here, abel.first, cycles)
+                some = yield from self._jump(abel, z)
                 return some or self._walk(here, here.end, cycles)
         return False
 
-    def _count(self, counted: OnPanels | None, z: float) -> Asking[bool]:
-        """Count by Abel's equation from z to the end of the panels, if there is a cycle to it."""
-        if counted is None or not z < counted.last:
+    def _jump(self, abel: AbelSolution | None, z: float) -> Coroutine[bool]:
+        """Jump from z to the end of the panels of Abel's equation, if that takes a cycle."""
+        if abel is None or not z < abel.last:
             return False
-        ran, z_after = yield Request(ALONG, (counted, z))
-        limit_wear = counted.limit_wear
+        ran, z_after = yield Query(JUMPS, (abel, z))
+        limit_wear = abel.limit_wear
         if ran < 1.0 and not limit_wear:
             return False
-        if self.ahead_of is None:
-            self.parts.append(Counted(counted, z, ran))
-        wear = float(counted.series.coordinate.wear(np.array(z_after)))
+        if self.predicted is None:
+            self.parts.append(CycleJump(abel, z, ran))
+        wear = float(abel.series.coordinate.wear(np.array(z_after)))
         self.wear, self.done = limit_wear.wear if limit_wear else wear, self.done + ran
         self.over = self.arrested = self.fades = limit_wear is not None
         return True
 
     def _walk(self, here: Stretch, end: float, cycles: float) -> bool:
-        """Go on cycle by cycle until z passes `end`."""
+        """Take single cycles until z passes `end`."""
         most = min(cycles, MOST_AT_ONCE)
-        if self.ahead_of is not None and not here.series.span.tends:
+        if self.predicted is not None and not here.series.domain.tends:
             *before, last = here.series.walk(self.wear, end, most)
             if before:
                 self.wear, self.done = last, self.done + len(before)
@@ -206,48 +213,48 @@ class _Way:
         found = walked(here.series, self.wear, end, most)
         if not found.added:
             return False
-        if here.series.span.tends and end == here.end and len(found.wear) <= most:
-            rest = here.series.span.end - found.wear[-1]
-            ends = [found.wear[-1], here.series.span.end, here.series.span.end]
-            found.extend(OneByOne(ends, [rest, 0.0], [0.0, 0.0], [0.0, 1.0]))
+        if here.series.domain.tends and end == here.end and len(found.wear) <= most:
+            rest = here.series.domain.end - found.wear[-1]
+            ends = [found.wear[-1], here.series.domain.end, here.series.domain.end]
+            found.extend(SingleCycles(ends, [rest, 0.0], [0.0, 0.0], [0.0, 1.0]))
             self.over = self.arrested = self.fades = True
         self._append_cycles(found)
         return True
 
-    def _to_the_grazing_wear(self) -> Asking[bool]:
-        """Pass cycles that double precision does not resolve, next to a grazing wear."""
+    def _to_the_grazing_wear(self) -> Coroutine[bool]:
+        """Skip cycles next to a grazing wear that double precision does not resolve."""
         ahead = self._grazing_wear()
         if ahead - self.wear > 2 * GRAIN * ROUNDOFF * ahead:
             return False
-        # Contact shrinks like the root of what is left: twice the cycles at the present pace.
+        # Contact shrinks like the root of the distance: twice the cycles at the present rate.
         rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
         left = np.floor(2 * (ahead - self.wear) / rate)
         if not FEW <= left < np.inf:
             return False
         part = np.array([[self.wear], [ahead], [left], [ahead - self.wear]])
-        self.parts.append(Unresolved(*part))
+        self.parts.append(UnresolvedIterates(*part))
         self.wear, self.done = ahead, self.done + float(left)
         return True
 
     def _grazing_wear(self) -> float:
-        """Return the next one (mm), infinite if there is none."""
+        """Return the next grazing wear (mm), infinite if there is none."""
         behind = self.wear * (1 + 8 * ROUNDOFF)
         return min((stop.at for stop in self.problem.stops if stop.at > behind), default=np.inf)
 
     def _cycle(self) -> bool:
-        """Add one cycle, if a sample is so near that it is known."""
+        """Add one cycle, if a sample near by gives it accurately."""
         sample, limit = self.samples.at(self.wear, self.last_added), self.problem.limit_wear
-        known = sample.off <= self.problem.size.endpoint_tolerance
-        if self.ahead_of is None and not known:
+        known = sample.error <= self.problem.size.endpoint_tolerance
+        if self.predicted is None and not known:
             return False
-        if self.ahead_of is not None and not known:
-            self.ahead_of.append(self.wear)
+        if self.predicted is not None and not known:
+            self.predicted.append(self.wear)
         added = sample.added
         if not added > 0.0 and limit is not None and self.wear < limit.wear:
             added = limit.wear - self.wear  # nearer than rounding resolves
         self.singles += 1
         cycle = [self.wear, self.wear + added], [added], [np.nan], [abs(1.0 + sample.slope)]
-        self._append_cycles(OneByOne(*cycle))
+        self._append_cycles(SingleCycles(*cycle))
         self.arrested = not added > 0.0
         self.fades = self.arrested and limit is not None
         late = time.monotonic() > self.problem.deadline and self.singles >= KEPT
@@ -255,28 +262,28 @@ class _Way:
         self.over = self.arrested or failed or late or self.singles >= MOST_SINGLE
         return True
 
-    def _ask(self, cycles: float) -> Asking[None]:
-        """Integrate cycles here, and wherever the way may lead between stretches, twice each."""
+    def _ask(self, cycles: float) -> Coroutine[None]:
+        """Integrate cycles here and at the predicted wears ahead, twice each for their slopes."""
         ahead = copy(self)
-        ahead.parts, ahead.done, ahead.ahead_of = [], 0.0, []
+        ahead.parts, ahead.done, ahead.predicted = [], 0.0, []
         in_a_row = 0
-        while ahead.goes_on(cycles) and len(ahead.ahead_of) < MOST_SAMPLES:
+        while ahead.unfinished(cycles) and len(ahead.predicted) < MOST_SAMPLES:
             left = cycles - ahead.done
-            if ahead._lacks_a_plan(left) or in_a_row == MOST_GUESSES:
+            if ahead._lacks_a_plan(left) or in_a_row == MOST_PREDICTIONS:
                 break
             in_a_row = 0 if (yield from ahead._along(left)) else in_a_row + 1
             if in_a_row:
                 ahead._cycle()
-        wear = np.array(ahead.ahead_of)
+        wear = np.array(ahead.predicted)
         apart = APART * (4 * self.problem.scale + wear)
-        run = yield Request(COARSE, np.concatenate([wear, wear + apart]))
+        run = yield Query(CYCLES, np.concatenate([wear, wear + apart]))
         self.cost = self.cost.plus(2 * len(wear), run.evaluations)
         added, beside = np.split(run.increment, 2)
         slope, sound = (beside - added) / apart, run.converged[: len(wear)]
         self.samples.add(wear, added, slope, sound)
 
-    def _append_cycles(self, cycles: OneByOne) -> None:
-        if self.parts and isinstance(last := self.parts[-1], OneByOne):
+    def _append_cycles(self, cycles: SingleCycles) -> None:
+        if self.parts and isinstance(last := self.parts[-1], SingleCycles):
             last.extend(cycles)
         else:
             self.parts.append(cycles)
@@ -284,62 +291,66 @@ class _Way:
         self.last_added = cycles.added[-1]
 
 
-def _segments(way: _Way, found: Sequence[Judged], wanted: Wanted) -> CountedCycles:
-    """Return the parts of the way as segments, with what there is after its end."""
-    problem, cycles = way.problem, wanted.cycles
+def _segments(
+    counter: _Counter, found: Sequence[PartIterates], request: CountRequest
+) -> SceneOrbit:
+    """Return the parts of a count as segments, with one for the cycles after its end."""
+    problem, cycles = counter.problem, request.cycles
     segments: list[Segment] = []
-    begins, drift, one = 0.0, 0.0, np.zeros(1)
-    inherited = one + wanted.start_error
+    begins, begins_error, one = 0.0, 0.0, np.zeros(1)
+    start_error = one + request.start_error
     for counted in found:
-        segments.append(Segment(_FIRST, counted, one + begins, inherited, one + drift))
+        segments.append(Segment(_FIRST, counted, one + begins, start_error, one + begins_error))
         ran = counted.whole_cycles
         after, relative = counted.after(ran[None])
-        inherited = after[0] * (relative[0] + inherited / (after[0] + TINY))
+        start_error = after[0] * (relative[0] + start_error / (after[0] + TINY))
         begins += float(ran[0])
-        drift += float(counted.reach[0]) if isinstance(counted, Unresolved) else 0.0
+        begins_error += float(counted.reach[0]) if isinstance(counted, UnresolvedIterates) else 0.0
     end_of_wear: End | None = None
     limit = problem.limit_wear
-    if not way.arrested and begins < cycles and limit is not None:
+    if not counter.arrested and begins < cycles and limit is not None:
         # The count has ended before, but no wear is beyond the limit.
-        left = max(limit.wear - way.wear, 0.0) + limit.uncertainty
-        short = Unresolved(*(one + x for x in (way.wear, limit.wear, cycles - begins, left)))
-        segments.append(Segment(_FIRST, short, one + begins, inherited, one + drift))
-    if way.arrested and begins <= cycles:
-        end_of_wear = _end(problem, segments, way.fades)
+        left = max(limit.wear - counter.wear, 0.0) + limit.uncertainty
+        short = UnresolvedIterates(
+            *(one + x for x in (counter.wear, limit.wear, cycles - begins, left))
+        )
+        segments.append(Segment(_FIRST, short, one + begins, start_error, one + begins_error))
+    if counter.arrested and begins <= cycles:
+        end_of_wear = _end(problem, segments, counter.fades)
         rest = end_of_wear and _rest(problem, segments, end_of_wear)
         segments += [rest] if rest else []
-    return CountedCycles(Orbit(1, tuple(segments), way.cost), end_of_wear)
+    return SceneOrbit(Orbit(1, tuple(segments), counter.cost), end_of_wear)
 
 
-def _judge(way: _Way) -> Asking[None]:
-    """Judge the cycles that were integrated by another map."""
+def _estimate_errors(counter: _Counter) -> Coroutine[None]:
+    """Estimate the errors of integrated cycles by a finer period map."""
     todo = [
         (part, k)
-        for part in way.parts
-        if isinstance(part, OneByOne)
-        for k, missed in enumerate(part.missed)
-        if np.isnan(missed)
+        for part in counter.parts
+        if isinstance(part, SingleCycles)
+        for k, error in enumerate(part.local_error)
+        if np.isnan(error)
     ]
     if not todo:
         return
     at, added = np.array([(part.wear[k], part.added[k]) for part, k in todo]).T
-    fine = yield Request(FINE, at)
-    missed = np.abs(fine.increment - added) if fine.converged.all() else np.full(len(at), np.inf)
-    for (part, k), found in zip(todo, missed.tolist(), strict=True):
-        part.missed[k] = found
-    way.cost = way.cost.plus(len(at), fine.evaluations)
+    fine = yield Query(FINER_CYCLES, at)
+    error = np.abs(fine.increment - added) if fine.converged.all() else np.full(len(at), np.inf)
+    for (part, k), found in zip(todo, error.tolist(), strict=True):
+        part.local_error[k] = found
+    counter.cost = counter.cost.plus(len(at), fine.evaluations)
 
 
-def _end(problem: Problem, segments: list[Segment], fades: bool) -> End | None:
+def _end(problem: CountProblem, segments: list[Segment], fades: bool) -> End | None:
     """Return the cycle in which wear stops, if its error is known."""
     last = segments[-1]
-    begins, counted = int(last.begins[0]), last.counted
-    # A segment that begins at rest does not tell how long it took to get there.
-    moving = [float(s.blur[0]) for s in segments if s.counted.first_increment[0] > 0]
-    uncertainty = max([float(last.blur[0]), *moving[-1:]])
-    if not np.isfinite(last.inherited[0] + uncertainty):
+    begins, counted = int(last.begins[0]), last.iterates
+    # A segment that begins at rest does not show how long it took to get there.
+    moving = [float(s.count_uncertainty[0]) for s in segments if s.iterates.first_increment[0] > 0]
+    uncertainty = max([float(last.count_uncertainty[0]), *moving[-1:]])
+    if not np.isfinite(last.start_error[0] + uncertainty):
         return None
-    if isinstance(counted, TabulatedCount):
+    if isinstance(counted, TabulatedIterates):
         cycle = begins + int(counted.whole_cycles[0])
         return End(cycle, round(uncertainty + float(counted.count_error[-1])), FADES)
     if not isinstance(counted, Iterates) or not np.isfinite(counted.transient_error).all():
@@ -350,13 +361,13 @@ def _end(problem: Problem, segments: list[Segment], fades: bool) -> End | None:
     return End(cycle, round(uncertainty), FADES if fades else STOPS)
 
 
-def _rest(problem: Problem, segments: list[Segment], end: End) -> Segment | None:
-    """Return the cycles after the end, if the limit of the wear is known: to rounding, whatever the
-    error of the cycles before."""
-    wear = segments[-1].counted.last_state
+def _rest(problem: CountProblem, segments: list[Segment], end: End) -> Segment | None:
+    """Return the segment after the end, if the limit of the wear is known: its error is that of
+    rounding alone, not that of the cycles before."""
+    wear = segments[-1].iterates.last_state
     limit = limit_wear_of(problem.model, problem.load, float(wear[0]))
     if limit is None:
         return None
     none, begins = np.zeros(1), np.array([end.cycle + 2.0 * end.uncertain])
-    rest = Unresolved(wear, wear, none, none + limit.uncertainty)
+    rest = UnresolvedIterates(wear, wear, none, none + limit.uncertainty)
     return Segment(_FIRST, rest, begins, none, none)

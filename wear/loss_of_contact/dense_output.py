@@ -1,8 +1,8 @@
-"""What a cycle with the cutoff adds up to given phases.
+"""Increments up to given phases of cycles with loss of contact.
 
-Contact begins and ends where the wear lets it, so that what is added up to a phase has kinks in the
-wear. It is not interpolated: the wanted cycles are integrated, all at once, from the wear that the
-count gives for their starts. The pieces of the cycle are cut at the phases.
+The phases at which contact begins and ends depend on the wear, so that the increment up to a phase
+has kinks as a function of the initial wear. It is not interpolated: the requested cycles are
+integrated, all at once, from their initial wears. The pieces of the cycle are cut at the phases.
 """
 
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_m
 from wear.loss_of_contact.switching import PIECE_SAMPLES, Piece, edge_of_contact
 from wear.model import Model
 from wear.numerics.gauss import FloatArray
-from wear.orbit.dense_output import Added
+from wear.orbit.dense_output import PhaseIncrements
 from wear.orbit.period_map import settings
 
 NODES = 8  # on each part of a piece, most of which are short
@@ -22,22 +22,22 @@ NEARLY = 1e-12  # of a cycle: phases that are one
 
 
 class SwitchedDenseOutput(NamedTuple):
-    """A cycle in `parts` (k,): as many as `upto` (m,) lie before each phase. The one-cycle maps are
-    for the result and to judge it."""
+    """A cycle in `parts` (k,), of which the first `upto` (m,) lie before each phase; the period
+    maps are those of the result and of its error estimate."""
 
     upto: tuple[int, ...]
     parts: Piece
     both: tuple[SwitchedPeriodMap, SwitchedPeriodMap]
 
     @np.errstate(all="ignore")  # of trial states; what is no number fails the estimate of error
-    def added(self, cycles: FloatArray, starts: FloatArray) -> Added:
-        """Return what a cycle adds from each of the `starts` (n,), mm."""
+    def added(self, cycles: FloatArray, starts: FloatArray) -> PhaseIncrements:
+        """Return the increments of a cycle from each of the `starts` (n,), mm."""
         coarse, fine = (self._wear(cycle, starts) for cycle in self.both)
-        missed = np.max(np.abs(coarse - fine), axis=1, initial=0.0)
-        return Added(coarse, missed, None, np.zeros(len(cycles)))
+        error = np.max(np.abs(coarse - fine), axis=1, initial=0.0)
+        return PhaseIncrements(coarse, error, None, np.zeros(len(cycles)))
 
     def _wear(self, cycle: SwitchedPeriodMap, starts: FloatArray) -> FloatArray:
-        """Return the wear added (n, m) up to each phase, mm; no number where it was not found."""
+        """Return the wear added (n, m) up to each phase, mm; NaN where the iteration failed."""
         added, nothing = [np.zeros(len(starts))], np.zeros(len(starts))
         for i in range(len(self.parts.closes)):
             part = self.parts.take(np.full(len(starts), i))
@@ -49,7 +49,7 @@ class SwitchedDenseOutput(NamedTuple):
 def switched_dense_output(
     model: Model, load: Load, phases: FloatArray, rtol: float
 ) -> SwitchedDenseOutput:
-    """Prepare for any cycles and for `phases` (m,) in [0, 1]."""
+    """Return the dense output of any cycles at `phases` (m,) in [0, 1]."""
     edge = edge_of_contact(model, load)
     parts = _cut(edge.pieces, load, phases)
     upto = tuple(np.sum(parts.end <= phases[:, None] + NEARLY, axis=1).tolist())

@@ -1,5 +1,5 @@
-"""The wears at which contact grazes: there the one-cycle map has a kink, and at the last of them
-wear ends or fades."""
+"""Grazing wears: there the period map has a kink, and at the last of them wear stops or tends to
+its limit."""
 
 from typing import NamedTuple
 
@@ -20,17 +20,19 @@ TINY_WEARS = 16  # samples of them: roots are found to roundoff of the larger sa
 
 
 class GrazingWear(NamedTuple):
-    """A `wear` (mm) at which contact grazes, when so many pieces of the cycle lie `before`."""
+    """A `wear` (mm) at which contact grazes, and the number of pieces of the cycle `before`
+    that."""
 
     wear: float
     before: int
 
 
 def grazing_wears(model: Model, load: Load, edge: Edge, shift: float) -> list[GrazingWear]:
-    """Wears, rising, at which the edge of contact passes an end of a piece; on a compliant support
-    also those at which the bend of the rate does.
+    """Return the wears, rising, at which the edge of contact passes an end of a piece; on a
+    compliant support also those at which the bend of the rate does.
 
-    Where the margin is hardly more than its own rounding, the map does not feel the kink.
+    A kink where the margin is hardly more than its rounding error is left out: the map does not
+    resolve it.
     """
     far = np.expm1(np.linspace(0.0, 40.0, 400))
     wear = shift * np.insert(far, 1, np.geomspace(ROUNDOFF, 0.1 * far[1], TINY_WEARS))
@@ -52,8 +54,8 @@ def grazing_wears(model: Model, load: Load, edge: Edge, shift: float) -> list[Gr
 
 
 def limit_wear_of(model: Model, load: Load, wear: float) -> LimitWear | None:
-    """Return the wear (mm) at which the peak of the load just fails to make contact, a root of the
-    margin, with what rounding makes of it; None if this is not such a wear."""
+    """Return the limit wear next to a `wear` (mm), with its rounding error: there the peak of the
+    load just fails to make contact. None if there is no such wear."""
     peak, worn = np.array(load.maximum), np.array(wear)
     rounding = ROUNDOFF * float(model.margin_terms(worn, peak))
     left = abs(float(model.margin(worn, peak)))
@@ -63,9 +65,9 @@ def limit_wear_of(model: Model, load: Load, wear: float) -> LimitWear | None:
 
 
 def fades(model: Model, load: Load, edge: Edge, limit_wear: float) -> bool:
-    """Return whether wear only tends to `limit_wear` (mm), at which the peak of the load just fails
-    to make contact: each cycle leaves a part of the distance if the peak is so sharp that contact
-    does not slide along its edge, or if the pressure vanishes along with the distance."""
+    """Return whether wear tends to the `limit_wear` (mm) without reaching it: each cycle leaves a
+    part of the distance if the peak of the load is so sharp that contact does not slide along its
+    edge, or if the pressure vanishes along with the distance."""
     if model.compliant:
         return True
     worn, peak = np.array(limit_wear), np.array(load.maximum)

@@ -1,11 +1,11 @@
-"""The wear that a cycle adds between two grazing wears: a series, from a few cycles integrated.
+"""The increment of a cycle between two grazing wears: a series, fitted to a few integrated cycles.
 
-Where contact grazes a turning point of the load the one-cycle map has a branch point: the time of
-contact begins or ends like a root of the distance d to that wear. In w = d^(1/2) the map is smooth.
-So between two grazing wears the logarithm of the increment D(u), less that of the power of d with
-which it vanishes at a limit wear, is a Chebyshev series of few coefficients in w/(w + c). All nodes
-of all stretches are cycles that are integrated at once. What follows, Abel's equation and single
-cycles, asks the series.
+Where contact grazes a turning point of the load the period map has a branch point: the duration of
+contact changes like the root of the distance d to that wear. In w = d^(1/2) the map is smooth. So
+between two grazing wears the logarithm of the increment D(u), less that of the power of d with
+which it vanishes at a limit wear, is a Chebyshev series of few coefficients in w/(w + c). The
+cycles from the nodes of all panels are integrated at once. Abel's equation and single cycles then
+evaluate the series.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.requests import COARSE, Asking, Request
+from wear.loss_of_contact.queries import CYCLES, Coroutine, Query
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, product
 from wear.numerics.rows import stacked, take
@@ -27,16 +27,16 @@ from wear.orbit.abel import Frame
 from wear.orbit.panels import CHECKS, SPLIT, near_checks
 from wear.orbit.problem import Cost
 
-MOST_ROUNDS = 6  # of cutting panels: those that are not resolved then are not used
-GRAIN = 16.0  # times the uncertainty of a distance: what rounding may make of the increment
+MOST_ROUNDS = 6  # of cutting panels: those not resolved by then are discarded
+GRAIN = 16.0  # times the uncertainty of a distance: the rounding error of an increment
 WIDE = 2.0  # panel, in ln(z + shift): it is cut in the middle of that
 FAR_OFF = 1e3  # times the tolerance: then a panel is cut in four, else in two
 FAR_BEYOND = 700.0  # logarithm of an increment over the level of its panel
-SAME = 1e-9  # of a span: wears so near to each other are one
-USABLE = 10.0  # times the tolerance: the estimate of error reports the rest
+SAME = 1e-9  # of a domain: wears so near to each other are one
+USABLE = 10.0  # times the tolerance: the largest misfit of a series in use
 TO_ROUNDOFF = 0.25 * ROUNDOFF  # of the wear: the distance from its limit at which a count ends
 TERMS = 6  # at most, with which a series goes on to a limit wear
-EASED = 10.0  # at most: an error of the distance is a smaller one of the wear
+EASED = 10.0  # at most, the tolerance: an error of the distance is a smaller one of the wear
 
 
 class Coordinate(NamedTuple):
@@ -67,12 +67,13 @@ def step(ahead: BoolArray | bool, z: FloatArray, increment: FloatArray) -> Float
     return np.where(ahead, z * taken / (1.0 - taken), increment)
 
 
-class Span(NamedTuple):
-    """Where increments are wanted: from the wear `start` to `end` (mm) in a coordinate z, whose
-    origin rounding leaves an `uncertainty` (mm); and on to it if wear `tends` there for ever.
+class SeriesDomain(NamedTuple):
+    """The domain of a series of increments: from the wear `start` to `end` (mm), in a coordinate z
+    whose origin has the rounding error `uncertainty` (mm); and on to the origin if wear `tends` to
+    it.
 
-    The series of the increments, over that power `vanishes` of w, runs in w/(w + scale) with
-    w = z^power, or in ln w if the scale is zero.
+    The series of D/w^vanishes runs in w/(w + scale) with w = z^power, or in ln w if the scale is
+    zero.
     """
 
     coordinate: Coordinate
@@ -90,7 +91,8 @@ class Span(NamedTuple):
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Return its first and last z; towards a limit wear, that which rounding tells from it."""
+        """Return its first and last z; towards a limit wear the last that double precision
+        distinguishes from it."""
         first, last = self.coordinate.at(np.array([self.start, self.end])).tolist()
         return first, 1.0 / (TO_ROUNDOFF * self.coordinate.origin) if self.tends else last
 
@@ -101,12 +103,12 @@ class Span(NamedTuple):
         return abel.frame(self.scale, ends[:1], ends[1:])
 
 
-class Increments(NamedTuple):
-    """The wear D that cycles add along a `span`: ln(D/(level w^vanishes)) on a `frame` of panels of
-    w, Chebyshev `series` (p, m) less a `level` (p,); `misfit` (p, 6) is the relative difference to
-    cycles from the CHECKS, and what these have missed."""
+class IncrementSeries(NamedTuple):
+    """The increments D of cycles on a `domain`: ln(D/(level w^vanishes)) as Chebyshev `series` (p,
+    m) on a `frame` of panels of w, each with its `level` (p,). The relative error `misfit` (p, 6)
+    at the CHECKS is the difference to integrated cycles, and the error of these."""
 
-    span: Span
+    domain: SeriesDomain
     frame: Frame
     level: FloatArray
     series: FloatArray
@@ -114,14 +116,14 @@ class Increments(NamedTuple):
 
     @property
     def coordinate(self) -> Coordinate:
-        """Return the coordinate z of the span."""
-        return self.span.coordinate
+        """Return the coordinate z of the domain."""
+        return self.domain.coordinate
 
     def walk(self, wear: float, end: float, most: float) -> list[float]:
-        """Return the wear (mm) before and after each cycle from `wear` until z passes `end`, or
-        until there are `most`."""
+        """Return the wear (mm) before and after each cycle from `wear` on, until z passes `end`,
+        but at most so many cycles."""
         origin, ahead, _ = self.coordinate
-        power, scale, vanishes = self.span.power, self.span.scale, self.span.vanishes
+        power, scale, vanishes = self.domain.power, self.domain.scale, self.domain.vanishes
         starts, across = self.frame.starts.tolist(), self.frame.x_ends.tolist()
         series, level = [row[::-1] for row in self.series.tolist()], self.level.tolist()
         walked, left = [wear], origin - wear
@@ -145,30 +147,30 @@ class Increments(NamedTuple):
         return walked
 
 
-def increments(known: Sequence[Increments], of: IntArray, z: FloatArray) -> FloatArray:
-    """Return the wear (mm) that a cycle adds from each z (k,) on the series `of` (k,) those that
-    are known."""
+def increments(known: Sequence[IncrementSeries], of: IntArray, z: FloatArray) -> FloatArray:
+    """Return the increment (mm) of a cycle from each z (k,), by the series with the numbers `of`
+    (k,)."""
     panel, t, w = _located(known, of, z)
     series, level = (np.concatenate([each[i] for each in known]) for i in (3, 2))
-    vanishes = np.array([each.span.vanishes for each in known])[of]
+    vanishes = np.array([each.domain.vanishes for each in known])[of]
     logarithm = np.einsum("ij,ij->i", chebyshev_values(t, series.shape[1]), series[panel])
     return np.asarray(level[panel] * np.exp(logarithm) * w**vanishes)
 
 
-def missed(known: Sequence[Increments], of: IntArray, z: FloatArray) -> FloatArray:
-    """Return the relative error of the increment at each z (k,): the larger misfit of the two
-    checks next to it."""
+def relative_error(known: Sequence[IncrementSeries], of: IntArray, z: FloatArray) -> FloatArray:
+    """Return the relative error of the increment at each z (k,): the larger misfit at the two
+    CHECKS next to it."""
     panel, t, _ = _located(known, of, z)
     misfit = np.concatenate([each.misfit for each in known])
     return near_checks(misfit[panel], t[:, None])[:, 0]
 
 
 def _located(
-    known: Sequence[Increments], of: IntArray, z: FloatArray
+    known: Sequence[IncrementSeries], of: IntArray, z: FloatArray
 ) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Return the panel among all those known that holds each z (k,) on the series `of` (k,), or the
-    nearest, the position on it, and w."""
-    power, scale = np.array([(each.span.power, each.span.scale) for each in known])[of].T
+    """Return, for each z (k,) on the series with the numbers `of` (k,), its panel among those of
+    all series, or the nearest; its position on that panel; and w."""
+    power, scale = np.array([(each.domain.power, each.domain.scale) for each in known])[of].T
     number = [len(each.level) for each in known]
     starts, across = (
         np.concatenate(each)
@@ -184,32 +186,32 @@ def _located(
 
 
 def fitted(
-    spans: Sequence[Span], number: int, tolerance: float
-) -> Asking[tuple[list[Increments], Cost]]:
-    """Fit the increments on every span, with `number` coefficients on each panel, to a relative
-    `tolerance`: the panels of all spans at once, those that miss it cut in pieces. Return those of
-    each part of a span on which they are known."""
-    frames = [span.frame for span in spans]
-    found: list[list[Increments]] = [[] for _ in spans]
+    domains: Sequence[SeriesDomain], number: int, tolerance: float
+) -> Coroutine[tuple[list[IncrementSeries], Cost]]:
+    """Fit the increments on every domain, with `number` coefficients on each panel, to a relative
+    `tolerance`: the panels of all domains at once, those that miss it cut in pieces. Return a
+    series for each part of a domain on which the fit succeeds."""
+    frames = [domain.frame for domain in domains]
+    found: list[list[IncrementSeries]] = [[] for _ in domains]
     cost, t = Cost(0, 0), np.append(chebyshev_nodes(number), CHECKS)
-    vanishes = np.array([span.vanishes for span in spans])
+    vanishes = np.array([domain.vanishes for domain in domains])
     for rounds in range(MOST_ROUNDS):
         some = [i for i, frame in enumerate(frames) if len(frame.starts)]
         if not some:
             break
         states = [frames[i].states(t) for i in some]
         of, w = np.repeat(some, [len(part) for part in states]), np.concatenate(states)
-        wear = np.concatenate([spans[i].wear(part) for i, part in zip(some, states, strict=True)])
-        run = yield Request(COARSE, wear.ravel())
+        wear = np.concatenate([domains[i].wear(part) for i, part in zip(some, states, strict=True)])
+        run = yield Query(CYCLES, wear.ravel())
         cost = cost.plus(wear.size, run.evaluations)
         increment = run.increment.reshape(w.shape)
-        missed = (run.missed.reshape(w.shape) / increment)[:, number:]
-        fits = _series(increment / w ** vanishes[of, None], missed)
-        off = np.max(fits[-1] / _allowed(spans, of, wear[:, number:], tolerance), axis=1)
-        again = ~(off <= 1.0) & (rounds < MOST_ROUNDS - 1)
+        error = (run.error.reshape(w.shape) / increment)[:, number:]
+        fits = _series(increment / w ** vanishes[of, None], error)
+        excess = np.max(fits[-1] / _allowed(domains, of, wear[:, number:], tolerance), axis=1)
+        again = ~(excess <= 1.0) & (rounds < MOST_ROUNDS - 1)
         for i in some:
-            fresh = Increments(spans[i], frames[i], *take(fits, of == i))
-            bad, far = again[of == i], off[of == i]
+            fresh = IncrementSeries(domains[i], frames[i], *take(fits, of == i))
+            bad, far = again[of == i], excess[of == i]
             found[i].append(take(fresh, ~bad & (far <= USABLE)))
             frames[i] = take(frames[i], bad)
             if bad.any():
@@ -218,51 +220,54 @@ def fitted(
     return [known for parts in found for known in _joined(parts)], cost
 
 
-def _series(smooth: FloatArray, missed: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return level, series and misfit of `Increments` from D/w^vanishes at the nodes of panels and
-    then at the CHECKS, (p, n), and the relative error of the latter."""
+def _series(smooth: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return level, series and misfit of an `IncrementSeries` from D/w^vanishes at the nodes of
+    panels and then at the CHECKS, (p, n), and the relative `error` at the latter."""
     number = smooth.shape[1] - len(CHECKS)
     level = smooth[:, number // 2]
     series = product(np.log(smooth[:, :number] / level[:, None]), chebyshev_analysis(number).T)
     values = level[:, None] * np.exp(product(series, chebyshev_values(CHECKS, number).T))
-    return level, series, np.abs(values / smooth[:, number:] - 1.0) + missed
+    return level, series, np.abs(values / smooth[:, number:] - 1.0) + error
 
 
-def _allowed(spans: Sequence[Span], of: IntArray, wear: FloatArray, tolerance: float) -> FloatArray:
-    """Return the relative errors that are accepted of the increments from each wear (p, n) on
-    panels `of` (p,) some spans."""
-    each = [(*span.coordinate[:2], span.uncertainty) for span in spans]
+def _allowed(
+    domains: Sequence[SeriesDomain], of: IntArray, wear: FloatArray, tolerance: float
+) -> FloatArray:
+    """Return the permitted relative errors of the increments from each wear (p, n) on panels of the
+    domains with the numbers `of` (p,)."""
+    each = [(*domain.coordinate[:2], domain.uncertainty) for domain in domains]
     origin, ahead, uncertainty = np.array(each)[of].T[..., None]
     left = np.where(ahead > 0.0, origin - wear, np.inf)
     eased = tolerance * np.clip(origin / left, 1.0, EASED)
     return np.asarray(np.maximum(eased, GRAIN * uncertainty / left))
 
 
-def _joined(parts: list[Increments]) -> list[Increments]:
-    """Return the panels of a span, those that follow each other together."""
+def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
+    """Return the series of a domain: one for each run of adjacent panels."""
     every = stacked(parts)
-    span, frame = every.span, every.frame
+    domain, frame = every.domain, every.frame
     order = np.argsort(frame.starts)
     starts, ends = frame.starts[order], frame.ends[order]
     gaps = np.flatnonzero(starts[1:] > ends[:-1] * (1 + SAME)) + 1
-    known, near = [], SAME * (span.end - span.start)
+    known, near = [], SAME * (domain.end - domain.start)
     for run in np.split(order, gaps) if len(order) else []:
         mine = take(every, run)
-        begin, end = np.sort(span.wear(np.array([mine.frame.starts[0], mine.frame.ends[-1]])))
-        begin = span.start if begin <= span.start + near else begin
-        whole = end >= span.end - near
-        last = span.end if whole else end
-        if span.tends and whole:
-            last = span.coordinate.origin
+        begin, end = np.sort(domain.wear(np.array([mine.frame.starts[0], mine.frame.ends[-1]])))
+        begin = domain.start if begin <= domain.start + near else begin
+        whole = end >= domain.end - near
+        last = domain.end if whole else end
+        if domain.tends and whole:
+            last = domain.coordinate.origin
             mine = stacked([_to_limit(mine), mine])
-        own = span._replace(start=float(begin), end=float(last), tends=span.tends and whole)
-        known.append(mine._replace(span=own))
+        tends = domain.tends and whole
+        part = domain._replace(start=float(begin), end=float(last), tends=tends)
+        known.append(mine._replace(domain=part))
     return known
 
 
-def _to_limit(known: Increments) -> Increments:
-    """Return the panel from w = 0 to the first one known: the series of that one goes on by those
-    first terms of Taylor's that are more than its misfit may make of them."""
+def _to_limit(known: IncrementSeries) -> IncrementSeries:
+    """Return the panel from w = 0 to the first one: its series, extrapolated by the first terms of
+    Taylor's expansion, as far as these exceed their error by the misfit."""
     first, m = take(known, slice(1)), known.series.shape[1]
     frame = abel.frame(first.frame.c, np.zeros(1), first.frame.starts)
     d = first.frame.positions(frame.states(chebyshev_nodes(TERMS)))[0] + 1.0

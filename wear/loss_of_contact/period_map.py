@@ -12,7 +12,8 @@ Overview
     margin; beyond, it is that of the contact law. On a piece the margin passes each of the two
     levels in one direction at most.
 Key results
-    SwitchedPeriodMap    what a cycle adds, piece by piece, and as if the rate did not feel the wear
+    SwitchedPeriodMap    the increment of a cycle, piece by piece; also with the rate frozen at its
+                         initial wear
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from wear.loss_of_contact.contact import (
     Contact,
     ContactPart,
     ContactResult,
-    Interval,
+    PhaseInterval,
     wear_in_contact,
 )
 from wear.loss_of_contact.roots import displacement_at, wear_at
@@ -45,12 +46,12 @@ FROZEN_PHASE = 1e-5  # of a cycle: where contact begins and ends there
 AT_ONCE = 10_000  # numbers of an array that stays in the processor's cache, with some others
 
 
-class Advanced(NamedTuple):
-    """The `increment` (k,) of a cycle from each wear, mm, and what it has `missed`, by estimate;
-    whether it is sound, `converged` (k,); and the number of right-hand sides evaluated."""
+class CycleResult(NamedTuple):
+    """The `increment` (k,) of a cycle from each wear, mm, and its estimated `error`, mm; whether
+    the iteration `converged` (k,); and the number of right-hand sides evaluated."""
 
     increment: FloatArray
-    missed: FloatArray
+    error: FloatArray
     converged: BoolArray
     evaluations: int
 
@@ -68,9 +69,9 @@ class SwitchedPeriodMap(NamedTuple):
     rule: Gauss
     tolerance: float
 
-    def advance(self, wear: FloatArray, scene: IntArray) -> Advanced:
-        """Return what a cycle adds to each wear (k,), mm, of the scenes (k,)."""
-        increment, missed = np.zeros((2, len(wear)))
+    def advance(self, wear: FloatArray, scene: IntArray) -> CycleResult:
+        """Return the increment of a cycle from each wear (k,), mm, of the scenes (k,)."""
+        increment, error = np.zeros((2, len(wear)))
         sound = np.full(len(wear), True)
         evaluations = 0
         few = AT_ONCE // len(self.rule.nodes)
@@ -78,16 +79,16 @@ class SwitchedPeriodMap(NamedTuple):
             some = slice(at, at + few)
             for _, run in self.pieces_from(wear[some], scene[some]):
                 increment[some] += run.added
-                missed[some] += run.missed
+                error[some] += run.error
                 sound[some] &= run.sound
                 evaluations += run.evaluations
-        return Advanced(increment, missed, sound, evaluations)
+        return CycleResult(increment, error, sound, evaluations)
 
     def pieces_from(
         self, wear: FloatArray, scene: IntArray
     ) -> Iterator[tuple[Piece, ContactResult]]:
-        """Return what pieces of a cycle add to each wear (k,), in order, a piece of each wear at a
-        time: the next one on which there may be contact, until there is none."""
+        """Yield the pieces of a cycle with possible contact, in order, and the contact on them: one
+        piece for each wear (k,) at a time, until none has another."""
         added, cycles = np.zeros(len(wear)), self.cycles.take(scene)
         tops, number = self.tops[scene], np.arange(self.tops.shape[1])
         after = np.full(len(wear), -1)
@@ -109,8 +110,8 @@ class SwitchedPeriodMap(NamedTuple):
     def through(
         self, cycles: Cycles, piece: Piece, wear: FloatArray, before: FloatArray
     ) -> ContactResult:
-        """Return what a piece adds to each wear (k,), `before` (k,) of it added by this cycle
-        already."""
+        """Return the contact on a piece from each wear (k,), mm, of which this cycle has added
+        `before` (k,)."""
         needed = displacement_at(cycles.model, wear)
         uncertainty = margin_roundoff(cycles.model, cycles.peak, wear)
         which = piece.top - needed > uncertainty
@@ -118,15 +119,15 @@ class SwitchedPeriodMap(NamedTuple):
             none = np.zeros(len(wear))
             return ContactResult(none, none, none, np.full(len(wear), True), 0)
         piece, rows = piece.take(which), np.flatnonzero(which)
-        some = _Progress(
+        some = _PieceSolver(
             cycles.take(which).on(piece), piece, wear[rows], before[rows], self.rule, self.tolerance
         )
         follow = some.on_springs if cycles.model.compliant else some.rigid
         return follow(needed[rows], uncertainty[rows]).among(rows, len(wear))
 
     def each_without_feedback(self, wear: FloatArray, scene: IntArray) -> FloatArray:
-        """Return what every piece of each cycle, one after the other, would add to the wear (k,),
-        mm, that the cycle begins with, if the rate did not feel it."""
+        """Return the increments (mm) of all pieces, one cycle after the other, with the rate frozen
+        at the initial wear (k,) of each cycle, mm."""
         number = np.diff(self.first)[scene]
         row = np.repeat(np.arange(len(wear)), number)
         begins = np.cumsum(number) - number
@@ -141,7 +142,7 @@ class SwitchedPeriodMap(NamedTuple):
     def _frozen(
         self, wear: FloatArray, scene: IntArray, which: IntArray, rule: Gauss
     ) -> FloatArray:
-        """Return what pieces (k,) add to wear that stays as it is."""
+        """Return the increments of pieces (k,) at constant wear (k,), mm."""
         added, piece = np.zeros(len(wear)), self.pieces.take(which)
         needed = displacement_at(self.cycles.take(scene).model, wear)
         rows = np.flatnonzero(piece.top > needed)
@@ -166,8 +167,8 @@ def switched_period_map(
     nodes: int,
     tolerance: float = ROUNDOFF,
 ) -> SwitchedPeriodMap:
-    """Return the map of a cycle of scenes of one variant, with so many nodes on a stretch of
-    contact: a stiff support makes wear follow the load, which Radau's rule damps."""
+    """Return the period map of scenes of one variant, with so many Radau nodes on each step of
+    contact: on a stiff support wear follows the load, and Radau's rule damps the transient."""
     pieces = Piece(
         *(
             np.concatenate(part, axis=-1)
@@ -182,17 +183,17 @@ def switched_period_map(
 
 
 def margin_roundoff(model: Model, peak: FloatArray | float, wear: FloatArray) -> FloatArray:
-    """Return the margin (mm) that rounding cannot tell from none, at each wear (mm) under loads
+    """Return the largest margin (mm) that rounding may make of none, at each wear (mm) under loads
     with such a `peak` (mm)."""
     uncertainty: FloatArray = TOUCH * ROUNDOFF * model.margin_terms(wear, peak + 0.0 * wear)
     return uncertainty
 
 
 @dataclass
-class _Progress:
-    """How far pieces have been walked from each wear `u` (k,), of which this cycle added `before`:
-    to the phases `at`, where `added` mm have come on top; and whether contact is `over`, as it
-    closes anew beyond the turning wear."""
+class _PieceSolver:
+    """The solution on pieces from each wear `u` (k,), of which this cycle has added `before`: up to
+    the phases `at`, with an increment `added` (mm) and its `error`. Contact is `over` where it
+    would close anew beyond the turning wear."""
 
     cycles: Cycles
     piece: Piece
@@ -202,7 +203,7 @@ class _Progress:
     tolerance: float
     at: FloatArray = field(init=False)
     added: FloatArray = field(init=False)
-    missed: FloatArray = field(init=False)
+    error: FloatArray = field(init=False)
     sound: BoolArray = field(init=False)
     over: BoolArray = field(init=False)
     evaluations: int = 0
@@ -210,7 +211,7 @@ class _Progress:
 
     def __post_init__(self) -> None:
         self.at = self.piece.begin.copy()
-        self.added, self.missed = np.zeros((2, len(self.u)))
+        self.added, self.error = np.zeros((2, len(self.u)))
         self.sound, self.over = np.full(len(self.u), True), np.full(len(self.u), False)
 
     def rigid(self, needed: FloatArray, uncertainty: FloatArray) -> ContactResult:
@@ -228,7 +229,7 @@ class _Progress:
         if len(slid):
             own, u = cycles.take(slid), self.u[slid]
             self.added[slid] = wear_at(own.model, top[slid], u, 0.0, own.turning_wear) - u
-            self.missed[slid] = 0.0
+            self.error[slid] = 0.0
         self.sound &= rising | ~self.over
         return self.result()._replace(slid=slid)
 
@@ -253,10 +254,10 @@ class _Progress:
         return self.result()
 
     def result(self) -> ContactResult:
-        """Return what there is at the end of the pieces."""
+        """Return the contact on the whole pieces."""
         length = self.piece.end - self.piece.begin
         sound, parts = self.sound, self.parts
-        return ContactResult(self.added, self.missed, length, sound, self.evaluations, parts)
+        return ContactResult(self.added, self.error, length, sound, self.evaluations, parts)
 
     def go(
         self,
@@ -266,8 +267,8 @@ class _Progress:
         direction: FloatArray,
         expected: FloatArray,
     ) -> BoolArray:
-        """Walk on with those of `who` (k,) in contact of one kind, whose end is expected at the
-        phases `expected` (k,); return which of them have come to it."""
+        """Continue the rows `who` (k,) in contact of one kind, whose end is expected at the phases
+        `expected` (k,); return the rows in which contact has ended before the piece."""
         came, rows = np.full(len(who), False), np.flatnonzero(who)
         if len(rows):
             run = self._run(who, by_law, level, direction, expected).among(rows, len(who))
@@ -277,7 +278,7 @@ class _Progress:
             start = self.u + self.added
             self.at = self.at + run.length
             self.added = self.added + run.added
-            self.missed = self.missed + run.missed
+            self.error = self.error + run.error
             self.sound &= run.sound
             U_a = self.cycles.load(self.at) - self.cycles.held
             self.over |= who & self.cycles.is_over(start, start + run.added, U_a)
@@ -293,13 +294,13 @@ class _Progress:
     ) -> ContactResult:
         contact = Contact(self.cycles, by_law, level, direction).take(who)
         at = self.at[who]
-        over = Interval(at, self.piece.end[who] - at, expected[who] - at)
+        over = PhaseInterval(at, self.piece.end[who] - at, expected[who] - at)
         start, before = ((x + self.added)[who] for x in (self.u, self.before))
         return wear_in_contact(contact, self.rule, self.tolerance, start, over, before)
 
     def _closes_at_last(self, held: BoolArray, level: FloatArray) -> BoolArray:
-        """Return which of those that are `held` under a falling load come to contact by the law:
-        past the turning wear wear may close contact faster than the load opens."""
+        """Return the rows `held` at the edge under a falling load that come to contact by the law:
+        past the turning wear, wear may close contact faster than the load opens it."""
         up = held & (self.u >= self.cycles.turning_wear) & self.piece.closes
         if up.any():
             lasts, end = np.zeros_like(level), self.piece.heights[-1]
@@ -310,8 +311,9 @@ class _Progress:
         return np.asarray(up)
 
     def _kinds(self, level: FloatArray, uncertainty: FloatArray) -> tuple[BoolArray, BoolArray]:
-        """At which wears (k,) a piece begins with contact by the law, and at which with contact
-        that the support holds at its edge; at a `level` (k,), mm, by where it goes from there."""
+        """Return the rows (k,) in which a piece begins with contact by the law, and those in which
+        the support holds the contact at its edge; where the margin is at the `level` (k,), mm,
+        between them, its rate decides."""
         piece, cycles = self.piece, self.cycles
         soon = piece.begin + (piece.end - piece.begin) * SOON
         U_a = piece.heights[0]

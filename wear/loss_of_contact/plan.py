@@ -1,7 +1,7 @@
-"""The plan of a count with loss of contact: where series of the increments are wanted.
+"""The plan of a count with loss of contact: the domains of the series of increments.
 
-By wear that is frozen over a cycle: good enough for a plan, and cheap. What the plan misses, the
-misfit of the series and the residual of Abel's equation report.
+It is made with the rate frozen at the initial wear of each cycle: a cheap approximation, whose
+errors the misfit of the series and the residual of Abel's equation reveal.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from wear.equation import WearEquation
 from wear.load import Load
 from wear.loss_of_contact.arrest import LimitWear
 from wear.loss_of_contact.grazing import fades, grazing_wears, limit_wear_of
-from wear.loss_of_contact.increments import Coordinate, Span
-from wear.loss_of_contact.requests import FROZEN, Asking, Request, without_feedback
+from wear.loss_of_contact.increments import Coordinate, SeriesDomain
+from wear.loss_of_contact.queries import FROZEN_CYCLES, Coroutine, Query, without_feedback
 from wear.loss_of_contact.switching import Edge
 from wear.model import Model
 from wear.numerics.gauss import FloatArray
@@ -27,23 +27,23 @@ LEAST = 200.0  # the last panel reaches this count at least: panels are long aga
 STEP, STEPS_AHEAD = 0.2, 180  # in ln(u + scale)
 SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
 FEWEST = 8.0  # cycles between two grazing wears for which a series pays
-BEGINS = 0.03  # of the increment at a grazing wear: how far beyond it a series begins
-ENDS = 0.7  # of the distance that is left: the largest increment for which a series is wanted
-BEFORE = 0.95  # of the way to a grazing wear: the longest last cycle on a series
-NEXT = 0.05  # of an increment: how near to a branch point a series ends
+BEGINS = 0.03  # of the increment at a grazing wear: the distance beyond it where a series begins
+ENDS = 0.7  # of the remaining distance: the largest increment in a series
+BEFORE = 0.95  # of the distance to a grazing wear: the longest last cycle on a series
+NEXT = 0.05  # of an increment: the distance before a branch point where a series ends
 GRAIN = 4096.0  # roundoffs of the wear: the smallest distance at which cycles are counted
-FACTOR, STEPS = 0.25, 21  # of distances at which one looks ahead
-NEAR, NEARER = 8, 10  # of these: there a power of the distance shows
+FACTOR, STEPS = 0.25, 21  # of the distances that are sampled ahead
+NEAR, NEARER = 8, 10  # of these: they give the power of the distance
 ROOT = 0.5
-LEAST_LEFT = 1e-5  # of the distance to a limit wear: from there to it a series in its root goes on
+LEAST_LEFT = 1e-5  # of the distance to a limit wear: from there on the series is extrapolated
 RESOLVED = 1e3  # times the uncertainty of the limit wear: a distance that is known
-AHEAD = 1.3  # of the cycles asked for: how far one looks ahead
+AHEAD = 1.3  # times the requested cycles are plan_domains
 
 
-class Grazing(NamedTuple):
-    """A grazing wear `at` (mm), which rounding leaves an `uncertainty`; the branch points of the
-    map `before` it, as starts that come nearer see them, and `behind`, as those beyond it do; and
-    what a cycle adds there."""
+class GrazingPoint(NamedTuple):
+    """A grazing wear `at` (mm) with its rounding error `uncertainty`; the branch point of the
+    period map for initial wears below it, `before`, and that for those above it, `behind`; and the
+    wear `added` by a cycle there."""
 
     at: float
     before: float
@@ -52,13 +52,14 @@ class Grazing(NamedTuple):
     uncertainty: float
 
 
-class Problem(NamedTuple):
-    """What is ahead of a count: the `stops` at grazing wears, rising; the `limit_wear` if wear
-    tends to the last of them for ever; the wear `end` (mm) beyond which nothing has a meaning."""
+class CountProblem(NamedTuple):
+    """A count of one scene: the grazing wears `stops`, rising; the `limit_wear` if wear tends to
+    the last of them; the wear `end` (mm) at which the model ends; the `scale` of the wear, mm; and
+    the requested relative accuracy."""
 
     model: Model
     load: Load
-    stops: list[Grazing]
+    stops: list[GrazingPoint]
     limit_wear: LimitWear | None
     end: float
     scale: float
@@ -67,73 +68,76 @@ class Problem(NamedTuple):
     deadline: float
 
 
-def problem_of(
+def count_problem(
     model: Model, load: Load, edge: Edge, rtol: float, deadline: float
-) -> Asking[Problem]:
-    """Return what is ahead of a count to the relative accuracy `rtol`."""
+) -> Coroutine[CountProblem]:
+    """Return the count of a scene to the relative accuracy `rtol`."""
     equation = WearEquation(model, (load,))
     scale, end = float(equation.scale[0]), float(equation.limit[0])
     grazing = [each for each in grazing_wears(model, load, edge, scale) if each.wear < end]
     limit_wear = limit_wear_of(model, load, grazing[-1].wear) if grazing else None
     if limit_wear is not None and not fades(model, load, edge, limit_wear.wear):
         limit_wear = None
-    # Contact grazes when the pieces before have added their part: the map has its branch point
-    # where a cycle starts that much earlier.
+    # Contact grazes after the increment of the pieces before: the map has its branch point at the
+    # initial wear of that cycle.
     wear = np.array([each.wear for each in grazing])
-    parts = yield Request(FROZEN, wear)
+    parts = yield Query(FROZEN_CYCLES, wear)
     slope = np.abs(model.margin_slope(wear, load.maximum)) + TINY
-    uncertainty = ROUNDOFF * model.margin_terms(wear, load.maximum + 0.0 * wear) / slope
+    rounding = ROUNDOFF * model.margin_terms(wear, load.maximum + 0.0 * wear) / slope
     stops = []
-    for each, added, blur in zip(grazing, parts, uncertainty.tolist(), strict=True):
+    for each, added, uncertainty in zip(grazing, parts, rounding.tolist(), strict=True):
         part, whole = float(np.sum(added[: each.before])), each.before == len(added)
         tends = limit_wear is not None and each.wear == limit_wear.wear
         before = each.wear - (0.0 if tends else part)
         behind = each.wear - (0.0 if whole else part)
-        stops.append(Grazing(each.wear, before, behind, float(np.sum(added)), blur))
+        stops.append(GrazingPoint(each.wear, before, behind, float(np.sum(added)), uncertainty))
     size = settings(rtol)
-    return Problem(model, load, stops, limit_wear, end, scale, rtol, size, deadline)
+    return CountProblem(model, load, stops, limit_wear, end, scale, rtol, size, deadline)
 
 
-def planned(problem: Problem, wear: float, cycles: float) -> Asking[tuple[list[Span], float]]:
-    """Plan where increments are wanted from a `wear` (mm) on, for so many `cycles` about; return
-    also the wear up to which that is a plan."""
+def plan_domains(
+    problem: CountProblem, wear: float, cycles: float
+) -> Coroutine[tuple[list[SeriesDomain], float]]:
+    """Return the domains of the series of increments from a `wear` (mm) on, for about so many
+    `cycles`, and the wear up to which the plan reaches."""
     stops = problem.stops
     ahead = [stop for stop in stops if stop.at > wear * (1 + 8 * ROUNDOFF)]
     last = next((stop for stop in reversed(stops) if stop not in ahead), None)
     looks = yield from _looks([wear, *(stop.at for stop in ahead)], [stop.before for stop in ahead])
-    spans: list[Span] = []
+    domains: list[SeriesDomain] = []
     counted, wanted, begin = 0.0, AHEAD * max(cycles, LEAST), wear
     for i, stop in enumerate(ahead):
         if counted > wanted:
-            return spans, begin
+            return domains, begin
         lefts, rights, outwards, onwards = (part[i] for part in looks)
         half = begin + lefts[0]
         numbers = counted + np.cumsum((lefts / outwards)[::-1])[::-1] * -np.log(FACTOR)
         if numbers[0] > wanted:
             half = begin + float(lefts[np.sum(numbers > wanted) - 1])
-            return [*spans, *_outwards(problem, last, begin, half)], half
+            return [*domains, *_outwards(problem, last, begin, half)], half
         number = -np.log(FACTOR) * float(np.sum(lefts / outwards + rights / onwards))
         if number >= FEWEST:
             if outwards[-1] < ENDS * (stop.at - begin):
-                spans += _outwards(problem, last, begin, half)
-            spans += _towards(problem, stop, half, rights, onwards)
+                domains += _outwards(problem, last, begin, half)
+            domains += _towards(problem, stop, half, rights, onwards)
         counted, begin, last = counted + number, stop.at, stop
     if counted > wanted or (problem.limit_wear is not None and ahead):
-        return spans, begin if counted > wanted else np.inf
+        return domains, begin if counted > wanted else np.inf
     added = yield from without_feedback(np.array([begin * (1 + 1e-9)]))
     if not added[0] > 0.0:
-        return spans, np.inf
+        return domains, np.inf
     reach = yield from look_ahead(problem, begin, max(cycles - counted, LEAST))
     half = begin if last is None else min(begin + problem.scale, (begin + reach) / 2)
-    spans += [*_outwards(problem, last, begin, half), *_outwards(problem, None, half, reach)]
-    return spans, reach  # wear that is not frozen may take more cycles to there, and fewer
+    domains += [*_outwards(problem, last, begin, half), *_outwards(problem, None, half, reach)]
+    return domains, reach  # with feedback it may take more cycles to there, or fewer
 
 
 def _looks(
     ends: list[float], branches: list[float]
-) -> Asking[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
-    """Distances (stretches, k) out from the wear at the one end of every stretch, and before the
-    branch point at the other, both from its middle on and shrinking; and what cycles add there."""
+) -> Coroutine[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
+    """Return distances (stretches, k) from the wear at the beginning of every stretch, and those
+    from the branch point at its end, both falling from half the stretch; and the increments of
+    cycles there."""
     begin, end = np.array(ends[:-1]), np.array(ends[1:])
     branch, half = np.array(branches), (begin + end) / 2
     shrinking = FACTOR ** np.arange(STEPS)
@@ -144,23 +148,25 @@ def _looks(
     return lefts, rights, outwards, onwards
 
 
-def _outwards(problem: Problem, last: Grazing | None, begin: float, end: float) -> list[Span]:
-    """Return the span from the wear `begin` to `end` (mm), beyond the `last` grazing wear."""
+def _outwards(
+    problem: CountProblem, last: GrazingPoint | None, begin: float, end: float
+) -> list[SeriesDomain]:
+    """Return the domain from the wear `begin` to `end` (mm), beyond the `last` grazing wear."""
     if last is None or begin > last.at + problem.scale:
         shift = SHIFT * problem.scale
-        span = Span(Coordinate(0.0, False, shift), begin, end, 1.0, shift)
+        domain = SeriesDomain(Coordinate(0.0, False, shift), begin, end, 1.0, shift)
     else:
         beyond = last.at + max(BEGINS * last.added, GRAIN * ROUNDOFF * last.at)
         root = math.sqrt(SHIFT * problem.scale)
-        span = Span(Coordinate(last.behind), max(begin, beyond), end, 0.5, root)
-    return [span] if span.start < span.end else []
+        domain = SeriesDomain(Coordinate(last.behind), max(begin, beyond), end, 0.5, root)
+    return [domain] if domain.start < domain.end else []
 
 
 def _towards(
-    problem: Problem, stop: Grazing, half: float, left: FloatArray, added: FloatArray
-) -> list[Span]:
-    """Return the span from the wear `half` (mm) on the way to a grazing wear; a cycle adds so much
-    (k,) where so much is `left`, mm."""
+    problem: CountProblem, stop: GrazingPoint, half: float, left: FloatArray, added: FloatArray
+) -> list[SeriesDomain]:
+    """Return the domain from the wear `half` (mm) towards a grazing wear; a cycle has `added` (k,)
+    at the distances `left` (k,), mm."""
     coordinate, root = Coordinate(stop.before, True), math.sqrt(SHIFT * problem.scale)
     falls = math.log(added[NEAR] / added[NEARER]) / ((NEARER - NEAR) * -math.log(FACTOR))
     power = round(2 * falls) / 2 if math.isfinite(falls) else ROOT
@@ -172,8 +178,8 @@ def _towards(
         nearest = max(LEAST_LEFT * first, RESOLVED * stop.uncertainty)
         vanishes = 2 * min(max(power, 1.0), 2.0)
         ends = stop.at - first, stop.at - nearest
-        span = Span(coordinate, *ends, -0.5, root, stop.uncertainty, vanishes, True)
-        return [span] if nearest < first else []
+        domain = SeriesDomain(coordinate, *ends, -0.5, root, stop.uncertainty, vanishes, True)
+        return [domain] if nearest < first else []
     least = np.maximum(added / BEFORE - (stop.at - stop.before), NEXT * added)
     least = np.maximum(least + 2 * added**2 / problem.scale, GRAIN * ROUNDOFF * stop.at)
     enough = left >= least
@@ -182,12 +188,12 @@ def _towards(
     nearest = len(left) - 1 if enough.all() else int(np.argmin(enough)) - 1
     end = stop.before - float(min(left[nearest], least[nearest]))
     way = (1.0, 0.0) if power else (-0.5, root)
-    return [Span(coordinate, half, end, *way, stop.uncertainty)] if half < end else []
+    return [SeriesDomain(coordinate, half, end, *way, stop.uncertainty)] if half < end else []
 
 
-def look_ahead(problem: Problem, start: float, cycles: float) -> Asking[float]:
-    """Return the wear (mm) where the frozen rate puts `cycles` from `start` on, roughly, and no
-    more than makes sense."""
+def look_ahead(problem: CountProblem, start: float, cycles: float) -> Coroutine[float]:
+    """Return the approximate wear (mm) after `cycles` from `start` on, with the rate frozen within
+    each cycle, but no more than the model permits."""
     y, end = STEP * np.arange(STEPS_AHEAD), problem.end
     if np.isfinite(end):
         y = np.linspace(0.0, np.log1p((end - start) / (start + problem.scale)), STEPS_AHEAD)

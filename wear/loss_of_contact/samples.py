@@ -1,4 +1,4 @@
-"""Single cycles that were integrated, and what they tell about those from wears next to them."""
+"""Single integrated cycles, and linear interpolation of cycles from wears next to them."""
 
 from __future__ import annotations
 
@@ -13,35 +13,35 @@ BEND = 10.0  # relative change of the slope over a wear as large as what the cyc
 
 
 class Cycle(NamedTuple):
-    """A cycle from a `wear` (mm), what it has `added` (mm), and the `slope` of that; whether it is
-    `sound`; and by how much, relatively, that may be `off`, infinite for a guess."""
+    """A cycle from a `wear` (mm): its increment `added` (mm), the `slope` of that with respect to
+    the wear, whether its integration is `sound`, and the relative `error`, infinite for a guess."""
 
     wear: float
     added: float
     slope: float = 0.0
     sound: bool = True
-    off: float = 0.0
+    error: float = 0.0
 
 
 class Samples:
-    """Cycles of one scene that were integrated, from rising wears."""
+    """Integrated cycles of one scene, in order of wear."""
 
     def __init__(self) -> None:
         self.cycles: list[Cycle] = []
 
     def add(self, wear: FloatArray, added: FloatArray, slope: FloatArray, sound: BoolArray) -> None:
-        """Take up some cycles (k,)."""
+        """Add cycles (k,)."""
         for row in zip(*map(np.ndarray.tolist, (wear, added, slope, sound)), strict=True):
             insort(self.cycles, Cycle(*row))
 
     def at(self, wear: float, guess: float) -> Cycle:
-        """Return the cycle from a wear (mm), by the slope of the nearest one; one that adds the
-        `guess` (mm) if that is a cycle away, or more."""
+        """Return the cycle from a wear (mm), extrapolated from the nearest one by its slope; with
+        the increment `guess` (mm) if that begins a cycle away or more."""
         i = bisect_left(self.cycles, (wear,))
         around = self.cycles[max(i - 1, 0) : i + 1]
         near = min(around, key=lambda cycle: abs(wear - cycle.wear), default=None)
         if near is None or not (near.wear == wear or abs(wear - near.wear) < near.added):
-            return Cycle(wear, guess, off=np.inf)
+            return Cycle(wear, guess, error=np.inf)
         if near.wear == wear:
             return near
         part = abs(wear - near.wear) / near.added

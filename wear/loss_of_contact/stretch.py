@@ -1,6 +1,6 @@
-"""Stretches of wear on which the increments of a cycle are known, with the count of cycles.
+"""Stretches of wear on which the increments are known, and the number of cycles on them.
 
-Those of all scenes are arrays together, wherever one looks, solves or counts.
+The stretches of all scenes are sampled, solved and counted together, as arrays.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.loss_of_contact.arrest import LimitWear
-from wear.loss_of_contact.increments import EASED, Increments, cut, increments, step
-from wear.loss_of_contact.plan import Problem
+from wear.loss_of_contact.increments import EASED, IncrementSeries, cut, increments, step
+from wear.loss_of_contact.plan import CountProblem
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import stacked, take
@@ -22,50 +22,50 @@ from wear.orbit.iterates import Cells, cell_of, cells, joined
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import Settings
 
-WIDEST = 12.0  # panel of a count to a limit wear, in ln z: what derivatives are smooth on
+WIDEST = 12.0  # panel of a count to a limit wear, in ln z: derivatives are smooth on it
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
 MOST_WALKED = 120  # cycles on a series that are taken one by one
-LOOKS = 65  # at a series, for how many cycles it takes
+SAMPLES = 65  # of a series, to estimate its number of cycles
 MOST_CUTS = 16  # rounds of cutting panels in two
 ENOUGH = 1.5  # cycles per coefficient of a panel
 TOGETHER = 32  # series in one set of arrays
 _FIRST, _LAST = slice(None, -1), slice(1, None)
 
 
-class OnPanels(NamedTuple):
-    """A count by Abel's equation on `panels` of z, with its `residual` on each and the `series` of
-    the increments; to the `limit_wear`, if it goes so far."""
+class AbelSolution(NamedTuple):
+    """The solution of Abel's equation on `panels` of z, with its `residual` on each, the `table` of
+    n(z) and the `series` of the increments; it reaches to the `limit_wear`, if there is one."""
 
     table: Cells
     panels: abel.Panels
     residual: FloatArray
-    series: Increments
+    series: IncrementSeries
     limit_wear: LimitWear | None
 
     @property
     def first(self) -> float:
-        """Return the z at which it begins."""
+        """Return the first z."""
         return float(self.panels.frame.starts[0])
 
     @property
     def last(self) -> float:
-        """Return the z at which it ends."""
+        """Return the last z."""
         return float(self.table.ends[-1])
 
 
 class Stretch(NamedTuple):
-    """A stretch of wear on which the increments are known by their `series`, up to `end` in z; and,
-    if it takes many cycles, those `counted`."""
+    """A stretch of wear on which the increments are known by their `series`, up to `end` in z; with
+    the solution of Abel's equation, `abel`, if it takes many cycles."""
 
-    series: Increments
+    series: IncrementSeries
     end: float
-    counted: OnPanels | None
+    abel: AbelSolution | None
 
 
-def passed(ways: Sequence[tuple[OnPanels, float]]) -> list[tuple[float, float]]:
-    """Return how many whole cycles there are from some z on to the end of panels, and the z after
-    them; up to rounding where wear tends to its limit there."""
-    counts, z = [count for count, _ in ways], np.array([z for _, z in ways])
+def cycles_to_end(starts: Sequence[tuple[AbelSolution, float]]) -> list[tuple[float, float]]:
+    """Return the number of whole cycles from each z to the end of its panels, and the z after them;
+    up to rounding where wear tends to its limit there."""
+    counts, z = [count for count, _ in starts], np.array([z for _, z in starts])
     each = [count.table for count in counts]
     table, first = joined(each), np.cumsum([0, *(len(own.u) for own in each[:-1])])
     inside = [cell_of(own.u, at) for own, at in zip(each, z, strict=True)]
@@ -79,15 +79,16 @@ def passed(ways: Sequence[tuple[OnPanels, float]]) -> list[tuple[float, float]]:
 
 
 def alike(panels: Mapping[int, abel.Panels]) -> list[list[int]]:
-    """Return the numbers of counts that have as many panels, of one kind."""
+    """Return groups of the keys whose panels are of one kind, and equally many."""
     kinds: dict[object, list[int]] = {}
     for i, (frame, _) in panels.items():
         kinds.setdefault((frame.c.any(), len(frame.c)), []).append(i)
     return list(kinds.values())
 
 
-def stretches(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
-    """Return the stretches of some series, with their counts if cycles are many."""
+def stretches(known: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[Stretch]:
+    """Return the stretches of some series, with their solutions of Abel's equation if cycles are
+    many."""
     found: dict[int, Stretch] = {}
     for shifted in (False, True):
         kind = [i for i, (each, _) in enumerate(known) if (each.coordinate.shift > 0.0) == shifted]
@@ -97,60 +98,62 @@ def stretches(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
     return [found[i] for i in range(len(known))]
 
 
-def _together(known: Sequence[tuple[Increments, Problem]]) -> list[Stretch]:
-    """Return the same for series of one kind, all at once."""
+def _together(known: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[Stretch]:
+    """Return the stretches of series of one kind, all at once."""
     every, size = [series for series, _ in known], known[0][1].size
-    begin, end = np.array([series.span.ends for series in every]).T
-    looks, gains, calm = _looks(every, begin, end)
+    begin, end = np.array([series.domain.ends for series in every]).T
+    samples, gains, calm = _samples(every, begin, end)
     wanted: dict[int, tuple[FloatArray, LimitWear | None]] = {}
-    for i, (z, gain, at) in enumerate(zip(looks, gains, map(np.flatnonzero, calm), strict=True)):
+    for i, (z, gain, at) in enumerate(zip(samples, gains, map(np.flatnonzero, calm), strict=True)):
         number = float(np.sum(gain[at[0] : at[-1]])) if len(at) else 0.0
         if number >= 2 * ENOUGH * size.panel_nodes and np.sum(gain) >= MOST_WALKED:
             wanted[i] = _edges(*known[i], float(end[i]), z, gain, at)
     found = solved([every[i] for i in wanted], [edges for edges, _ in wanted.values()], size)
-    solutions, counts = dict(zip(wanted, found, strict=True)), dict[int, OnPanels]()
+    solutions, counts = dict(zip(wanted, found, strict=True)), dict[int, AbelSolution]()
     for some in alike({i: panels for i, (panels, _) in solutions.items()}):
         table = cells(stacked([solutions[i][0] for i in some]), scenes=len(some))
         for i, own in zip(some, table.parts(len(some)), strict=True):
-            counts[i] = OnPanels(own, *solutions[i], every[i], wanted[i][1])
+            counts[i] = AbelSolution(own, *solutions[i], every[i], wanted[i][1])
     return [Stretch(series, float(end[i]), counts.get(i)) for i, series in enumerate(every)]
 
 
-def _looks(
-    known: Sequence[Increments], begin: FloatArray, end: FloatArray
+def _samples(
+    known: Sequence[IncrementSeries], begin: FloatArray, end: FloatArray
 ) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Return values of z along each series (s, k), how many cycles it takes between them, about,
-    and at which of them the increments are small."""
+    """Return samples of z along each series (s, k), the approximate number of cycles between them
+    (s, k - 1), and the samples at which the increments are small (s, k)."""
     shift = np.array([series.coordinate.shift for series in known])
     whole = abel.frame(shift, begin, end)
-    t = np.linspace(-1.0, 1.0, LOOKS)
-    looks = whole.states(t)
-    lasts = (looks + shift[:, None]) / _steps(known, np.arange(len(known)), looks)
+    t = np.linspace(-1.0, 1.0, SAMPLES)
+    samples = whole.states(t)
+    lasts = (samples + shift[:, None]) / _steps(known, np.arange(len(known)), samples)
     gains = (lasts[:, 1:] + lasts[:, :-1]) / 2 * np.diff(whole.y_at(t))
-    return looks, gains, lasts >= CALM
+    return samples, gains, lasts >= CALM
 
 
-def _steps(known: Sequence[Increments], of: IntArray, z: FloatArray) -> FloatArray:
-    """Return by how much z rises in a cycle from each z (n, k) on the series `of` (n,)."""
+def _steps(known: Sequence[IncrementSeries], of: IntArray, z: FloatArray) -> FloatArray:
+    """Return the increment of z in a cycle from each z (n, k), by the series with the numbers `of`
+    (n,)."""
     added = increments(known, np.repeat(of, z.shape[1]), z.ravel()).reshape(z.shape)
     return step(np.array([series.coordinate.ahead for series in known])[of, None], z, added)
 
 
 def _edges(
-    series: Increments,
-    problem: Problem,
+    series: IncrementSeries,
+    problem: CountProblem,
     end: float,
-    looks: FloatArray,
+    samples: FloatArray,
     gains: FloatArray,
     calm: IntArray,
 ) -> tuple[FloatArray, LimitWear | None]:
-    """Return between which z Abel's equation is solved, and the limit wear if that is the last."""
-    edges, fewest = looks[calm[[0, -1]]], ENOUGH * problem.size.panel_nodes
-    to_limit = series.span.tends and edges[1] >= end * (1 - 1e-9)
+    """Return the ends in z of the panels on which Abel's equation is solved, and the limit wear if
+    that is the last of them."""
+    edges, fewest = samples[calm[[0, -1]]], ENOUGH * problem.size.panel_nodes
+    to_limit = series.domain.tends and edges[1] >= end * (1 - 1e-9)
     limit_wear = problem.limit_wear if to_limit else None
     if limit_wear is not None:  # derivatives of cycles are known up to a distance
         known, number = 1.0 / limit_wear.nearest, np.sum(gains[calm[0] : calm[-1]])
-        before = np.sum(gains[(looks[1:] <= known) & (looks[1:] > edges[0])])
+        before = np.sum(gains[(samples[1:] <= known) & (samples[1:] > edges[0])])
         if fewest < before < number - fewest:
             pieces = math.ceil(math.log(known / edges[0]) / WIDEST)
             edges = np.append(np.geomspace(edges[0], known, pieces + 1), edges[1])
@@ -158,11 +161,11 @@ def _edges(
 
 
 def solved(
-    known: Sequence[Increments], edges: Sequence[FloatArray], size: Settings
+    known: Sequence[IncrementSeries], edges: Sequence[FloatArray], size: Settings
 ) -> list[tuple[abel.Panels, FloatArray]]:
     """Solve Abel's equation for some series on panels between values of z, cut where that is
-    needed; return also the residual off the nodes. Panels that hold too few cycles to be cut are
-    left out at the beginning: these are taken one by one."""
+    needed; return also the residual off the nodes. Panels at the beginning that hold too few cycles
+    to be cut are left out: those cycles are taken one by one."""
     if not known:
         return []
     of, m = np.repeat(np.arange(len(known)), [len(each) - 1 for each in edges]), size.panel_nodes
@@ -177,11 +180,11 @@ def solved(
         panels = abel.solve(frame, steps[:, :m])
         residual = np.max(np.abs(abel.residual(panels, CHECKS, steps[:, m:])), axis=1)
         eased = np.where(ahead[of] > 0.0, np.clip(origin[of] * frame.starts, 1.0, EASED), 1.0)
-        missed = ~(residual <= size.residual_tolerance * eased)
+        coarse = ~(residual <= size.residual_tolerance * eased)
         cycles = frame.widths / 2 * np.mean(((z + shift[of, None]) / steps)[:, :m], axis=1)
         short = cycles <= ENOUGH * m
-        again = missed & ~short & (rounds < MOST_CUTS - 1)
-        done.append(take((of, panels, residual, missed & short), ~again))
+        again = coarse & ~short & (rounds < MOST_CUTS - 1)
+        done.append(take((of, panels, residual, coarse & short), ~again))
         if not again.any():
             break
         frame, of = cut(take(frame, again)), np.tile(of[again], 2)

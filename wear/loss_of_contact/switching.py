@@ -194,15 +194,14 @@ def edge_of_contact(model: Model, load: Load) -> Edge:
     top = highest + held
     over = (acting(low) < top) != (acting(high) < top)
     appears = bracketed(lambda phase: acting(phase) - top, low[over], high[over])[1]
-    closing_speed = _pull(model, acting, load.period, turning_wear, held)
+    closing_speed = _closing_speed(model, acting, load.period, turning_wear, held)
     closings = _closings(closing_speed, turns, model.compliant)
     cuts = np.unique(np.concatenate([turns, appears, closings]))
     inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
     phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
     closes = closing_speed(phases[:, PIECE_SAMPLES // 2]) >= 0.0
     pieces = Piece(phases.T, acting(phases.T), closes)
-    # Wear goes on at the bend: there contact turns not with the load but where its closing_speed
-    # does.
+    # At the bend wear continues: contact turns not with the load but where its closing speed does.
     sharp = turns[np.isin(turns, [0.0, *load.kinks, 1.0])]
     bending = np.concatenate([sharp, appears, closings])
     heights = np.concatenate([acting(bending) - held, acting(turns)])
@@ -222,10 +221,10 @@ def turning_points(load: Load) -> FloatArray:
     return np.unique(np.concatenate([cuts, bracketed(slope, low[turns], high[turns])[1]]))
 
 
-def _pull(
+def _closing_speed(
     model: Model, load: Load | Waves, period: float, turning_wear: float, held: float
 ) -> Function:
-    """Return how fast contact at its edge closes at each phase, in mm per cycle."""
+    """Return the speed at which contact at its edge closes at each phase, in mm per cycle."""
 
     def closing_speed(phase: FloatArray) -> FloatArray:
         U_a, speed = load(phase), load.slope(phase)

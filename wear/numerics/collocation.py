@@ -8,7 +8,7 @@ Key results
     iterate             Newton's method for all intervals at once
     solve               the same, interval by interval where that diverges
     truncation_error    quadrature error of every interval, from its Legendre coefficients
-    endpoint_defect     what lies hidden between the ends of an interval and its nodes
+    endpoint_defect     error between the ends of an interval and its nodes
 References
     E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential Equations I*, Springer 1993,
     II.7; superconvergence: II.7, theorem 7.9.
@@ -35,7 +35,7 @@ from wear.numerics.gauss import (
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
 NOISE = 8 * ROUNDOFF  # the change from one iteration to the next by rounding alone
-GRAIN = 4 * ROUNDOFF  # of the state: smaller steps give no slope, for they drown in its rounding
+GRAIN = 4 * ROUNDOFF  # of the state: the slope over a smaller step is all rounding error
 MOST_ITERATIONS = 60
 PATIENCE = 8  # iterations that may diverge at first
 NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
@@ -267,8 +267,8 @@ def unresolved(rate: FloatArray, over: Mesh, tolerance: float | FloatArray) -> B
 def endpoint_defect(
     rate: FloatArray, left: FloatArray, right: FloatArray, over: Mesh
 ) -> FloatArray:
-    """Return the part (..., k, q) of the integral of the rate (..., k, q, m) that may be missed
-    between an end of an interval and its nodes; `left` and `right` (..., k, q) are the rates there.
+    """Return the error (..., k, q) of the integral of the rate (..., k, q, m) between the ends of
+    an interval and its nodes; `left` and `right` (..., k, q) are the rates at the ends.
 
     A fast change of the state may be over before the first node: then only the rate at the start of
     the interval shows it. The measure is that of `truncation_error`.
@@ -277,6 +277,6 @@ def endpoint_defect(
     at_left = np.sum(series[::2], axis=0) - np.sum(series[1::2], axis=0)
     defect = np.maximum(np.abs(at_left - left), np.abs(np.sum(series, axis=0) - right))
     largest = np.max(np.abs(series), axis=0) + TINY
-    missed: FloatArray = defect * (defect / largest) * over.lengths
-    missed[defect < NOISE_AT_ENDS * largest] = 0.0
-    return missed
+    error: FloatArray = defect * (defect / largest) * over.lengths
+    error[defect < NOISE_AT_ENDS * largest] = 0.0
+    return error

@@ -1,9 +1,10 @@
 """The adaptive integrator of u' = f(t, u): a mesh of given intervals, cut where that is needed.
 
 Overview
-    As many intervals as converge are taken at once: half as many where the iteration fails, half an
-    interval where it fails on one, twice as many where it is easy. A rule with more nodes judges
-    every interval, and says which to cut in two. Errors are carried on by the linearised equation.
+    Many intervals are taken at once: half as many where the iteration fails, half an interval where
+    it fails on one, twice as many where it converges fast. A rule with more nodes estimates the
+    error of every interval, and thereby which to cut in two. Errors are propagated by the
+    linearised equation.
 Key results
     integrate    the increments and their errors, part after part
 """
@@ -24,7 +25,7 @@ MOST_CUT = 4 * MOST_AT_ONCE  # intervals and parts of intervals at once
 FIRST_AT_ONCE = 64
 MOST_ROUNDS = 12  # of cutting
 SHORTEST = 1e-12  # part of an interval, of the longest
-FEW_ITERATIONS = 6  # so many, and twice as many intervals would be no harder
+FEW_ITERATIONS = 6  # with so many, twice as many intervals are tried
 SAFETY = 3.0  # on measured discrepancies
 
 
@@ -37,8 +38,8 @@ class StoppedError(Exception):
         self.state = state
 
 
-class JudgedRates(Rates, Protocol):
-    """Rates on a mesh with what their errors need; arrays are (1, 1, intervals, nodes)."""
+class RatesWithSlope(Rates, Protocol):
+    """Rates on a mesh with their derivatives and errors; arrays are (1, 1, intervals, nodes)."""
 
     def slope(self, u: FloatArray) -> FloatArray:
         """Return the derivative of the rate with respect to u, per unit of time."""
@@ -46,24 +47,24 @@ class JudgedRates(Rates, Protocol):
     def endpoint_defect(self, starts: FloatArray, run: CycleSolution) -> FloatArray: ...
 
 
-Sampled = Callable[[FloatArray, int, float], JudgedRates]
+Sampled = Callable[[FloatArray, int, float], RatesWithSlope]
 """Rates on the mesh with these edges (q + 1,), nodes on each interval, and this tolerance."""
 
 
 class Rules(NamedTuple):
-    """The `nodes` on each interval, those of the rule that judges, and the relative error of an
-    increment that is permitted."""
+    """The `nodes` on each interval, those of the finer rule for the error estimate, and the
+    permitted relative error of an increment."""
 
     nodes: int
     finer_nodes: int
     tolerance: float
 
 
-class Reached(NamedTuple):
-    """What there is at the ends of some intervals (k,), all since the start: the `increment`, its
-    `error`, the `derivative` of the state with respect to that at the start, the `response` of the
-    state to a relative error of the rate, at most. Since the ends before: the number of right-hand
-    sides evaluated, and the `edges` (q + 1,) of the intervals that they took."""
+class Endpoints(NamedTuple):
+    """The solution at the ends of some intervals (k,), since the start: the `increment`, its
+    `error`, the `derivative` of the state with respect to the initial state, the largest `response`
+    of the state to a relative error of the rate. Since the ends before: the number of right-hand
+    sides evaluated, and the `edges` (q + 1,) of the intervals taken."""
 
     increment: FloatArray
     error: FloatArray
@@ -72,10 +73,11 @@ class Reached(NamedTuple):
     evaluations: int
     edges: FloatArray
 
-    def then(self, more: Reached) -> Reached:
-        """Return what `more` is that has started where this ends."""
+    def then(self, more: Endpoints) -> Endpoints:
+        """Return the solution `more`, which starts at the last of these ends, since the start of
+        this one."""
         derivative = self.derivative[-1]
-        return Reached(
+        return Endpoints(
             self.increment[-1] + more.increment,
             self.error[-1] * more.derivative + more.error,
             derivative * more.derivative,
@@ -84,9 +86,9 @@ class Reached(NamedTuple):
             np.append(self.edges[:-1], more.edges),
         )
 
-    def take(self, which: BoolArray) -> Reached:
+    def take(self, which: BoolArray) -> Endpoints:
         """Return what there is at some of the ends."""
-        return Reached(
+        return Endpoints(
             self.increment[which],
             self.error[which],
             self.derivative[which],
@@ -97,8 +99,8 @@ class Reached(NamedTuple):
 
 
 class _Intervals(NamedTuple):
-    """Intervals one after the other: their `edges` (q + 1,), and which (q,) end where the state is
-    asked for."""
+    """Consecutive intervals: their `edges` (q + 1,), and which (q,) end where the state is asked
+    for."""
 
     edges: FloatArray
     asked: BoolArray
@@ -124,11 +126,12 @@ def integrate(
     limit: float = np.inf,
     deadline: float = np.inf,
     most: float = np.inf,
-) -> Iterator[Reached]:
-    """Integrate from the state `start` over intervals between `edges` (q + 1,), part after part.
+) -> Iterator[Endpoints]:
+    """Yield the solution from the state `start` over intervals between `edges` (q + 1,), part after
+    part.
 
-    `roundoff` is the relative error of the rate by rounding from a state on, at most; `most` are
-    the evaluations of the rate from one state that is asked for to the next.
+    `roundoff` bounds the relative rounding error of the rate from a state on; `most` bounds the
+    evaluations of the rate from one requested state to the next.
 
     Raises
     ------
@@ -141,7 +144,7 @@ def integrate(
     todo = [_Intervals(edges, np.ones(len(edges) - 1, dtype=bool))] if len(edges) > 1 else []
     shortest, size = SHORTEST * np.max(np.diff(edges), initial=0.0), FIRST_AT_ONCE
     zero, one = np.zeros(1), np.ones(1)
-    done = Reached(zero, zero, one, zero, 0, edges[:1])
+    done = Endpoints(zero, zero, one, zero, 0, edges[:1])
     while todo:
         if time.monotonic() > deadline:
             raise TimeoutError
@@ -171,11 +174,12 @@ def integrate(
 
 
 class _Attempt(NamedTuple):
-    """The right-hand sides evaluated; what is at the end of each interval, None if the iteration
-    failed; which ends (q,) are `asked` for; and whether twice as many would be no harder."""
+    """The right-hand sides evaluated; the solution at the end of each interval, None if the
+    iteration failed; which ends (q,) are `asked` for; and whether the iteration was `easy`: twice
+    as many intervals would converge, too."""
 
     evaluations: int
-    part: Reached | None
+    part: Endpoints | None
     asked: BoolArray
     easy: bool
 
@@ -185,15 +189,15 @@ def _attempt(
     intervals: _Intervals,
     start: float,
     rules: Rules,
-    blur: float,
+    rate_roundoff: float,
     limit: float,
 ) -> _Attempt:
     """Integrate all the intervals at once from the state `start`, cutting those that are not
-    resolved; `blur` is the relative error of the rate by rounding."""
+    resolved; `rate_roundoff` is the relative error of the rate by rounding."""
     evaluations, at = 0, np.array([[start]])
     for _ in range(MOST_ROUNDS):
-        coarse = sampled(intervals.edges, rules.nodes, max(NOISE, blur))
-        fine = sampled(intervals.edges, rules.finer_nodes, max(NOISE, blur))
+        coarse = sampled(intervals.edges, rules.nodes, max(NOISE, rate_roundoff))
+        fine = sampled(intervals.edges, rules.finer_nodes, max(NOISE, rate_roundoff))
         try:
             run = iterate(coarse, at)
             judge = iterate(fine, at, run.guess(rules.finer_nodes))
@@ -206,10 +210,10 @@ def _attempt(
         if not (sound and start + np.sum(own) < limit):
             break
         permitted = rules.tolerance * np.sum(own) / len(own)
-        marked = np.abs(judged - own) > np.maximum(permitted, 4 * blur * own)
+        marked = np.abs(judged - own) > np.maximum(permitted, 4 * rate_roundoff * own)
         marked |= hidden > permitted
         if not marked.any():
-            part = _judged(coarse, start, run, judge, own, judged, hidden, blur)
+            part = _endpoints(coarse, start, run, judge, own, judged, hidden, rate_roundoff)
             quick = run.evaluations <= FEW_ITERATIONS * run.rate.size
             easy = quick and 3 * len(own) <= MOST_CUT  # some of them may be cut once more
             return _Attempt(evaluations + run.rate.size, part, intervals.asked, easy)
@@ -219,26 +223,26 @@ def _attempt(
     return _Attempt(evaluations, None, intervals.asked, False)
 
 
-def _judged(
-    coarse: JudgedRates,
+def _endpoints(
+    coarse: RatesWithSlope,
     start: float,
     run: CycleSolution,
     judge: CycleSolution,
     own: FloatArray,
     judged: FloatArray,
     hidden: FloatArray,
-    blur: float,
-) -> Reached:
-    """Return what intervals that are resolved add, with its error: by the rules, by what the
-    iterations have left, and by rounding."""
+    rate_roundoff: float,
+) -> Endpoints:
+    """Return the solution at the ends of resolved intervals with its error: by the rules, by the
+    iteration, and by rounding."""
     increment = np.cumsum(own)
     growth = np.cumsum(_on_each(coarse.slope(start + run.inside), coarse.over))  # its logarithm
     most = growth - np.minimum(np.minimum.accumulate(growth), 0.0)  # since any interval
-    missed = SAFETY * np.abs(np.cumsum(judged) - increment) + np.cumsum(hidden)
-    left = float(run.iteration_error[0, 0] + judge.iteration_error[0, 0]) * increment[-1]
-    error = missed + (left + blur * increment) * np.exp(most)
+    by_rules = SAFETY * np.abs(np.cumsum(judged) - increment) + np.cumsum(hidden)
+    iteration = float(run.iteration_error[0, 0] + judge.iteration_error[0, 0]) * increment[-1]
+    error = by_rules + (iteration + rate_roundoff * increment) * np.exp(most)
     response = increment * np.exp(most)
-    return Reached(increment, error, np.exp(growth), response, 0, coarse.over.edges.ravel())
+    return Endpoints(increment, error, np.exp(growth), response, 0, coarse.over.edges.ravel())
 
 
 def _on_each(values: FloatArray, over: Mesh) -> FloatArray:

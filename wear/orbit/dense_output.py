@@ -1,7 +1,7 @@
-"""What cycles add up to given phases, as a function of the state at their start.
+"""Increments of cycles up to given phases, as functions of the initial state of the cycle.
 
-It depends on that state alone, and smoothly: it is found once at the nodes of the panels of a count
-and interpolated to the cycles wanted. No cycle between is integrated.
+They are smooth functions of that state: they are found at the nodes of the panels of an orbit and
+interpolated to the requested cycles. No cycle between is integrated.
 """
 
 from __future__ import annotations
@@ -29,19 +29,19 @@ Observable = Callable[[FloatArray, FloatArray], FloatArray]
 """A positive function of states (n, m) and the forcing (m,)."""
 
 
-class Added(NamedTuple):
-    """What cycles add up to the phases (n, m), and what of that is `missed` (n,); the `observable`
-    (n, m) there, if any, and its relative error `off` (n,)."""
+class PhaseIncrements(NamedTuple):
+    """The increments of cycles up to the phases (n, m), and their `error` (n,); the `observable`
+    (n, m) there, if any, and its relative error, `observable_error` (n,)."""
 
     increment: FloatArray
-    missed: FloatArray
+    error: FloatArray
     observable: FloatArray | None
-    off: FloatArray
+    observable_error: FloatArray
 
 
-class _Panels(NamedTuple):
-    """What cycles add that start on the panels of a `frame`: Chebyshev coefficients `series`
-    (panels, m, columns), what these have `missed` (panels,), and how much the observable is `off`
+class _DensePanels(NamedTuple):
+    """The increments of cycles from the panels of a `frame`: Chebyshev coefficients `series`
+    (panels, m, columns), their `error` (panels,), and that of the observable, `observable_error`
     (panels,).
 
     There is a column for the increment at each phase, and another for the logarithm of the
@@ -50,107 +50,108 @@ class _Panels(NamedTuple):
 
     frame: abel.Frame
     series: FloatArray
-    missed: FloatArray
-    off: FloatArray
+    error: FloatArray
+    observable_error: FloatArray
 
 
 class DenseOutput(NamedTuple):
-    """How the state of one scene grows within cycles up to some phases, ready for interpolation.
+    """The increments of one scene within cycles up to some phases, ready for interpolation.
 
-    `first` (k, columns) is what has been added in each of the first cycles, `first_missed` (k,) its
-    estimated error; the `panels` are those of later ones, None if there are none.
+    `first` (k, columns) are those of each of the first cycles, `first_error` (k,) their estimated
+    errors; the `panels` are those of later ones, None if there are none.
     """
 
     first: FloatArray
-    first_missed: FloatArray
-    panels: _Panels | None
+    first_error: FloatArray
+    panels: _DensePanels | None
     observed: bool
 
-    def added(self, cycles: FloatArray, starts: FloatArray) -> Added:
-        """Return what each of `cycles` (n,), counted from the first, adds from its start (n,)."""
+    def added(self, cycles: FloatArray, starts: FloatArray) -> PhaseIncrements:
+        """Return the increments of the cycles with the numbers `cycles` (n,), from 0 on, and the
+        initial states `starts` (n,)."""
         columns = np.zeros((len(cycles), self.first.shape[1]))
-        missed, off = np.zeros((2, len(cycles)))
+        error, observable_error = np.zeros((2, len(cycles)))
         early = cycles < len(self.first)
         index = cycles[early].astype(int)
         columns[early] = self.first[index]
-        missed[early] = self.first_missed[index]
+        error[early] = self.first_error[index]
         if self.panels is not None:  # else no cycle adds anything any more
-            frame, series, of_panels, off_panels = self.panels
+            frame, series, of_panels, of_observable = self.panels
             panel = np.where(early, -1, cell_of(frame.starts, starts))
             for p in np.unique(panel[~early]):
                 chosen = panel == p
                 t = take(frame, slice(p, p + 1)).positions(starts[None, chosen])[0]
                 columns[chosen] = chebyshev_values(t, series.shape[1]) @ series[p]
-                missed[chosen], off[chosen] = of_panels[p], off_panels[p]
+                error[chosen], observable_error[chosen] = of_panels[p], of_observable[p]
         if not self.observed:
-            return Added(columns, missed, None, off)
+            return PhaseIncrements(columns, error, None, observable_error)
         increment, logarithm = np.split(columns, 2, axis=1)
-        return Added(increment, missed, np.exp(logarithm), off)
+        return PhaseIncrements(increment, error, np.exp(logarithm), observable_error)
 
 
-@np.errstate(all="ignore")  # of trial states far off; what is no number fails the estimate of error
+@np.errstate(all="ignore")  # of trial states far off; NaN fails the error estimate
 def dense_output(
     problem: Problem,
-    counted: Iterates,
+    iterates: Iterates,
     phases: FloatArray,
     rtol: float,
     observable: Observable | None = None,
 ) -> DenseOutput:
-    """Prepare for the cycles that are `counted`, of one scene, and for `phases` (m,) in [0, 1]."""
-    size, states = settings(rtol, problem.breakpoints), counted.transient[0]
+    """Return the dense output of one scene with these iterates, at `phases` (m,) in [0, 1]."""
+    size, states = settings(rtol, problem.breakpoints), iterates.transient[0]
     # The first cycle is not interpolated even if panels begin with it.
-    first = states[: max(1, len(states) - 1)] if counted.cells else states
-    maps = period_map(problem, counted.edges, size.finer_nodes)
+    first = states[: max(1, len(states) - 1)] if iterates.cells else states
+    maps = period_map(problem, iterates.edges, size.finer_nodes)
     maps, added = _resolved(maps, first, np.append(phases, 1.0), rtol)
     added, whole = added[:, :-1], added[:, -1]
-    missed = np.max(np.abs(_judged(maps, first, phases, size) - added), axis=1)
+    error = np.max(np.abs(_by_finer_map(maps, first, phases, size) - added), axis=1)
     known = np.diff(states)[: len(first)]  # two meshes that agree may both be wrong
-    missed[: len(known)] = np.maximum(missed[: len(known)], np.abs(whole[: len(known)] - known))
+    error[: len(known)] = np.maximum(error[: len(known)], np.abs(whole[: len(known)] - known))
     # Beyond the limit there is another solution, which has no meaning.
-    limit = float(counted.limit[0])
-    sound = (first + whole < limit) & (SAFETY * missed <= rtol * (first + whole))
+    limit = float(iterates.limit[0])
+    sound = (first + whole < limit) & (SAFETY * error <= rtol * (first + whole))
     for i in np.flatnonzero(~sound):
-        added[i], missed[i] = _violent(problem, float(first[i]), limit, phases, size)
-    missed += problem.roundoff(first[None])[0] * np.max(added, axis=1, initial=0.0)
+        added[i], error[i] = _violent(problem, float(first[i]), limit, phases, size)
+    error += problem.roundoff(first[None])[0] * np.max(added, axis=1, initial=0.0)
     columns = _with_observable(observable, first, added, problem.forcing(phases[None])[0])
     panels = None
-    if counted.panels is not None:
-        panels = _on_panels(maps, counted, phases, rtol, observable)
-    return DenseOutput(columns, missed, panels, observable is not None)
+    if iterates.panels is not None:
+        panels = _on_panels(maps, iterates, phases, rtol, observable)
+    return DenseOutput(columns, error, panels, observable is not None)
 
 
 def _on_panels(
     maps: PeriodMap,
-    counted: Iterates,
+    iterates: Iterates,
     phases: FloatArray,
     rtol: float,
     observable: Observable | None,
-) -> _Panels:
-    """Return the panels of the count, cut in two where a phase needs it: there what a cycle adds
-    depends on the state more sharply than at its end."""
-    assert counted.panels is not None
+) -> _DensePanels:
+    """Return the panels of the orbit, cut in two where the increment up to some phase depends on
+    the state more sharply than that of the whole cycle."""
+    assert iterates.panels is not None
     size = settings(rtol, maps.equation.breakpoints)
-    number, frame = len(phases), counted.panels.frame
+    number, frame = len(phases), iterates.panels.frame
     forcing = maps.equation.forcing(phases[None])[0]
     to_series = chebyshev_analysis(size.panel_nodes)
     to_checks = chebyshev_values(CHECKS, size.panel_nodes)
-    done: list[_Panels] = []
+    done: list[_DensePanels] = []
     for rounds in range(MOST_ROUNDS):
         nodes = frame.states(chebyshev_nodes(size.panel_nodes))
         checks = frame.states(CHECKS)
         maps, added = _resolved(maps, nodes.ravel(), phases, rtol)
         columns = _with_observable(observable, nodes.ravel(), added, forcing)
         series = to_series @ columns.reshape(*nodes.shape, -1)
-        judged = _judged(maps, checks.ravel(), phases, size)
-        judged = _with_observable(observable, checks.ravel(), judged, forcing)
-        apart = np.abs(judged.reshape(*checks.shape, -1) - to_checks @ series)
-        missed = np.max(apart[..., :number], axis=(1, 2), initial=0.0)
-        off = SAFETY * np.max(apart[..., number:], axis=(1, 2), initial=0.0)
-        missed[~np.isfinite(apart).all(axis=(1, 2))] = np.inf
-        fresh = _Panels(frame, series, missed, off)
-        # No cycle ends with a lower state than the first adds.
-        least = np.maximum(frame.starts, counted.first_increment)
-        cut = ~(SAFETY * missed <= rtol / 4 * least)
+        finer = _by_finer_map(maps, checks.ravel(), phases, size)
+        finer = _with_observable(observable, checks.ravel(), finer, forcing)
+        apart = np.abs(finer.reshape(*checks.shape, -1) - to_checks @ series)
+        error = np.max(apart[..., :number], axis=(1, 2), initial=0.0)
+        of_observable = SAFETY * np.max(apart[..., number:], axis=(1, 2), initial=0.0)
+        error[~np.isfinite(apart).all(axis=(1, 2))] = np.inf
+        fresh = _DensePanels(frame, series, error, of_observable)
+        # No cycle ends with a state below the increment of the first.
+        least = np.maximum(frame.starts, iterates.first_increment)
+        cut = ~(SAFETY * error <= rtol / 4 * least)
         if not cut.any() or rounds == MOST_ROUNDS - 1:
             done.append(fresh)
             break
@@ -163,8 +164,8 @@ def _on_panels(
 def _violent(
     problem: Problem, start: float, limit: float, phases: FloatArray, size: Settings
 ) -> tuple[FloatArray, float]:
-    """Return what one cycle from the state `start` adds up to each phase (m,), by the adaptive
-    integrator, and what that may have missed."""
+    """Return the increments of one cycle from the state `start` up to each phase (m,), by the
+    adaptive integrator, and their error."""
     edges = np.unique(np.concatenate([problem.breakpoints[0], phases]))
     maps = period_map(problem, edges[None], size.phase_nodes)
     try:
@@ -179,7 +180,7 @@ def _violent(
 def _with_observable(
     observable: Observable | None, starts: FloatArray, added: FloatArray, forcing: FloatArray
 ) -> FloatArray:
-    """Return the columns to interpolate, from what is added (starts, phases)."""
+    """Return the columns to interpolate, from the increments (starts, phases)."""
     if observable is None:
         return added
     values = observable(starts[:, None] + added, forcing)
@@ -189,9 +190,9 @@ def _with_observable(
 def _resolved(
     maps: PeriodMap, starts: FloatArray, phases: FloatArray, rtol: float
 ) -> tuple[PeriodMap, FloatArray]:
-    """Return what is added up to each phase, (starts, phases), no number where that is not found;
-    and the map that resolves the rate at every phase: first as if the rate did not feel the state
-    within the cycle, which costs least, then as it is."""
+    """Return a map that resolves the rate at every phase, and the increments up to each phase,
+    (starts, phases), NaN where the iteration failed. The mesh is refined first by the rate without
+    feedback, which costs least, then by the solution."""
     tolerance = max(rtol, ROUNDOFF)
     marked = _unresolved(maps.rate_without_feedback(starts[None]), maps.over, tolerance)
     while marked.any() and not maps.full:
@@ -207,10 +208,11 @@ def _resolved(
 
 
 def _unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
-    """Return which intervals (1, q) hold a rate (1, k, q, m) whose running integral is not
+    """Return the intervals (1, q) on which the running integral of a rate (1, k, q, m) is not
     resolved.
 
-    Unlike its integral over the interval, that is no better than its interpolant.
+    Unlike the integral over an interval, the running integral is no more accurate than the
+    interpolant of the rate.
     """
     series = np.abs(coefficients(over.rule.coefficients, rate))
     tail, largest = np.max(series[-3:], axis=0), np.max(series, axis=0)
@@ -219,15 +221,17 @@ def _unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
     return marked
 
 
-def _judged(maps: PeriodMap, starts: FloatArray, phases: FloatArray, size: Settings) -> FloatArray:
-    """Return what is added up to each phase, (starts, phases), by a second discretisation."""
+def _by_finer_map(
+    maps: PeriodMap, starts: FloatArray, phases: FloatArray, size: Settings
+) -> FloatArray:
+    """Return the increments up to each phase, (starts, phases), by a finer discretisation."""
     m = 2 * size.finer_nodes - size.phase_nodes
     again = period_map(maps.equation, maps.over.edges[:, 0], m)
     return _at_phases(again.advance(starts[None]), again.over, phases)
 
 
 def _at_phases(run: CycleSolution, over: Mesh, phases: FloatArray) -> FloatArray:
-    """Return what is added up to each phase, (starts, phases)."""
+    """Return the increments up to each phase, (starts, phases)."""
     edges, lengths, all_rates = over.edges[0, 0], over.lengths[0, 0], run.rate[0]
     interval = np.clip(np.searchsorted(edges, phases, side="right") - 1, 0, len(lengths) - 1)
     x = (phases - edges[interval]) / lengths[interval]

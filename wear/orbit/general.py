@@ -29,13 +29,13 @@ from wear.orbit.problem import Cost
 from wear.orbit.segments import orbit
 
 Rate = Callable[[FloatArray, FloatArray], FloatArray]
-CONDITION = 8.0  # roundoffs of a rate, if nothing is known
+CONDITION = 8.0  # roundoffs of a rate, by default
 DIFFERENCE = 1e-6  # of the state and its scale: states between which a slope is taken
 
 
 class States(NamedTuple):
-    """The states `u` (n,) after the cycles asked for, their estimated relative `error`, and what
-    they took."""
+    """The states `u` (n,) after the requested cycles, their estimated relative `error`, and the
+    cost."""
 
     u: FloatArray
     error: FloatArray

@@ -3,7 +3,7 @@
 On a panel with the coordinate x = (u - start)/(u + c) the state u is infinite where x = 1, and
 e = 1/(u + c) = (1 - x)/L with L = start + c. There dn/du = (1 - A e + ...)/R, so that
 u = R n + A ln n + B + o(1): R and A are the value and the slope of the series at x = 1, and B is
-what is left of the integral of dn/du.
+the rest of the integral of dn/du.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from numpy.polynomial import chebyshev
 from wear.numerics.gauss import FloatArray, gauss
 from wear.orbit.abel import Panels
 
-INTERVALS, NODES = 32, 24  # of the integral of what is left
+INTERVALS, NODES = 32, 24  # of the integral of the rest
 SMALL, TERMS = 0.5, 14  # of a series
 
 

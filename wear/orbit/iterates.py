@@ -32,7 +32,7 @@ GROWTH = 1.2  # of the logarithm of the density within a cell, at most
 MOST_CELLS = 400
 ACCURATE = 1e-8  # relative step of Newton's method: the next would be its square
 MOST_NEWTON = 20
-NO_DIGIT = 0.1  # relative error: a discretisation without a digit does not know its error either
+NO_DIGIT = 0.1  # relative error: with a larger one the error estimate is void, too
 NEARLY = 1 - 1e-9  # of the limit of the states
 
 
@@ -41,9 +41,9 @@ class Cells(NamedTuple):
     scenes one after the other.
 
     State `u`, `offset` u + c and `cycles` n where a cell starts; its `length` in y = ln(u + c), the
-    `gain` in n over it, and what of n may be `missed`; `series` (NODES, 2, cells): coefficients of
-    the powers of z of dn/dx and of the curvature of n, see `_values`, where x goes from 0 to 1 on
-    the cell and x = (z + 1)/2.
+    number of cycles in it, `gain`, and the `truncation` error of that; `series` (NODES, 2, cells):
+    coefficients of the powers of z of dn/dx and of the curvature of n, see `_values`, where x goes
+    from 0 to 1 on the cell and x = (z + 1)/2.
     """
 
     u: FloatArray
@@ -51,7 +51,7 @@ class Cells(NamedTuple):
     cycles: FloatArray
     length: FloatArray
     gain: FloatArray
-    missed: FloatArray
+    truncation: FloatArray
     series: FloatArray
 
     def take(self, which: slice | IntArray) -> Cells:
@@ -147,9 +147,9 @@ def cells(
     u, offset = frame.starts[:, None] + offset * np.expm1(y), offset * np.exp(y)
     # By Legendre coefficients: the high ones are small, and so are the powers they turn to.
     legendre = coefficients(rule.coefficients, density)
-    missed = np.max(np.abs(legendre[-2:]), axis=0)
+    truncation = np.max(np.abs(legendre[-2:]), axis=0)
     series = np.stack([coefficients(powers, legendre.T) for powers in _powers(NODES)], axis=1)
-    return Cells(u.ravel(), offset.ravel(), cycles, length.ravel(), gain, missed, series)
+    return Cells(u.ravel(), offset.ravel(), cycles, length.ravel(), gain, truncation, series)
 
 
 def joined(tables: Sequence[Cells]) -> Cells:
@@ -216,15 +216,15 @@ def _values(series: FloatArray, gain: FloatArray, x: FloatArray) -> tuple[FloatA
 
 
 class Iterates(NamedTuple):
-    """States after any numbers of cycles, of scenes (s,) that have as many integrated cycles and
-    cells each.
+    """States after any numbers of cycles, of scenes (s,) with equally many integrated cycles and
+    cells.
 
     `transient` (s, k + 1) holds the states after 0, 1, ... k cycles, integrated one by one, and
     `transient_error` their estimated errors; the cells of all scenes, one after the other, count
     beyond, and `count_error` (s, cells + 1) is the estimated error of n where each cell starts and
     where the last one ends. Without cells the state stays as it is. States from `limit` (s,) on
-    have no meaning. The mesh of phase on which all this was found has `edges` (s, q + 1), and
-    `cycles` are those from the nodes of panels and from the CHECKS, if they were kept.
+    have no meaning. The mesh of phase has `edges` (s, q + 1), and `cycles` are those from the nodes
+    of panels and from the CHECKS, if they were kept.
     """
 
     transient: FloatArray
@@ -271,32 +271,33 @@ class Iterates(NamedTuple):
 
     @property
     def at_rest(self) -> BoolArray:
-        """Return whether the last cycle of each scene (s,) adds nothing, and so none after it."""
+        """Return whether the last cycle of each scene (s,) adds nothing: then no cycle after it
+        does."""
         moves = np.sum(np.diff(self.transient[:, -2:], axis=1), axis=1) > 0
         return np.asarray(~moves & (self.cells is None))
 
     @property
     def first_idle_cycle(self) -> int:
-        """Return which cycle, counted from 0, is the first to add nothing to the first scene."""
+        """Return the first cycle, counted from 0, that adds nothing to the first scene."""
         return int(np.argmax(np.diff(self.transient[0]) <= 0))
 
     @property
     def reach(self) -> FloatArray:
-        """Return how many cycles are counted (s,)."""
+        """Return the number of cycles in reach (s,)."""
         if self.cells is None:
             return np.where(self.at_rest, np.inf, float(self.integrated_cycles))
         return np.asarray(self._ends[:, -1])
 
     @property
     def whole_cycles(self) -> FloatArray:
-        """Return how many whole cycles are counted (s,), at rest only those integrated."""
+        """Return the number of whole cycles in reach (s,), at rest only those integrated."""
         if self.cells is None:
             return np.full(len(self.transient), float(self.integrated_cycles))
         return np.floor(self._ends[:, -1])
 
     @property
     def first_increment(self) -> FloatArray:
-        """Return what the first cycle adds (s,)."""
+        """Return the increment of the first cycle (s,)."""
         if self.integrated_cycles == 0 and self.cells is not None:
             return np.asarray(self._rows(self.cells.first_rate)[:, 0])
         return np.asarray(np.sum(np.diff(self.transient[:, :2], axis=1), axis=1))
@@ -321,9 +322,9 @@ class Iterates(NamedTuple):
             late = np.maximum(cycles, float(number))
             cell = self._cell(self._ends[:, :-1], late)
             state, rate = self.cells.state_after(late.ravel(), cell.ravel())
-            missed = _interpolated(late, self._ends, self.count_error)
+            uncertain = _interpolated(late, self._ends, self.count_error)
             u = np.where(early, u, state.reshape(late.shape))
-            error = np.where(early, error, rate.reshape(late.shape) * missed)
+            error = np.where(early, error, rate.reshape(late.shape) * uncertain)
         error = error / np.where(u > 0, u, 1.0)
         limit = self.limit[:, None]
         known = (u < NEARLY * limit) & (error < NO_DIGIT) & (cycles <= self.reach[:, None])
@@ -341,15 +342,15 @@ class Iterates(NamedTuple):
         if late.any():
             cell = self._cell(self._rows(self.cells.u), u)
             found = self.cells.cycles_until(u.ravel(), cell.ravel()).reshape(u.shape)
-            missed = _interpolated(found, self._ends, self.count_error)
-            count[late] = np.ceil(found - missed)[late]
-            error[late] = 2 * missed[late]
+            uncertain = _interpolated(found, self._ends, self.count_error)
+            count[late] = np.ceil(found - uncertain)[late]
+            error[late] = 2 * uncertain[late]
         return count, error
 
     def _until(self, row: int, u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the same for the integrated cycles of one scene."""
         first, error = self.transient[row], self.transient_error[row]
-        # A state that is reached at the very end of a cycle must not ask for another one.
+        # A state that is reached at the very end of a cycle takes no other one.
         known = error <= NO_DIGIT * first
         index = np.searchsorted(first + np.where(known, error, 0.0), u, side="left")
         # From the least count to the largest, at the rate of the cycle after, which is slower.

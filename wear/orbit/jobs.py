@@ -1,8 +1,8 @@
 """The counts of one segment of many scenes, in jobs of scenes that go together.
 
-A job has scenes with meshes of phase of one size and as many integrated cycles. What it lacks, a
-finer mesh, shorter panels or more integrated cycles, is found out by solving it; the scenes that
-lack the same go on together, with those of other jobs that have come to the same place.
+A job has scenes with meshes of phase of one size and equally many integrated cycles. Solving it
+shows which scenes need a finer mesh, shorter panels or more integrated cycles; those that need the
+same form a new job, together with those of other jobs.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
-from wear.orbit.panels import Layout, SolvedPanels, fill
+from wear.orbit.panels import Layout, PanelSolution, adapt
 from wear.orbit.period_map import PeriodMap, period_map, resolved, settings
 from wear.orbit.plan import (
     FRAME_SCALE,
@@ -31,16 +31,16 @@ from wear.orbit.plan import (
 from wear.orbit.problem import Cost, Problem, Request
 from wear.orbit.transient import BLOCK, SAFETY, Transient, extended, no_cycle
 
-SAMPLES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0])  # of the way: there a mesh must suit
+SAMPLES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0])  # of the range: states for the mesh
 MOST_FIRST = 120  # cycles integrated one by one in a segment
-MOST_EVALUATIONS = 20_000_000  # of a scene: then the estimate shows what is missed
+MOST_EVALUATIONS = 20_000_000  # of a scene: then the error estimate exceeds the tolerance
 NEARLY_THERE = 10.0  # times the residual that is asked for
 
 
 class Job(NamedTuple):
-    """Scenes `which` with their period maps and transient; how many cycles of it are `needed`; the
-    `worst` residual (s,) so far, the right-hand sides `spent` (s,), and panels to begin with, if
-    any are known."""
+    """Scenes `which` with their period maps and transient; the number of its cycles that are
+    `needed`; the `worst` residual (s,) so far, the right-hand sides `spent` (s,), and the initial
+    panels, if any are known."""
 
     which: IntArray
     maps: PeriodMap
@@ -52,12 +52,12 @@ class Job(NamedTuple):
 
     @property
     def key(self) -> tuple[int, int, int, bool]:
-        """Return what jobs must have in common to be joined."""
+        """Return the common properties of jobs that can be joined."""
         intervals = self.maps.over.lengths.shape[-1]
         return (intervals, self.transient.cycles, self.needed, self.layout is None)
 
     def take(self, rows: IntArray, needed: int) -> Job:
-        """Return some of the scenes, that need so many cycles."""
+        """Return the job of some of the scenes, which need so many cycles."""
         if len(rows) == len(self.which):
             return self._replace(needed=needed, layout=None)
         return Job(
@@ -102,7 +102,8 @@ class Jobs:
                 yield from self._on_panels(job)
 
     def _add(self, job: Job, rows: IntArray, needed: int, **changes: Any) -> None:
-        """Go on with some of the scenes, if there are any, when they have so many cycles."""
+        """Queue some of the scenes, if there are any, for the time when they have so many
+        cycles."""
         if len(rows):
             some = job.take(rows, needed)._replace(**changes)
             self.todo.setdefault(some.key, []).append(some)
@@ -130,7 +131,7 @@ class Jobs:
         )
 
     def _extended(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
-        """Integrate more cycles; return scenes that have come to an end by them."""
+        """Integrate more cycles; yield the scenes that end with them."""
         limit, tolerance = self.limit[job.which], self.tolerance[job.which]
         for more in extended(job.maps, job.transient, limit, self.size, tolerance):
             which = job.which[more.which]
@@ -148,54 +149,56 @@ class Jobs:
             self._add(fresh, np.flatnonzero(~ended), job.needed)
 
     def _on_panels(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
-        """Solve Abel's equation on panels; return scenes that are counted, and send the others to
-        where they are refined."""
+        """Solve Abel's equation on panels; yield the scenes that are accurate, and queue the others
+        for refinement."""
         if job.layout is None:
             yield from self._planned(job)
             return
         which, number, tolerance = job.which, job.transient.cycles, self.tolerance[job.which]
         fine = job.maps.finer(self.size)
-        filled = fill(job.maps, fine, job.layout, self.size, tolerance, self.keep)
-        self.cost = self.cost.plus(*filled.cost)
-        spent = job.spent + filled.cost.rhs_evaluations / len(which)
-        scene, residual = filled.panels.scene, filled.panels.residual
+        adapted = adapt(job.maps, fine, job.layout, self.size, tolerance, self.keep)
+        self.cost = self.cost.plus(*adapted.cost)
+        spent = job.spent + adapted.cost.rhs_evaluations / len(which)
+        scene, residual = adapted.panels.scene, adapted.panels.residual
         worst = np.zeros(len(which))
         np.maximum.at(worst, scene, np.where(np.isnan(residual), np.inf, residual))
-        marked, good = filled.marked.any(axis=1), worst <= tolerance
-        counts = list(self._counted(job, filled.panels)) if number == 0 else []
-        for rows, counted in counts:
-            good[rows] &= counted.largest_error <= self.rtol
-        # What rounding leaves no refinement cures.
+        marked, good = adapted.marked.any(axis=1), worst <= tolerance
+        counts = list(self._counted(job, adapted.panels)) if number == 0 else []
+        for rows, iterates in counts:
+            good[rows] &= iterates.largest_error <= self.rtol
+        # A residual of rounding errors does not fall with refinement.
         accepted = (job.worst <= NEARLY_THERE * tolerance) & ~(worst < job.worst / 2)
         accepted &= number > 0
         accepted |= (spent > MOST_EVALUATIONS) | (marked & job.maps.full)
         accepted |= self.request.late and number > 0
         accepted |= good & ~marked
         finer = np.flatnonzero(marked & ~accepted)
-        for group, maps in job.maps.take(finer).refined(filled.marked[finer]) if len(finer) else ():
+        for group, maps in (
+            job.maps.take(finer).refined(adapted.marked[finer]) if len(finer) else ()
+        ):
             rows = finer[group]
-            layout = _of(Layout(filled.panels.scene, filled.panels.density.frame), rows)
+            layout = _of(Layout(adapted.panels.scene, adapted.panels.density.frame), rows)
             found = {"worst": worst[rows], "spent": spent[rows], "layout": layout}
             self._add(job, rows, number, maps=maps, **found)
         # Panels that can be cut no more: too few cycles lie behind them.
         rest = np.flatnonzero(~accepted & ~marked)
         self._add(job, rest, max(BLOCK, 2 * number), worst=worst[rest], spent=spent[rest])
-        for rows, counted in counts or self._counted(job, take(filled.panels, accepted[scene])):
+        for rows, iterates in counts or self._counted(job, take(adapted.panels, accepted[scene])):
             kept = np.flatnonzero(accepted[rows])
             if len(kept):
-                yield which[rows[kept]], counted if len(kept) == len(rows) else counted.take(kept)
+                yield which[rows[kept]], iterates if len(kept) == len(rows) else iterates.take(kept)
 
     def _frame(self, job: Job) -> abel.Frame:
-        """Return one panel of each scene, as far as it must reach."""
+        """Return one panel for each scene, over the range that it must cover."""
         last, limit = job.transient.last, self.limit[job.which]
         ahead = 10 * BLOCK * job.transient.last_increment if job.transient.cycles else 0.0
         end = np.minimum(np.maximum(self.end[job.which], last + ahead), limit)
         return abel.frame(FRAME_SCALE * self.scale[job.which], last, end)
 
     def _planned(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
-        """Lay out panels that hold enough cycles, as far as there are such; scenes of which the
-        first panels do not hold enough get more integrated cycles, and those with a phase that is
-        not resolved on their panels a finer mesh."""
+        """Lay out panels that hold enough cycles, as far as possible; scenes whose first panels do
+        not hold enough are queued for more integrated cycles, and those whose phase is not resolved
+        on their panels for a finer mesh."""
         number = job.transient.cycles
         scenes = np.arange(len(job.which))
         plan = planned(job.maps, scenes, self._frame(job), self.size)
@@ -242,7 +245,7 @@ class Jobs:
         start_error = self.request.start_error[which]
         return transient.error(start_error, np.maximum(rounding[:, 1:], rounding[:, :-1]))
 
-    def _counted(self, job: Job, panels: SolvedPanels) -> Iterator[tuple[IntArray, Iterates]]:
+    def _counted(self, job: Job, panels: PanelSolution) -> Iterator[tuple[IntArray, Iterates]]:
         """Return the counts on panels, those of scenes `rows` of the job with as many panels
         together."""
         scenes, inverse, counts = np.unique(panels.scene, return_inverse=True, return_counts=True)
@@ -255,46 +258,46 @@ class Jobs:
             begins, ends = (x.reshape(len(rows), -1) for x in (table.u, table.ends))
             u = np.concatenate([begins, ends[:, -1:]], axis=1)
             rounding = self.problem.take(which).roundoff(u)
-            missed = count_error(some.density, some.residual, table, rounding, len(rows))
-            missed += error[:, -1:] / table.first_rate.reshape(len(rows), -1)[:, :1]
-            counted = Iterates(
+            of_count = count_error(some.density, some.residual, table, rounding, len(rows))
+            of_count += error[:, -1:] / table.first_rate.reshape(len(rows), -1)[:, :1]
+            iterates = Iterates(
                 transient.states,
                 error,
                 table,
                 some.density,
-                missed,
+                of_count,
                 self.limit[which],
                 _edges(job.maps, rows),
                 some.cycles,
             )
-            yield rows, counted
+            yield rows, iterates
 
 
 def count_error(
     panels: abel.Panels, residual: FloatArray, table: Cells, rounding: FloatArray, scenes: int
 ) -> FloatArray:
-    """Return the error (scenes, cells + 1) of n where each cell starts and where the last ends: of
-    the density by the `residual` of each panel, where panels meet, by `rounding` of the rate there
+    """Return the error (scenes, cells + 1) of n where each cell starts and where the last ends: by
+    the `residual` of each panel, by the matching of panels, and by `rounding` of the rate
     (scenes, cells + 1)."""
     shape, number = (scenes, -1), len(residual)
     gain = table.gain.reshape(shape)
     of_panel = gain.size // number
-    lost = SAFETY * np.repeat(residual, of_panel).reshape(shape) * gain
-    lost += table.missed.reshape(shape)
+    error = SAFETY * np.repeat(residual, of_panel).reshape(shape) * gain
+    error += table.truncation.reshape(shape)
     each = number // scenes
     for k in range(1, each):
         before = take(panels, slice(k - 1, None, each))
         after = take(panels, slice(k, None, each))
-        # It shifts the count at once, and so belongs to what was missed before.
-        lost[:, k * of_panel - 1] += SAFETY * abel.matching_defect(before, after)
+        # It shifts the count at once, and so belongs to the errors before.
+        error[:, k * of_panel - 1] += SAFETY * abel.matching_defect(before, after)
     terms = ROUNDOFF * np.sum(np.abs(panels.series), axis=1)  # of ln(density)
     of_density = np.repeat(terms, of_panel).reshape(shape)
-    lost += (np.maximum(rounding[:, 1:], rounding[:, :-1]) + of_density) * gain
-    return np.concatenate([np.zeros((scenes, 1)), np.cumsum(lost, axis=1)], axis=1)
+    error += (np.maximum(rounding[:, 1:], rounding[:, :-1]) + of_density) * gain
+    return np.concatenate([np.zeros((scenes, 1)), np.cumsum(error, axis=1)], axis=1)
 
 
 def _of(layout: Layout, rows: IntArray) -> Layout:
-    """Return the panels of some scenes, rising, which are counted anew."""
+    """Return the panels of some scenes, which are renumbered in rising order."""
     chosen = np.full(max(layout.scene.max(initial=0), rows.max(initial=0)) + 1, False)
     chosen[rows] = True
     some = take(layout, chosen[layout.scene])

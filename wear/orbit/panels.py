@@ -1,9 +1,9 @@
-"""Abel's equation on panels that adapt: solved with one period map, judged by a finer one.
+"""Abel's equation on panels that adapt: solved with one period map, check by a finer one.
 
-What the series misses is largest between the nodes, where the last polynomials are. What the mesh
-of phase misses changes its sign with the state, so the rates at all nodes have a say. A residual
-that exceeds the tolerance says what to refine: where the two maps differ, the phase; else the panel
-is cut in two.
+The error of the series is largest between the nodes, at the extrema of the last polynomials. The
+error of the mesh of phase changes its sign with the state, so it is estimated at all nodes. Where
+the residual exceeds the tolerance and the two maps differ, the phase is refined; else the panel is
+cut in two.
 """
 
 from __future__ import annotations
@@ -38,18 +38,18 @@ class Layout(NamedTuple):
 
 
 class PanelCycles(NamedTuple):
-    """Cycles from some positions of panels: the `increment` (panels, k), and what has been added
-    `inside` (panels, k, q, m), at the nodes of phase."""
+    """Cycles from some positions of panels: the `increment` (panels, k), and the increment since
+    the start at the nodes of phase, `inside` (panels, k, q, m)."""
 
     increment: FloatArray
     inside: FloatArray
 
 
-class SolvedPanels(NamedTuple):
-    """Panels of many scenes, in rising order scene by scene: the `scene` (panels,) of each, its
-    density, the greatest `residual` (panels,) off the nodes, and whether it is `short` (panels,):
-    cut in two it would hold too few cycles, and might hide an oscillation. If they are kept, the
-    `cycles` from the nodes, and those from the CHECKS that judge them."""
+class PanelSolution(NamedTuple):
+    """The solution of Abel's equation on panels of many scenes, in rising order scene by scene: the
+    `scene` (panels,) of each, its density, the largest `residual` (panels,) off the nodes, and
+    whether it is `short` (panels,): cut in two it would hold too few cycles, and might hide an
+    oscillation. If they are kept, the `cycles` from the nodes, and those from the CHECKS."""
 
     scene: IntArray
     density: abel.Panels
@@ -58,43 +58,43 @@ class SolvedPanels(NamedTuple):
     cycles: tuple[PanelCycles, ...] = ()
 
 
-class Judged(NamedTuple):
-    """Panels that were solved and judged, the `share` (panels,) of each at which to cut it, the
-    intervals of phase (panels, q) to be refined instead, and what that took."""
+class PanelCheck(NamedTuple):
+    """The solution on panels, the `share` (panels,) of each at which to cut it, the intervals of
+    phase to be refined instead, `marked` (panels, q), and the cost."""
 
-    panels: SolvedPanels
+    panels: PanelSolution
     share: FloatArray
     marked: BoolArray
     cost: Cost
 
 
-class Filled(NamedTuple):
-    """Panels of all scenes; the intervals of phase `marked` (scenes, q) to be refined before they
-    are any good; and what that took."""
+class AdaptivePanels(NamedTuple):
+    """The solution on panels of all scenes; the intervals of phase `marked` (scenes, q), which must
+    be refined before it is of use; and the cost."""
 
-    panels: SolvedPanels
+    panels: PanelSolution
     marked: BoolArray
     cost: Cost
 
 
-def fill(
+def adapt(
     coarse: PeriodMap,
     fine: PeriodMap,
     layout: Layout,
     size: Settings,
     tolerance: FloatArray,
     keep: bool,
-) -> Filled:
+) -> AdaptivePanels:
     """Solve Abel's equation on panels, and cut those with a residual above the `tolerance`
     (scenes,). The cycles of panels are kept if that is asked for."""
-    done: list[SolvedPanels] = []
+    done: list[PanelSolution] = []
     marked = np.zeros((len(tolerance), coarse.over.lengths.shape[-1]), dtype=bool)
     cost = Cost(0, 0)
     for rounds in range(MOST_ROUNDS):
-        judged = _judged(coarse, fine, layout, size, tolerance, keep)
-        fresh, (scene, frame, _) = judged.panels, layout
-        cost = cost.plus(*judged.cost)
-        np.logical_or.at(marked, scene, judged.marked)
+        check = _solve_and_check(coarse, fine, layout, size, tolerance, keep)
+        fresh, (scene, frame, _) = check.panels, layout
+        cost = cost.plus(*check.cost)
+        np.logical_or.at(marked, scene, check.marked)
         bad = ~(fresh.residual <= tolerance[scene])
         # Beyond a panel that cannot be cut nothing is wanted; the phase is to be refined first.
         end = np.full(len(marked), np.inf)
@@ -108,21 +108,21 @@ def fill(
             done.append(fresh)
             break
         done.append(take(fresh, ~cut))
-        layout = Layout(np.tile(scene[cut], 2), stacked(take(frame, cut).cut(judged.share[cut])))
+        layout = Layout(np.tile(scene[cut], 2), stacked(take(frame, cut).cut(check.share[cut])))
     panels = stacked(done)
     order = np.lexsort((panels.density.frame.starts, panels.scene))
-    return Filled(take(panels, order), marked, cost)
+    return AdaptivePanels(take(panels, order), marked, cost)
 
 
-def _judged(
+def _solve_and_check(
     coarse: PeriodMap,
     fine: PeriodMap,
     layout: Layout,
     size: Settings,
     tolerance: FloatArray,
     keep: bool,
-) -> Judged:
-    """Solve Abel's equation with the coarse map, and test it off the nodes with the fine one."""
+) -> PanelCheck:
+    """Solve Abel's equation with the coarse map; check it off the nodes with the fine one."""
     scene, frame, frozen = layout
     coarse, fine, allowed = coarse.take(scene), fine.take(scene), tolerance[scene]
     nodes, checks = chebyshev_nodes(size.panel_nodes), frame.states(CHECKS)
@@ -151,22 +151,22 @@ def _judged(
         again = some.advance(checks[worst])
         cost = cost.plus(again.increment.size, again.evaluations)
         apart = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
-        # Only what the two maps differ by is a fault of the phase.
+        # Only a difference of the two maps is an error of the phase.
         alike = np.less(apart, np.maximum(allowed[worst] / 4, residual[worst] / 10))
         at_fault = ~alike[:, None]  # also where one of them is no number
         marked[worst] |= at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
         marked[worst] |= at_fault & ~np.any(marked[worst], axis=1, keepdims=True)
     kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()
-    panels = SolvedPanels(scene, density, residual, short, kept)
-    return Judged(panels, share, marked, cost)
+    panels = PanelSolution(scene, density, residual, short, kept)
+    return PanelCheck(panels, share, marked, cost)
 
 
-def near_checks(missed: FloatArray, t: FloatArray) -> FloatArray:
-    """Return what is missed (k, n, ...) at the positions `t` (k, n) of panels: the larger of what
-    the two CHECKS next to each have `missed` (k, checks, ...)."""
+def near_checks(error: FloatArray, t: FloatArray) -> FloatArray:
+    """Return the error (k, n, ...) at the positions `t` (k, n) of panels: the larger `error`
+    (k, checks, ...) at the two CHECKS next to each."""
     after = np.clip(np.searchsorted(CHECKS, t), 1, len(CHECKS) - 1)
     rows = np.arange(len(t))[:, None]
-    return np.asarray(np.maximum(missed[rows, after], missed[rows, after - 1]))
+    return np.asarray(np.maximum(error[rows, after], error[rows, after - 1]))
 
 
 def at_checks(ahead: CycleSolution, m: int) -> InitialGuess:

@@ -5,7 +5,7 @@ Overview
     increment D is found by collocation on all of them at once and never formed as a difference.
     Arrays are (scenes, starts, intervals, nodes); one scene is a batch of one.
 Key results
-    Equation     what is solved: rate, its derivative, period one in the phase
+    Equation     the equation: its rate with period one in the phase, and the derivative of that
     PeriodMap    increments, their derivative and errors, on a mesh that can be refined
     resolved     meshes that resolve the rate at given states
 """
@@ -30,11 +30,11 @@ from wear.numerics.collocation import (
     unresolved,
 )
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, Mesh, integral, mesh, product
-from wear.numerics.initial_value import SAFETY, Reached, Rules, StoppedError, integrate
+from wear.numerics.initial_value import SAFETY, Endpoints, Rules, StoppedError, integrate
 from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF, TINY
 
-COARSEST = 1e-6  # relative error: coarser meshes of phase do not show what they miss
+COARSEST = 1e-6  # relative error: coarser meshes of phase have no valid error estimate
 LOOSEST = 1e-4  # relative error: a looser count saves nothing
 MOST_INTERVALS = 256  # of one cycle; or so many for each that its breakpoints make:
 MOST_CUTS = 8
@@ -56,7 +56,7 @@ class Settings(NamedTuple):
 
     phase_nodes: int  # on each interval of phase
     phase_tolerance: float  # of `unresolved`, which mostly exceeds the error tenfold
-    endpoint_tolerance: float  # of what no other estimate shows, or cures
+    endpoint_tolerance: float  # of errors that no other estimate shows
     panel_nodes: int  # on each panel of states
     tail_tolerance: float  # of the density without feedback on a panel
     residual_tolerance: float  # of Abel's equation
@@ -186,7 +186,7 @@ class PeriodMap(NamedTuple):
         return np.concatenate(parts)
 
     def increment_without_feedback(self, u: FloatArray) -> FloatArray:
-        """Return what cycles with that rate would add (scenes, k)."""
+        """Return the increments of cycles with that rate (scenes, k)."""
         return integral(self.rate_without_feedback(u), self.over)
 
     def consecutive(self, starts: FloatArray, number: int) -> CycleSolution:
@@ -226,7 +226,7 @@ class PeriodMap(NamedTuple):
     def violent_cycle(
         self, start: float, limit: float, size: Settings
     ) -> tuple[float, float, float, float, int]:
-        """Return what a cycle of one scene adds to the state `start`, what of that is missed, the
+        """Return the increment of a cycle of one scene from the state `start`, its error, the
         derivative dP/du, the response to a relative error of the rate, and the number of right-hand
         sides; the state stops short of the `limit`."""
         evaluations, found = 0, [0.0, np.inf, 1.0, 0.0]
@@ -247,7 +247,7 @@ class PeriodMap(NamedTuple):
         edges = np.unique(np.concatenate(parts))
         return period_map(self.equation, edges[None], size.phase_nodes, self.tolerance)
 
-    def integrated(self, start: float, limit: float, size: Settings) -> Iterator[Reached]:
+    def integrated(self, start: float, limit: float, size: Settings) -> Iterator[Endpoints]:
         """Integrate a cycle of one scene from the state `start`, part after part, by cutting the
         mesh wherever that is needed."""
 
@@ -259,7 +259,8 @@ class PeriodMap(NamedTuple):
         return integrate(sampled, edges, start, rules, limit=limit, most=MOST_VIOLENT)
 
     def endpoint_defect(self, starts: FloatArray, run: CycleSolution) -> FloatArray:
-        """Return what each interval may hide (scenes, k, q) of the cycles from the `starts`."""
+        """Return the error at the ends of each interval (scenes, k, q) in the cycles from the
+        `starts`."""
         added = product(run.rate, self.over.rule.weights) * self.over.lengths
         added = np.concatenate([np.zeros_like(added[..., :1]), added], axis=-1)
         u = (starts[..., None] + np.cumsum(added, axis=-1))[..., None]
@@ -275,12 +276,12 @@ class PeriodMap(NamedTuple):
         return np.asarray(found | np.any(hidden > allowed, axis=1))
 
     def phase_error(self, run: CycleSolution) -> FloatArray:
-        """Return the relative errors (scenes, k) of increments by the mesh of phase, roughly.
+        """Return the approximate relative errors (scenes, k) of increments by the mesh of phase.
 
-        What a mesh misses changes its sign with the state; a few states may be its zeros.
+        The error of a mesh changes its sign with the state; it may vanish at a few states.
         """
-        missed: FloatArray = np.sum(truncation_error(run.rate, self.over), axis=-1)
-        return TAIL_SHARE * missed / (run.increment + TINY)
+        error: FloatArray = np.sum(truncation_error(run.rate, self.over), axis=-1)
+        return TAIL_SHARE * error / (run.increment + TINY)
 
     def refined(self, marked: BoolArray) -> Iterator[tuple[IntArray, PeriodMap]]:
         """Return the scenes, grouped by the size of their meshes, with the `marked` intervals

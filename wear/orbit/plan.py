@@ -1,7 +1,7 @@
 """The plan of panels, by a rate that is frozen over each cycle: good enough, and cheap.
 
-It says how far panels must reach, and cuts them until they resolve the density. What it misses, the
-residual of Abel's equation finds.
+It determines how far panels must reach, and cuts them until they resolve the density. The residual
+of Abel's equation reveals its errors.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ MOST_PLANNED = 150  # panels of a scene
 
 
 def look_ahead(problem: Problem, request: Request) -> FloatArray:
-    """Return the states (s,) that panels must reach: to where the rate, frozen over each cycle,
-    puts the cycles, roughly."""
+    """Return the states (s,) that panels must reach: approximately those after the requested
+    cycles, with the rate frozen over each cycle."""
     start, scale, limit = request.start, problem.scale, problem.limit
     begin = (start + scale)[:, None]
     longest = np.minimum(LONGEST, np.log1p((limit - start) / begin[:, 0]))[:, None]
@@ -60,22 +60,23 @@ def look_ahead(problem: Problem, request: Request) -> FloatArray:
     return end
 
 
-class Planned(NamedTuple):
-    """A `layout` of panels, scene by scene and rising, and how many `cycles` (panels,) each holds,
-    roughly; none where a cycle changes its own rate much; and which intervals of phase (panels, q)
-    do not resolve the rate without feedback."""
+class PanelPlan(NamedTuple):
+    """A `layout` of panels, scene by scene and rising; the approximate number of `cycles` (panels,)
+    on each, zero where a cycle changes its own rate much; and the intervals of phase (panels, q)
+    that do not resolve the rate without feedback."""
 
     layout: Layout
     cycles: FloatArray
     unresolved: BoolArray
 
 
-def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> Planned:
-    """Cut panels until their coefficients resolve the density without feedback, and none ends at a
-    rate at which it would hold few cycles: the last node looks a cycle ahead."""
+def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> PanelPlan:
+    """Return a plan of panels, cut until their coefficients resolve the density without feedback,
+    and until none ends at a rate at which it would hold few cycles: its last cycle leads beyond
+    it."""
     m = size.panel_nodes
     nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
-    done: list[Planned] = []
+    done: list[PanelPlan] = []
     number = 0
     while True:
         some = maps.take(scene)
@@ -95,7 +96,7 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
         kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
         coarse = unresolved(rate, some.over, size.phase_tolerance)
-        done.append(take(Planned(Layout(scene, frame, kept), cycles, coarse), ~cut))
+        done.append(take(PanelPlan(Layout(scene, frame, kept), cycles, coarse), ~cut))
         if not cut.any():
             break
         frame, scene = stacked(take(frame, cut).cut(SPLIT)), np.tile(scene[cut], 2)
@@ -106,15 +107,15 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
 
 
 def enough_before(share: FloatArray, scene: IntArray) -> BoolArray:
-    """Return before which panels, in order, those of the same scene make up one whole already, of
-    which each holds a `share` (panels,)."""
+    """Return the panels that are not needed: those before them in the same scene, each with its
+    `share` (panels,) of the cycles, hold all of them already."""
     before = np.concatenate([[0.0], np.cumsum(np.minimum(share, 1.0))[:-1]])
     first = np.searchsorted(scene, scene)  # the first panel of the scene of each
     return np.asarray(before - before[first] >= 1.0)
 
 
 def before_the_first(bad: BoolArray, scene: IntArray) -> BoolArray:
-    """Return which panels, in order, come before the first `bad` one of their scene."""
+    """Return the panels before the first `bad` one (panels,) of their scene."""
     so_far: IntArray = np.cumsum(bad)
     first = np.searchsorted(scene, scene)  # the first panel of the scene of each
     before = so_far[first] - bad[first].astype(int)

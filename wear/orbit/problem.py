@@ -1,4 +1,4 @@
-"""What is asked of an orbit: the equation with the scales of its states, cycles, and their cost."""
+"""The request for an orbit: the equation with the scales of its states, cycles; and the cost."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from wear.orbit.period_map import Equation, Rows
 
 
 class Cost(NamedTuple):
-    """What a result took: starts times cycles integrated, right-hand sides evaluated."""
+    """The cost of a result: numbers of cycles integrated and of right-hand sides evaluated."""
 
     cycles_integrated: int
     rhs_evaluations: int
@@ -45,8 +45,8 @@ class Problem(Equation, Protocol):
 
 
 class Request(NamedTuple):
-    """For some scenes (s,): count `cycles` from the states `start`, known up to `start_error`; and
-    refine nothing after the `deadline` (`time.monotonic()`)."""
+    """A request for some scenes (s,): `cycles` from the states `start`, known up to `start_error`;
+    nothing is refined after the `deadline` (`time.monotonic()`)."""
 
     cycles: FloatArray
     start: FloatArray

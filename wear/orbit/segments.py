@@ -1,4 +1,4 @@
-"""Orbits of many scenes: segments, each counted by Abel's equation from where the last one ended.
+"""Orbits of many scenes: segments, each solved by Abel's equation from the end of the one before.
 
 Overview
     A segment begins with cycles that are integrated, if the state changes its own rate much within
@@ -6,7 +6,7 @@ Overview
     farther on, the next segment begins there.
 Key results
     orbit      all segments of all scenes
-    Orbit      the states after any numbers of cycles, the cycles until any states
+    Orbit      the states after any numbers of cycles, the cycles to any states
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ NEARLY = 1 - 1e-9  # of the limit of the states
 TIGHT = 1e-12
 
 
-class Counted(Protocol):
-    """A count of cycles of some scenes (s,)."""
+class AnyIterates(Protocol):
+    """States of some scenes (s,) after any numbers of cycles."""
 
     @property
     def limit(self) -> FloatArray: ...
@@ -44,7 +44,7 @@ class Counted(Protocol):
     @property
     def whole_cycles(self) -> FloatArray: ...
 
-    def take(self, rows: IntArray) -> Counted: ...
+    def take(self, rows: IntArray) -> AnyIterates: ...
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]: ...
 
@@ -52,34 +52,36 @@ class Counted(Protocol):
 
 
 class Segment(NamedTuple):
-    """A count of the scenes `which` (s,) from `begins` (s,) cycles on, which may be out by `drift`
-    (s,), with the error `inherited` (s,) of the state that it begins with."""
+    """The iterates of the scenes `which` (s,) from `begins` (s,) cycles on, a number with the error
+    `begins_error` (s,); `start_error` (s,) is the error of the initial state."""
 
     which: IntArray
-    counted: Counted
+    iterates: AnyIterates
     begins: FloatArray
-    inherited: FloatArray
-    drift: FloatArray
+    start_error: FloatArray
+    begins_error: FloatArray
 
     def take(self, rows: IntArray) -> Segment:
         """Return some of the scenes."""
         return Segment(
             self.which[rows],
-            self.counted.take(rows),
+            self.iterates.take(rows),
             self.begins[rows],
-            self.inherited[rows],
-            self.drift[rows],
+            self.start_error[rows],
+            self.begins_error[rows],
         )
 
     @property
-    def blur(self) -> FloatArray:
-        """Return by how many cycles (s,) its count may be out at its start."""
-        rate = self.counted.first_increment
-        return self.drift + np.where(rate > 0, self.inherited / np.where(rate > 0, rate, 1.0), 0.0)
+    def count_uncertainty(self) -> FloatArray:
+        """Return the error of the number of cycles (s,) at its start."""
+        rate = self.iterates.first_increment
+        return self.begins_error + np.where(
+            rate > 0, self.start_error / np.where(rate > 0, rate, 1.0), 0.0
+        )
 
 
 class Orbit(NamedTuple):
-    """All `segments` of some scenes, in rising order for each, and what they cost."""
+    """All `segments` of some scenes, in rising order for each, and their cost."""
 
     scenes: int
     segments: tuple[Segment, ...]
@@ -95,11 +97,11 @@ class Orbit(NamedTuple):
             here = (since >= 0) & ~found[segment.which]
             if not here.any():
                 continue
-            state, missed = segment.counted.after(np.maximum(since, 0.0))
-            missed = missed + segment.inherited[:, None] / (state + TINY)
-            missed[np.isnan(missed)] = np.inf
+            state, relative = segment.iterates.after(np.maximum(since, 0.0))
+            relative = relative + segment.start_error[:, None] / (state + TINY)
+            relative[np.isnan(relative)] = np.inf
             u[segment.which] = np.where(here, state, u[segment.which])
-            error[segment.which] = np.where(here, missed, error[segment.which])
+            error[segment.which] = np.where(here, relative, error[segment.which])
             found[segment.which] |= here
         return u, error
 
@@ -108,11 +110,12 @@ class Orbit(NamedTuple):
         it is not, and the estimated error in cycles."""
         count, error = np.full(u.shape, np.inf), np.zeros(u.shape)
         for segment in reversed(self.segments):
-            after, missed = segment.counted.until(u[segment.which])
+            after, uncertain = segment.iterates.until(u[segment.which])
             here = np.isfinite(after)
-            after, missed = after + segment.begins[:, None], missed + segment.blur[:, None]
+            after = after + segment.begins[:, None]
+            uncertain = uncertain + segment.count_uncertainty[:, None]
             count[segment.which] = np.where(here, after, count[segment.which])
-            error[segment.which] = np.where(here, missed, error[segment.which])
+            error[segment.which] = np.where(here, uncertain, error[segment.which])
         return count, error
 
     @property
@@ -120,7 +123,7 @@ class Orbit(NamedTuple):
         """Return which scenes (s,) have come to rest."""
         found = np.full(self.scenes, False)
         for segment in self.segments:
-            found[segment.which] = segment.counted.at_rest
+            found[segment.which] = segment.iterates.at_rest
         return found
 
     def last(self, scene: int) -> Segment:
@@ -137,9 +140,9 @@ def orbit(
     deadline: float = np.inf,
     keep: bool = False,
 ) -> Orbit:
-    """Count the `cycles` (s,) of each scene from its state `start` (s,), known up to `start_error`
-    (s,), to the relative accuracy `rtol`, or until states end; `keep` the cycles of panels, for
-    derivatives."""
+    """Return the orbits of all scenes over `cycles` (s,), or until states end, from the states
+    `start` (s,), known up to `start_error` (s,), to the relative accuracy `rtol`; `keep` the cycles
+    of panels, for derivatives."""
     cost = Cost(0, 0)
     todo = [(np.arange(problem.scenes), Request(cycles, start, start_error, deadline))]
     found: list[Segment] = []
@@ -148,19 +151,19 @@ def orbit(
         following = []
         for which, request in todo:
             work = Jobs(problem.take(which), request, rtol, keep)
-            for rows, counted in work.counts():
+            for rows, iterates in work.counts():
                 mine, asked = which[rows], request.take(rows)
                 begins = cycles[mine] - asked.cycles
                 zero = np.zeros(len(rows))
-                found.append(Segment(mine, counted, begins, zero, zero))
+                found.append(Segment(mine, iterates, begins, zero, zero))
                 if not request.late:
-                    lost.append(mine[counted.largest_error > rtol])
-                ran = counted.whole_cycles
-                ended = counted.at_rest | ~(counted.last_state < NEARLY * counted.limit)
+                    lost.append(mine[iterates.largest_error > rtol])
+                ran = iterates.whole_cycles
+                ended = iterates.at_rest | ~(iterates.last_state < NEARLY * iterates.limit)
                 more = np.flatnonzero(~ended & (ran < asked.cycles) & (ran > 0))
                 if len(more) == 0 or request.late:
                     continue
-                state, error = counted.after(ran[:, None])
+                state, error = iterates.after(ran[:, None])
                 error = (error * state)[more, 0]
                 known = np.isfinite(error)
                 lost.append(mine[more[~known]])

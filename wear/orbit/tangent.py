@@ -2,10 +2,10 @@
 
 Overview
     A cycle turns the derivative s = du/dp into E s + D, where E = dP/du and D = dP/dp follow from
-    the equation linearised along the cycle. With g = dn/du, which satisfies E = g(u)/g(P(u)),
-    S = g s only grows: by g(P(u)) D in a cycle. So S is a sum over the orbit. On panels it is the
-    integral of dS/dn over n, which Abel's equation gives with the matrix of Newton's method; any
-    number of cycles costs what one costs.
+    the equation linearised along the cycle. With g = dn/du, which satisfies E = g(u)/g(P(u)), a
+    cycle adds g(P(u)) D to S = g s: S is a sum over the orbit. On panels it is the integral of
+    dS/dn over n, which Abel's equation gives with the matrix of Newton's method; the cost does not
+    depend on the number of cycles.
 Key results
     tangents    du/dp after any numbers of cycles, for all parameters p at once
 References
@@ -35,18 +35,18 @@ from wear.orbit.problem import Problem
 from wear.orbit.segments import Orbit
 from wear.orbit.transient import SAFETY
 
-BESIDE = 0.1  # of a cell: over which the density tells its logarithmic derivative
+BESIDE = 0.1  # of a cell: distance for the logarithmic derivative of the density
 ITERATION_TOLERANCE = 1e-13  # of the period map: its derivatives have no more digits
 
 
-class Parametrised(Problem, Protocol):
+class ParametrisedProblem(Problem, Protocol):
     """An equation whose rate depends on parameters."""
 
     @property
     def parameters(self) -> int:
-        """Return how many there are."""
+        """Return the number of parameters."""
 
-    def take(self, rows: Rows) -> Parametrised: ...
+    def take(self, rows: Rows) -> ParametrisedProblem: ...
 
     def by_parameters(
         self, u: FloatArray, phases: FloatArray, forcing: FloatArray, weights: FloatArray
@@ -59,7 +59,7 @@ class Parametrised(Problem, Protocol):
 class Tangents(NamedTuple):
     """Of some scenes (s,) after some cycles (c,): the states `u` (s, c) and their relative `error`,
     the `derivative` du/dp (s, parameters, c) and its estimated absolute `derivative_error`, and
-    what the last cycle has added to the state, `increment` (s, c)."""
+    the `increment` (s, c) of the last cycle."""
 
     u: FloatArray
     error: FloatArray
@@ -68,7 +68,7 @@ class Tangents(NamedTuple):
     increment: FloatArray
 
 
-class Linearised(NamedTuple):
+class MapDerivatives(NamedTuple):
     """Cycles from some starts: `multiplier` (scenes, starts) dP/du, and `by_parameters` (scenes,
     starts, parameters) dP/dp."""
 
@@ -76,7 +76,9 @@ class Linearised(NamedTuple):
     by_parameters: FloatArray
 
 
-def linearised(maps: PeriodMap, starts: FloatArray, run: CycleSolution | PanelCycles) -> Linearised:
+def map_derivatives(
+    maps: PeriodMap, starts: FloatArray, run: CycleSolution | PanelCycles
+) -> MapDerivatives:
     """Return the derivatives of the period map, from the cycles `run` from the `starts`.
 
     A change of the rate at a phase is carried to the end of the cycle by the exponential of the
@@ -86,9 +88,9 @@ def linearised(maps: PeriodMap, starts: FloatArray, run: CycleSolution | PanelCy
     slope = maps.slope(u)
     ahead = integral(slope, over)[..., None, None] - running_integral(slope, over)
     weights = np.exp(ahead) * (over.lengths[..., None] * over.rule.weights)
-    equation = cast(Parametrised, maps.equation)
+    equation = cast(ParametrisedProblem, maps.equation)
     by_parameters = equation.by_parameters(u, over.phases, maps.forcing, weights)
-    return Linearised(np.exp(integral(slope, over)), by_parameters)
+    return MapDerivatives(np.exp(integral(slope, over)), by_parameters)
 
 
 class Sums(NamedTuple):
@@ -102,14 +104,14 @@ class Sums(NamedTuple):
 
 
 def tangents(
-    problem: Parametrised,
+    problem: ParametrisedProblem,
     found: Orbit,
     cycles: FloatArray,
     rtol: float,
     start: FloatArray,
     start_error: FloatArray,
 ) -> Tangents:
-    """Return the derivatives of the states that the orbit `found`, counted to `rtol` with its
+    """Return the derivatives of the states that the orbit `found`, iterates to `rtol` with its
     cycles kept, has after `cycles` (s, c), if the first state has the derivative `start`
     (s, parameters), known up to `start_error`."""
     u, error = found.after(cycles)
@@ -119,11 +121,11 @@ def tangents(
     onward, onward_error = start.copy(), start_error.copy()
     for segment in found.segments:
         which, since = segment.which, cycles[segment.which] - segment.begins[:, None]
-        counted = cast(Iterates, segment.counted)
-        last = counted.whole_cycles
+        iterates = cast(Iterates, segment.iterates)
+        last = iterates.whole_cycles
         wanted = np.concatenate([np.clip(since, 0.0, last[:, None]), last[:, None]], axis=1)
         own, own_error, added = _in_segment(
-            problem.take(which), counted, wanted, rtol, onward[which], onward_error[which]
+            problem.take(which), iterates, wanted, rtol, onward[which], onward_error[which]
         )
         here = (since >= 0)[:, None]
         derivative[which] = np.where(here, own[..., :-1], derivative[which])
@@ -135,28 +137,28 @@ def tangents(
 
 
 def _in_segment(
-    problem: Parametrised,
-    counted: Iterates,
+    problem: ParametrisedProblem,
+    iterates: Iterates,
     cycles: FloatArray,
     rtol: float,
     start: FloatArray,
     start_error: FloatArray,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the derivatives (s, parameters, c) after `cycles` (s, c) since the start of a segment,
-    their error, and what the last cycle has added (s, c)."""
+    their error, and the increments of the last cycles (s, c)."""
     size = settings(rtol, problem.breakpoints)
-    maps = period_map(problem, counted.edges, size.phase_nodes, ITERATION_TOLERANCE)
-    early, early_error = _in_transient(maps, counted, size, start, start_error)
-    number = counted.integrated_cycles
+    maps = period_map(problem, iterates.edges, size.phase_nodes, ITERATION_TOLERANCE)
+    early, early_error = _in_transient(maps, iterates, size, start, start_error)
+    number = iterates.integrated_cycles
     index = np.minimum(cycles, number).astype(int)
     rows = np.arange(len(cycles))[:, None]
     derivative, missed = early[rows, index], early_error[rows, index]
-    added = np.diff(counted.transient, axis=1)
+    added = np.diff(iterates.transient, axis=1)
     increment = added[rows, np.maximum(index - 1, 0)] if number else np.empty(cycles.shape)
-    if counted.cells is not None:
-        sums = _on_panels(maps, counted, size, early[:, -1], early_error[:, -1])
+    if iterates.cells is not None:
+        sums = _on_panels(maps, iterates, size, early[:, -1], early_error[:, -1])
         late = cycles > number if number else np.full(cycles.shape, True)
-        far = after_on_cells(counted, sums, np.maximum(cycles, float(number)))
+        far = after_on_cells(iterates, sums, np.maximum(cycles, float(number)))
         derivative = np.where(late[..., None], far[0], derivative)
         missed = np.where(late[..., None], far[1], missed)
         increment = np.where(late, far[2], increment)
@@ -165,24 +167,24 @@ def _in_segment(
 
 def _in_transient(
     maps: PeriodMap,
-    counted: Iterates,
+    iterates: Iterates,
     size: Settings,
     start: FloatArray,
     start_error: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
     """Return du/dp (s, k + 1, parameters) after 0, 1, ... k integrated cycles, and its error."""
     found, error = [start], [start_error]
-    scenes, k = len(start), counted.integrated_cycles
+    scenes, k = len(start), iterates.integrated_cycles
     if k == 0:
         return start[:, None], start_error[:, None]
-    starts = counted.transient[:, :-1].reshape(-1, 1)
+    starts = iterates.transient[:, :-1].reshape(-1, 1)
     each = maps.take(np.repeat(np.arange(scenes), k))
     coarse, fine = _of_cycles(each, starts, size)
     shape = (scenes, k, -1)
     E, D, finer_E, finer_D = (
         x.reshape(shape) for x in (*coarse, *fine)
     )  # dP/du and dP/dp of every cycle
-    state = counted.transient_error[:, 1:] / (counted.transient[:, 1:] + TINY)
+    state = iterates.transient_error[:, 1:] / (iterates.transient[:, 1:] + TINY)
     for i in range(k):
         grown = finer_E[:, i] * found[-1]
         found.append(grown + finer_D[:, i])
@@ -194,9 +196,9 @@ def _in_transient(
 
 def _of_cycles(
     maps: PeriodMap, starts: FloatArray, size: Settings
-) -> tuple[Linearised, Linearised]:
-    """Return the linearised cycles from each start (rows, 1), on the mesh and on a finer one; each
-    that the mesh does not resolve on one of its own, and no numbers if there is none."""
+) -> tuple[MapDerivatives, MapDerivatives]:
+    """Return the derivatives of the period map at each start (rows, 1), by the mesh and by a finer
+    one; a cycle that the mesh does not resolve has a mesh of its own, and NaN if there is none."""
     run = maps.advance(starts)
     found = _linearised_twice(maps, starts, run, size)
     for row in np.flatnonzero(maps.unresolved(starts, run, size).any(axis=1))[:, None]:
@@ -208,7 +210,7 @@ def _of_cycles(
             again = _linearised_twice(better, starts[row], better.advance(starts[row]), size)
         for whole, part in zip(found, again, strict=True):
             whole[row] = part
-    return Linearised(*found[:2]), Linearised(*found[2:])
+    return MapDerivatives(*found[:2]), MapDerivatives(*found[2:])
 
 
 def _linearised_twice(
@@ -217,31 +219,31 @@ def _linearised_twice(
     """Return both derivatives by the cycles `run` from the `starts`, and both by a finer map."""
     fine = maps.finer(size)
     judge = fine.advance(starts, run.guess(size.finer_nodes))
-    return [*linearised(maps, starts, run), *linearised(fine, starts, judge)]
+    return [*map_derivatives(maps, starts, run), *map_derivatives(fine, starts, judge)]
 
 
 def _on_panels(
     maps: PeriodMap,
-    counted: Iterates,
+    iterates: Iterates,
     size: Settings,
     start: FloatArray,
     start_error: FloatArray,
 ) -> Sums:
     """Return S on the cells of a count, from du/dp where they start."""
-    panels = counted.panels
+    panels = iterates.panels
     assert panels is not None
     scenes = len(start)
     some = maps.take(np.repeat(np.arange(scenes), len(panels.series) // scenes))
     at = chebyshev_nodes(panels.series.shape[1]), CHECKS
     nodes, checks = (
         _added(each, panels, t, run)
-        for each, t, run in zip((some, some.finer(size)), at, counted.cycles, strict=True)
+        for each, t, run in zip((some, some.finer(size)), at, iterates.cycles, strict=True)
     )
-    return sums_on_cells(counted, nodes, checks, start, start_error)
+    return sums_on_cells(iterates, nodes, checks, start, start_error)
 
 
-class Added(NamedTuple):
-    """What cycles from some positions of panels add to the state, `increment` (panels, n), and to
+class SumIncrements(NamedTuple):
+    """Cycles from some positions of panels: their increments of the state (panels, n), and those of
     S, `to_sums` (panels, n, parameters)."""
 
     increment: FloatArray
@@ -249,11 +251,15 @@ class Added(NamedTuple):
 
 
 def sums_on_cells(
-    counted: Iterates, nodes: Added, checks: Added, start: FloatArray, start_error: FloatArray
+    iterates: Iterates,
+    nodes: SumIncrements,
+    checks: SumIncrements,
+    start: FloatArray,
+    start_error: FloatArray,
 ) -> Sums:
     """Return S on the cells of a count, from du/dp (s, parameters) where they start, its error, and
     the cycles from the nodes of panels; those from the CHECKS, with a finer map, are to judge."""
-    panels, table = counted.panels, counted.cells
+    panels, table = iterates.panels, iterates.cells
     assert panels is not None
     assert table is not None
     series = abel.sum_per_cycle(panels, *nodes)
@@ -266,7 +272,7 @@ def sums_on_cells(
     panel = np.repeat(np.arange(len(residual)), len(gain) // len(residual))
     frame, ends = take(panels.frame, panel), np.column_stack([table.u, table.ends])
     worst = near_checks(np.abs(residual)[panel], frame.positions(ends)).max(axis=1)
-    of_count = np.diff(counted.count_error, axis=1).reshape(-1, 1) / table.gain[:, None]
+    of_count = np.diff(iterates.count_error, axis=1).reshape(-1, 1) / table.gain[:, None]
     lost = SAFETY * (worst * table.gain[:, None] + of_count * size_of)
     first = 1.0 / table.first_rate.reshape(len(start), -1)[:, 0, None, None]
     shape = (len(start), -1, start.shape[1])
@@ -275,11 +281,11 @@ def sums_on_cells(
     return Sums(sums[:, :-1], errors.cumsum(axis=1), series)
 
 
-def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: PanelCycles) -> Added:
-    """Return what the cycles `run` from the positions `t` (n,) of each panel add."""
-    by_parameters = linearised(maps, panels.frame.states(t), run).by_parameters
+def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: PanelCycles) -> SumIncrements:
+    """Return the increments of the cycles `run` from the positions `t` (n,) of each panel."""
+    by_parameters = map_derivatives(maps, panels.frame.states(t), run).by_parameters
     density = abel.density_after(panels, t, run.increment)
-    return Added(run.increment, density[..., None] * by_parameters)
+    return SumIncrements(run.increment, density[..., None] * by_parameters)
 
 
 def _at_cells(
@@ -306,10 +312,10 @@ def _at_cells(
 
 
 def after_on_cells(
-    counted: Iterates, sums: Sums, cycles: FloatArray
+    iterates: Iterates, sums: Sums, cycles: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return du/dp (s, c, parameters) after `cycles` (s, c) on the cells, its error, and du/dn."""
-    table, panels = counted.cells, counted.panels
+    table, panels = iterates.cells, iterates.panels
     assert table is not None
     assert panels is not None
     scenes, of_scene = len(cycles), len(table.u) // len(cycles)
@@ -334,9 +340,9 @@ def after_on_cells(
     share = x.reshape(cycles.shape)[..., None]
     missed = (1 - share) * sums.error[rows, cell] + share * sums.error[rows, cell + 1]
     # The density and the count themselves are out, where the state is.
-    steps = np.diff(counted.count_error, axis=1)
+    steps = np.diff(iterates.count_error, axis=1)
     own = SAFETY * (steps.reshape(-1)[flat] / table.gain[flat]).reshape(*cycles.shape, 1)
-    count = counted.count_error[rows, cell + 1][..., None]
+    count = iterates.count_error[rows, cell + 1][..., None]
     missed = missed + (own + bend * count + ROUNDOFF) * np.abs(total) + onward * count
     pace = pace.reshape(*cycles.shape, 1)
     missed = pace * missed

@@ -18,19 +18,19 @@ SAFETY = 3.0  # on measured discrepancies
 
 
 class Transient(NamedTuple):
-    """Cycles of some scenes (s,): the `states` (s, k + 1) after 0, 1, ... k of them; and what each
-    cycle (s, k) `missed` of its increment, its `derivative` dP/du, and its `response` to a relative
-    error of the rate, at most."""
+    """The first cycles of some scenes (s,): the `states` (s, k + 1) after 0, 1, ... k of them; and
+    of each cycle (s, k) the `local_error` of its increment, its `derivative` dP/du, and its largest
+    `response` to a relative error of the rate."""
 
     states: FloatArray
-    missed: FloatArray
+    local_error: FloatArray
     derivative: FloatArray
     response: FloatArray
 
     @property
     def cycles(self) -> int:
-        """Return how many cycles there are."""
-        return int(self.missed.shape[1])
+        """Return the number of cycles."""
+        return int(self.local_error.shape[1])
 
     @property
     def last(self) -> FloatArray:
@@ -39,22 +39,22 @@ class Transient(NamedTuple):
 
     @property
     def last_increment(self) -> FloatArray:
-        """Return what the last cycle has added (s,)."""
+        """Return the increment of the last cycle (s,)."""
         return self.states[:, -1] - self.states[:, -2]
 
     def then(self, increment: FloatArray, *each: FloatArray) -> Transient:
-        """Return some cycles more (s, j)."""
+        """Return the transient with more cycles (s, j)."""
         states = self.last[:, None] + np.cumsum(increment, axis=1)
         pairs = zip(self, (states, *each), strict=True)
         return Transient(*(np.concatenate(pair, axis=1) for pair in pairs))
 
     def error(self, start_error: FloatArray, roundoff: FloatArray) -> FloatArray:
-        """Return the errors (s, k + 1) of the states: what each cycle has missed, by its mesh and
-        by the relative `roundoff` (s, k) of its rate, as the cycles after it change it."""
+        """Return the errors (s, k + 1) of the states: the local errors of all cycles, by their mesh
+        and by the relative `roundoff` (s, k) of the rate, propagated through the cycles after."""
         error = [start_error]
-        missed = SAFETY * self.missed + roundoff * self.response
+        local = SAFETY * self.local_error + roundoff * self.response
         for k in range(self.cycles):
-            error.append(error[-1] * self.derivative[:, k] + missed[:, k])
+            error.append(error[-1] * self.derivative[:, k] + local[:, k])
         return np.stack(error, axis=1) + ROUNDOFF * self.states
 
 
@@ -64,9 +64,9 @@ def no_cycle(starts: FloatArray) -> Transient:
     return Transient(starts[:, None], none, none, none)
 
 
-class Extended(NamedTuple):
-    """The scenes `which`, with the period map that suits them, and their transient after more
-    cycles, or after none where the map has been refined first; and what that took."""
+class TransientBlock(NamedTuple):
+    """The scenes `which`, with the period map that resolves their cycles, and their transient after
+    more cycles, or after none more where the map had to be refined first; and the cost."""
 
     which: IntArray
     maps: PeriodMap
@@ -76,9 +76,9 @@ class Extended(NamedTuple):
 
 def extended(
     maps: PeriodMap, begun: Transient, limit: FloatArray, size: Settings, tolerance: FloatArray
-) -> Iterator[Extended]:
+) -> Iterator[TransientBlock]:
     """Integrate BLOCK more cycles of some scenes; one where the rate is so fast that the iteration
-    over cycles fails; or refine the meshes of those that they do not resolve.
+    over cycles fails; or refine the meshes of those scenes whose cycles they do not resolve.
 
     States beyond the `limit` (s,) have no meaning.
     """
@@ -91,7 +91,7 @@ def extended(
         alone = maps.take(which)
         *cycle, evaluations = alone.violent_cycle(float(begun.last[i]), float(limit[i]), size)
         more = take(begun, which).then(*(np.array([[value]]) for value in cycle))
-        yield Extended(which, alone, more, Cost(BLOCK + 1, evaluations))
+        yield TransientBlock(which, alone, more, Cost(BLOCK + 1, evaluations))
     marked = maps.unresolved(starts, run, size) & sound[:, None]
     if maps.full:
         marked[:] = False
@@ -102,25 +102,25 @@ def extended(
         fine = some.finer(size)
         judge = fine.advance(starts, found.guess(size.finer_nodes))
         evaluations += judge.evaluations
-        missed = np.abs(judge.increment - found.increment)
-        # What both meshes miss, and what the iterations of the judge have left.
-        missed += np.sum(fine.endpoint_defect(starts, judge), axis=2)
-        missed += judge.iteration_error * judge.increment
-        missed[~judge.converged] = np.inf
-        coarse = np.any(missed > tolerance[calm, None] * states[calm], axis=1)
+        error = np.abs(judge.increment - found.increment)
+        # Common to both meshes; and of the iteration.
+        error += np.sum(fine.endpoint_defect(starts, judge), axis=2)
+        error += judge.iteration_error * judge.increment
+        error[~judge.converged] = np.inf
+        coarse = np.any(error > tolerance[calm, None] * states[calm], axis=1)
         coarse &= not maps.full
         marked[calm[coarse]] = True
         derivative = some.derivative(starts, found)
         response = found.increment * np.maximum(derivative, 1.0)
-        each = found.increment, missed, derivative, response
+        each = found.increment, error, derivative, response
         good = np.flatnonzero(~coarse)
         if len(good):
             more = take(begun, calm[good]).then(*(array[good] for array in each))
             cost = Cost(2 * BLOCK * len(calm), evaluations)
-            yield Extended(calm[good], some.take(good), more, cost)
+            yield TransientBlock(calm[good], some.take(good), more, cost)
             evaluations = 0
     rest = np.flatnonzero(marked.any(axis=1))
     for which, finer in maps.take(rest).refined(marked[rest]) if len(rest) else ():
         group = rest[which]
-        yield Extended(group, finer, take(begun, group), Cost(0, evaluations))
+        yield TransientBlock(group, finer, take(begun, group), Cost(0, evaluations))
         evaluations = 0

@@ -29,7 +29,7 @@ class End(NamedTuple):
         return self.way.format(f"{self.cycle}{spread}")
 
 
-class Counted(NamedTuple):
+class SceneOrbit(NamedTuple):
     """The `orbit` of one scene, and its `end` if wear ends within the cycles counted and it is
     known when."""
 
@@ -38,13 +38,13 @@ class Counted(NamedTuple):
 
     @property
     def cost(self) -> Cost:
-        """Return what it took."""
+        """Return its cost."""
         return self.orbit.cost
 
     @property
     def last_wear(self) -> float:
-        """Return the wear (mm) up to which it counts."""
-        return float(self.orbit.segments[-1].counted.last_state[0])
+        """Return the last wear (mm) of the orbit."""
+        return float(self.orbit.segments[-1].iterates.last_state[0])
 
     @property
     def ended(self) -> bool:
@@ -64,8 +64,8 @@ class Counted(NamedTuple):
         return count[0], error[0]
 
     def notices(self, wear: FloatArray) -> Iterator[str]:
-        """Return what is worth knowing beside the wear (mm)."""
-        limit = float(self.orbit.segments[-1].counted.limit[0])
+        """Yield the notices on the wear (mm)."""
+        limit = float(self.orbit.segments[-1].iterates.limit[0])
         if np.any(wear >= NEARLY * limit):
             yield f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
         elif self.end is not None:
