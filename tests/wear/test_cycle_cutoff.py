@@ -50,7 +50,7 @@ def test_a_cycle_knows_what_its_nodes_miss(scene, nodes, tolerance):
     )
     off = np.abs(few.increment - many.increment)
     assert np.max(off / many.increment) > 1e-12
-    assert np.all(off <= 3 * few.missed + 1e-13 * many.increment)
+    assert np.all(off <= 3 * few.error + 1e-13 * many.increment)
 
 
 @pytest.mark.parametrize("kind", ["harmonics", "table"])
