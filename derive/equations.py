@@ -24,7 +24,7 @@ from types import MappingProxyType
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .claims import claim_of
+from .claims import Term, claim_of
 from .hypotheses import Hypothesis, Kind
 from .kernel import Judgement, chain, domain, identity
 from .language import defined_by, names
@@ -45,6 +45,12 @@ TEXTS: Mapping[str, Mapping[str, str]] = {
 """Section, title, remark and formulas by id."""
 
 _NONE: Mapping[str, str] = MappingProxyType({})
+
+EXPANSION = (
+    r"\bar{\sigma} = m + w_1 / m + w_2 / m^{2} + \dots",
+    r"\mathrm{d}m / \mathrm{d}\tau = \rho \left(1 + c_1 / m + \dots\right)",
+)
+"""What the coefficients of the expansion for long times are those of, in LaTeX."""
 
 Proved = Judgement | tuple[Judgement, ...]
 """What an equation states: a judgement, or those of a system."""
@@ -158,8 +164,13 @@ class Equation:
 
     @property
     def definitions_latex(self) -> tuple[str, ...]:
-        """Return what its names mean in LaTeX, a formula each."""
-        return tuple(latex(presentable(h.relation)) for h in self.definitions)
+        """Return what its names mean in LaTeX, a formula each; coefficients of the expansion for
+        long times by that expansion."""
+        found: list[str] = []
+        for relation in (h.relation for h in self.definitions):
+            is_term = isinstance(getattr(relation, "rhs", None), Term)
+            found += EXPANSION if is_term else [latex(presentable(relation))]
+        return tuple(dict.fromkeys(found))
 
     @property
     def steps(self) -> tuple[Judgement, ...]:

@@ -16,6 +16,7 @@ from wear.generated import reaction
 from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad
 from wear.numerics.gauss import FloatArray
+from wear.quantities import in_short
 from wear.scene import Scene
 
 if TYPE_CHECKING:
@@ -199,9 +200,22 @@ def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> 
         for row in zip(part.cycles, part.fields.p, strict=True)
     ]
     return [
-        Line(f"$N = {int(cycle)}$", phases, pressure, family)
+        Line(name_of(cycle), phases, pressure, family)
         for family, (cycle, pressure) in enumerate(rows)
     ]
+
+
+def name_of(cycles: float) -> str:
+    """Return a number of cycles as figures name a line by it.
+
+    >>> name_of(9000), name_of(1000000), name_of(2500000)
+    ('$N = 9000$', '$N = 10^{6}$', '$N = 2.5\\\\times10^{6}$')
+    """
+    mantissa, _, power = in_short(cycles, 6).partition("e")
+    if not power:
+        return f"$N = {mantissa}$"
+    factor = "" if mantissa == "1" else rf"{mantissa}\times"
+    return f"$N = {factor}10^{{{power}}}$"
 
 
 @dataclass(frozen=True)

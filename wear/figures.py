@@ -29,6 +29,7 @@ from wear.figure_data import (
     Line,
     Method,
     Panel,
+    name_of,
     panels_of,
     pressure_inside,
     spans_decades,
@@ -42,7 +43,6 @@ from wear.figure_style import (
     PAPER,
     Stroke,
     canvas,
-    label_above,
     label_ends,
     panels,
     stroke,
@@ -114,15 +114,14 @@ def history(
 
 
 def pressure_in_cycles(lines: Sequence[Line]) -> Figure:
-    """Contact pressure in MPa over the phase in [0, 1] of chosen cycles, one line a cycle."""
+    """Contact pressure in MPa over the phase in [0, 1] of chosen cycles, one line a cycle, named
+    beside the axes at the height of its peak as far as there is room."""
     with styled():
         figure, axes = canvas(COLUMN, 0.6 * COLUMN)
         _draw(axes, lines, 1.0)
         axes.set(xlabel=r"Phase in the cycle", ylabel=PRESSURE.label)
         axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * max(float(line.y.max()) for line in lines)))
-        for line in lines:  # named above their peaks
-            peak = int(np.argmax(line.y))
-            label_above(axes, line.name, (float(line.x[peak]), float(line.y[peak])), 3.0)
+        label_ends(axes, [(float(line.y.max()), line.name, _look(line)) for line in lines])
     return figure
 
 
@@ -157,17 +156,18 @@ def _speed(methods: Sequence[Method], quantity: str, failed: str) -> Figure:
     return figure
 
 
-def tornado(keys: Sequence[str], elasticity: FloatArray, labels: Sequence[str]) -> Figure:
+def tornado(keys: Sequence[str], elasticity: FloatArray, cycles: Sequence[int]) -> Figure:
     """Elasticities (k, n) of the numbers with these keys as bars, the largest on top; a set of bars
-    for each of the n labels. What is no number has no bar."""
+    for each of the n numbers of cycles. What is no number has no bar."""
     values = np.nan_to_num(elasticity)
     order = np.argsort(np.max(np.abs(values), axis=1))
-    thick = 0.8 / len(labels)
+    thick = 0.8 / len(cycles)
     with styled():
-        figure, axes = canvas(COLUMN_AND_HALF, 12.0 + (2.5 + 1.8 * len(labels)) * len(keys))
-        for place, label in enumerate(labels):
-            at = np.arange(len(keys)) + thick * ((len(labels) - 1) / 2 - place)
-            axes.barh(at, values[order, place], thick, color=stroke(place)["color"], label=label)
+        figure, axes = canvas(COLUMN_AND_HALF, 12.0 + (2.5 + 1.8 * len(cycles)) * len(keys))
+        for place, count in enumerate(cycles):
+            at = np.arange(len(keys)) + thick * ((len(cycles) - 1) / 2 - place)
+            look = {"color": stroke(place)["color"], "label": name_of(count)}
+            axes.barh(at, values[order, place], thick, **look)
         axes.axvline(0.0, color=INK, linewidth=0.6)
         axes.set_yticks(np.arange(len(keys)), [words_of(keys[i]) for i in order])
         axes.set_ylim(-0.6, len(keys) - 0.4)

@@ -81,10 +81,8 @@ def _written(result: Sensitivities, suffix: str) -> bytes:
     if suffix.lower() in arguments.PICTURES:
         from wear.figure_style import encoded
         from wear.figures import tornado
-        from wear.quantities import in_short
 
-        labels = [f"$N$ = {in_short(n, 6)}" for n in result.cycles]
-        return encoded(tornado(result.keys, result.elasticity, labels), suffix)
+        return encoded(tornado(result.keys, result.elasticity, result.cycles), suffix)
     rows = ["key,value,cycles,bearing_wear_mm,derivative,elasticity,error_estimate"]
     for key, value, *each in zip(
         result.keys, result.values, result.derivative, result.elasticity, result.elasticity_error,

@@ -40,6 +40,7 @@ _OPENING: Choices = {"opening": (True,)}
 _TANH: Choices = {"law": (TANH.name,)}
 _OTHERS = tuple(name for name in LAWS if name != TANH.name)
 _STEADY: Choices = {"regime": ("steady",)}
+_WORN: Choices = {"regime": ("steady", "arrest")}
 _PARTIAL: Choices = {"regime": ("partial",)}
 _ARREST: Choices = {"regime": ("arrest",)}
 
@@ -53,13 +54,19 @@ class _Row(NamedTuple):
 
 
 _LONG_RUN = (
-    _Row("Pressure in the end", "general-law", {"law": _OTHERS} | _STEADY | _SMOOTH),
-    _Row("Wear per cycle in the end", "21", _TANH | _STEADY | _SMOOTH),
-    _Row("Pressure in the end", "22", _TANH | _STEADY | _SMOOTH),
+    _Row("Pressure in the end", "general-law", {"law": _OTHERS} | _STEADY | _SMOOTH | _RIGID),
+    _Row("Pressure in the end", "compliant-pressure", _STEADY | _SMOOTH | _COMPLIANT),
+    _Row("Wear per cycle in the end", "21", _TANH | _STEADY | _SMOOTH | _RIGID),
+    _Row(
+        "Wear per cycle in the end",
+        "compliant-wear-per-cycle",
+        _TANH | _STEADY | _SMOOTH | _COMPLIANT,
+    ),
+    _Row("Pressure in the end", "22", _TANH | _STEADY | _SMOOTH | _RIGID),
     _Row("Logarithm in the wear", "log-drift", _TANH | _STEADY | _SMOOTH | _RIGID),
     _Row("Coefficient of ln N", "log-drift-compliant", _TANH | _STEADY | _SMOOTH | _COMPLIANT),
-    _Row("Growth of gap and roughness", "two-solids", _STEADY | _TWO_SOLIDS | _AS_PRINTED),
-    _Row("Growth of gap and roughness", "two-solids-opening", _STEADY | _TWO_SOLIDS | _OPENING),
+    _Row("Growth of gap and roughness", "two-solids", _WORN | _TWO_SOLIDS | _AS_PRINTED),
+    _Row("Growth of gap and roughness", "two-solids-opening", _WORN | _TWO_SOLIDS | _OPENING),
     _Row("Closure over roughness in the end", "two-solids-closure-ratio", _STEADY | _TWO_SOLIDS),
     _Row("Wear rate in the end", "two-solids-rate", _TANH | _STEADY | _TWO_SOLIDS),
     _Row("Logarithm in the wear", "two-solids-log-drift", _TANH | _STEADY | _TWO_SOLIDS | _RIGID),

@@ -155,11 +155,11 @@ def _sensitivities(scene: Scene, cycles: list[int]) -> Sensitivities | None:
 
 
 def _tornado(found: Sensitivities) -> Figure:
-    """The elasticities that are largest."""
-    most = np.argsort(-np.max(np.abs(np.nan_to_num(found.elasticity)), axis=1))[:_BARS]
-    labels = [f"$N = {n}$" for n in found.cycles]
-    keys = [found.keys[i] for i in most]
-    return figures.tornado(keys, found.elasticity[most], labels)
+    """The elasticities that are largest, without those in single rows of a load."""
+    most = np.argsort(-np.max(np.abs(np.nan_to_num(found.elasticity)), axis=1))
+    shown = [i for i in most if "[" not in found.keys[i]][:_BARS]
+    keys = [found.keys[i] for i in shown]
+    return figures.tornado(keys, found.elasticity[shown], found.cycles)
 
 
 def _readings(scene: Scene, specimens: Sequence[Specimen]) -> tuple[dict[str, Any], Figure]:
