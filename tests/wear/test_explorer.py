@@ -150,8 +150,10 @@ def test_changed_scene_does_not_hide_the_built_in_one():
 
 
 def own_scene(folder: Path, load: str):
-    """Section 4 under another load, beside a file of rows."""
+    """Section 4 under another load, beside files of rows."""
     (folder / "pin.csv").write_text("t_s,U_a_mm\n0,0\n0.02,4e-4\n0.03,1e-4\n0.06,0\n")
+    rows = "Weg (µm);Zeit (ms)\n0;0\n0,4;20\n0,1;30\n0,05;60\n"
+    (folder / "log.csv").write_bytes(rows.encode("latin-1"))
     file = folder / "own.toml"
     tables = load_scene("section4").to_toml().split("[load]")[0]
     if "force" in load:
@@ -166,6 +168,9 @@ LOADS = {
     "harmonics": 'kind = "harmonics"\nmean_mm = 1e-4\ncosine_mm = [1e-4]\n'
     "sine_mm = [2e-4, 5e-5]\nperiod_s = 0.06\n",
     "table": 'kind = "table"\nfile = "pin.csv"\n',
+    "instrument": 'kind = "table"\nfile = "log.csv"\ncolumns = ["Zeit (ms)", "Weg (µm)"]\n'
+    'time_unit = "ms"\nunit = "um"\ndelimiter = ";"\ndecimal = ","\nencoding = "latin-1"\n'
+    "repeat = true\nperiod_s = 0.06\n",
     "rows": 'kind = "table"\ntimes_s = [0.0, 0.02, 0.06]\nvalues_mm = [0.0, 4e-4, 0.0]\n',
     "force": 'kind = "force"\ntimes_s = [0.0, 0.02, 0.06]\nforces_N = [600.0, 6000.0, 600.0]\n',
     "constant force": 'kind = "force"\nforce_N = 600.0\nperiod_s = 0.06\n',
@@ -452,7 +457,7 @@ def test_the_scene_file_has_any_load(kind, window, tmp_path):
     assert parse_scene(text(window, "scene-file"), folder=tmp_path).load(0.3) == scene.load(0.3)
     put(window, "number-U", "0.2" if kind == "sine" else "2", event="change")
     doubled = text(window, "scene-file")
-    if kind == "table":
+    if "file" in LOADS[kind]:
         assert "# to be multiplied in that file: its displacements by 2, its times by 1" in doubled
     else:
         size = 0.4 if kind == "sine" else 2.0

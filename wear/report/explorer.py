@@ -163,7 +163,7 @@ def _load_data(load: Load) -> dict[str, Any]:
     phases = sorted({0.0, 1.0, *load.kinks})
     return {
         "kind": "table" if isinstance(load, Table) else "force",
-        "file": getattr(getattr(load, "source", None), "file", ""),
+        "rows": as_table(load) if getattr(load, "source", None) else None,
         "period_s": load.period,
         "phase": phases,
         "value": [float(load(phase)) for phase in phases],

@@ -3,13 +3,13 @@
 
 function sceneFile(state) {
   const { U, T } = state.parameters;
-  const { kind, file, period_s } = chosen.load;
+  const { kind, rows, period_s } = chosen.load;
   const what = kind === "force" ? "forces" : "displacements";
   const tables = Object.entries({ ...keysThatAct(state), load: loadEntries(state.parameters) });
   const parts = tables.map(([name, entries]) => [
     "", `[${name}]`, ...Object.entries(entries).map(([key, value]) => `${key} = ${toml(value)}`), "",
   ].join("\n"));
-  const other = file && (U !== 1 || T !== period_s);
+  const other = rows && (U !== 1 || T !== period_s);
   return [
     `title = ${toml(chosen.title)}\n`, ...parts,
     ...(other ? [`# to be multiplied in that file: its ${what} by ${U}, its times by ${T / period_s}\n`] : []),
@@ -38,7 +38,7 @@ function keysThatAct(state) {
 }
 
 function loadEntries({ U, T }) {
-  const { kind, value_mm, mean_mm, cosine_mm, sine_mm, file, period_s, phase, value } = chosen.load;
+  const { kind, value_mm, mean_mm, cosine_mm, sine_mm, rows, phase, value } = chosen.load;
   const times = (list) => list.map((value) => U * value);
   return {
     sine: () => ({ kind, amplitude_mm: U, period_s: T }),
@@ -46,10 +46,8 @@ function loadEntries({ U, T }) {
     harmonics: () => ({
       kind, mean_mm: U * mean_mm, cosine_mm: times(cosine_mm), sine_mm: times(sine_mm), period_s: T,
     }),
-    table: () => (file ? { kind, file, period_s }
-      : { kind, times_s: phase.map((x) => T * x), values_mm: times(value) }),
-    force: () => (file ? { kind, file, period_s }
-      : { kind, times_s: phase.map((x) => T * x), forces_N: times(value) }),
+    table: () => (rows ?? { kind, times_s: phase.map((x) => T * x), values_mm: times(value) }),
+    force: () => (rows ?? { kind, times_s: phase.map((x) => T * x), forces_N: times(value) }),
   }[kind]();
 }
 
