@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Load, Sine, Table
 from wear.load.spans import most_cycles, span
+from wear.loss_of_contact.switching import turning_points
 
 EPS = np.finfo(float).eps
 SAW = Table((0.0, 0.5, 1.5, 2.0), (1e-4, 5e-4, -3e-4, 1e-4))
@@ -110,6 +111,21 @@ def test_flat_extremes():
     assert load.maximum == pytest.approx(16.0, rel=4 * EPS)
     assert load.minimum == pytest.approx(0.0, abs=32 * EPS)
     assert load.peaks[0] == 0.0
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_peaks_and_troughs_flat_to_higher_order_are_found_at_any_phase(order):
+    # of slope sin x (1 - cos x)^order, flat at x = 0, its trough or peak at x = pi
+    x = 2.0 * math.pi * np.arange(16) / 16
+    sines = np.fft.rfft(np.sin(x) * (1.0 - np.cos(x)) ** order).imag[1 : order + 2] / -8
+    harmonic = np.arange(1, order + 2)
+    for shift in np.linspace(0.0, 1.0, 41):
+        turn = 2.0 * math.pi * harmonic * shift
+        for size in sines / harmonic, -sines / harmonic:
+            load = Harmonics(0.0, tuple(size * np.cos(turn)), tuple(size * np.sin(turn)), 1.0)
+            slack, turns = 64 * EPS * load.maximum, load(turning_points(load))
+            assert max(load(np.array(load.peaks))) == pytest.approx(load.maximum, abs=slack)
+            assert min(turns) == pytest.approx(load.minimum, abs=slack)
 
 
 def test_harmonics_with_one_sine_is_a_sine():

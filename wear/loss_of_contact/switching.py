@@ -31,6 +31,7 @@ from wear.numerics.tolerances import ROUNDOFF
 SAMPLES = 512  # of a cycle, to look for where q rises through zero
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
 NEARLY = 1e-13  # of a stretch: how near to its ends one looks
+LOOKS = np.array([[NEARLY], [0.1], [0.5], [0.9], [1 - NEARLY]])  # at the slope between two peaks
 PHASE_NEWTON = 60  # for a phase: a few, but for a load that is far from a parabola at its turns
 PHASE_PATIENCE = 3  # of them; then one that is no smaller than the last is rounding
 FAR = 1e6  # times the roughness: wear at which the margin is as good as linear
@@ -214,10 +215,12 @@ def turning_points(load: Load) -> FloatArray:
     """Return the phases from 0 to 1 between which the load is smooth and rises or falls
     throughout."""
     cuts = np.unique([0.0, *load.kinks, *load.peaks, 1.0])
-    # Between two peaks or kinks there is a trough at most.
-    low, high = cuts[:-1] + NEARLY * np.diff(cuts), cuts[1:] - NEARLY * np.diff(cuts)
-    slope = displacements([load]).slope
-    turns = (slope(low) < 0.0) & (slope(high) > 0.0)
+    # Between two peaks or kinks there is a trough at most; next to flat ones the slope is rounding.
+    phases, slope = cuts[:-1] + LOOKS * np.diff(cuts), displacements([load]).slope
+    steepness, row = slope(phases), np.arange(len(cuts) - 1)
+    falls, rises = np.argmin(steepness, axis=0), np.argmax(steepness, axis=0)
+    turns = (steepness[falls, row] < 0.0) & (steepness[rises, row] > 0.0) & (falls < rises)
+    low, high = phases[falls, row], phases[rises, row]
     return np.unique(np.concatenate([cuts, bracketed(slope, low[turns], high[turns])[1]]))
 
 
