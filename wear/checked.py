@@ -28,6 +28,7 @@ from wear.quantities import LARGEST, MOST_CYCLES, SMALLEST, unit_of
 from wear.words import did_you_mean, kind_of, shown
 
 MOST_UNKNOWN_KEYS = 20
+BOUNDS = f"magnitudes lie from {SMALLEST:g} to {LARGEST:g}"
 
 # Keys of versions before the first release, each with its name of today.
 RENAMED = {"roughness_slope": "roughness_growth", "cutoff": "ends_at_3_sigma"}
@@ -92,7 +93,7 @@ class Number(Kind):
         unit, domain = unit_of(key), self.domain
         ending = f", in {unit}" if unit else ""
         if isinstance(raw, str):
-            remedy = f"give a number{ending}, without quotes"
+            remedy = f"give a number{ending}: no quotes, no unit, a point before the decimals"
             raise wrong(f'"{shown(raw)}" is text, not a number', remedy)
         if hasattr(raw, "tolist"):  # NumPy's scalars
             raw = raw.tolist()
@@ -111,8 +112,7 @@ class Number(Kind):
             raise wrong(f"{number!r} is negative", wanted)
         if number == 0.0:
             raise wrong("is zero", wanted)
-        bounds = f"magnitudes lie from {SMALLEST:g} to {LARGEST:g}"
-        raise wrong(f"{number!r} is out of range", f"{wanted}; {bounds}")
+        raise wrong(f"{number!r} is out of range", f"{wanted}; {BOUNDS}")
 
     def _fits(self, number: float) -> bool:
         if number == 0.0:
@@ -206,7 +206,7 @@ def _whole(raw: object) -> int:
 
 def _true_or_false(raw: object) -> bool:
     if not isinstance(raw, bool):
-        raise wrong("is no flag", "write true or false")
+        raise wrong(f"is {kind_of(raw)}", "write true or false without quotes")
     return raw
 
 
@@ -258,7 +258,8 @@ class SceneTable:
             try:
                 return build(raw)  # a table already
             except ValidationError:
-                remedy = f"write [{cls.place}] on a line of its own"
+                line = f"write [{cls.place}] on a line of its own"
+                remedy = line if cls.place else "give a mapping of tables by their names"
                 raise wrong("is not a table", remedy) from None
         unknown = [key for key in given if key not in known]
         shown_keys = [_of_unknown(cls, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
@@ -353,8 +354,7 @@ def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> tuple[str, Fi
 
 def _to_add(kind: type[SceneTable], key: str) -> str:
     field = kind.entries[key]
-    home = getattr(field.annotation, "place", None)
-    if home is not None:
+    if any(key == each.place for each in TABLES):
         return f"add a table [{key}] ({field.description})"
     unit = unit_of(key)
     return f"add {key} = ... ({field.description}{', in ' + unit if unit else ''})"

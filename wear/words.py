@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from datetime import date, time
 
 
 def shown(text: str, most: int = 60) -> str:
@@ -20,6 +21,15 @@ def shown(text: str, most: int = 60) -> str:
 def is_path(given: object) -> bool:
     """Return whether something can be the name of a file."""
     return isinstance(given, str | os.PathLike)
+
+
+def are_texts(given: object) -> bool:
+    """Return whether something is a list of texts."""
+    return (
+        isinstance(given, Sequence)
+        and not isinstance(given, str)
+        and all(isinstance(each, str) for each in given)
+    )
 
 
 def did_you_mean(word: str, candidates: Iterable[str]) -> str:
@@ -38,5 +48,7 @@ def kind_of(raw: object) -> str:
     kinds: dict[type | tuple[type, ...], str] = {
         bool: "true or false", (int, float): "a number", str: "text",
         (list, tuple): "a list", Mapping: "a table", type(None): "nothing",
+        (date, time): "a date or time",
     }  # fmt: skip
-    return next((words for kind, words in kinds.items() if isinstance(raw, kind)), "a date or time")
+    by_type = (words for kind, words in kinds.items() if isinstance(raw, kind))
+    return next(by_type, f"of type {type(raw).__name__}")

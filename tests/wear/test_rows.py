@@ -27,7 +27,8 @@ def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
         with pytest.raises(ValidationError) as caught:
             read_rows(TableFile("a.csv"), tmp_path)
         ((_, problem, _),) = problems(caught.value)
-        assert problem == f'a.csv line 3: "1,{cell}" is no row'
+        wrong = f'"1,{cell}" has 3 cells, the header 2' if "," in cell else f'U_a_mm is "{cell}"'
+        assert problem == f"a.csv line 3: {wrong}"
     else:
         assert read_rows(TableFile("a.csv"), tmp_path).values.tolist() == [5.0, number]
 
@@ -89,16 +90,18 @@ def test_rows_may_stand_in_the_scene_itself(tmp_path):
     ("entries", "problem", "remedy"),
     [
         ({"columns": ["Zeit", "Weg (µm)"]}, 'the columns are "Messung"', "begin with Zeit;Weg"),
-        ({"columns": ["Zeit (ms)"]}, "", ""),
+        ({"columns": ["Zeit (ms)"]}, "is not a pair of names", "columns = ["),
+        ({"columns": [0, 1]}, "is not a pair of names", "columns = ["),
+        ({"columns": ["Zeit (ms)", "Zeit (ms)"]}, "names one column twice", "that of the values"),
         ({"time_unit": "sec"}, '"sec" is unknown', "choose one of s, ms"),
         ({"unit": "micron"}, '"micron" is unknown', "choose one of mm, um"),
-        ({"delimiter": ";;"}, "is no delimiter", "one character"),
+        ({"delimiter": ";;"}, "is not a delimiter", "one character"),
         ({"delimiter": ",", "decimal": ","}, "is the delimiter too", 'delimiter = ";"'),
         ({"encoding": "martian"}, '"martian" is unknown', "latin-1"),
         ({"encoding": "hex"}, '"hex" is unknown', "latin-1"),
         ({"encoding": "utf-8"}, "is not UTF-8 text", 'encoding = "latin-1"'),
-        ({"repeat": 1}, "is no flag", "true or false"),
-        ({"decimal": "."}, "is no row", "two finite numbers"),
+        ({"repeat": 1}, "is a number", "true or false"),
+        ({"decimal": "."}, 'Zeit (ms) is "0,0"', "such as 0.5"),
     ],
 )
 def test_an_instrument_s_file_that_is_described_wrongly(entries, problem, remedy, tmp_path):

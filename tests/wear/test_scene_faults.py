@@ -96,16 +96,17 @@ amplitude_mm = [1.0]
         ("bearing.hardness_MPa", "1" + "0" * 400, "too large for a float", "> 0"),
         ("bearing.hardness_MPa", "1e300", "out of range", "from 1e-30 to 1e+30"),
         ("bearing.hardness_MPa", "true", "is true or false", "give a number, in MPa"),
-        ("bearing.hardness_MPa", '"0.12"', "is text, not a number", "without quotes"),
+        ("bearing.hardness_MPa", '"0.12"', "is text, not a number", "no quotes, no unit"),
         ("bearing.hardness_MPa", '"hard"', "is text", "give a number, in MPa"),
         ("bearing.hardness_MPa", "[200.0]", "is a list", "give a number"),
+        ("bearing.hardness_MPa", "200,5", "is text", "a point before the decimals"),
         ("bearing.hardness_MPa", "{ a = 1 }", "is a table", "give a number"),
         ("bearing.hardness_MPa", "1979-05-27", "is a date", "give a number"),
         ("bearing.wear_coefficient", "0", "is zero", "> 0"),
         ("bearing.roughness_mm", "0", "zero on the only rough solid", "> 0"),
         ("bearing.roughness_growth", "1e-40", "out of range", "any finite number"),
         ("contact.closure_mm", "-1e-9", "negative", ">= 0, in mm"),
-        ("contact.ends_at_3_sigma", "0", "is no flag", "true or false"),
+        ("contact.ends_at_3_sigma", "0", "is a number", "true or false"),
         ("contact.law", "tanhh", "unknown", "did you mean tanh?"),
         ("contact.law", "3", "not a name", "choose one of"),
         ("contact.width_mm", "3.0", "length_mm is missing", "drop width_mm"),
@@ -193,6 +194,11 @@ def test_an_option_that_cannot_be_read_hides_no_other_fault() -> None:
         (b"title = 'a'\nx = \n", 2, "is not TOML"),
         (b"title = 'a'\ntitle = 'b'\n", 2, "is not TOML"),
         (b'title = """a\n\n', 1, "is not TOML"),
+        (
+            b"x = 1\ny = 180,0\nz = 3\n",
+            2,
+            'is not TOML: Expected newline or end of document after a statement: "y = 180,0"',
+        ),
         (b"x = " + b"9" * 4090, 1, "unknown key"),
         (b"x = " + b"[" * 4000, None, "nested too deeply"),
         (b"x = " + b"[\n" * 50_000, None, "nested too deeply"),
@@ -245,6 +251,7 @@ def test_names_that_lead_nowhere(tmp_path: Path) -> None:
     with large.open("wb") as stream:
         stream.truncate(2**30)  # a hole: no bytes on the disk
     assert fault(large).problem == "is larger than 256 KiB"
+    assert fault(large).remedy == "give a smaller file"  # it is there: no other is meant
 
 
 # CSV files of loads
@@ -256,17 +263,18 @@ HEAD = "t_s,U_a_mm\n"
     ("rows", "problem", "remedy"),
     [
         ("", "the columns are missing", "begin with t_s,U_a_mm"),
-        ("t,U\n0,0\n1,0\n", "the columns are t,U", "begin with t_s,U_a_mm"),
+        ("t,U\n0,0\n1,0\n", "the columns are t,U", 't_s,U_a_mm, or say columns = ["t", "U"]'),
         ("0.0,0.0\n1,0\n", "the columns have no names", "put the line t_s,U_a_mm above"),
         ("t_s;U_a_mm\n0,0;0,0\n", "the columns are t_s;U_a_mm", "commas between the columns"),
         ("t_s\tU_a_mm\n0\t0\n", "the columns are t_s\\x09U_a_mm", "points in the numbers"),
-        (HEAD, "there are 0 rows", "from 2 to 1000000"),
-        (HEAD + "0,0\n", "there are 1 rows", "from 2 to 1000000"),
-        (HEAD + "0,0\n1,a\n", 'line 3: "1,a" is no row', "two finite numbers"),
-        (HEAD + "0,0\n\n1,0,0\n", 'line 4: "1,0,0" is no row', "two finite numbers"),
-        (HEAD + "0,0\n1,nan\n", 'line 3: "1,nan" is no row', "two finite numbers"),
-        (HEAD + "0,0\ninf,0\n", 'line 3: "inf,0" is no row', "two finite numbers"),
-        (HEAD + "0,0\n1,1e200\n", 'line 3: "1,1e200" is no row', "two finite numbers"),
+        ("\n" + HEAD, "line 2: the number of rows below is 0", "from 2 to 1000000"),
+        (HEAD + "0,0\n", "the number of rows below is 1", "from 2 to 1000000"),
+        (HEAD + "0,0\n1,a\n", 'line 3: U_a_mm is "a"', "without unit, such as 0.5"),
+        (HEAD + "0,0\r\r1,0,0", 'line 4: "1,0,0" has 3 cells, the header 2', "delimiter"),
+        (HEAD + "0,0\n1,nan\n", 'line 3: U_a_mm is "nan"', "give a number"),
+        (HEAD + "0,0\ninf,0\n", 'line 3: t_s is "inf"', "give a number"),
+        (HEAD + "0,0\n1,1e200\n", 'line 3: U_a_mm is "1e200"', "from 1e-30 to 1e+30"),
+        ("t_s,U_a_mm,t_s\n0,0,0\n1,0,0\n", "two columns are called t_s", "rename one"),
         (HEAD + "1,0\n2,0\n", "t_s starts at 1.0", "subtract"),
         (HEAD + "0,0\n2,1\n1,0\n", "does not come after 2.0", "sort"),
         (HEAD + "0,0\n1,1\n1,0\n", "does not come after 1.0", "sort"),
@@ -287,20 +295,22 @@ def table_text(file: str) -> str:
 
 def test_bad_csv_files(tmp_path: Path) -> None:
     (tmp_path / "latin.csv").write_bytes(HEAD.encode() + b"0,\xe9\n")
+    (tmp_path / "utf-16.csv").write_text(HEAD, "utf-16")
     with (tmp_path / "large.csv").open("wb") as stream:
         stream.truncate(2**30)
     (tmp_path / "ten.csv").write_text(HEAD + "x\n" * 100)
     (tmp_path / "long.csv").write_text(HEAD + "0,0\n2,0\n")
     for name, problem in (
         ("latin.csv", "is not UTF-8 text"),
+        ("utf-16.csv", 'or give encoding = "utf-16"'),
         ("large.csv", "is larger than 65536 KiB"),
         ("none.csv", "there is no such file"),
         (".", "is a folder"),
         ("a" * 300, "cannot be read"),
-        ("/dev/zero", "is no ordinary file"),
+        ("/dev/zero", "is not an ordinary file"),
     ):
         fault = only_fault(table_text(name), folder=tmp_path)
-        assert problem in fault.problem
+        assert problem in f"{fault.problem}; {fault.remedy}"
         assert (fault.line, fault.table, fault.key) == (18, "load", "file")
     assert len(faults_of(table_text("ten.csv"), folder=tmp_path)) == 5
     assert "no folder" in only_fault(table_text("long.csv")).problem

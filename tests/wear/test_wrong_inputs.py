@@ -69,6 +69,8 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.Sine(object(), 1.0),
         lambda: OPEN.Blocks([{"kind": "sine"}]),
         lambda: OPEN.Blocks(3),
+        lambda: OPEN.Block(OPEN.HistoryLoad((0, 1), (0, 0), 1), 1),
+        lambda: OPEN.Block(OPEN.Force(1, 1), 1),
         lambda: OPEN.Bearing({}, [], None, "x"),
         lambda: OPEN.solve("section4", 1).write("wear.xlsx"),
         lambda: OPEN.fit(None, "section4", K),
@@ -96,6 +98,10 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.sensitivity("section4", "9000"),
         lambda: OPEN.solve("section4", b"9000"),
         lambda: OPEN.load_scene(3),
+        lambda: OPEN.load_scene("section4", None),
+        lambda: OPEN.load_scene("section4", "bearing.hardness_MPa=3"),
+        lambda: OPEN.load_scene("section4", [3]),
+        lambda: OPEN.load_scene("section4", {"bearing.hardness_MPa": 3}),
         lambda: OPEN.bind(None),
         lambda: SECTION4.with_(None),  # type: ignore[arg-type]
         lambda: SECTION4.with_([("bearing.hardness_MPa", 1)]),  # type: ignore[arg-type]

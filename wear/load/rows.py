@@ -7,17 +7,20 @@ Key results
 
 from __future__ import annotations
 
+import codecs
 import hashlib
 import json
+import re
 import stat
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, ValidationError
+from pydantic import AfterValidator, Field, PlainValidator, ValidationError
 
 from wear.checked import (
+    BOUNDS,
     Finding,
     Flag,
     OneOf,
@@ -37,9 +40,11 @@ MOST_BYTES = 64 * 1024 * 1024
 MOST_ROWS = 1_000_000
 MOST_WRONG_ROWS = 5
 MOST_HEAD_LINES = 100  # before the names of the columns, as instruments write them
+MISSING = "there is no such file"
+UTF_16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 CLOSEST_ROWS = 1e-12  # of the time: nearer rows could fall on the same phase
-SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
-MILLIMETRES = {"mm": 1.0, "um": 1e-3, "nm": 1e-6, "m": 1e3}
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0, "h": 3600.0}
+MILLIMETRES = {"mm": 1.0, "um": 1e-3, "µm": 1e-3, "nm": 1e-6, "m": 1e3}
 NEWTONS = {"N": 1.0, "kN": 1e3, "mN": 1e-3}
 
 
@@ -54,13 +59,15 @@ def _encoding(name: str) -> str:
 
 def _delimiter(raw: object) -> str:
     if not isinstance(raw, str) or len(raw) != 1 or raw.isalnum() or raw in '.+-"':
-        raise wrong("is no delimiter", 'give one character, such as ";" or "\\t"')
+        raise wrong("is not a delimiter", 'give one character, such as ";" or "\\t"')
     return raw
 
 
-def _pair(raw: object) -> object:
-    if not isinstance(raw, list | tuple) or len(raw) != 2:
-        raise wrong("is no pair of names", 'give both in quotes: columns = ["...", "..."]')
+def _pair(raw: object) -> tuple[str, ...]:
+    if not isinstance(raw, list | tuple) or [type(name) for name in raw] != [str, str]:
+        raise wrong("is not a pair of names", 'give both in quotes: columns = ["...", "..."]')
+    if raw[0] == raw[1]:
+        raise wrong("names one column twice", "name that of the times and that of the values")
     return tuple(raw)
 
 
@@ -73,7 +80,7 @@ def _file(columns: str, ending: str = "") -> Any:
 Encoding = Annotated[Text, AfterValidator(_encoding)]
 Delimiter = Annotated[str, PlainValidator(_delimiter)]
 FileName = Annotated[str, Words(1000)]
-Names = Annotated[tuple[Text, Text], BeforeValidator(_pair)]
+Names = Annotated[tuple[str, str], PlainValidator(_pair)]
 
 
 @table("")
@@ -168,7 +175,7 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
         raise wrong("there is no folder to look in", "load the scene by its path", "file")
     path = folder / name
     if _is_device(path):
-        raise wrong(f"{shown(name)} is no ordinary file", "give a CSV file", "file")
+        raise wrong(f"{shown(name)} is not an ordinary file", "give a CSV file", "file")
     data = read_bytes(path, MOST_BYTES)
     if isinstance(data, tuple):
         problem, remedy = data
@@ -179,7 +186,8 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
         text = data.decode("utf-8-sig" if form.encoding == "utf-8" else form.encoding)
     except UnicodeDecodeError:
         known = form.encoding.upper()
-        remedy = f'save it as {known}, or give encoding = "latin-1"'
+        likely = "utf-16" if data.startswith(UTF_16_MARKS) else "latin-1"
+        remedy = f'save it as {known} text, or give encoding = "{likely}"'
         raise wrong(f"{shown(name)} is not {known} text", remedy, "file") from None
     times, values = _parse(text, form, from_first)
     digest = hashlib.sha256(data).hexdigest()
@@ -208,7 +216,7 @@ def read_bytes(path: Path, most: int) -> bytes | tuple[str, str]:
         with path.open("rb") as stream:
             data = stream.read(most + 1)
     except FileNotFoundError:
-        return "there is no such file", "check the name and the folder"
+        return MISSING, "check the name and the folder"
     except IsADirectoryError:
         return "is a folder", "give a file"
     except PermissionError:
@@ -241,18 +249,21 @@ def _wrong_lines(form: RowsFile, *faults: LineFault) -> ValidationError:
 
 def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
     """Return the two columns, or raise the faults of the first few faulty lines."""
-    lines = [(n, line) for n, line in enumerate(text.split("\n"), start=1) if line.strip()]
+    split = re.split("\r\n?|\n", text)
+    lines = [(n, line) for n, line in enumerate(split, start=1) if line.strip()]
     heads = (_cells(line, form) for _, line in lines[:MOST_HEAD_LINES])
     head = next((n for n, cells in enumerate(heads) if set(form.columns) <= set(cells)), None)
     if head is None:
         raise _wrong_lines(form, _header_fault(lines[0] if lines else (1, ""), form))
     cells = _cells(lines[head][1], form)
-    places = [cells.index(name) for name in form.columns]
-    rows = lines[head + 1 :]
+    number, rows = lines[head][0], lines[head + 1 :]
+    if twice := [name for name in form.columns if cells.count(name) > 1]:
+        problem, remedy = f"two columns are called {shown(twice[0])}", "rename one of them"
+        raise _wrong_lines(form, (number, problem, remedy))
     if not 2 <= len(rows) <= MOST_ROWS:
-        problem = f"there are {len(rows)} rows"
-        raise _wrong_lines(form, (1, problem, f"give from 2 to {MOST_ROWS}"))
-    return _columns(rows, form, places, len(cells), from_first)
+        problem = f"the number of rows below is {len(rows)}"
+        raise _wrong_lines(form, (number, problem, f"give from 2 to {MOST_ROWS}"))
+    return _columns(rows, form, cells, from_first)
 
 
 def _cells(line: str, form: RowsFile) -> list[str]:
@@ -260,18 +271,25 @@ def _cells(line: str, form: RowsFile) -> list[str]:
 
 
 def _columns(
-    rows: list[tuple[int, str]], form: RowsFile, places: list[int], width: int, from_first: bool
+    rows: list[tuple[int, str]], form: RowsFile, header: list[str], from_first: bool
 ) -> FloatArray:
     """Return both columns, or raise the faults of the first few faulty rows."""
+    places = [header.index(name) for name in form.columns]
     numbers: list[int] = []
     valid: list[list[float | None]] = []
     faults: list[LineFault] = []
     for number, line in rows:
         cells = line.split(form.delimiter)
-        row = [_number(cells[at], form) for at in places if len(cells) == width]
-        if not row or None in row:
-            problem = f'"{shown(line.strip())}" is no row'
-            faults.append((number, problem, "give two finite numbers of sane size"))
+        row = [_number(cells[at], form) for at in places if len(cells) == len(header)]
+        if not row:
+            problem = f'"{shown(line.strip())}" has {len(cells)} cells, the header {len(header)}'
+            remedy = "give one for each column; delimiter and decimal say how the file is written"
+            faults.append((number, problem, remedy))
+        elif None in row:
+            at = places[row.index(None)]
+            problem = f'{shown(header[at])} is "{shown(cells[at].strip())}"'
+            remedy = f"give a number without unit, such as 0{form.decimal}5; {BOUNDS}"
+            faults.append((number, problem, remedy))
         else:
             numbers.append(number)
             valid.append(row)
@@ -293,7 +311,8 @@ def _header_fault(first: tuple[int, str], form: RowsFile) -> LineFault:
         _number(cell, form) is not None for cell in _cells(header, form)
     ):
         return line, "the columns have no names", f"put the line {wanted} above the numbers"
-    remedy = f"begin with {wanted}, or name the columns: columns = [...]"
+    names = [*_cells(header, form), "...", "..."][:2] if header else ["...", "..."]
+    remedy = f"begin with {wanted}, or say columns = {json.dumps(names, ensure_ascii=False)}"
     if other := next((sign for sign in ";\t" if sign in header and sign != form.delimiter), ""):
         remedy = (
             f"begin with {wanted}, put commas between the columns and points in the numbers, or "

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import ValidationInfo
 
-from wear.checked import TABLES, choice, wrong
+from wear.checked import TABLES, SceneTable, choice, wrong
 from wear.load.lines import ForceTable, HistoryLoad, Table, load_of
 from wear.load.rows import ForceFile, RowsFile
 from wear.words import did_you_mean, shown
@@ -24,9 +24,11 @@ def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS)
     The context's `folder` is where CSV files are looked for. Raises pydantic's `ValidationError`.
     """
     if not isinstance(raw, Mapping):
-        if all(hasattr(raw, name) for name in ("minimum", "maximum", "mean")):
-            return raw
-        raise wrong("is not a table", "write [load] on a line of its own")
+        if not all(hasattr(raw, name) for name in ("minimum", "maximum", "mean")):
+            raise wrong("is not a table", "write [load] on a line of its own")
+        if isinstance(raw, SceneTable):
+            choice(as_table(raw)["kind"], kinds, "kind")
+        return raw
     if "kind" not in raw:
         meant = did_you_mean("kind", raw)
         remedy = f"did you mean kind instead of {shown(meant)}?" if meant else "add kind = ..."

@@ -22,12 +22,12 @@ from pydantic import Field, PlainValidator, ValidationError, model_validator
 from wear.checked import Finding, Prose, SceneTable, Text, problems, table, wrong
 from wear.faults import Fault, SceneError, UsageError
 from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
-from wear.load.rows import read_bytes
+from wear.load.rows import MISSING, read_bytes
 from wear.load.tables import as_table, load_from
 from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 from wear.scene.text import MOST_BYTES, PARTS, Source, read_tables, set_entry
 from wear.scene.variant import KEYS, OF_PIN, VariantKey
-from wear.words import did_you_mean, is_path, shown
+from wear.words import are_texts, did_you_mean, is_path, shown
 
 SCENES = Path(__file__).parents[1].joinpath("scenes")
 NO_ENTRY = Field(exclude=True, repr=False)
@@ -257,7 +257,9 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     """
     if not is_path(path_or_name):
         kind = type(path_or_name).__name__
-        raise UsageError(f"a {kind} is no scene; give a Scene, a built-in name or a path")
+        raise UsageError(f"scene: is of type {kind}; give a Scene, a built-in name or a path")
+    if not are_texts(overrides):
+        raise UsageError("overrides: give a list of texts TABLE.KEY=VALUE; see also Scene.with_")
     name = os.fspath(path_or_name)
     if isinstance(path_or_name, str) and name in builtin_names():
         file = SCENES / f"{name}.toml"
@@ -266,15 +268,19 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
     data = read_bytes(file, MOST_BYTES)
     if isinstance(data, tuple):
         problem, remedy = data
-        others = [each.name for each in file.parent.glob("*.toml") if each != file]
-        if meant := did_you_mean(file.name, others):
-            remedy = f"did you mean {meant}?"
-        elif meant := did_you_mean(name, builtin_names()):
-            remedy = f"did you mean the built-in scene {meant}?"
-        elif not file.suffix:
-            remedy = "give a file or a built-in scene; `wear scenes` lists these"
+        if problem == MISSING:
+            remedy = _meant(file) or remedy
         raise SceneError([Fault(_place(name), None, "", "", problem, remedy)])
     return parse_scene(data, name, file.parent, overrides)
+
+
+def _meant(missing: Path) -> str:
+    """Return a guess at what the name of a missing file stands for, '' if there is none."""
+    if meant := did_you_mean(missing.name, (file.name for file in missing.parent.glob("*.toml"))):
+        return f"did you mean {meant}?"
+    if meant := did_you_mean(str(missing), builtin_names()):
+        return f"did you mean the built-in scene {meant}?"
+    return "" if missing.suffix else "give a file or a built-in scene; `wear scenes` lists these"
 
 
 def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:

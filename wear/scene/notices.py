@@ -174,6 +174,7 @@ RANGES: Mapping[str, Range] = {
     "speed_rpm": Range(1e-3, 1e6, "revolutions per ms?", "degrees per minute?"),
     "roughness_growth": Range(0.0, 10.0, "", "roughness grows by a part of the wear"),
     "amplitude_mm": Range(0.0, 1.0, "", "um typed as mm?"),
+    "period_s": Range(1e-6, 1e6, "hours typed as s?", "us or ms typed as s?"),
 }
 
 

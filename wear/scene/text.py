@@ -19,12 +19,15 @@ from wear.words import shown
 MOST_BYTES = 256 * 1024
 LONGEST_LINE = 4096  # tomllib's time grows with the square of a dotted key's length
 
+FORM = "write KEY = VALUE, numbers as -0.5 or 2e-6 without unit, text in quotes"
+"""How a line of a scene file is written."""
+
 PARTS = ("bearing", "pin", "contact", "support", "motion", "load")
 """The tables of a scene."""
 
 _HEADER = re.compile(r"\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
 _ENTRY = re.compile(r"\s*([A-Za-z0-9_\-\"'. \t]+?)\s*=")
-_AT_LINE = re.compile(r"\s*\(at line (\d+), column (\d+)\)")
+_AT_LINE = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)")
 
 
 @dataclass(frozen=True)
@@ -106,15 +109,15 @@ def _parse(text: str, file: str) -> dict[str, Any]:
     except RecursionError:
         fault = Fault(file, None, "", "", "is nested too deeply", "a scene has flat tables")
     except ValueError as error:  # TOMLDecodeError, or an integer of more than 4300 digits
-        words = str(error)
+        words, lines = str(error), text.rstrip().split("\n")
         at = _AT_LINE.search(words)
-        line = int(at[1]) if at else None
-        if "end of document" in words:
-            line = text.count("\n", 0, len(text.rstrip())) + 1
+        number = int(at[1] or len(lines)) if at else None
         if "integer string conversion" in words:
             words = "a whole number has too many digits"
         problem = f"is not TOML: {shown(_AT_LINE.sub('', words), most=120)}"
-        fault = Fault(file, line, "", "", problem, "correct the line; see https://toml.io")
+        if number is not None:
+            problem += f': "{shown(lines[number - 1].strip())}"'
+        fault = Fault(file, number, "", "", problem, FORM)
     raise SceneError([fault])
 
 
