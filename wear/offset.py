@@ -1,10 +1,10 @@
-"""The offset: what steady wear remembers of its start.
+"""The offset of steady wear, its memory of the first cycles.
 
 Overview
     In the steady regime ``u_c(N T) = R N + A ln N + B + o(1)``.  R and A follow from the data; B
-    needs the whole history.  All three are read off the count of cycles at infinity
-    (`wear.orbit.infinity`); by how much the A found there differs from the derived one tells how
-    well B is known.
+    depends on the whole history.  All three are read off the solution of Abel's equation at
+    infinity (`wear.orbit.infinity`); the difference of that A to the derived one is the basis of
+    the error estimate of B.
 Key results
     offset        B of a scene, with an error estimate
 """
@@ -27,7 +27,7 @@ FARTHEST = 1e12  # cycles that are counted at most
 FAR = 1e10  # times the roughness: wear that is counted at least
 RTOL = 1e-13
 RESOLVED = 1e-6  # relative error of B beyond which it is not known
-PER_DRIFT = 100.0  # times the error of A: the error of B, which is some ten times as a rule
+PER_DRIFT = 100.0  # times the error of A: the error of B, which is usually some ten times
 
 
 class Offset(NamedTuple):

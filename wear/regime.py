@@ -1,11 +1,11 @@
-"""What becomes of the wear in the long run: the regime of a scene and its constants.
+"""The long-time behaviour of wear: the regime of a scene and its constants.
 
 Overview
-    Without cutoff, wear is steady where roughness grows, logarithmic where it stays, and where
-    it would vanish it saturates or gets there in finite time.  With the cutoff of the text
-    under Eq. (4), wear arrests unless roughness outgrows the gap.  The formulas are generated
-    from the derivation.  They are evaluated in decimal arithmetic with more digits than a
-    double has, so that the results are good to the last place however small they are.
+    Without loss of contact, wear becomes steady where roughness grows and logarithmic where it is
+    constant; where roughness would vanish, wear saturates or reaches that depth in finite time.
+    With loss of contact, in the text under Eq. (4), wear arrests unless roughness outgrows the gap.
+    The formulas are generated from the derivation, and evaluated in decimal arithmetic with more
+    digits than a double has, so that the results are accurate to the last place.
 Key results
     asymptote    the regime and constants of a scene
     Asymptote    the result
@@ -45,12 +45,12 @@ _PHASES = 4096
 
 @dataclass(frozen=True)
 class Asymptote:
-    """The long-time behaviour of a scene; what does not apply is None.
+    """The long-time behaviour of a scene; values that do not apply are None.
 
     Where wear goes on, ``u_c(N T) = wear_per_cycle_mm N + log_coefficient_mm ln N + offset_mm +
     o(1)``.  ``arrest_cycle`` is the cycle, counted from 1, in which wear stops for good.
-    ``cycles_to_stabilise`` says when the wear rate is within 1e-6 of its limit: on average over
-    a cycle, and at every instant.
+    ``cycles_to_stabilise`` are the cycles after which the wear rate is within 1e-6 of its limit:
+    on average over a cycle, and at every instant.
     """
 
     scene: str
@@ -74,7 +74,7 @@ class Asymptote:
 
 
 class _Case:
-    """A scene's numbers as the formulas take them: exactly the doubles that the scene has."""
+    """The numbers of a scene as arguments of the formulas: exactly the doubles of the scene."""
 
     def __init__(self, scene: Scene) -> None:
         load = scene.periodic_load
@@ -83,7 +83,7 @@ class _Case:
         plain |= {"U_min": load.minimum, "U_max": load.maximum, "U_mean": load.mean}
         self.numbers = plain
         self.data = {name: Decimal(value) for name, value in plain.items()}
-        # rounded as in the model that runs, so that equal wear of both solids is exactly that
+        # rounded as in the solver's model, so that equal wear of both solids is exactly equal
         self.data["kappa"] = Decimal(float(self.value(formula.pin_wear)))
         opening = scene.contact.pin_wear_opens_gap
         gap = formula.closure_growth_opening if opening else formula.closure_growth
@@ -94,11 +94,11 @@ class _Case:
         }
 
     def value(self, function: Callable[..., Any], *arguments: Decimal, **more: Decimal) -> Decimal:
-        """Evaluate a generated formula with the data that it names."""
+        """Evaluate a generated formula with the data that are its arguments."""
         return Decimal(function(*arguments, **_named(function, {**self.data, **more})))
 
     def holds(self, guard: Callable[..., Any], **more: float) -> bool:
-        """Ask a generated condition, in the arithmetic of the model that runs."""
+        """Evaluate a generated condition in the double precision of the solver."""
         return bool(guard(**_named(guard, {**self.numbers, **more})))
 
     def law(self, kind: str) -> Callable[..., Any]:
@@ -117,7 +117,7 @@ class _Case:
 
     @property
     def vanishing(self) -> Decimal | None:
-        """Return the wear at which the equivalent roughness would vanish, if it would."""
+        """Return the wear at which the equivalent roughness vanishes, if it does."""
         if self.data["q"] == 0 or self.value(formula.apart) != 0:
             return None
         wear = self.value(formula.vanishing_wear)
@@ -125,7 +125,7 @@ class _Case:
 
 
 def _named(function: Callable[..., Any], known: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the data that a generated function names."""
+    """Return the data that are arguments of a generated function."""
     return {name: known[name] for name in inspect.getfullargspec(function).kwonlyargs}
 
 
@@ -155,7 +155,7 @@ def _result(case: _Case, regime: str, **found: Any) -> Asymptote:
 
 
 def _given_load(case: _Case) -> Asymptote:
-    """Problem (i): the wear of a cycle is that of the mean pressure from the first cycle on."""
+    """Return the asymptote of problem (i): the wear of every cycle is that of the mean pressure."""
     pressure = float(reaction.pressure(case.load.mean, b=case.numbers["b"], L=case.numbers["L"]))
     end = None if case.data["q"] >= 0 else case.vanishing
     said = ("the roughness vanishes in finite time; the model ends there",) if end else ()
@@ -194,7 +194,7 @@ def steady_wear_per_cycle(scene: Scene) -> float:
 
 
 def fresh_wear_per_cycle(scene: Scene) -> float:
-    """Return the wear of a cycle (mm) of a fresh scene that does not feel it."""
+    """Return the wear of the first cycle (mm) with the rate frozen at no wear."""
     model, load = bind(scene), scene.periodic_load
     phases = (np.arange(_PHASES) + 0.5) / _PHASES
     return float(np.mean(model.rate(0.0, load(phases)))) * load.period
@@ -245,7 +245,7 @@ def _cycles(drift: Decimal, per_cycle: float) -> float | None:
 
 
 def _constant_roughness(case: _Case) -> Asymptote:
-    """Roughness that wear does not change: the logarithmic regime, if wear opens the gap."""
+    """Return the asymptote at constant roughness: the logarithmic regime, if wear opens the gap."""
     gap = case.data["g"]
     if gap > 0:
         sigma, growth = case.scene.initial_roughness, float(gap)
@@ -276,7 +276,7 @@ def _constant_roughness(case: _Case) -> Asymptote:
 
 
 def _log_load_factor(load: Load, sigma: float) -> float:
-    """Logarithm of the mean of exp(4 U_a/sigma) over a period, without overflow."""
+    """Return the logarithm of the mean of exp(4 U_a/sigma) over a period, without overflow."""
     phases = (np.arange(_PHASES) + 0.5) / _PHASES
     exponents = 4.0 * (load(phases) - load.maximum) / sigma
     return 4.0 * load.maximum / sigma + math.log(float(np.mean(np.exp(exponents))))
@@ -343,8 +343,7 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
-    """Return the cycle in which wear stops, from the cycle count, as far as its error lets it be
-    told."""
+    """Return the cycle in which wear stops, None if it is unknown, and the notices."""
     found = count_cycles(bind(case.scene), case.load, MOST_CYCLES, 1e-12)
     end = found.end
     if end is not None and end.way == FADES:
@@ -358,7 +357,7 @@ def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
 
 
 def _at_one_third(case: _Case) -> Asymptote:
-    """f_c = 1/3: contact in a fixed part of every cycle."""
+    """Return the asymptote at f_c = 1/3: contact in a fixed part of every cycle."""
     model = bind(case.scene)
     phases = (np.arange(_PHASES) + 0.5) / _PHASES
     part = float(np.mean(model.margin(0.0, case.load(phases)) >= 0.0))

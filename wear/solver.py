@@ -1,4 +1,4 @@
-"""`solve`: the wear of a scene after any numbers of cycles, by the method that suits."""
+"""`solve`: the wear of a scene after any numbers of cycles, by the best method for it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from wear.resampling import resampled
 from wear.scene import Scene, as_scene
 from wear.states import fields_at, result_notices
 
-AFFORDABLE_CYCLES = 1000  # that auto integrates one by one where the cycle count fails
+AFFORDABLE_CYCLES = 1000  # that auto integrates one by one if the cycle count fails
 FIELDS = ("u_a", "sigma_c", "sigma_a", "h", "p", "U_c")  # of a model, as a history has them
 DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
 
@@ -52,18 +52,18 @@ def solve(
         "collocation" (a measured history, many of its rows at once) or one of SciPy's integrators,
         which go through every cycle.
     time_limit
-        Seconds after which to stop with what there is.
+        Seconds after which to stop with the cycles reached by then.
     progress
-        Is told in words how far an integration is that takes more than two seconds.
+        Called with a line of text on the progress of an integration of more than two seconds.
 
     Raises
     ------
     UsageError
-        if the request makes no sense, all that is wrong with it at once.
+        if the request makes no sense, with all its faults at once.
     AccuracyError
-        if `rtol` was not reached; `best` is the history that was.
+        if `rtol` was not reached; `best` is the most accurate history.
     Interrupted
-        on Ctrl-C or at the time limit; `history` has the cycles that were reached.
+        on Ctrl-C or at the time limit; `history` has the cycles reached by then.
 
     >>> history = solve("section4", [1, 10], rtol=1e-6)
     >>> [f"{wear:.4e}" for wear in history.u_c]
@@ -91,7 +91,7 @@ def solve(
 def _methods(
     scene: Scene, method: str, wanted: tuple[int, ...], rtol: float
 ) -> tuple[tuple[str, str], ...]:
-    """The methods to try in turn, each with the reason to tell (none if the user chose it)."""
+    """Return the methods to try in turn, each with its reason (none if the user chose it)."""
     if method != "auto":
         return ((method, ""),)
     against = obstacle(scene)
@@ -112,7 +112,8 @@ def _solved(
     deadline: float,
     progress: Callable[[str], None],
 ) -> Outcome:
-    """The first method's result that meets the request, or that with the smallest error."""
+    """Return the result of the first method that meets the request, or the one with the smallest
+    error."""
     results: list[Outcome] = []
     for name, reason in _methods(scene, method, wanted, rtol):
         if name == "abel":
@@ -171,7 +172,7 @@ def _reached(wear: Outcome) -> str:
 def _history(
     scene: Scene, model: Model, wanted: tuple[int, ...], wear: Outcome, rtol: float, seconds: float
 ) -> History:
-    """All fields at the requested cycles that were reached, in the order of the request."""
+    """Return all fields at the requested cycles that were reached, in the order of the request."""
     place = {cycle: at for at, cycle in enumerate(wear.cycles)}
     cycles = [cycle for cycle in wanted if cycle in place]
     order = [place[cycle] for cycle in cycles]
@@ -199,7 +200,7 @@ def _history(
 
 
 def _repeated(wanted: Sequence[int]) -> tuple[str, ...]:
-    """Which numbers of cycles were asked for more than once."""
+    """Return a notice on numbers of cycles that were requested more than once."""
     twice = [str(cycle) for cycle, times in Counter(wanted).items() if times > 1]
     shown = ", ".join(twice[:10]) + (", ..." if len(twice) > 10 else "")
     return (f"cycles: {shown} given more than once",) if twice else ()
