@@ -81,8 +81,8 @@ def count_cycles(
     """Count up to `cycles` of a load that repeats, from the wear `start` (mm); after the `deadline`
     (`time.monotonic()`) nothing is refined."""
     if model.ends_at_3_sigma:
-        wanted = CountRequest(model, load, edge_of_contact(model, load), cycles, start)
-        return count_scenes([wanted], rtol, deadline)[0]
+        request = CountRequest(model, load, edge_of_contact(model, load), cycles, start)
+        return count_scenes([request], rtol, deadline)[0]
     one, equation = np.ones(1), WearEquation(model, (load,))
     found = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
     last = found.segments[-1]
@@ -106,17 +106,17 @@ class Stage(NamedTuple):
         """Return the wear (mm) after some of the cycles (n,), and its error (mm)."""
         with np.errstate(all="ignore"):
             wear, relative = self.found.after(cycles - self.begins)
-            own = np.where(np.isfinite(relative), relative * wear, np.inf)
-        return wear, own + self.start_error
+            absolute = np.where(np.isfinite(relative), relative * wear, np.inf)
+        return wear, absolute + self.start_error
 
     def until(self, wear: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the cycles after which each wear (mm, (n,)) is reached, infinite where it is not,
         and their own error in cycles."""
         with np.errstate(all="ignore"):
-            count, missed = self.found.until(wear)
+            count, uncertain = self.found.until(wear)
         count = self.begins + count
         late = count > self.ends
-        return np.where(late, np.inf, count), np.where(late, 0.0, missed)
+        return np.where(late, np.inf, count), np.where(late, 0.0, uncertain)
 
     def notices(self, wear: FloatArray) -> Iterator[str]:
         """Yield the notices on the wear (mm)."""
@@ -148,11 +148,11 @@ def stages(
         if ends >= last and not start_error:
             yield part
             return
-        end, missed = (float(x[0]) for x in part.after(np.array([ends])))
+        end, error = (float(x[0]) for x in part.after(np.array([ends])))
         if start_error:
             start_error *= growth(model, acting, start, end)
         yield part._replace(start_error=start_error)
-        start, start_error, done = end, start_error + missed, until
+        start, start_error, done = end, start_error + error, until
         if ends >= last or not start_error < np.inf or time.monotonic() > deadline:
             return
 
@@ -177,8 +177,8 @@ def wear_after(
     cost, notices = Cost(0, 0), dict[str, None]()
     for part in stages(model, load, np.max(cycles, initial=0.0), rtol, start, deadline):
         here = (cycles >= part.begins) & (cycles <= part.ends)
-        wear, missed = part.after(np.append(cycles[here], part.ends))
-        u[here], error[here] = wear[:-1], (missed / np.where(wear > 0, wear, 1.0))[:-1]
+        wear, absolute = part.after(np.append(cycles[here], part.ends))
+        u[here], error[here] = wear[:-1], (absolute / np.where(wear > 0, wear, 1.0))[:-1]
         cost = cost.plus(*part.found.cost)
         notices |= dict.fromkeys(part.notices(wear))
     return Wear(u, error, cost, tuple(notices))
@@ -195,13 +195,13 @@ def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> 
     count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
     doubtful = np.full(wear.shape, False)
     for part in _as_far_as_needed(model, load, wear, rtol):
-        reached, own = part.until(wear)
+        reached, uncertain = part.until(wear)
         certain = part.until(wear + part.start_error)[0] if part.start_error else reached
         if isinstance(load, Blocks) and part.ends < most_cycles(load):
-            end, missed = part.after(np.array([part.ends]))
-            certain = np.where(wear > end - missed, np.inf, certain)  # perhaps in another block
+            end, absolute = part.after(np.array([part.ends]))
+            certain = np.where(wear > end - absolute, np.inf, certain)  # perhaps in another block
         new = np.isinf(count) & np.isfinite(reached)
-        count[new], error[new] = reached[new], own[new]
+        count[new], error[new] = reached[new], uncertain[new]
         some = doubtful | new
         known = some & np.isfinite(certain)
         error[known] = np.maximum(error[known], certain[known] - count[known])
@@ -306,9 +306,9 @@ Answer = tuple[FloatArray, FloatArray]
 def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
     """Return the orbit of scenes of one variant, so many cycles of each."""
     if scenes[0].contact.ends_at_3_sigma:
-        each = [(bind(scene), scene.periodic_load) for scene in scenes]
-        wanted = [CountRequest(*own, edge_of_contact(*own), cycles) for own in each]
-        return joined([found.orbit for found in count_scenes(wanted, rtol)])
+        bound = [(bind(scene), scene.periodic_load) for scene in scenes]
+        requests = [CountRequest(*pair, edge_of_contact(*pair), cycles) for pair in bound]
+        return joined([found.orbit for found in count_scenes(requests, rtol)])
     none = np.zeros(len(scenes))
     return orbit(equation_of(scenes), cycles + none, rtol, none, none)
 

@@ -71,20 +71,20 @@ def solve(
     """
     start = time.monotonic()
     scene = as_scene(scene)
-    wanted = checked_request(scene, cycles, rtol, method, time_limit)
+    requested = checked_request(scene, cycles, rtol, method, time_limit)
     model = bind(scene)
     deadline = np.inf if time_limit is None else start + time_limit
     fewer = resampled(scene, rtol)
-    wear = _solved(model, fewer.scene, wanted, rtol - fewer.error, method, deadline, progress)
+    wear = _solved(model, fewer.scene, requested, rtol - fewer.error, method, deadline, progress)
     error = wear.error + fewer.wear_error(wear.u)
     wear = wear._replace(error=error, notices=(*fewer.notices, *wear.notices))
-    history = _history(scene, model, wanted, wear, rtol, time.monotonic() - start)
+    history = _history(scene, model, requested, wear, rtol, time.monotonic() - start)
     if wear.interrupted:
         raise Interrupted(_reached(wear), history)
     worst = float(np.max(history.error, initial=0.0))
     if wear.stopped or not worst <= rtol:
-        missed = f"{wear.method}: the estimated error is {worst:.1e}, {rtol:.1e} was requested"
-        raise AccuracyError(_reached(wear) if wear.stopped else missed, history)
+        shortfall = f"{wear.method}: the estimated error is {worst:.1e}, {rtol:.1e} was requested"
+        raise AccuracyError(_reached(wear) if wear.stopped else shortfall, history)
     return history
 
 

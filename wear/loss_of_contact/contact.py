@@ -104,13 +104,13 @@ class Contact(NamedTuple):
         tangent, zero where contact lasts; and its rounding error. The `rate` is in mm per
         cycle."""
         model, direction = self.cycles.model, self.direction
-        left = direction * (model.margin(u, U_a) - self.level)
+        distance = direction * (model.margin(u, U_a) - self.level)
         closing = self.cycles.load.slope(phase) + model.margin_slope(u, U_a) * rate
         falls = np.minimum(direction * closing, -FLAT)
         uncertain = UNCERTAINTY * (model.margin_terms(u, U_a) - falls)
         # Only a margin that is rounding makes the end uncertain: trial states may be far off.
-        uncertainty = np.where(np.abs(left) <= uncertain, -uncertain / falls, 0.0)
-        return np.where(direction == 0.0, 0.0, -left / falls), uncertainty
+        uncertainty = np.where(np.abs(distance) <= uncertain, -uncertain / falls, 0.0)
+        return np.where(direction == 0.0, 0.0, -distance / falls), uncertainty
 
 
 class ContactPart(NamedTuple):
@@ -173,9 +173,9 @@ def wear_in_contact(
     evaluations, parts = 0, list[ContactPart]()
     rows = np.arange(len(u))
     while len(rows):
-        left = over.whole[rows] - length[rows]
-        steps = np.ceil(left / step[rows])
-        whole = left / steps
+        remaining = over.whole[rows] - length[rows]
+        steps = np.ceil(remaining / step[rows])
+        whole = remaining / steps
         expected = over.expected[rows] - length[rows]
         expected = np.minimum(np.where(expected > 0.0, expected, LEAST * whole), whole)
         stretch = PhaseInterval((over.begin + length)[rows], whole, expected)
@@ -270,7 +270,7 @@ def _step(
         step = np.where(done, 0.0, _newton(rule, length * slope, residual))
         rate, inside = rate + slope * step, inside + step
         added = length * (rule.weights @ rate)
-        apart = np.max(np.abs(step), axis=0) / (np.abs(added) + TINY)
+        correction = np.max(np.abs(step), axis=0) / (np.abs(added) + TINY)
         noise = contact.noise(u + inside, U_a, rate, steepness)
         stiffness = length * np.max(np.abs(slope), axis=0)
         allowed = NOISE / ROUNDOFF * noise * length / np.maximum(1.0, stiffness)
@@ -281,18 +281,20 @@ def _step(
             )
             change = np.clip(length + change, LEAST * length, over.whole) - length
             change = np.where(done, 0.0, change)
-            apart = np.maximum(apart, np.abs(change) / length)
+            correction = np.maximum(correction, np.abs(change) / length)
             inside = inside + rate * nodes * change
             added, length = added + rate[-1] * change, length + change
             allowed += np.where(length < over.whole, uncertainty / length, 0.0)
-        diverged |= ~(apart < DIVERGED) | ((apart > last) & ~done & (iteration > PATIENCE))
+        grows = correction > last
+        diverged |= ~(correction < DIVERGED) | (grows & ~done & (iteration > PATIENCE))
         # A change that was large predicts nothing; one that is small and grows is rounding.
-        predicted = apart * np.minimum(1.0, apart / np.minimum(last, 1.0))
+        predicted = correction * np.minimum(1.0, correction / np.minimum(last, 1.0))
         error = np.where(done, error, predicted)
-        done |= (error <= settled) | (apart <= allowed) | ((last < STALLED) & (apart >= last))
+        done |= (error <= settled) | (correction <= allowed)
+        done |= (last < STALLED) & (correction >= last)
         if np.all(done | diverged):
             break
-        last = apart
+        last = correction
         if ends:
             U_a = contact.cycles.load(over.begin + length * nodes)
     return _Step(added, length, inside, rate, noise, stiffness, error, done, evaluations)

@@ -228,12 +228,12 @@ class _Counter:
             return False
         # Contact shrinks like the root of the distance: twice the cycles at the present rate.
         rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
-        left = np.floor(2 * (ahead - self.wear) / rate)
-        if not FEW <= left < np.inf:
+        cycles_left = np.floor(2 * (ahead - self.wear) / rate)
+        if not FEW <= cycles_left < np.inf:
             return False
-        part = np.array([[self.wear], [ahead], [left], [ahead - self.wear]])
+        part = np.array([[self.wear], [ahead], [cycles_left], [ahead - self.wear]])
         self.parts.append(UnresolvedIterates(*part))
-        self.wear, self.done = ahead, self.done + float(left)
+        self.wear, self.done = ahead, self.done + float(cycles_left)
         return True
 
     def _grazing_wear(self) -> float:
@@ -268,18 +268,18 @@ class _Counter:
         ahead.parts, ahead.done, ahead.predicted = [], 0.0, []
         in_a_row = 0
         while ahead.unfinished(cycles) and len(ahead.predicted) < MOST_SAMPLES:
-            left = cycles - ahead.done
-            if ahead._lacks_a_plan(left) or in_a_row == MOST_PREDICTIONS:
+            remaining = cycles - ahead.done
+            if ahead._lacks_a_plan(remaining) or in_a_row == MOST_PREDICTIONS:
                 break
-            in_a_row = 0 if (yield from ahead._along(left)) else in_a_row + 1
+            in_a_row = 0 if (yield from ahead._along(remaining)) else in_a_row + 1
             if in_a_row:
                 ahead._cycle()
         wear = np.array(ahead.predicted)
-        apart = APART * (4 * self.problem.scale + wear)
-        run = yield Query(CYCLES, np.concatenate([wear, wear + apart]))
+        difference = APART * (4 * self.problem.scale + wear)
+        run = yield Query(CYCLES, np.concatenate([wear, wear + difference]))
         self.cost = self.cost.plus(2 * len(wear), run.evaluations)
         added, beside = np.split(run.increment, 2)
-        slope, sound = (beside - added) / apart, run.converged[: len(wear)]
+        slope, sound = (beside - added) / difference, run.converged[: len(wear)]
         self.samples.add(wear, added, slope, sound)
 
     def _append_cycles(self, cycles: SingleCycles) -> None:
@@ -310,9 +310,9 @@ def _segments(
     limit = problem.limit_wear
     if not counter.arrested and begins < cycles and limit is not None:
         # The count has ended before, but no wear is beyond the limit.
-        left = max(limit.wear - counter.wear, 0.0) + limit.uncertainty
+        distance = max(limit.wear - counter.wear, 0.0) + limit.uncertainty
         short = UnresolvedIterates(
-            *(one + x for x in (counter.wear, limit.wear, cycles - begins, left))
+            *(one + x for x in (counter.wear, limit.wear, cycles - begins, distance))
         )
         segments.append(Segment(_FIRST, short, one + begins, start_error, one + begins_error))
     if counter.arrested and begins <= cycles:

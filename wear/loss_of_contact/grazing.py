@@ -58,10 +58,12 @@ def limit_wear_of(model: Model, load: Load, wear: float) -> LimitWear | None:
     load just fails to make contact. None if there is no such wear."""
     peak, worn = np.array(load.maximum), np.array(wear)
     rounding = ROUNDOFF * float(model.margin_terms(worn, peak))
-    left = abs(float(model.margin(worn, peak)))
-    if wear <= 0 or left > TOUCH * rounding:
+    margin = abs(float(model.margin(worn, peak)))
+    if wear <= 0 or margin > TOUCH * rounding:
         return None
-    return LimitWear(wear, (left + rounding) / (abs(float(model.margin_slope(worn, peak))) + TINY))
+    return LimitWear(
+        wear, (margin + rounding) / (abs(float(model.margin_slope(worn, peak))) + TINY)
+    )
 
 
 def fades(model: Model, load: Load, edge: Edge, limit_wear: float) -> bool:

@@ -126,8 +126,8 @@ class IncrementSeries(NamedTuple):
         power, scale, vanishes = self.domain.power, self.domain.scale, self.domain.vanishes
         starts, across = self.frame.starts.tolist(), self.frame.x_ends.tolist()
         series, level = [row[::-1] for row in self.series.tolist()], self.level.tolist()
-        walked, left = [wear], origin - wear
-        z = 1.0 / left if ahead else -left
+        walked, distance = [wear], origin - wear
+        z = 1.0 / distance if ahead else -distance
         while z < end and len(walked) <= most:
             w = z**power
             i = max(bisect_right(starts, w) - 1, 0)
@@ -139,11 +139,11 @@ class IncrementSeries(NamedTuple):
             logarithm = last - before * twice / 2.0
             if not logarithm < FAR_BEYOND:
                 break
-            left -= level[i] * w**vanishes * math.exp(logarithm)
-            if not math.isfinite(left) or (ahead and left <= 0.0):
+            distance -= level[i] * w**vanishes * math.exp(logarithm)
+            if not math.isfinite(distance) or (ahead and distance <= 0.0):
                 break
-            walked.append(origin - left)
-            z = 1.0 / left if ahead else -left
+            walked.append(origin - distance)
+            z = 1.0 / distance if ahead else -distance
         return walked
 
 
@@ -208,14 +208,14 @@ def fitted(
         error = (run.error.reshape(w.shape) / increment)[:, number:]
         fits = _series(increment / w ** vanishes[of, None], error)
         excess = np.max(fits[-1] / _allowed(domains, of, wear[:, number:], tolerance), axis=1)
-        again = ~(excess <= 1.0) & (rounds < MOST_ROUNDS - 1)
+        coarse = ~(excess <= 1.0) & (rounds < MOST_ROUNDS - 1)
         for i in some:
-            fresh = IncrementSeries(domains[i], frames[i], *take(fits, of == i))
-            bad, far = again[of == i], excess[of == i]
-            found[i].append(take(fresh, ~bad & (far <= USABLE)))
-            frames[i] = take(frames[i], bad)
-            if bad.any():
-                halves, far_off = cut(frames[i]), np.tile(far[bad] > FAR_OFF, 2)
+            series = IncrementSeries(domains[i], frames[i], *take(fits, of == i))
+            cut_again, far = coarse[of == i], excess[of == i]
+            found[i].append(take(series, ~cut_again & (far <= USABLE)))
+            frames[i] = take(frames[i], cut_again)
+            if cut_again.any():
+                halves, far_off = cut(frames[i]), np.tile(far[cut_again] > FAR_OFF, 2)
                 frames[i] = stacked([take(halves, ~far_off), cut(take(halves, far_off))])
     return [known for parts in found for known in _joined(parts)], cost
 
@@ -235,11 +235,11 @@ def _allowed(
 ) -> FloatArray:
     """Return the permitted relative errors of the increments from each wear (p, n) on panels of the
     domains with the numbers `of` (p,)."""
-    each = [(*domain.coordinate[:2], domain.uncertainty) for domain in domains]
-    origin, ahead, uncertainty = np.array(each)[of].T[..., None]
-    left = np.where(ahead > 0.0, origin - wear, np.inf)
-    eased = tolerance * np.clip(origin / left, 1.0, EASED)
-    return np.asarray(np.maximum(eased, GRAIN * uncertainty / left))
+    numbers = [(*domain.coordinate[:2], domain.uncertainty) for domain in domains]
+    origin, ahead, uncertainty = np.array(numbers)[of].T[..., None]
+    distance = np.where(ahead > 0.0, origin - wear, np.inf)
+    eased = tolerance * np.clip(origin / distance, 1.0, EASED)
+    return np.asarray(np.maximum(eased, GRAIN * uncertainty / distance))
 
 
 def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
@@ -251,17 +251,17 @@ def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
     gaps = np.flatnonzero(starts[1:] > ends[:-1] * (1 + SAME)) + 1
     known, near = [], SAME * (domain.end - domain.start)
     for run in np.split(order, gaps) if len(order) else []:
-        mine = take(every, run)
-        begin, end = np.sort(domain.wear(np.array([mine.frame.starts[0], mine.frame.ends[-1]])))
+        panels = take(every, run)
+        begin, end = np.sort(domain.wear(np.array([panels.frame.starts[0], panels.frame.ends[-1]])))
         begin = domain.start if begin <= domain.start + near else begin
         whole = end >= domain.end - near
         last = domain.end if whole else end
         if domain.tends and whole:
             last = domain.coordinate.origin
-            mine = stacked([_to_limit(mine), mine])
+            panels = stacked([_to_limit(panels), panels])
         tends = domain.tends and whole
         part = domain._replace(start=float(begin), end=float(last), tends=tends)
-        known.append(mine._replace(domain=part))
+        known.append(panels._replace(domain=part))
     return known
 
 

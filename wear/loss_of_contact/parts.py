@@ -106,15 +106,16 @@ def _tabulated(
     every = [part.on for part in counts]
     panels, residual = stacked([(on.panels, on.residual) for on in every])
     table = cells(panels, scenes=len(every), start=np.array([part.z for part in counts]))
-    each = table.parts(len(every))
-    z = np.stack([own.bounds for own in each])
+    tables = table.parts(len(every))
+    z = np.stack([own.bounds for own in tables])
     wear = [on.series.coordinate.wear(ends) for on, ends in zip(every, z, strict=True)]
     of = np.repeat(np.arange(len(every)), z.shape[1])
     rounding = roundoff(cycles.take(of), wear)
     rounded = np.stack([here.rate + here.contact for here in rounding])
     error = count_error(panels, residual, table, rounded, len(every))
-    off = relative_error([on.series for on in every], of, z.ravel()).reshape(z.shape)
-    misfit = SAFETY * np.maximum(off[:, 1:], off[:, :-1]) * table.gain.reshape(len(every), -1)
+    gain = table.gain.reshape(len(every), -1)
+    at_ends = relative_error([on.series for on in every], of, z.ravel()).reshape(z.shape)
+    misfit = SAFETY * np.maximum(at_ends[:, 1:], at_ends[:, :-1]) * gain
     error[:, 1:] += np.cumsum(misfit, axis=1)
     return [
         TabulatedIterates(
@@ -126,5 +127,5 @@ def _tabulated(
             np.array([limit]),
             part.cycles,
         )
-        for part, on, own, lost, limit in zip(counts, every, each, error, limits, strict=True)
+        for part, on, own, lost, limit in zip(counts, every, tables, error, limits, strict=True)
     ]

@@ -101,8 +101,8 @@ class SwitchedPeriodMap(NamedTuple):
             after = np.where(which, np.argmax(ahead, axis=1), len(number))
             rows = np.flatnonzero(which)
             piece = self.pieces.take(np.minimum(self.first[scene] + after, self.first[-1] - 1))
-            own, before = cycles.take(which), added[rows]
-            run = self.through(own, piece.take(rows), wear[rows] + before, before)
+            in_contact, before = cycles.take(which), added[rows]
+            run = self.through(in_contact, piece.take(rows), wear[rows] + before, before)
             run = run.among(rows, len(wear))
             added = added + run.added
             yield piece, run
@@ -224,8 +224,8 @@ class _PieceSolver:
         expected, falls = np.where(rising, piece.end, edge), np.where(rising, 0.0, 1.0)
         self.go(every, True, 0.0 * falls, falls, expected)
         top, last = piece.heights[-1], self.u + self.added
-        lost = rising & ((cycles.model.margin(last, top) < 0.0) | self.over)
-        slid = np.flatnonzero(lost)
+        slides = rising & ((cycles.model.margin(last, top) < 0.0) | self.over)
+        slid = np.flatnonzero(slides)
         if len(slid):
             own, u = cycles.take(slid), self.u[slid]
             self.added[slid] = wear_at(own.model, top[slid], u, 0.0, own.turning_wear) - u
@@ -241,8 +241,8 @@ class _PieceSolver:
         rising, held = piece.rising, cycles.held + np.zeros_like(self.u)
         opens, bends = (phase_of(cycles.load, piece, needed + level) for level in (0.0, held))
         lawful, at_edge = self._kinds(held, uncertainty)
-        fresh = rising & ~lawful & ~at_edge & (piece.heights[-1] - needed > uncertainty)
-        self.at[fresh], at_edge = opens[fresh], at_edge | fresh
+        opening = rising & ~lawful & ~at_edge & (piece.heights[-1] - needed > uncertainty)
+        self.at[opening], at_edge = opens[opening], at_edge | opening
         expected = np.where(rising, piece.end, bends)
         down = self.go(lawful, True, held, np.ones_like(held), expected)
         up = at_edge & (rising | self._closes_at_last(at_edge & ~rising, held))

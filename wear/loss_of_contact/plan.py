@@ -105,15 +105,15 @@ def plan_domains(
     last = next((stop for stop in reversed(stops) if stop not in ahead), None)
     looks = yield from _looks([wear, *(stop.at for stop in ahead)], [stop.before for stop in ahead])
     domains: list[SeriesDomain] = []
-    counted, wanted, begin = 0.0, AHEAD * max(cycles, LEAST), wear
+    counted, needed, begin = 0.0, AHEAD * max(cycles, LEAST), wear
     for i, stop in enumerate(ahead):
-        if counted > wanted:
+        if counted > needed:
             return domains, begin
         lefts, rights, outwards, onwards = (part[i] for part in looks)
         half = begin + lefts[0]
         numbers = counted + np.cumsum((lefts / outwards)[::-1])[::-1] * -np.log(FACTOR)
-        if numbers[0] > wanted:
-            half = begin + float(lefts[np.sum(numbers > wanted) - 1])
+        if numbers[0] > needed:
+            half = begin + float(lefts[np.sum(numbers > needed) - 1])
             return [*domains, *_outwards(problem, last, begin, half)], half
         number = -np.log(FACTOR) * float(np.sum(lefts / outwards + rights / onwards))
         if number >= FEWEST:
@@ -121,8 +121,8 @@ def plan_domains(
                 domains += _outwards(problem, last, begin, half)
             domains += _towards(problem, stop, half, rights, onwards)
         counted, begin, last = counted + number, stop.at, stop
-    if counted > wanted or (problem.limit_wear is not None and ahead):
-        return domains, begin if counted > wanted else np.inf
+    if counted > needed or (problem.limit_wear is not None and ahead):
+        return domains, begin if counted > needed else np.inf
     added = yield from without_feedback(np.array([begin * (1 + 1e-9)]))
     if not added[0] > 0.0:
         return domains, np.inf
@@ -205,9 +205,9 @@ def look_ahead(problem: CountProblem, start: float, cycles: float) -> Coroutine[
     # Between two points the density is taken as exponential in the wear.
     parts = np.exp(density[:-1]) * np.expm1(rise) / rise * np.diff(wear)
     counts = np.concatenate([[0.0], np.cumsum(parts)])
-    wanted = 1.3 * max(cycles, LEAST)
-    last = int(np.searchsorted(counts, wanted)) - 1
+    needed = 1.3 * max(cycles, LEAST)
+    last = int(np.searchsorted(counts, needed)) - 1
     if last >= len(parts):
         return float(wear[-1])
-    share = np.log1p((wanted - counts[last]) / parts[last] * np.expm1(rise[last])) / rise[last]
+    share = np.log1p((needed - counts[last]) / parts[last] * np.expm1(rise[last])) / rise[last]
     return float(wear[last] + share * (wear[last + 1] - wear[last]))

@@ -76,9 +76,9 @@ def wear_at(
     wear, last = guess, np.full_like(guess, np.inf)
     for iteration in range(MOST_NEWTON):
         slope = model.margin_slope(wear, displacement)
-        fresh = np.clip(wear - model.margin(wear, displacement) / slope, least, most)
-        change = np.abs(fresh - wear)
-        wear = fresh
+        corrected = np.clip(wear - model.margin(wear, displacement) / slope, least, most)
+        change = np.abs(corrected - wear)
+        wear = corrected
         moves = change > 2 * ROUNDOFF * np.abs(wear)
         if not np.any(moves & ((change < last) | (iteration < PATIENCE))):
             break

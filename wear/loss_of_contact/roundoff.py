@@ -29,8 +29,8 @@ class Roundoff(NamedTuple):
         that begins at a margin m_0 lasts for a time ~ m_0^(1/2), and its end, at a margin m_1, is
         known to ~ 1/m_1^(1/2).
         """
-        lost = np.sqrt(self.contact[1:] * self.contact[:-1])
-        return np.asarray(np.maximum(self.rate[1:], self.rate[:-1]) + lost)
+        of_contact = np.sqrt(self.contact[1:] * self.contact[:-1])
+        return np.asarray(np.maximum(self.rate[1:], self.rate[:-1]) + of_contact)
 
 
 def roundoff(cycles: Cycles, wears: Sequence[FloatArray]) -> list[Roundoff]:

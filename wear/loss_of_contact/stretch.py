@@ -66,14 +66,14 @@ def cycles_to_end(starts: Sequence[tuple[AbelSolution, float]]) -> list[tuple[fl
     """Return the number of whole cycles from each z to the end of its panels, and the z after them;
     up to rounding where wear tends to its limit there."""
     counts, z = [count for count, _ in starts], np.array([z for _, z in starts])
-    each = [count.table for count in counts]
-    table, first = joined(each), np.cumsum([0, *(len(own.u) for own in each[:-1])])
-    inside = [cell_of(own.u, at) for own, at in zip(each, z, strict=True)]
+    tables = [count.table for count in counts]
+    table, first = joined(tables), np.cumsum([0, *(len(own.u) for own in tables[:-1])])
+    inside = [cell_of(own.u, at) for own, at in zip(tables, z, strict=True)]
     begin = table.cycles_until(z, first + inside)
-    left = np.array([own.last_cycles for own in each]) - begin
+    remaining = np.array([own.last_cycles for own in tables]) - begin
     to_limit = np.array([count.limit_wear is not None for count in counts])
-    cycles = np.where(to_limit, np.ceil(left), np.floor(left))
-    inside = [cell_of(own.cycles, n) for own, n in zip(each, begin + cycles, strict=True)]
+    cycles = np.where(to_limit, np.ceil(remaining), np.floor(remaining))
+    inside = [cell_of(own.cycles, n) for own, n in zip(tables, begin + cycles, strict=True)]
     after, _ = table.state_after(begin + cycles, first + inside)
     return list(zip(cycles.tolist(), after.tolist(), strict=True))
 

@@ -302,8 +302,8 @@ def phase_of(
     for iteration in range(PHASE_NEWTON):
         slope = load.slope(phase)
         step = (height - load(phase)) / np.where(slope == 0.0, np.inf, slope)
-        fresh = np.clip(phase + step, low, high)
-        change, phase = np.abs(fresh - phase), np.where(done, phase, fresh)
+        corrected = np.clip(phase + step, low, high)
+        change, phase = np.abs(corrected - phase), np.where(done, phase, corrected)
         done |= (change <= tolerance) | ((iteration > PHASE_PATIENCE) & (change >= last))
         if done.all():
             break

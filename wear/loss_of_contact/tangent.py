@@ -154,10 +154,10 @@ def _one_by_one(
 ) -> _StageTangents:
     """Return the derivatives after some of the single cycles (n,)."""
     values, errors = [start], [start_error]
-    each, beside = np.split(run.tangent, [iterates.integrated_cycles])
-    difference, rough = np.zeros_like(each), _rough(iterates)
-    difference[rough] = np.abs(each[rough] - beside)
-    for tangent, local_error in zip(each, difference, strict=True):
+    tangents, beside = np.split(run.tangent, [iterates.integrated_cycles])
+    difference, rough = np.zeros_like(tangents), _rough(iterates)
+    difference[rough] = np.abs(tangents[rough] - beside)
+    for tangent, local_error in zip(tangents, difference, strict=True):
         multiplier, by_parameters = 1.0 + tangent[0], tangent[1:]
         by_start = multiplier * values[-1]
         local = local_error[0] * np.abs(values[-1]) + local_error[1:]

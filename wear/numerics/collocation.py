@@ -172,16 +172,16 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
         if iteration > PATIENCE:
             done |= ~(contraction < 1.0)
         more = np.nonzero(~done)[-1]
-        left = int(more.max()) + 1 if len(more) and iteration + 1 < MOST_ITERATIONS else 0
-        if left < active:
-            error[..., left:active] = predicted[..., left:]
-            inside[..., left:active, :, :] = v[..., left:, :, :]
-            rate_found[..., left:active, :, :] = tangent.on(slice(left, None)).end / lengths
-        if left == 0:
+        rest = int(more.max()) + 1 if len(more) and iteration + 1 < MOST_ITERATIONS else 0
+        if rest < active:
+            error[..., rest:active] = predicted[..., rest:]
+            inside[..., rest:active, :, :] = v[..., rest:, :, :]
+            rate_found[..., rest:active, :, :] = tangent.on(slice(rest, None)).end / lengths
+        if rest == 0:
             break
-        tangent, v, u = tangent.on(slice(left)), v[..., :left, :, :], u[..., :left, :, :]
+        tangent, v, u = tangent.on(slice(rest)), v[..., :rest, :, :], u[..., :rest, :, :]
         before, _, shift = tangent
-        last, active = np.minimum(change, 1.0)[..., :left] + TINY, left
+        last, active = np.minimum(change, 1.0)[..., :rest] + TINY, rest
     converged = np.all(error <= rates.tolerance, axis=-1)
     increment = integral(rate_found, rates.over)
     return CycleSolution(increment, inside, rate_found, evaluations, converged, error)

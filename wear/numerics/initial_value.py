@@ -203,19 +203,19 @@ def _attempt(
             judge = iterate(fine, at, run.guess(rules.finer_nodes))
         except ArithmeticError:  # a trial state so far off that it has no rate
             break
-        own, judged = _on_each(run.rate, coarse.over), _on_each(judge.rate, fine.over)
+        on_each, finer = _on_each(run.rate, coarse.over), _on_each(judge.rate, fine.over)
         hidden = fine.endpoint_defect(at, judge)[0, 0]
         evaluations += run.evaluations + judge.evaluations + len(intervals.edges)
         sound = run.converged.all() and judge.converged.all()
-        if not (sound and start + np.sum(own) < limit):
+        if not (sound and start + np.sum(on_each) < limit):
             break
-        permitted = rules.tolerance * np.sum(own) / len(own)
-        marked = np.abs(judged - own) > np.maximum(permitted, 4 * rate_roundoff * own)
+        permitted = rules.tolerance * np.sum(on_each) / len(on_each)
+        marked = np.abs(finer - on_each) > np.maximum(permitted, 4 * rate_roundoff * on_each)
         marked |= hidden > permitted
         if not marked.any():
-            part = _endpoints(coarse, start, run, judge, own, judged, hidden, rate_roundoff)
+            part = _endpoints(coarse, start, run, judge, on_each, finer, hidden, rate_roundoff)
             quick = run.evaluations <= FEW_ITERATIONS * run.rate.size
-            easy = quick and 3 * len(own) <= MOST_CUT  # some of them may be cut once more
+            easy = quick and 3 * len(on_each) <= MOST_CUT  # some of them may be cut once more
             return _Attempt(evaluations + run.rate.size, part, intervals.asked, easy)
         intervals = intervals.cut(marked)
         if len(intervals.asked) > MOST_CUT:
@@ -228,17 +228,17 @@ def _endpoints(
     start: float,
     run: CycleSolution,
     judge: CycleSolution,
-    own: FloatArray,
-    judged: FloatArray,
+    on_each: FloatArray,
+    finer: FloatArray,
     hidden: FloatArray,
     rate_roundoff: float,
 ) -> Endpoints:
     """Return the solution at the ends of resolved intervals with its error: by the rules, by the
     iteration, and by rounding."""
-    increment = np.cumsum(own)
+    increment = np.cumsum(on_each)
     growth = np.cumsum(_on_each(coarse.slope(start + run.inside), coarse.over))  # its logarithm
     most = growth - np.minimum(np.minimum.accumulate(growth), 0.0)  # since any interval
-    by_rules = SAFETY * np.abs(np.cumsum(judged) - increment) + np.cumsum(hidden)
+    by_rules = SAFETY * np.abs(np.cumsum(finer) - increment) + np.cumsum(hidden)
     iteration = float(run.iteration_error[0, 0] + judge.iteration_error[0, 0]) * increment[-1]
     error = by_rules + (iteration + rate_roundoff * increment) * np.exp(most)
     response = increment * np.exp(most)

@@ -176,10 +176,10 @@ def _inverse_slope(density: FloatArray, cycles: FloatArray, basis: FloatArray) -
     """Return the inverse (panels, m, m) of the derivative of ln(cycles) with respect to the series;
     no number where there is none."""
     slope = np.einsum("pig,pkig->pik", density, basis) / cycles[..., None]
-    lost = ~np.isfinite(slope).all(axis=(1, 2))
-    slope[lost] = np.eye(slope.shape[1])
+    singular = ~np.isfinite(slope).all(axis=(1, 2))
+    slope[singular] = np.eye(slope.shape[1])
     inverse: FloatArray = np.linalg.inv(slope)
-    inverse[lost] = np.nan
+    inverse[singular] = np.nan
     return inverse
 
 
@@ -251,13 +251,13 @@ def matching_defect(before: Panels, after: Panels) -> FloatArray:
     rule = gauss(ACROSS_A_FAST_CYCLE)
     level, shape = level_and_shape(after.series)
     steps = np.exp(-shape @ chebyshev_values(np.array([-1.0]), m).T) / level
-    apart = np.zeros((len(steps), len(rule.nodes)))
+    difference = np.zeros((len(steps), len(rule.nodes)))
     for side, t in ((before, 1.0), (after, -1.0)):
         at = np.array([t])
         basis = _within(at, side.frame.step(at, steps, rule.nodes), m)
         level, shape = level_and_shape(side.series)
-        apart += t * _density(shape, basis, (level * steps)[..., None])[0][:, 0]
-    result: FloatArray = np.max(np.abs(apart @ rule.integrate.T), axis=1)
+        difference += t * _density(shape, basis, (level * steps)[..., None])[0][:, 0]
+    result: FloatArray = np.max(np.abs(difference @ rule.integrate.T), axis=1)
     return result
 
 

@@ -144,18 +144,18 @@ def _on_panels(
         series = to_series @ columns.reshape(*nodes.shape, -1)
         finer = _by_finer_map(maps, checks.ravel(), phases, size)
         finer = _with_observable(observable, checks.ravel(), finer, forcing)
-        apart = np.abs(finer.reshape(*checks.shape, -1) - to_checks @ series)
-        error = np.max(apart[..., :number], axis=(1, 2), initial=0.0)
-        of_observable = SAFETY * np.max(apart[..., number:], axis=(1, 2), initial=0.0)
-        error[~np.isfinite(apart).all(axis=(1, 2))] = np.inf
-        fresh = _DensePanels(frame, series, error, of_observable)
+        difference = np.abs(finer.reshape(*checks.shape, -1) - to_checks @ series)
+        error = np.max(difference[..., :number], axis=(1, 2), initial=0.0)
+        of_observable = SAFETY * np.max(difference[..., number:], axis=(1, 2), initial=0.0)
+        error[~np.isfinite(difference).all(axis=(1, 2))] = np.inf
+        solved = _DensePanels(frame, series, error, of_observable)
         # No cycle ends with a state below the increment of the first.
         least = np.maximum(frame.starts, iterates.first_increment)
         cut = ~(SAFETY * error <= rtol / 4 * least)
         if not cut.any() or rounds == MOST_ROUNDS - 1:
-            done.append(fresh)
+            done.append(solved)
             break
-        done.append(take(fresh, ~cut))
+        done.append(take(solved, ~cut))
         frame = stacked(take(frame, cut).cut(SPLIT))
     panels = stacked(done)
     return take(panels, np.argsort(panels.frame.starts))
@@ -216,8 +216,8 @@ def _unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
     """
     series = np.abs(coefficients(over.rule.coefficients, rate))
     tail, largest = np.max(series[-3:], axis=0), np.max(series, axis=0)
-    left = tail * over.lengths > tolerance * integral(rate, over)[..., None]
-    marked: BoolArray = np.any(left & (tail > 100 * ROUNDOFF * largest), axis=1)
+    coarse = tail * over.lengths > tolerance * integral(rate, over)[..., None]
+    marked: BoolArray = np.any(coarse & (tail > 100 * ROUNDOFF * largest), axis=1)
     return marked
 
 

@@ -70,9 +70,9 @@ class _General:
         return self.period * lengths * np.asarray(self.f(u, self.period * forcing))
 
     def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:
-        apart = DIFFERENCE * (np.abs(u) + self.scale)
-        more, less = (self.rate(u + sign * apart, forcing) for sign in (1.0, -1.0))
-        return (more - less) / (2 * apart)
+        step = DIFFERENCE * (np.abs(u) + self.scale)
+        more, less = (self.rate(u + sign * step, forcing) for sign in (1.0, -1.0))
+        return (more - less) / (2 * step)
 
     def roundoff(self, u: FloatArray) -> FloatArray:
         return np.full(u.shape, self.condition * ROUNDOFF)
@@ -115,8 +115,8 @@ def count_cycles(
     """
     cuts = np.array([0.0, *(time / period for time in sorted(breakpoints)), 1.0])
     equation = _General(f, period, np.array([scale]), np.array([limit]), [cuts], condition)
-    wanted = np.asarray(cycles, dtype=float)[None]
+    requested = np.asarray(cycles, dtype=float)[None]
     with np.errstate(all="ignore"):  # trial states far off the solution may overflow
-        found = orbit(equation, np.max(wanted, axis=1), rtol, np.array([start]), np.zeros(1))
-        u, error = found.after(wanted)
-    return States(u[0], error[0], found.cost)
+        orbits = orbit(equation, np.max(requested, axis=1), rtol, np.array([start]), np.zeros(1))
+        u, error = orbits.after(requested)
+    return States(u[0], error[0], orbits.cost)

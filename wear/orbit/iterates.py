@@ -60,8 +60,8 @@ class Cells(NamedTuple):
 
     def parts(self, scenes: int) -> list[Cells]:
         """Return the cells of each of some scenes that have as many."""
-        each = len(self.u) // scenes
-        return [self.take(slice(at, at + each)) for at in range(0, len(self.u), each)]
+        size = len(self.u) // scenes
+        return [self.take(slice(at, at + size)) for at in range(0, len(self.u), size)]
 
     @property
     def bounds(self) -> FloatArray:
@@ -95,14 +95,14 @@ class Cells(NamedTuple):
         if cell is None:
             cell = cell_of(self.cycles, cycles)
         series = self.series[..., cell]
-        wanted, gain = cycles - self.cycles[cell], self.gain[cell]
+        since, gain = cycles - self.cycles[cell], self.gain[cell]
         # A density that grows exponentially from one end of the cell to the other is close.
         growth = 2 * series[1, 0] / gain
         growth = np.where(np.abs(growth) < 1e-6, 1e-6, growth)
-        x = np.log1p(np.clip(wanted / gain, 0.0, 1.0) * np.expm1(growth)) / growth
+        x = np.log1p(np.clip(since / gain, 0.0, 1.0) * np.expm1(growth)) / growth
         for _ in range(MOST_NEWTON):
             density, total = _values(series, gain, x)
-            change = (wanted - total) / density
+            change = (since - total) / density
             x = np.clip(x + change, 0.0, 1.0)
             if not np.any(np.abs(change) > ACCURATE * x):
                 break
@@ -171,11 +171,11 @@ def _cell_edges(panels: Panels) -> FloatArray:
     y[:, -1] = panels.frame.widths
     growth = np.abs(np.diff(product(panels.series, basis.T) + y, axis=1)) / GROWTH
     growth = np.nan_to_num(np.minimum(growth, MOST_CELLS), nan=0.0)
-    wanted = np.concatenate([np.zeros((len(y), 1)), np.cumsum(growth, axis=1)], axis=1)
-    wanted += taken / SERIES
-    number = min(int(np.ceil(np.max(wanted[:, -1]))), MOST_CELLS)
+    cells = np.concatenate([np.zeros((len(y), 1)), np.cumsum(growth, axis=1)], axis=1)
+    cells += taken / SERIES
+    number = min(int(np.ceil(np.max(cells[:, -1]))), MOST_CELLS)
     share = np.arange(number + 1) / number
-    rows = [np.interp(share * row[-1], row, at) for row, at in zip(wanted, y, strict=True)]
+    rows = [np.interp(share * row[-1], row, at) for row, at in zip(cells, y, strict=True)]
     return np.array(rows)
 
 

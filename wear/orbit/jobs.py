@@ -137,7 +137,7 @@ class Jobs:
             which = job.which[more.which]
             spent = job.spent[more.which] + more.cost.rhs_evaluations / len(which)
             self.cost = self.cost.plus(*more.cost)
-            fresh = Job(which, more.maps, more.transient, job.needed, job.worst[more.which], spent)
+            longer = Job(which, more.maps, more.transient, job.needed, job.worst[more.which], spent)
             late = self.request.late and more.transient.cycles >= BLOCK
             ended = np.full(len(which), late)
             if more.transient.cycles > job.transient.cycles:
@@ -145,8 +145,8 @@ class Jobs:
                 ended |= more.transient.cycles >= self.request.cycles[which]
                 ended |= ~(last < self.limit[which]) | ~(more.transient.last_increment > 0)
             if ended.any():
-                yield self._without_panels(fresh, np.flatnonzero(ended))
-            self._add(fresh, np.flatnonzero(~ended), job.needed)
+                yield self._without_panels(longer, np.flatnonzero(ended))
+            self._add(longer, np.flatnonzero(~ended), job.needed)
 
     def _on_panels(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
         """Solve Abel's equation on panels; yield the scenes that are accurate, and queue the others
@@ -178,8 +178,8 @@ class Jobs:
         ):
             rows = finer[group]
             layout = _of(Layout(adapted.panels.scene, adapted.panels.density.frame), rows)
-            found = {"worst": worst[rows], "spent": spent[rows], "layout": layout}
-            self._add(job, rows, number, maps=maps, **found)
+            state = {"worst": worst[rows], "spent": spent[rows], "layout": layout}
+            self._add(job, rows, number, maps=maps, **state)
         # Panels that can be cut no more: too few cycles lie behind them.
         rest = np.flatnonzero(~accepted & ~marked)
         self._add(job, rest, max(BLOCK, 2 * number), worst=worst[rest], spent=spent[rest])
@@ -284,10 +284,10 @@ def count_error(
     of_panel = gain.size // number
     error = SAFETY * np.repeat(residual, of_panel).reshape(shape) * gain
     error += table.truncation.reshape(shape)
-    each = number // scenes
-    for k in range(1, each):
-        before = take(panels, slice(k - 1, None, each))
-        after = take(panels, slice(k, None, each))
+    per_scene = number // scenes
+    for k in range(1, per_scene):
+        before = take(panels, slice(k - 1, None, per_scene))
+        after = take(panels, slice(k, None, per_scene))
         # It shifts the count at once, and so belongs to the errors before.
         error[:, k * of_panel - 1] += SAFETY * abel.matching_defect(before, after)
     terms = ROUNDOFF * np.sum(np.abs(panels.series), axis=1)  # of ln(density)

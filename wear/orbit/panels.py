@@ -150,9 +150,9 @@ def _solve_and_check(
         some = coarse.take(worst)
         again = some.advance(checks[worst])
         cost = cost.plus(again.increment.size, again.evaluations)
-        apart = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
+        difference = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
         # Only a difference of the two maps is an error of the phase.
-        alike = np.less(apart, np.maximum(allowed[worst] / 4, residual[worst] / 10))
+        alike = np.less(difference, np.maximum(allowed[worst] / 4, residual[worst] / 10))
         at_fault = ~alike[:, None]  # also where one of them is no number
         marked[worst] |= at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
         marked[worst] |= at_fault & ~np.any(marked[worst], axis=1, keepdims=True)

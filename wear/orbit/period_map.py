@@ -229,15 +229,15 @@ class PeriodMap(NamedTuple):
         """Return the increment of a cycle of one scene from the state `start`, its error, the
         derivative dP/du, the response to a relative error of the rate, and the number of right-hand
         sides; the state stops short of the `limit`."""
-        evaluations, found = 0, [0.0, np.inf, 1.0, 0.0]
+        evaluations, last_values = 0, [0.0, np.inf, 1.0, 0.0]
         try:
             for last in self.integrated(start, limit, size):
                 evaluations += last.evaluations
-                found = [float(array[-1]) for array in last[:4]]
+                last_values = [float(array[-1]) for array in last[:4]]
         except StoppedError as end:
             reached = limit if end.state > NEARLY * limit else end.state
             return reached - start, np.inf, 1.0, 0.0, evaluations
-        increment, error, derivative, response = found
+        increment, error, derivative, response = last_values
         return increment, error / SAFETY, derivative, response, evaluations
 
     def cut_for(self, start: float, size: Settings) -> PeriodMap:
@@ -270,10 +270,10 @@ class PeriodMap(NamedTuple):
     def unresolved(self, starts: FloatArray, run: CycleSolution, size: Settings) -> BoolArray:
         """Return which intervals (scenes, q) do not resolve the rate in the cycles from the
         `starts`, or hide a change of it at an end."""
-        found = unresolved(run.rate, self.over, size.phase_tolerance) | ~run.converged[:, None]
+        coarse = unresolved(run.rate, self.over, size.phase_tolerance) | ~run.converged[:, None]
         hidden = self.endpoint_defect(starts, run)
         allowed = size.endpoint_tolerance * run.increment[..., None]
-        return np.asarray(found | np.any(hidden > allowed, axis=1))
+        return np.asarray(coarse | np.any(hidden > allowed, axis=1))
 
     def phase_error(self, run: CycleSolution) -> FloatArray:
         """Return the approximate relative errors (scenes, k) of increments by the mesh of phase.
@@ -327,14 +327,14 @@ def resolved(
         parts = todo.pop(min(todo))  # cutting only adds intervals: none comes back to this number
         which, edges = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
         scenes = equation.take(which)
-        found = period_map(scenes, edges, size.phase_nodes, size.iteration_tolerance)
-        rate = found.rate_without_feedback(states[which])
-        marked = unresolved(rate, found.over, size.phase_tolerance)
-        if found.full:
+        maps = period_map(scenes, edges, size.phase_nodes, size.iteration_tolerance)
+        rate = maps.rate_without_feedback(states[which])
+        marked = unresolved(rate, maps.over, size.phase_tolerance)
+        if maps.full:
             marked[:] = False
         calm = np.flatnonzero(~marked.any(axis=1))
         if len(calm):
-            yield which[calm], found.take(calm)
+            yield which[calm], maps.take(calm)
         rest = np.flatnonzero(marked.any(axis=1))
         for group, finer in _cut_alike(edges[rest], marked[rest]):
             todo.setdefault(finer.shape[1], []).append((which[rest[group]], finer))

@@ -152,26 +152,26 @@ def orbit(
         for which, request in todo:
             work = Jobs(problem.take(which), request, rtol, keep)
             for rows, iterates in work.counts():
-                mine, asked = which[rows], request.take(rows)
-                begins = cycles[mine] - asked.cycles
+                scenes, remaining = which[rows], request.take(rows)
+                begins = cycles[scenes] - remaining.cycles
                 zero = np.zeros(len(rows))
-                found.append(Segment(mine, iterates, begins, zero, zero))
+                found.append(Segment(scenes, iterates, begins, zero, zero))
                 if not request.late:
-                    lost.append(mine[iterates.largest_error > rtol])
+                    lost.append(scenes[iterates.largest_error > rtol])
                 ran = iterates.whole_cycles
                 ended = iterates.at_rest | ~(iterates.last_state < NEARLY * iterates.limit)
-                more = np.flatnonzero(~ended & (ran < asked.cycles) & (ran > 0))
+                more = np.flatnonzero(~ended & (ran < remaining.cycles) & (ran > 0))
                 if len(more) == 0 or request.late:
                     continue
                 state, error = iterates.after(ran[:, None])
                 error = (error * state)[more, 0]
                 known = np.isfinite(error)
-                lost.append(mine[more[~known]])
+                lost.append(scenes[more[~known]])
                 more = more[known]
                 if len(more):
-                    left = (asked.cycles - ran)[more]
-                    onward = Request(left, state[more, 0], error[known], deadline)
-                    following.append((mine[more], onward))
+                    cycles_left = (remaining.cycles - ran)[more]
+                    onward = Request(cycles_left, state[more, 0], error[known], deadline)
+                    following.append((scenes[more], onward))
             cost = cost.plus(*work.cost)
         todo = following
         if not todo:

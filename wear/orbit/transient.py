@@ -112,10 +112,10 @@ def extended(
         marked[calm[coarse]] = True
         derivative = some.derivative(starts, found)
         response = found.increment * np.maximum(derivative, 1.0)
-        each = found.increment, error, derivative, response
+        columns = found.increment, error, derivative, response
         good = np.flatnonzero(~coarse)
         if len(good):
-            more = take(begun, calm[good]).then(*(array[good] for array in each))
+            more = take(begun, calm[good]).then(*(array[good] for array in columns))
             cost = Cost(2 * BLOCK * len(calm), evaluations)
             yield TransientBlock(calm[good], some.take(good), more, cost)
             evaluations = 0
